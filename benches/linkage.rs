@@ -6,7 +6,7 @@ use std::ops::ControlFlow;
 use centrode_analysis::optimise::six_bar::{PUBLISHED_BOUNDS, WantedSwing};
 use centrode_analysis::optimise::{Method, Settings, minimise};
 use centrode_geometry::Point;
-use centrode_mechanism::linkage::{Branch, FourBar, Link, Linkage, SixBar};
+use centrode_mechanism::linkage::{Branch, FourBar, LinkId, Linkage, SixBar};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 
 const PIVOT: Point = Point::new(100.0, 67.0);
@@ -19,9 +19,9 @@ fn six_bar() -> SixBar {
 fn composed() -> Linkage {
     let build = || {
         let mut linkage = Linkage::new();
-        let a = linkage.point(Link::FRAME, Point::origin())?;
-        let d = linkage.point(Link::FRAME, Point::new(105.0, 0.0))?;
-        let f = linkage.point(Link::FRAME, PIVOT)?;
+        let a = linkage.point(LinkId::FRAME, Point::origin())?;
+        let d = linkage.point(LinkId::FRAME, Point::new(105.0, 0.0))?;
+        let f = linkage.point(LinkId::FRAME, PIVOT)?;
         let (_, b) = linkage.crank(a, 77.0, 0.0)?;
         let bars = linkage.rrr(b, d, (147.0, 127.0), Branch::Upper)?;
         let effector = linkage.rpr(bars.joint, f, 0.0, Branch::Upper)?;

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use centrode_geometry::{Jet, Point, Vector};
-use centrode_mechanism::linkage::{Branch, FourBar, Link, Linkage, SixBar};
+use centrode_mechanism::linkage::{Branch, FourBar, LinkId, Linkage, SixBar};
 use centrode_mechanism::transmission::MotionJet;
 use nalgebra::Matrix2;
 use proptest::prelude::{Just, ProptestConfig, Strategy, any, prop_assert, prop_oneof, proptest};
@@ -236,9 +236,9 @@ proptest! {
         let (pivot, local) = (Point::new(pivot.0, pivot.1), Vector::new(local.0, local.1));
         let build = || {
             let mut linkage = Linkage::new();
-            let at_a = linkage.point(Link::FRAME, Point::origin())?;
-            let at_d = linkage.point(Link::FRAME, Point::new(d, 0.0))?;
-            let at_g = linkage.point(Link::FRAME, pivot)?;
+            let at_a = linkage.point(LinkId::FRAME, Point::origin())?;
+            let at_d = linkage.point(LinkId::FRAME, Point::new(d, 0.0))?;
+            let at_g = linkage.point(LinkId::FRAME, pivot)?;
             let (_, at_b) = linkage.crank(at_a, a, 0.0)?;
             let bars = linkage.rrr(at_b, at_d, (b, c), four_bar.branch())?;
             let carried = linkage.point(bars.first, Point::from(local))?;

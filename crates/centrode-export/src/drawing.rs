@@ -90,12 +90,12 @@ pub struct Entity {
     /// Name of its layer.
     pub layer: String,
     /// Shape drawn.
-    pub shape: Shape,
+    pub shape: EntityShape,
 }
 
 /// Shape of an entity.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Shape {
+pub enum EntityShape {
     /// A closed contour.
     Contour(Outline),
     /// An open polyline.
@@ -134,7 +134,7 @@ impl Entity {
     /// Entities that are drawn for this one: itself, or all of its group.
     pub fn plain(&self) -> impl Iterator<Item = &Self> {
         let (own, drawn) = match &self.shape {
-            Shape::Group(group) => (None, &group.drawn[..]),
+            EntityShape::Group(group) => (None, &group.drawn[..]),
             _ => (Some(self), &[][..]),
         };
         own.into_iter().chain(drawn)
@@ -226,7 +226,7 @@ impl Drawing {
     }
 
     /// Adds a shape on the layer of that name.
-    pub fn draw(&mut self, layer: &str, shape: Shape) {
+    pub fn draw(&mut self, layer: &str, shape: EntityShape) {
         self.entities.push(Entity {
             layer: layer.to_owned(),
             shape,
@@ -253,7 +253,7 @@ impl Drawing {
     }
 }
 
-impl Shape {
+impl EntityShape {
     /// The shape moved, not turned.
     #[must_use]
     pub fn moved(&self, by: Vector) -> Self {

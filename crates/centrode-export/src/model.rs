@@ -29,14 +29,14 @@ pub struct Model {
     /// Comment at the head of the file.
     pub note: String,
     /// The links; the first is fixed to the world.
-    pub links: Vec<Link>,
+    pub links: Vec<ModelLink>,
     /// The joints, which make the links a tree.
-    pub joints: Vec<Joint>,
+    pub joints: Vec<ModelJoint>,
 }
 
 /// A rigid body.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Link {
+pub struct ModelLink {
     /// Name.
     pub name: String,
     /// Mass and inertia in the link's frame; `None` for a link without a body.
@@ -81,7 +81,7 @@ pub struct Convex {
 
 /// A joint between two links, turning about an axis or sliding along it.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Joint {
+pub struct ModelJoint {
     /// Name.
     pub name: String,
     /// How it may move.
@@ -100,7 +100,7 @@ pub struct Joint {
     pub mimic: Option<Mimic>,
 }
 
-impl Joint {
+impl ModelJoint {
     /// The joint with its zero where it stood at a value, rad or mm; what it carries stands there at rest.
     #[must_use]
     pub fn starting_at(mut self, value: f64) -> Self {
@@ -169,7 +169,7 @@ mod tests {
     fn a_joint_with_another_zero_carries_its_child_to_the_same_places() {
         let turn = [0.3, -0.4, 0.5];
         let axis = Unit::new_normalize(Vector3::new(0.2, -0.7, 0.6));
-        let joint = |kind| Joint {
+        let joint = |kind| ModelJoint {
             name: "joint".into(),
             kind,
             parent: "one".into(),

@@ -1,7 +1,7 @@
 //! PDF pages.
 
 use crate::{
-    drawing::{LineType, Shape, Text},
+    drawing::{EntityShape, LineType, Text},
     sheet::{Sheet, lettering},
 };
 use centrode_geometry::{Bounds, Outline, Point, Segment, Tolerance};
@@ -119,10 +119,16 @@ impl Writer {
         (x as f32, y as f32)
     }
 
-    fn shape(&self, surface: &mut Surface<'_>, shape: &Shape, line_type: LineType, width: f64) {
+    fn shape(
+        &self,
+        surface: &mut Surface<'_>,
+        shape: &EntityShape,
+        line_type: LineType,
+        width: f64,
+    ) {
         match shape {
-            Shape::Text(text) => return self.text(surface, text),
-            Shape::Triangle(corners) => {
+            EntityShape::Text(text) => return self.text(surface, text),
+            EntityShape::Triangle(corners) => {
                 surface.set_fill(Some(black()));
                 surface.set_stroke(None);
                 if let Some(path) = self.polygon(corners, true) {
@@ -135,12 +141,14 @@ impl Writer {
         surface.set_fill(None);
         surface.set_stroke(Some(stroke(line_type, width)));
         let paths = match shape {
-            Shape::Contour(outline) => vec![self.curve(&outline.cubics(self.tolerance), true)],
-            Shape::Circle { center, radius } => {
+            EntityShape::Contour(outline) => {
+                vec![self.curve(&outline.cubics(self.tolerance), true)]
+            }
+            EntityShape::Circle { center, radius } => {
                 let circle = Outline::circle(*center, *radius);
                 vec![self.curve(&circle.cubics(self.tolerance), true)]
             }
-            Shape::Arc(arc) => {
+            EntityShape::Arc(arc) => {
                 // Quarters of an arc are cubics to a few parts in ten thousand of the radius at most.
                 let parts = (arc.sweep().abs() / 0.4).ceil().max(1.0);
                 let segment = Segment::Arc(*arc);
@@ -159,9 +167,9 @@ impl Writer {
                     .collect();
                 vec![self.curve(&cubics, false)]
             }
-            Shape::Polyline(points) => vec![self.polygon(points, false)],
-            Shape::Line(a, b) => vec![self.polygon(&[*a, *b], false)],
-            Shape::Mark(p) => {
+            EntityShape::Polyline(points) => vec![self.polygon(points, false)],
+            EntityShape::Line(a, b) => vec![self.polygon(&[*a, *b], false)],
+            EntityShape::Mark(p) => {
                 let reach = 6.0 * width;
                 let q = |x: f64, y: f64| Point::new(p.x + x, p.y + y);
                 vec![
@@ -169,7 +177,7 @@ impl Writer {
                     self.polygon(&[q(0.0, -reach), q(0.0, reach)], false),
                 ]
             }
-            Shape::Text(_) | Shape::Triangle(_) | Shape::Group(_) => Vec::new(),
+            EntityShape::Text(_) | EntityShape::Triangle(_) | EntityShape::Group(_) => Vec::new(),
         };
         for path in paths.into_iter().flatten() {
             surface.draw_path(&path);

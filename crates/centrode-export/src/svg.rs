@@ -1,7 +1,7 @@
 //! SVG pictures.
 
 use crate::{
-    drawing::{Anchor, Color, Drawing, LineType, Shape, Text},
+    drawing::{Anchor, Color, Drawing, EntityShape, LineType, Text},
     sheet::{Sheet, lettering},
 };
 use centrode_geometry::{Arc, Outline, Point, Segment, Tolerance, Vector};
@@ -49,7 +49,7 @@ pub fn sheet(sheet: &Sheet, tolerance: Tolerance) -> String {
     );
     let mut glyphs = BTreeSet::new();
     for entity in sheet.drawing.plain() {
-        if let Shape::Text(text) = &entity.shape {
+        if let EntityShape::Text(text) = &entity.shape {
             let inked = lettering::letters(&text.words).filter(|l| l.is_inked());
             glyphs.extend(inked.map(|l| l.glyph));
         }
@@ -118,7 +118,7 @@ fn layers(out: &mut String, drawing: &Drawing, tolerance: Tolerance, outlined: b
             number(layer.line_width),
         );
         for entity in drawing.plain().filter(|e| e.layer == layer.name) {
-            if let (true, Shape::Text(text)) = (outlined, &entity.shape) {
+            if let (true, EntityShape::Text(text)) = (outlined, &entity.shape) {
                 outlined_words(out, text, layer.color);
                 continue;
             }
@@ -128,30 +128,38 @@ fn layers(out: &mut String, drawing: &Drawing, tolerance: Tolerance, outlined: b
     }
 }
 
-fn shape(out: &mut String, shape: &Shape, color: Color, line_width: f64, tolerance: Tolerance) {
+fn shape(
+    out: &mut String,
+    shape: &EntityShape,
+    color: Color,
+    line_width: f64,
+    tolerance: Tolerance,
+) {
     let _ = match shape {
-        Shape::Contour(outline) => {
+        EntityShape::Contour(outline) => {
             writeln!(out, "<path d=\"{}\"/>", contour(&outline.arcs(tolerance)))
         }
-        Shape::Polyline(points) => {
+        EntityShape::Polyline(points) => {
             let points: Vec<String> = points.iter().map(pair).collect();
             writeln!(out, "<polyline points=\"{}\"/>", points.join(" "))
         }
-        Shape::Line(start, end) => writeln!(out, "<path d=\"M{} L{}\"/>", pair(start), pair(end)),
-        Shape::Circle { center, radius } => writeln!(
+        EntityShape::Line(start, end) => {
+            writeln!(out, "<path d=\"M{} L{}\"/>", pair(start), pair(end))
+        }
+        EntityShape::Circle { center, radius } => writeln!(
             out,
             "<circle cx=\"{}\" cy=\"{}\" r=\"{}\"/>",
             number(center.x),
             number(-center.y),
             number(*radius),
         ),
-        Shape::Arc(arc) => writeln!(
+        EntityShape::Arc(arc) => writeln!(
             out,
             "<path d=\"M{} {}\"/>",
             pair(&arc.start),
             arc_command(arc)
         ),
-        Shape::Mark(point) => {
+        EntityShape::Mark(point) => {
             let reach = 6.0 * line_width;
             let (x, y) = (Vector::new(reach, 0.0), Vector::new(0.0, reach));
             writeln!(
@@ -163,7 +171,7 @@ fn shape(out: &mut String, shape: &Shape, color: Color, line_width: f64, toleran
                 pair(&(point + y)),
             )
         }
-        Shape::Triangle(corners) => writeln!(
+        EntityShape::Triangle(corners) => writeln!(
             out,
             "<path d=\"M{} L{} L{} Z\" fill=\"{}\" stroke=\"none\"/>",
             pair(&corners[0]),
@@ -171,9 +179,9 @@ fn shape(out: &mut String, shape: &Shape, color: Color, line_width: f64, toleran
             pair(&corners[2]),
             paint(color),
         ),
-        Shape::Text(text) => words(out, text, color),
+        EntityShape::Text(text) => words(out, text, color),
         // Its entities are written one by one.
-        Shape::Group(_) => Ok(()),
+        EntityShape::Group(_) => Ok(()),
     };
 }
 
@@ -265,15 +273,15 @@ mod tests {
         let mut drawing = Drawing::default().layer("CUT", Color::Red, LineType::Center, 0.25);
         drawing.draw(
             "CUT",
-            Shape::Contour(Outline::circle(Point::new(0.0, 5.0), 2.0)),
+            EntityShape::Contour(Outline::circle(Point::new(0.0, 5.0), 2.0)),
         );
         drawing.draw(
             "CUT",
-            Shape::Line(Point::origin(), Point::new(10.0, 1.0 / 3.0)),
+            EntityShape::Line(Point::origin(), Point::new(10.0, 1.0 / 3.0)),
         );
         drawing.draw(
             "CUT",
-            Shape::Text(Text::new(
+            EntityShape::Text(Text::new(
                 Point::new(1.0, 9.0),
                 3.5,
                 "a < b & c",

@@ -1,6 +1,6 @@
 //! URDF robot descriptions.
 
-use crate::model::{JointKind, Link, Model};
+use crate::model::{JointKind, Model, ModelLink};
 use thiserror::Error;
 use urdf_rs::{
     Axis, Collision, Geometry, Inertia, Inertial, Joint, JointLimit, JointType, LinkName, Mass,
@@ -87,7 +87,7 @@ fn metres(v: [f64; 3]) -> Vec3 {
     Vec3(v.map(|x| x * METRE + 0.0))
 }
 
-fn link(link: &Link) -> urdf_rs::Link {
+fn link(link: &ModelLink) -> urdf_rs::Link {
     let geometry = |filename: String| Geometry::Mesh {
         filename,
         scale: Some(Vec3([METRE; 3])),
@@ -139,7 +139,7 @@ fn link(link: &Link) -> urdf_rs::Link {
     }
 }
 
-fn joint(joint: &crate::model::Joint) -> Joint {
+fn joint(joint: &crate::model::ModelJoint) -> Joint {
     Joint {
         name: joint.name.clone(),
         joint_type: match joint.kind {
@@ -187,7 +187,7 @@ fn joint(joint: &crate::model::Joint) -> Joint {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::model::{Convex, Joint, Mimic, Seen};
+    use crate::model::{Convex, Mimic, ModelJoint, Seen};
     use centrode_geometry::{Outline, Point, Solid, Tolerance};
 
     fn sample() -> Model {
@@ -198,7 +198,7 @@ mod tests {
             10.0,
         )
         .expect("has height");
-        let turning = |name: &str, x: f64, mimic: Option<Mimic>| Joint {
+        let turning = |name: &str, x: f64, mimic: Option<Mimic>| ModelJoint {
             name: format!("{name}_joint"),
             kind: JointKind::Continuous,
             parent: "base".into(),
@@ -208,7 +208,7 @@ mod tests {
             axis: [0.0, 0.0, 1.0],
             mimic,
         };
-        let body = |name: &str| Link {
+        let body = |name: &str| ModelLink {
             name: name.into(),
             mass: Some(disc.mass_properties(7850.0)),
             meshes: vec![Seen::upright(format!("{name}.stl"))],
@@ -223,7 +223,7 @@ mod tests {
             name: "pair".into(),
             note: "law -- in motion.csv".into(),
             links: vec![
-                Link {
+                ModelLink {
                     name: "base".into(),
                     mass: None,
                     meshes: Vec::new(),

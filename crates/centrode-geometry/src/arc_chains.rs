@@ -26,7 +26,7 @@ const LEAN_CLASS: f64 = 0.35;
 
 /// A chain of arcs from the start of the run to a place at a node.
 #[derive(Clone, Copy, Debug)]
-struct Link {
+struct ArcChain {
     node: usize,
     /// Index of the node's offset in [`SIDES`].
     side: usize,
@@ -49,7 +49,7 @@ pub(crate) struct ArcChains<'a> {
     free: [bool; 2],
     limit: f64,
     plan: ArcPlan,
-    links: Vec<Link>,
+    links: Vec<ArcChain>,
 }
 
 impl<'a> ArcChains<'a> {
@@ -110,7 +110,7 @@ impl<'a> ArcChains<'a> {
         let tangents = [own, planned, (own + planned).normalize()];
         let count = if self.free[0] { 3 } else { 1 };
         self.links
-            .extend(tangents[..count].iter().map(|&tangent| Link {
+            .extend(tangents[..count].iter().map(|&tangent| ArcChain {
                 node: 0,
                 side: 0,
                 point: self.nodes[0].point,
@@ -154,7 +154,7 @@ impl<'a> ArcChains<'a> {
     }
 
     /// The chain with one more arc, to a side of a node, if that arc stays within the limit.
-    fn link(&self, before: usize, node: usize, side: usize) -> Option<Link> {
+    fn link(&self, before: usize, node: usize, side: usize) -> Option<ArcChain> {
         let from = &self.links[before];
         let to = &self.nodes[node];
         let normal = Vector::new(-to.tangent.y, to.tangent.x);
@@ -168,7 +168,7 @@ impl<'a> ArcChains<'a> {
         // An arc arrives as it left, mirrored in its chord.
         let tangent = (chord * (2.0 * along) - from.tangent).normalize();
         let lean = self.plan.tangents[node].perp(&tangent) / self.plan.lean[node];
-        Some(Link {
+        Some(ArcChain {
             node,
             side,
             point,
@@ -182,7 +182,7 @@ impl<'a> ArcChains<'a> {
     /// A step to the next node whatever its error, after which the curve's own tangent is taken up.
     fn force(&mut self, before: usize) -> usize {
         let node = self.links[before].node + 1;
-        self.links.push(Link {
+        self.links.push(ArcChain {
             node,
             side: 0,
             point: self.nodes[node].point,
@@ -195,7 +195,7 @@ impl<'a> ArcChains<'a> {
     }
 
     /// The pair of arcs from the end of a chain to the end of the run.
-    fn close(&self, link: &Link) -> Option<Biarc> {
+    fn close(&self, link: &ArcChain) -> Option<Biarc> {
         let last = self.nodes.len() - 1;
         if self.plan.count[last] - self.plan.count[link.node] > 4.0 || link.side != 0 {
             return None;
@@ -209,7 +209,7 @@ impl<'a> ArcChains<'a> {
         links.sort_by(|&a, &b| self.links[b].merit.total_cmp(&self.links[a].merit));
         let mut kept: Vec<usize> = Vec::with_capacity(WIDTH);
         let place = |link: usize| {
-            let Link {
+            let ArcChain {
                 node, side, lean, ..
             } = self.links[link];
             (node, side, lean)
@@ -228,12 +228,12 @@ impl<'a> ArcChains<'a> {
     /// Appends the arcs of a chain.
     fn trace(&self, mut link: usize, out: &mut Vec<Segment>) {
         let first = out.len();
-        while let Link {
+        while let ArcChain {
             point: end, before, ..
         } = self.links[link]
             && before != usize::MAX
         {
-            let Link {
+            let ArcChain {
                 point: start,
                 tangent,
                 ..

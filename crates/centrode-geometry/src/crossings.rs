@@ -9,7 +9,7 @@ const MOST_PAIRS: u32 = 20_000;
 
 /// Part of one segment with the bounds that prove it apart from another.
 #[derive(Clone, Copy)]
-struct Part<'a> {
+struct SegmentPart<'a> {
     segment: &'a Segment,
     /// Bound of the third derivative over the whole segment.
     third: f64,
@@ -21,7 +21,7 @@ struct Part<'a> {
     joined: bool,
 }
 
-impl<'a> Part<'a> {
+impl<'a> SegmentPart<'a> {
     fn whole(segment: &'a Segment) -> Result<Self, Unresolved> {
         let third = match segment {
             Segment::Line(..) => 0.0,
@@ -160,12 +160,12 @@ pub fn crossings(
     joined: bool,
     tolerance: Tolerance,
 ) -> Result<Vec<(f64, f64)>, Unresolved> {
-    let first = Part {
+    let first = SegmentPart {
         joined,
-        ..Part::whole(a)?
+        ..SegmentPart::whole(a)?
     };
     let mut out = Vec::new();
-    search(first, Part::whole(b)?, tolerance.mm(), &mut out)?;
+    search(first, SegmentPart::whole(b)?, tolerance.mm(), &mut out)?;
     Ok(out)
 }
 
@@ -180,7 +180,7 @@ pub fn self_crossings(
     let mut out = Vec::new();
     let shortest = tolerance.mm();
     // A smooth curve is cut a few times, one with a cusp once a level.
-    let mut pending = vec![Part::whole(segment)?];
+    let mut pending = vec![SegmentPart::whole(segment)?];
     while let Some(part) = pending.pop() {
         crate::checkpoint();
         // A curve whose tangents fit in half a turn cannot come back to itself.
@@ -198,8 +198,8 @@ pub fn self_crossings(
 }
 
 fn search(
-    a: Part<'_>,
-    b: Part<'_>,
+    a: SegmentPart<'_>,
+    b: SegmentPart<'_>,
     shortest: f64,
     out: &mut Vec<(f64, f64)>,
 ) -> Result<(), Unresolved> {
@@ -263,8 +263,8 @@ fn search(
 /// Strands that cross twice cross opposite ways, so two crossings of one sense with no length between them are one. Near a
 /// cusp the parameters of one place differ by the root of the rounding, and more.
 fn is_same(
-    a: &Part<'_>,
-    b: &Part<'_>,
+    a: &SegmentPart<'_>,
+    b: &SegmentPart<'_>,
     known: (f64, f64),
     found: (f64, f64),
     shortest: f64,
@@ -280,15 +280,15 @@ fn is_same(
         && rises(known) == rises(found)
 }
 
-fn unjoined(part: Part<'_>) -> Part<'_> {
-    Part {
+fn unjoined(part: SegmentPart<'_>) -> SegmentPart<'_> {
+    SegmentPart {
         joined: false,
         ..part
     }
 }
 
 /// Newton's method on the two parameters, kept to the parts and a rounding beyond.
-fn polish(a: &Part<'_>, b: &Part<'_>) -> Option<(f64, f64)> {
+fn polish(a: &SegmentPart<'_>, b: &SegmentPart<'_>) -> Option<(f64, f64)> {
     let (mut u, mut v) = (0.5 * (a.from + a.to), 0.5 * (b.from + b.to));
     for _ in 0..50 {
         let (p, q) = (a.segment.at(u), b.segment.at(v));
@@ -313,7 +313,7 @@ fn polish(a: &Part<'_>, b: &Part<'_>) -> Option<(f64, f64)> {
         .first
         .norm()
         .max(b.segment.at(v).first.norm());
-    let inside = |x: f64, part: &Part<'_>| x >= part.from - 1e-12 && x <= part.to + 1e-12;
+    let inside = |x: f64, part: &SegmentPart<'_>| x >= part.from - 1e-12 && x <= part.to + 1e-12;
     let hit = gap <= 1e-11 * (size + a.start.coords.amax()) && inside(u, a) && inside(v, b);
     hit.then(|| (u.clamp(-1.0, 1.0), v.clamp(-1.0, 1.0)))
 }

@@ -2,7 +2,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use centrode_analysis::between_arms;
-use centrode_mechanism::three_arm::Link;
+use centrode_mechanism::three_arm::ThreeArmLink;
 use centrode_mechanism::three_arm::design::{ArmSpec, ThreeArmDesign, WorkSpec};
 use pyo3::prelude::{
     Bound, Py, PyAny, PyClassInitializer, PyDictMethods, PyRef, Python, pymethods,
@@ -194,13 +194,13 @@ impl ThreeArm {
     /// ['arm-0', 'arm-1', 'arm-2', 'carrier']
     fn pose<'py>(&self, py: Python<'py>, theta: Values) -> Answer<Bound<'py, PyDict>> {
         let mut links = vec![
-            ("sun".to_owned(), Link::Sun),
-            ("carrier".into(), Link::Carrier),
+            ("sun".to_owned(), ThreeArmLink::Sun),
+            ("carrier".into(), ThreeArmLink::Carrier),
         ];
         for k in 0..self.0.arms() {
-            links.push((format!("intermediate-{k}"), Link::Intermediate(k)));
-            links.push((format!("planet-{k}"), Link::Planet(k)));
-            links.push((format!("arm-{k}"), Link::Arm(k)));
+            links.push((format!("intermediate-{k}"), ThreeArmLink::Intermediate(k)));
+            links.push((format!("planet-{k}"), ThreeArmLink::Planet(k)));
+            links.push((format!("arm-{k}"), ThreeArmLink::Arm(k)));
         }
         let poses = PyDict::new(py);
         for (name, link) in links {

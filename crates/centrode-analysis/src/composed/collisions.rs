@@ -16,7 +16,7 @@ const ACCURACY: f64 = 1e-3;
 const SLACK: f64 = 0.05;
 
 /// Surfaces of a link that belong to one part, and a circle around them.
-struct Piece<'a> {
+struct PartSurfaces<'a> {
     name: &'a str,
     link: usize,
     surfaces: Vec<&'a Surface>,
@@ -24,7 +24,7 @@ struct Piece<'a> {
     radius: f64,
 }
 
-impl<'a> Piece<'a> {
+impl<'a> PartSurfaces<'a> {
     /// The part; none where it has no surface.
     fn new(
         name: &'a str,
@@ -58,10 +58,10 @@ pub(super) fn collisions(made: &Made<'_>, ends: &[f64], report: &mut Report) {
     };
     let plate = |link: usize| {
         let own = surfaces(machine, link).filter(|surface| surface.teeth.is_empty());
-        Piece::new(&machine.links[link].name, link, own.collect(), tolerance)
+        PartSurfaces::new(&machine.links[link].name, link, own.collect(), tolerance)
     };
-    let plates: Vec<Piece<'_>> = (0..machine.links.len()).filter_map(plate).collect();
-    let may_collide = |pair: [&Piece<'_>; 2]| !held(machine, pair.map(|piece| piece.link));
+    let plates: Vec<PartSurfaces<'_>> = (0..machine.links.len()).filter_map(plate).collect();
+    let may_collide = |pair: [&PartSurfaces<'_>; 2]| !held(machine, pair.map(|piece| piece.link));
     let found = overlaps(composed, machine, (&plates, may_collide), (ends, tolerance));
     let remedy = "another layer for one of them, or a narrower plate";
     let told = |overlap| collision(("plates-collide", remedy), "the plates of", overlap);
@@ -69,10 +69,10 @@ pub(super) fn collisions(made: &Made<'_>, ends: &[f64], report: &mut Report) {
     let gears = composed.gears().iter().filter_map(|gear| {
         let (link, name) = (composed.body_named(gear.body_name())?, gear.surface_name());
         let own = surfaces(machine, link).filter(|surface| surface.name == name);
-        Piece::new(&gear.name, link, own.collect(), tolerance)
+        PartSurfaces::new(&gear.name, link, own.collect(), tolerance)
     });
-    let gears: Vec<Piece<'_>> = gears.collect();
-    let may_collide = |pair: [&Piece<'_>; 2]| !is_meshed(composed, machine, pair);
+    let gears: Vec<PartSurfaces<'_>> = gears.collect();
+    let may_collide = |pair: [&PartSurfaces<'_>; 2]| !is_meshed(composed, machine, pair);
     let found = overlaps(composed, machine, (&gears, may_collide), (ends, tolerance));
     let remedy =
         "fewer copies, smaller gears, or gears of another pair, which lies at another height";
@@ -81,7 +81,7 @@ pub(super) fn collisions(made: &Made<'_>, ends: &[f64], report: &mut Report) {
 }
 
 /// Two parts that overlap, with their least clearance (mm, below zero) and the input there.
-type Overlap<'a> = ([&'a Piece<'a>; 2], [f64; 2]);
+type Overlap<'a> = ([&'a PartSurfaces<'a>; 2], [f64; 2]);
 
 /// Pairs of parts that overlap within the cycle, among those that may collide.
 ///
@@ -90,7 +90,10 @@ type Overlap<'a> = ([&'a Piece<'a>; 2], [f64; 2]);
 fn overlaps<'a>(
     composed: &Composed,
     machine: &Machine,
-    (pieces, may_collide): (&'a [Piece<'a>], impl Fn([&Piece<'a>; 2]) -> bool),
+    (pieces, may_collide): (
+        &'a [PartSurfaces<'a>],
+        impl Fn([&PartSurfaces<'a>; 2]) -> bool,
+    ),
     (ends, tolerance): (&[f64], Tolerance),
 ) -> Vec<Overlap<'a>> {
     let numbers = 0..pieces.len();
@@ -154,7 +157,7 @@ fn collision(
 }
 
 /// Whether two gears are to mesh, or stand on each other.
-fn is_meshed(composed: &Composed, machine: &Machine, [one, other]: [&Piece<'_>; 2]) -> bool {
+fn is_meshed(composed: &Composed, machine: &Machine, [one, other]: [&PartSurfaces<'_>; 2]) -> bool {
     let both = [one.link, other.link];
     let mut meshes = machine.meshes.iter();
     let mut loops = composed.whole().meshes.values();

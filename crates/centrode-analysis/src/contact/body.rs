@@ -67,7 +67,7 @@ impl Cone {
 
 /// Smooth part of an outline with bounds that tell quickly whether it can touch another.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Part<'a> {
+pub(super) struct OutlinePart<'a> {
     pub(super) segment: &'a Segment,
     pub(super) role: Role,
     pub(super) owner: u32,
@@ -131,8 +131,8 @@ pub(super) struct Halves {
 
 /// Finished gear as the contact analysis knows it: by its outline alone.
 #[derive(Debug)]
-pub(super) struct Body<'a> {
-    pub(super) parts: Vec<Part<'a>>,
+pub(super) struct GearOutline<'a> {
+    pub(super) parts: Vec<OutlinePart<'a>>,
     /// Circles around runs of them.
     pub(super) tree: Tree,
     /// Bounds of the parts' curvatures, computed when first needed.
@@ -155,11 +155,12 @@ pub(super) struct Body<'a> {
 const SECTORS: usize = 72;
 const PARTS: usize = 8;
 
-impl<'a> Body<'a> {
+impl<'a> GearOutline<'a> {
     /// Bodies of two gears that are searched for each other within so many mm.
     pub(super) fn pair(driver: &'a Gear, driven: &'a Gear, near: f64) -> [Self; 2] {
         let parts = [parts(driver), parts(driven)];
-        let largest = |parts: &[Part<'_>]| parts.iter().map(|p| p.radius).fold(0.0, f64::max);
+        let largest =
+            |parts: &[OutlinePart<'_>]| parts.iter().map(|p| p.radius).fold(0.0, f64::max);
         let grown = [&parts[1], &parts[0]].map(|other| largest(other) + near);
         let [driver, driven] = parts;
         [Self::new(driver, grown[0]), Self::new(driven, grown[1])]
@@ -193,7 +194,7 @@ impl<'a> Body<'a> {
         }
     }
 
-    pub(super) fn new(parts: Vec<Part<'a>>, grown: f64) -> Self {
+    pub(super) fn new(parts: Vec<OutlinePart<'a>>, grown: f64) -> Self {
         let reach = parts
             .iter()
             .map(|p| p.center.coords.norm() + p.radius)
@@ -266,7 +267,7 @@ impl<'a> Body<'a> {
     }
 }
 
-impl Part<'_> {
+impl OutlinePart<'_> {
     /// Bound of its distance from a point.
     pub(super) fn clear_of(&self, point: &Point) -> f64 {
         let [start, end] = self.ends;
@@ -288,7 +289,7 @@ fn sector(direction: &Vector, count: usize) -> usize {
 }
 
 /// Reach by sector of the parts, grown by a distance.
-fn sectors(parts: &[Part<'_>], grown: f64) -> Vec<f64> {
+fn sectors(parts: &[OutlinePart<'_>], grown: f64) -> Vec<f64> {
     let all = SECTORS.max(parts.len() / PARTS);
     let mut out = vec![0.0_f64; all];
     for part in parts {
@@ -312,9 +313,9 @@ fn sectors(parts: &[Part<'_>], grown: f64) -> Vec<f64> {
     out
 }
 
-fn parts(gear: &Gear) -> Vec<Part<'_>> {
+fn parts(gear: &Gear) -> Vec<OutlinePart<'_>> {
     let outline: &Outline = gear.outline();
-    let mut parts: Vec<Part<'_>> = outline
+    let mut parts: Vec<OutlinePart<'_>> = outline
         .segments()
         .iter()
         .zip(gear.roles().iter().zip(gear.owners()))
@@ -331,7 +332,7 @@ fn parts(gear: &Gear) -> Vec<Part<'_>> {
 /// Corner between two parts, if there is one.
 ///
 /// A re-entrant corner can touch nothing that its neighbours do not touch first.
-fn corner(before: &Part<'_>, after: &Part<'_>) -> Option<Corner> {
+fn corner(before: &OutlinePart<'_>, after: &OutlinePart<'_>) -> Option<Corner> {
     let (end, start) = (before.span.tangents[1], after.span.tangents[0]);
     let (turn, along) = (end.perp(&start), end.dot(&start));
     (turn > CORNER * along && turn > 0.0).then(|| Corner {
@@ -341,7 +342,7 @@ fn corner(before: &Part<'_>, after: &Part<'_>) -> Option<Corner> {
     })
 }
 
-fn part(segment: &Segment, role: Role, owner: u32) -> Part<'_> {
+fn part(segment: &Segment, role: Role, owner: u32) -> OutlinePart<'_> {
     let span = Span::new(segment, -1.0, 1.0);
     let ends = [segment.start(), segment.end()];
     let chord = ends[1] - ends[0];
@@ -352,7 +353,7 @@ fn part(segment: &Segment, role: Role, owner: u32) -> Part<'_> {
     } else {
         Cone::all()
     };
-    Part {
+    OutlinePart {
         segment,
         role,
         owner,

@@ -4,7 +4,7 @@ use centrode_geometry::{Point, Vector};
 use centrode_mechanism::gear::{Member, Role};
 
 use super::{
-    body::{Body, Part},
+    body::{GearOutline, OutlinePart},
     meshing::Meshing,
     touch::Pose,
     tree::Run,
@@ -44,7 +44,7 @@ impl Edge {
 }
 
 /// Ends of flanks that push the driven gear on: at the tip, and where the fillet begins.
-fn edges(body: &Body<'_>) -> Vec<Edge> {
+fn edges(body: &GearOutline<'_>) -> Vec<Edge> {
     let count = body.parts.len();
     // The driver turns clockwise and pushes along its outward normals; the driven gear turns the other way and is pushed against
     // its own.
@@ -52,7 +52,7 @@ fn edges(body: &Body<'_>) -> Vec<Edge> {
         let way = Vector::new(edge.point.y, -edge.point.x);
         edge.normal.dot(&way) > 0.0
     };
-    let edge = |part: &Part<'_>, point: Point, tangent: Vector| {
+    let edge = |part: &OutlinePart<'_>, point: Point, tangent: Vector| {
         let normal = Vector::new(tangent.y, -tangent.x).normalize();
         (part.role == Role::Flank).then_some(Edge { point, normal })
     };

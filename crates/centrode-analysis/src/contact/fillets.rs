@@ -6,7 +6,7 @@ use centrode_geometry::{Extreme, Point, SegmentJet, Vector, bracketed_minimum_be
 use centrode_mechanism::gear::{Member, Role};
 
 use super::{
-    body::{Body, Corner},
+    body::{Corner, GearOutline},
     meshing::Meshing,
     touch::{self, Pose},
     walk::Walk,
@@ -35,7 +35,7 @@ struct Fillets<'a> {
     /// First part of the fillet of each part of the body.
     first: Vec<Option<usize>>,
     /// The parts of fillets alone.
-    alone: Body<'a>,
+    alone: GearOutline<'a>,
     /// Which parts of the body those are.
     parts: Vec<usize>,
 }
@@ -72,7 +72,7 @@ struct Step {
 
 impl<'a> Fillets<'a> {
     /// Those of a body; what is within `near` of them is told at once.
-    fn of(body: &Body<'a>, near: f64) -> Self {
+    fn of(body: &GearOutline<'a>, near: f64) -> Self {
         let count = body.parts.len();
         let is_fillet = |i: usize| body.parts[i % count].role == Role::Fillet;
         // From a part on that begins one, so that none is cut in two by the contour's start.
@@ -84,7 +84,7 @@ impl<'a> Fillets<'a> {
             first[i] = current;
         }
         let parts: Vec<usize> = (0..count).filter(|&i| first[i].is_some()).collect();
-        let alone = Body::new(parts.iter().map(|&i| body.parts[i]).collect(), near);
+        let alone = GearOutline::new(parts.iter().map(|&i| body.parts[i]).collect(), near);
         Self {
             first,
             alone,
@@ -163,7 +163,7 @@ fn outward(jet: &SegmentJet) -> Vector {
 }
 
 impl Approach<'_> {
-    fn mate(&self) -> &Body<'_> {
+    fn mate(&self) -> &GearOutline<'_> {
         match self.member {
             Member::Driver => &self.meshing.driven,
             Member::Driven => &self.meshing.driver,

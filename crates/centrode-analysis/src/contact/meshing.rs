@@ -5,7 +5,7 @@ use centrode_mechanism::gear::GearPair;
 
 use super::{
     Contact,
-    body::Body,
+    body::GearOutline,
     hit::Hit,
     places::{Candidates, Kind, Place, SHALLOW, gaps},
     proof::{Feature, Meeting},
@@ -43,8 +43,8 @@ const IDLE: f64 = 1e-3;
 #[derive(Debug)]
 pub(super) struct Meshing<'a> {
     pub(super) pair: &'a GearPair,
-    pub(super) driver: Body<'a>,
-    pub(super) driven: Body<'a>,
+    pub(super) driver: GearOutline<'a>,
+    pub(super) driven: GearOutline<'a>,
     /// Parts of the driven gear.
     pub(super) stretches: Vec<Stretch>,
     pub(super) module: f64,
@@ -62,7 +62,7 @@ pub(super) struct Meshing<'a> {
 impl<'a> Meshing<'a> {
     pub(super) fn new(pair: &'a GearPair) -> Self {
         let near = NEAR * pair.module() + 2.0 * pair.backlash();
-        let [driver, driven] = Body::pair(pair.driver(), pair.driven(), near);
+        let [driver, driven] = GearOutline::pair(pair.driver(), pair.driven(), near);
         let parts = driven.parts.iter().enumerate();
         Self {
             pair,

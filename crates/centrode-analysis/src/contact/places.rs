@@ -4,7 +4,7 @@ use centrode_geometry::{Point, Vector, checkpoint};
 use centrode_mechanism::gear::{Member, Role};
 
 use super::{
-    body::{Cone, Corner, Part},
+    body::{Cone, Corner, OutlinePart},
     meshing::Meshing,
     stretch::Stretch,
     touch::{self, Pose, Touch},
@@ -122,12 +122,13 @@ impl Meshing<'_> {
                     .or_else(|| is_sharp().then(|| touch::sharp_parts(a, b, pose)).flatten());
                 keep(touch, kind, (i, j), None);
             }
-            let near_corner = |corner: &Corner, other: &Part<'_>, mate: &Stretch, point: Vector| {
-                let limit = limit(corner_kind(corner.on_flank, other.role));
-                let reach = other.radius + limit;
-                (point - mate.center).norm_squared() <= reach * reach
-                    && mate.may_face(&point, limit.max(0.5 * module))
-            };
+            let near_corner =
+                |corner: &Corner, other: &OutlinePart<'_>, mate: &Stretch, point: Vector| {
+                    let limit = limit(corner_kind(corner.on_flank, other.role));
+                    let reach = other.radius + limit;
+                    (point - mate.center).norm_squared() <= reach * reach
+                        && mate.may_face(&point, limit.max(0.5 * module))
+                };
             if let Some(corner) = &a.corner
                 && near_corner(corner, b, &self.stretches[j], stretch.point[0])
             {

@@ -3,7 +3,7 @@
 use centrode_geometry::{Point, SegmentJet, Vector};
 
 use super::{
-    body::{Body, Part},
+    body::{GearOutline, OutlinePart},
     span::{self, Span},
     touch::Pose,
 };
@@ -108,7 +108,7 @@ impl Stretch {
     /// Stretch of a whole part, by the map of points and vectors to the driven gear's axes.
     pub(super) fn of(
         index: usize,
-        part: &Part<'_>,
+        part: &OutlinePart<'_>,
         point: impl Fn(&Point) -> Point,
         vector: impl Fn(&Vector) -> Vector,
     ) -> Self {
@@ -120,7 +120,7 @@ impl Stretch {
 
 /// Contour of one gear about the driven axis, in the driven gear's axes.
 pub(super) struct Contour<'a> {
-    pub(super) body: &'a Body<'a>,
+    pub(super) body: &'a GearOutline<'a>,
     /// Pose of the driven gear, for the driver's contour.
     pub(super) pose: Option<Pose>,
 }

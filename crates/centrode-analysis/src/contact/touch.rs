@@ -1,7 +1,7 @@
 use centrode_geometry::{Point, SegmentJet, Vector};
 use centrode_mechanism::gear::GearPair;
 
-use super::body::{Corner, Part};
+use super::body::{Corner, OutlinePart};
 
 /// The pose of the driven gear in the driver's own frame.
 #[derive(Clone, Copy, Debug)]
@@ -112,7 +112,12 @@ const CONTINUED: f64 = 0.25;
 /// Points at which two smooth parts face each other, by Newton's method from the parameters `at`.
 ///
 /// Solves A' x B' = 0 and (A - B).A' = 0; regular while the two parts do not hug each other.
-pub(super) fn parts(a: &Part<'_>, b: &Part<'_>, pose: &Pose, at: (f64, f64)) -> Option<Touch> {
+pub(super) fn parts(
+    a: &OutlinePart<'_>,
+    b: &OutlinePart<'_>,
+    pose: &Pose,
+    at: (f64, f64),
+) -> Option<Touch> {
     // Mating flanks are walked against each other: where one starts the other ends, and from the middle
     // a step may overshoot a place just inside an end.
     [at, (-0.9, 0.9), (0.9, -0.9)]
@@ -121,19 +126,30 @@ pub(super) fn parts(a: &Part<'_>, b: &Part<'_>, pose: &Pose, at: (f64, f64)) -> 
 }
 
 /// Points at which two smooth parts face each other of which one bends sharply at an end, where a search from there loses its way.
-pub(super) fn sharp_parts(a: &Part<'_>, b: &Part<'_>, pose: &Pose) -> Option<Touch> {
+pub(super) fn sharp_parts(a: &OutlinePart<'_>, b: &OutlinePart<'_>, pose: &Pose) -> Option<Touch> {
     [(0.0, 0.0), (-0.5, 0.5), (0.5, -0.5)]
         .iter()
         .find_map(|&start| newton(a, b, pose, start, JOINT))
 }
 
 /// Points at which two smooth parts, continued a little beyond their ends, face each other.
-pub(super) fn continued(a: &Part<'_>, b: &Part<'_>, pose: &Pose, at: (f64, f64)) -> Option<Touch> {
+pub(super) fn continued(
+    a: &OutlinePart<'_>,
+    b: &OutlinePart<'_>,
+    pose: &Pose,
+    at: (f64, f64),
+) -> Option<Touch> {
     newton(a, b, pose, at, CONTINUED)
 }
 
 /// Newton's method for facing points from the parameters `at`; at most so far beyond an end.
-fn newton(a: &Part<'_>, b: &Part<'_>, pose: &Pose, at: (f64, f64), beyond: f64) -> Option<Touch> {
+fn newton(
+    a: &OutlinePart<'_>,
+    b: &OutlinePart<'_>,
+    pose: &Pose,
+    at: (f64, f64),
+    beyond: f64,
+) -> Option<Touch> {
     let (mut u, mut v) = at;
     for _ in 0..8 {
         let p = a.segment.at(u);
@@ -181,7 +197,7 @@ fn newton(a: &Part<'_>, b: &Part<'_>, pose: &Pose, at: (f64, f64), beyond: f64) 
 }
 
 /// Point at which a corner of the driven gear faces a part of the driver.
-pub(super) fn driven_corner(a: &Part<'_>, corner: &Corner, pose: &Pose) -> Option<Touch> {
+pub(super) fn driven_corner(a: &OutlinePart<'_>, corner: &Corner, pose: &Pose) -> Option<Touch> {
     let mate = pose.place(&corner.point);
     let (u, jet) = foot(a, &mate)?;
     let normal = Vector::new(jet.first.y, -jet.first.x) / jet.first.norm();
@@ -189,7 +205,7 @@ pub(super) fn driven_corner(a: &Part<'_>, corner: &Corner, pose: &Pose) -> Optio
 }
 
 /// Point at which a corner of the driver faces a part of the driven gear.
-pub(super) fn driver_corner(corner: &Corner, b: &Part<'_>, pose: &Pose) -> Option<Touch> {
+pub(super) fn driver_corner(corner: &Corner, b: &OutlinePart<'_>, pose: &Pose) -> Option<Touch> {
     // Seen from the driven gear, whose parts do not move.
     let back = corner.point - pose.axis;
     let own = Point::new(
@@ -209,7 +225,7 @@ pub(super) fn driver_corner(corner: &Corner, b: &Part<'_>, pose: &Pose) -> Optio
 }
 
 /// Foot of the normal from a point to a part.
-fn foot(part: &Part<'_>, point: &Point) -> Option<(f64, SegmentJet)> {
+fn foot(part: &OutlinePart<'_>, point: &Point) -> Option<(f64, SegmentJet)> {
     let chord = part.segment.end() - part.segment.start();
     let mut u = 2.0 * (point - part.segment.start()).dot(&chord) / chord.norm_squared() - 1.0;
     u = u.clamp(-1.0, 1.0);

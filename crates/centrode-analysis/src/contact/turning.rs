@@ -9,7 +9,7 @@
 use centrode_geometry::{Vector, bracketed_root};
 
 use super::{
-    body::Body,
+    body::GearOutline,
     hit::Hit,
     meeting::Meeting,
     stretch::{Contour, SETTLED, Stretch},
@@ -59,8 +59,8 @@ pub(super) struct Limits<'a> {
 
 impl<'a> Turning<'a> {
     pub(super) fn new(
-        driver: &'a Body<'a>,
-        driven: &'a Body<'a>,
+        driver: &'a GearOutline<'a>,
+        driven: &'a GearOutline<'a>,
         pose: Pose,
         sign: f64,
         limits: &Limits<'a>,

@@ -1,7 +1,7 @@
 use std::cell::Cell;
 
 use centrode_geometry::{Extreme, SolidError, Vector, greatest_each};
-use centrode_mechanism::feeder::{Feeder, FeederError, Part};
+use centrode_mechanism::feeder::{Feeder, FeederError, FeederPart};
 use centrode_mechanism::gear::design::Keyway;
 use centrode_mechanism::machine::{Key, allowed_pressure};
 
@@ -61,7 +61,7 @@ impl FeederForces {
     pub fn new(feeder: &Feeder, carried: f64) -> Result<Self, FeederForcesError> {
         let mut machine = feeder.links(carried);
         let mut plates = Vec::new();
-        for part in Part::ALL
+        for part in FeederPart::ALL
             .into_iter()
             .filter(|part| part.carrier().is_some())
         {
@@ -80,7 +80,7 @@ impl FeederForces {
             source,
         })?;
         // What stands in the frame weighs on none of the links.
-        plates.extend(feeder.plate(Part::Frame));
+        plates.extend(feeder.plate(FeederPart::Frame));
         for pieces in feeder.turned(&plates) {
             machine.add_turned(&pieces, String::new());
         }
@@ -100,26 +100,26 @@ impl FeederForces {
     /// Torque the crank needs, N mm, counter-clockwise.
     #[must_use]
     pub fn torque(forces: &Forces) -> f64 {
-        forces.joints[Part::Crank.joint()].drive
+        forces.joints[FeederPart::Crank.joint()].drive
     }
 
     /// Forces in the joints, N, in the order of [`FeederForces::CONNECTIONS`]: on crank, coupler and rocker from what carries
     /// them, on rocker and slider from the pin C, on the effector from its pivot, and on the slider from the slot.
     #[must_use]
     pub fn joints(forces: &Forces) -> [Vector; 7] {
-        let on = |part: Part| {
+        let on = |part: FeederPart| {
             let reaction = forces.joints[part.joint()].reaction;
             reaction.map_or_else(Vector::zeros, |reaction| reaction.force.xy())
         };
         let [coupler, slider] = [0, 1].map(|closure| forces.closures[closure].xy());
         [
-            on(Part::Crank),
-            on(Part::Coupler),
-            on(Part::Rocker),
+            on(FeederPart::Crank),
+            on(FeederPart::Coupler),
+            on(FeederPart::Rocker),
             coupler + slider,
             -slider,
-            on(Part::Effector),
-            on(Part::Slider),
+            on(FeederPart::Effector),
+            on(FeederPart::Slider),
         ]
     }
 }

@@ -1,11 +1,11 @@
 use centrode_geometry::{Extreme, least};
-use centrode_mechanism::feeder::{Feeder, Part};
+use centrode_mechanism::feeder::{Feeder, FeederPart};
 
 use crate::{Finding, Place, Report, Severity, Unit};
 
 /// Checks that the links can be cut from plate, and run clear of the shaft that passes them.
 pub(super) fn plates(feeder: &Feeder, report: &mut Report) {
-    let cut = Part::ALL.map(|part| (part, feeder.plate(part)));
+    let cut = FeederPart::ALL.map(|part| (part, feeder.plate(part)));
     for (part, plate) in cut {
         let Err(error) = plate else { continue };
         report.findings.push(Finding {

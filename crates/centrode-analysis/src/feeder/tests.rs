@@ -1,6 +1,6 @@
 use super::*;
 use crate::forces::Forces;
-use centrode_mechanism::feeder::{FeederDesign, LinkageSpec, Part};
+use centrode_mechanism::feeder::{FeederDesign, FeederPart, LinkageSpec};
 use centrode_mechanism::linkage::Branch;
 
 fn feeder([crank, coupler, rocker, frame]: [f64; 4], pivot: [f64; 2]) -> Feeder {
@@ -90,7 +90,7 @@ fn the_crank_moves_the_masses_of_the_plates() {
     let step = 1e-4;
     let power = |forces: &Forces, turned: f64| {
         // The intermittent gear, out of balance, turns clockwise as fast as the input.
-        FeederForces::torque(forces) * turned - forces.joints[Part::ALL.len() - 1].drive
+        FeederForces::torque(forces) * turned - forces.joints[FeederPart::ALL.len() - 1].drive
     };
     for i in 1..40 {
         let input = 0.1 * f64::from(i);

@@ -21,11 +21,11 @@ pub struct Body {
 pub(super) struct Node {
     pub(super) center: Point,
     pub(super) radius: f64,
-    pub(super) part: Part,
+    pub(super) part: NodeKind,
 }
 
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Part {
+pub(super) enum NodeKind {
     Edge(u32),
     Halves([u32; 2]),
 }
@@ -143,7 +143,7 @@ fn grow(edges: &[[Point; 2]], order: &mut [u32], nodes: &mut Vec<Node>) -> u32 {
     nodes.push(Node {
         center,
         radius,
-        part: Part::Edge(order[0]),
+        part: NodeKind::Edge(order[0]),
     });
     if order.len() > 1 {
         let extent: Vector = bounds.max - bounds.min;
@@ -153,7 +153,7 @@ fn grow(edges: &[[Point; 2]], order: &mut [u32], nodes: &mut Vec<Node>) -> u32 {
         order.select_nth_unstable_by(middle, |&a, &b| place(a).total_cmp(&place(b)));
         let (first, second) = order.split_at_mut(middle);
         let halves = [grow(edges, first, nodes), grow(edges, second, nodes)];
-        nodes[own].part = Part::Halves(halves);
+        nodes[own].part = NodeKind::Halves(halves);
     }
     u32::try_from(own).unwrap_or(u32::MAX)
 }

@@ -5,7 +5,7 @@ use std::collections::BinaryHeap;
 
 use centrode_geometry::{Point, checkpoint};
 
-use super::body::{Body, Part};
+use super::body::{Body, NodeKind};
 use super::{InterferenceError, Moving};
 
 /// Deepest point found.
@@ -21,7 +21,7 @@ pub(super) struct Deepest {
 
 /// Stretch of one body's boundary during an interval.
 #[derive(Clone, Copy, Debug)]
-struct Piece {
+struct BoundaryPiece {
     /// Index of the boundary's body: it is held against the other.
     of: usize,
     stretch: Stretch,
@@ -43,8 +43,8 @@ impl Stretch {
         match self {
             Self::Chord(ends) => Some(*ends),
             Self::Node(n) => match body.node(*n).part {
-                Part::Edge(e) => Some(*body.edge(e)),
-                Part::Halves(_) => None,
+                NodeKind::Edge(e) => Some(*body.edge(e)),
+                NodeKind::Halves(_) => None,
             },
         }
     }
@@ -65,32 +65,32 @@ impl Stretch {
         match self {
             Self::Chord(ends) => halved(*ends),
             Self::Node(n) => match body.node(*n).part {
-                Part::Edge(e) => halved(*body.edge(e)),
-                Part::Halves(halves) => halves.map(Self::Node),
+                NodeKind::Edge(e) => halved(*body.edge(e)),
+                NodeKind::Halves(halves) => halves.map(Self::Node),
             },
         }
     }
 }
 
-impl Ord for Piece {
+impl Ord for BoundaryPiece {
     fn cmp(&self, other: &Self) -> Ordering {
         self.bound.total_cmp(&other.bound)
     }
 }
 
-impl PartialOrd for Piece {
+impl PartialOrd for BoundaryPiece {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl PartialEq for Piece {
+impl PartialEq for BoundaryPiece {
     fn eq(&self, other: &Self) -> bool {
         self.cmp(other) == Ordering::Equal
     }
 }
 
-impl Eq for Piece {}
+impl Eq for BoundaryPiece {}
 
 /// Deepest point of either boundary in the other body while the input runs, within `tolerance`, searched only deeper
 /// than `beat`.
@@ -100,7 +100,7 @@ pub(super) fn deepest(
     beat: f64,
     tolerance: f64,
 ) -> Result<Deepest, InterferenceError> {
-    let whole = |of: usize| Piece {
+    let whole = |of: usize| BoundaryPiece {
         of,
         stretch: Stretch::Node(0),
         from,
@@ -139,7 +139,7 @@ pub(super) fn deepest(
         }
         if seen.travel > radius && piece.from < middle && middle < piece.to {
             for (from, to) in [(piece.from, middle), (middle, piece.to)] {
-                open.push(Piece {
+                open.push(BoundaryPiece {
                     from,
                     to,
                     bound,
@@ -148,7 +148,7 @@ pub(super) fn deepest(
             }
         } else if radius > 0.0 {
             for stretch in piece.stretch.halves(own) {
-                open.push(Piece {
+                open.push(BoundaryPiece {
                     stretch,
                     bound,
                     ..piece
@@ -180,7 +180,7 @@ struct Seen {
 impl Seen {
     fn new(
         [own, other]: [&Moving<'_>; 2],
-        piece: &Piece,
+        piece: &BoundaryPiece,
         center: Point,
         chord: Option<[Point; 2]>,
     ) -> Result<Self, InterferenceError> {

@@ -10,7 +10,7 @@ use std::rc::Rc;
 
 use centrode_geometry::{Point, Vector, checkpoint};
 
-use super::body::{Body, Part};
+use super::body::{Body, NodeKind};
 use super::motion::{Bend, Frame};
 use super::{InterferenceError, Moving};
 
@@ -151,7 +151,7 @@ impl<'a> PairState<'a> {
                 continue;
             }
             match (p.part, q.part) {
-                (Part::Edge(e), Part::Edge(f)) => {
+                (NodeKind::Edge(e), NodeKind::Edge(f)) => {
                     let (distance, bound) = self.edges([e, f]);
                     if distance < found.least {
                         (found.least, found.input) = (distance, Some(self.input));
@@ -164,11 +164,11 @@ impl<'a> PairState<'a> {
                 }
                 // A pair that moves by more than its circles are wide is cut in time, not in space.
                 _ if blur > p.radius + q.radius => rest.keep(pair, bound),
-                (Part::Halves([m, n]), _) if p.radius >= q.radius || is_edge(q.part) => {
+                (NodeKind::Halves([m, n]), _) if p.radius >= q.radius || is_edge(q.part) => {
                     open.extend([[m, pair[1]], [n, pair[1]]]);
                 }
-                (_, Part::Halves([m, n])) => open.extend([[pair[0], m], [pair[0], n]]),
-                (Part::Halves([m, n]), _) => open.extend([[m, pair[1]], [n, pair[1]]]),
+                (_, NodeKind::Halves([m, n])) => open.extend([[pair[0], m], [pair[0], n]]),
+                (NodeKind::Halves([m, n]), _) => open.extend([[m, pair[1]], [n, pair[1]]]),
             }
         }
         rest
@@ -224,8 +224,8 @@ impl Rest {
     }
 }
 
-fn is_edge(part: Part) -> bool {
-    matches!(part, Part::Edge(_))
+fn is_edge(part: NodeKind) -> bool {
+    matches!(part, NodeKind::Edge(_))
 }
 
 /// Distance of two edges and the vector from a closest point of the second to one of the first.

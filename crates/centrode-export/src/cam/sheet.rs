@@ -1,4 +1,4 @@
-use crate::drawing::{Anchor, CENTER, Color, Drawing, HOLE, LineType, PROFILE, Shape, Text};
+use crate::drawing::{Anchor, CENTER, Color, Drawing, EntityShape, HOLE, LineType, PROFILE, Text};
 use crate::package::title_or_name;
 use centrode_geometry::{Bounds, Outline, Point, Tolerance, Vector};
 use centrode_mechanism::cam::design::{Follower, Turn};
@@ -53,13 +53,13 @@ impl Contours {
 pub(super) fn cam(contours: &Contours) -> Drawing {
     let mut drawing = layers();
     for (layer, outline) in &contours.contours {
-        drawing.draw(layer, Shape::Contour(outline.clone()));
+        drawing.draw(layer, EntityShape::Contour(outline.clone()));
     }
     let Bounds { min, max } = contours.extent;
     let p = Point::new;
-    drawing.draw(CENTER, Shape::Line(p(min.x, 0.0), p(max.x, 0.0)));
-    drawing.draw(CENTER, Shape::Line(p(0.0, min.y), p(0.0, max.y)));
-    drawing.draw(CENTER, Shape::Mark(Point::origin()));
+    drawing.draw(CENTER, EntityShape::Line(p(min.x, 0.0), p(max.x, 0.0)));
+    drawing.draw(CENTER, EntityShape::Line(p(0.0, min.y), p(0.0, max.y)));
+    drawing.draw(CENTER, EntityShape::Mark(Point::origin()));
     drawing
 }
 
@@ -73,7 +73,7 @@ pub(super) fn assembly(part: &Cam, contours: &Contours) -> Drawing {
     let height = 0.025 * contours.extent.diagonal();
     let line = |row: f64, words: String| {
         let at = Point::new(0.5 * (min.x + max.x), min.y - (1.2 + 1.7 * row) * height);
-        Shape::Text(Text::new(at, height, words, Anchor::Middle))
+        EntityShape::Text(Text::new(at, height, words, Anchor::Middle))
     };
     let title = title_or_name(part.title(), part.name());
     drawing.draw(TEXT, line(0.0, title.to_owned()));
@@ -85,37 +85,43 @@ pub(super) fn assembly(part: &Cam, contours: &Contours) -> Drawing {
 fn follower(part: &Cam, contours: &Contours, drawing: &mut Drawing) {
     let disc = part.disc();
     let contact = disc.contact(0.0);
-    let mut draw = |shape: Shape| drawing.draw(FOLLOWER, shape);
+    let mut draw = |shape: EntityShape| drawing.draw(FOLLOWER, shape);
     if let (Some(center), Some(radius)) = (contact.roller, disc.follower().roller_radius()) {
         if radius > 0.0 {
-            draw(Shape::Circle { center, radius });
+            draw(EntityShape::Circle { center, radius });
         }
-        draw(Shape::Mark(center));
+        draw(EntityShape::Mark(center));
     }
     let along = Vector::new(-contact.normal.y, contact.normal.x);
     let far = contours.extent.max.x;
     match disc.follower() {
         Follower::TranslatingRoller(slide) => {
             let start = contact.roller.unwrap_or(contact.point);
-            draw(Shape::Line(start, Point::new(far, slide.offset)));
+            draw(EntityShape::Line(start, Point::new(far, slide.offset)));
         }
         Follower::SwingingRoller(arm) => {
             let pivot = Point::new(arm.center_distance, 0.0);
-            draw(Shape::Line(contact.roller.unwrap_or(contact.point), pivot));
-            draw(Shape::Mark(pivot));
+            draw(EntityShape::Line(
+                contact.roller.unwrap_or(contact.point),
+                pivot,
+            ));
+            draw(EntityShape::Mark(pivot));
         }
         Follower::SwingingFlat(arm) => {
             let pivot = Point::new(arm.center_distance, 0.0);
             let foot = contact.point + along * (pivot - contact.point).dot(&along);
-            draw(Shape::Line(contact.point, foot));
-            draw(Shape::Line(foot, pivot));
-            draw(Shape::Mark(pivot));
+            draw(EntityShape::Line(contact.point, foot));
+            draw(EntityShape::Line(foot, pivot));
+            draw(EntityShape::Mark(pivot));
         }
         _ => {
             let (low, high) = disc.limits().face.unwrap_or((0.0, 0.0));
             let middle = Point::new(contact.point.x, 0.0);
-            draw(Shape::Line(middle + along * low, middle + along * high));
-            draw(Shape::Line(middle, Point::new(far, 0.0)));
+            draw(EntityShape::Line(
+                middle + along * low,
+                middle + along * high,
+            ));
+            draw(EntityShape::Line(middle, Point::new(far, 0.0)));
         }
     }
 }

@@ -1,6 +1,6 @@
 use super::{FORMATS, drawing, files, mesh, solid};
 use crate::csv::Values;
-use crate::drawing::Shape;
+use crate::drawing::EntityShape;
 use crate::dxf;
 use crate::{ExportError, Format, Options};
 use centrode_geometry::{Point, Tolerance};
@@ -99,7 +99,7 @@ fn the_drawing_holds_profile_path_base_circle_and_bore() {
         let contours: Vec<&str> = drawing
             .entities
             .iter()
-            .filter(|entity| matches!(entity.shape, Shape::Contour(_)))
+            .filter(|entity| matches!(entity.shape, EntityShape::Contour(_)))
             .map(|entity| entity.layer.as_str())
             .collect();
         assert_eq!(contours, expected);

@@ -8,7 +8,7 @@ use centrode_mechanism::composed::Composed;
 use centrode_mechanism::machine::{Form, LinePath, Machine};
 use nalgebra::{Isometry2, Matrix3, Point3};
 
-use crate::drawing::{Color, Drawing, LineType, Shape};
+use crate::drawing::{Color, Drawing, EntityShape, LineType};
 use crate::{Bundle, ExportError, Format, Options, Package, turned};
 pub use curves::curves;
 
@@ -99,7 +99,7 @@ fn assembly(composed: &Composed, machine: &Machine) -> Drawing {
             let input = composed.period() * f64::from(i) / f64::from(POINTS);
             composed.place(body, at, input)
         });
-        drawing.draw(PATH, Shape::Polyline(way.collect()));
+        drawing.draw(PATH, EntityShape::Polyline(way.collect()));
     }
     drawing
 }
@@ -121,10 +121,10 @@ fn scenery(mut drawing: Drawing, composed: &Composed, machine: &Machine) -> Draw
         let sketch = machine.sketches.iter().find(|s| s.name == obstacle.name);
         for line in sketch.iter().flat_map(|sketch| &sketch.lines) {
             let shape = match &line.path {
-                LinePath::Contour(outline) => Shape::Contour(outline.transformed(&place)),
+                LinePath::Contour(outline) => EntityShape::Contour(outline.transformed(&place)),
                 LinePath::Chain(ends) => {
                     let ends = ends.iter().map(|at| place * Point::from(*at));
-                    Shape::Polyline(ends.collect())
+                    EntityShape::Polyline(ends.collect())
                 }
                 LinePath::Trace(_) => continue,
             };
@@ -135,8 +135,11 @@ fn scenery(mut drawing: Drawing, composed: &Composed, machine: &Machine) -> Draw
 }
 
 fn contours(drawing: &mut Drawing, layer: &str, solid: &Solid, place: &Isometry2<f64>) {
-    drawing.draw(layer, Shape::Contour(solid.outline().transformed(place)));
+    drawing.draw(
+        layer,
+        EntityShape::Contour(solid.outline().transformed(place)),
+    );
     for hole in solid.holes() {
-        drawing.draw(layer, Shape::Contour(hole.transformed(place)));
+        drawing.draw(layer, EntityShape::Contour(hole.transformed(place)));
     }
 }

@@ -3,7 +3,7 @@
 use super::pairs::{Handle, Pairs};
 use super::tables::weight;
 use super::{Curves, STYLE};
-use crate::drawing::{Anchor, Drawing, Entity, Object, Shape, Text};
+use crate::drawing::{Anchor, Drawing, Entity, EntityShape, Object, Text};
 use centrode_geometry::{Arc, Point, Segment, Tolerance};
 
 /// Writes the entities of a drawing, owned by the model space; each looks as its layer says. The newer version has
@@ -13,7 +13,7 @@ pub(super) fn entities(writer: &mut Writer<'_>, drawing: &Drawing, space: Handle
     writer.owner = space;
     let mut dimensions = 0;
     for entity in &drawing.entities {
-        let Shape::Group(group) = &entity.shape else {
+        let EntityShape::Group(group) = &entity.shape else {
             writer.entity(drawing, entity);
             continue;
         };
@@ -74,9 +74,9 @@ impl Writer<'_> {
         self.shape(&entity.layer, &entity.shape);
     }
 
-    fn shape(&mut self, layer: &str, shape: &Shape) {
+    fn shape(&mut self, layer: &str, shape: &EntityShape) {
         match shape {
-            Shape::Contour(outline) => match self.curves {
+            EntityShape::Contour(outline) => match self.curves {
                 Curves::Arcs => {
                     let arcs = outline.arcs(self.tolerance);
                     let bulges = arcs.segments().iter().map(|segment| match segment {
@@ -87,34 +87,34 @@ impl Writer<'_> {
                 }
                 Curves::Splines => self.spline(layer, &outline.cubics(self.tolerance)),
             },
-            Shape::Polyline(points) => {
+            EntityShape::Polyline(points) => {
                 self.polyline(layer, false, points.iter().map(|p| (*p, 0.0)));
             }
-            Shape::Line(start, end) => {
+            EntityShape::Line(start, end) => {
                 let line = self.begin("LINE", layer, "AcDbLine");
                 line.point(10, start).point(11, end);
             }
-            Shape::Circle { center, radius } => {
+            EntityShape::Circle { center, radius } => {
                 let circle = self.begin("CIRCLE", layer, "AcDbCircle");
                 circle.point(10, center).number(40, *radius);
             }
-            Shape::Arc(arc) => {
+            EntityShape::Arc(arc) => {
                 let [start, end] = angles(arc);
                 let file = self.begin("ARC", layer, "AcDbCircle");
                 file.point(10, &arc.center()).number(40, arc.radius());
                 file.class("AcDbArc").number(50, start).number(51, end);
             }
-            Shape::Triangle([a, b, c]) => {
+            EntityShape::Triangle([a, b, c]) => {
                 // A fourth corner on the third: that is how a triangle is written.
                 let solid = self.begin("SOLID", layer, "AcDbTrace");
                 solid.point(10, a).point(11, b).point(12, c).point(13, c);
             }
-            Shape::Mark(point) => {
+            EntityShape::Mark(point) => {
                 self.begin("POINT", layer, "AcDbPoint").point(10, point);
             }
-            Shape::Text(text) => self.line_of_text(layer, text),
+            EntityShape::Text(text) => self.line_of_text(layer, text),
             // Its entities are written one by one.
-            Shape::Group(_) => {}
+            EntityShape::Group(_) => {}
         }
     }
 

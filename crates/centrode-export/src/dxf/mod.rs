@@ -92,7 +92,7 @@ const STYLE_FONT: &str = "isocp.shx";
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::{Anchor, Color, LineType, Shape, Text};
+    use crate::drawing::{Anchor, Color, EntityShape, LineType, Text};
     use centrode_geometry::{Arc, Outline, Point};
     use std::collections::HashSet;
 
@@ -103,16 +103,16 @@ mod tests {
             .layer("AXES", Color::Red, LineType::Center, 0.18);
         drawing.draw(
             "PROFILE",
-            Shape::Contour(Outline::circle(p(1.0, 2.0), 10.0)),
+            EntityShape::Contour(Outline::circle(p(1.0, 2.0), 10.0)),
         );
         drawing.draw(
             "PROFILE",
-            Shape::Polyline(vec![p(0.0, 0.0), p(1.0, 5.0), p(4.0, 4.0)]),
+            EntityShape::Polyline(vec![p(0.0, 0.0), p(1.0, 5.0), p(4.0, 4.0)]),
         );
-        drawing.draw("AXES", Shape::Line(p(-12.0, 0.0), p(12.0, 0.0)));
+        drawing.draw("AXES", EntityShape::Line(p(-12.0, 0.0), p(12.0, 0.0)));
         drawing.draw(
             "AXES",
-            Shape::Circle {
+            EntityShape::Circle {
                 center: p(0.0, 0.0),
                 radius: 3.0,
             },
@@ -122,11 +122,11 @@ mod tests {
             end: p(0.0, 5.0),
             bulge: -0.4,
         };
-        drawing.draw("AXES", Shape::Arc(arc));
-        drawing.draw("AXES", Shape::Mark(p(0.0, 0.0)));
+        drawing.draw("AXES", EntityShape::Arc(arc));
+        drawing.draw("AXES", EntityShape::Mark(p(0.0, 0.0)));
         drawing.draw(
             "AXES",
-            Shape::Text(Text::new(p(0.0, -15.0), 3.5, "z = 23", Anchor::Middle)),
+            EntityShape::Text(Text::new(p(0.0, -15.0), 3.5, "z = 23", Anchor::Middle)),
         );
         drawing
     }
@@ -248,7 +248,7 @@ mod tests {
             Err(DxfError::SplinesInR12)
         ));
         let mut drawing = sample();
-        drawing.draw("NOWHERE", Shape::Mark(Point::origin()));
+        drawing.draw("NOWHERE", EntityShape::Mark(Point::origin()));
         assert!(matches!(
             write(&drawing, Version::R2010, Curves::Arcs, tolerance()),
             Err(DxfError::Layer { .. })

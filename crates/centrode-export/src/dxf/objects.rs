@@ -3,7 +3,7 @@
 use super::entities::Writer;
 use super::pairs::{Handle, Pairs};
 use super::tables::{record, table};
-use crate::drawing::{Dimension, Drawing, Group, Hatch, Object, Shape};
+use crate::drawing::{Dimension, Drawing, EntityShape, Group, Hatch, Object};
 use centrode_geometry::{Point, Segment};
 
 /// Style of dimensions in letters of one height at one scale.
@@ -19,7 +19,7 @@ fn dimensions(drawing: &Drawing) -> impl Iterator<Item = (&Dimension, &Group)> {
         .entities
         .iter()
         .filter_map(|entity| match &entity.shape {
-            Shape::Group(group) => match &group.object {
+            EntityShape::Group(group) => match &group.object {
                 Object::Dimension(dimension) => Some((dimension, group)),
                 Object::Hatch(_) => None,
             },

@@ -4,7 +4,7 @@ use super::entities::Writer;
 use super::objects;
 use super::pairs::{Handle, Pairs};
 use super::{STYLE, STYLE_FONT};
-use crate::drawing::{Color, Drawing, LineType, Shape};
+use crate::drawing::{Color, Drawing, EntityShape, LineType};
 use centrode_geometry::{Bounds, Point};
 
 /// The header, which names the first handle that is free.
@@ -190,7 +190,8 @@ fn layers(file: &mut Pairs, drawing: &Drawing) {
 /// The lettering styles; the handle is that of fitted texts, where there are any.
 fn styles(file: &mut Pairs, drawing: &Drawing) -> Option<Handle> {
     let mut shapes = drawing.plain().map(|entity| &entity.shape);
-    let fitted = shapes.any(|shape| matches!(shape, Shape::Text(text) if text.width.is_some()));
+    let fitted =
+        shapes.any(|shape| matches!(shape, EntityShape::Text(text) if text.width.is_some()));
     let styles = [("STANDARD", "txt"), (STYLE, STYLE_FONT)];
     let styles = if fitted { &styles[..] } else { &styles[..1] };
     let owner = table(file, "STYLE", styles.len());

@@ -1,7 +1,7 @@
 use std::f64::consts::TAU;
 
 use centrode_geometry::Point;
-use centrode_mechanism::feeder::{Feeder, GearBody, Part, Plate};
+use centrode_mechanism::feeder::{Feeder, FeederPart, GearBody, Plate};
 use centrode_mechanism::machine::{
     self, Axis, Blank, Datum, Dimension, Fit, Form, Line, LineRole, Machine,
 };
@@ -37,7 +37,7 @@ pub(super) fn tell(feeder: &Feeder, plates: &[Plate], machine: &mut Machine) {
         .filter(|pieces| !pieces.fit.name.is_empty());
     of_cams.for_each(|pieces| machine.fit(pieces.fit));
     fits(feeder, machine);
-    let frame = machine.place_on(Part::Frame.name(), [0.0; 2]);
+    let frame = machine.place_on(FeederPart::Frame.name(), [0.0; 2]);
     let told = &mut machine.arrangement;
     told.seen_through.extend(frame.map(|place| place.figure));
     told.title = "Feeder".into();
@@ -103,7 +103,7 @@ fn pins(feeder: &Feeder, machine: &mut Machine) {
 /// The intermittent gears with their cams and pins, which are not cut for this.
 fn gears(feeder: &Feeder, machine: &mut Machine) {
     let spec = &feeder.design().gears;
-    let crank = machine.link_named(Part::Crank.name()).unwrap_or(0);
+    let crank = machine.link_named(FeederPart::Crank.name()).unwrap_or(0);
     let made = spec.body();
     let rim = |pitches: u32| [0.0, 0.5 * spec.module * f64::from(pitches) + spec.module];
     let bored = |pitches: u32| format!("{pitches} pitches, bore Ø{}", number(spec.bore, PLACES));

@@ -1,7 +1,7 @@
 use std::sync::Arc;
 
 use centrode_geometry::{Outline, Point};
-use centrode_mechanism::feeder::{Feeder, Part, Plate};
+use centrode_mechanism::feeder::{Feeder, FeederPart, Plate};
 use centrode_mechanism::gear::IntermittentPair;
 use centrode_mechanism::linkage::SixBar;
 use centrode_mechanism::machine::{Constant, Line, LineRole, Machine, Mark, Quantity, Seat};
@@ -30,14 +30,14 @@ pub(super) fn draw(
     let seat = Seat::Free(Box::new([beside, still(0.0), Quantity::Input(-1.0)]));
     machine.draw_at("driver", seat, [0.0; 3], driver);
     let driven = machine.sketch("driven gear", driven);
-    let crank = machine.link_named(Part::Crank.name()).unwrap_or(0);
+    let crank = machine.link_named(FeederPart::Crank.name()).unwrap_or(0);
     machine.draw("driven gear", crank, driven);
     for plate in plates {
         let name = plate.part.name();
         let mut lines = vec![Line::contour(LineRole::Body, &plate.outline)];
         let holes = plate.cut_outs();
         lines.extend(holes.iter().map(|hole| Line::contour(LineRole::Hole, hole)));
-        if plate.part == Part::Frame {
+        if plate.part == FeederPart::Frame {
             lines.push(Line::trace(LineRole::Trace, 0));
             let bar = feeder.six_bar().four_bar();
             let pivots = SixBar::pivots(bar, feeder.design().goals.swing, PIVOTS);
@@ -50,11 +50,11 @@ pub(super) fn draw(
         machine.draw_at(name, seat, [0.0, 0.0, rest], sketch);
         let figure = machine.figures.len() - 1;
         let named = plate.joints.iter().filter(|joint| match plate.part {
-            Part::Frame => true,
-            Part::Crank => joint.name == "B",
-            Part::Effector => joint.name == "E",
-            Part::Slider => joint.name == "C",
-            Part::Coupler | Part::Rocker => false,
+            FeederPart::Frame => true,
+            FeederPart::Crank => joint.name == "B",
+            FeederPart::Effector => joint.name == "E",
+            FeederPart::Slider => joint.name == "C",
+            FeederPart::Coupler | FeederPart::Rocker => false,
         });
         machine.marks.extend(named.map(|joint| Mark {
             name: joint.name.into(),

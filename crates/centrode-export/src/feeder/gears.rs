@@ -6,7 +6,7 @@ use nalgebra::Isometry2;
 
 use super::pins::pins;
 use crate::csv::Column;
-use crate::drawing::{Anchor, CENTER, Color, Drawing, HOLE, LineType, PROFILE, Shape};
+use crate::drawing::{Anchor, CENTER, Color, Drawing, EntityShape, HOLE, LineType, PROFILE};
 use crate::gear_pair::{by_thickness, measured, over_pins, tooth_runout};
 use crate::plate::{Exactness, Hole, Plate};
 use crate::sheet::{Table, broken, capital, number};
@@ -139,10 +139,13 @@ pub(super) fn assembly(gears: &IntermittentPair, parts: &[Plate]) -> Drawing {
             false => PROFILE,
         };
         for hole in &part.holes {
-            drawing.draw(HOLE, Shape::Contour(hole.outline.transformed(&place)));
+            drawing.draw(HOLE, EntityShape::Contour(hole.outline.transformed(&place)));
         }
-        drawing.draw(CENTER, Shape::Mark(place * Point::origin()));
-        drawing.draw(layer, Shape::Contour(part.outline.transformed(&place)));
+        drawing.draw(CENTER, EntityShape::Mark(place * Point::origin()));
+        drawing.draw(
+            layer,
+            EntityShape::Contour(part.outline.transformed(&place)),
+        );
     }
     drawing
 }

@@ -1,4 +1,4 @@
-use centrode_mechanism::feeder::{Feeder, Part, Plate};
+use centrode_mechanism::feeder::{Feeder, FeederPart, Plate};
 use centrode_mechanism::gear::IntermittentPair;
 use centrode_mechanism::machine::{Form, Machine, Quantity, Shape};
 
@@ -18,7 +18,7 @@ pub(super) fn drawn(
     machine.column("input_angle_rad", "rad", meaning, Quantity::Input(1.0));
     let time = Quantity::Input(1.0 / feeder.speed());
     machine.column("time_s", "s", "time at the design's speed", time);
-    for part in Part::ALL
+    for part in FeederPart::ALL
         .into_iter()
         .filter(|part| part.carrier().is_some())
     {
@@ -56,17 +56,17 @@ pub(super) fn machine(feeder: &Feeder, plates: &[Plate]) -> Result<Machine, Expo
     Ok(machine)
 }
 
-fn meaning_of(part: Part) -> (&'static str, &'static str) {
+fn meaning_of(part: FeederPart) -> (&'static str, &'static str) {
     match part {
-        Part::Frame => ("rad", ""),
-        Part::Crank => (
+        FeederPart::Frame => ("rad", ""),
+        FeederPart::Crank => (
             "rad",
             "crank against the frame, counter-clockwise since it rested",
         ),
-        Part::Coupler => ("rad", "coupler against the crank"),
-        Part::Rocker => ("rad", "rocker against the frame"),
-        Part::Effector => ("rad", "effector against the frame"),
-        Part::Slider => ("mm", "slider along the effector, outwards"),
+        FeederPart::Coupler => ("rad", "coupler against the crank"),
+        FeederPart::Rocker => ("rad", "rocker against the frame"),
+        FeederPart::Effector => ("rad", "effector against the frame"),
+        FeederPart::Slider => ("mm", "slider along the effector, outwards"),
     }
 }
 

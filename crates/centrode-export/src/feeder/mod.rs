@@ -10,7 +10,7 @@ mod plates;
 
 use crate::package::title_or_name;
 use crate::{Bundle, ExportError, Format, Options, Package, turned};
-use centrode_mechanism::feeder::{Feeder, FeederError, Part, Plate};
+use centrode_mechanism::feeder::{Feeder, FeederError, FeederPart, Plate};
 use centrode_mechanism::gear::IntermittentPair;
 use centrode_mechanism::machine::Machine;
 pub use curves::curves;
@@ -34,7 +34,7 @@ pub fn machine(feeder: &Feeder) -> Result<Machine, ExportError> {
 /// for which nothing is cut. Links that make no plate are not drawn.
 #[must_use]
 pub fn drawn(feeder: &Feeder, gears: Option<&IntermittentPair>) -> Machine {
-    let plates = Part::ALL
+    let plates = FeederPart::ALL
         .into_iter()
         .filter_map(|part| feeder.plate(part).ok());
     links::drawn(feeder, &plates.collect::<Vec<_>>(), gears)
@@ -42,7 +42,7 @@ pub fn drawn(feeder: &Feeder, gears: Option<&IntermittentPair>) -> Machine {
 
 /// Every part as a plate.
 fn cut(feeder: &Feeder) -> Result<Vec<Plate>, FeederError> {
-    let plates = Part::ALL.into_iter().map(|part| feeder.plate(part));
+    let plates = FeederPart::ALL.into_iter().map(|part| feeder.plate(part));
     plates.collect()
 }
 

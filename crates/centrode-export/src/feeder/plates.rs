@@ -1,8 +1,8 @@
-use crate::drawing::{Anchor, CENTER, Color, Drawing, LineType, Shape, Text};
+use crate::drawing::{Anchor, CENTER, Color, Drawing, EntityShape, LineType, Text};
 use crate::plate::{self, Hole};
 use crate::sheet::{capital, fit, number};
 use centrode_geometry::{Bounds, Point, Vector};
-use centrode_mechanism::feeder::{Feeder, Part, Plate};
+use centrode_mechanism::feeder::{Feeder, FeederPart, Plate};
 
 const PATH: &str = "PATH";
 const TEXT: &str = "TEXT";
@@ -41,7 +41,7 @@ pub(super) fn made(feeder: &Feeder, plate: &Plate) -> plate::Plate {
     });
     let name = plate.part.name();
     let note = match plate.part {
-        Part::Slider => {
+        FeederPart::Slider => {
             let width = fit::keyway(spec.slot_width, &spec.slider_fit);
             format!("Width {width}, to run in the effector's slot.")
         }
@@ -71,10 +71,10 @@ pub fn assembly(feeder: &Feeder, plates: &[Plate]) -> Drawing {
         .layer(CENTER, Color::Red, LineType::Center, 0.13)
         .layer(PATH, Color::Blue, LineType::Continuous, 0.18)
         .layer(TEXT, Color::Foreground, LineType::Continuous, 0.25);
-    for part in Part::ALL {
+    for part in FeederPart::ALL {
         let name = part.name().to_uppercase();
         let line = match part {
-            Part::Frame => LineType::Phantom,
+            FeederPart::Frame => LineType::Phantom,
             _ => LineType::Continuous,
         };
         drawing = drawing.layer(&name, Color::Foreground, line, 0.35);
@@ -83,11 +83,11 @@ pub fn assembly(feeder: &Feeder, plates: &[Plate]) -> Drawing {
         let place = feeder.place(plate.part, feeder.start());
         let layer = plate.part.name().to_uppercase();
         for contour in std::iter::once(plate.outline.clone()).chain(plate.cut_outs()) {
-            drawing.draw(&layer, Shape::Contour(contour.transformed(&place)));
+            drawing.draw(&layer, EntityShape::Contour(contour.transformed(&place)));
         }
     }
     for joint in 0..3 {
-        drawing.draw(PATH, Shape::Polyline(feeder.path(joint, POINTS)));
+        drawing.draw(PATH, EntityShape::Polyline(feeder.path(joint, POINTS)));
     }
     let [b, c, e] = feeder.six_bar().joints(feeder.start());
     let frame = feeder.six_bar().four_bar().lengths()[3];
@@ -106,9 +106,12 @@ pub fn assembly(feeder: &Feeder, plates: &[Plate]) -> Drawing {
     let Bounds { min, max } = drawing.bounds();
     let height = 0.015 * (max - min).norm();
     for (name, at) in joints {
-        drawing.draw(CENTER, Shape::Mark(at));
+        drawing.draw(CENTER, EntityShape::Mark(at));
         let at = at + Vector::new(0.6, 0.6) * height;
-        drawing.draw(TEXT, Shape::Text(Text::new(at, height, name, Anchor::Left)));
+        drawing.draw(
+            TEXT,
+            EntityShape::Text(Text::new(at, height, name, Anchor::Left)),
+        );
     }
     let words = format!(
         "{}: at rest, crank at {:.4} deg; paths of B, C and the tip E",
@@ -118,7 +121,7 @@ pub fn assembly(feeder: &Feeder, plates: &[Plate]) -> Drawing {
     let at = Point::new(min.x, min.y - 2.0 * height);
     drawing.draw(
         TEXT,
-        Shape::Text(Text::new(at, height, words, Anchor::Left)),
+        EntityShape::Text(Text::new(at, height, words, Anchor::Left)),
     );
     drawing
 }

@@ -1,4 +1,4 @@
-use crate::drawing::{Anchor, CENTER, Color, Drawing, HOLE, LineType, PROFILE, Shape, Text};
+use crate::drawing::{Anchor, CENTER, Color, Drawing, EntityShape, HOLE, LineType, PROFILE, Text};
 use centrode_geometry::{Bounds, Outline, Point, Tolerance, Vector};
 use centrode_mechanism::gear::{Gear, GearPair, Member, design::Addendum};
 use nalgebra::Isometry2;
@@ -48,7 +48,7 @@ impl Contours {
 
     fn draw(&self, drawing: &mut Drawing, place: &Isometry2<f64>) {
         for (layer, outline) in &self.contours {
-            drawing.draw(layer, Shape::Contour(outline.transformed(place)));
+            drawing.draw(layer, EntityShape::Contour(outline.transformed(place)));
         }
     }
 }
@@ -60,9 +60,9 @@ pub(super) fn gear(contours: &Contours) -> Drawing {
     contours.draw(&mut drawing, &Isometry2::identity());
     let Bounds { min, max } = contours.extent;
     let p = Point::new;
-    drawing.draw(CENTER, Shape::Line(p(min.x, 0.0), p(max.x, 0.0)));
-    drawing.draw(CENTER, Shape::Line(p(0.0, min.y), p(0.0, max.y)));
-    drawing.draw(CENTER, Shape::Mark(Point::origin()));
+    drawing.draw(CENTER, EntityShape::Line(p(min.x, 0.0), p(max.x, 0.0)));
+    drawing.draw(CENTER, EntityShape::Line(p(0.0, min.y), p(0.0, max.y)));
+    drawing.draw(CENTER, EntityShape::Mark(Point::origin()));
     drawing
 }
 
@@ -75,16 +75,16 @@ pub(super) fn assembly(pair: &GearPair, [driver, driven]: [&Contours; 2]) -> Dra
         let Bounds { min, max } = contours.extent;
         drawing.draw(
             CENTER,
-            Shape::Line(Point::new(x, min.y), Point::new(x, max.y)),
+            EntityShape::Line(Point::new(x, min.y), Point::new(x, max.y)),
         );
-        drawing.draw(CENTER, Shape::Mark(Point::new(x, 0.0)));
+        drawing.draw(CENTER, EntityShape::Mark(Point::new(x, 0.0)));
     }
     let ends = [driver.extent.min.x, a + driven.extent.max.x].map(|x| Point::new(x, 0.0));
-    drawing.draw(CENTER, Shape::Line(ends[0], ends[1]));
+    drawing.draw(CENTER, EntityShape::Line(ends[0], ends[1]));
     let height = 0.038 * a;
     let low = driver.extent.min.y.min(driven.extent.min.y);
     let line = |row: f64, words: String| {
-        Shape::Text(Text::new(
+        EntityShape::Text(Text::new(
             Point::new(
                 0.5 * (ends[0].x + ends[1].x),
                 low - (1.2 + 1.7 * row) * height,

@@ -4,7 +4,7 @@ use centrode_mechanism::machine::{Form, JointKind, Link, Machine, Shape};
 use super::motion::Line;
 use super::{bodies, motion};
 use crate::mjcf::Closure;
-use crate::model::{self, Convex, Joint, MOST_FACES, Mimic, Model, shown_tolerance};
+use crate::model::{self, Convex, MOST_FACES, Mimic, Model, ModelJoint, shown_tolerance};
 
 /// A machine as simulators want it.
 pub(crate) struct Simulated {
@@ -38,7 +38,7 @@ pub(crate) fn simulated(
         .iter()
         .map(|surface| bodies::all(surface, tolerance))
         .collect();
-    let link = |link: &Link| model::Link {
+    let link = |link: &Link| model::ModelLink {
         name: link.name.clone(),
         mass: link.mass,
         meshes: meshes(link, &seen),
@@ -140,7 +140,7 @@ fn coarsened(
     Ok((mesh, coarse.mm()))
 }
 
-fn joint(machine: &Machine, lines: &[Line], index: usize, driving: Option<usize>) -> Joint {
+fn joint(machine: &Machine, lines: &[Line], index: usize, driving: Option<usize>) -> ModelJoint {
     let about = &machine.joints[index];
     let start = about.law.at(0.0).position;
     let name = |link: usize| machine.links[link].name.clone();
@@ -154,7 +154,7 @@ fn joint(machine: &Machine, lines: &[Line], index: usize, driving: Option<usize>
             offset: 0.0,
         })
     });
-    let joint = Joint {
+    let joint = ModelJoint {
         name: machine.joint_name(index),
         kind: match about.kind {
             JointKind::Fixed => model::JointKind::Fixed,

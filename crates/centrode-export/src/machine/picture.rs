@@ -9,7 +9,7 @@ use nalgebra::{Isometry2, Isometry3, Vector3};
 
 use super::motion::within;
 use super::rim::rim;
-use crate::page::{Link, Mark, Motion, Path, Picture, short};
+use crate::page::{Mark, Motion, Path, Picture, PictureLink, short};
 
 /// Fewest steps of a period.
 const FEWEST: f64 = 720.0;
@@ -43,7 +43,7 @@ pub fn picture(machine: &Machine, tolerance: Tolerance) -> Picture {
             .collect()
     };
     let still: Vec<Vec<Option<Path>>> = machine.sketches.iter().map(still).collect();
-    let paths = |(index, figure): (usize, &Figure)| Link {
+    let paths = |(index, figure): (usize, &Figure)| PictureLink {
         name: figure.name.clone(),
         paths: machine.sketches[figure.sketch]
             .lines

@@ -1,6 +1,6 @@
 //! MJCF, the model files of `MuJoCo`.
 
-use crate::model::{Convex, Joint, JointKind, Link, Model};
+use crate::model::{Convex, JointKind, Model, ModelJoint, ModelLink};
 use centrode_geometry::MassProperties;
 use centrode_mechanism::machine::loose_link;
 use nalgebra::UnitQuaternion;
@@ -117,7 +117,7 @@ pub fn write_closed(model: &Model, closures: &[Closure]) -> Result<Vec<u8>, Mjcf
 
 /// Checks that every link is carried by one joint, the first by none, and hangs from the first in the end.
 fn is_tree(model: &Model) -> Result<(), MjcfError> {
-    let index = |joint: &Joint, end: &str| {
+    let index = |joint: &ModelJoint, end: &str| {
         let found = model.links.iter().position(|link| link.name == end);
         found.ok_or_else(|| MjcfError::Link {
             joint: joint.name.clone(),
@@ -136,7 +136,7 @@ fn is_tree(model: &Model) -> Result<(), MjcfError> {
     }
 }
 
-fn assets<'a>(xml: &mut String, link: &'a Link, written: &mut BTreeSet<&'a str>) {
+fn assets<'a>(xml: &mut String, link: &'a ModelLink, written: &mut BTreeSet<&'a str>) {
     for (index, seen) in link.meshes.iter().enumerate() {
         // Links may have bodies of one file.
         let name = asset(link, index);
@@ -166,14 +166,14 @@ fn assets<'a>(xml: &mut String, link: &'a Link, written: &mut BTreeSet<&'a str>)
 }
 
 /// Name of a mesh that a link is seen as: the first that of the link, others that of their file.
-fn asset(link: &Link, index: usize) -> &str {
+fn asset(link: &ModelLink, index: usize) -> &str {
     match index {
         0 => &link.name,
         _ => &link.meshes[index].file,
     }
 }
 
-fn geoms(xml: &mut String, link: &Link, depth: usize) {
+fn geoms(xml: &mut String, link: &ModelLink, depth: usize) {
     for (index, seen) in link.meshes.iter().enumerate() {
         let (name, mut place) = (quoted(asset(link, index)), String::new());
         if seen.at != [0.0; 3] {
@@ -208,7 +208,12 @@ fn quaternion(turn: [f64; 3]) -> String {
 }
 
 /// Writes the links a link carries, each with all that it carries in turn.
-fn children(xml: &mut String, model: &Model, of: &Link, depth: usize) -> Result<(), MjcfError> {
+fn children(
+    xml: &mut String,
+    model: &Model,
+    of: &ModelLink,
+    depth: usize,
+) -> Result<(), MjcfError> {
     for joint in model.joints.iter().filter(|j| j.parent == of.name) {
         let Some(link) = model.links.iter().find(|l| l.name == joint.child) else {
             continue;
@@ -239,7 +244,7 @@ fn children(xml: &mut String, model: &Model, of: &Link, depth: usize) -> Result<
 }
 
 /// Writes the joints of a body on the one that carries it.
-fn moves(xml: &mut String, joint: &Joint, depth: usize) {
+fn moves(xml: &mut String, joint: &ModelJoint, depth: usize) {
     let (name, axis) = (quoted(&joint.name), numbers(joint.axis));
     match joint.kind {
         JointKind::Fixed => {}

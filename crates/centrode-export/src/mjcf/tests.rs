@@ -5,7 +5,7 @@ use nalgebra::{Matrix3, Point3};
 
 fn sample() -> Model {
     let corners = [[0.0, 0.0], [2.0, 0.0], [0.0, 2.0]];
-    let body = |name: &str| Link {
+    let body = |name: &str| ModelLink {
         name: name.into(),
         mass: Some(MassProperties {
             mass: 0.25,
@@ -18,7 +18,7 @@ fn sample() -> Model {
             mesh: Mesh::prism(&corners.map(|[x, y]| Point::new(x, y)), -4.0, 0.0),
         }],
     };
-    let turning = |name: &str, x: f64, mimic: Option<Mimic>| Joint {
+    let turning = |name: &str, x: f64, mimic: Option<Mimic>| ModelJoint {
         name: format!("{name}_joint"),
         kind: JointKind::Continuous,
         parent: "base".into(),
@@ -32,7 +32,7 @@ fn sample() -> Model {
         name: "\"a\" & <b>".into(),
         note: "law -- in motion.csv".into(),
         links: vec![
-            Link {
+            ModelLink {
                 name: "base".into(),
                 mass: None,
                 meshes: Vec::new(),

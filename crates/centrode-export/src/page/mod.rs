@@ -22,7 +22,7 @@ use serde::Serialize;
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Picture {
     /// The moving parts, the hindmost first.
-    pub links: Vec<Link>,
+    pub links: Vec<PictureLink>,
     /// The cycle.
     pub motion: Motion,
     /// Points that can be dragged with the mouse.
@@ -37,7 +37,7 @@ pub struct Picture {
 
 /// A rigid part.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Link {
+pub struct PictureLink {
     /// Name, as in findings.
     pub name: String,
     /// Its lines, in its own frame.

@@ -57,7 +57,7 @@ impl Serialize for Picture {
 
 #[cfg(test)]
 mod tests {
-    use super::super::Link;
+    use super::super::PictureLink;
     use super::*;
     use centrode_geometry::Point;
     use centrode_mechanism::machine::LineRole;
@@ -70,7 +70,7 @@ mod tests {
                 &[Point::origin(), Point::new(length, 0.0)],
             )]
         };
-        let link = |(name, length): (&str, f64)| Link {
+        let link = |(name, length): (&str, f64)| PictureLink {
             name: name.into(),
             paths: bar(length),
         };

@@ -10,7 +10,7 @@ use centrode_geometry::{
 use centrode_mechanism::design::DrawingSpec;
 use centrode_mechanism::gear::design::BodySpec;
 
-use crate::drawing::{CENTER, Drawing, HOLE, PROFILE, Shape};
+use crate::drawing::{CENTER, Drawing, EntityShape, HOLE, PROFILE};
 use crate::dxf::Curves;
 use crate::sheet::{Table, mass};
 use crate::{ExportError, Package};
@@ -156,14 +156,14 @@ impl Plate {
             Curves::Splines => outline.clone(),
         };
         let mut drawing = Drawing::cutting();
-        drawing.draw(PROFILE, Shape::Contour(plain(&self.outline)));
+        drawing.draw(PROFILE, EntityShape::Contour(plain(&self.outline)));
         for hole in &self.holes {
-            drawing.draw(HOLE, Shape::Contour(plain(&hole.outline)));
+            drawing.draw(HOLE, EntityShape::Contour(plain(&hole.outline)));
             if let HoleKind::Round(center, radius) = hole.kind() {
                 let arm = 1.25 * radius + 1.0;
                 let (x, y) = (Vector::new(arm, 0.0), Vector::new(0.0, arm));
-                drawing.draw(CENTER, Shape::Line(center - x, center + x));
-                drawing.draw(CENTER, Shape::Line(center - y, center + y));
+                drawing.draw(CENTER, EntityShape::Line(center - x, center + x));
+                drawing.draw(CENTER, EntityShape::Line(center - y, center + y));
             }
         }
         drawing

@@ -3,11 +3,11 @@ use centrode_mechanism::design::{DrawingSpec, Projection, SheetSize};
 
 use super::{Hole, HoleKind, Plate};
 use crate::SheetOptions;
-use crate::drawing::{Anchor, Shape};
+use crate::drawing::{Anchor, EntityShape};
 use crate::sheet::geometrical::{Characteristic, NoteLine};
 use crate::sheet::{
-    Draft, Pen, Piece, Scale, Sheet, SheetError, Table, TitleBlock, compose, fixed, number, steady,
-    view_letters,
+    Draft, Pen, Scale, Sheet, SheetBlock, SheetError, Table, TitleBlock, compose, fixed, number,
+    steady, view_letters,
 };
 
 /// Most holes with their size and place beside the view; more have a table.
@@ -41,8 +41,8 @@ impl Plate {
         let lines = self.lines();
         let pieces = |scale: Scale, size: SheetSize| {
             vec![
-                Piece::notes(&lines),
-                Piece::view("face and edge", plain.views(scale, size, projection)),
+                SheetBlock::notes(&lines),
+                SheetBlock::view("face and edge", plain.views(scale, size, projection)),
             ]
         };
         let bounds = plain.outline.bounds();
@@ -94,9 +94,9 @@ impl Plate {
     fn views(&self, scale: Scale, size: SheetSize, projection: Projection) -> Draft {
         let k = scale.factor();
         let mut draft = Draft::lettered(view_letters(size)).at_scale(k);
-        draft.draw(Pen::Outline, Shape::Contour(self.outline.scaled(k)));
+        draft.draw(Pen::Outline, EntityShape::Contour(self.outline.scaled(k)));
         for hole in &self.holes {
-            draft.draw(Pen::Outline, Shape::Contour(hole.outline.scaled(k)));
+            draft.draw(Pen::Outline, EntityShape::Contour(hole.outline.scaled(k)));
             hole.cross(&mut draft, k);
         }
         let Bounds { min, max } = self.outline.bounds();
@@ -128,7 +128,7 @@ impl Plate {
             let center = *mark * k;
             draft.draw(
                 Pen::Outline,
-                Shape::Circle {
+                EntityShape::Circle {
                     center,
                     radius: MARK,
                 },

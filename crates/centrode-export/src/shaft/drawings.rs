@@ -1,4 +1,4 @@
-use crate::drawing::{Anchor, Color, Drawing, LineType, Shape, Text};
+use crate::drawing::{Anchor, Color, Drawing, EntityShape, LineType, Text};
 use centrode_geometry::{Outline, Point, Tolerance};
 use centrode_mechanism::shaft::{ShaftError, ShaftSolid, SpiralShaft};
 use std::f64::consts::TAU;
@@ -8,13 +8,13 @@ const LETTER: f64 = 3.5;
 
 fn label(drawing: &mut Drawing, at: Point, height: f64, words: String, anchor: Anchor) {
     let text = Text::new(at, height, words, anchor);
-    drawing.draw("TEXT", Shape::Text(text));
+    drawing.draw("TEXT", EntityShape::Text(text));
 }
 
 /// A rectangle as a contour.
-fn rectangle(low: Point, high: Point) -> Shape {
+fn rectangle(low: Point, high: Point) -> EntityShape {
     let p = Point::new;
-    Shape::Contour(Outline::polygon(&[
+    EntityShape::Contour(Outline::polygon(&[
         low,
         p(high.x, low.y),
         high,
@@ -44,16 +44,16 @@ pub fn developed(shaft: &SpiralShaft, tolerance: Tolerance) -> Result<Drawing, S
         rectangle(Point::new(0.0, low), Point::new(around, high)),
     );
     for edge in shaft.wall_edges(tolerance)? {
-        drawing.draw("WALL", Shape::Polyline(edge));
+        drawing.draw("WALL", EntityShape::Polyline(edge));
     }
     for line in wrapped(&groove.way(0.0, tolerance), around) {
-        drawing.draw("CENTER", Shape::Polyline(line));
+        drawing.draw("CENTER", EntityShape::Polyline(line));
     }
     for pick in shaft.schedule().picks {
         // A whole turn but for rounding is none.
         let x = (groove.radius() * pick.theta + 1e-9).rem_euclid(around) - 1e-9;
-        drawing.draw("PICK", Shape::Mark(Point::new(x, pick.position)));
-        let circle = Shape::Circle {
+        drawing.draw("PICK", EntityShape::Mark(Point::new(x, pick.position)));
+        let circle = EntityShape::Circle {
             center: Point::new(x, pick.position),
             radius: 0.1 * groove.width(),
         };
@@ -158,10 +158,10 @@ pub fn side_view(shaft: &SpiralShaft, tolerance: Tolerance) -> Result<Drawing, S
     let mut contour: Vec<Point> = lower.iter().map(|q| p(q.x, -q.y)).collect();
     contour.extend(half(0.75 * TAU).into_iter().rev());
     contour.dedup();
-    drawing.draw("PROFILE", Shape::Contour(Outline::polygon(&contour)));
+    drawing.draw("PROFILE", EntityShape::Contour(Outline::polygon(&contour)));
     for at in [low, high].into_iter().chain([start + c, end - c]) {
         let height = if at == low || at == high { r } else { j };
-        drawing.draw("EDGE", Shape::Line(p(at, -height), p(at, height)));
+        drawing.draw("EDGE", EntityShape::Line(p(at, -height), p(at, height)));
     }
     for edge in edges {
         // Seen from the angle zero; the near half of the shaft is what faces the viewer.
@@ -171,11 +171,11 @@ pub fn side_view(shaft: &SpiralShaft, tolerance: Tolerance) -> Result<Drawing, S
             if cos >= 0.0 {
                 near.push(p(q.y, -r * sin));
             } else if !near.is_empty() {
-                drawing.draw("EDGE", Shape::Polyline(std::mem::take(&mut near)));
+                drawing.draw("EDGE", EntityShape::Polyline(std::mem::take(&mut near)));
             }
         }
         if near.len() > 1 {
-            drawing.draw("EDGE", Shape::Polyline(near));
+            drawing.draw("EDGE", EntityShape::Polyline(near));
         }
     }
     if let Some(keyway) = body.keyway {
@@ -183,7 +183,10 @@ pub fn side_view(shaft: &SpiralShaft, tolerance: Tolerance) -> Result<Drawing, S
         let half = 0.5 * keyway.width;
         drawing.draw("EDGE", rectangle(p(from, -half), p(to, half)));
     }
-    drawing.draw("AXES", Shape::Line(p(start - 5.0, 0.0), p(end + 5.0, 0.0)));
+    drawing.draw(
+        "AXES",
+        EntityShape::Line(p(start - 5.0, 0.0), p(end + 5.0, 0.0)),
+    );
     let words = [
         format!(
             "{}: diameter {} mm, journals {} mm, length {:.3} mm, {}",
@@ -238,19 +241,19 @@ pub fn slider(shaft: &SpiralShaft) -> Drawing {
     let width = slider.width(shaft.groove().width());
     drawing.draw(
         "PROFILE",
-        Shape::Contour(slider.outline(shaft.groove().width())),
+        EntityShape::Contour(slider.outline(shaft.groove().width())),
     );
     drawing.draw(
         "PROFILE",
-        Shape::Circle {
+        EntityShape::Circle {
             center: Point::origin(),
             radius: 0.5 * slider.pin_diameter,
         },
     );
     let (x, y) = (0.5 * slider.length + 3.0, 0.5 * width + 3.0);
     let p = Point::new;
-    drawing.draw("AXES", Shape::Line(p(-x, 0.0), p(x, 0.0)));
-    drawing.draw("AXES", Shape::Line(p(0.0, -y), p(0.0, y)));
+    drawing.draw("AXES", EntityShape::Line(p(-x, 0.0), p(x, 0.0)));
+    drawing.draw("AXES", EntityShape::Line(p(0.0, -y), p(0.0, y)));
     let words = format!(
         "slider {} x {width:.3} x {} mm, bore {} mm",
         slider.length, slider.reach, slider.pin_diameter

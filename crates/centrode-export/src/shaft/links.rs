@@ -4,8 +4,8 @@ use std::sync::Arc;
 use centrode_geometry::{MassProperties, Mesh, Shell, SolidError, Tolerance};
 use centrode_mechanism::gear::Member;
 use centrode_mechanism::machine::{
-    self, Body, Form, GearMesh, Guide, GuideForce, Input, Joint, Linear, Link, Load, Piecewise,
-    Quantity, Shape,
+    self, Form, GearMesh, Guide, GuideForce, Input, Joint, Linear, Link, Load, Piecewise, Quantity,
+    Shape, SolidBody,
 };
 use centrode_mechanism::shaft::{GRAVITY, ShaftSolid, SpiralShaft};
 use centrode_mechanism::transmission::{FromFn, MotionJet, Transmission};
@@ -136,7 +136,7 @@ pub(super) fn drawn(parts: &Machine<'_>) -> Result<machine::Machine, ExportError
 #[derive(Debug)]
 struct Grooved(SpiralShaft);
 
-impl Body for Grooved {
+impl SolidBody for Grooved {
     fn mesh(&self, tolerance: Tolerance) -> Result<Mesh, SolidError> {
         // Shaft and groove were found sound when the machine was made.
         Ok(self.0.mesh(tolerance).unwrap_or_default())

@@ -1,7 +1,7 @@
 //! Dimensions and notes with leaders, ISO 129-1.
 
 use super::{Draft, Pen, draft::ARROW, geometrical::NoteLine, lettering, steady};
-use crate::drawing::{Anchor, Dimension, Object, Shape};
+use crate::drawing::{Anchor, Dimension, EntityShape, Object};
 use centrode_geometry::{Arc, Bounds, Point, Vector};
 
 /// Distance of words from their line, mm.
@@ -189,7 +189,7 @@ impl Draft {
             end: at(to),
             bulge: (0.25 * (to - from)).tan(),
         };
-        self.draw(Pen::Dimension, Shape::Arc(arc));
+        self.draw(Pen::Dimension, EntityShape::Arc(arc));
         let sense = (to - from).signum();
         // The head is a chord: it points a little inwards.
         let lean = to - sense * 0.5 * ARROW / radius;
@@ -255,7 +255,7 @@ fn below(words: &[NoteLine], letters: f64) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::{Entity, Shape};
+    use crate::drawing::{Entity, EntityShape};
 
     #[test]
     fn words_of_a_dimension_leave_the_lines_of_others_free() {
@@ -266,7 +266,7 @@ mod tests {
             let drawn = draft.into_entities();
             let mut plain = drawn.iter().flat_map(Entity::plain);
             let found = plain.find_map(|e| match &e.shape {
-                Shape::Text(text) => Some(text.at.x),
+                EntityShape::Text(text) => Some(text.at.x),
                 _ => None,
             });
             found.expect("words")
@@ -299,7 +299,7 @@ mod tests {
         draft.callouts(around, [-5.0, 5.0], &notes);
         let mut found: Vec<(f64, String)> = Vec::new();
         for entity in draft.into_entities() {
-            if let Shape::Text(text) = entity.shape
+            if let EntityShape::Text(text) = entity.shape
                 && text.words != "of two"
             {
                 found.push((text.at.y, text.words));

@@ -1,5 +1,5 @@
 use super::{Pen, lettering, overlap};
-use crate::drawing::{Anchor, Entity, Group, Object, Shape, Text};
+use crate::drawing::{Anchor, Entity, EntityShape, Group, Object, Text};
 use centrode_geometry::{Bounds, Outline, Point, Vector};
 
 /// Length of an arrow head, mm.
@@ -48,7 +48,7 @@ impl Draft {
     }
 
     /// Draws a shape.
-    pub fn draw(&mut self, pen: Pen, shape: Shape) {
+    pub fn draw(&mut self, pen: Pen, shape: EntityShape) {
         self.entities.push(Entity {
             layer: pen.layer().to_owned(),
             shape,
@@ -57,13 +57,13 @@ impl Draft {
 
     /// Draws a straight line.
     pub fn line(&mut self, pen: Pen, start: Point, end: Point) {
-        self.draw(pen, Shape::Line(start, end));
+        self.draw(pen, EntityShape::Line(start, end));
     }
 
     /// Draws the four sides of a rectangle.
     pub fn rectangle(&mut self, pen: Pen, Bounds { min, max }: Bounds) {
         let corners = [min, Point::new(max.x, min.y), max, Point::new(min.x, max.y)];
-        self.draw(pen, Shape::Contour(Outline::polygon(&corners)));
+        self.draw(pen, EntityShape::Contour(Outline::polygon(&corners)));
     }
 
     /// Draws an arrow head with its tip at a point.
@@ -71,7 +71,7 @@ impl Draft {
         let back = -direction.normalize() * ARROW;
         let side = Vector::new(-back.y, back.x) * 0.16;
         let corners = [tip, tip + back + side, tip + back - side];
-        self.draw(Pen::Dimension, Shape::Triangle(corners));
+        self.draw(Pen::Dimension, EntityShape::Triangle(corners));
     }
 
     /// Writes a level line of words.
@@ -96,7 +96,7 @@ impl Draft {
             width: Some(lettering::width(words, height)),
             ..Text::new(at, height, words, anchor)
         };
-        self.draw(Pen::Text, Shape::Text(text));
+        self.draw(Pen::Text, EntityShape::Text(text));
     }
 
     /// Writes words no longer than a room: in the first height that fits, squeezed if none does, and cut
@@ -131,7 +131,7 @@ impl Draft {
             width: Some(lettering::width(&words, height).min(room)),
             ..Text::new(at, height, words, anchor)
         };
-        self.draw(Pen::Text, Shape::Text(text));
+        self.draw(Pen::Text, EntityShape::Text(text));
     }
 
     /// Adds all of another draft, moved.
@@ -151,7 +151,7 @@ impl Draft {
         overlap::strikes(self.plain(), line)
     }
 
-    fn plain(&self) -> impl Iterator<Item = &Shape> {
+    fn plain(&self) -> impl Iterator<Item = &EntityShape> {
         let entities = self.entities.iter().flat_map(Entity::plain);
         entities.map(|entity| &entity.shape)
     }
@@ -165,7 +165,7 @@ impl Draft {
     pub(super) fn gather(&mut self, from: usize, pen: Pen, object: Object) {
         let drawn = self.entities.split_off(from);
         if !drawn.is_empty() {
-            self.draw(pen, Shape::Group(Group { object, drawn }));
+            self.draw(pen, EntityShape::Group(Group { object, drawn }));
         }
     }
 

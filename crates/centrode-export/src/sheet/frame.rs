@@ -1,5 +1,5 @@
 use super::{Draft, Pen, title_block};
-use crate::drawing::{Anchor, Shape};
+use crate::drawing::{Anchor, EntityShape};
 use centrode_geometry::{Bounds, Point, Vector};
 use centrode_mechanism::design::SheetSize;
 
@@ -106,7 +106,7 @@ fn trimming_marks(draft: &mut Draft, width: f64, height: f64) {
                     [p(0.0, 0.0), p(u, v), p(0.0, v)],
                 ];
                 for half in halves {
-                    draft.draw(Pen::Frame, Shape::Triangle(half));
+                    draft.draw(Pen::Frame, EntityShape::Triangle(half));
                 }
             }
         }

@@ -6,7 +6,7 @@ use centrode_geometry::{Arc, Bounds, Outline, Point, Vector};
 use centrode_mechanism::machine::limits_of_size;
 
 use super::{Draft, Pen, draft::ARROW, lettering, number};
-use crate::drawing::{Anchor, Shape};
+use crate::drawing::{Anchor, EntityShape};
 
 /// Room beside the words of a cell, mm.
 const PAD: f64 = 1.0;
@@ -200,7 +200,7 @@ impl Draft {
         match characteristic {
             Characteristic::Position => {
                 let circle = Outline::circle(middle, 0.9);
-                self.draw(Pen::Dimension, Shape::Contour(circle));
+                self.draw(Pen::Dimension, EntityShape::Contour(circle));
                 self.line(Pen::Dimension, p(-1.5, 0.0), p(1.5, 0.0));
                 self.line(Pen::Dimension, p(0.0, -1.5), p(0.0, 1.5));
             }
@@ -211,7 +211,7 @@ impl Draft {
                     end: p(-1.5, -0.7),
                     bulge: 1.0,
                 };
-                self.draw(Pen::Dimension, Shape::Arc(half));
+                self.draw(Pen::Dimension, EntityShape::Arc(half));
                 self.line(Pen::Dimension, half.start, half.end);
             }
             Characteristic::Runout => {
@@ -220,11 +220,11 @@ impl Draft {
                 let side = Vector::new(-head.y, head.x) * (0.16 * ARROW);
                 let foot = p(1.4, 1.4) - head * (0.5 * ARROW);
                 let corners = [p(1.4, 1.4), foot + side, foot - side];
-                self.draw(Pen::Dimension, Shape::Triangle(corners));
+                self.draw(Pen::Dimension, EntityShape::Triangle(corners));
             }
             Characteristic::Datum => {
                 let corners = [p(-1.8, 1.3), p(-1.8, -1.3), p(0.4, 0.0)];
-                self.draw(Pen::Dimension, Shape::Triangle(corners));
+                self.draw(Pen::Dimension, EntityShape::Triangle(corners));
                 self.line(Pen::Dimension, p(0.4, 0.0), p(HALF, 0.0));
             }
         }

@@ -57,7 +57,7 @@ fn crossings(ring: &[Point], y: f64) -> impl Iterator<Item = f64> + '_ {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::drawing::Shape;
+    use crate::drawing::EntityShape;
 
     #[test]
     fn hatching_stays_between_the_contours() {
@@ -68,7 +68,7 @@ mod tests {
         let mut length = 0.0;
         let drawn = draft.into_entities();
         for entity in drawn.iter().flat_map(|entity| entity.plain()) {
-            let Shape::Line(a, b) = entity.shape else {
+            let EntityShape::Line(a, b) = entity.shape else {
                 panic!("hatching is lines");
             };
             let middle = ((a + b.coords) / 2.0 - Point::new(3.0, 1.0)).norm();

@@ -27,7 +27,7 @@ use layout::Page;
 pub(crate) use number::{capital, fixed, mass, number, range, steady};
 pub use overlap::{Overlap, overlaps};
 pub use pen::Pen;
-pub use piece::Piece;
+pub use piece::SheetBlock;
 pub(crate) use piece::view_letters;
 pub use scale::Scale;
 pub use table::Table;
@@ -89,7 +89,7 @@ pub fn compose(
     wanted: Option<SheetSize>,
     block: &TitleBlock,
     extent: f64,
-    pieces: &dyn Fn(Scale, SheetSize) -> Vec<Piece>,
+    pieces: &dyn Fn(Scale, SheetSize) -> Vec<SheetBlock>,
     tables: &[Table],
 ) -> Result<Vec<Sheet>, SheetError> {
     let possible = |size: SheetSize, scale: &&Scale| {
@@ -160,10 +160,11 @@ fn blank(size: SheetSize) -> Page {
 }
 
 /// A page with all views on it, and the pieces that found no room; `None` if a view did not.
-fn place(size: SheetSize, pieces: Vec<Piece>) -> Option<(Page, Vec<Piece>)> {
+fn place(size: SheetSize, pieces: Vec<SheetBlock>) -> Option<(Page, Vec<SheetBlock>)> {
     let mut page = blank(size);
     let mut rest = Vec::new();
-    let (views, others): (Vec<Piece>, Vec<Piece>) = pieces.into_iter().partition(|p| p.floats);
+    let (views, others): (Vec<SheetBlock>, Vec<SheetBlock>) =
+        pieces.into_iter().partition(|p| p.floats);
     // With all the pieces, if that works; the views alone otherwise.
     let mut whole = page.clone();
     let all = others
@@ -173,7 +174,8 @@ fn place(size: SheetSize, pieces: Vec<Piece>) -> Option<(Page, Vec<Piece>)> {
     if all {
         return Some((whole, rest));
     }
-    let (first, later): (Vec<Piece>, Vec<Piece>) = views.into_iter().partition(|p| p.leads);
+    let (first, later): (Vec<SheetBlock>, Vec<SheetBlock>) =
+        views.into_iter().partition(|p| p.leads);
     for piece in first.into_iter().chain(later).chain(others) {
         if page.place(piece.draft.clone(), piece.corner, piece.floats) {
             continue;
@@ -191,7 +193,7 @@ fn pages(
     scale: Scale,
     block: &TitleBlock,
     first: Page,
-    rest: Vec<Piece>,
+    rest: Vec<SheetBlock>,
     tables: &[Table],
 ) -> Result<Vec<Sheet>, SheetError> {
     let block = TitleBlock {

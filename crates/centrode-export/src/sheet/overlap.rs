@@ -1,7 +1,7 @@
 //! Check that words on a sheet can be read: none may touch a line or other words.
 
 use super::{Sheet, lettering};
-use crate::drawing::{Shape, Text};
+use crate::drawing::{EntityShape, Text};
 use centrode_geometry::{Bounds, Outline, Point, Segment, Tolerance, Vector};
 use nalgebra::Rotation2;
 
@@ -27,7 +27,7 @@ pub fn overlaps(sheet: &Sheet) -> Vec<Overlap> {
     let mut texts: Vec<(&Text, Ink)> = Vec::new();
     let mut strokes: Vec<(&str, f64, [Point; 2])> = Vec::new();
     for entity in sheet.drawing.plain() {
-        if let Shape::Text(text) = &entity.shape {
+        if let EntityShape::Text(text) = &entity.shape {
             texts.push((text, Ink::of(text)));
             continue;
         }
@@ -65,7 +65,7 @@ pub fn overlaps(sheet: &Sheet) -> Vec<Overlap> {
 }
 
 /// Whether a shape enters an axis-aligned rectangle.
-pub(super) fn enters<'a>(shapes: impl Iterator<Item = &'a Shape>, rectangle: Bounds) -> bool {
+pub(super) fn enters<'a>(shapes: impl Iterator<Item = &'a EntityShape>, rectangle: Bounds) -> bool {
     let ink = Ink {
         origin: Point::origin(),
         turn: Rotation2::identity(),
@@ -74,7 +74,7 @@ pub(super) fn enters<'a>(shapes: impl Iterator<Item = &'a Shape>, rectangle: Bou
     };
     let mut found = false;
     for shape in shapes {
-        if let Shape::Text(text) = shape {
+        if let EntityShape::Text(text) = shape {
             found |= ink.meets(&Ink::of(text));
         } else {
             lines(shape, &mut |a, b| found |= ink.is_met_by([a, b], 0.0));
@@ -84,9 +84,9 @@ pub(super) fn enters<'a>(shapes: impl Iterator<Item = &'a Shape>, rectangle: Bou
 }
 
 /// Whether a straight line of a thin pen runs through words among some shapes.
-pub(super) fn strikes<'a>(shapes: impl Iterator<Item = &'a Shape>, line: [Point; 2]) -> bool {
+pub(super) fn strikes<'a>(shapes: impl Iterator<Item = &'a EntityShape>, line: [Point; 2]) -> bool {
     let mut texts = shapes.filter_map(|shape| match shape {
-        Shape::Text(text) => Some(Ink::of(text)),
+        EntityShape::Text(text) => Some(Ink::of(text)),
         _ => None,
     });
     texts.any(|ink| ink.is_met_by(line, HALF))
@@ -178,7 +178,7 @@ fn near(a: &Bounds, b: &Bounds, margin: f64) -> bool {
 }
 
 /// The shape as straight lines, within a fiftieth of a millimetre.
-fn lines(shape: &Shape, add: &mut impl FnMut(Point, Point)) {
+fn lines(shape: &EntityShape, add: &mut impl FnMut(Point, Point)) {
     let Ok(tolerance) = Tolerance::new(0.02) else {
         return;
     };
@@ -189,19 +189,19 @@ fn lines(shape: &Shape, add: &mut impl FnMut(Point, Point)) {
         }
     };
     match shape {
-        Shape::Contour(outline) => closed(&outline.flatten(tolerance)),
-        Shape::Circle { center, radius } => {
+        EntityShape::Contour(outline) => closed(&outline.flatten(tolerance)),
+        EntityShape::Circle { center, radius } => {
             closed(&Outline::circle(*center, *radius).flatten(tolerance));
         }
-        Shape::Triangle(corners) => closed(corners),
-        Shape::Polyline(points) => points.windows(2).for_each(|w| add(w[0], w[1])),
-        Shape::Line(a, b) => add(*a, *b),
-        Shape::Arc(arc) => {
+        EntityShape::Triangle(corners) => closed(corners),
+        EntityShape::Polyline(points) => points.windows(2).for_each(|w| add(w[0], w[1])),
+        EntityShape::Line(a, b) => add(*a, *b),
+        EntityShape::Arc(arc) => {
             let segment = Segment::Arc(*arc);
             let at = |i: u32| segment.at(-1.0 + f64::from(i) / 16.0).point;
             (0..32).for_each(|i| add(at(i), at(i + 1)));
         }
-        Shape::Mark(point) => add(*point, *point),
-        Shape::Text(_) | Shape::Group(_) => {}
+        EntityShape::Mark(point) => add(*point, *point),
+        EntityShape::Text(_) | EntityShape::Group(_) => {}
     }
 }

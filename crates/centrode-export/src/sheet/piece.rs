@@ -5,7 +5,7 @@ use centrode_mechanism::design::SheetSize;
 
 /// A piece of the first page.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Piece {
+pub struct SheetBlock {
     /// Name of it, for errors.
     pub name: &'static str,
     /// Drawing of it.
@@ -18,7 +18,7 @@ pub struct Piece {
     pub leads: bool,
 }
 
-impl Piece {
+impl SheetBlock {
     /// Main view, at the upper left of the first page.
     pub(crate) fn view(name: &'static str, draft: Draft) -> Self {
         Self {

@@ -1,5 +1,5 @@
 use super::{Draft, Pen};
-use crate::drawing::Shape;
+use crate::drawing::EntityShape;
 use centrode_geometry::{Outline, Point};
 use centrode_mechanism::design::Projection;
 
@@ -14,7 +14,7 @@ pub(super) fn symbol(draft: &mut Draft, center: Point, height: f64, projection: 
     };
     let p = |x: f64, y: f64| Point::new(center.x + x, center.y + y);
     for radius in [unit, 0.5 * unit] {
-        let circle = Shape::Circle {
+        let circle = EntityShape::Circle {
             center: p(round, 0.0),
             radius,
         };
@@ -29,7 +29,10 @@ pub(super) fn symbol(draft: &mut Draft, center: Point, height: f64, projection: 
         p(large, unit),
         p(small, 0.5 * unit),
     ];
-    draft.draw(Pen::Outline, Shape::Contour(Outline::polygon(&outline)));
+    draft.draw(
+        Pen::Outline,
+        EntityShape::Contour(Outline::polygon(&outline)),
+    );
     let reach = 1.3 * unit;
     draft.line(Pen::Axis, p(round - reach, 0.0), p(round + reach, 0.0));
     draft.line(Pen::Axis, p(round, -reach), p(round, reach));

@@ -1,10 +1,10 @@
 use super::*;
-use crate::drawing::{Anchor, Shape};
+use crate::drawing::{Anchor, EntityShape};
 use crate::{dxf, pdf, svg};
 use centrode_geometry::{Outline, Point, Tolerance};
 
 /// A plate of this width with a hole, dimensioned.
-fn plate(width: f64) -> impl Fn(Scale, SheetSize) -> Vec<Piece> {
+fn plate(width: f64) -> impl Fn(Scale, SheetSize) -> Vec<SheetBlock> {
     move |scale, _| {
         let k = scale.factor();
         let mut draft = Draft::default();
@@ -30,7 +30,7 @@ fn plate(width: f64) -> impl Fn(Scale, SheetSize) -> Vec<Piece> {
             Tolerance::new(0.01).expect("positive"),
         );
         draft.rectangle(Pen::Outline, bounds);
-        draft.draw(Pen::Outline, Shape::Contour(hole));
+        draft.draw(Pen::Outline, EntityShape::Contour(hole));
         let below = Point::new(0.0, -10.0);
         let across = [Point::origin(), Point::new(corner.x, 0.0)];
         draft.dimension(across, Vector::x(), below, &format!("{width}"));
@@ -43,7 +43,7 @@ fn plate(width: f64) -> impl Fn(Scale, SheetSize) -> Vec<Piece> {
             [0.0; 2],
             &[(Point::new(0.4 * k * width, 0.2 * k * width), note)],
         );
-        vec![Piece {
+        vec![SheetBlock {
             name: "plate",
             draft,
             corner: Corner::UpperLeft,
@@ -103,7 +103,7 @@ fn long_tables_flow_on_to_further_sheets_row_by_row() {
             .iter()
             .flat_map(|sheet| sheet.drawing.plain())
             .filter_map(|e| match &e.shape {
-                Shape::Text(text) => Some(text.words.as_str()),
+                EntityShape::Text(text) => Some(text.words.as_str()),
                 _ => None,
             })
             .collect();

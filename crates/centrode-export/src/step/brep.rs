@@ -17,7 +17,7 @@ pub(super) fn manifold(data: &mut Data, name: &str, solid: &Solid) -> Result<Id,
     if let Some(opening) = solid.opening() {
         return opened::manifold(data, name, solid, opening, &contours);
     }
-    let mut shape = Shape::new(data, solid.bottom(), solid.top());
+    let mut shape = ExtrusionWriter::new(data, solid.bottom(), solid.top());
     let mut faces = Vec::new();
     let (mut below, mut above) = (Vec::new(), Vec::new());
     for (index, sides) in contours.iter().enumerate() {
@@ -48,7 +48,7 @@ struct Side {
 }
 
 #[derive(Debug)]
-pub(super) struct Shape<'a> {
+pub(super) struct ExtrusionWriter<'a> {
     pub(super) data: &'a mut Data,
     bottom: f64,
     top: f64,
@@ -56,7 +56,7 @@ pub(super) struct Shape<'a> {
     pub(super) up: Id,
 }
 
-impl<'a> Shape<'a> {
+impl<'a> ExtrusionWriter<'a> {
     pub(super) fn new(data: &'a mut Data, bottom: f64, top: f64) -> Self {
         let up = data.add("DIRECTION('',(0.0,0.0,1.0))");
         Self {

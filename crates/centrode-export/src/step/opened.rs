@@ -2,7 +2,7 @@
 
 use super::{
     StepError,
-    brep::Shape,
+    brep::ExtrusionWriter,
     part21::{Data, Id, List},
 };
 use centrode_geometry::{Opening, Point, Segment, Solid};
@@ -26,7 +26,7 @@ pub(super) fn manifold(
     opening: &Opening,
     contours: &[Vec<Segment>],
 ) -> Result<Id, StepError> {
-    let mut shape = Shape::new(data, solid.bottom(), solid.top());
+    let mut shape = ExtrusionWriter::new(data, solid.bottom(), solid.top());
     let heights = [
         solid.bottom(),
         opening.span[0],
@@ -42,7 +42,7 @@ pub(super) fn manifold(
         let mut walls = Vec::new();
         for (side, next) in ring.iter().zip(ring.iter().cycle().skip(1)) {
             let (surface, outward) = shape.surface(&side.segment);
-            let mut wall = |shape: &mut Shape<'_>, edges: &[(Id, bool)]| {
+            let mut wall = |shape: &mut ExtrusionWriter<'_>, edges: &[(Id, bool)]| {
                 let bound = bound(shape, "FACE_OUTER_BOUND", edges);
                 walls.push(shape.face(&[bound], surface, outward));
             };
@@ -127,7 +127,7 @@ impl Edges {
 /// Both sides, floor and ceiling of the opening: `outer` begins and ends at the outline's corners, `inner` at the
 /// hole's, which is walked the other way.
 fn inside(
-    shape: &mut Shape<'_>,
+    shape: &mut ExtrusionWriter<'_>,
     [first, second]: &[Edges; 2],
     [third, fourth]: &[Edges; 2],
     heights: [f64; 4],
@@ -171,7 +171,7 @@ fn inside(
     faces
 }
 
-fn bound(shape: &mut Shape<'_>, kind: &str, edges: &[(Id, bool)]) -> Id {
+fn bound(shape: &mut ExtrusionWriter<'_>, kind: &str, edges: &[(Id, bool)]) -> Id {
     let edges: Vec<Id> = edges
         .iter()
         .map(|&(edge, forward)| shape.oriented(edge, forward))
@@ -181,7 +181,7 @@ fn bound(shape: &mut Shape<'_>, kind: &str, edges: &[(Id, bool)]) -> Id {
 
 /// Writes the edges over a contour: at the opening's corners and along its sides also at its heights.
 fn ring(
-    shape: &mut Shape<'_>,
+    shape: &mut ExtrusionWriter<'_>,
     sides: &[Segment],
     opening: &Opening,
     heights: [f64; 4],

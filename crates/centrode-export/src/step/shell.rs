@@ -18,7 +18,7 @@ pub(super) fn manifold(data: &mut Data, name: &str, shell: &Shell) -> Result<Id,
     if !shell.is_closed() {
         return Err(StepError::Open);
     }
-    let mut shape = Shape { data, shell };
+    let mut shape = ShellWriter { data, shell };
     let vertices: Vec<[Id; 2]> = shell
         .vertices
         .iter()
@@ -73,12 +73,12 @@ pub(super) fn manifold(data: &mut Data, name: &str, shell: &Shell) -> Result<Id,
     Ok(data.add(format_args!("MANIFOLD_SOLID_BREP({name},{closed})")))
 }
 
-struct Shape<'a> {
+struct ShellWriter<'a> {
     data: &'a mut Data,
     shell: &'a Shell,
 }
 
-impl Shape<'_> {
+impl ShellWriter<'_> {
     fn point(&mut self, at: [f64; 3]) -> Id {
         self.data
             .add(format_args!("CARTESIAN_POINT('',{})", List(&at.map(Real))))

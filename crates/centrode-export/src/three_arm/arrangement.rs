@@ -3,7 +3,7 @@ use centrode_mechanism::gear::Member;
 use centrode_mechanism::machine::{self, Axis, Blank, Callout, Datum, Dimension};
 use centrode_mechanism::three_arm::ThreeArm;
 
-use super::Part;
+use super::ThreeArmPart;
 use super::machine::Machine;
 use crate::sheet::number;
 use crate::{gear_pair, turned};
@@ -11,8 +11,8 @@ use crate::{gear_pair, turned};
 /// Lists the parts and tells the arrangement: the mechanism as its first arm picks.
 pub(super) fn tell(parts: &Machine<'_>, machine: &mut machine::Machine) {
     let mechanism = parts.mechanism;
-    for part in Part::ALL {
-        if part != Part::Assembly {
+    for part in ThreeArmPart::ALL {
+        if part != ThreeArmPart::Assembly {
             list(parts, part, machine);
         }
     }
@@ -23,7 +23,7 @@ pub(super) fn tell(parts: &Machine<'_>, machine: &mut machine::Machine) {
     let carrier = machine.place_on("carrier", [0.0; 2]);
     let told = &mut machine.arrangement;
     told.seen_through.extend(carrier.map(|place| place.figure));
-    told.title = Part::Assembly.title().into();
+    told.title = ThreeArmPart::Assembly.title().into();
     told.drawing = mechanism.design().drawing.clone();
     told.input = mechanism.picking(0);
     told.data = data(parts);
@@ -74,7 +74,7 @@ fn surroundings(mechanism: &ThreeArm, machine: &mut machine::Machine) {
 }
 
 /// Links that carry the pieces of a part.
-pub(super) fn links(part: Part, arms: u32, machine: &machine::Machine) -> Vec<usize> {
+pub(super) fn links(part: ThreeArmPart, arms: u32, machine: &machine::Machine) -> Vec<usize> {
     let chains = |name: &str, each: usize| {
         let names = (0..arms).flat_map(|k| std::iter::repeat_n(format!("{name}_{k}"), each));
         names.filter_map(|name| machine.link_named(&name)).collect()
@@ -84,28 +84,30 @@ pub(super) fn links(part: Part, arms: u32, machine: &machine::Machine) -> Vec<us
         link.into_iter().cycle().take(count).collect()
     };
     match part {
-        Part::Assembly => Vec::new(),
-        Part::Sun => alone("sun", 1),
-        Part::Carrier => alone("carrier", 2),
-        Part::Intermediate => chains("intermediate", 1),
-        Part::Planet => chains("planet", 1),
-        Part::Cam => chains("cam", 1),
-        Part::Fork | Part::Roller => chains("fork", 1),
-        Part::Housing | Part::CoverRear | Part::CoverFront => chains("arm", 1),
-        Part::Clamp => chains("arm", 2),
-        Part::PushRod => chains("push_rod", 1),
+        ThreeArmPart::Assembly => Vec::new(),
+        ThreeArmPart::Sun => alone("sun", 1),
+        ThreeArmPart::Carrier => alone("carrier", 2),
+        ThreeArmPart::Intermediate => chains("intermediate", 1),
+        ThreeArmPart::Planet => chains("planet", 1),
+        ThreeArmPart::Cam => chains("cam", 1),
+        ThreeArmPart::Fork | ThreeArmPart::Roller => chains("fork", 1),
+        ThreeArmPart::Housing | ThreeArmPart::CoverRear | ThreeArmPart::CoverFront => {
+            chains("arm", 1)
+        }
+        ThreeArmPart::Clamp => chains("arm", 2),
+        ThreeArmPart::PushRod => chains("push_rod", 1),
     }
 }
 
 /// Lists a part; its number stands at a piece on an arm that leaves the others room.
-fn list(parts: &Machine<'_>, part: Part, machine: &mut machine::Machine) {
+fn list(parts: &Machine<'_>, part: ThreeArmPart, machine: &mut machine::Machine) {
     let arms = parts.mechanism.arms();
     let links = links(part, arms, machine);
     let arm = |name: &str, k: u32| format!("{name} {}", k % arms + 1);
     if let Some((pair, member)) = parts.gear(part) {
         let figure = match part {
-            Part::Sun => "sun".into(),
-            Part::Intermediate => arm("intermediate gear", 1),
+            ThreeArmPart::Sun => "sun".into(),
+            ThreeArmPart::Intermediate => arm("intermediate gear", 1),
             _ => arm("planet", 2),
         };
         let words = [part.title(), part.name(), &figure];
@@ -117,21 +119,21 @@ fn list(parts: &Machine<'_>, part: Part, machine: &mut machine::Machine) {
     let edge =
         |machine: &machine::Machine, figure: String| machine.place_on_edge(&figure, &plate.outline);
     let place = match part {
-        Part::Cam => edge(machine, arm("cam", 1)),
-        Part::Fork => edge(machine, arm("fork", 2)),
-        Part::Roller => {
+        ThreeArmPart::Cam => edge(machine, arm("cam", 1)),
+        ThreeArmPart::Fork => edge(machine, arm("fork", 2)),
+        ThreeArmPart::Roller => {
             let spec = parts.pusher.fork_spec();
             let rim = [spec.arm_length + spec.roller_radius, 0.0];
             machine.place_on(&arm("fork", 0), rim)
         }
-        Part::Carrier => edge(machine, "carrier".into()),
+        ThreeArmPart::Carrier => edge(machine, "carrier".into()),
         // The covers have the contour of the housing.
-        Part::Housing | Part::CoverRear | Part::CoverFront => {
+        ThreeArmPart::Housing | ThreeArmPart::CoverRear | ThreeArmPart::CoverFront => {
             let wall = parts.of_arm("housing").map(|part| &part.outline);
             wall.and_then(|wall| machine.place_on_edge(&arm("arm", 1), wall))
         }
-        Part::Clamp => edge(machine, arm("arm", 2)),
-        Part::PushRod => edge(machine, arm("push rod", 0)),
+        ThreeArmPart::Clamp => edge(machine, arm("arm", 2)),
+        ThreeArmPart::PushRod => edge(machine, arm("push rod", 0)),
         _ => None,
     };
     let mass = plate.mass([0.0, plate.thickness]).ok();

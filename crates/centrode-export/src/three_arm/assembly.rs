@@ -2,11 +2,11 @@ use std::f64::consts::TAU;
 
 use centrode_geometry::{Outline, Point, Tolerance};
 use centrode_mechanism::gear::Member;
-use centrode_mechanism::three_arm::{Link, ThreeArm};
+use centrode_mechanism::three_arm::{ThreeArm, ThreeArmLink};
 use nalgebra::Isometry2;
 
 use super::machine::Machine;
-use crate::drawing::{Anchor, Color, Drawing, LineType, Shape, Text};
+use crate::drawing::{Anchor, Color, Drawing, EntityShape, LineType, Text};
 
 /// Points of the tip's path.
 const PATH: u32 = 720;
@@ -16,7 +16,7 @@ const PATH: u32 = 720;
 pub(super) fn drawing(machine: &Machine<'_>, tolerance: Tolerance) -> Drawing {
     let mut drawing = layers();
     for (layer, outline) in contours(machine, tolerance) {
-        drawing.draw(layer, Shape::Contour(outline));
+        drawing.draw(layer, EntityShape::Contour(outline));
     }
     surroundings(machine, &mut drawing);
     drawing
@@ -29,7 +29,7 @@ pub(super) fn contours(
 ) -> Vec<(&'static str, Outline)> {
     let mechanism = machine.mechanism;
     let input = mechanism.picking(0);
-    let place = |link: Link| {
+    let place = |link: ThreeArmLink| {
         let stands = mechanism.link(link, input);
         Isometry2::new(stands.origin.position.coords, stands.angle.position)
     };
@@ -38,12 +38,12 @@ pub(super) fn contours(
         // Arcs first: turned splines would be fitted anew for every place.
         found.push((layer, outline.arcs(tolerance).transformed(at)));
     };
-    let carrier = place(Link::Carrier);
+    let carrier = place(ThreeArmLink::Carrier);
     draw("CARRIER", &machine.gearbox.outline, &carrier);
-    let mut gear = |link: Link| {
+    let mut gear = |link: ThreeArmLink| {
         let (pair, member) = match link {
-            Link::Sun => (&machine.pairs[0], Member::Driver),
-            Link::Planet(_) => (&machine.pairs[1], Member::Driver),
+            ThreeArmLink::Sun => (&machine.pairs[0], Member::Driver),
+            ThreeArmLink::Planet(_) => (&machine.pairs[1], Member::Driver),
             _ => (&machine.pairs[0], Member::Driven),
         };
         let (gear, at) = (pair.gear(member), place(link));
@@ -53,14 +53,14 @@ pub(super) fn contours(
             draw("HOLE", &bore, &at);
         }
     };
-    gear(Link::Sun);
+    gear(ThreeArmLink::Sun);
     for k in 0..mechanism.arms() {
-        gear(Link::Intermediate(k));
-        gear(Link::Planet(k));
+        gear(ThreeArmLink::Intermediate(k));
+        gear(ThreeArmLink::Planet(k));
     }
     let pusher = &machine.pusher;
     for k in 0..mechanism.arms() {
-        let arm = place(Link::Arm(k));
+        let arm = place(ThreeArmLink::Arm(k));
         for name in ["housing", "flake-left", "push-rod", "pusher"] {
             let Some(part) = machine.of_arm(name) else {
                 continue;
@@ -126,15 +126,15 @@ fn surroundings(machine: &Machine<'_>, drawing: &mut Drawing) {
     let mechanism = machine.mechanism;
     let path = path(mechanism);
     let reach = path.iter().map(|p| p.coords.norm()).fold(0.0, f64::max);
-    drawing.draw("PATH", Shape::Polyline(path));
+    drawing.draw("PATH", EntityShape::Polyline(path));
     let ground = mechanism.ground();
     let (left, right) = (Point::new(-reach, ground), Point::new(reach, ground));
-    drawing.draw("GROUND", Shape::Line(left, right));
+    drawing.draw("GROUND", EntityShape::Line(left, right));
     let tray = mechanism.tray_body();
-    drawing.draw("TRAY", Shape::Contour(tray.placed(&tray.plate)));
+    drawing.draw("TRAY", EntityShape::Contour(tray.placed(&tray.plate)));
     let unpicked = tray.stems.iter().map(|stem| tray.placed(stem));
     for stem in unpicked.chain(planted_stems(mechanism, reach)) {
-        drawing.draw("SEEDLINGS", Shape::Contour(stem));
+        drawing.draw("SEEDLINGS", EntityShape::Contour(stem));
     }
     let height = 0.025 * reach;
     let design = mechanism.design();
@@ -153,6 +153,6 @@ fn surroundings(machine: &Machine<'_>, drawing: &mut Drawing) {
     for (row, words) in [title.to_owned(), figures].into_iter().enumerate() {
         let y = lowest - (1.5 + 1.7 * row as f64) * height;
         let text = Text::new(Point::new(0.0, y), height, words, Anchor::Middle);
-        drawing.draw("TEXT", Shape::Text(text));
+        drawing.draw("TEXT", EntityShape::Text(text));
     }
 }

@@ -1,12 +1,12 @@
 use centrode_geometry::{Outline, Point};
 use centrode_mechanism::machine::{self, Line, LineRole};
 
-use super::Part;
+use super::ThreeArmPart;
 use super::machine::Machine;
 
 /// Draws the contours of what the page's picture has as bars: cams, forks, arms, push rods and the carrier in front.
 pub(super) fn draw(parts: &Machine<'_>, machine: &mut machine::Machine) {
-    let plate = |part: Part| {
+    let plate = |part: ThreeArmPart| {
         let plate = parts.plate_of(part);
         plate.map_or_else(Vec::new, |plate| {
             contours([&plate.outline], &plate.cut_outs())
@@ -14,14 +14,14 @@ pub(super) fn draw(parts: &Machine<'_>, machine: &mut machine::Machine) {
     };
     let spec = parts.pusher.fork_spec();
     let roller = Outline::circle(Point::new(spec.arm_length, 0.0), spec.roller_radius);
-    let mut fork = plate(Part::Fork);
+    let mut fork = plate(ThreeArmPart::Fork);
     fork.push(Line::contour(LineRole::Body, &roller));
     let limbs = ["housing", "flake-left"].map(|name| Some(&parts.of_arm(name)?.outline));
     let chains = [
-        ("cam", "cam", plate(Part::Cam)),
+        ("cam", "cam", plate(ThreeArmPart::Cam)),
         ("fork", "fork", fork),
         ("arm", "arm", contours(limbs.into_iter().flatten(), &[])),
-        ("push rod", "push_rod", plate(Part::PushRod)),
+        ("push rod", "push_rod", plate(ThreeArmPart::PushRod)),
     ];
     for (name, link, lines) in chains {
         let sketch = machine.sketch(name, lines);

@@ -4,7 +4,7 @@ use std::sync::Arc;
 use centrode_geometry::{Outline, Point};
 use centrode_mechanism::gear::{GearPair, Member};
 use centrode_mechanism::machine::{Constant, Line, LineRole, Machine, Mark, Quantity, Seat};
-use centrode_mechanism::three_arm::{Link, ThreeArm};
+use centrode_mechanism::three_arm::{ThreeArm, ThreeArmLink};
 use centrode_mechanism::transmission::{FromFn, MotionJet};
 
 use super::bodies;
@@ -135,7 +135,7 @@ fn plain(mechanism: &ThreeArm, member: Member) -> Vec<Line> {
 /// The legs from the sun's axis over each intermediate gear's to its planet's.
 fn carrier(mechanism: &ThreeArm) -> Vec<Line> {
     let leg = |k: u32| {
-        let [middle, end] = [Link::Intermediate(k), Link::Planet(k)];
+        let [middle, end] = [ThreeArmLink::Intermediate(k), ThreeArmLink::Planet(k)];
         let axes = [middle, end].map(|link| mechanism.on_carrier(link));
         Line::chain(LineRole::Bar, &[Point::origin(), axes[0], axes[1]])
     };
@@ -167,7 +167,7 @@ fn arm(mechanism: &ThreeArm) -> Vec<Line> {
 /// seedlings.
 fn surroundings(mechanism: &ThreeArm) -> Vec<Line> {
     let ground = mechanism.ground();
-    let axis = mechanism.on_carrier(Link::Planet(0)).coords.norm();
+    let axis = mechanism.on_carrier(ThreeArmLink::Planet(0)).coords.norm();
     let reach = axis + mechanism.design().arm.tip_distance;
     let line = [-reach, reach].map(|x| Point::new(x, ground));
     let mut lines = vec![
@@ -176,7 +176,7 @@ fn surroundings(mechanism: &ThreeArm) -> Vec<Line> {
     ];
     let working = [mechanism.picking(0), mechanism.planting(0)];
     lines.extend(working.map(|input| {
-        let arm = mechanism.link(Link::Arm(0), input);
+        let arm = mechanism.link(ThreeArmLink::Arm(0), input);
         let placed = joints(mechanism).map(|joint| arm.point(joint).position);
         Line::chain(LineRole::Pose, &placed)
     }));

@@ -2,7 +2,7 @@ use centrode_geometry::Vector;
 use centrode_mechanism::machine::Surface;
 use nalgebra::Isometry2;
 
-use super::Part;
+use super::ThreeArmPart;
 use super::links::{Builder, Seen};
 use super::machine::{Machine, no_fork};
 use crate::ExportError;
@@ -21,37 +21,40 @@ pub(super) struct Limbs {
 
 impl Limbs {
     pub(super) fn of(parts: &Machine<'_>, builder: &mut Builder<'_>) -> Result<Self, ExportError> {
-        let plate = |part: Part| parts.plate_of(part).ok_or_else(no_fork);
+        let plate = |part: ThreeArmPart| parts.plate_of(part).ok_or_else(no_fork);
         let span = |name: &str| parts.of_arm(name).map_or([0.0, 1.0], |p| p.span);
         let arm = [
-            (Part::Housing, "housing"),
-            (Part::CoverRear, "cover-rear"),
-            (Part::CoverFront, "cover-front"),
-            (Part::Clamp, "flake-left"),
-            (Part::Clamp, "flake-right"),
+            (ThreeArmPart::Housing, "housing"),
+            (ThreeArmPart::CoverRear, "cover-rear"),
+            (ThreeArmPart::CoverFront, "cover-front"),
+            (ThreeArmPart::Clamp, "flake-left"),
+            (ThreeArmPart::Clamp, "flake-right"),
         ];
         let arm = arm.map(|(part, name)| Ok((plate(part)?, span(name))));
         let arm: Vec<_> = arm.into_iter().collect::<Result<_, ExportError>>()?;
         let pusher = &parts.pusher;
         let place = Vector::new(pusher.fork_spec().arm_length, 0.0);
         let place = Isometry2::new(place, 0.0);
-        let mut roller = plate(Part::Roller)?;
+        let mut roller = plate(ThreeArmPart::Roller)?;
         let holes = roller.holes.iter_mut().map(|hole| &mut hole.outline);
         for outline in holes.chain([&mut roller.outline]) {
             *outline = outline.transformed(&place);
         }
         let fork = [
-            (plate(Part::Fork)?, pusher.fork_span()),
+            (plate(ThreeArmPart::Fork)?, pusher.fork_span()),
             (roller, pusher.cam_span()),
         ];
         Ok(Self {
             arm: builder.body("arm-body", &arm)?,
             touching: touching(parts, builder),
-            cam: builder.body("cam-body", &[(plate(Part::Cam)?, pusher.cam_span())])?,
+            cam: builder.body(
+                "cam-body",
+                &[(plate(ThreeArmPart::Cam)?, pusher.cam_span())],
+            )?,
             fork: builder.body("fork-body", &fork)?,
             rod: builder.body(
                 "push-rod-body",
-                &[(plate(Part::PushRod)?, span("push-rod"))],
+                &[(plate(ThreeArmPart::PushRod)?, span("push-rod"))],
             )?,
         })
     }

@@ -7,13 +7,13 @@ use centrode_mechanism::machine::{
     self, Column, Form, GearMesh, Input, Joint, JointKind, Linear, LinkPoint, Quantity,
     STANDARD_GRAVITY, Shape,
 };
-use centrode_mechanism::three_arm::{Link, Pusher, ThreeArm};
+use centrode_mechanism::three_arm::{Pusher, ThreeArm, ThreeArmLink};
 use centrode_mechanism::transmission::{FromFn, MotionJet, Transmission};
 use nalgebra::Isometry2;
 
 use super::limbs::Limbs;
 use super::machine::{Machine, no_gearbox};
-use super::{Part, arrangement, figures, surroundings};
+use super::{ThreeArmPart, arrangement, figures, surroundings};
 use crate::plate::Plate;
 use crate::{ExportError, gear_pair};
 
@@ -22,7 +22,7 @@ pub(super) fn cam_on_carrier(machine: &Machine<'_>, chain: u32) -> Isometry2<f64
     let mechanism = machine.mechanism;
     let share = TAU * f64::from(chain) / f64::from(mechanism.arms());
     let later = -mechanism.train().direction().sign() * share;
-    let at = mechanism.on_carrier(Link::Planet(chain));
+    let at = mechanism.on_carrier(ThreeArmLink::Planet(chain));
     Isometry2::new(at.coords, machine.pusher.cam_angle() + later)
 }
 
@@ -206,7 +206,7 @@ impl Builder<'_> {
     fn carrier(&mut self, base: usize) -> Result<usize, ExportError> {
         let mut seen = None;
         if let Some(parts) = self.parts {
-            let plate = parts.plate_of(Part::Carrier);
+            let plate = parts.plate_of(ThreeArmPart::Carrier);
             let plate = plate.ok_or_else(no_gearbox)?;
             let [rear, front] = parts.gearbox.spans;
             seen = Some(self.body("carrier-body", &[(plate.clone(), rear), (plate, front)])?);
@@ -225,15 +225,15 @@ impl Builder<'_> {
     }
 
     fn sun(&mut self, base: usize) -> Result<usize, ExportError> {
-        let sun = self.gear(Part::Sun, "sun")?;
-        let start = self.mechanism.link(Link::Sun, 0.0).angle.position;
+        let sun = self.gear(ThreeArmPart::Sun, "sun")?;
+        let start = self.mechanism.link(ThreeArmLink::Sun, 0.0).angle.position;
         let joint = Joint::fixed(base, sun).turned([0.0, 0.0, start]);
         self.machine.joint(joint);
         Ok(sun)
     }
 
     /// A gear's link.
-    fn gear(&mut self, part: Part, name: &str) -> Result<usize, ExportError> {
+    fn gear(&mut self, part: ThreeArmPart, name: &str) -> Result<usize, ExportError> {
         let Some(parts) = self.parts else {
             return Ok(self.bodied(name, None));
         };
@@ -242,7 +242,7 @@ impl Builder<'_> {
         let gear = pair.gear(member);
         // A planet has the teeth of the sun.
         let prefix = match member {
-            Member::Driver if same_width(parts) => Part::Sun.name(),
+            Member::Driver if same_width(parts) => ThreeArmPart::Sun.name(),
             _ => part.name(),
         };
         let surface = self.machine.surface(gear_pair::teeth(gear, prefix));
@@ -264,12 +264,12 @@ impl Builder<'_> {
     ) -> Result<(), ExportError> {
         let mechanism = self.mechanism;
         let name = format!("intermediate_{k}");
-        let intermediate = self.gear(Part::Intermediate, &name)?;
-        let first = self.on_carrier(carrier, intermediate, Link::Intermediate(k));
+        let intermediate = self.gear(ThreeArmPart::Intermediate, &name)?;
+        let first = self.on_carrier(carrier, intermediate, ThreeArmLink::Intermediate(k));
         self.column(first, &name, "rad", "intermediate gear against the carrier");
         let name = format!("planet_{k}");
-        let planet = self.gear(Part::Planet, &name)?;
-        let second = self.on_carrier(carrier, planet, Link::Planet(k));
+        let planet = self.gear(ThreeArmPart::Planet, &name)?;
+        let second = self.on_carrier(carrier, planet, ThreeArmLink::Planet(k));
         let meaning = "planet, and the arm with it, against the carrier";
         self.column(second, &name, "rad", meaning);
         for (links, joint) in [
@@ -310,7 +310,7 @@ impl Builder<'_> {
     }
 
     /// The joint of a gear on the carrier.
-    fn on_carrier(&mut self, carrier: usize, gear: usize, link: Link) -> usize {
+    fn on_carrier(&mut self, carrier: usize, gear: usize, link: ThreeArmLink) -> usize {
         let mechanism = self.mechanism;
         let turn = move |laws: &Laws, input: f64| {
             let (mechanism, train) = (&laws.mechanism, laws.mechanism.train());

@@ -5,7 +5,7 @@ use centrode_mechanism::machine::{Fit, TurnedPieces};
 use centrode_mechanism::three_arm::making::{self, PRESSED, RINGS, RUNNING, SLIDING, STEEL};
 use centrode_mechanism::three_arm::{GearboxBody, Pusher, ThreeArm};
 
-use super::Part;
+use super::ThreeArmPart;
 use crate::plate::{Hole, Plate};
 use crate::{ExportError, cam};
 
@@ -48,11 +48,11 @@ impl<'a> Machine<'a> {
     }
 
     /// The pair and the member of it that a gear is.
-    pub(super) fn gear(&self, part: Part) -> Option<(&GearPair, Member)> {
+    pub(super) fn gear(&self, part: ThreeArmPart) -> Option<(&GearPair, Member)> {
         match part {
-            Part::Sun => Some((&self.pairs[0], Member::Driver)),
-            Part::Intermediate => Some((&self.pairs[0], Member::Driven)),
-            Part::Planet => Some((&self.pairs[1], Member::Driver)),
+            ThreeArmPart::Sun => Some((&self.pairs[0], Member::Driver)),
+            ThreeArmPart::Intermediate => Some((&self.pairs[0], Member::Driven)),
+            ThreeArmPart::Planet => Some((&self.pairs[1], Member::Driver)),
             _ => None,
         }
     }
@@ -89,7 +89,7 @@ impl<'a> Machine<'a> {
         );
         let hole = Outline::circle(pin, 0.25 * self.pusher.fork_spec().slot_width);
         Some(
-            self.plate(Part::PushRod, outline, vec![hole], rod.span, STEEL)
+            self.plate(ThreeArmPart::PushRod, outline, vec![hole], rod.span, STEEL)
                 .noted("Drawn in the arm's frame, thrown out.")
                 .noted("Hole for the pin that runs in the fork's slot."),
         )
@@ -104,7 +104,7 @@ impl<'a> Machine<'a> {
 
     fn plate(
         &self,
-        part: Part,
+        part: ThreeArmPart,
         outline: Outline,
         holes: Vec<Outline>,
         [bottom, top]: [f64; 2],
@@ -133,9 +133,9 @@ impl<'a> Machine<'a> {
         let body = self.pairs[0].driver().body();
         let rod = self.mechanism.arm_sizes().rod_bore();
         let seats = [
-            (Part::Sun, "shaft of the carrier in the sun"),
-            (Part::Intermediate, "shafts of intermediate gears"),
-            (Part::Planet, "shafts of planet gears"),
+            (ThreeArmPart::Sun, "shaft of the carrier in the sun"),
+            (ThreeArmPart::Intermediate, "shafts of intermediate gears"),
+            (ThreeArmPart::Planet, "shafts of planet gears"),
         ];
         let seats = seats.into_iter().filter_map(|(part, name)| {
             let (pair, member) = self.gear(part)?;
@@ -169,14 +169,14 @@ impl<'a> Machine<'a> {
     }
 
     /// A part that is a plate, in its own frame, its holes with their classes.
-    pub(super) fn plate_of(&self, part: Part) -> Option<Plate> {
+    pub(super) fn plate_of(&self, part: ThreeArmPart) -> Option<Plate> {
         let mut plate = self.bare_plate(part)?;
         let classes: &[[&str; 2]] = match part {
-            Part::Carrier => return Some(self.carrier(plate)),
-            Part::Fork => &[RUNNING, PRESSED, SLIDING],
-            Part::Roller => &[ROLLING],
-            Part::PushRod => &[PRESSED],
-            Part::CoverRear | Part::CoverFront => &[PASSING],
+            ThreeArmPart::Carrier => return Some(self.carrier(plate)),
+            ThreeArmPart::Fork => &[RUNNING, PRESSED, SLIDING],
+            ThreeArmPart::Roller => &[ROLLING],
+            ThreeArmPart::PushRod => &[PRESSED],
+            ThreeArmPart::CoverRear | ThreeArmPart::CoverFront => &[PASSING],
             _ => &[],
         };
         // The last class is that of all further holes.
@@ -193,7 +193,12 @@ impl<'a> Machine<'a> {
         for hole in &mut plate.holes {
             let wide = hole.outline.bounds();
             let wide = wide.max.x - wide.min.x;
-            let bodies = [Part::Sun, Part::Intermediate, Part::Planet].into_iter();
+            let bodies = [
+                ThreeArmPart::Sun,
+                ThreeArmPart::Intermediate,
+                ThreeArmPart::Planet,
+            ]
+            .into_iter();
             let bores = bodies.filter_map(|part| {
                 let (pair, member) = self.gear(part)?;
                 Some(pair.gear(member).body().bore)
@@ -208,7 +213,7 @@ impl<'a> Machine<'a> {
         plate
     }
 
-    fn bare_plate(&self, part: Part) -> Option<Plate> {
+    fn bare_plate(&self, part: ThreeArmPart) -> Option<Plate> {
         let light = |name: &str| {
             let found = self.of_arm(name)?;
             let (outline, holes) = (found.outline.clone(), found.holes.clone());
@@ -221,47 +226,50 @@ impl<'a> Machine<'a> {
         let in_arm = "Drawn in the arm's frame: the planet's axis is the origin,";
         let along = "x points along the pusher's axis, the way the clamp does.";
         match part {
-            Part::Carrier => {
+            ThreeArmPart::Carrier => {
                 let body = &self.gearbox;
                 let (outline, holes) = (body.outline.clone(), body.holes.clone());
                 let plate = self.plate(part, outline, holes, body.spans[0], LIGHT);
                 Some(plate.noted("x points from the sun's axis to the first intermediate gear's."))
             }
-            Part::Fork => {
+            ThreeArmPart::Fork => {
                 let (outline, holes) = self.fork.clone();
                 let plate = self.plate(part, outline, holes, self.pusher.fork_span(), STEEL);
                 Some(plate.noted("x points from the pivot's hole to the roller's."))
             }
-            Part::Roller => {
+            ThreeArmPart::Roller => {
                 let spec = self.pusher.fork_spec();
                 let circle = |radius| Outline::circle(Point::origin(), radius);
                 let holes = vec![circle(0.5 * spec.roller_bore)];
                 let span = self.pusher.cam_span();
                 Some(self.plate(part, circle(spec.roller_radius), holes, span, STEEL))
             }
-            Part::Housing => Some(
+            ThreeArmPart::Housing => Some(
                 light("housing")?
                     .noted(in_arm)
                     .noted(along)
                     .noted(&self.bore_in_words()),
             ),
-            Part::CoverRear => Some(light("cover-rear")?.noted(in_arm).noted(along)),
-            Part::CoverFront => Some(light("cover-front")?.noted(in_arm).noted(along)),
-            Part::Clamp => {
+            ThreeArmPart::CoverRear => Some(light("cover-rear")?.noted(in_arm).noted(along)),
+            ThreeArmPart::CoverFront => Some(light("cover-front")?.noted(in_arm).noted(along)),
+            ThreeArmPart::Clamp => {
                 let found = self.of_arm("flake-left")?;
                 let steel = ("spring steel", STEEL.1);
                 let plate = self.plate(part, found.outline.clone(), Vec::new(), found.span, steel);
                 Some(plate.noted(in_arm).noted(along))
             }
-            Part::PushRod => self.push_rod(),
-            Part::Cam => Some(self.cam()),
-            Part::Sun | Part::Intermediate | Part::Planet | Part::Assembly => None,
+            ThreeArmPart::PushRod => self.push_rod(),
+            ThreeArmPart::Cam => Some(self.cam()),
+            ThreeArmPart::Sun
+            | ThreeArmPart::Intermediate
+            | ThreeArmPart::Planet
+            | ThreeArmPart::Assembly => None,
         }
     }
 
     fn cam(&self) -> Plate {
-        let names = [Part::Cam.name(), Part::Cam.title()];
-        let quantity = Part::Cam.quantity(self.mechanism.arms()) as usize;
+        let names = [ThreeArmPart::Cam.name(), ThreeArmPart::Cam.title()];
+        let quantity = ThreeArmPart::Cam.quantity(self.mechanism.arms()) as usize;
         let spec = self.pusher.fork_spec();
         cam::plate(self.pusher.cam(), names, quantity)
             .noted("x points to the fork's pivot at the carrier's start.")

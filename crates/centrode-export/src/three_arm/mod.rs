@@ -22,7 +22,7 @@ use crate::gear_pair::{self, Label};
 use crate::{Bundle, ExportError, Format, Options, Package, cam, turned};
 pub use curves::{arm_curves, curves};
 use machine::Machine;
-pub use part::Part;
+pub use part::ThreeArmPart;
 
 impl From<ArmError> for ExportError {
     fn from(error: ArmError) -> Self {
@@ -73,7 +73,7 @@ pub fn files(
     let named = [design.name.as_str(), design.title.as_str()];
     let mut package = Package::new("a three-arm mechanism", named, formats, options);
     package.finer_than(machine.pairs[0].module(), "module")?;
-    for part in Part::ALL {
+    for part in ThreeArmPart::ALL {
         if let Some((pair, member)) = machine.gear(part) {
             let label = label(part, mechanism.arms(), &design.drawing, package.design());
             gear_pair::add_gear(&mut package, pair, member, label)?;
@@ -83,8 +83,10 @@ pub fn files(
     }
     turned::add(&machine.turned(), &mut package, &design.drawing)?;
     let cam = machine.pusher.cam();
-    package.points(Part::Cam.name(), "cam", || cam::columns(cam, cam::ROWS))?;
-    package.drawing(Part::Assembly.name(), |_| {
+    package.points(ThreeArmPart::Cam.name(), "cam", || {
+        cam::columns(cam, cam::ROWS)
+    })?;
+    package.drawing(ThreeArmPart::Assembly.name(), |_| {
         Ok(assembly::drawing(&machine, tolerance))
     })?;
     package.machine(|| linked(&machine))?;
@@ -92,13 +94,18 @@ pub fn files(
 }
 
 /// Words for the sheets of a gear.
-fn label<'a>(part: Part, arms: u32, drawing: &'a DrawingSpec, machine: &'a str) -> Label<'a> {
+fn label<'a>(
+    part: ThreeArmPart,
+    arms: u32,
+    drawing: &'a DrawingSpec,
+    machine: &'a str,
+) -> Label<'a> {
     Label {
         name: part.name(),
         title: part.title(),
         mate: match part {
-            Part::Intermediate => "sun and planet",
-            _ => Part::Intermediate.name(),
+            ThreeArmPart::Intermediate => "sun and planet",
+            _ => ThreeArmPart::Intermediate.name(),
         },
         machine,
         drawing,

@@ -3,7 +3,7 @@ use std::fmt;
 /// A part of a three-arm mechanism, or the whole.
 #[derive(Clone, Copy, Debug, Eq, Hash, Ord, PartialEq, PartialOrd)]
 #[non_exhaustive]
-pub enum Part {
+pub enum ThreeArmPart {
     /// The gear fixed to the frame.
     Sun,
     /// The gear between sun and planet, one an arm.
@@ -32,7 +32,7 @@ pub enum Part {
     Assembly,
 }
 
-impl Part {
+impl ThreeArmPart {
     /// All of them, in the order files are written.
     pub const ALL: [Self; 13] = [
         Self::Sun,
@@ -102,7 +102,7 @@ impl Part {
     }
 }
 
-impl fmt::Display for Part {
+impl fmt::Display for ThreeArmPart {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())
     }

@@ -30,9 +30,9 @@ fn every_part_has_a_file_of_every_format_the_same_each_time() {
     let machine = mechanism(|_| {});
     let bundle = files(&machine, &Format::ALL, &options()).expect("written");
     let names = names(&bundle);
-    for part in Part::ALL {
+    for part in ThreeArmPart::ALL {
         let endings: &[&str] = match part {
-            Part::Assembly => &["dxf", "svg", "pdf"],
+            ThreeArmPart::Assembly => &["dxf", "svg", "pdf"],
             _ => &["dxf", "svg", "pdf", "step", "stl", "3mf"],
         };
         for ending in endings {
@@ -87,9 +87,13 @@ fn parts_and_formats_asked_for_are_all_that_is_written() {
     let some = files(&machine, &[Format::Dxf], &options).expect("written");
     let expected = ["cam.dxf", "planet.dxf"].map(String::from);
     assert_eq!(names(&some), BTreeSet::from(expected));
-    options.parts = Some(Part::ALL.map(|part| part.name().to_owned()).to_vec());
+    options.parts = Some(
+        ThreeArmPart::ALL
+            .map(|part| part.name().to_owned())
+            .to_vec(),
+    );
     let all = files(&machine, &[Format::Dxf], &options).expect("every name is known");
-    assert_eq!(all.files().count(), Part::ALL.len());
+    assert_eq!(all.files().count(), ThreeArmPart::ALL.len());
     options.parts = Some(vec!["arm".into()]);
     let error = files(&machine, &[Format::Dxf], &options).expect_err("no such part");
     let error = error.to_string();
@@ -107,7 +111,10 @@ fn words_touch_nothing_on_the_sheets_of_plates() {
     let design = machine.mechanism.design();
     let tolerance = options().tolerance;
     let mut seen = 0;
-    for plate in Part::ALL.into_iter().filter_map(|p| machine.plate_of(p)) {
+    for plate in ThreeArmPart::ALL
+        .into_iter()
+        .filter_map(|p| machine.plate_of(p))
+    {
         let spec = (&design.drawing, design.title.as_str());
         let sheets = plate.sheets(spec, &options().sheet, tolerance);
         for sheet in sheets.expect("laid out") {
@@ -147,11 +154,11 @@ fn the_general_arrangement_lists_every_part_and_its_words_touch_nothing() {
             .iter()
             .flat_map(|sheet| sheet.drawing.plain())
             .filter_map(|entity| match &entity.shape {
-                crate::drawing::Shape::Text(text) => Some(text.words.as_str()),
+                crate::drawing::EntityShape::Text(text) => Some(text.words.as_str()),
                 _ => None,
             })
             .collect();
-        for part in Part::ALL {
+        for part in ThreeArmPart::ALL {
             assert!(words.contains(&part.title()), "{part}");
         }
         for length in &told {
@@ -168,7 +175,10 @@ fn meshes_are_closed_and_as_large_as_their_solids() {
     let machine = mechanism(|_| {});
     let machine = Machine::new(&machine).expect("resolved");
     let tolerance = options().tolerance;
-    for plate in Part::ALL.into_iter().filter_map(|p| machine.plate_of(p)) {
+    for plate in ThreeArmPart::ALL
+        .into_iter()
+        .filter_map(|p| machine.plate_of(p))
+    {
         let solid = plate.solid().expect("a solid");
         let (mesh, volume) = (solid.mesh(tolerance).expect("apart"), solid.volume());
         assert!(mesh.is_watertight(), "{}", plate.name);

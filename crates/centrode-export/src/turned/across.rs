@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use centrode_geometry::{Arc, Outline, Point, Segment, Tolerance, Vector};
 use centrode_mechanism::gear::design::Keyway;
 
-use crate::drawing::{Anchor, Shape};
+use crate::drawing::{Anchor, EntityShape};
 use crate::sheet::geometrical::NoteLine;
 use crate::sheet::{Draft, Pen, Scale, fit};
 
@@ -32,7 +32,7 @@ pub(crate) fn across(
         Some(key) => slotted(radius, key, k).unwrap_or(whole),
     };
     draft.hatch(std::slice::from_ref(&contour), tolerance);
-    draft.draw(Pen::Outline, Shape::Contour(contour));
+    draft.draw(Pen::Outline, EntityShape::Contour(contour));
     let reach = radius + 3.0;
     draft.line(Pen::Axis, p(-reach, 0.0), p(reach, 0.0));
     draft.line(Pen::Axis, p(0.0, -reach), p(0.0, reach));

@@ -10,7 +10,7 @@ use centrode_geometry::{Outline, Point};
 use centrode_mechanism::design::DrawingSpec;
 use centrode_mechanism::machine::{Machine, TurnedPart, TurnedPieces};
 
-use crate::drawing::{CENTER, Drawing, PROFILE, Shape};
+use crate::drawing::{CENTER, Drawing, EntityShape, PROFILE};
 use crate::sheet::fit;
 use crate::{ExportError, Package};
 pub(crate) use across::{across, cutting_plane};
@@ -114,9 +114,9 @@ impl Drawn<'_> {
 
     fn drawing(&self) -> Drawing {
         let mut drawing = Drawing::cutting();
-        drawing.draw(PROFILE, Shape::Contour(self.silhouette()));
+        drawing.draw(PROFILE, EntityShape::Contour(self.silhouette()));
         let [from, to] = [-3.0, self.length() + 3.0].map(|x| Point::new(x, 0.0));
-        drawing.draw(CENTER, Shape::Line(from, to));
+        drawing.draw(CENTER, EntityShape::Line(from, to));
         drawing
     }
 }

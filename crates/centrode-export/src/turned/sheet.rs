@@ -3,11 +3,11 @@ use centrode_mechanism::design::{DrawingSpec, SheetSize};
 
 use super::{Drawn, across, centre, centre_mark, cutting_plane};
 use crate::SheetOptions;
-use crate::drawing::Shape;
+use crate::drawing::EntityShape;
 use crate::sheet::geometrical::{Frame, NoteLine};
 use crate::sheet::{
-    Corner, Draft, Pen, Piece, Scale, Sheet, SheetError, TitleBlock, compose, fit, mass, number,
-    steady, view_letters,
+    Corner, Draft, Pen, Scale, Sheet, SheetBlock, SheetError, TitleBlock, compose, fit, mass,
+    number, steady, view_letters,
 };
 
 /// Letter of the section; datums have the first two.
@@ -58,11 +58,13 @@ impl Drawn<'_> {
         });
         let pieces = |scale: Scale, size: SheetSize| {
             let mut pieces = vec![
-                Piece::notes(&lines),
-                Piece::view("side view", self.side(scale, size)),
+                SheetBlock::notes(&lines),
+                SheetBlock::view("side view", self.side(scale, size)),
             ];
             let section = section.iter().cloned();
-            pieces.extend(section.map(|draft| Piece::detail("section", draft, Corner::LowerLeft)));
+            pieces.extend(
+                section.map(|draft| SheetBlock::detail("section", draft, Corner::LowerLeft)),
+            );
             pieces
         };
         compose(
@@ -86,7 +88,10 @@ impl Drawn<'_> {
         let k = scale.factor();
         let mut draft = Draft::lettered(view_letters(size)).at_scale(k);
         let p = |x: f64, y: f64| Point::new(k * x, k * y);
-        draft.draw(Pen::Outline, Shape::Contour(self.silhouette().scaled(k)));
+        draft.draw(
+            Pen::Outline,
+            EntityShape::Contour(self.silhouette().scaled(k)),
+        );
         for corner in self.half().windows(2) {
             // An edge round the part wherever its contour bends.
             let [from, to] = [corner[0], corner[1]];

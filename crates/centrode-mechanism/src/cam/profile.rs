@@ -56,13 +56,13 @@ impl Profile {
 
 /// A part of the contour and the inputs of its ends.
 #[derive(Clone, Copy, Debug)]
-struct Part {
+struct ContourSpan {
     segment: Segment,
     from: f64,
     to: f64,
 }
 
-impl Part {
+impl ContourSpan {
     /// The part between two parameters of the segment.
     fn between(&self, from: f64, to: f64) -> Self {
         let input = |u: f64| self.from + 0.5 * (1.0 + u) * (self.to - self.from);
@@ -154,15 +154,15 @@ impl DiscCam {
         curve: &dyn Fn(f64) -> Point,
         ends: &[f64],
         tolerance: Tolerance,
-    ) -> Vec<Part> {
-        let mut parts: Vec<Part> = Vec::new();
+    ) -> Vec<ContourSpan> {
+        let mut parts: Vec<ContourSpan> = Vec::new();
         for pair in ends.windows(2) {
             let (from, to) = (pair[0], pair[1]);
             if self.rests(from, to) {
                 parts.extend(self.dwell(curve, from, to));
             } else {
                 let fitted = PolySegment::fit_spans(curve, from, to, tolerance);
-                parts.extend(fitted.into_iter().map(|(poly, from, to)| Part {
+                parts.extend(fitted.into_iter().map(|(poly, from, to)| ContourSpan {
                     segment: Segment::Poly(poly),
                     from,
                     to,
@@ -187,7 +187,7 @@ impl DiscCam {
         curve: &dyn Fn(f64) -> Point,
         from: f64,
         to: f64,
-    ) -> impl Iterator<Item = Part> {
+    ) -> impl Iterator<Item = ContourSpan> {
         let count = ((to - from) / (0.6 * PI)).ceil().max(1.0);
         let step = (to - from) / count;
         // The limit from the right: the break at the end already belongs to what follows.
@@ -203,7 +203,7 @@ impl DiscCam {
                 end: turned(i + 1),
                 bulge: (0.25 * sense * step).tan(),
             };
-            Part {
+            ContourSpan {
                 segment: Segment::Arc(arc),
                 from: from + step * f64::from(i),
                 to: from + step * f64::from(i + 1),
@@ -212,7 +212,7 @@ impl DiscCam {
     }
 
     /// Parts pinned end to start, counter-clockwise.
-    fn closed(&self, mut parts: Vec<Part>) -> Result<(Outline, Vec<(f64, f64)>), CamError> {
+    fn closed(&self, mut parts: Vec<ContourSpan>) -> Result<(Outline, Vec<(f64, f64)>), CamError> {
         let count = parts.len();
         for i in 0..count {
             let end = parts[i].segment.end();
@@ -222,7 +222,7 @@ impl DiscCam {
             }
         }
         if self.sense() < 0.0 {
-            parts = parts.iter().rev().map(Part::reversed).collect();
+            parts = parts.iter().rev().map(ContourSpan::reversed).collect();
         }
         let outline = Outline::new(parts.iter().map(|part| part.segment).collect())?;
         let inputs = parts.iter().map(|part| (part.from, part.to)).collect();
@@ -241,10 +241,10 @@ fn moved_start(segment: &Segment, start: Point) -> Segment {
 
 /// Parts without their loops.
 fn sound(
-    parts: &[Part],
+    parts: &[ContourSpan],
     counter_clockwise: bool,
     tolerance: Tolerance,
-) -> Result<Vec<Part>, CamError> {
+) -> Result<Vec<ContourSpan>, CamError> {
     let segments: Vec<Segment> = parts.iter().map(|part| part.segment).collect();
     let kept =
         without_loops(&segments, counter_clockwise, tolerance).map_err(|cause| match cause {

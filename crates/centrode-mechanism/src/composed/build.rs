@@ -8,7 +8,7 @@ use super::{
     ComposedBody, ComposedDyad, ComposedDyadSpec, ComposedError, ComposedLawSpec, DyadKind, Mount,
     Pin, Side,
 };
-use crate::linkage::{Branch, Coordinate, Joint, Line, Link, Linkage};
+use crate::linkage::{Branch, Coordinate, JointId, Line, LinkId, Linkage};
 use crate::machine::{Constant, JointKind};
 use crate::transmission::Transmission;
 
@@ -29,13 +29,13 @@ impl Builder<'_> {
         ))
     }
 
-    fn joint(&mut self, key: &str, word: &str) -> Result<(usize, Point, Joint), ComposedError> {
+    fn joint(&mut self, key: &str, word: &str) -> Result<(usize, Point, JointId), ComposedError> {
         let (body, at) = self.place(key, word)?;
         let joint = self.linkage.point(self.bodies[body].link, at);
         Ok((body, at, joint.map_err(blame(key))?))
     }
 
-    pub(super) fn push(&mut self, name: &str, link: Link, mount: Mount) -> usize {
+    pub(super) fn push(&mut self, name: &str, link: LinkId, mount: Mount) -> usize {
         self.bodies.push(ComposedBody {
             name: name.into(),
             link,
@@ -222,7 +222,7 @@ impl Builder<'_> {
     fn turning(
         &mut self,
         key: &str,
-        (name, link): (&str, Link),
+        (name, link): (&str, LinkId),
         carrier: usize,
         at: Point,
     ) -> usize {
@@ -238,7 +238,7 @@ impl Builder<'_> {
     fn sliding(
         &mut self,
         key: &str,
-        (name, link): (&str, Link),
+        (name, link): (&str, LinkId),
         carrier: usize,
         line: Line,
     ) -> usize {

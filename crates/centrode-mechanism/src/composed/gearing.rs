@@ -4,7 +4,7 @@ use std::sync::Arc;
 use centrode_geometry::{Outline, Point, Solid, SolidError, Vector};
 use nalgebra::Isometry2;
 
-use super::mesh::{Angle, Mesh, MeshedBody};
+use super::mesh::{Angle, MeshedBody, RollingMesh};
 use super::points::{LocalPoint, Reference};
 use super::resolve::{Builder, blame};
 use super::{
@@ -270,7 +270,7 @@ impl Builder<'_> {
         let at = axis + Vector::new(cos, sin) * pair.center_distance();
         let is_driven = gear.member == Member::Driven;
         let on_carrier = self.angle(carrier);
-        let mesh = Mesh {
+        let mesh = RollingMesh {
             rolling: Arc::new(pair.rolling().clone()),
             lambda: on_carrier.plus(if is_driven {
                 mesh.direction
@@ -373,7 +373,7 @@ impl Builder<'_> {
                     ),
                 });
             }
-            let mesh = Mesh {
+            let mesh = RollingMesh {
                 rolling: Arc::clone(&rolling),
                 lambda: Angle::default().plus(way.y.atan2(way.x)),
             };

@@ -47,13 +47,13 @@ impl Angle {
 /// driven angle of the pair by the driver's polar angle: the driver's pitch point is at the polar angle lambda - alpha, so
 /// beta = lambda + f(lambda - alpha), and alpha = lambda - f^-1(beta - lambda).
 #[derive(Clone, Debug)]
-pub(super) struct Mesh {
+pub(super) struct RollingMesh {
     pub(super) rolling: Arc<Rolling>,
     /// Direction from the driver's axis to the driven gear's.
     pub(super) lambda: Angle,
 }
 
-impl Mesh {
+impl RollingMesh {
     /// Angle of the driven gear by that of the driver.
     pub(super) fn driven(&self, driver: &MotionJet, input: f64) -> MotionJet {
         let lambda = self.lambda.at(input);
@@ -74,7 +74,7 @@ impl Mesh {
 /// Coordinate of a body that a mesh moves: its angle against the one that carries it.
 #[derive(Clone, Debug)]
 pub(super) struct MeshedBody {
-    pub(super) mesh: Mesh,
+    pub(super) mesh: RollingMesh,
     /// Whether the body's gear is the driven one of its pair.
     pub(super) is_driven: bool,
     /// Angle of the other gear.

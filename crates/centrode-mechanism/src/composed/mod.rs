@@ -80,7 +80,7 @@ use self::expansion::Expansion;
 use self::gearing::Meshing;
 use self::load::ComposedLoad;
 use self::points::BodyPoints;
-use crate::linkage::{Line, Link, Linkage};
+use crate::linkage::{Line, LinkId, Linkage};
 use crate::machine::JointKind;
 use crate::transmission::{MotionJet, Transmission};
 
@@ -112,7 +112,7 @@ pub struct ComposedBody {
     /// Name.
     pub name: String,
     /// Link of the linkage.
-    pub link: Link,
+    pub link: LinkId,
     /// Joint that carries it; none for the frame.
     pub mount: Option<Mount>,
 }
@@ -364,7 +364,7 @@ impl Composed {
     }
 
     /// Points of bodies as points of links.
-    fn on_links(&self, points: &[(usize, Point)]) -> Vec<(Link, Point)> {
+    fn on_links(&self, points: &[(usize, Point)]) -> Vec<(LinkId, Point)> {
         let points = points.iter();
         points
             .map(|(body, at)| (self.bodies[*body].link, *at))

@@ -7,12 +7,12 @@ pub(super) struct Pieces<'a> {
     pub(super) plate: Option<Solid>,
     /// Mass of the plate, or the one given in its place.
     pub(super) mass: Option<MassProperties>,
-    pub(super) gears: Vec<Piece<'a, ComposedGear>>,
-    pub(super) cams: Vec<Piece<'a, ComposedCam>>,
+    pub(super) gears: Vec<BodyPiece<'a, ComposedGear>>,
+    pub(super) cams: Vec<BodyPiece<'a, ComposedCam>>,
 }
 
 /// A gear or a cam on a body.
-pub(super) struct Piece<'a, T> {
+pub(super) struct BodyPiece<'a, T> {
     pub(super) of: &'a T,
     pub(super) solid: Solid,
     pub(super) mass: MassProperties,
@@ -56,7 +56,7 @@ impl Composed {
         let gears = gears.map(|gear| {
             let solid = gear.solid(self.gear_bottom(gear))?;
             let mass = solid.mass_properties(gear.gear().body().density);
-            Ok(Piece {
+            Ok(BodyPiece {
                 of: gear,
                 solid,
                 mass,
@@ -66,7 +66,7 @@ impl Composed {
         let cams = cams.map(|cam| {
             let solid = cam.solid(self.cam_bottom(cam))?;
             let mass = solid.mass_properties(cam.part.body().density);
-            Ok(Piece {
+            Ok(BodyPiece {
                 of: cam,
                 solid,
                 mass,

@@ -14,7 +14,7 @@ use super::{
     ComposedError, ComposedFigure, ComposedGear, Over, Pin,
 };
 use crate::gear::design::{Rule, SpecError};
-use crate::linkage::{Coordinate, Link, Linkage, LinkageError, NotClosing};
+use crate::linkage::{Coordinate, LinkId, Linkage, LinkageError, NotClosing};
 use crate::machine::JointKind;
 use crate::transmission::Remembered;
 
@@ -76,7 +76,7 @@ impl Composed {
             linkage: Linkage::with_turns(design.input.turns),
             bodies: vec![ComposedBody {
                 name: FRAME.into(),
-                link: Link::FRAME,
+                link: LinkId::FRAME,
                 mount: None,
             }],
             dyads: Vec::new(),

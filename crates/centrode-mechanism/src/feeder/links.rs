@@ -4,11 +4,11 @@ use std::sync::Arc;
 use centrode_geometry::{MassProperties, Solid, SolidError, Vector};
 use nalgebra::Isometry2;
 
-use super::{Feeder, Part, Plate};
+use super::{Feeder, FeederPart, Plate};
 use crate::machine::{Closure, Input, Joint, Link, LinkPoint, Load, Machine, STANDARD_GRAVITY};
 use crate::transmission::{FromFn, MotionJet, Transmission};
 
-impl Part {
+impl FeederPart {
     /// The part another one is mounted on; none for the frame.
     #[must_use]
     pub fn carrier(self) -> Option<Self> {
@@ -36,7 +36,7 @@ impl Part {
 impl Feeder {
     /// The six-bar as links, joints and closures, with a mass (kg) carried at its tip: no bodies, no picture, no table.
     ///
-    /// Links are those of [`Part::ALL`] in their order, each with its joint. Every frame is parallel to the world's where the
+    /// Links are those of [`FeederPart::ALL`] in their order, each with its joint. Every frame is parallel to the world's where the
     /// effector rests, every joint zero there. The y axis points up. The coupler closes the loop first, the slider second,
     /// both on the rocker at C. The first point is the tip.
     #[must_use]
@@ -53,8 +53,8 @@ impl Feeder {
             gravity: [0.0, -STANDARD_GRAVITY, 0.0],
             ..Machine::default()
         };
-        let rest = |part: Part| self.place(part, self.start()).translation.vector;
-        for part in Part::ALL {
+        let rest = |part: FeederPart| self.place(part, self.start()).translation.vector;
+        for part in FeederPart::ALL {
             let link = machine.link(Link {
                 name: part.name().into(),
                 ..Link::default()
@@ -63,7 +63,7 @@ impl Feeder {
                 continue;
             };
             let law = self.joint_law(part);
-            let joint = if part == Part::Slider {
+            let joint = if part == FeederPart::Slider {
                 Joint::sliding(carrier.link(), link, self.slide(), law)
             } else {
                 Joint::turning(carrier.link(), link, law)
@@ -72,18 +72,24 @@ impl Feeder {
             machine.joint(joint.at([at.x, at.y, 0.0]));
         }
         for (part, moved) in [
-            (Part::Coupler, [Part::Coupler, Part::Rocker]),
-            (Part::Slider, [Part::Effector, Part::Slider]),
+            (
+                FeederPart::Coupler,
+                [FeederPart::Coupler, FeederPart::Rocker],
+            ),
+            (
+                FeederPart::Slider,
+                [FeederPart::Effector, FeederPart::Slider],
+            ),
         ] {
-            let at = rest(Part::Slider) - rest(part);
+            let at = rest(FeederPart::Slider) - rest(part);
             machine.closures.push(Closure {
-                links: [part, Part::Rocker].map(Part::link),
+                links: [part, FeederPart::Rocker].map(FeederPart::link),
                 at: [at.x, at.y, 0.0],
-                joints: moved.map(Part::joint),
+                joints: moved.map(FeederPart::joint),
             });
         }
-        let link = Part::Effector.link();
-        let turned = self.place(Part::Effector, self.start()).rotation;
+        let link = FeederPart::Effector.link();
+        let turned = self.place(FeederPart::Effector, self.start()).rotation;
         let at = turned * Vector::new(self.six_bar().effector_length(), 0.0);
         let at = [at.x, at.y, 0.0];
         machine.points.push(LinkPoint {
@@ -123,7 +129,7 @@ impl Feeder {
 
     /// Direction of the effector's slot where it rests, and how far the slider goes in it either way, mm.
     fn slide(&self) -> ([f64; 3], [f64; 2]) {
-        let along = self.place(Part::Effector, self.start()).rotation * Vector::x();
+        let along = self.place(FeederPart::Effector, self.start()).rotation * Vector::x();
         let bar = self.six_bar();
         let now = bar.slider_distance(self.start()).position;
         // As far as the slot lets it.
@@ -136,7 +142,7 @@ impl Feeder {
     }
 
     /// A joint's coordinate since the effector rested.
-    fn joint_law(&self, part: Part) -> Arc<dyn Transmission> {
+    fn joint_law(&self, part: FeederPart) -> Arc<dyn Transmission> {
         let bar = *self.six_bar();
         let at = move |crank: f64| -> MotionJet {
             let by_crank = MotionJet {
@@ -146,22 +152,22 @@ impl Feeder {
             };
             let four = bar.four_bar();
             match part {
-                Part::Frame => MotionJet::default(),
-                Part::Crank => by_crank,
-                Part::Coupler => four
+                FeederPart::Frame => MotionJet::default(),
+                FeederPart::Crank => by_crank,
+                FeederPart::Coupler => four
                     .coupler_angle(crank)
                     .unwrap_or_default()
                     .plus(-1.0, &by_crank),
-                Part::Rocker => four.rocker_angle(crank).unwrap_or_default(),
-                Part::Effector => bar.effector_angle(crank),
-                Part::Slider => bar.slider_distance(crank),
+                FeederPart::Rocker => four.rocker_angle(crank).unwrap_or_default(),
+                FeederPart::Effector => bar.effector_angle(crank),
+                FeederPart::Slider => bar.slider_distance(crank),
             }
         };
         let (own, start) = (self.clone(), self.start());
         let rest = at(start).position;
         let advance = match part {
-            Part::Crank => TAU,
-            Part::Coupler => at(start + TAU).position - rest,
+            FeederPart::Crank => TAU,
+            FeederPart::Coupler => at(start + TAU).position - rest,
             _ => 0.0,
         };
         Arc::new(FromFn::new(TAU, advance, self.breaks(), move |input| {

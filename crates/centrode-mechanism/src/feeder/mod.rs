@@ -25,7 +25,7 @@ pub use dimension::{Dimension, UnknownDimension};
 pub use error::FeederError;
 pub use gears::GearsSpec;
 pub use mount::GearBody;
-pub use parts::{JointHole, Part, Plate, PlateJoint};
+pub use parts::{FeederPart, JointHole, Plate, PlateJoint};
 pub use plates::PlatesSpec;
 pub use search::DimensionSearchSpec;
 

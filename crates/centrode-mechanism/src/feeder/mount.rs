@@ -2,7 +2,7 @@ use std::sync::Arc;
 
 use centrode_geometry::{Outline, Recent, Solid, SolidError, Tolerance};
 
-use super::{Feeder, GearsSpec, Part};
+use super::{Feeder, FeederPart, GearsSpec};
 use crate::gear::IntermittentPair;
 use crate::machine::{Form, Joint, Linear, Link, Machine, Quantity, Shape};
 
@@ -107,7 +107,7 @@ impl Feeder {
         let Some(bodies) = self.gear_bodies() else {
             return Ok(());
         };
-        let (frame, crank) = (Part::Frame.link(), Part::Crank.link());
+        let (frame, crank) = (FeederPart::Frame.link(), FeederPart::Crank.link());
         let spec = &self.design().gears;
         let [middle, entry, exit] = self.gear_levels(bodies.len() > 2);
         let density = spec.body().density;

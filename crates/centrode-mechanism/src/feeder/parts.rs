@@ -9,7 +9,7 @@ use crate::gear::design::BodySpec;
 
 /// A part of the six-bar, cut from plate.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
-pub enum Part {
+pub enum FeederPart {
     /// Plate that holds the shafts A, D and F and that of the intermittent gear, G; one in front of the links, one behind.
     Frame,
     /// The crank AB.
@@ -24,7 +24,7 @@ pub enum Part {
     Slider,
 }
 
-impl Part {
+impl FeederPart {
     /// All parts.
     pub const ALL: [Self; 6] = [
         Self::Frame,
@@ -95,7 +95,7 @@ pub struct PlateJoint {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plate {
     /// The part.
-    pub part: Part,
+    pub part: FeederPart,
     /// Contour.
     pub outline: Outline,
     /// Holes of the joints that have one, in their order.
@@ -144,7 +144,7 @@ impl Feeder {
     /// # Errors
     /// [`FeederError::SlotMeetsPivot`] for an effector whose slot runs into the hole of its pivot;
     /// [`FeederError::NoPlate`] where the joints leave no contour.
-    pub fn plate(&self, part: Part) -> Result<Plate, FeederError> {
+    pub fn plate(&self, part: FeederPart) -> Result<Plate, FeederError> {
         let (spec, gears) = (&self.design().plates, &self.design().gears);
         let [crank, coupler, rocker, frame] = self.six_bar().four_bar().lengths();
         let joint = |name, x: f64, y: f64, hole| PlateJoint {
@@ -155,33 +155,33 @@ impl Feeder {
         let (pin, bearing) = (Some(JointHole::Pin), Some(JointHole::Bearing));
         let pivot = self.six_bar().pivot();
         let joints = match part {
-            Part::Frame => vec![
+            FeederPart::Frame => vec![
                 joint("A", 0.0, 0.0, bearing),
                 joint("D", frame, 0.0, pin),
                 joint("F", pivot.x, pivot.y, pin),
                 joint("G", -gears.center_distance(), 0.0, bearing),
             ],
-            Part::Crank => {
+            FeederPart::Crank => {
                 // The gear's x axis points from the intermittent gear's as the motion begins.
                 let keyed = Some(JointHole::Keyed(-self.start()));
                 vec![joint("A", 0.0, 0.0, keyed), joint("B", crank, 0.0, pin)]
             }
-            Part::Coupler => vec![joint("B", 0.0, 0.0, pin), joint("C", coupler, 0.0, pin)],
-            Part::Rocker => vec![joint("D", 0.0, 0.0, pin), joint("C", rocker, 0.0, pin)],
-            Part::Effector => vec![
+            FeederPart::Coupler => vec![joint("B", 0.0, 0.0, pin), joint("C", coupler, 0.0, pin)],
+            FeederPart::Rocker => vec![joint("D", 0.0, 0.0, pin), joint("C", rocker, 0.0, pin)],
+            FeederPart::Effector => vec![
                 joint("F", 0.0, 0.0, pin),
                 joint("E", self.six_bar().effector_length(), 0.0, None),
             ],
-            Part::Slider => vec![joint("C", 0.0, 0.0, pin)],
+            FeederPart::Slider => vec![joint("C", 0.0, 0.0, pin)],
         };
         let slot = match part {
-            Part::Effector => Some(self.slot()?),
+            FeederPart::Effector => Some(self.slot()?),
             _ => None,
         };
         let half = 0.5 * spec.width;
         let mut circles: Vec<(Point, f64)> = joints.iter().map(|j| (j.at, half)).collect();
         match (part, slot) {
-            (Part::Slider, _) => {
+            (FeederPart::Slider, _) => {
                 let radius = 0.5 * spec.slot_width;
                 let off = Vector::new(0.5 * spec.slider_length - radius, 0.0);
                 circles = vec![
@@ -275,18 +275,18 @@ impl Feeder {
 
     /// Pose of a part's own axes at a crank angle.
     #[must_use]
-    pub fn place(&self, part: Part, crank: f64) -> Isometry2<f64> {
+    pub fn place(&self, part: FeederPart, crank: f64) -> Isometry2<f64> {
         let bar = self.six_bar().four_bar();
         let [b, c, _] = self.six_bar().joints(crank);
         let d = Point::new(bar.lengths()[3], 0.0);
         let f = self.six_bar().pivot();
         let (origin, towards) = match part {
-            Part::Frame => return Isometry2::identity(),
-            Part::Crank => (Point::origin(), b),
-            Part::Coupler => (b, c),
-            Part::Rocker => (d, c),
-            Part::Effector => (f, c),
-            Part::Slider => (c, c + (c - f)),
+            FeederPart::Frame => return Isometry2::identity(),
+            FeederPart::Crank => (Point::origin(), b),
+            FeederPart::Coupler => (b, c),
+            FeederPart::Rocker => (d, c),
+            FeederPart::Effector => (f, c),
+            FeederPart::Slider => (c, c + (c - f)),
         };
         let way = towards - origin;
         Isometry2::new(origin.coords, way.y.atan2(way.x))
@@ -298,7 +298,7 @@ impl Feeder {
     pub fn shaft_clearance(&self, input: f64) -> f64 {
         let spec = &self.design().plates;
         let crank = self.crank(input).position;
-        let place = self.place(Part::Effector, crank);
+        let place = self.place(FeederPart::Effector, crank);
         let d = Point::new(self.six_bar().four_bar().lengths()[3], 0.0);
         let d = place.inverse_transform_point(&d);
         let reach = self.six_bar().effector_length();

@@ -2,7 +2,7 @@
 
 use centrode_geometry::Point;
 
-use super::{Feeder, GearBody, Part, Plate};
+use super::{Feeder, FeederPart, GearBody, Plate};
 use crate::machine::{Bar, Dowel, Fit, Key, SeatedKey, TurnedPart, TurnedPiece, TurnedPieces};
 
 impl Feeder {
@@ -55,14 +55,14 @@ impl Feeder {
     /// Pins of the joints, which float in all their holes, a ring at either end.
     fn pins(&self, plates: &[Plate]) -> [TurnedPieces; 4] {
         let spec = &self.design().plates;
-        let level = |part: Part| {
+        let level = |part: FeederPart| {
             let plate = plates.iter().find(|plate| plate.part == part);
             let bottom = plate.map_or(0.0, |plate| plate.bottom);
             [bottom, bottom + spec.thickness]
         };
-        let [rear, _] = level(Part::Frame);
+        let [rear, _] = level(FeederPart::Frame);
         // The second frame plate stands above all others.
-        let front = level(Part::Effector)[1] + spec.gap + spec.thickness;
+        let front = level(FeederPart::Effector)[1] + spec.gap + spec.thickness;
         let (gap, free) = (spec.gap, f64::INFINITY);
         let [b, c, _] = self.six_bar().joints(self.start());
         let d = Point::new(self.six_bar().four_bar().lengths()[3], 0.0);
@@ -70,30 +70,30 @@ impl Feeder {
         [
             (
                 ["pin-b", "Pin B"],
-                Part::Crank,
+                FeederPart::Crank,
                 b,
-                [level(Part::Crank)[0], level(Part::Coupler)[1]],
+                [level(FeederPart::Crank)[0], level(FeederPart::Coupler)[1]],
                 [gap, gap],
             ),
             (
                 ["pin-c", "Pin C"],
-                Part::Rocker,
+                FeederPart::Rocker,
                 c,
-                [level(Part::Coupler)[0], level(Part::Slider)[1]],
+                [level(FeederPart::Coupler)[0], level(FeederPart::Slider)[1]],
                 [gap, gap],
             ),
             (
                 ["pin-d", "Pin D"],
-                Part::Frame,
+                FeederPart::Frame,
                 d,
                 [rear, front],
                 [free, free],
             ),
             (
                 ["pin-f", "Pin F"],
-                Part::Frame,
+                FeederPart::Frame,
                 self.six_bar().pivot(),
-                [level(Part::Effector)[0], front],
+                [level(FeederPart::Effector)[0], front],
                 [gap, free],
             ),
         ]
@@ -175,7 +175,7 @@ impl Feeder {
                     .flatten()
                     .collect(),
                 axis: Some([0.0; 2]),
-                ..on_shaft(of_crank, &crank, Part::Crank.name())
+                ..on_shaft(of_crank, &crank, FeederPart::Crank.name())
             },
             TurnedPieces {
                 role: "of the intermittent gear".into(),

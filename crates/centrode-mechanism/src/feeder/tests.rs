@@ -1,6 +1,6 @@
 use std::f64::consts::{PI, TAU};
 
-use crate::feeder::{Feeder, FeederDesign, FeederError, LinkageSpec, Part};
+use crate::feeder::{Feeder, FeederDesign, FeederError, FeederPart, LinkageSpec};
 use crate::gear::IntermittentError;
 use crate::linkage::{Branch, SixBarError};
 
@@ -130,7 +130,7 @@ fn holes_that_meet_and_bores_wider_than_the_plates_are_refused() {
         ..design.linkage
     };
     let small = Feeder::resolve(&design).expect("a six-bar");
-    let error = small.plate(Part::Crank).expect_err("16 and 10 wide");
+    let error = small.plate(FeederPart::Crank).expect_err("16 and 10 wide");
     assert!(
         matches!(
             error,

@@ -104,8 +104,8 @@ pub(crate) struct ToothPassage<'a> {
 /// A tooth of which a share of the reaches is kept, with its shapes as far as they have been asked for.
 struct Trimmed<'a> {
     candidate: &'a Candidate,
-    whole: OnceCell<Rc<Shape>>,
-    shapes: RefCell<Vec<(f64, Rc<Shape>)>>,
+    whole: OnceCell<Rc<ToothChords>>,
+    shapes: RefCell<Vec<(f64, Rc<ToothChords>)>>,
 }
 
 impl<'a> Trimmed<'a> {
@@ -121,10 +121,10 @@ impl<'a> Trimmed<'a> {
         self.candidate.reaches.map(|r| r * share)
     }
 
-    fn shape(&self, passage: &ToothPassage<'_>, share: f64) -> Rc<Shape> {
+    fn shape(&self, passage: &ToothPassage<'_>, share: f64) -> Rc<ToothChords> {
         let new = || {
             let reaches = self.reaches(share);
-            Rc::new(Shape::of(
+            Rc::new(ToothChords::of(
                 passage,
                 &Candidate {
                     reaches,
@@ -197,8 +197,8 @@ impl<'a> ToothPassage<'a> {
         )
     }
 
-    fn penetrate(&self, one: &Shape, two: &Shape) -> bool {
-        let deep = |points: &[Point], carried: &dyn Fn(&Point) -> Point, shape: &Shape| {
+    fn penetrate(&self, one: &ToothChords, two: &ToothChords) -> bool {
+        let deep = |points: &[Point], carried: &dyn Fn(&Point) -> Point, shape: &ToothChords| {
             points.iter().any(|p| {
                 let there = carried(p);
                 (there - shape.middle).norm_squared() < shape.radius * shape.radius
@@ -248,7 +248,7 @@ fn carry(from: &Frame, to: &Frame, p: &Point) -> Point {
 }
 
 /// The working part of a tooth as chords: leading flank upwards, tip, trailing flank downwards.
-struct Shape {
+struct ToothChords {
     places: Vec<Point>,
     /// Height of the curve above the middle of each chord, out of the material.
     bulges: Vec<f64>,
@@ -262,7 +262,7 @@ struct Shape {
     last: Cell<usize>,
 }
 
-impl Shape {
+impl ToothChords {
     fn of(passage: &ToothPassage<'_>, candidate: &Candidate) -> Self {
         let (rolling, tool) = (passage.rolling, passage.tool);
         let flank = |side: Side| Flank {

@@ -5,7 +5,7 @@ use centrode_geometry::{Point, Vector};
 
 use super::dyad::Branch;
 use super::error::LinkageError;
-use super::parts::{Joint, Line, Link, SliderDyad, TwoBars};
+use super::parts::{JointId, Line, LinkId, SliderDyad, TwoBars};
 use crate::transmission::Transmission;
 
 #[derive(Clone, Debug)]
@@ -86,7 +86,7 @@ pub struct Linkage {
     /// Link of each joint.
     pub(super) owners: Vec<usize>,
     pub(super) links: usize,
-    crank: Option<Link>,
+    crank: Option<LinkId>,
     /// Input after which the linkage repeats, rad.
     pub(super) period: f64,
     /// Inputs in `[0, period)` where a derivative of a law may jump, ascending.
@@ -135,7 +135,7 @@ impl Linkage {
         }
     }
 
-    pub(super) fn know_joint(&self, joint: Joint) -> Result<usize, LinkageError> {
+    pub(super) fn know_joint(&self, joint: JointId) -> Result<usize, LinkageError> {
         let count = self.owners.len();
         if joint.0 < count {
             return Ok(joint.0);
@@ -153,7 +153,7 @@ impl Linkage {
         self.know_link(line.link)
     }
 
-    pub(super) fn know_link(&self, link: Link) -> Result<(), LinkageError> {
+    pub(super) fn know_link(&self, link: LinkId) -> Result<(), LinkageError> {
         if link.0 < self.links {
             return Ok(());
         }
@@ -164,14 +164,14 @@ impl Linkage {
         })
     }
 
-    pub(super) fn new_link(&mut self) -> Link {
+    pub(super) fn new_link(&mut self) -> LinkId {
         self.links += 1;
-        Link(self.links - 1)
+        LinkId(self.links - 1)
     }
 
-    pub(super) fn new_joint(&mut self, owner: Link) -> Joint {
+    pub(super) fn new_joint(&mut self, owner: LinkId) -> JointId {
         self.owners.push(owner.0);
-        Joint(self.owners.len() - 1)
+        JointId(self.owners.len() - 1)
     }
 
     /// Adds a point of a link, given in the link's axes, mm: a fixed pivot on the frame, a coupler
@@ -179,7 +179,7 @@ impl Linkage {
     ///
     /// # Errors
     /// [`LinkageError::Unknown`], [`LinkageError::NotFinite`].
-    pub fn point(&mut self, link: Link, local: Point) -> Result<Joint, LinkageError> {
+    pub fn point(&mut self, link: LinkId, local: Point) -> Result<JointId, LinkageError> {
         self.know_link(link)?;
         finite("a point", local.x + local.y)?;
         self.steps.push(Step::Point {
@@ -196,10 +196,10 @@ impl Linkage {
     /// [`LinkageError::SecondCrank`], [`LinkageError::Length`], [`LinkageError::Unknown`].
     pub fn crank(
         &mut self,
-        pivot: Joint,
+        pivot: JointId,
         length: f64,
         phase: f64,
-    ) -> Result<(Link, Joint), LinkageError> {
+    ) -> Result<(LinkId, JointId), LinkageError> {
         let at = self.know_joint(pivot)?;
         self::length("the crank", length)?;
         finite("the crank's phase", phase)?;
@@ -219,8 +219,8 @@ impl Linkage {
     /// [`LinkageError::Length`], [`LinkageError::Unknown`].
     pub fn rrr(
         &mut self,
-        p: Joint,
-        q: Joint,
+        p: JointId,
+        q: JointId,
         lengths: (f64, f64),
         branch: Branch,
     ) -> Result<TwoBars, LinkageError> {
@@ -249,7 +249,7 @@ impl Linkage {
     /// [`LinkageError::Length`], [`LinkageError::Unknown`].
     pub fn rrp(
         &mut self,
-        p: Joint,
+        p: JointId,
         length: f64,
         line: Line,
         branch: Branch,
@@ -278,8 +278,8 @@ impl Linkage {
     /// [`LinkageError::NotFinite`], [`LinkageError::Unknown`].
     pub fn rpr(
         &mut self,
-        p: Joint,
-        q: Joint,
+        p: JointId,
+        q: JointId,
         offset: f64,
         branch: Branch,
     ) -> Result<SliderDyad, LinkageError> {
@@ -320,7 +320,7 @@ impl Linkage {
     ///
     /// # Errors
     /// [`LinkageError::Unknown`], [`LinkageError::NotFinite`].
-    pub fn rpp(&mut self, p: Joint, line: Line, slot: f64) -> Result<SliderDyad, LinkageError> {
+    pub fn rpp(&mut self, p: JointId, line: Line, slot: f64) -> Result<SliderDyad, LinkageError> {
         let at = self.know_joint(p)?;
         self.know_line(&line)?;
         finite("the slot's angle", slot)?;

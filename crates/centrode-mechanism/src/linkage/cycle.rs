@@ -2,7 +2,7 @@ use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::assembly::Linkage;
 use super::error::LinkageError;
-use super::parts::{Line, Link};
+use super::parts::{Line, LinkId};
 use super::places::Needed;
 use super::series::Series;
 use crate::formula::Taylor;
@@ -19,12 +19,12 @@ impl Linkage {
     /// # Errors
     /// [`LinkageError::DoesNotClose`] with the limit of the crank where it cannot turn;
     /// [`LinkageError::NoDirection`] where a guided link's block passes its pivot.
-    pub fn transmission(&self, link: Link) -> Result<LinkTransmission, LinkageError> {
+    pub fn transmission(&self, link: LinkId) -> Result<LinkTransmission, LinkageError> {
         match self.limit() {
             Some(limit) => Err(limit),
             None => self.coordinate(Coordinate::Angle {
                 link,
-                against: Link::FRAME,
+                against: LinkId::FRAME,
             }),
         }
     }
@@ -102,14 +102,14 @@ pub enum Coordinate {
     /// Angle of a link's first axis against another link's, rad.
     Angle {
         /// The link.
-        link: Link,
+        link: LinkId,
         /// The other link.
-        against: Link,
+        against: LinkId,
     },
     /// Distance of a link's origin along a line from the line's point, mm.
     Along {
         /// The link.
-        link: Link,
+        link: LinkId,
         /// The line.
         line: Line,
     },

@@ -4,8 +4,8 @@ use centrode_geometry::Point;
 
 use super::assembly::{Linkage, Step};
 use super::error::LinkageError;
-use super::parts::{Joint, Line, Link};
-use super::pose::Body;
+use super::parts::{JointId, Line, LinkId};
+use super::pose::BodyMotion;
 use super::series::Series;
 use crate::transmission::{MotionJet, Transmission, repeated, sorted};
 
@@ -42,9 +42,9 @@ impl Linkage {
     /// [`LinkageError::Unknown`].
     pub fn turning(
         &mut self,
-        pivot: Joint,
+        pivot: JointId,
         law: Arc<dyn Transmission>,
-    ) -> Result<Link, LinkageError> {
+    ) -> Result<LinkId, LinkageError> {
         let at = self.know_joint(pivot)?;
         self.follow(law.as_ref());
         let link = self.new_link();
@@ -61,7 +61,7 @@ impl Linkage {
         &mut self,
         line: Line,
         law: Arc<dyn Transmission>,
-    ) -> Result<Link, LinkageError> {
+    ) -> Result<LinkId, LinkageError> {
         self.know_line(&line)?;
         self.follow(law.as_ref());
         let link = self.new_link();
@@ -78,7 +78,7 @@ impl Linkage {
     ///
     /// # Errors
     /// [`LinkageError::Unknown`], [`LinkageError::NotFinite`].
-    pub fn fixed(&mut self, line: Line) -> Result<Link, LinkageError> {
+    pub fn fixed(&mut self, line: Line) -> Result<LinkId, LinkageError> {
         self.know_line(&line)?;
         let link = self.new_link();
         self.steps.push(Step::Fixed { line });
@@ -92,9 +92,9 @@ impl Linkage {
     /// # Panics
     /// Never for a link of the linkage.
     #[must_use]
-    pub fn body(&self, link: Link, input: f64) -> Body {
+    pub fn body(&self, link: LinkId, input: f64) -> BodyMotion {
         let (origin, axis) = self.series::<4>(input).frame(link);
-        Body {
+        BodyMotion {
             origin: origin.jet(),
             angle: MotionJet::of(&axis.angle()),
         }
@@ -107,7 +107,7 @@ impl Linkage {
     /// # Panics
     /// Never for a link of the linkage.
     #[must_use]
-    pub fn place(&self, link: Link, local: Point, input: f64) -> Point {
+    pub fn place(&self, link: LinkId, local: Point, input: f64) -> Point {
         let needed = self.needed(std::iter::empty(), std::iter::once(link.0));
         let mut series = Series::<1>::default();
         self.find(input, |part| needed.has(part), &mut series);

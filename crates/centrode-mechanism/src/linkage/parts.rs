@@ -2,13 +2,13 @@ use centrode_geometry::Point;
 
 /// A joint of a [`Linkage`](super::Linkage): a point of one of its links.
 #[derive(Clone, Copy, Debug, Eq, Hash, Ord, PartialEq, PartialOrd)]
-pub struct Joint(pub(super) usize);
+pub struct JointId(pub(super) usize);
 
 /// A link of a [`Linkage`](super::Linkage): a rigid body with its own axes.
 #[derive(Clone, Copy, Debug, Eq, Hash, Ord, PartialEq, PartialOrd)]
-pub struct Link(pub(super) usize);
+pub struct LinkId(pub(super) usize);
 
-impl Link {
+impl LinkId {
     /// The fixed link.
     pub const FRAME: Self = Self(0);
 
@@ -19,7 +19,7 @@ impl Link {
     }
 }
 
-impl Joint {
+impl JointId {
     /// Position among the linkage's joints.
     #[must_use]
     pub fn index(self) -> usize {
@@ -31,7 +31,7 @@ impl Joint {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Line {
     /// The link it belongs to.
-    pub link: Link,
+    pub link: LinkId,
     /// A point it passes through, in the link's axes, mm.
     pub through: Point,
     /// Direction against the link's first axis, rad.
@@ -42,20 +42,20 @@ pub struct Line {
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub struct TwoBars {
     /// The bar from the first outer joint, its first axis towards the common joint.
-    pub first: Link,
+    pub first: LinkId,
     /// The bar from the second outer joint, its first axis towards the common joint.
-    pub second: Link,
+    pub second: LinkId,
     /// The common joint.
-    pub joint: Joint,
+    pub joint: JointId,
 }
 
 /// The links and the joint of a dyad with a slider.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub struct SliderDyad {
     /// The block that slides, its first axis along the guide.
-    pub block: Link,
+    pub block: LinkId,
     /// The other link of the dyad.
-    pub link: Link,
+    pub link: LinkId,
     /// Joint of block and link, or of block and its driver.
-    pub joint: Joint,
+    pub joint: JointId,
 }

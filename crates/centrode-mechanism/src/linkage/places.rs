@@ -1,8 +1,8 @@
 use centrode_geometry::{Point, Vector};
 
 use super::assembly::{Linkage, Step};
-use super::parts::{Line, Link};
-use super::series::{Part, Series};
+use super::parts::{Line, LinkId};
+use super::series::{Series, SeriesItem};
 use crate::formula::{LANES, Lanes, groups};
 
 /// Joints and links that a step needs, by their numbers.
@@ -52,7 +52,7 @@ impl Step {
 /// Place of a point: a joint, or a point of a link.
 enum Source {
     Joint(usize),
-    Of(Link, Point),
+    Of(LinkId, Point),
 }
 
 /// Joints and links on which some of them depend.
@@ -65,10 +65,10 @@ pub(super) struct Needed {
 impl Needed {
     /// Whether a part is among it.
     #[inline(always)]
-    pub(super) fn has(&self, part: Part) -> bool {
+    pub(super) fn has(&self, part: SeriesItem) -> bool {
         match part {
-            Part::Step(number) => self.steps[number],
-            Part::Frame(link) => self.frames[link],
+            SeriesItem::Step(number) => self.steps[number],
+            SeriesItem::Frame(link) => self.frames[link],
         }
     }
 }
@@ -83,7 +83,7 @@ impl Linkage {
     /// # Panics
     /// Never for links of the linkage.
     #[must_use]
-    pub fn places_each(&self, points: &[(Link, Point)], inputs: &[f64]) -> Vec<[f64; 2]> {
+    pub fn places_each(&self, points: &[(LinkId, Point)], inputs: &[f64]) -> Vec<[f64; 2]> {
         let mut places = vec![[0.0; 2]; points.len() * inputs.len()];
         self.write_places(points, inputs, &mut places);
         places
@@ -93,8 +93,13 @@ impl Linkage {
     ///
     /// # Panics
     /// Never for links of the linkage.
-    pub fn write_places(&self, points: &[(Link, Point)], inputs: &[f64], places: &mut [[f64; 2]]) {
-        let source = |(link, local): &(Link, Point)| match self.joint_at(*link, *local) {
+    pub fn write_places(
+        &self,
+        points: &[(LinkId, Point)],
+        inputs: &[f64],
+        places: &mut [[f64; 2]],
+    ) {
+        let source = |(link, local): &(LinkId, Point)| match self.joint_at(*link, *local) {
             Some(joint) => Source::Joint(joint),
             None => Source::Of(*link, *local),
         };
@@ -135,11 +140,11 @@ impl Linkage {
     /// # Panics
     /// Never for links of the linkage.
     #[must_use]
-    pub fn moving(&self, points: &[(Link, Point)], input: f64) -> Vec<(Point, Vector)> {
+    pub fn moving(&self, points: &[(LinkId, Point)], input: f64) -> Vec<(Point, Vector)> {
         let needed = self.needed(std::iter::empty(), points.iter().map(|(link, _)| link.0));
         let mut series = Series::<2>::default();
         self.find(input, |part| needed.has(part), &mut series);
-        let moving = |(link, local): &(Link, Point)| {
+        let moving = |(link, local): &(LinkId, Point)| {
             let (origin, axis) = series.frame(*link);
             let place = origin.plus(axis.turned(local.coords));
             let velocity = Vector::new(place.x.0[1], place.y.0[1]);
@@ -149,7 +154,7 @@ impl Linkage {
     }
 
     /// The joint at a point of a link, given in its axes, where there is one.
-    fn joint_at(&self, link: Link, local: Point) -> Option<usize> {
+    fn joint_at(&self, link: LinkId, local: Point) -> Option<usize> {
         let (mut links, mut joints) = (1, 0);
         for step in &self.steps {
             let own = link.0.checked_sub(links);

@@ -1,6 +1,6 @@
 use centrode_geometry::{Jet, Point};
 
-use super::parts::{Joint, Link};
+use super::parts::{JointId, LinkId};
 use super::point_series::PointSeries;
 use crate::formula::Taylor;
 use crate::transmission::MotionJet;
@@ -9,19 +9,19 @@ use crate::transmission::MotionJet;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Pose {
     pub(super) joints: Vec<Jet>,
-    pub(super) bodies: Vec<Body>,
+    pub(super) bodies: Vec<BodyMotion>,
 }
 
 /// A link's motion: a point of it and its angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Body {
+pub struct BodyMotion {
     /// Origin of the link's axes.
     pub origin: Jet,
     /// Direction of its first axis, principal value, rad.
     pub angle: MotionJet,
 }
 
-impl Body {
+impl BodyMotion {
     /// A point of the link given in its own axes, mm.
     #[must_use]
     pub fn point(&self, local: Point) -> Jet {
@@ -47,7 +47,7 @@ impl Pose {
     /// # Panics
     /// Never for a joint of the linkage that made this pose.
     #[must_use]
-    pub fn joint(&self, joint: Joint) -> Jet {
+    pub fn joint(&self, joint: JointId) -> Jet {
         self.joints[joint.0]
     }
 
@@ -56,7 +56,7 @@ impl Pose {
     /// # Panics
     /// Never for a link of the linkage that made this pose.
     #[must_use]
-    pub fn body(&self, link: Link) -> Body {
+    pub fn body(&self, link: LinkId) -> BodyMotion {
         self.bodies[link.0]
     }
 
@@ -68,7 +68,7 @@ impl Pose {
 
     /// Every link, the frame first.
     #[must_use]
-    pub fn bodies(&self) -> &[Body] {
+    pub fn bodies(&self) -> &[BodyMotion] {
         &self.bodies
     }
 }

@@ -3,9 +3,9 @@ use centrode_geometry::{Point, Vector};
 use super::assembly::{Linkage, Step};
 use super::dyad::{Closed, prp, rpr, rrp, rrr};
 use super::error::LinkageError;
-use super::parts::{Line, Link};
+use super::parts::{Line, LinkId};
 use super::point_series::PointSeries;
-use super::pose::{Body, Pose};
+use super::pose::{BodyMotion, Pose};
 use super::refilled::Refilled;
 use crate::formula::{LANES, Number, Taylor};
 use crate::transmission::{MotionJet, Transmission};
@@ -21,7 +21,7 @@ pub(super) struct Series<const N: usize, T = f64> {
 
 /// Part of a linkage that others need.
 #[derive(Clone, Copy)]
-pub(super) enum Part {
+pub(super) enum SeriesItem {
     /// A step, by its number.
     Step(usize),
     /// A link's origin and axis, by its number.
@@ -47,7 +47,7 @@ impl<const N: usize, T: Number> Series<N, T> {
     }
 
     /// Origin and first axis of a link.
-    pub(super) fn frame(&self, link: Link) -> (PointSeries<N, T>, PointSeries<N, T>) {
+    pub(super) fn frame(&self, link: LinkId) -> (PointSeries<N, T>, PointSeries<N, T>) {
         self.frames[link.0]
     }
 
@@ -100,7 +100,7 @@ impl Linkage {
     pub fn at(&self, input: f64) -> Result<Pose, LinkageError> {
         let series = self.series::<4>(input);
         self.closes(&series, input)?;
-        let bodies = series.frames.iter().map(|(origin, axis)| Body {
+        let bodies = series.frames.iter().map(|(origin, axis)| BodyMotion {
             origin: origin.jet(),
             angle: MotionJet::of(&axis.angle()),
         });
@@ -170,7 +170,7 @@ impl Linkage {
     pub(super) fn find<const N: usize, T: Number>(
         &self,
         input: T,
-        needed: impl Fn(Part) -> bool,
+        needed: impl Fn(SeriesItem) -> bool,
         s: &mut Series<N, T>,
     ) {
         let still = PointSeries::fixed(Point::origin());
@@ -180,7 +180,7 @@ impl Linkage {
         s.frames
             .push((still, PointSeries::fixed(Point::new(1.0, 0.0))));
         for (number, step) in self.steps.iter().enumerate() {
-            if !needed(Part::Step(number)) {
+            if !needed(SeriesItem::Step(number)) {
                 let [links, joints] = step.makes();
                 (0..links).for_each(|_| s.frames.leave((still, still)));
                 (0..joints).for_each(|_| s.joints.leave(still));
@@ -219,7 +219,7 @@ impl Linkage {
                     let (p, q) = (s.joints[*p], s.joints[*q]);
                     let Closed { at, room } = rrr(p, q, *lengths, *branch);
                     for (end, length) in [(p, lengths.0), (q, lengths.1)] {
-                        if needed(Part::Frame(s.frames.next())) {
+                        if needed(SeriesItem::Frame(s.frames.next())) {
                             s.frames.push((end, at.minus(end).times(1.0 / length)));
                         } else {
                             s.frames.leave((still, still));

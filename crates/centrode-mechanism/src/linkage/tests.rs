@@ -4,7 +4,7 @@ use centrode_geometry::{Jet, Point, Vector};
 use proptest::prelude::{Strategy, prop_assert, prop_assert_eq, proptest};
 
 use super::{
-    Branch, FourBar, Grashof, Joint, Line, Link, Linkage, LinkageError, SixBar, SliderCrank,
+    Branch, FourBar, Grashof, JointId, Line, LinkId, Linkage, LinkageError, SixBar, SliderCrank,
 };
 use crate::transmission::{MotionJet, Transmission};
 
@@ -15,13 +15,13 @@ fn four_bar([a, b, c, d]: [f64; 4], branch: Branch) -> FourBar {
     FourBar::new(a, b, c, d, branch).expect("lengths above zero")
 }
 
-fn fixed(linkage: &mut Linkage, x: f64, y: f64) -> Joint {
-    let joint = linkage.point(Link::FRAME, Point::new(x, y));
+fn fixed(linkage: &mut Linkage, x: f64, y: f64) -> JointId {
+    let joint = linkage.point(LinkId::FRAME, Point::new(x, y));
     joint.expect("finite")
 }
 
 /// A four-bar as a composition: linkage, B, the two bars.
-fn composed([a, b, c, d]: [f64; 4], branch: Branch) -> (Linkage, Joint, super::TwoBars) {
+fn composed([a, b, c, d]: [f64; 4], branch: Branch) -> (Linkage, JointId, super::TwoBars) {
     let mut linkage = Linkage::new();
     let (at_a, at_d) = (fixed(&mut linkage, 0.0, 0.0), fixed(&mut linkage, d, 0.0));
     let (_, at_b) = linkage.crank(at_a, a, 0.0).expect("a length");
@@ -99,7 +99,7 @@ fn a_slider_crank_follows_its_closed_form() {
         let pivot = fixed(&mut linkage, 0.0, 0.0);
         let (_, pin) = linkage.crank(pivot, a, 0.0).expect("a length");
         let line = Line {
-            link: Link::FRAME,
+            link: LinkId::FRAME,
             through: Point::new(0.0, e),
             angle: 0.0,
         };
@@ -132,7 +132,7 @@ fn a_scotch_yoke_is_a_sine_and_a_guided_link_a_tangent() {
     let pivot = fixed(&mut linkage, 0.0, 0.0);
     let (_, pin) = linkage.crank(pivot, 25.0, 0.0).expect("a length");
     let along = |angle: f64| Line {
-        link: Link::FRAME,
+        link: LinkId::FRAME,
         through: Point::new(3.0, 7.0),
         angle,
     };
@@ -224,7 +224,7 @@ fn six_bars_are_compositions() {
     assert_eq!(linkage.closing_inputs(), vec![(0.0, TAU)]);
     for i in 0..50 {
         let pose = linkage.at(0.13 * f64::from(i)).expect("it turns");
-        let between = |a: Joint, b: Joint| (pose.joint(a).point - pose.joint(b).point).norm();
+        let between = |a: JointId, b: JointId| (pose.joint(a).point - pose.joint(b).point).norm();
         assert!((between(ternary, watt.joint) - 140.0).abs() < 1e-11);
         assert!((between(ground, watt.joint) - 150.0).abs() < 1e-11);
         assert!((between(coupler, stephenson.joint) - 170.0).abs() < 1e-11);

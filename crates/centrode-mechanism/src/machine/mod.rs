@@ -271,11 +271,11 @@ pub enum Form {
     /// A shaft or pin.
     Turned(TurnedPart),
     /// A body of another kind.
-    Body(Arc<dyn Body>),
+    Body(Arc<dyn SolidBody>),
 }
 
 /// A body that can be meshed.
-pub trait Body: fmt::Debug + Send + Sync {
+pub trait SolidBody: fmt::Debug + Send + Sync {
     /// A closed triangle mesh within the tolerance.
     ///
     /// # Errors

@@ -36,11 +36,11 @@ pub struct WantedPath {
     curve: Arc<dyn Curve>,
     breaks: Vec<f64>,
     samples: Vec<Sample>,
-    pieces: Vec<Piece>,
+    pieces: Vec<PathPiece>,
 }
 
 /// A smooth piece of the path, the numbers of its samples, and the limit at its end.
-pub(super) type Piece = (SampledPiece, Range<usize>, Sample);
+pub(super) type PathPiece = (SampledPiece, Range<usize>, Sample);
 
 /// A point of the path and its derivatives at a parameter.
 #[derive(Clone, Copy, Debug)]
@@ -245,7 +245,7 @@ impl WantedPath {
         &self.samples
     }
 
-    pub(super) fn pieces(&self) -> &[Piece] {
+    pub(super) fn pieces(&self) -> &[PathPiece] {
         &self.pieces
     }
 

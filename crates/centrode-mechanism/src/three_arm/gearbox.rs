@@ -1,7 +1,7 @@
 use centrode_geometry::{Outline, Point};
 use nalgebra::Rotation2;
 
-use super::{Link, ThreeArm};
+use super::{ThreeArm, ThreeArmLink};
 use crate::gear::Member;
 use crate::machine::Bearing;
 
@@ -20,8 +20,8 @@ pub struct GearboxBody {
 impl ThreeArm {
     /// Position of a link's axis in the carrier's frame, where it is fixed, mm.
     #[must_use]
-    pub fn on_carrier(&self, link: Link) -> Point {
-        let carrier = self.link(Link::Carrier, 0.0).angle.position;
+    pub fn on_carrier(&self, link: ThreeArmLink) -> Point {
+        let carrier = self.link(ThreeArmLink::Carrier, 0.0).angle.position;
         Rotation2::new(-carrier) * self.link(link, 0.0).origin.position
     }
 
@@ -36,8 +36,8 @@ impl ThreeArm {
         let mut around = vec![(Point::origin(), sun)];
         let mut holes = vec![(Point::origin(), design.sun.bore)];
         for k in 0..self.arms() {
-            let middle = self.on_carrier(Link::Intermediate(k));
-            let outer = self.on_carrier(Link::Planet(k));
+            let middle = self.on_carrier(ThreeArmLink::Intermediate(k));
+            let outer = self.on_carrier(ThreeArmLink::Planet(k));
             around.extend([(middle, intermediate), (outer, sun)]);
             holes.extend([
                 (middle, design.intermediate.bore),

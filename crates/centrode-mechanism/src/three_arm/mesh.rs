@@ -1,4 +1,4 @@
-use super::{Link, ThreeArm};
+use super::{ThreeArm, ThreeArmLink};
 
 /// Two gears of a chain in mesh.
 #[derive(Clone, Copy, Debug, Eq, Hash, PartialEq)]
@@ -34,8 +34,8 @@ impl ThreeArm {
     #[must_use]
     pub fn mesh_pose(&self, mesh: GearMesh, input: f64) -> MeshPose {
         let (driver, driven) = match mesh {
-            GearMesh::Sun(k) => (Link::Sun, Link::Intermediate(k)),
-            GearMesh::Planet(k) => (Link::Planet(k), Link::Intermediate(k)),
+            GearMesh::Sun(k) => (ThreeArmLink::Sun, ThreeArmLink::Intermediate(k)),
+            GearMesh::Planet(k) => (ThreeArmLink::Planet(k), ThreeArmLink::Intermediate(k)),
         };
         let (driver, driven) = (self.link(driver, input), self.link(driven, input));
         let line = driven.origin.position - driver.origin.position;

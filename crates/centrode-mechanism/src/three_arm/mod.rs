@@ -23,7 +23,7 @@ pub use figures::Figures;
 pub use gearbox::GearboxBody;
 pub use mesh::{GearMesh, MeshPose};
 pub use parameter::{Parameter, UnknownParameter};
-pub use pose::{Chain, Link, LinkMotion, PointMotion};
+pub use pose::{Chain, LinkMotion, PointMotion, ThreeArmLink};
 pub use posed::NotPosed;
 pub use pusher::{Pusher, PusherError};
 pub use seedling::SeedlingClearance;

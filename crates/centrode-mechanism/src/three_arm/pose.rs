@@ -11,7 +11,7 @@ use crate::transmission::MotionJet;
 /// their axes. Carrier: on the sun's axis, x towards the first intermediate gear. Arm: on its planet's axis, x along the
 /// pusher's axis, the way the clamp points.
 #[derive(Clone, Copy, Debug, Eq, Hash, PartialEq)]
-pub enum Link {
+pub enum ThreeArmLink {
     /// The gear fixed to the frame.
     Sun,
     /// The carrier of all other gears.
@@ -145,23 +145,23 @@ impl Chain<'_> {
 impl ThreeArm {
     /// Motion of a link at a carrier turn; any real input. Chains beyond the last wrap round.
     #[must_use]
-    pub fn link(&self, link: Link, input: f64) -> LinkMotion {
+    pub fn link(&self, link: ThreeArmLink, input: f64) -> LinkMotion {
         let rest = PointMotion::at_rest();
         match link {
-            Link::Sun => LinkMotion {
+            ThreeArmLink::Sun => LinkMotion {
                 origin: rest,
                 angle: MotionJet {
                     position: self.train().carrier_start(),
                     ..MotionJet::default()
                 },
             },
-            Link::Carrier => LinkMotion {
+            ThreeArmLink::Carrier => LinkMotion {
                 origin: rest,
                 angle: self.train().at(input).carrier,
             },
-            Link::Intermediate(chain) => self.chain(chain, input).links()[0],
-            Link::Planet(chain) => self.chain(chain, input).links()[1],
-            Link::Arm(arm) => self.chain(arm, input).links()[2],
+            ThreeArmLink::Intermediate(chain) => self.chain(chain, input).links()[0],
+            ThreeArmLink::Planet(chain) => self.chain(chain, input).links()[1],
+            ThreeArmLink::Arm(arm) => self.chain(arm, input).links()[2],
         }
     }
 

@@ -55,7 +55,7 @@ fn circular_gears_move_the_arm_in_a_circle_without_turning_it() {
         assert!((motion.position - center - tip * 145.0).norm() < 1e-11);
         assert!((motion.velocity.norm() - radius).abs() < 1e-11);
         assert!((motion.acceleration + center.coords).norm() < 1e-10);
-        let intermediate = mechanism.link(Link::Intermediate(0), theta).angle;
+        let intermediate = mechanism.link(ThreeArmLink::Intermediate(0), theta).angle;
         assert!((intermediate.velocity + 2.0).abs() < 1e-12);
     }
     assert!((mechanism.trajectory().height() - 2.0 * radius).abs() < 1e-11);
@@ -92,11 +92,11 @@ fn derivatives_are_those_of_the_motion() {
     let mechanism = resolved(&published());
     let step = 1e-5;
     for link in [
-        Link::Sun,
-        Link::Carrier,
-        Link::Intermediate(1),
-        Link::Planet(2),
-        Link::Arm(0),
+        ThreeArmLink::Sun,
+        ThreeArmLink::Carrier,
+        ThreeArmLink::Intermediate(1),
+        ThreeArmLink::Planet(2),
+        ThreeArmLink::Arm(0),
     ] {
         for i in 0..60 {
             let theta = 0.1037 * f64::from(i) + 0.01;
@@ -135,8 +135,12 @@ fn gears_in_mesh_touch_at_their_pitch_curves_and_roll() {
     for i in 0..50 {
         let theta = 0.17 * f64::from(i);
         let arm = i as u32 % 3;
-        let [sun, middle, planet] = [Link::Sun, Link::Intermediate(arm), Link::Planet(arm)]
-            .map(|l| mechanism.link(l, theta));
+        let [sun, middle, planet] = [
+            ThreeArmLink::Sun,
+            ThreeArmLink::Intermediate(arm),
+            ThreeArmLink::Planet(arm),
+        ]
+        .map(|l| mechanism.link(l, theta));
         for (driver, driven) in [(sun, middle), (planet, middle)] {
             let line = driven.origin.position - driver.origin.position;
             assert!((line.norm() - a).abs() < 1e-11);

@@ -9,7 +9,7 @@ use centrode_export::page::{Curve, Handle, HandlePlane, Picture};
 use centrode_export::{Bundle, ExportError, Format, Options};
 use centrode_geometry::Tolerance;
 use centrode_mechanism::design::{Design, MechanismError};
-use centrode_mechanism::feeder::{Dimension, Feeder, FeederDesign, Part};
+use centrode_mechanism::feeder::{Dimension, Feeder, FeederDesign, FeederPart};
 use centrode_mechanism::gear::IntermittentPair;
 use centrode_mechanism::machine::Machine;
 use serde_json::json;
@@ -164,7 +164,7 @@ fn drawn(machine: &Feeder, gears: Option<&IntermittentPair>) -> Picture {
         return Picture::default();
     };
     let mut picture = picture(&feeder::drawn(machine, gears), tolerance);
-    let link = |part: Part| picture.links.iter().position(|l| l.name == part.name());
+    let link = |part: FeederPart| picture.links.iter().position(|l| l.name == part.name());
     let handles = joints(machine).into_iter().filter_map(|(part, handle)| {
         let link = link(part)?;
         Some(Handle { link, ..handle })
@@ -174,7 +174,7 @@ fn drawn(machine: &Feeder, gears: Option<&IntermittentPair>) -> Picture {
 }
 
 /// Handle on each part, a point that sets one of the linkage's numbers.
-fn joints(machine: &Feeder) -> [(Part, Handle); 6] {
+fn joints(machine: &Feeder) -> [(FeederPart, Handle); 6] {
     let spec = &machine.design().linkage;
     let handle = |name: &str, plane, keys: [&str; 2], values, scale| Handle {
         name: name.into(),
@@ -196,24 +196,24 @@ fn joints(machine: &Feeder) -> [(Part, Handle); 6] {
     let place = |name, keys, values| handle(name, HandlePlane::Cartesian, keys, values, 1.0);
     [
         (
-            Part::Frame,
+            FeederPart::Frame,
             place("axis of the rocker", ["frame", ""], [spec.frame, 0.0]),
         ),
         (
-            Part::Crank,
+            FeederPart::Crank,
             reach("end of the crank", "crank", spec.crank, 1.0),
         ),
         // Both end in one joint: each is held in its middle.
         (
-            Part::Coupler,
+            FeederPart::Coupler,
             reach("middle of the coupler", "coupler", spec.coupler, 0.5),
         ),
         (
-            Part::Rocker,
+            FeederPart::Rocker,
             reach("middle of the rocker", "rocker", spec.rocker, 0.5),
         ),
         (
-            Part::Effector,
+            FeederPart::Effector,
             reach(
                 "tip of the effector",
                 "effector_length",
@@ -223,7 +223,7 @@ fn joints(machine: &Feeder) -> [(Part, Handle); 6] {
         ),
         // On top: a coupler that passes over it must not keep it from being reached.
         (
-            Part::Frame,
+            FeederPart::Frame,
             place(
                 "pivot of the effector",
                 ["pivot[0]", "pivot[1]"],

@@ -1,7 +1,7 @@
 //! Parts list, masses and general arrangement of the machine of every shipped design.
 
 use centrode::export::Options;
-use centrode::export::drawing::Shape;
+use centrode::export::drawing::EntityShape;
 use centrode::export::machine::{arrangement, parts_list};
 use centrode::export::sheet::{Sheet, overlaps};
 use centrode::geometry::Tolerance;
@@ -14,7 +14,7 @@ fn printed(sheet: &Sheet) -> (Vec<&str>, Vec<(&str, usize)>) {
     let mut words = Vec::new();
     let mut lines: Vec<(&str, usize)> = Vec::new();
     for entity in sheet.drawing.plain() {
-        if let Shape::Text(text) = &entity.shape {
+        if let EntityShape::Text(text) = &entity.shape {
             words.push(text.words.as_str());
             continue;
         }

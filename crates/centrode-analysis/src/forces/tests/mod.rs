@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 use centrode_geometry::{Jet, MassProperties, Point};
-use centrode_mechanism::linkage::{Branch, Line, Link as Bar, Linkage, LinkageError};
+use centrode_mechanism::linkage::{Branch, Line, LinkId as Bar, Linkage, LinkageError};
 use centrode_mechanism::machine::{
     Axes, Closure, Constant, Contact, FrameJet, GearMesh, Input, Joint, Linear, Link, Load,
     Machine, PitchCurves, Quantity,

@@ -2,7 +2,7 @@ use std::f64::consts::{PI, TAU};
 
 use centrode_geometry::{Outline, Tolerance, Vector};
 use centrode_mechanism::arm::ArmBody;
-use centrode_mechanism::three_arm::{Link, LinkMotion, ThreeArm};
+use centrode_mechanism::three_arm::{LinkMotion, ThreeArm, ThreeArmLink};
 use nalgebra::{Isometry2, Rotation2};
 
 use crate::interference::{
@@ -170,7 +170,7 @@ fn among_arms<R>(
     let body = shares.body(std::slice::from_ref(arm.outline()))?;
     let train = mechanism.train();
     let (axis, carrier) = (
-        mechanism.link(Link::Arm(0), 0.0).origin.position,
+        mechanism.link(ThreeArmLink::Arm(0), 0.0).origin.position,
         train.at(0.0).carrier.position,
     );
     let axis = Rotation2::new(-carrier) * axis;
@@ -269,7 +269,7 @@ fn at_rest<R>(
     let carried = shares.body(carried)?;
     let still = shares.body(still)?;
     let motion = shares.motion(&carried, [0.0, TAU], |input| {
-        on_frame(&mechanism.link(Link::Arm(0), input))
+        on_frame(&mechanism.link(ThreeArmLink::Arm(0), input))
     })?;
     let moving = [
         Moving {
@@ -298,7 +298,7 @@ fn from_seedlings(
     let stem = shares.body(&[stem])?;
     let arm = shares.body(std::slice::from_ref(arm.outline()))?;
     let motion = shares.motion(&arm, inputs, |input| {
-        on_frame(&mechanism.link(Link::Arm(0), input))
+        on_frame(&mechanism.link(ThreeArmLink::Arm(0), input))
     })?;
     // Seen from the machine, planted seedlings move back evenly.
     let still = mechanism.tip(release, 0);

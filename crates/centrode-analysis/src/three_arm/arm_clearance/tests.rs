@@ -46,7 +46,7 @@ fn brute(a: &[Point], b: &[Point]) -> f64 {
 
 /// An outline carried by the machine's own link, in the machine's frame.
 fn posed(machine: &ThreeArm, outline: &[Point], arm: u32, input: f64) -> Vec<Point> {
-    let link = machine.link(Link::Arm(arm), input);
+    let link = machine.link(ThreeArmLink::Arm(arm), input);
     outline.iter().map(|p| link.point(*p).position).collect()
 }
 
@@ -178,7 +178,7 @@ fn tray_and_stems_are_where_the_machine_has_them() {
     };
     let mut least = f64::INFINITY;
     for input in samples.map(|input| input + release - PI).step_by(4) {
-        let link = machine.link(Link::Arm(0), input);
+        let link = machine.link(ThreeArmLink::Arm(0), input);
         let over = |p: &Point| machine.over_ground(&link.point(*p), input).position;
         let points: Vec<_> = outline.iter().map(over).collect();
         for before in 1..=3 {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use centrode_geometry::{Recent, Tolerance, Vector, checkpoint};
 use centrode_mechanism::gear::design::GearPairDesign;
 use centrode_mechanism::gear::{GearPair, GearPairError, Member};
-use centrode_mechanism::three_arm::{Link, ThreeArm};
+use centrode_mechanism::three_arm::{ThreeArm, ThreeArmLink};
 
 use crate::interference::{Clearance, Motion, Moving, PoseJet, Shares};
 use crate::{ArmClearanceError, Contact, Unit};
@@ -193,13 +193,12 @@ fn gear_clearance(
     pair: &GearPair,
 ) -> Result<Option<GearClearance>, ArmClearanceError> {
     let arms = mechanism.arms();
-    let mut all = vec![Link::Sun];
-    all.extend((0..arms).flat_map(|k| [Link::Intermediate(k), Link::Planet(k)]));
-    let in_mesh = |a: Link, b: Link| match (a, b) {
-        (Link::Sun, Link::Intermediate(_)) => true,
-        (Link::Intermediate(j), Link::Planet(k)) | (Link::Planet(j), Link::Intermediate(k)) => {
-            j == k
-        }
+    let mut all = vec![ThreeArmLink::Sun];
+    all.extend((0..arms).flat_map(|k| [ThreeArmLink::Intermediate(k), ThreeArmLink::Planet(k)]));
+    let in_mesh = |a: ThreeArmLink, b: ThreeArmLink| match (a, b) {
+        (ThreeArmLink::Sun, ThreeArmLink::Intermediate(_)) => true,
+        (ThreeArmLink::Intermediate(j), ThreeArmLink::Planet(k))
+        | (ThreeArmLink::Planet(j), ThreeArmLink::Intermediate(k)) => j == k,
         _ => false,
     };
     let mut nearest: Option<GearClearance> = None;
@@ -208,7 +207,10 @@ fn gear_clearance(
             // Chains repeat the first one: one of the two is the sun or of it.
             let first = matches!(
                 (a, b),
-                (Link::Sun | Link::Intermediate(0) | Link::Planet(0), _)
+                (
+                    ThreeArmLink::Sun | ThreeArmLink::Intermediate(0) | ThreeArmLink::Planet(0),
+                    _
+                )
             );
             if in_mesh(a, b) || !first {
                 continue;
@@ -225,19 +227,19 @@ fn gear_clearance(
 fn between(
     mechanism: &ThreeArm,
     pair: &GearPair,
-    links: [Link; 2],
+    links: [ThreeArmLink; 2],
 ) -> Result<GearClearance, ArmClearanceError> {
-    let gear = |link: Link| match link {
-        Link::Intermediate(_) => pair.gear(Member::Driven),
+    let gear = |link: ThreeArmLink| match link {
+        ThreeArmLink::Intermediate(_) => pair.gear(Member::Driven),
         _ => pair.gear(Member::Driver),
     };
     let axes = links.map(|link| mechanism.on_carrier(link));
     let tips = links.map(|link| gear(link).radii().1);
-    let name = |link: Link| match link {
-        Link::Sun => "the sun".to_owned(),
-        Link::Intermediate(k) => format!("intermediate gear {}", k + 1),
-        Link::Planet(k) => format!("planet {}", k + 1),
-        Link::Carrier | Link::Arm(_) => "the carrier".to_owned(),
+    let name = |link: ThreeArmLink| match link {
+        ThreeArmLink::Sun => "the sun".to_owned(),
+        ThreeArmLink::Intermediate(k) => format!("intermediate gear {}", k + 1),
+        ThreeArmLink::Planet(k) => format!("planet {}", k + 1),
+        ThreeArmLink::Carrier | ThreeArmLink::Arm(_) => "the carrier".to_owned(),
     };
     let mut clearance = GearClearance {
         pair: links.map(name),
@@ -252,14 +254,14 @@ fn between(
         return Ok(clearance);
     }
     let shares = Shares::of(tolerance);
-    let body = |link: Link| shares.body(std::slice::from_ref(gear(link).outline()));
+    let body = |link: ThreeArmLink| shares.body(std::slice::from_ref(gear(link).outline()));
     let bodies = [body(links[0])?, body(links[1])?];
     let motion = |k: usize| {
         let link = links[k];
         shares.motion(&bodies[k], [0.0, TAU], |input| {
             let (gear, carrier) = (
                 mechanism.link(link, input).angle,
-                mechanism.link(Link::Carrier, input).angle,
+                mechanism.link(ThreeArmLink::Carrier, input).angle,
             );
             PoseJet {
                 position: axes[k],

@@ -1,9 +1,9 @@
 //! The face of a gear, and the section through its axis.
 
-use super::part::{Extremes, Part, degrees};
+use super::part::{Extremes, SheetGear, degrees};
 use crate::gear_pair::accuracy::tooth_runout;
 use crate::{
-    drawing::{Anchor, Shape},
+    drawing::{Anchor, EntityShape},
     sheet::{
         Draft, Pen, Scale, fit,
         geometrical::{Frame, NoteLine},
@@ -24,7 +24,12 @@ const MARK: f64 = 0.6;
 const APART: f64 = 16.0;
 
 /// Face view and section C-C, aligned on the axis.
-pub(super) fn views(part: &Part<'_>, scale: Scale, letters: f64, projection: Projection) -> Draft {
+pub(super) fn views(
+    part: &SheetGear<'_>,
+    scale: Scale,
+    letters: f64,
+    projection: Projection,
+) -> Draft {
     let mut draft = face(part, scale, letters);
     let whole = draft.bounds();
     let section = section(part, scale);
@@ -38,13 +43,13 @@ pub(super) fn views(part: &Part<'_>, scale: Scale, letters: f64, projection: Pro
     draft
 }
 
-fn face(part: &Part<'_>, scale: Scale, letters: f64) -> Draft {
+fn face(part: &SheetGear<'_>, scale: Scale, letters: f64) -> Draft {
     let k = scale.factor();
     let mut draft = Draft::lettered(letters).at_scale(k);
-    draft.draw(Pen::Outline, Shape::Contour(part.outline.scaled(k)));
-    draft.draw(Pen::Axis, Shape::Contour(part.pitch_curve.scaled(k)));
+    draft.draw(Pen::Outline, EntityShape::Contour(part.outline.scaled(k)));
+    draft.draw(Pen::Axis, EntityShape::Contour(part.pitch_curve.scaled(k)));
     if let Some(bore) = &part.bore {
-        draft.draw(Pen::Outline, Shape::Contour(bore.scaled(k)));
+        draft.draw(Pen::Outline, EntityShape::Contour(bore.scaled(k)));
     }
     let Bounds { min, max } = part.bounds();
     let (min, max) = (min * k, max * k);
@@ -63,7 +68,7 @@ fn face(part: &Part<'_>, scale: Scale, letters: f64) -> Draft {
     let mark = part.middle(0, 0.0);
     draft.draw(
         Pen::Outline,
-        Shape::Circle {
+        EntityShape::Circle {
             center: (mark.point - mark.normal * (2.0 * part.pair.module())) * k,
             radius: MARK,
         },
@@ -86,7 +91,7 @@ fn cutting_plane(draft: &mut Draft, left: Point, right: Point) {
     }
 }
 
-fn notes(part: &Part<'_>, k: f64) -> Vec<(Point, Vec<NoteLine>)> {
+fn notes(part: &SheetGear<'_>, k: f64) -> Vec<(Point, Vec<NoteLine>)> {
     let mut notes = Vec::new();
     let radius = |p: Point, what: &str| {
         let size = format!("R{:.3} at {:.2}°", p.coords.norm(), degrees(p));
@@ -154,7 +159,7 @@ const PLACES: [(f64, f64); 9] = [
 ];
 
 /// Numbers of the tooth spaces around the face, as many as there is room for.
-fn numbers(part: &Part<'_>, k: f64, draft: &mut Draft) {
+fn numbers(part: &SheetGear<'_>, k: f64, draft: &mut Draft) {
     let count = part.gear.tooth_count();
     let step = part.pitch() * k;
     let every = [1_u32, 2, 5, 10, 20, 50, 100]
@@ -186,7 +191,7 @@ fn numbers(part: &Part<'_>, k: f64, draft: &mut Draft) {
 }
 
 /// The section through the axis along x, and the keyway where that lies there, seen from above; teeth are not cut, ISO 2203.
-fn section(part: &Part<'_>, scale: Scale) -> Draft {
+fn section(part: &SheetGear<'_>, scale: Scale) -> Draft {
     let k = scale.factor();
     let body = part.gear.body();
     let width = body.width * k;
@@ -253,7 +258,7 @@ fn section(part: &Part<'_>, scale: Scale) -> Draft {
 }
 
 /// Bore and keyway, enlarged, with their dimensions; `None` without a keyway.
-pub(super) fn bore(part: &Part<'_>) -> Option<Draft> {
+pub(super) fn bore(part: &SheetGear<'_>) -> Option<Draft> {
     let body = part.gear.body();
     let key = body.keyway?;
     // Drawn as if along x: the notes tell where it is.
@@ -268,8 +273,8 @@ pub(super) fn bore(part: &Part<'_>) -> Option<Draft> {
     let p = Point::new;
     let rim = Outline::circle(Point::origin(), 1.25 * top);
     draft.hatch(&[rim.clone(), outline.scaled(k)], part.tolerance);
-    draft.draw(Pen::Outline, Shape::Contour(outline.scaled(k)));
-    draft.draw(Pen::Thin, Shape::Contour(rim));
+    draft.draw(Pen::Outline, EntityShape::Contour(outline.scaled(k)));
+    draft.draw(Pen::Thin, EntityShape::Contour(rim));
     let reach = 1.25 * top + 3.0;
     draft.line(Pen::Axis, p(-reach, 0.0), p(reach, 0.0));
     draft.line(Pen::Axis, p(0.0, -reach), p(0.0, reach));

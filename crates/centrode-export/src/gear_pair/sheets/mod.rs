@@ -11,7 +11,7 @@ use crate::{
     machine::arrangement,
     package::title_or_name,
     sheet::{
-        Corner, Draft, Piece, Scale, Sheet, SheetError, TitleBlock, compose, mass, number,
+        Corner, Draft, Scale, Sheet, SheetBlock, SheetError, TitleBlock, compose, mass, number,
         view_letters,
     },
 };
@@ -20,7 +20,7 @@ use centrode_mechanism::{
     design::{DrawingSpec, SheetSize},
     gear::{GearPair, Member, OverPins},
 };
-use part::Part;
+use part::SheetGear;
 pub(super) use part::middle;
 pub(crate) use tables::{measured, over_pins};
 
@@ -110,7 +110,7 @@ pub(super) fn labelled(
 ) -> Result<Vec<Sheet>, ExportError> {
     let sheets = match subject.member() {
         Some(member) => {
-            let mut part = Part::new(pair, member, tolerance);
+            let mut part = SheetGear::new(pair, member, tolerance);
             part.label = label;
             part.file = file.to_owned();
             let limits = pair.pin_limits(member).map_err(ExportError::missing)?;
@@ -122,7 +122,7 @@ pub(super) fn labelled(
 }
 
 /// The title block of a gear's sheets.
-fn block(part: &Part<'_>, options: &SheetOptions) -> TitleBlock {
+fn block(part: &SheetGear<'_>, options: &SheetOptions) -> TitleBlock {
     let pair = part.pair;
     let title = match part.member {
         Member::Driver => "Driver gear",
@@ -139,7 +139,7 @@ fn block(part: &Part<'_>, options: &SheetOptions) -> TitleBlock {
 }
 
 fn gear(
-    part: &Part<'_>,
+    part: &SheetGear<'_>,
     limits: Option<&[OverPins; 2]>,
     mut block: TitleBlock,
     options: &SheetOptions,
@@ -159,14 +159,17 @@ fn gear(
     let pieces = |scale: Scale, size: SheetSize| {
         let face = face::views(part, scale, view_letters(size), projection);
         let mut pieces = vec![
-            Piece::table("gear data table", &data),
-            Piece::notes(&lines),
-            Piece::view("face view with section", face),
+            SheetBlock::table("gear data table", &data),
+            SheetBlock::notes(&lines),
+            SheetBlock::view("face view with section", face),
         ];
         let bore = bore.iter().cloned();
-        pieces.extend(bore.map(|draft| Piece::detail("bore detail", draft, Corner::LowerRight)));
+        pieces
+            .extend(bore.map(|draft| SheetBlock::detail("bore detail", draft, Corner::LowerRight)));
         let details = details.iter().cloned();
-        pieces.extend(details.map(|draft| Piece::detail("tooth detail", draft, Corner::LowerLeft)));
+        pieces.extend(
+            details.map(|draft| SheetBlock::detail("tooth detail", draft, Corner::LowerLeft)),
+        );
         pieces
     };
     let bounds = part.bounds();
@@ -177,7 +180,7 @@ fn gear(
     compose(size, &block, extent, &pieces, &flowing)
 }
 
-fn notes(part: &Part<'_>) -> Vec<String> {
+fn notes(part: &SheetGear<'_>) -> Vec<String> {
     let mut lines = vec![
         format!("Exact tooth profile: {}.step.", part.file),
         "Polar angles from the line of centres at φ = 0,".to_owned(),

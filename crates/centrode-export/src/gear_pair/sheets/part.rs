@@ -5,7 +5,7 @@ use centrode_mechanism::gear::{Frame, Gear, GearPair, Member, Role};
 use std::f64::consts::TAU;
 
 /// A gear with what its sheets ask of it, millimetres of the part.
-pub(super) struct Part<'a> {
+pub(super) struct SheetGear<'a> {
     pub(super) pair: &'a GearPair,
     pub(super) gear: &'a Gear,
     pub(super) member: Member,
@@ -44,7 +44,7 @@ pub(in crate::gear_pair) fn middle(pair: &GearPair, member: Member, pitches: f64
     )
 }
 
-impl<'a> Part<'a> {
+impl<'a> SheetGear<'a> {
     pub(super) fn new(pair: &'a GearPair, member: Member, tolerance: Tolerance) -> Self {
         let gear = pair.gear(member);
         let teeth = gear.tooth_count() as usize;

@@ -1,6 +1,6 @@
 //! The tables of a gear's sheets.
 
-use super::part::{Part, degrees};
+use super::part::{SheetGear, degrees};
 use crate::gear_pair::{arrangement, flank_tolerances, outline};
 use crate::{
     drawing::Anchor,
@@ -12,7 +12,7 @@ use centrode_mechanism::{
 };
 
 /// The gear data, in the order of ISO 1340 as far as it goes.
-pub(super) fn data(part: &Part<'_>, found: &[Datum]) -> Table {
+pub(super) fn data(part: &SheetGear<'_>, found: &[Datum]) -> Table {
     let (pair, gear) = (part.pair, part.gear);
     let teeth = pair.teeth();
     let tool = &teeth.tool;
@@ -189,7 +189,7 @@ fn runs(numbers: &[usize]) -> String {
 }
 
 /// File of the points of the contour.
-pub(super) fn profile(part: &Part<'_>) -> Table {
+pub(super) fn profile(part: &SheetGear<'_>) -> Table {
     let points = outline::columns(part.gear, part.tolerance);
     Table::of_file("Profile points", &format!("{}.csv", part.file), &points)
 }

@@ -1,8 +1,8 @@
 //! One tooth, enlarged.
 
-use super::part::{Part, degrees};
+use super::part::{SheetGear, degrees};
 use crate::{
-    drawing::{Anchor, Shape},
+    drawing::{Anchor, EntityShape},
     sheet::{Draft, Pen, Scale, lettering, number},
 };
 use centrode_geometry::{Point, Tolerance, Vector};
@@ -12,7 +12,7 @@ use nalgebra::Rotation2;
 const SHOWN: f64 = 72.0;
 
 /// The teeth where the pitch curve bends most and least towards the axis; one where it is a circle.
-pub(super) fn extremes(part: &Part<'_>) -> Vec<(u32, &'static str)> {
+pub(super) fn extremes(part: &SheetGear<'_>) -> Vec<(u32, &'static str)> {
     let teeth = part.gear.teeth();
     let sound: Vec<(u32, f64)> = (0_u32..)
         .zip(teeth)
@@ -38,7 +38,7 @@ pub(super) fn extremes(part: &Part<'_>) -> Vec<(u32, &'static str)> {
 }
 
 /// A tooth upright, with half a space on both sides.
-pub(super) fn detail(part: &Part<'_>, letter: char, tooth: u32, place: &str) -> Draft {
+pub(super) fn detail(part: &SheetGear<'_>, letter: char, tooth: u32, place: &str) -> Draft {
     let pitch = part.pitch();
     let scale = Scale::largest(1.8 * pitch, SHOWN);
     let k = scale.factor();
@@ -73,10 +73,10 @@ pub(super) fn detail(part: &Part<'_>, letter: char, tooth: u32, place: &str) -> 
                 base + 0.8 * (0.9 * f64::from(i)).sin() * (1.0 - (f64::from(i) / 24.0 - 1.0).abs()),
             )
         });
-        draft.draw(Pen::Thin, Shape::Polyline(wave.collect()));
+        draft.draw(Pen::Thin, EntityShape::Polyline(wave.collect()));
     }
-    draft.draw(Pen::Outline, Shape::Polyline(profile.clone()));
-    draft.draw(Pen::Axis, Shape::Polyline(curve));
+    draft.draw(Pen::Outline, EntityShape::Polyline(profile.clone()));
+    draft.draw(Pen::Axis, EntityShape::Polyline(curve));
     draft.line(Pen::Axis, p(0.0, low - 3.0), p(0.0, high + 3.0));
     let side = &part.gear.teeth()[tooth as usize];
     let foot = [side.leading, side.trailing].map(|s| upright(part.frame(s.crossing).point));

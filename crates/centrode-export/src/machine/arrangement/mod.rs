@@ -15,7 +15,7 @@ use super::parts::parts_list;
 use crate::SheetOptions;
 use crate::drawing::Anchor;
 use crate::sheet::{
-    Corner, Piece, Scale, Sheet, SheetError, Table, TitleBlock, broken, compose, fixed, mass,
+    Corner, Scale, Sheet, SheetBlock, SheetError, Table, TitleBlock, broken, compose, fixed, mass,
     number,
 };
 use axes::Length;
@@ -80,18 +80,18 @@ pub fn arrangement(
         let filled = tables
             .into_iter()
             .filter(|(_, table)| !table.rows.is_empty());
-        let mut pieces: Vec<Piece> = filled
-            .map(|(name, table)| Piece::table(name, table))
+        let mut pieces: Vec<SheetBlock> = filled
+            .map(|(name, table)| SheetBlock::table(name, table))
             .collect();
         if !told.notes.is_empty() {
-            pieces.push(Piece::notes(&told.notes));
+            pieces.push(SheetBlock::notes(&told.notes));
         }
         if !view.scene.lines.is_empty() {
-            pieces.push(Piece::view("machine", view.draft(scale, size)));
+            pieces.push(SheetBlock::view("machine", view.draft(scale, size)));
         }
-        pieces.extend(beside.iter().map(|table| Piece {
+        pieces.extend(beside.iter().map(|table| SheetBlock {
             corner: Corner::UpperLeft,
-            ..Piece::table("motion", table)
+            ..SheetBlock::table("motion", table)
         }));
         pieces
     };

@@ -5,7 +5,7 @@ use centrode_mechanism::machine::{Axis as Along, Place};
 use super::axes::Axis;
 use super::measure::Measured;
 use super::scene::{Drawn, Scene};
-use crate::drawing::{Anchor, Shape};
+use crate::drawing::{Anchor, EntityShape};
 use crate::sheet::{Draft, Pen, Scale, dimension_words, lettering, steady, view_letters};
 
 /// Room between the view and its first dimension line, mm, and from one line to the next.
@@ -56,11 +56,11 @@ impl View<'_> {
                 Drawn::Closed(outline, mean) => {
                     let fine = *pen == Pen::Outline && mean * k < FINE;
                     let pen = if fine { Pen::Thin } else { *pen };
-                    draft.draw(pen, Shape::Contour(outline.scaled(k)));
+                    draft.draw(pen, EntityShape::Contour(outline.scaled(k)));
                 }
                 Drawn::Open(points) => {
                     let points = points.iter().map(|p| p * k).collect();
-                    draft.draw(*pen, Shape::Polyline(points));
+                    draft.draw(*pen, EntityShape::Polyline(points));
                 }
             }
         }
@@ -298,7 +298,7 @@ mod tests {
         assert!(label(&mut draft, Point::new(0.0, -0.5), "pin"));
         let entities = draft.into_entities();
         let placed = entities.iter().find_map(|entity| match &entity.shape {
-            Shape::Text(text) => Some(text.at.y),
+            EntityShape::Text(text) => Some(text.at.y),
             _ => None,
         });
         let y = placed.expect("a name");

@@ -11,9 +11,11 @@ use super::slider_solid;
 use crate::turned::centre;
 use crate::{
     ExportError, Options,
-    drawing::{Anchor, Shape},
+    drawing::{Anchor, EntityShape},
     package::title_or_name,
-    sheet::{Corner, Draft, Piece, Scale, Sheet, Table, TitleBlock, compose, mass, view_letters},
+    sheet::{
+        Corner, Draft, Scale, Sheet, SheetBlock, Table, TitleBlock, compose, mass, view_letters,
+    },
 };
 use centrode_geometry::Point;
 use centrode_mechanism::design::SheetSize;
@@ -38,11 +40,12 @@ pub fn shaft_sheets(shaft: &SpiralShaft, options: &Options) -> Result<Vec<Sheet>
     let groove = section::groove(shaft, tolerance);
     let pieces = |scale: Scale, size: SheetSize| {
         let both = views.draft(scale, view_letters(size));
-        let lower = |name, draft: &Draft| Piece::detail(name, draft.clone(), Corner::LowerLeft);
+        let lower =
+            |name, draft: &Draft| SheetBlock::detail(name, draft.clone(), Corner::LowerLeft);
         vec![
-            Piece::table("shaft data table", &data),
-            Piece::notes(&lines),
-            Piece::view("side view with development", both),
+            SheetBlock::table("shaft data table", &data),
+            SheetBlock::notes(&lines),
+            SheetBlock::view("side view with development", both),
             lower("section", &journal),
             lower("groove section", &groove),
         ]
@@ -65,7 +68,7 @@ pub fn slider_sheets(shaft: &SpiralShaft, options: &Options) -> Result<Vec<Sheet
     block.material.clone_from(&spec.material);
     let pieces = |scale: Scale, size: SheetSize| {
         let draft = slider::views(shaft, scale, view_letters(size), block.projection);
-        vec![Piece::view("slider with section", draft)]
+        vec![SheetBlock::view("slider with section", draft)]
     };
     let size = options.sheet.size.or(shaft.drawing().sheet);
     compose(size, &block, spec.length, &pieces, &[]).map_err(ExportError::no_sheet("slider"))
@@ -95,16 +98,16 @@ fn notes(shaft: &SpiralShaft) -> Vec<String> {
 }
 
 /// A shape of a drawing at a scale, with every point put where `place` says; `None` for words and heads.
-fn scaled(shape: &Shape, k: f64, place: impl Fn(Point) -> Point) -> Option<Shape> {
+fn scaled(shape: &EntityShape, k: f64, place: impl Fn(Point) -> Point) -> Option<EntityShape> {
     let at = |p: &Point| Point::from(place(*p).coords * k);
     Some(match shape {
-        Shape::Contour(outline) => {
+        EntityShape::Contour(outline) => {
             let corners: Vec<Point> = outline.segments().iter().map(|s| at(&s.start())).collect();
-            Shape::Contour(centrode_geometry::Outline::polygon(&corners))
+            EntityShape::Contour(centrode_geometry::Outline::polygon(&corners))
         }
-        Shape::Polyline(points) => Shape::Polyline(points.iter().map(at).collect()),
-        Shape::Line(a, b) => Shape::Line(at(a), at(b)),
-        Shape::Circle { center, radius } => Shape::Circle {
+        EntityShape::Polyline(points) => EntityShape::Polyline(points.iter().map(at).collect()),
+        EntityShape::Line(a, b) => EntityShape::Line(at(a), at(b)),
+        EntityShape::Circle { center, radius } => EntityShape::Circle {
             center: at(center),
             radius: k * radius,
         },

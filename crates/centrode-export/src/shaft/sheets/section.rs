@@ -5,7 +5,7 @@ use crate::sheet::geometrical::{Frame, NoteLine};
 use crate::sheet::{fit, number};
 use crate::turned::across;
 use crate::{
-    drawing::{Anchor, Shape},
+    drawing::{Anchor, EntityShape},
     sheet::{Draft, Pen, Scale},
 };
 use centrode_geometry::{Arc, Outline, Point, Segment, Tolerance, Vector};
@@ -107,7 +107,7 @@ pub(super) fn groove(shaft: &SpiralShaft, tolerance: Tolerance) -> Draft {
 fn edge(draft: &mut Draft, pen: Pen, segment: &Segment) {
     match segment {
         Segment::Line(a, b) => draft.line(pen, *a, *b),
-        Segment::Arc(arc) => draft.draw(pen, Shape::Arc(*arc)),
+        Segment::Arc(arc) => draft.draw(pen, EntityShape::Arc(*arc)),
         Segment::Poly(_) => {}
     }
 }

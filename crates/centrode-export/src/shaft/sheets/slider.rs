@@ -1,7 +1,7 @@
 //! The slider along its pin, and a section through it.
 
 use crate::{
-    drawing::Shape,
+    drawing::EntityShape,
     sheet::{Draft, Pen, Scale, fit, number},
 };
 use centrode_geometry::{Bounds, Outline, Point, Tolerance, Vector};
@@ -28,10 +28,10 @@ pub(super) fn views(
     let p = Point::new;
     let mut draft = Draft::lettered(letters).at_scale(k);
     let outline = spec.outline(shaft.groove().width()).scaled(k);
-    draft.draw(Pen::Outline, Shape::Contour(outline));
+    draft.draw(Pen::Outline, EntityShape::Contour(outline));
     draft.draw(
         Pen::Outline,
-        Shape::Circle {
+        EntityShape::Circle {
             center: Point::origin(),
             radius: bore,
         },

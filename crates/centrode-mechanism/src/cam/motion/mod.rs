@@ -19,11 +19,11 @@ const ROUNDING: f64 = 1e-9;
 pub struct Motion {
     /// Input at which the first segment starts, in `[0, 2 pi)`.
     start: f64,
-    pieces: Vec<Piece>,
+    pieces: Vec<MotionPiece>,
 }
 
 #[derive(Clone, Debug)]
-struct Piece {
+struct MotionPiece {
     /// Input from the start of the cycle.
     from: f64,
     span: f64,
@@ -151,7 +151,7 @@ impl Motion {
         let (mut from, mut level, mut lowest) = (0.0, 0.0_f64, 0.0_f64);
         for segment in &spec.segments {
             let span = segment.span();
-            pieces.push(Piece {
+            pieces.push(MotionPiece {
                 from,
                 span,
                 level,
@@ -265,7 +265,7 @@ impl Course {
     }
 }
 
-impl Piece {
+impl MotionPiece {
     /// Motion at an input counted from the start of the piece.
     fn at(&self, input: f64) -> MotionJet {
         let mut x = Taylor::constant(input / self.span);
@@ -301,7 +301,7 @@ impl Transmission for Motion {
     }
 
     fn breaks(&self) -> Vec<f64> {
-        let of_pieces = self.pieces.iter().flat_map(Piece::breaks);
+        let of_pieces = self.pieces.iter().flat_map(MotionPiece::breaks);
         let mut breaks: Vec<f64> = of_pieces
             .map(|from| (self.start + from).rem_euclid(TAU))
             .collect();

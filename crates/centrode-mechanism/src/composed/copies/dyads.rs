@@ -1,9 +1,9 @@
 //! Copies of dyads.
 
-use super::Piece;
+use super::ChainCopy;
 use crate::composed::{ComposedDyadSpec, ComposedError};
 
-impl Piece<'_> {
+impl ChainCopy<'_> {
     pub(super) fn dyad(
         &mut self,
         name: &str,

@@ -2,11 +2,11 @@
 
 use nalgebra::{Rotation2, Vector2};
 
-use super::{Piece, Spin};
+use super::{ChainCopy, Spin};
 use crate::composed::points::Reference;
 use crate::composed::{ComposedDesign, ComposedError, LoadAxes};
 
-impl Piece<'_> {
+impl ChainCopy<'_> {
     /// Adds the loads on the bodies that are copied: turned with a copy that is the original turned, ahead by the input where
     /// a copy stands as the original does later.
     pub(super) fn loads(&mut self, design: &ComposedDesign) -> Result<(), ComposedError> {

@@ -65,7 +65,7 @@ pub(super) enum Spin {
 }
 
 /// One piece of a chain under copying.
-struct Piece<'a> {
+struct ChainCopy<'a> {
     whole: &'a mut ComposedDesign,
     expansion: &'a mut Expansion,
     points: &'a BodyPoints,
@@ -89,7 +89,7 @@ pub(super) fn add(
     let spec = &design.copies[name];
     let bodies: BTreeSet<String> = spec.bodies.iter().cloned().collect();
     for piece in 1..spec.count {
-        let mut piece = Piece {
+        let mut piece = ChainCopy {
             whole: &mut *whole,
             expansion: &mut *expansion,
             points,
@@ -105,7 +105,7 @@ pub(super) fn add(
     Ok(())
 }
 
-impl Piece<'_> {
+impl ChainCopy<'_> {
     fn wrong(&self, why: String) -> ComposedError {
         let key = self.key.clone();
         ComposedError::NoCopies { key, why }

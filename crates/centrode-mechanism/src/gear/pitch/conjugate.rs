@@ -2,7 +2,7 @@ use centrode_geometry::{Curve, Jet, Point};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::plane::Shape;
+use super::plane::ScalableCurve;
 use super::size::{OwnSize, Size};
 use super::{Draft, PitchError, PitchSpec};
 use crate::gear::{self, Rolling};
@@ -96,7 +96,7 @@ impl Curve for Rolled {
     }
 }
 
-impl Shape for Rolled {
+impl ScalableCurve for Rolled {
     fn rescale(&mut self, factor: f64) {
         self.scale *= factor;
     }

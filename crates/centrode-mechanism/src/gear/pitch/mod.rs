@@ -42,7 +42,7 @@ pub use transmission::{Ratio, Transmission};
 
 pub(crate) use bspline::{basis as spline_basis, closed_spline};
 pub(crate) use piecewise::HIGHEST_DEGREE;
-use plane::Shape;
+use plane::ScalableCurve;
 use size::Size;
 
 /// A pitch curve as written: one of the kinds, by the key `kind`.
@@ -201,7 +201,7 @@ impl PitchSpec {
 pub(crate) struct Draft {
     /// Key of the shape.
     key: &'static str,
-    curve: Box<dyn Shape>,
+    curve: Box<dyn ScalableCurve>,
     size: Size,
     definition: String,
     implied_ratio: Option<(u32, u32)>,
@@ -210,7 +210,7 @@ pub(crate) struct Draft {
 impl Draft {
     fn new(
         key: &'static str,
-        curve: impl Shape + 'static,
+        curve: impl ScalableCurve + 'static,
         size: Size,
         definition: String,
     ) -> Result<Self, PitchError> {
@@ -237,7 +237,7 @@ impl Draft {
             (None, Some(z)) => Some(written / (PI * f64::from(z))),
             (_, None) => None,
         };
-        let shape: Arc<dyn Shape> = Arc::from(self.curve);
+        let shape: Arc<dyn ScalableCurve> = Arc::from(self.curve);
         Ok(Pitch {
             curve: shape,
             tooth_count,

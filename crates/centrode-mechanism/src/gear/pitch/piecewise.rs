@@ -1,6 +1,6 @@
 use centrode_geometry::{Curve, Jet, Point, Vector};
 
-use super::plane::{Derivatives, Direction, Shape, polar_jet};
+use super::plane::{Derivatives, Direction, ScalableCurve, polar_jet};
 
 /// Highest degree of a pitch spline.
 pub(crate) const HIGHEST_DEGREE: usize = 5;
@@ -87,7 +87,7 @@ impl Curve for PiecewiseCurve {
     }
 }
 
-impl Shape for PiecewiseCurve {
+impl ScalableCurve for PiecewiseCurve {
     fn rescale(&mut self, factor: f64) {
         self.scale *= factor;
     }

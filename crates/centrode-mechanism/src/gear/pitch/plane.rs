@@ -52,7 +52,7 @@ pub(crate) fn polar_jet(direction: &Direction, turn: [f64; 3], radius: &Derivati
 }
 
 /// A closed curve whose size can still be changed.
-pub(crate) trait Shape: Curve {
+pub(crate) trait ScalableCurve: Curve {
     /// Multiplies every length of the curve by `factor`.
     fn rescale(&mut self, factor: f64);
 
@@ -112,7 +112,7 @@ impl<L: RadiusLaw> Curve for PolarCurve<L> {
     }
 }
 
-impl<L: RadiusLaw> Shape for PolarCurve<L> {
+impl<L: RadiusLaw> ScalableCurve for PolarCurve<L> {
     fn rescale(&mut self, factor: f64) {
         self.scale *= factor;
     }

@@ -5,7 +5,7 @@ use std::f64::consts::{PI, TAU};
 use centrode_geometry::{Curve, Jet, bracketed_minimum};
 
 use super::PitchError;
-use super::plane::Shape;
+use super::plane::ScalableCurve;
 
 /// Fewest samples of a whole curve and of one analytic piece of it.
 const SAMPLES: (usize, usize) = (384, 8);
@@ -31,7 +31,10 @@ pub(crate) fn piece_ends(curve: &dyn Curve) -> Vec<f64> {
 }
 
 /// Refuses a curve that is not a simple, counter-clockwise turn around the origin.
-pub(crate) fn goes_round_once(curve: &dyn Shape, key: &'static str) -> Result<(), PitchError> {
+pub(crate) fn goes_round_once(
+    curve: &dyn ScalableCurve,
+    key: &'static str,
+) -> Result<(), PitchError> {
     if curve.goes_round_by_form() {
         // Only the numbers themselves can still be too large.
         return (0..8)
@@ -85,7 +88,7 @@ fn joined(key: &'static str, end: &Jet, start: &Jet) -> Result<(), PitchError> {
     Ok(())
 }
 
-fn sample(curve: &dyn Shape, key: &'static str, t: f64) -> Result<Sample, PitchError> {
+fn sample(curve: &dyn ScalableCurve, key: &'static str, t: f64) -> Result<Sample, PitchError> {
     let jet = curve.at(t);
     let p = jet.point.coords;
     let square = p.norm_squared();
@@ -114,7 +117,7 @@ fn sample(curve: &dyn Shape, key: &'static str, t: f64) -> Result<Sample, PitchE
 
 /// State of a walk along the curve.
 struct Walk<'a> {
-    curve: &'a dyn Shape,
+    curve: &'a dyn ScalableCurve,
     key: &'static str,
     turn: f64,
     halvings: u32,

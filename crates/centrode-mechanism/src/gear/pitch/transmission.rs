@@ -92,7 +92,7 @@ impl Transmission {
                 formula_alone("driven_angle_deg", samples, self.interpolation)?;
                 let formula = read_formula("expression", text)?;
                 let total = formula.at(TAU).0[0] - formula.at(0.0).0[0];
-                let law = Law::Driven(formula);
+                let law = RatioForm::Driven(formula);
                 (law, "expression", total, format!("driven angle = {text}"))
             }
             None => self.sampled()?,
@@ -107,7 +107,7 @@ impl Transmission {
         )
     }
 
-    fn sampled(&self) -> Result<(Law, &'static str, f64, String), PitchError> {
+    fn sampled(&self) -> Result<(RatioForm, &'static str, f64, String), PitchError> {
         let key = "driven_angle_deg";
         if self.driven_angle.is_empty() {
             let rule = "is missing: give expression or driven_angle_deg";
@@ -131,7 +131,7 @@ impl Transmission {
             "driven angle, {} through {steps} steps",
             interpolation.name()
         );
-        Ok((Law::Swing(mean, swing), key, total, definition))
+        Ok((RatioForm::Swing(mean, swing), key, total, definition))
     }
 
     fn size(&self) -> Result<Size, PitchError> {
@@ -153,7 +153,7 @@ impl Ratio {
         let size = size(self.center_distance, self.module, self.tooth_count)?;
         if let Some(text) = &self.expression {
             formula_alone("ratio", !self.ratio.is_empty(), self.interpolation)?;
-            let law = Law::Ratio(read_formula("expression", text)?);
+            let law = RatioForm::Ratio(read_formula("expression", text)?);
             let definition = format!("d driven / d driver = {text}");
             return draft(
                 law,
@@ -173,7 +173,7 @@ impl Ratio {
             positive("ratio", q)?;
         }
         let interpolation = self.interpolation.unwrap_or(Interpolation::Quintic);
-        let law = Law::Table(Periodic::even("ratio", &self.ratio, interpolation)?);
+        let law = RatioForm::Table(Periodic::even("ratio", &self.ratio, interpolation)?);
         let definition = format!(
             "d driven / d driver, {} through {} samples",
             interpolation.name(),
@@ -212,7 +212,7 @@ fn size(own: Option<f64>, module: Option<f64>, z: Option<u32>) -> Result<Size, P
 
 /// The pitch curve of a law whose driven gear makes the angle `total` in one driver turn.
 fn draft(
-    law: Law,
+    law: RatioForm,
     key: &'static str,
     total: Option<f64>,
     definition: String,
@@ -291,7 +291,7 @@ fn turns(key: &'static str, turns: f64) -> Result<(u32, u32), PitchError> {
 }
 
 #[derive(Debug)]
-enum Law {
+enum RatioForm {
     /// Driven angle.
     Driven(Formula),
     /// Mean ratio and the driven angle's departure from it.
@@ -301,7 +301,7 @@ enum Law {
     Table(Periodic),
 }
 
-impl Law {
+impl RatioForm {
     /// d driven / d driver; its first four coefficients are known.
     fn ratio(&self, phi: f64) -> Taylor {
         match self {
@@ -322,7 +322,7 @@ impl Law {
 
 #[derive(Debug)]
 struct LawRadius {
-    law: Law,
+    law: RatioForm,
     a: f64,
     breaks: Vec<f64>,
 }

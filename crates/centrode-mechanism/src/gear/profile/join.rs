@@ -1,6 +1,6 @@
 use centrode_geometry::{Kept, Outline, PolySegment, Segment, checkpoint};
 
-use super::{Cutter, Member, Piece, Profile, ProfileError, Role, Side, Tooth};
+use super::{Cutter, Member, Profile, ProfileError, Role, Side, Tooth, ToothCurve};
 
 /// Length, in tolerances of the contour, over which two curves may part from their joint in one direction within
 /// rounding.
@@ -10,7 +10,7 @@ impl Cutter<'_> {
     /// Joins what is left of the pieces into the contour, and finds what it leaves of each tooth.
     pub(super) fn join(
         &self,
-        pieces: &[Piece],
+        pieces: &[ToothCurve],
         kept: &[Kept],
         mut teeth: Vec<Tooth>,
     ) -> Result<Profile, ProfileError> {

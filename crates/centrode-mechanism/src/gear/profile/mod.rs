@@ -28,7 +28,7 @@ pub(crate) struct Profile {
     pub(crate) teeth: Vec<Tooth>,
 }
 
-struct Piece {
+struct ToothCurve {
     poly: PolySegment,
     role: Role,
     tooth: u32,
@@ -74,7 +74,7 @@ impl Cutter<'_> {
 
     /// Cuts every tooth and joins them into one contour.
     pub(crate) fn cut(&self, plans: &[ToothPlan]) -> Result<Profile, ProfileError> {
-        let mut pieces: Vec<Piece> = Vec::with_capacity(plans.len() * 16);
+        let mut pieces: Vec<ToothCurve> = Vec::with_capacity(plans.len() * 16);
         let mut teeth = Vec::with_capacity(plans.len());
         for (k, plan) in plans.iter().enumerate() {
             checkpoint();
@@ -93,7 +93,7 @@ impl Cutter<'_> {
     }
 
     /// Parts of the pieces without their loops.
-    fn without_loops(&self, pieces: &[Piece]) -> Result<Vec<Kept>, ProfileError> {
+    fn without_loops(&self, pieces: &[ToothCurve]) -> Result<Vec<Kept>, ProfileError> {
         for (piece, next) in pieces.iter().zip(pieces.iter().cycle().skip(1)) {
             let gap = (next.poly.start() - piece.poly.end()).norm();
             if gap > 10.0 * self.tolerance.mm() {
@@ -181,7 +181,7 @@ impl Cutter<'_> {
         index: u32,
         plan: &ToothPlan,
         next: &FlankPlan,
-        pieces: &mut Vec<Piece>,
+        pieces: &mut Vec<ToothCurve>,
     ) -> Tooth {
         let leading = self.flank(&plan.leading, Side::Leading);
         let trailing = self.flank(&plan.trailing, Side::Trailing);
@@ -196,7 +196,7 @@ impl Cutter<'_> {
         let trail_center = parameter(plan.trailing.crossing + plan.trailing.corner.center);
         let next_center = parameter(next.crossing - next.corner.center);
 
-        let fillet = |flank: &Flank<'_>, corner: &Corner, pieces: &mut Vec<Piece>| {
+        let fillet = |flank: &Flank<'_>, corner: &Corner, pieces: &mut Vec<ToothCurve>| {
             let (center, end, leads) = match flank.side {
                 Side::Leading => (lead_center, lead_end, true),
                 Side::Trailing => (trail_center, trail_end, false),
@@ -244,7 +244,7 @@ impl Cutter<'_> {
                 pieces.extend(
                     PolySegment::fit(step, 0.0, 1.0, self.tolerance)
                         .into_iter()
-                        .map(|poly| Piece {
+                        .map(|poly| ToothCurve {
                             poly,
                             role: Role::Root,
                             tooth: index,
@@ -295,7 +295,7 @@ impl Cutter<'_> {
     /// such a parameter into the curve's own.
     fn fit(
         &self,
-        pieces: &mut Vec<Piece>,
+        pieces: &mut Vec<ToothCurve>,
         (role, side, tooth): (Role, Side, u32),
         (from, to): (f64, f64),
         own: &dyn Fn(f64) -> f64,
@@ -315,7 +315,7 @@ impl Cutter<'_> {
             }
             let fitted = PolySegment::fit_spans(curve, pair[0], pair[1], self.tolerance);
             for (poly, t0, t1) in fitted {
-                pieces.push(Piece {
+                pieces.push(ToothCurve {
                     poly,
                     role,
                     tooth,

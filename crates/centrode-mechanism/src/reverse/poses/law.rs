@@ -20,7 +20,7 @@ const UNEVEN: f64 = 3.0;
 
 /// Turns of carrier and planet from pose to pose, both in the carrier's sense.
 #[derive(Clone, Debug)]
-pub(super) struct Law {
+pub(super) struct PoseLaw {
     sense: f64,
     /// Directions of carrier and arm in the first pose, rad.
     start: [f64; 2],
@@ -30,7 +30,7 @@ pub(super) struct Law {
 /// The law with the logarithm of its ratio as a sum of harmonics.
 #[derive(Clone, Debug)]
 pub(super) struct MildLaw {
-    law: Law,
+    law: PoseLaw,
     amplitudes: [f64; TERMS],
 }
 
@@ -51,7 +51,7 @@ fn cost(term: usize) -> f64 {
     1.0 + k.powi(4)
 }
 
-impl Law {
+impl PoseLaw {
     pub(super) fn through(poses: &[KeyPose], circle: &Circle, sense: f64) -> Self {
         let angles: Vec<[f64; 2]> = poses
             .iter()

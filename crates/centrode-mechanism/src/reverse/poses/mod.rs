@@ -13,7 +13,7 @@ use nalgebra::{Matrix2, SMatrix, SVector};
 use thiserror::Error;
 
 pub use self::harmonics::Harmonics;
-use self::law::{Law, MildLaw};
+use self::law::{MildLaw, PoseLaw};
 use super::{AxisFault, PathError, TwoBar, WantedPath};
 use crate::digits::told;
 use crate::three_arm::design::Direction;
@@ -179,7 +179,7 @@ impl KeyPoses {
             }
             circles += 1;
             for sense in [1.0, -1.0] {
-                let law = Law::through(poses, &circle, sense);
+                let law = PoseLaw::through(poses, &circle, sense);
                 passed = passed.max(law.passed());
                 let Some(mild) = law.is_in_order().then(|| law.mildest()).flatten() else {
                     continue;

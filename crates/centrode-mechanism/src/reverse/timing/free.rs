@@ -9,13 +9,13 @@ const MOST: f64 = 7.0;
 /// the way between them.
 #[derive(Clone, Debug)]
 pub(super) struct Free {
-    shape: Shape,
+    shape: LogSpeed,
     way: Antiderivative,
 }
 
 /// The logarithm of the speed over an interval.
 #[derive(Clone, Copy, Debug)]
-struct Shape {
+struct LogSpeed {
     from: f64,
     span: f64,
     /// Polynomial of the share of the span.
@@ -46,7 +46,7 @@ impl Free {
             -15.0 * d + 7.0 * e - f,
             6.0 * d - 3.0 * e + 0.5 * f,
         ];
-        let with = |bow: f64| Shape {
+        let with = |bow: f64| LogSpeed {
             from,
             span,
             coefficients,
@@ -85,7 +85,7 @@ impl Free {
     }
 }
 
-impl Shape {
+impl LogSpeed {
     /// Logarithm of the speed and two derivatives by the input.
     fn at(&self, input: f64) -> [f64; 3] {
         let x = (input - self.from) / self.span;

@@ -12,7 +12,7 @@ use thiserror::Error;
 
 use self::free::Free;
 use self::order::{Placed, Swing};
-use self::search::Shape;
+use self::search::StretchShape;
 use crate::degrees;
 use crate::digits::told;
 use crate::transmission::{MotionJet, Transmission};
@@ -206,7 +206,7 @@ impl Timing {
         output: &Arc<dyn Transmission>,
         swing: &Swing,
         placed: &[Placed<'_>],
-        shapes: &[Shape],
+        shapes: &[StretchShape],
     ) -> Result<Self, TimingError> {
         let mut law = Self {
             output: Arc::clone(output),
@@ -312,7 +312,7 @@ impl Timing {
 }
 
 impl Stretch {
-    fn of(placed: &Placed<'_>, shape: &Shape) -> Self {
+    fn of(placed: &Placed<'_>, shape: &StretchShape) -> Self {
         let [from, to] = placed.angles;
         let angles = match placed.section.wanted {
             Wanted::Even(_) => placed.angles,

@@ -19,7 +19,7 @@ const MOST_SKEW: f64 = 4.0;
 
 /// Numbers that are free of a section and of the stretch after it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Shape {
+pub(super) struct StretchShape {
     /// Shares of a rest's halves, from the ends of its band on, through which the crank goes before and after the section.
     pub(super) late: f64,
     pub(super) early: f64,
@@ -37,7 +37,7 @@ enum Number {
 
 const NUMBERS: [Number; 3] = [Number::Late, Number::Early, Number::Skew];
 
-impl Shape {
+impl StretchShape {
     /// The shape with a number that is greater by a step, within its limits.
     fn moved(mut self, number: Number, by: f64) -> Self {
         match number {
@@ -57,8 +57,8 @@ pub(super) fn mildest(
     swing: &Swing,
     placed: &[Placed<'_>],
 ) -> Result<(f64, Timing), TimingError> {
-    let mut shapes = vec![Shape::default(); placed.len()];
-    let made = |shapes: &[Shape]| {
+    let mut shapes = vec![StretchShape::default(); placed.len()];
+    let made = |shapes: &[StretchShape]| {
         let law = Timing::through(output, swing, placed, shapes)?;
         Ok::<_, TimingError>((sharpest(&law), law))
     };

@@ -1,7 +1,7 @@
 use super::*;
 use crate::design::DesignSpec as _;
 use crate::gear::pitch::PitchSpec;
-use crate::three_arm::Link;
+use crate::three_arm::ThreeArmLink;
 use crate::three_arm::design::ThreeArmDesign;
 use centrode_geometry::Tolerance;
 
@@ -29,8 +29,8 @@ fn stands(mechanism: &ThreeArm) {
     for arm in 0..mechanism.arms() {
         for i in 0..24 {
             let input = 0.1 + TAU * f64::from(i) / 24.0;
-            let frame = mechanism.link(Link::Arm(arm), input);
-            let carrier = mechanism.link(Link::Carrier, input).angle.position;
+            let frame = mechanism.link(ThreeArmLink::Arm(arm), input);
+            let carrier = mechanism.link(ThreeArmLink::Carrier, input).angle.position;
             let back = pusher.retraction(mechanism.own_input(input, arm));
             let roller = frame.point(pusher.roller(back.position)).position;
             // Seen from the cam, whose frame turns with the carrier, each later by its share.

@@ -4,7 +4,7 @@ use crate::FAMILIES;
 use serde::Serialize;
 use serde_json::{Map, Value};
 
-use super::schema::{Shape, described, marked, shape};
+use super::schema::{Requirements, described, marked, shape};
 
 /// Mark of the schema on what says how bodies look and moves nothing.
 const DETAIL: &str = "x-detail";
@@ -135,7 +135,7 @@ pub(crate) fn keys_beside(text: &str, table: &str, word: &str) -> Option<Map<Str
     let mut here = schema();
     let mut value = written;
     for name in table.split('.').filter(|name| !name.is_empty()) {
-        let Shape::Table { properties, .. } = shape(schema(), here, &value) else {
+        let Requirements::Table { properties, .. } = shape(schema(), here, &value) else {
             return None;
         };
         here = properties.iter().find(|(key, _)| key == name)?.1;
@@ -143,7 +143,7 @@ pub(crate) fn keys_beside(text: &str, table: &str, word: &str) -> Option<Map<Str
     }
     let tagged = Value::Object(Map::from_iter([("kind".to_owned(), word.into())]));
     match shape(schema(), here, &tagged) {
-        Shape::Table {
+        Requirements::Table {
             tag: Some(_),
             properties,
             ..
@@ -195,15 +195,15 @@ fn add(
     let nothing = Value::Null;
     let shown = written.or(default).unwrap_or(&nothing);
     let (tag, words, properties, required) = match shape(schema(), sub, shown) {
-        Shape::Table {
+        Requirements::Table {
             tag,
             words,
             properties,
             required,
         } => (tag, words, properties, required),
         // A word that is none of the tags: only the choice can be shown.
-        Shape::Tagged { tag, words } => (Some(tag), words, Vec::new(), Vec::new()),
-        Shape::Leaf(_) => return,
+        Requirements::Tagged { tag, words } => (Some(tag), words, Vec::new(), Vec::new()),
+        Requirements::Leaf(_) => return,
     };
     let at = out.len();
     out.push(Table {
@@ -247,7 +247,7 @@ fn add(
         let default = default.and_then(|d| d.get(name)).or(sub.get("default"));
         let required = required.iter().any(|r| r == name);
         match shape(schema(), sub, own.or(default).unwrap_or(&nothing)) {
-            Shape::Table { .. } | Shape::Tagged { .. } => {
+            Requirements::Table { .. } | Requirements::Tagged { .. } => {
                 let optional = !required && default.is_none();
                 let inner = out.len();
                 add(
@@ -261,7 +261,7 @@ fn add(
                 );
                 out[inner].may_go = own.is_some() && !required;
             }
-            Shape::Leaf(leaf) => {
+            Requirements::Leaf(leaf) => {
                 let words = described(sub);
                 fields.push(Field {
                     key: path(name),

@@ -3,7 +3,7 @@ use serde_json::{Map, Value};
 use super::field::{Choice, Kind};
 
 /// Requirements of a part of the JSON schema, for the value that is there.
-pub(super) enum Shape<'a> {
+pub(super) enum Requirements<'a> {
     /// A table with known keys; the tag among them, if it has one, has chosen them.
     Table {
         tag: Option<&'a str>,
@@ -26,7 +26,7 @@ pub(super) struct Leaf {
 }
 
 /// Requirements of the schema `sub`, a part of `root`, where `value` is written.
-pub(super) fn shape<'a>(root: &'a Value, sub: &'a Value, value: &Value) -> Shape<'a> {
+pub(super) fn shape<'a>(root: &'a Value, sub: &'a Value, value: &Value) -> Requirements<'a> {
     let sub = followed(root, sub);
     let options = ["oneOf", "anyOf"]
         .into_iter()
@@ -45,7 +45,7 @@ pub(super) fn shape<'a>(root: &'a Value, sub: &'a Value, value: &Value) -> Shape
         if let Some(tag) = options.first().and_then(|o| tag_of(o)) {
             return tagged(tag, &options, value);
         }
-        return Shape::Leaf(choice(&options));
+        return Requirements::Leaf(choice(&options));
     }
     if let Some(properties) = sub.get("properties").and_then(Value::as_object) {
         return table(None, Vec::new(), sub, properties);
@@ -56,14 +56,14 @@ pub(super) fn shape<'a>(root: &'a Value, sub: &'a Value, value: &Value) -> Shape
     {
         // A table of names that the user gives: those that are written.
         let names = value.as_object().into_iter().flatten();
-        return Shape::Table {
+        return Requirements::Table {
             tag: None,
             words: Vec::new(),
             properties: names.map(|(name, _)| (name.clone(), item)).collect(),
             required: Vec::new(),
         };
     }
-    Shape::Leaf(leaf(root, sub))
+    Requirements::Leaf(leaf(root, sub))
 }
 
 /// Schema that a reference leads to.
@@ -96,7 +96,7 @@ fn tag_of(option: &Value) -> Option<&str> {
         .map(|(name, _)| name.as_str())
 }
 
-fn tagged<'a>(tag: &'a str, options: &[&'a Value], value: &Value) -> Shape<'a> {
+fn tagged<'a>(tag: &'a str, options: &[&'a Value], value: &Value) -> Requirements<'a> {
     let word = |o: &Value| {
         o["properties"][tag]["const"]
             .as_str()
@@ -114,7 +114,7 @@ fn tagged<'a>(tag: &'a str, options: &[&'a Value], value: &Value) -> Shape<'a> {
     let option = options.iter().find(|o| Some(word(o).as_str()) == chosen);
     match option.and_then(|o| Some((o, o.get("properties")?.as_object()?))) {
         Some((option, properties)) => table(Some(tag), words, option, properties),
-        None => Shape::Tagged { tag, words },
+        None => Requirements::Tagged { tag, words },
     }
 }
 
@@ -123,7 +123,7 @@ fn table<'a>(
     words: Vec<Choice>,
     sub: &'a Value,
     properties: &'a Map<String, Value>,
-) -> Shape<'a> {
+) -> Requirements<'a> {
     let required = sub.get("required").and_then(Value::as_array);
     let required = required
         .into_iter()
@@ -131,7 +131,7 @@ fn table<'a>(
         .filter_map(Value::as_str)
         .collect();
     let properties = properties.iter();
-    Shape::Table {
+    Requirements::Table {
         tag,
         words,
         properties: properties.map(|(name, sub)| (name.clone(), sub)).collect(),

@@ -2,7 +2,7 @@ use std::f64::consts::{PI, TAU};
 
 use super::stages::{STEPS, Stage};
 use super::wish;
-use crate::export::page::{Curve, Link, Mark, Motion, Path, Picture};
+use crate::export::page::{Curve, Mark, Motion, Path, Picture, PictureLink};
 use crate::geometry::{Bounds, Point, Vector};
 use crate::mechanism::machine::LineRole;
 use crate::mechanism::reverse::{AxisRange, Split, TwoBar, WantedPath};
@@ -224,8 +224,8 @@ impl<'a> Drawing<'a> {
     }
 }
 
-fn link(name: &str, path: Path) -> Link {
-    Link {
+fn link(name: &str, path: Path) -> PictureLink {
+    PictureLink {
         name: name.into(),
         paths: vec![path],
     }
