@@ -19,9 +19,9 @@ fn primitive(c: &mut Criterion) {
         r / (52.709_220_759_512_11 - r)
     };
     c.bench_function("primitive/of", |b| {
-        b.iter(|| Antiderivative::of(ratio, black_box(&[0.0, TAU])))
+        b.iter(|| Antiderivative::new(ratio, black_box(&[0.0, TAU])))
     });
-    let turn = Antiderivative::of(ratio, &[0.0, TAU]);
+    let turn = Antiderivative::new(ratio, &[0.0, TAU]);
     c.bench_function("primitive/at", |b| b.iter(|| turn.at(black_box(2.345))));
 }
 

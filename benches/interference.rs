@@ -130,7 +130,7 @@ fn published(c: &mut Criterion) {
         b.iter(|| between_arms(black_box(&machine), &body, tolerance(1e-2)));
     });
     group.bench_function("arms, tray, seedlings", |b| {
-        b.iter(|| ArmClearance::of(black_box(&machine), &body, tolerance(1e-2)));
+        b.iter(|| ArmClearance::analyse(black_box(&machine), &body, tolerance(1e-2)));
     });
     group.finish();
 }

@@ -38,11 +38,11 @@ fn whole(c: &mut Criterion) {
     let mut group = c.benchmark_group("pair/2018");
     group.bench_function("generate", |b| b.iter(|| resolve(black_box(&design))));
     let pair = resolve(&design);
-    group.bench_function("prove", |b| b.iter(|| Contact::of(black_box(&pair))));
+    group.bench_function("prove", |b| b.iter(|| Contact::analyse(black_box(&pair))));
     group.bench_function("generate and prove", |b| {
-        b.iter(|| Contact::of(&resolve(black_box(&design))));
+        b.iter(|| Contact::analyse(&resolve(black_box(&design))));
     });
-    let contact = Contact::of(&pair);
+    let contact = Contact::analyse(&pair);
     group.bench_function("findings and limits", |b| {
         b.iter(|| check_contact(black_box(&pair), &contact));
     });
@@ -103,7 +103,7 @@ fn against_tooth_count(c: &mut Criterion) {
             });
             let pair = GearPair::resolve(&design).expect("a pair");
             let prove = BenchmarkId::new(format!("{kind}/prove"), z);
-            group.bench_with_input(prove, &pair, |b, pair| b.iter(|| Contact::of(pair)));
+            group.bench_with_input(prove, &pair, |b, pair| b.iter(|| Contact::analyse(pair)));
         }
     }
     group.finish();

@@ -303,7 +303,7 @@ pub(crate) fn row(jet: &MotionJet) -> [f64; 4] {
 pub(crate) struct Rows<const COLUMNS: usize, T = f64>(pub(crate) Vec<[T; COLUMNS]>);
 
 impl Rows<2> {
-    pub(crate) fn of(points: &[Point]) -> Self {
+    pub(crate) fn new(points: &[Point]) -> Self {
         Self(points.iter().map(|p| [p.x, p.y]).collect())
     }
 }

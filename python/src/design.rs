@@ -78,9 +78,9 @@ struct Kind {
 type Made<'py> = PyResult<Bound<'py, PyAny>>;
 
 impl Kind {
-    const fn of<C: Class>() -> Self {
+    const fn new<C: Class>() -> Self {
         Self {
-            word: Family::of::<C::Machine>().design.word,
+            word: Family::new::<C::Machine>().design.word,
             class: C::type_object,
             make: |py, machine| {
                 let machine = Arc::clone(machine).downcast()?;
@@ -92,12 +92,12 @@ impl Kind {
 
 /// The classes of all families.
 const CLASSES: [Kind; 6] = [
-    Kind::of::<GearPair>(),
-    Kind::of::<ThreeArm>(),
-    Kind::of::<SpiralShaft>(),
-    Kind::of::<MovingBox>(),
-    Kind::of::<Feeder>(),
-    Kind::of::<Machine>(),
+    Kind::new::<GearPair>(),
+    Kind::new::<ThreeArm>(),
+    Kind::new::<SpiralShaft>(),
+    Kind::new::<MovingBox>(),
+    Kind::new::<Feeder>(),
+    Kind::new::<Machine>(),
 ];
 
 /// The object of a machine: one of the class of its family.

@@ -173,7 +173,7 @@ impl Feeder {
     ///     MechanismError: The bounds hold what is wanted, or no widening helps.
     fn widened(&self, py: Python<'_>) -> Answer<(Py<Self>, f64)> {
         let feeder = Arc::clone(&self.0);
-        let Widened { design, share } = wait(py, move || Widened::of(feeder.design()))??;
+        let Widened { design, share } = wait(py, move || Widened::search(feeder.design()))??;
         let feeder = mechanism::Feeder::resolve(&design);
         let feeder = feeder.map_err(|error| Raised::no_search(&error.to_string()))?;
         Ok((Self::object(py, feeder)?, share))

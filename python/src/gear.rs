@@ -172,7 +172,7 @@ impl Gear {
     fn outline(&self, py: Python<'_>, tolerance: f64) -> Answer<Rows<2>> {
         let tolerance = self.within(tolerance)?;
         let along = self.ask(py, move |gear| gear.outline().flatten(tolerance))?;
-        Ok(Rows::of(&along))
+        Ok(Rows::new(&along))
     }
 
     /// The pitch curve, (N, 2), mm: closed and counter-clockwise as `outline`.
@@ -180,7 +180,7 @@ impl Gear {
     fn pitch_curve(&self, py: Python<'_>, tolerance: f64) -> Answer<Rows<2>> {
         let tolerance = self.within(tolerance)?;
         let along = self.ask(py, move |gear| gear.pitch_curve().flatten(tolerance))?;
-        Ok(Rows::of(&along))
+        Ok(Rows::new(&along))
     }
 
     /// The bore with its keyway, (N, 2), mm, counter-clockwise; None for a gear without one.
@@ -188,7 +188,7 @@ impl Gear {
     fn bore(&self, tolerance: f64) -> Answer<Option<Rows<2>>> {
         let tolerance = self.within(tolerance)?;
         let bore = self.inner().bore();
-        Ok(bore.map(|bore| Rows::of(&bore.flatten(tolerance))))
+        Ok(bore.map(|bore| Rows::new(&bore.flatten(tolerance))))
     }
 
     /// The points of `outline` with what is known of each, in a dictionary of arrays.
@@ -258,7 +258,7 @@ impl Gear {
     fn solid<'py>(&self, py: Python<'py>, tolerance: f64) -> Answer<Bound<'py, PyAny>> {
         let shortest = self.within(tolerance)?;
         let solid = gear_pair::solid(&self.pair, self.member)?;
-        Ok(Sides::of(self.member.name(), solid, shortest)?.record(py)?)
+        Ok(Sides::new(self.member.name(), solid, shortest)?.record(py)?)
     }
 
     /// Writes the gear as an exact STEP solid (AP214, mm), named after it; gives the path.

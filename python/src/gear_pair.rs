@@ -320,7 +320,7 @@ impl GearPair {
             None => wait(py, move || Contact::sampled(&pair, per_pitch)),
             Some(inputs) => {
                 let inputs = inputs.up_to(FARTHEST)?;
-                wait(py, move || Contact::at(&pair, &inputs))
+                wait(py, move || Contact::analyse_at(&pair, &inputs))
             }
         };
         Ok(record::contact(py, contact?)?)

@@ -146,7 +146,7 @@ impl Reversed {
     /// closed spline of degree five runs through them.
     #[getter]
     fn eased(&self) -> Option<Rows<2>> {
-        Some(Rows::of(&self.eased_path()?.points))
+        Some(Rows::new(&self.eased_path()?.points))
     }
 
     /// Module up to which full teeth are surely sound on the eased path, mm, where `band` was given or `open`.
@@ -291,7 +291,7 @@ impl Reversed {
                 axis,
                 eased,
             } => {
-                let keywords = keywords.with("path", Rows::of(points))?;
+                let keywords = keywords.with("path", Rows::new(points))?;
                 let keywords = keywords.with("axis", *axis)?;
                 let asked = eased.as_ref().map(|eased| &eased.asked);
                 let keywords = keywords.with("band", asked.map(|asked| asked.bands.clone()))?;

@@ -208,7 +208,7 @@ impl SixBar {
     fn pivots(&self, py: Python<'_>, swing: f64, count: usize) -> PyResult<Rows<2>> {
         let four_bar = self.0.four_bar();
         let pivots = wait_here(py, || linkage::SixBar::pivots(four_bar, swing, count))?;
-        Ok(Rows::of(&pivots))
+        Ok(Rows::new(&pivots))
     }
 
     fn __repr__(&self, py: Python<'_>) -> PyResult<String> {

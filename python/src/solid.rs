@@ -20,7 +20,7 @@ pub(crate) struct Sides {
 
 impl Sides {
     /// Sides of an extrusion, those shorter than the tolerance closed up.
-    pub(crate) fn of(part: &str, solid: Solid, shortest: Tolerance) -> Answer<Self> {
+    pub(crate) fn new(part: &str, solid: Solid, shortest: Tolerance) -> Answer<Self> {
         let found = contours(&solid, shortest);
         let exact = || Tolerance::new(FINEST).is_ok_and(|finest| contours(&solid, finest).is_ok());
         if found.is_err() && exact() {
@@ -57,7 +57,7 @@ impl Sides {
 fn opened<'py>(py: Python<'py>, opening: &Opening) -> PyResult<Bound<'py, PyAny>> {
     let ([a, b], [c, d]) = (opening.outer, opening.inner);
     record!(py, "centrode._solid" "Opening", () => []
-        corners: Rows::of(&[a, b, d, c]),
+        corners: Rows::new(&[a, b, d, c]),
         span: (opening.span[0], opening.span[1]),
     )
 }
@@ -71,7 +71,7 @@ fn edge<'py>(py: Python<'py>, side: &Segment) -> PyResult<Bound<'py, PyAny>> {
     };
     record!(py, "centrode._solid" "Edge", () => []
         kind: kind,
-        points: Rows::of(&points),
+        points: Rows::new(&points),
         center: arc.map(|arc| (arc.center().x, arc.center().y)),
         sweep: arc.map_or(0.0, |arc| arc.sweep()),
     )
@@ -85,7 +85,7 @@ pub(crate) fn solids<'py>(
 ) -> Answer<Bound<'py, PyDict>> {
     let named = PyDict::new(py);
     for (name, solid) in bundle.into_solids() {
-        let sides = Sides::of(&name, solid, shortest)?;
+        let sides = Sides::new(&name, solid, shortest)?;
         named.set_item(name, sides.record(py)?)?;
     }
     Ok(named)
@@ -139,7 +139,7 @@ fn link<'py>(
     match shortest.zip(shape.map(|shape| &shape.form)) {
         Some((shortest, Form::Solids(all))) => {
             for solid in all {
-                let sides = Sides::of(&link.name, solid.clone(), shortest)?;
+                let sides = Sides::new(&link.name, solid.clone(), shortest)?;
                 solids.push(sides.record(py)?);
             }
         }
@@ -181,7 +181,7 @@ fn mounted<'py>(
     match &shape.form {
         Form::Solids(all) => {
             for solid in all {
-                solids.push(Sides::of(name, solid.clone(), shortest)?.record(py)?);
+                solids.push(Sides::new(name, solid.clone(), shortest)?.record(py)?);
             }
         }
         Form::Turned(part) => {

@@ -50,7 +50,7 @@ proptest! {
     ) {
         let pair = GearPair::resolve(&design).expect("valid");
         let phis: Vec<f64> = inputs.iter().map(|x| x * pair.cycle()).collect();
-        let contact = Contact::at(&pair, &phis);
+        let contact = Contact::analyse_at(&pair, &phis);
         // Polygons stand inside convex arcs and outside concave ones by their chord error.
         let module = pair.module();
         let noise = 20.0 * module * CHORD * module;
@@ -75,7 +75,7 @@ proptest! {
         let pair = GearPair::resolve(&design).expect("valid");
         let extremes = Contact::sampled(&pair, 48).extremes(&pair);
         let phis: Vec<f64> = inputs.iter().map(|x| x * pair.cycle()).collect();
-        let contact = Contact::at(&pair, &phis);
+        let contact = Contact::analyse_at(&pair, &phis);
         let less = |list: &[f64]| -> Vec<f64> { list.iter().map(|v| -v).collect() };
         let negative = |e: Extreme| Extreme { value: -e.value, ..e };
         type Pick = fn(&Contact) -> &Vec<f64>;
@@ -99,7 +99,7 @@ proptest! {
                 let most = samples.iter().copied().fold(f64::NEG_INFINITY, f64::max);
                 let allowed = 1e-9 * found.value.abs() + rounding;
                 prop_assert!(most <= found.value + allowed, "{name}: {most:e} beats {found:?}");
-                let there = sign * pick(&Contact::at(&pair, &[found.input]))[0];
+                let there = sign * pick(&Contact::analyse_at(&pair, &[found.input]))[0];
                 prop_assert!((there - found.value).abs() <= allowed, "{name}: {there:e} at {found:?}");
             }
         }

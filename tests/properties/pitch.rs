@@ -16,7 +16,7 @@ fn ends(curve: &dyn Curve) -> Vec<f64> {
 }
 
 fn perimeter(curve: &dyn Curve) -> f64 {
-    Antiderivative::of(|t| curve.at(t).first.norm(), &ends(curve)).total()
+    Antiderivative::new(|t| curve.at(t).first.norm(), &ends(curve)).total()
 }
 
 fn scaled(spec: &PitchSpec, factor: f64) -> PitchSpec {

@@ -55,9 +55,9 @@ proptest! {
         let pair = GearPair::resolve(&design).expect("valid");
         let (n1, n2) = pair.mean_ratio();
         let first = pair.rolling().clone();
-        let back = Rolling::of(Arc::new(ConjugateCurve::of(first.clone())), (n2, n1)).expect("rolls");
+        let back = Rolling::new(Arc::new(ConjugateCurve::new(first.clone())), (n2, n1)).expect("rolls");
         prop_assert!((back.center_distance() / first.center_distance() - 1.0).abs() < 1e-12);
-        let again = Rolling::of(Arc::new(ConjugateCurve::of(back)), (n1, n2)).expect("rolls");
+        let again = Rolling::new(Arc::new(ConjugateCurve::new(back)), (n1, n2)).expect("rolls");
         for i in 0..64 {
             let phi = f64::from(i) * 0.1;
             prop_assert!((again.radius(phi) / first.radius(phi) - 1.0).abs() < 1e-10);

@@ -17,14 +17,14 @@ fn ends(curve: &dyn Curve) -> Vec<f64> {
 
 fn assert_perimeter(pitch: &Pitch, goal: f64) {
     let curve = pitch.curve.as_ref();
-    let length = Antiderivative::of(|t| curve.at(t).first.norm(), &ends(curve)).total();
+    let length = Antiderivative::new(|t| curve.at(t).first.norm(), &ends(curve)).total();
     assert!((length - goal).abs() < 1e-12 * goal, "{length} {goal}");
 }
 
 /// Driven turn for one turn of the driver, at the given centre distance.
 fn driven_turn(pitch: &Pitch, a: f64) -> Antiderivative {
     let curve = pitch.curve.as_ref();
-    Antiderivative::of(
+    Antiderivative::new(
         |t| {
             let jet = curve.at(t);
             let r = jet.point.coords.norm();

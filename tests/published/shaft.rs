@@ -139,7 +139,7 @@ fn every_hole_is_picked_once_each_way_with_a_whole_turn_to_turn_round() {
     let groove = groove(TAU);
     let traverse = groove.traverse();
     assert_eq!(traverse.turns(), 28);
-    let schedule = Schedule::of(traverse, 0.0, WINDOW);
+    let schedule = Schedule::new(traverse, 0.0, WINDOW);
     assert_eq!(schedule.visits, [2; 14]);
     assert!(schedule.worst().expect("picks").misplacement.abs() < 1e-12);
     let holes: Vec<u32> = schedule.picks.iter().map(|p| p.hole).collect();
@@ -153,7 +153,7 @@ fn every_hole_is_picked_once_each_way_with_a_whole_turn_to_turn_round() {
 fn half_a_turn_to_turn_round_puts_the_return_picks_10_mm_off() {
     let groove = groove(PI);
     assert_eq!(groove.traverse().turns(), 27);
-    let schedule = Schedule::of(groove.traverse(), 0.0, WINDOW);
+    let schedule = Schedule::new(groove.traverse(), 0.0, WINDOW);
     near(
         schedule.worst().expect("picks").misplacement.abs(),
         10.0,
@@ -206,7 +206,7 @@ fn the_clear_offset_lets_a_shorter_slider_bridge_the_strokes() {
     assert!((clear.slider_length - 30.0).abs() < 1e-6, "{clear:?}");
     let law = sine(1);
     let shifted = Traverse::new(law, 14, &reversal, clear.return_offset).expect("closes");
-    let schedule = Schedule::of(&shifted, 0.0, WINDOW);
+    let schedule = Schedule::new(&shifted, 0.0, WINDOW);
     let worst = schedule.worst().expect("picks").misplacement.abs();
     assert!((worst - clear.misplacement).abs() < 1e-9);
     // Both ways still pick where the box is slowest.

@@ -140,7 +140,7 @@ fn as_many_flanks_are_undercut_as_the_oracle_counts_wherever_the_teeth_sit() {
     let mut told = Vec::new();
     for case in cases::<UndercutAtPhase>("undercut") {
         design.teeth.phase = Phase::Pitches(case.phase);
-        let [sun, _] = FlankCount::of(&design, arms.rolling()).expect("teeth");
+        let [sun, _] = FlankCount::new(&design, arms.rolling()).expect("teeth");
         let found = (sun.flanks, sun.undercut);
         assert_eq!(found, (66, case.undercut), "{}", case.phase);
         told.push((sun.undercut, sun.short));

@@ -35,7 +35,7 @@ impl IntermittentContact {
     ///
     /// Contours are taken as polygons nowhere farther off than the tolerance.
     #[must_use]
-    pub fn of(pair: &IntermittentPair, count: u32, tolerance: Tolerance) -> Self {
+    pub fn analyse(pair: &IntermittentPair, count: u32, tolerance: Tolerance) -> Self {
         let motion = pair.law().motion_angle();
         let mut layers = vec![(
             Wheel::star(pair.driver(), tolerance),
@@ -278,7 +278,7 @@ mod tests {
     fn contact(spec: &IntermittentPairSpec) -> (IntermittentPair, IntermittentContact) {
         let pair = IntermittentPair::resolve(spec).expect("a pair");
         let tolerance = Tolerance::new(1e-4).expect("positive");
-        let contact = IntermittentContact::of(&pair, 360, tolerance);
+        let contact = IntermittentContact::analyse(&pair, 360, tolerance);
         (pair, contact)
     }
 

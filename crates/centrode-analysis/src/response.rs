@@ -38,7 +38,7 @@ impl Response {
     /// # Errors
     /// [`DesignError`] where the key is no number of the design. A value that gives no mechanism is no error: its report
     /// is missing.
-    pub fn of(
+    pub fn evaluate(
         design: &dyn Design,
         key: &str,
         values: &[f64],

@@ -34,12 +34,12 @@ impl Antiderivative {
     /// Inside two neighbouring breaks `f` must be analytic for the promised accuracy; it is never
     /// evaluated at a break.
     #[must_use]
-    pub fn of(f: impl FnMut(f64) -> f64, breaks: &[f64]) -> Self {
+    pub fn new(f: impl FnMut(f64) -> f64, breaks: &[f64]) -> Self {
         Self::of_size(f, breaks, 0.0)
     }
 
     /// Integrates `f`, whose rounding is that of values of a size, as where it is a difference of such values: panels on which
-    /// it is next to nothing are not halved for their rounding. See [`Self::of`].
+    /// it is next to nothing are not halved for their rounding. See [`Self::new`].
     #[must_use]
     pub fn of_size(mut f: impl FnMut(f64) -> f64, breaks: &[f64], size: f64) -> Self {
         let least = size;
@@ -202,7 +202,7 @@ mod tests {
 
     #[test]
     fn integrals_match_closed_forms_to_the_float_limit() {
-        let p = Antiderivative::of(|t| 1.0 / (1.0 + 25.0 * t * t), &[-1.0, 1.0]);
+        let p = Antiderivative::new(|t| 1.0 / (1.0 + 25.0 * t * t), &[-1.0, 1.0]);
         for i in 0..=200 {
             let t = -1.0 + f64::from(i) / 100.0;
             let exact = ((5.0 * t).atan() + 5.0_f64.atan()) / 5.0;
@@ -223,14 +223,14 @@ mod tests {
         let found = Antiderivative::of_size(difference, &[0.0, 2.0], 1e4).total();
         assert!((found - (1.0 - 2.0_f64.cos())).abs() < 1e-11, "{found}");
         assert_eq!(calls.get(), NODES);
-        let _ = Antiderivative::of(difference, &[0.0, 2.0]);
+        let _ = Antiderivative::new(difference, &[0.0, 2.0]);
         assert!(calls.get() > 100 * NODES);
     }
 
     #[test]
     fn a_break_given_twice_changes_nothing() {
         let ends = [0.0, 0.0, 1.0, 1.0, 2.0, 2.0];
-        let p = Antiderivative::of(|t| t, &ends);
+        let p = Antiderivative::new(|t| t, &ends);
         for t in [0.0, 1.0, 2.0] {
             assert!((p.at(t) - 0.5 * t * t).abs() < 1e-15, "{t}: {}", p.at(t));
             assert!((p.inverse(p.at(t)) - t).abs() < 1e-15);
@@ -239,7 +239,7 @@ mod tests {
 
     #[test]
     fn a_jump_at_a_break_costs_nothing() {
-        let p = Antiderivative::of(|t| if t < 1.0 { 1.0 } else { 3.0 }, &[0.0, 1.0, 2.0]);
+        let p = Antiderivative::new(|t| if t < 1.0 { 1.0 } else { 3.0 }, &[0.0, 1.0, 2.0]);
         assert_eq!(p.panels.len(), 2);
         assert!((p.at(1.5) - 2.5).abs() < 1e-15 && (p.total() - 4.0).abs() < 1e-15);
     }

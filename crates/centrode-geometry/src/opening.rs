@@ -63,8 +63,8 @@ impl Opening {
         // Contours of holes run clockwise here.
         let [b0, b1] = self.inner;
         let (outer, inner) = (
-            Stretch::of(&contours, self.outer).ok_or_else(missing)?,
-            Stretch::of(&contours, [b1, b0]).ok_or_else(missing)?,
+            Stretch::new(&contours, self.outer).ok_or_else(missing)?,
+            Stretch::new(&contours, [b1, b0]).ok_or_else(missing)?,
         );
         let points: Vec<Point> = contours.iter().flatten().copied().collect();
         let n = points.len() as u32;
@@ -112,7 +112,7 @@ struct Stretch {
 }
 
 impl Stretch {
-    fn of(contours: &[Vec<Point>], [from, to]: [Point; 2]) -> Option<Self> {
+    fn new(contours: &[Vec<Point>], [from, to]: [Point; 2]) -> Option<Self> {
         let mut first = 0;
         for contour in contours {
             let at = |p: Point| contour.iter().position(|q| *q == p);

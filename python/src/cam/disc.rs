@@ -184,7 +184,7 @@ impl DiscCam {
     fn profile(&self, tolerance: f64) -> Answer<Rows<2>> {
         let tolerance = plain_tolerance(tolerance)?;
         let outline = self.cam.profile().outline();
-        Ok(Rows::of(&outline.flatten(tolerance)))
+        Ok(Rows::new(&outline.flatten(tolerance)))
     }
 
     /// Corners of a polygon within the tolerance of the path of the roller's centre; None for a flat face.
@@ -192,7 +192,7 @@ impl DiscCam {
     fn pitch_curve(&self, tolerance: f64) -> Answer<Option<Rows<2>>> {
         let tolerance = plain_tolerance(tolerance)?;
         let path = self.cam.disc().pitch_curve(tolerance.scaled(1e-3))?;
-        Ok(path.map(|path| Rows::of(&path.flatten(tolerance))))
+        Ok(path.map(|path| Rows::new(&path.flatten(tolerance))))
     }
 
     /// Ranges of the cam angle whose contact is cut off by undercut, rad; none for a sound cam.
@@ -278,7 +278,7 @@ impl DiscCam {
         let shortest = plain_tolerance(tolerance)?;
         let name = self.cam.name();
         let solid = export::solid(&self.cam)?;
-        Ok(Sides::of(name, solid, shortest)?.record(py)?)
+        Ok(Sides::new(name, solid, shortest)?.record(py)?)
     }
 
     fn __reduce__<'py>(&self, py: Python<'py>) -> Reduced<'py> {

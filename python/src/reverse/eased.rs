@@ -98,5 +98,5 @@ impl Eased {
 #[pyfunction]
 pub(crate) fn _drawn_path(py: Python<'_>, contents: Vec<u8>, within: f64) -> Answer<Rows<2>> {
     let drawn = wait(py, move || DrawnPath::from_svg(&contents, within))??;
-    Ok(Rows::of(&drawn.points))
+    Ok(Rows::new(&drawn.points))
 }

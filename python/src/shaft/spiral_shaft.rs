@@ -251,7 +251,7 @@ impl SpiralShaft {
         })?;
         let developed = PyDict::new(py);
         for (name, way) in ["center", "left", "right"].into_iter().zip(&ways) {
-            developed.set_item(name, Rows::of(way))?;
+            developed.set_item(name, Rows::new(way))?;
         }
         Ok(developed)
     }

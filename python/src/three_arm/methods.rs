@@ -251,7 +251,7 @@ impl ThreeArm {
     fn arm_contour(&self, tolerance: f64) -> Answer<Rows<2>> {
         let tolerance = plain_tolerance(tolerance)?;
         let arm = self.0.arm_body()?;
-        Ok(Rows::of(&arm.outline().flatten(tolerance)))
+        Ok(Rows::new(&arm.outline().flatten(tolerance)))
     }
 
     /// How close arms come over a whole turn, proven between samples to within `tolerance` (mm); None for one arm.

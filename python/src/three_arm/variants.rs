@@ -29,7 +29,7 @@ pub(crate) fn sweep<'py>(
         return Err(PyValueError::new_err(message).into());
     }
     let names: Vec<&String> = parameters.keys().collect();
-    let variants = Variants::of(design, &names, inputs);
+    let variants = Variants::new(design, &names, inputs);
     let variants = variants.map_err(|error| Raised::rule(key(&error), &error.to_string()))?;
     let count = count(&parameters)?;
     let columns: Vec<Vec<f64>> = parameters.into_values().map(Values::into_flat).collect();

@@ -60,7 +60,7 @@ pub fn check_composed(composed: &Composed) -> Report {
         },
         || {
             let _scope = under.enter();
-            Motion::of(composed, &ends(composed))
+            Motion::new(composed, &ends(composed))
         },
     );
     dyads(composed, &motion, &mut report);

@@ -26,7 +26,7 @@ const OF_POINT: usize = 5;
 
 impl Motion {
     /// Extremes between the ends of parts of a cycle in which all motion is smooth.
-    pub(super) fn of(composed: &Composed, ends: &[f64]) -> Self {
+    pub(super) fn new(composed: &Composed, ends: &[f64]) -> Self {
         let (names, points): (Vec<_>, Vec<_>) = composed
             .points()
             .filter(|(_, body, _)| *body > 0)

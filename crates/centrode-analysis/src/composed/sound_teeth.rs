@@ -111,7 +111,7 @@ fn full(design: &GearPairDesign, pair: &GearPair, borne: f64) -> Option<u32> {
     let mut full = design.clone();
     full.teeth.addendum = Addendum::Full;
     let is_sound = |count: u32| {
-        let counted = FlankCount::of(&full.with_tooth_count(count), pair.rolling());
+        let counted = FlankCount::new(&full.with_tooth_count(count), pair.rolling());
         counted.is_ok_and(|gears| gears.iter().all(|gear| gear.unsound == 0))
     };
     // Not a number is no count either.

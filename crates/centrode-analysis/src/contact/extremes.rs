@@ -41,7 +41,7 @@ type Figure = fn(&Contact, usize) -> f64;
 impl Contact {
     /// Extremes over one whole cycle: the peaks among samples of it are followed between these.
     ///
-    /// The samples ascend in driver angle, as those of [`Contact::of`] do. A figure that has no number somewhere has there
+    /// The samples ascend in driver angle, as those of [`Contact::analyse`] do. A figure that has no number somewhere has there
     /// its extreme.
     #[must_use]
     pub fn extremes(&self, pair: &GearPair) -> ContactExtremes {

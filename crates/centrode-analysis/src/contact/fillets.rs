@@ -72,7 +72,7 @@ struct Step {
 
 impl<'a> Fillets<'a> {
     /// Those of a body; what is within `near` of them is told at once.
-    fn of(body: &GearOutline<'a>, near: f64) -> Self {
+    fn new(body: &GearOutline<'a>, near: f64) -> Self {
         let count = body.parts.len();
         let is_fillet = |i: usize| body.parts[i % count].role == Role::Fillet;
         // From a part on that begins one, so that none is cut in two by the contour's start.
@@ -106,12 +106,12 @@ impl Meshing<'_> {
             (
                 Member::Driver,
                 &self.driver,
-                Fillets::of(&self.driven, self.near),
+                Fillets::new(&self.driven, self.near),
             ),
             (
                 Member::Driven,
                 &self.driven,
-                Fillets::of(&self.driver, self.near),
+                Fillets::new(&self.driver, self.near),
             ),
         ];
         let approaches = gears.iter().flat_map(|(member, own, fillets)| {

@@ -67,7 +67,7 @@ impl<'a> Meshing<'a> {
         Self {
             pair,
             stretches: parts
-                .map(|(j, part)| Stretch::of(j, part, |p| *p, |v| *v))
+                .map(|(j, part)| Stretch::from_part(j, part, |p| *p, |v| *v))
                 .collect(),
             slots: vec![Cell::new(0); driver.parts.len()],
             driver,

@@ -83,7 +83,7 @@ impl Contact {
     /// Analyses one whole cycle at four inputs a pitch, or at 48 where a tooth is not as the tool would make it or a
     /// pitch curve is concave: contact can then be lost over a small part of a pitch.
     #[must_use]
-    pub fn of(pair: &GearPair) -> Self {
+    pub fn analyse(pair: &GearPair) -> Self {
         if pair.teeth().addendum == Addendum::Full && is_whole(pair) {
             let found = Self::sampled(pair, SAMPLES_PER_PITCH);
             if found.carries() {
@@ -114,7 +114,7 @@ impl Contact {
 
     /// Analyses given driver angles, rad.
     #[must_use]
-    pub fn at(pair: &GearPair, inputs: &[f64]) -> Self {
+    pub fn analyse_at(pair: &GearPair, inputs: &[f64]) -> Self {
         let mut meshing = Meshing::new(pair);
         let mut out = Self::default();
         for &phi in inputs {

@@ -66,7 +66,7 @@ impl Meshing<'_> {
             let known = |k: &usize| out.posed.get(*k).is_some_and(|(s, _)| s.part == i);
             let k = Some(slot.get()).filter(known).unwrap_or_else(|| {
                 let part = &self.driver.parts[i];
-                let stretch = Stretch::of(i, part, |p| pose.back(p), |v| pose.turn_back(v));
+                let stretch = Stretch::from_part(i, part, |p| pose.back(p), |v| pose.turn_back(v));
                 let normals = part.normals.turned(pose.turn_back(&part.normals.direction));
                 slot.set(out.posed.len());
                 out.posed.push((stretch, normals));

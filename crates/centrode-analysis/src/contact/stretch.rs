@@ -106,7 +106,7 @@ impl Stretch {
     }
 
     /// Stretch of a whole part, by the map of points and vectors to the driven gear's axes.
-    pub(super) fn of(
+    pub(super) fn from_part(
         index: usize,
         part: &OutlinePart<'_>,
         point: impl Fn(&Point) -> Point,

@@ -22,7 +22,7 @@ fn edges_that_touch_bound_the_backlash_of_trimmed_teeth() {
         (3.888, 0.001_939),
         (3.900, 0.002_001),
     ];
-    let contact = Contact::at(&pair, &polygons.map(|(input, _)| input));
+    let contact = Contact::analyse_at(&pair, &polygons.map(|(input, _)| input));
     for (i, (input, backlash)) in polygons.into_iter().enumerate() {
         assert!(
             (contact.backlash[i] - backlash).abs() < 1e-6,
@@ -38,7 +38,7 @@ fn edges_that_touch_bound_the_backlash_of_trimmed_teeth() {
 fn the_error_where_an_edge_touches_is_from_where_the_designed_flank_would_stand() {
     let pair = design("transplanter-pair-2021");
     let phi = 3.5343;
-    let contact = Contact::at(&pair, &[phi]);
+    let contact = Contact::analyse_at(&pair, &[phi]);
     let pitch = pair.pitch_point(phi);
     let lever = pitch.driven_radius * pitch.pressure_angle.cos();
     let designed = pair.driven_angle(phi) - 0.5 * pair.backlash() / lever;
@@ -51,7 +51,7 @@ fn the_error_where_an_edge_touches_is_from_where_the_designed_flank_would_stand(
 /// Turning the driven gear by half the backlash takes at both inputs the contact past the end of a flank.
 #[test]
 fn flanks_thinned_for_play_stand_where_designed_at_their_ends_too() {
-    let contact = Contact::at(&design("quintic-pair"), &[0.0, 4.476_110_580_575_04]);
+    let contact = Contact::analyse_at(&design("quintic-pair"), &[0.0, 4.476_110_580_575_04]);
     let errors = contact.transmission_error.iter();
     for error in errors.chain(&contact.reverse_transmission_error) {
         assert!(error.abs() < 1e-12, "{error:e}");
@@ -67,7 +67,7 @@ fn the_seats_of_a_certificate_are_those_of_the_samples() {
         .iter()
         .map(|s| 0.5 * (s.from + s.to))
         .collect();
-    let contact = Contact::at(&pair, &middles);
+    let contact = Contact::analyse_at(&pair, &middles);
     // In the middle the odd terms of a series are zero, and the even ones change their sign.
     let middle = |series: &[f64]| -> f64 {
         let even = series.iter().step_by(2).enumerate();
@@ -103,19 +103,22 @@ fn a_certificate_follows_the_contact_over_the_ends_of_trimmed_flanks() {
 #[test]
 fn a_tooth_that_comes_into_the_play_makes_a_seat_jump() {
     let pair = design("transplanter-pair-2021");
-    let jumps = Contact::of(&pair).seat_jumps(&pair);
+    let jumps = Contact::analyse(&pair).seat_jumps(&pair);
     let first = jumps.first().expect("a jump");
     assert!((first.input - 3.43).abs() < 1e-4, "{first:?}");
     assert!((first.turn - 1.1e-3).abs() < 1e-5, "{first:?}");
     assert!(!first.is_reverse && first.teeth == (22, 21), "{first:?}");
     // Just before it the driven gear stands where it stood, just after it where the tooth came.
     let beside = [first.input - 1e-6, first.input + 1e-6];
-    let contact = Contact::at(&pair, &beside);
+    let contact = Contact::analyse_at(&pair, &beside);
     let off = |k: usize| contact.driven_angle[k] - contact.law[k];
     assert!(((off(1) - off(0)).abs() - first.turn).abs() < 1e-5);
     for sound in ["law-pair", "quintic-pair"] {
         let pair = design(sound);
-        assert!(Contact::of(&pair).seat_jumps(&pair).is_empty(), "{sound}");
+        assert!(
+            Contact::analyse(&pair).seat_jumps(&pair).is_empty(),
+            "{sound}"
+        );
     }
 }
 
@@ -146,7 +149,7 @@ fn gears_that_cannot_be_followed_have_no_certificate_and_it_says_where() {
         panic!("no room");
     };
     // There the pair has no play, and lacks it by so much.
-    let contact = Contact::at(&pair, &[phi]);
+    let contact = Contact::analyse_at(&pair, &[phi]);
     assert!(
         (contact.backlash[0] + overlap).abs() < 1e-9 && overlap > 1e-6,
         "{phi} {overlap}"
@@ -165,9 +168,9 @@ fn a_contact_near_a_cusp_is_found_whatever_was_looked_at_before() {
     let design = GearPairDesign::from_toml(text).expect("a design");
     let pair = GearPair::resolve(&design).expect("a pair");
     let inputs: Vec<f64> = (0..60).map(|i| 0.05005 + 1e-3 * f64::from(i)).collect();
-    let along = Contact::at(&pair, &inputs);
+    let along = Contact::analyse_at(&pair, &inputs);
     for (k, &input) in inputs.iter().enumerate() {
-        let alone = Contact::at(&pair, &[input]);
+        let alone = Contact::analyse_at(&pair, &[input]);
         let [one, other] = [along.sliding[k], alone.sliding[0]];
         assert!(
             (one - other).abs() < 1e-9 * one,

@@ -30,7 +30,7 @@ impl Attainable {
     ///
     /// None where the bounds hold no crank-rocker, or none is found that would do.
     #[must_use]
-    pub fn of(design: &FeederDesign) -> Option<Self> {
+    pub fn search(design: &FeederDesign) -> Option<Self> {
         let bounds: Lengths = design.bounds.named().map(|(_, [a, b])| (a, b));
         let wanted = design.goals.transmission_angle;
         let best = search(&BestTransmissionAngle { bounds }, ATTAINABLE)?;

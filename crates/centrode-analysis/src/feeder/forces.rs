@@ -50,7 +50,7 @@ impl FeederForces {
     ///
     /// # Errors
     /// [`FeederForcesError`].
-    pub fn of(feeder: &Feeder) -> Result<Self, FeederForcesError> {
+    pub fn analyse(feeder: &Feeder) -> Result<Self, FeederForcesError> {
         Self::new(feeder, feeder.design().drive.carried_mass)
     }
 
@@ -127,7 +127,7 @@ impl FeederForces {
 /// Greatest torque and joint forces, at rest and moving.
 pub(super) fn forces(feeder: &Feeder, report: &mut Report) {
     // A link that cannot be cut is a finding of its own.
-    let Ok(system) = FeederForces::of(feeder) else {
+    let Ok(system) = FeederForces::analyse(feeder) else {
         return;
     };
     let balanced = Cell::new(true);

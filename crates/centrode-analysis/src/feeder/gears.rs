@@ -50,7 +50,7 @@ pub(super) fn gears(feeder: &Feeder, report: &mut Report) {
         return;
     };
     let contact = PROVEN.get(spec, || {
-        Arc::new(IntermittentContact::of(&pair, GEAR_LOOKS, tolerance))
+        Arc::new(IntermittentContact::analyse(&pair, GEAR_LOOKS, tolerance))
     });
     let most = |moving| {
         let [ahead, back] = [&contact.ahead, &contact.back];

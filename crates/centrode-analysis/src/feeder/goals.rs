@@ -116,7 +116,7 @@ pub(super) fn unmet(feeder: &Feeder, report: &mut Report) {
 
 /// Limit that the bounds set to the transmission angle, in words.
 fn attainable(feeder: &Feeder, report: &mut Report) -> String {
-    let Some(found) = Attainable::of(feeder.design()) else {
+    let Some(found) = Attainable::search(feeder.design()) else {
         return "; no crank-rocker that would do was found".into();
     };
     let values = &mut report.values;

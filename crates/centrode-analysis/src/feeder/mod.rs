@@ -148,7 +148,7 @@ fn spread(feeder: &Feeder, report: &mut Report) {
         lengths: making.length_tolerance,
         pivot: making.pivot_tolerance,
     };
-    let spread = SwingSpread::of(feeder.six_bar(), tolerances, MADE, 1);
+    let spread = SwingSpread::sample(feeder.six_bar(), tolerances, MADE, 1);
     let values = &mut report.values;
     values.insert("swing_made_deviation", spread.deviation);
     values.insert("swing_made_min", spread.least);

@@ -38,7 +38,7 @@ pub struct SwingSpread {
 impl SwingSpread {
     /// Tries `count` random six-bars; the same seed gives the same ones.
     #[must_use]
-    pub fn of(six_bar: &SixBar, tolerances: SixBarTolerances, count: u32, seed: u64) -> Self {
+    pub fn sample(six_bar: &SixBar, tolerances: SixBarTolerances, count: u32, seed: u64) -> Self {
         let mut random = Random::new(seed, 0);
         let mut off = |t: f64| random.between(-t, t);
         let (mut swings, mut failed) = (Vec::new(), 0);
@@ -101,9 +101,9 @@ mod tests {
             lengths: 0.01,
             pivot: 0.02,
         };
-        let spread = SwingSpread::of(&six_bar, tolerances, 20_000, 7);
-        assert_eq!(spread, SwingSpread::of(&six_bar, tolerances, 20_000, 7));
-        assert_ne!(spread, SwingSpread::of(&six_bar, tolerances, 20_000, 8));
+        let spread = SwingSpread::sample(&six_bar, tolerances, 20_000, 7);
+        assert_eq!(spread, SwingSpread::sample(&six_bar, tolerances, 20_000, 7));
+        assert_ne!(spread, SwingSpread::sample(&six_bar, tolerances, 20_000, 8));
         assert_eq!(spread.failed, 0);
         assert!((spread.mean - PI).abs() < 0.02 * spread.deviation);
         assert!((spread.deviation / spread.first_order_deviation - 1.0).abs() < 0.02);

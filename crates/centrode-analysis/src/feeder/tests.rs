@@ -69,7 +69,7 @@ fn bounds_that_allow_the_angle_need_no_widening() {
         .design()
         .clone();
     design.goals.transmission_angle = 12_f64.to_radians();
-    let found = Attainable::of(&design).expect("found");
+    let found = Attainable::search(&design).expect("found");
     assert_eq!(found.widening, None);
     assert!((found.transmission_angle.to_degrees() - 12.312).abs() < 5e-4);
     let report = check_feeder(&Feeder::resolve(&design).expect("resolves"));
@@ -129,7 +129,7 @@ fn the_crank_moves_the_masses_of_the_plates() {
 /// Greatest torque and joint forces at so many inputs of a cycle and on both sides of every break.
 fn greatest_seen(feeder: &Feeder, moving: bool) -> [f64; 8] {
     const COUNT: u32 = 14_400;
-    let system = FeederForces::of(feeder).expect("plates");
+    let system = FeederForces::analyse(feeder).expect("plates");
     let even = (0..COUNT).map(|i| TAU * f64::from(i) / f64::from(COUNT));
     let breaks = feeder.breaks();
     let beside = breaks.iter().flat_map(|&b| [b.next_down(), b]);

@@ -23,7 +23,7 @@ pub(super) struct Seat {
 }
 
 impl Seat {
-    pub(super) fn of(joint: &Joint) -> Self {
+    pub(super) fn new(joint: &Joint) -> Self {
         let [x, y, z] = joint.turn;
         Self {
             turn: *Rotation3::from_euler_angles(x, y, z).matrix(),

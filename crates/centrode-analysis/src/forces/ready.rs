@@ -108,7 +108,7 @@ impl Balance {
         let mut order: Vec<usize> = (0..count).collect();
         order.sort_by_key(|&joint| machine.carriers(machine.joints[joint].child).count());
         Ok(Self {
-            seats: machine.joints.iter().map(Seat::of).collect(),
+            seats: machine.joints.iter().map(Seat::new).collect(),
             order,
             carrier,
             masses,

@@ -26,7 +26,7 @@ impl Wrench {
         }
     }
 
-    fn at(at: Vector3<f64>, force: Vector3<f64>) -> Self {
+    fn new(at: Vector3<f64>, force: Vector3<f64>) -> Self {
         Self {
             force,
             moment: at.cross(&force),
@@ -62,7 +62,7 @@ impl Balance {
     /// # Errors
     /// [`ForcesError::Dead`] in a dead position, [`ForcesError::NotFinite`] for numbers too large.
     pub fn at(&self, input: f64, speed: f64) -> Result<Forces, ForcesError> {
-        let mut state = State::of(self, input, speed);
+        let mut state = State::new(self, input, speed);
         let machine = &*self.machine;
         let count = |list: usize| vec![Vector3::zeros(); list];
         let tooth = ToothForce {
@@ -131,7 +131,7 @@ fn named(machine: &Machine, ties: &[Tie]) -> String {
 }
 
 impl<'a> State<'a> {
-    fn of(balance: &'a Balance, input: f64, speed: f64) -> Self {
+    fn new(balance: &'a Balance, input: f64, speed: f64) -> Self {
         let machine = &*balance.machine;
         let joints = machine.joints.len();
         let mut state = Self {
@@ -178,7 +178,7 @@ impl<'a> State<'a> {
             let inertia = |by: &Vector3<f64>| link.turn * (mass.inertia * link.turn.tr_mul(by));
             let swirl = inertia(&spin);
             let force = (bend * speed - gravity) * (mass.mass / MM);
-            let mut wrench = Wrench::at(at, force);
+            let mut wrench = Wrench::new(at, force);
             wrench.moment += (inertia(&spin_up) * speed + spin.cross(&swirl)) / MM;
             if let Some(carrier) = balance.carrier[mass.link] {
                 self.passed[carrier].add(1.0, &wrench);
@@ -209,7 +209,7 @@ impl<'a> State<'a> {
                 let at = motion.place + motion.turn * Vector3::from(*at);
                 (
                     *link,
-                    Wrench::at(at, in_world(motion, values(force), *axes)),
+                    Wrench::new(at, in_world(motion, values(force), *axes)),
                 )
             }
             Load::Torque { link, torque, axes } => {
@@ -293,7 +293,7 @@ impl<'a> State<'a> {
             let mut row = Vec::with_capacity(count + 1);
             for (tie, lines) in ties.iter().zip(lines) {
                 let sign = tie.sign(joint);
-                let unit = |along: &Vector3<f64>| self.along(joint, &Wrench::at(lines.at, *along));
+                let unit = |along: &Vector3<f64>| self.along(joint, &Wrench::new(lines.at, *along));
                 let own = lines.along.iter().take(tie.held.len());
                 row.extend(own.map(|along| sign * unit(along)));
             }
@@ -317,7 +317,7 @@ impl<'a> State<'a> {
         for (along, size) in lines.along.iter().zip(sizes).take(tie.held.len()) {
             force += along * size;
         }
-        let wrench = Wrench::at(lines.at, force);
+        let wrench = Wrench::new(lines.at, force);
         for &(joint, sign) in &tie.between {
             self.passed[joint].add(-sign, &wrench);
             self.drives[joint] -= sign * self.along(joint, &wrench);

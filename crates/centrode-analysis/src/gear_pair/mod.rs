@@ -29,7 +29,7 @@ const LOST: f64 = 1e-6;
 /// over the whole cycle.
 #[must_use]
 pub fn check(pair: &GearPair) -> Report {
-    check_contact(pair, &Contact::of(pair))
+    check_contact(pair, &Contact::analyse(pair))
 }
 
 /// Checks a gear pair like [`check`], with a contact analysis made before.

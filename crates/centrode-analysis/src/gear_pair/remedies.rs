@@ -26,7 +26,7 @@ pub struct PairRemedy {
 /// Finds from which tooth count on full teeth, and fitted ones, carry the motion of a pair by their flanks alone.
 ///
 /// They do where the transmission error stays below 1e-9 rad, more only by what the play thins them, and nothing penetrates,
-/// over the samples of [`Contact::of`]. Counts grow by a quarter till one does and are halved between it and the greatest that does
+/// over the samples of [`Contact::analyse`]. Counts grow by a quarter till one does and are halved between it and the greatest that does
 /// not: the count found carries the motion and the one below it does not, but a greater one may fail again. A kind of teeth that does not up to [`MOST_TEETH`]
 /// is left out. Each count tried costs a pair and its contact.
 #[must_use]
@@ -88,7 +88,7 @@ pub(crate) fn is_carried(design: &GearPairDesign) -> bool {
         return false;
     };
     // Most of those that do not show it at the first few inputs.
-    is_exact(&pair, &Contact::sampled(&pair, 1)) && is_exact(&pair, &Contact::of(&pair))
+    is_exact(&pair, &Contact::sampled(&pair, 1)) && is_exact(&pair, &Contact::analyse(&pair))
 }
 
 /// Whether the flanks carry the motion wherever a contact was looked at.

@@ -116,7 +116,7 @@ impl LinkPair {
         if pairs.is_empty() {
             return Ok(None);
         }
-        let shares = Shares::of(tolerance);
+        let shares = Shares::new(tolerance);
         let bodies = all.iter().map(|(link, surface)| {
             let body = shares.body(std::slice::from_ref(&surface.outline))?;
             Ok((*link, body))

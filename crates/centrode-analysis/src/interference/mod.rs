@@ -56,7 +56,7 @@ pub(crate) struct Shares {
 }
 
 impl Shares {
-    pub(crate) fn of(tolerance: Tolerance) -> Self {
+    pub(crate) fn new(tolerance: Tolerance) -> Self {
         Self {
             body: tolerance.scaled(0.125),
             motion: tolerance.scaled(0.0625),

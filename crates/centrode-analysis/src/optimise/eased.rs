@@ -114,11 +114,11 @@ impl Easing {
     /// [`EasingError`]: the points make no path, a band is none, a wish breaks a rule, or no axis makes a machine for the wanted
     /// path.
     pub fn new(points: &[Point], spec: &EasingSpec) -> Result<Self, EasingError> {
-        Self::of(points, points.len(), spec)
+        Self::through(points, points.len(), spec)
     }
 
     /// The search for a path through points, of which the first `given` were given.
-    fn of(points: &[Point], given: usize, spec: &EasingSpec) -> Result<Self, EasingError> {
+    fn through(points: &[Point], given: usize, spec: &EasingSpec) -> Result<Self, EasingError> {
         let path = WantedPath::through(points)?;
         let mut bands = each(&spec.bands, points.len())?;
         let is_closed = points.len() > 1 && points.first() == points.last();

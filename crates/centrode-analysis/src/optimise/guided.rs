@@ -94,7 +94,7 @@ struct Candidate {
 }
 
 impl Seen {
-    fn at(problem: &dyn DesignProblem, point: &[f64]) -> Option<Self> {
+    fn new(problem: &dyn DesignProblem, point: &[f64]) -> Option<Self> {
         let goals = problem.guides(point)?;
         let miss = |goal: &Goal| {
             goal.margin
@@ -179,7 +179,7 @@ impl GuidedSearch {
         evaluations: u64,
         observe: &mut dyn FnMut(&Self) -> ControlFlow<()>,
     ) -> Ended {
-        let Some(mut seen) = Seen::at(problem, &self.point) else {
+        let Some(mut seen) = Seen::new(problem, &self.point) else {
             return Ended::Stuck;
         };
         self.evaluations += 1;
@@ -308,7 +308,7 @@ impl GuidedSearch {
                 (x + share * (high - low)).clamp(low, high)
             };
             let point: Vec<f64> = here.iter().zip(&moved).zip(&bounds).map(place).collect();
-            let seen = Seen::at(problem, &point)?;
+            let seen = Seen::new(problem, &point)?;
             Some(Candidate { point, moved, seen })
         };
         moves

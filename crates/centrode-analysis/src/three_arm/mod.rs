@@ -33,7 +33,7 @@ const ARM_TOLERANCE: f64 = 1e-4;
 /// Checks a three-arm mechanism: its goals, its working points, and the teeth its curves can bear.
 #[must_use]
 pub fn check_three_arm(mechanism: &ThreeArm) -> Report {
-    check_three_arm_teeth(mechanism, &TrainTeeth::of(mechanism))
+    check_three_arm_teeth(mechanism, &TrainTeeth::analyse(mechanism))
 }
 
 /// Checks a three-arm mechanism like [`check_three_arm`], with teeth that have been run together already.
@@ -134,7 +134,7 @@ fn arm_clearance(mechanism: &ThreeArm) -> Result<Option<ArmClearance>, Box<Findi
         },
         remedy: Some("a shorter arm.clamp_length, a longer arm.tip_distance, or sizes of your own in arm.body"),
     })?;
-    Ok(arm_tolerance(mechanism).and_then(|t| ArmClearance::of(mechanism, &body, t).ok()))
+    Ok(arm_tolerance(mechanism).and_then(|t| ArmClearance::analyse(mechanism, &body, t).ok()))
 }
 
 /// Tolerance of the arms' clearances, mm.
@@ -147,7 +147,7 @@ fn arm_tolerance(mechanism: &ThreeArm) -> Option<Tolerance> {
 #[must_use]
 pub fn arm_clearance_course(mechanism: &ThreeArm, parts: u32) -> Option<ArmClearanceCourse> {
     let (body, tolerance) = (mechanism.arm_body().ok()?, arm_tolerance(mechanism)?);
-    ArmClearanceCourse::of(mechanism, &body, tolerance, parts).ok()
+    ArmClearanceCourse::analyse(mechanism, &body, tolerance, parts).ok()
 }
 
 fn figures(mechanism: &ThreeArm, report: &mut Report) {

@@ -56,7 +56,7 @@ impl Variants {
     ///
     /// # Errors
     /// [`VariantsError`] where a name is unknown or comes twice, or the pitch curve is of another kind.
-    pub fn of(
+    pub fn new(
         design: &ThreeArmDesign,
         names: &[impl AsRef<str>],
         inputs: usize,

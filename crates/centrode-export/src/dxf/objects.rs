@@ -31,7 +31,7 @@ fn dimensions(drawing: &Drawing) -> impl Iterator<Item = (&Dimension, &Group)> {
 fn styles(drawing: &Drawing) -> Vec<Style> {
     let mut found = Vec::new();
     for (dimension, _) in dimensions(drawing) {
-        let style = Style::of(dimension);
+        let style = Style::new(dimension);
         if !found.contains(&style) {
             found.push(style);
         }
@@ -40,7 +40,7 @@ fn styles(drawing: &Drawing) -> Vec<Style> {
 }
 
 impl Style {
-    fn of(dimension: &Dimension) -> Self {
+    fn new(dimension: &Dimension) -> Self {
         Self {
             letters: dimension.letters,
             scale: dimension.scale,
@@ -124,7 +124,7 @@ impl Writer<'_> {
         const ROTATED: u32 = 0;
         const OWN_BLOCK: u32 = 32;
         const WORDS_PLACED: u32 = 128;
-        let style = Style::of(dimension).name(&styles(drawing));
+        let style = Style::new(dimension).name(&styles(drawing));
         let [a, b] = dimension.ends;
         let file = self.begin("DIMENSION", layer, "AcDbDimension");
         file.word(2, &block_name(index));

@@ -66,7 +66,7 @@ impl Gauge {
 fn gauges(pair: &GearPair, member: Member) -> Option<[Gauge; 2]> {
     let (gear, module) = (pair.gear(member), pair.module());
     let class = class(pair, member).trim().parse().ok()?;
-    let bend = CurvatureRange::of(pair.rolling(), member).greatest.1;
+    let bend = CurvatureRange::new(pair.rolling(), member).greatest.1;
     let diameters = [2.0 / bend, module * f64::from(gear.tooth_count())];
     Some(diameters.map(|diameter| Gauge {
         diameter,

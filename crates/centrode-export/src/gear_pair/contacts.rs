@@ -66,10 +66,10 @@ pub fn contacts(pair: &GearPair) -> Contacts {
             let turned = nalgebra::Rotation2::new(-phi) * point;
             rounded(phi + turn * std::f64::consts::TAU, turned)
         });
-        Some(Track::of(samples))
+        Some(Track::from_samples(samples))
     };
     Contacts {
-        pitch_point: Track::of(pitch_points),
+        pitch_point: Track::from_samples(pitch_points),
         paths: flanks.filter_map(path).collect(),
     }
 }

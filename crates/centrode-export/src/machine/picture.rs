@@ -109,7 +109,7 @@ impl Course {
         let sudden = sudden(machine, &wanted);
         let course = |steps: f64| {
             let input = inputs(period, steps.ceil() as u32, &sudden);
-            Self::at(machine, (&wanted, &traced), input)
+            Self::new(machine, (&wanted, &traced), input)
         };
         let least = FEWEST.max(period / TAU * PER_TURN);
         let coarse = course(least);
@@ -123,7 +123,7 @@ impl Course {
         }
     }
 
-    fn at(machine: &Machine, (wanted, traced): (&[bool], &[bool]), input: Vec<f64>) -> Self {
+    fn new(machine: &Machine, (wanted, traced): (&[bool], &[bool]), input: Vec<f64>) -> Self {
         let mut poses: Vec<Vec<[f64; 3]>> =
             vec![Vec::with_capacity(input.len()); machine.figures.len()];
         let mut points = vec![Vec::new(); machine.points.len()];

@@ -76,7 +76,7 @@ pub struct Track {
 impl Track {
     /// A track of inputs and places.
     #[must_use]
-    pub fn of(samples: impl IntoIterator<Item = (f64, [f64; 2])>) -> Self {
+    pub fn from_samples(samples: impl IntoIterator<Item = (f64, [f64; 2])>) -> Self {
         let (input, at) = samples.into_iter().unzip();
         Self { input, at }
     }

@@ -28,7 +28,7 @@ pub fn overlaps(sheet: &Sheet) -> Vec<Overlap> {
     let mut strokes: Vec<(&str, f64, [Point; 2])> = Vec::new();
     for entity in sheet.drawing.plain() {
         if let EntityShape::Text(text) = &entity.shape {
-            texts.push((text, Ink::of(text)));
+            texts.push((text, Ink::new(text)));
             continue;
         }
         let layer = sheet.drawing.layer_of(entity);
@@ -75,7 +75,7 @@ pub(super) fn enters<'a>(shapes: impl Iterator<Item = &'a EntityShape>, rectangl
     let mut found = false;
     for shape in shapes {
         if let EntityShape::Text(text) = shape {
-            found |= ink.meets(&Ink::of(text));
+            found |= ink.meets(&Ink::new(text));
         } else {
             lines(shape, &mut |a, b| found |= ink.is_met_by([a, b], 0.0));
         }
@@ -86,7 +86,7 @@ pub(super) fn enters<'a>(shapes: impl Iterator<Item = &'a EntityShape>, rectangl
 /// Whether a straight line of a thin pen runs through words among some shapes.
 pub(super) fn strikes<'a>(shapes: impl Iterator<Item = &'a EntityShape>, line: [Point; 2]) -> bool {
     let mut texts = shapes.filter_map(|shape| match shape {
-        EntityShape::Text(text) => Some(Ink::of(text)),
+        EntityShape::Text(text) => Some(Ink::new(text)),
         _ => None,
     });
     texts.any(|ink| ink.is_met_by(line, HALF))
@@ -101,7 +101,7 @@ struct Ink {
 }
 
 impl Ink {
-    fn of(text: &Text) -> Self {
+    fn new(text: &Text) -> Self {
         let [origin, _] = text.baseline();
         let natural = lettering::width(&text.words, text.height);
         let squeeze = text.width.map_or(1.0, |width| width / natural);

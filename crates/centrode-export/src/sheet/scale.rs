@@ -10,28 +10,28 @@ pub struct Scale {
 impl Scale {
     /// Recommended scales, the largest first.
     pub const RECOMMENDED: [Self; 19] = [
-        Self::of(100, 1),
-        Self::of(50, 1),
-        Self::of(20, 1),
-        Self::of(10, 1),
-        Self::of(5, 1),
-        Self::of(2, 1),
-        Self::of(1, 1),
-        Self::of(1, 2),
-        Self::of(1, 5),
-        Self::of(1, 10),
-        Self::of(1, 20),
-        Self::of(1, 50),
-        Self::of(1, 100),
-        Self::of(1, 200),
-        Self::of(1, 500),
-        Self::of(1, 1000),
-        Self::of(1, 2000),
-        Self::of(1, 5000),
-        Self::of(1, 10_000),
+        Self::new(100, 1),
+        Self::new(50, 1),
+        Self::new(20, 1),
+        Self::new(10, 1),
+        Self::new(5, 1),
+        Self::new(2, 1),
+        Self::new(1, 1),
+        Self::new(1, 2),
+        Self::new(1, 5),
+        Self::new(1, 10),
+        Self::new(1, 20),
+        Self::new(1, 50),
+        Self::new(1, 100),
+        Self::new(1, 200),
+        Self::new(1, 500),
+        Self::new(1, 1000),
+        Self::new(1, 2000),
+        Self::new(1, 5000),
+        Self::new(1, 10_000),
     ];
 
-    const fn of(drawn: u32, real: u32) -> Self {
+    const fn new(drawn: u32, real: u32) -> Self {
         Self { drawn, real }
     }
 

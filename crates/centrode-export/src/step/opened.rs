@@ -60,7 +60,7 @@ pub(super) fn manifold(
                         ],
                     );
                 }
-                opened.push([Edges::of(side), Edges::of(next)]);
+                opened.push([Edges::new(side), Edges::new(next)]);
             } else {
                 let around = [
                     vec![(side.levels[0], true)],
@@ -114,7 +114,7 @@ struct Edges {
 }
 
 impl Edges {
-    fn of(side: &Side) -> Self {
+    fn new(side: &Side) -> Self {
         Self {
             at: side.segment.start(),
             corners: side.corners.clone(),

@@ -20,7 +20,7 @@ pub(super) struct Limbs {
 }
 
 impl Limbs {
-    pub(super) fn of(parts: &Machine<'_>, builder: &mut Builder<'_>) -> Result<Self, ExportError> {
+    pub(super) fn new(parts: &Machine<'_>, builder: &mut Builder<'_>) -> Result<Self, ExportError> {
         let plate = |part: ThreeArmPart| parts.plate_of(part).ok_or_else(no_fork);
         let span = |name: &str| parts.of_arm(name).map_or([0.0, 1.0], |p| p.span);
         let arm = [

@@ -65,7 +65,7 @@ pub(super) fn machine(
     builder.surroundings(base);
     let carrier = builder.carrier(base)?;
     let sun = builder.sun(base)?;
-    let limbs = parts.map(|parts| Limbs::of(parts, &mut builder));
+    let limbs = parts.map(|parts| Limbs::new(parts, &mut builder));
     let limbs = limbs.transpose()?;
     for chain in 0..mechanism.arms() {
         builder.chain(chain, (carrier, sun), limbs.as_ref())?;

@@ -15,7 +15,7 @@ pub(super) fn formula_of(
 ) -> Result<impl Fn(f64) -> MotionJet + Send + Sync + use<>, ComposedLawError> {
     const LOOKS: u32 = 720;
     let formula = Formula::read(text).map_err(|e| ComposedLawError::Formula(e.to_string()))?;
-    let jet = move |input: f64| MotionJet::of(&formula.at(input));
+    let jet = move |input: f64| MotionJet::from_series(&formula.at(input));
     for i in 0..=LOOKS {
         let input = period * f64::from(i) / f64::from(LOOKS);
         let MotionJet {

@@ -158,7 +158,7 @@ impl GearDrive {
                 greatest,
             });
         }
-        let crank = Crank::of(design, spec)?;
+        let crank = Crank::new(design, spec)?;
         let composed = Composed::resolve(design).map_err(Box::new)?;
         let (output, turns, sections) = wanted::wanted(&composed)?;
         let left_alone = wanted::left_alone(&composed);

@@ -335,7 +335,9 @@ impl ComposedLawSpec {
             let curve = curve.map_err(|e| ComposedLawError::Table(e.to_string()))?;
             let scale = 1.0 / f64::from(turns);
             let jumps = curve.breaks().into_iter().map(|b| b / scale).collect();
-            let at = move |input: f64| stretched(&MotionJet::of(&curve.at(input * scale)), scale);
+            let at = move |input: f64| {
+                stretched(&MotionJet::from_series(&curve.at(input * scale)), scale)
+            };
             return Ok(Arc::new(FromFn::new(TAU / scale, 0.0, jumps, at)));
         }
         let moved: Arc<dyn Transmission> = if let Some(cam) = &self.cam {

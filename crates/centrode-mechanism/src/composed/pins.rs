@@ -57,7 +57,7 @@ impl Composed {
                     let part = bar.part(["pin", &title], (&spec.material, spec.density));
                     let pins = TurnedPieces {
                         pieces: piece.into_iter().collect(),
-                        ..TurnedPieces::of(part, fit.clone())
+                        ..TurnedPieces::new(part, fit.clone())
                     };
                     found.push((axis.length(), pins));
                 }

@@ -187,7 +187,7 @@ pub(super) fn least_convex_radii(rolling: &Rolling) -> [f64; 2] {
 }
 
 fn curvature_ranges(rolling: &Rolling) -> [CurvatureRange; 2] {
-    [Member::Driver, Member::Driven].map(|member| CurvatureRange::of(rolling, member))
+    [Member::Driver, Member::Driven].map(|member| CurvatureRange::new(rolling, member))
 }
 
 fn least_convex_radius(range: CurvatureRange) -> f64 {

@@ -22,7 +22,7 @@ fn made(text: &str) -> Composed {
 
 /// The error of a design file, with line and key.
 fn refused(text: &str) -> String {
-    let families = [DesignFamily::of::<ComposedDesign>()];
+    let families = [DesignFamily::new::<ComposedDesign>()];
     let (file, _) = match DesignFile::read(text.as_bytes(), &families) {
         Ok(read) => read,
         Err(error) => return error.to_string(),

@@ -103,15 +103,15 @@ pub trait DesignSpec:
     /// # Errors
     /// [`DesignError`] naming key, line and column.
     fn from_toml(text: &str) -> Result<Self, DesignError> {
-        let mut reader = Reader::of(DesignFile::text_of(text.as_bytes())?);
-        let (root, _) = reader.root(&[DesignFamily::of::<Self>()])?;
+        let mut reader = Reader::new(DesignFile::text_of(text.as_bytes())?);
+        let (root, _) = reader.root(&[DesignFamily::new::<Self>()])?;
         reader.design(root)
     }
 }
 
 impl<D: DesignSpec> Design for D {
     fn family(&self) -> DesignFamily {
-        DesignFamily::of::<D>()
+        DesignFamily::new::<D>()
     }
 
     fn name(&self) -> &str {
@@ -160,7 +160,7 @@ type Read = for<'a> fn(&Reader<'a>, Spanned<DeTable<'a>>) -> Result<Arc<dyn Desi
 impl DesignFamily {
     /// The family of a design.
     #[must_use]
-    pub const fn of<D: DesignSpec>() -> Self {
+    pub const fn new<D: DesignSpec>() -> Self {
         Self {
             word: D::FAMILY,
             about: D::ABOUT,

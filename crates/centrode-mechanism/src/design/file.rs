@@ -25,7 +25,7 @@ impl DesignFile {
         families: &'f [F],
     ) -> Result<(Self, &'f F), DesignError> {
         let text = Self::text_of(bytes)?;
-        let mut reader = Reader::of(text);
+        let mut reader = Reader::new(text);
         let (root, family) = reader.root(families)?;
         let file = Self {
             design: (family.as_ref().read)(&reader, root)?,

@@ -16,7 +16,7 @@ struct Entry {
 }
 
 impl Keys {
-    pub(super) fn of(root: &DeTable<'_>) -> Self {
+    pub(super) fn new(root: &DeTable<'_>) -> Self {
         let mut keys = Self::default();
         keys.add(root, "");
         keys

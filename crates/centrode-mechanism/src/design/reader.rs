@@ -15,7 +15,7 @@ pub(super) struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    pub(super) fn of(text: &'a str) -> Self {
+    pub(super) fn new(text: &'a str) -> Self {
         Self {
             text,
             keys: Keys::default(),
@@ -33,7 +33,7 @@ impl<'a> Reader<'a> {
         families: &'f [F],
     ) -> Result<(Spanned<DeTable<'a>>, &'f F), DesignError> {
         let mut root = DeTable::parse(self.text).map_err(|e| self.syntax(&e))?;
-        self.keys = Keys::of(root.get_ref());
+        self.keys = Keys::new(root.get_ref());
         if root.get_ref().is_empty() {
             let example = families.first().map_or("", |family| family.as_ref().word);
             return Err(self.error(DesignFault::Empty { example }, String::new(), 0));

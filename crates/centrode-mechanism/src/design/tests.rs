@@ -29,8 +29,8 @@ keyway = { width = 4, depth = 1.8 }
 
 fn read(text: impl AsRef<[u8]>) -> Result<DesignFile, DesignError> {
     let families = [
-        DesignFamily::of::<GearPairDesign>(),
-        DesignFamily::of::<ThreeArmDesign>(),
+        DesignFamily::new::<GearPairDesign>(),
+        DesignFamily::new::<ThreeArmDesign>(),
     ];
     DesignFile::read(text.as_ref(), &families).map(|(file, _)| file)
 }

@@ -27,7 +27,7 @@ impl Feeder {
         let stops = spec.drive().ok()?.stops();
         let room = 2.0 * spec.width + self.design().plates.gap;
         let fit = Fit::new("pins of the cams", spec.cam_pin(), Self::CAM_PIN_FIT);
-        let standard = Dowel::of(fit.size, room);
+        let standard = Dowel::for_diameter(fit.size, room);
         let long = standard.map_or(room, |pin| pin.length);
         let bar = Bar::new(fit.size, &fit.shaft, [0.0, long]);
         let [middle, entry, _] = self.gear_levels(true);
@@ -48,7 +48,7 @@ impl Feeder {
             pieces: pieces
                 .map(|at| TurnedPiece::upright(GearBody::NAMES[1], at))
                 .collect(),
-            ..TurnedPieces::of(made, fit)
+            ..TurnedPieces::new(made, fit)
         })
     }
 
@@ -105,7 +105,7 @@ impl Feeder {
             TurnedPieces {
                 pieces: vec![TurnedPiece::upright(link.name(), at)],
                 axis: Some(axis.coords.into()),
-                ..TurnedPieces::of(part, fit.clone())
+                ..TurnedPieces::new(part, fit.clone())
             }
         })
     }
@@ -151,7 +151,7 @@ impl Feeder {
             vec!["The crank is pressed on its seat and key, flush with the end.".into()];
         let on_shaft = |part: TurnedPart, bar: &Bar, link: &str| TurnedPieces {
             pieces: vec![TurnedPiece::upright(link, [0.0, 0.0, bar.bottom()])],
-            ..TurnedPieces::of(part, fit.clone())
+            ..TurnedPieces::new(part, fit.clone())
         };
         // In the middle of its hub.
         let seated = |key: Key, [low, high]: [f64; 2], bar: &Bar| SeatedKey {

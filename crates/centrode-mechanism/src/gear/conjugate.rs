@@ -14,7 +14,7 @@ pub struct ConjugateCurve {
 impl ConjugateCurve {
     /// The driven curve of a rolling pair.
     #[must_use]
-    pub fn of(rolling: Rolling) -> Self {
+    pub fn new(rolling: Rolling) -> Self {
         Self { rolling }
     }
 }

@@ -33,7 +33,7 @@ impl FlankCount {
     ///
     /// # Errors
     /// [`GearPairError`] where the driver has no tooth count, or no teeth can be laid out.
-    pub fn of(design: &GearPairDesign, rolling: &Rolling) -> Result<[Self; 2], GearPairError> {
+    pub fn new(design: &GearPairDesign, rolling: &Rolling) -> Result<[Self; 2], GearPairError> {
         let driver = design
             .driver_tooth_count()
             .ok_or(GearPairError::NoToothCount)?;
@@ -107,7 +107,7 @@ mod tests {
     fn counted(pitch: PitchSpec) -> (GearPair, Limits, [FlankCount; 2]) {
         let design = GearPairDesign::new(pitch);
         let pair = GearPair::resolve(&design).expect("a pair");
-        let sound = FlankCount::of(&design, pair.rolling()).expect("teeth");
+        let sound = FlankCount::new(&design, pair.rolling()).expect("teeth");
         let limits = pair.limits();
         (pair, limits, sound)
     }

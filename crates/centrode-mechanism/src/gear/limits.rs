@@ -43,7 +43,7 @@ pub struct CurvatureRange {
 impl CurvatureRange {
     /// Range over the whole pitch curve of a member, to the float limit between its breaks.
     #[must_use]
-    pub fn of(rolling: &Rolling, member: Member) -> Self {
+    pub fn new(rolling: &Rolling, member: Member) -> Self {
         let curvature = |t: f64| rolling.frame(member, t).curvature;
         let [least, greatest] = extremes(curvature, &rolling.pieces())
             .map(|Extreme { input, value }| (rolling.arc_length(input), value));
@@ -131,7 +131,7 @@ impl GearPair {
         let tool = &self.teeth().tool;
         let sin = tool.pressure_angle.sin();
         let ranges =
-            [Member::Driver, Member::Driven].map(|m| CurvatureRange::of(self.rolling(), m));
+            [Member::Driver, Member::Driven].map(|m| CurvatureRange::new(self.rolling(), m));
         let convex = ranges.iter().map(|r| r.greatest.1).fold(0.0, f64::max);
         let concave = ranges.iter().map(|r| -r.least.1).fold(0.0, f64::max);
         let regular = sin * sin / convex.max(concave);

@@ -84,7 +84,7 @@ mod tests {
 
     fn rolling(spec: &PitchSpec, ratio: (u32, u32)) -> Rolling {
         let pitch = spec.resolve().expect("a curve");
-        Rolling::of(pitch.curve, ratio).expect("it rolls")
+        Rolling::new(pitch.curve, ratio).expect("it rolls")
     }
 
     #[test]

@@ -124,7 +124,7 @@ impl<'a> Trimmed<'a> {
     fn shape(&self, passage: &ToothPassage<'_>, share: f64) -> Rc<ToothChords> {
         let new = || {
             let reaches = self.reaches(share);
-            Rc::new(ToothChords::of(
+            Rc::new(ToothChords::new(
                 passage,
                 &Candidate {
                     reaches,
@@ -263,7 +263,7 @@ struct ToothChords {
 }
 
 impl ToothChords {
-    fn of(passage: &ToothPassage<'_>, candidate: &Candidate) -> Self {
+    fn new(passage: &ToothPassage<'_>, candidate: &Candidate) -> Self {
         let (rolling, tool) = (passage.rolling, passage.tool);
         let flank = |side: Side| Flank {
             rolling,

@@ -168,7 +168,7 @@ impl Transmission for LinkTransmission {
         let period = self.linkage.period;
         let turns = (input / period).floor();
         let within = (input - turns * period).clamp(0.0, period);
-        let mut jet = MotionJet::of(&self.coordinate::<4>(within));
+        let mut jet = MotionJet::from_series(&self.coordinate::<4>(within));
         let knot = self.knots.partition_point(|k| k.0 <= within);
         if let Some(&(_, near)) = self.knots.get(knot.wrapping_sub(1)) {
             jet.position = near + wrapped(jet.position - near) + turns * self.advance;

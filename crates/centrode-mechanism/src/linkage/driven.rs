@@ -96,7 +96,7 @@ impl Linkage {
         let (origin, axis) = self.series::<4>(input).frame(link);
         BodyMotion {
             origin: origin.jet(),
-            angle: MotionJet::of(&axis.angle()),
+            angle: MotionJet::from_series(&axis.angle()),
         }
     }
 

@@ -220,7 +220,7 @@ impl FourBar {
         );
         if c.room > 0.0 {
             let d = PointSeries::fixed(Point::new(self.frame, 0.0));
-            let mut jet = MotionJet::of(&c.at.minus(d).angle());
+            let mut jet = MotionJet::from_series(&c.at.minus(d).angle());
             jet.position = self.unwrapped_rocker(input);
             Ok(jet)
         } else {
@@ -239,7 +239,7 @@ impl FourBar {
             PointSeries::<4>::turning(input),
         );
         if c.room > 0.0 {
-            let mut jet = MotionJet::of(&c.at.minus(b).angle());
+            let mut jet = MotionJet::from_series(&c.at.minus(b).angle());
             // The angle at C stays within (0, pi), so this angle has no jumps either.
             jet.position =
                 self.unwrapped_rocker(input) - self.branch.sign() * self.transmission_angle(input);

@@ -27,7 +27,7 @@ impl SixBar {
     /// the spaces between them are equal to about a hundredth.
     #[must_use]
     pub fn pivots(four_bar: &FourBar, swing: f64, count: usize) -> Vec<Point> {
-        let Some(arc) = SliderArc::of(four_bar) else {
+        let Some(arc) = SliderArc::new(four_bar) else {
             return Vec::new();
         };
         if !(swing > 0.0 && swing < TAU) || count == 0 {

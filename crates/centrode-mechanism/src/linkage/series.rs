@@ -102,7 +102,7 @@ impl Linkage {
         self.closes(&series, input)?;
         let bodies = series.frames.iter().map(|(origin, axis)| BodyMotion {
             origin: origin.jet(),
-            angle: MotionJet::of(&axis.angle()),
+            angle: MotionJet::from_series(&axis.angle()),
         });
         Ok(Pose {
             bodies: bodies.collect(),

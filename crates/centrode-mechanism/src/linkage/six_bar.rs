@@ -94,7 +94,7 @@ impl SixBar {
         }
         let class = four_bar.grashof();
         let margin = four_bar.grashof_margin();
-        let arc = SliderArc::of(&four_bar).ok_or(SixBarError::NotCrankRocker { class, margin })?;
+        let arc = SliderArc::new(&four_bar).ok_or(SixBarError::NotCrankRocker { class, margin })?;
         if arc.distance(pivot) <= 0.0 {
             let (x, y) = (pivot.x, pivot.y);
             return Err(SixBarError::PivotOnPath { x, y });
@@ -130,13 +130,13 @@ impl SixBar {
     /// Least distance of the slider from the effector's pivot, mm.
     #[must_use]
     pub fn least_slider_distance(&self) -> f64 {
-        SliderArc::of(&self.four_bar).map_or(0.0, |arc| arc.distance(self.pivot))
+        SliderArc::new(&self.four_bar).map_or(0.0, |arc| arc.distance(self.pivot))
     }
 
     /// Greatest distance of the slider from the effector's pivot, mm.
     #[must_use]
     pub fn greatest_slider_distance(&self) -> f64 {
-        SliderArc::of(&self.four_bar).map_or(0.0, |arc| arc.farthest(self.pivot))
+        SliderArc::new(&self.four_bar).map_or(0.0, |arc| arc.farthest(self.pivot))
     }
 
     /// The ends of the effector's swing.

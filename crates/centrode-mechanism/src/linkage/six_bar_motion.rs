@@ -128,7 +128,7 @@ impl SixBar {
     /// The effector's angle and its derivatives by the crank angle, without jumps.
     #[must_use]
     pub fn effector_angle(&self, input: f64) -> MotionJet {
-        MotionJet::of(&self.effector::<4, f64>(input))
+        MotionJet::from_series(&self.effector::<4, f64>(input))
     }
 
     /// Angle of the effector at each of many crank angles, computed like [`at_each`](Self::at_each).
@@ -155,6 +155,6 @@ impl SixBar {
     pub fn slider_distance(&self, input: f64) -> MotionJet {
         let [_, c] = self.joint_series::<4, f64>(input);
         let way = self.way(c);
-        MotionJet::of(&way.dot(way).sqrt())
+        MotionJet::from_series(&way.dot(way).sqrt())
     }
 }

@@ -15,7 +15,7 @@ pub(super) struct SliderArc {
 }
 
 impl SliderArc {
-    pub(super) fn of(four_bar: &FourBar) -> Option<Self> {
+    pub(super) fn new(four_bar: &FourBar) -> Option<Self> {
         let dead = four_bar.dead_centers()?;
         let mut ends =
             [dead.stretched, dead.folded].map(|phi| (four_bar.unwrapped_rocker(phi), phi));

@@ -51,7 +51,7 @@ impl SliderCrank {
         let along = PointSeries::fixed(Point::new(1.0, 0.0));
         let closed = rrp(b, self.rod, line, along, self.branch);
         if closed.room > 0.0 {
-            return Ok(MotionJet::of(&closed.at.x));
+            return Ok(MotionJet::from_series(&closed.at.x));
         }
         let side = (self.crank * input.sin() - self.offset).signum();
         let limit = ((self.offset + side * self.rod) / self.crank).asin();

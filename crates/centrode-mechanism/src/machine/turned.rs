@@ -178,7 +178,7 @@ impl TurnedPart {
 impl TurnedPieces {
     /// A part with its fit, without pieces yet.
     #[must_use]
-    pub fn of(part: TurnedPart, fit: Fit) -> Self {
+    pub fn new(part: TurnedPart, fit: Fit) -> Self {
         Self {
             part,
             fit,

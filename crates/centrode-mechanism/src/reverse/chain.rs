@@ -127,7 +127,7 @@ impl TwoBar {
     /// Finds the extremes of the ratio, and that both bars turn one way.
     fn check(&mut self) -> Result<(), AxisFault> {
         let least = LEAST_SPEED * TAU / self.path.period();
-        let looks = Looks::of(&self.path, usize::MAX);
+        let looks = Looks::new(&self.path, usize::MAX);
         let mut known = Vec::with_capacity(looks.samples.len());
         for sample in &looks.samples {
             let speeds = self.speeds(sample.at, &sample.jet);

@@ -139,12 +139,12 @@ impl WantedPath {
             return Err(PathError::Open { gap, step });
         }
         let list = points.iter().map(|p| [p.x, p.y]).collect();
-        Ok(Self::of(Arc::new(closed_spline(list, degree))))
+        Ok(Self::new(Arc::new(closed_spline(list, degree))))
     }
 
     /// Path along a curve, which need not go round anything.
     #[must_use]
-    pub fn of(curve: Arc<dyn Curve>) -> Self {
+    pub fn new(curve: Arc<dyn Curve>) -> Self {
         let period = curve.period();
         let breaks: Vec<f64> = curve
             .breaks()
@@ -307,7 +307,7 @@ pub(super) struct Looks {
 
 impl Looks {
     /// Those of `most` pieces at most, evenly spread.
-    pub(super) fn of(path: &WantedPath, most: usize) -> Self {
+    pub(super) fn new(path: &WantedPath, most: usize) -> Self {
         let count = path.pieces().len();
         let step = count.div_ceil(most);
         let pieces = path.pieces().iter().step_by(step);

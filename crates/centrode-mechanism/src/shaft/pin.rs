@@ -30,7 +30,7 @@ impl SpiralShaft {
                 // The mass moved is given.
                 is_counted: true,
             }],
-            ..TurnedPieces::of(part, fit)
+            ..TurnedPieces::new(part, fit)
         }
     }
 }

@@ -56,7 +56,7 @@ impl Reversal {
         let mut ends = vec![0.0];
         ends.extend(law.breaks());
         ends.push(1.0);
-        let area = Antiderivative::of(|x| law.at(x).position, &ends);
+        let area = Antiderivative::new(|x| law.at(x).position, &ends);
         let slope = |x: f64| law.at(x).velocity.abs();
         if (area.total() - 0.5).abs() > 1e-12 || slope(0.0) > 1e-9 || slope(1.0) > 1e-9 {
             return Err(ShaftError::ReversalLaw { law: law.name() });

@@ -60,7 +60,7 @@ impl Schedule {
     /// The holes lie a lead apart, the first where the box is at the first pick; with a return offset
     /// they are half of it nearer, so that both ways miss them alike.
     #[must_use]
-    pub fn of(traverse: &Traverse, pick: f64, window: f64) -> Self {
+    pub fn new(traverse: &Traverse, pick: f64, window: f64) -> Self {
         Self::driven(traverse, pick, window, |input| input)
     }
 

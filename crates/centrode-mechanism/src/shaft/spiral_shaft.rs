@@ -114,7 +114,7 @@ impl SpiralShaft {
     /// Hole picked at each pick.
     #[must_use]
     pub fn schedule(&self) -> Schedule {
-        Schedule::of(self.traverse(), self.design.pick, self.design.window)
+        Schedule::new(self.traverse(), self.design.pick, self.design.window)
     }
 
     /// Distance the box moves while the first seedling on the way is picked in full stroke, mm.

@@ -67,7 +67,7 @@ impl ThreeArm {
     #[must_use]
     pub fn bearing(&self, bore: f64) -> Option<Bearing> {
         let gearbox = &self.design().gearbox;
-        Bearing::of(bore, gearbox.wall).filter(|_| gearbox.bearings)
+        Bearing::for_bore(bore, gearbox.wall).filter(|_| gearbox.bearings)
     }
 
     /// Distance of the middle of the arms' housings from the rear faces of the gears, mm: behind them are the

@@ -111,7 +111,7 @@ impl ThreeArm {
             train,
             trajectory: Trajectory::default(),
         };
-        mechanism.trajectory = Trajectory::of(&mechanism)?;
+        mechanism.trajectory = Trajectory::new(&mechanism)?;
         Ok(mechanism)
     }
 
@@ -203,7 +203,7 @@ impl ThreeArm {
     /// # Errors
     /// [`GearPairError`] without a tooth count, or where no teeth can be laid out.
     pub fn flank_counts(&self) -> Result<[FlankCount; 2], GearPairError> {
-        FlankCount::of(&self.design.pair(), self.rolling())
+        FlankCount::new(&self.design.pair(), self.rolling())
     }
 
     /// Direction of the clamp from the arm's zero, rad: that of the tip turned by asin(H/S).

@@ -65,7 +65,7 @@ impl ThreeArm {
                 keys: key.into_iter().collect(),
                 bearings: bearings.into_iter().flatten().map(above).collect(),
                 pieces: links.into_iter().map(seat).collect(),
-                ..TurnedPieces::of(part, fit)
+                ..TurnedPieces::new(part, fit)
             }
         };
         let behind = rear[0] - DRIVEN_END * design.sun.bore;
@@ -106,11 +106,11 @@ impl ThreeArm {
         let at = pusher.pivot();
         let pivot = TurnedPieces {
             pieces: self.on_chains("arm", [at.x, at.y, bar.bottom()]),
-            ..TurnedPieces::of(pivot, Fit::new("", spec.pivot_bore, RUNNING))
+            ..TurnedPieces::new(pivot, Fit::new("", spec.pivot_bore, RUNNING))
         };
         // From the roller, which is behind it, through the fork.
         let (low, high) = (fork[0].min(cam[0]), fork[1].max(cam[1]));
-        let standard = Dowel::of(spec.roller_bore, high - low);
+        let standard = Dowel::for_diameter(spec.roller_bore, high - low);
         let long = standard.map_or(high - low, |pin| pin.length);
         let bar = Bar::new(spec.roller_bore, PRESSED[1], [high - long, high]);
         let roller = TurnedPieces {
@@ -119,7 +119,7 @@ impl ThreeArm {
                 .map_or("", |_| "of the roller, pressed into the fork")
                 .into(),
             standard: standard.map(Dowel::name),
-            ..TurnedPieces::of(
+            ..TurnedPieces::new(
                 bar.part(["pin-roller", "Pin of the roller"], STEEL),
                 Fit::new("", spec.roller_bore, PRESSED),
             )
@@ -154,7 +154,7 @@ impl ThreeArm {
         }
         let rod = TurnedPieces {
             pieces,
-            ..TurnedPieces::of(rod, Fit::new("", thin, PRESSED))
+            ..TurnedPieces::new(rod, Fit::new("", thin, PRESSED))
         };
         let all = [pivot, roller, rod].into_iter();
         all.filter(|pin| pin.fit.size > 0.0).collect()

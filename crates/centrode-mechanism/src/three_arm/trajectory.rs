@@ -142,7 +142,7 @@ fn reach(tip: &PointMotion, direction: &Vector) -> [f64; 2] {
 }
 
 impl Trajectory {
-    pub(super) fn of(mechanism: &ThreeArm) -> Result<Self, ThreeArmError> {
+    pub(super) fn new(mechanism: &ThreeArm) -> Result<Self, ThreeArmError> {
         let design = mechanism.design();
         let tips = tips(mechanism);
         let upright = Looks::along(mechanism, &tips, Vector::y());

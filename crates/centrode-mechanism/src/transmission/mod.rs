@@ -71,7 +71,7 @@ impl MotionJet {
         }
     }
 
-    pub(crate) fn of<const N: usize>(series: &Taylor<N>) -> Self {
+    pub(crate) fn from_series<const N: usize>(series: &Taylor<N>) -> Self {
         Self::of_lane(series, 0)
     }
 

@@ -21,7 +21,7 @@ pub(crate) fn run(command: &Check, out: &mut impl Write) -> Result<Status, Failu
     let Made {
         mechanism,
         mut left_out,
-    } = Made::of(&text).map_err(|error| source.blame(error))?;
+    } = Made::new(&text).map_err(|error| source.blame(error))?;
     // Figures and remedies are of the design as written.
     if (command.figures || command.remedy)
         && let Some(left_out) = left_out.take()
@@ -65,7 +65,7 @@ pub(crate) fn run(command: &Check, out: &mut impl Write) -> Result<Status, Failu
     } else {
         report::write(mechanism.as_ref(), &report, out)?;
     }
-    Ok(Status::of(report.ok()))
+    Ok(Status::new(report.ok()))
 }
 
 /// Prints changed designs, each with what it does.

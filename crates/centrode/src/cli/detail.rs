@@ -31,7 +31,7 @@ impl Made {
     ///
     /// # Errors
     /// [`DesignError`] of anything but a detail.
-    pub(super) fn of(text: &str) -> Result<Self, DesignError> {
+    pub(super) fn new(text: &str) -> Result<Self, DesignError> {
         let error = match resolved(text) {
             Ok(mechanism) => {
                 return Ok(Self {

@@ -33,7 +33,7 @@ pub(crate) fn run(command: &Export, out: &mut impl Write) -> Result<Status, Fail
     }
     out.flush()?;
     tell(&found, written.len(), command);
-    Ok(Status::of(found.ok()))
+    Ok(Status::new(found.ok()))
 }
 
 /// The files of a design text in one archive.

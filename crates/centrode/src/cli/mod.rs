@@ -44,7 +44,7 @@ pub(crate) enum Status {
 }
 
 impl Status {
-    pub(crate) fn of(good: bool) -> Self {
+    pub(crate) fn new(good: bool) -> Self {
         if good { Self::Good } else { Self::Bad }
     }
 }

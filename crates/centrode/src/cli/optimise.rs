@@ -80,14 +80,14 @@ pub(crate) fn run(command: &Optimise, out: &mut impl Write) -> Result<Status, Fa
     let best = search.best();
     stored.write_design(&better(&text, problem, &best)?)?;
     stored.write(problem, &search)?;
-    let outcome = Outcome::of(problem, &search, &best, ended, seconds);
+    let outcome = Outcome::new(problem, &search, &best, ended, seconds);
     if command.json {
         outcome.json(out)?;
     } else {
         outcome.write(search.strategy().name(), out)?;
         writeln!(out, "\n{}", command.output.display())?;
     }
-    Ok(Status::of(outcome.reached()))
+    Ok(Status::new(outcome.reached()))
 }
 
 /// Checks that method and seed of the command line are those of the stored search, which goes on as it began.

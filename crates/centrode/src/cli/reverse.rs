@@ -81,7 +81,7 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
     }
     others(chain, kind, bend, out)?;
     let (Some(output), Some(toothed)) = (&command.output, toothed) else {
-        return Ok(Status::of(found.is_reached));
+        return Ok(Status::new(found.is_reached));
     };
     // What was found is told even where there are no teeth.
     out.flush()?;
@@ -91,7 +91,7 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
     let text = text.map_err(|error| Failure::Files(Box::new(error)))?;
     writeln!(out)?;
     output::write_one(output, text.into_bytes(), out)?;
-    Ok(Status::of(found.is_reached))
+    Ok(Status::new(found.is_reached))
 }
 
 pub(crate) fn line(out: &mut impl Write, name: &str, words: &str) -> std::io::Result<()> {

@@ -32,7 +32,7 @@ pub(crate) fn run(command: &Schema, out: &mut impl Write) -> Result<Status, Fail
         Some("figures") => figures(),
         Some("machine-model") => crate::export::machine::schema(),
         Some("motion") => crate::export::machine::motion_schema(),
-        Some("path") => DesignFamily::of::<PathDesign>().json_schema(),
+        Some("path") => DesignFamily::new::<PathDesign>().json_schema(),
         Some("report") => crate::analysis::ReportFile::schema(),
         Some("proof") => crate::analysis::Proof::schema(),
         Some(word) => match FAMILIES.named(word) {

@@ -18,7 +18,7 @@ pub(crate) fn run(command: &Report, out: &mut impl Write) -> Result<Status, Fail
     let progress = Progress::new(2);
     progress.step("resolving the design");
     let text = source.text()?;
-    let subject = match Subject::of(text) {
+    let subject = match Subject::from_text(text) {
         Ok(subject) => subject,
         // Resolving once more gives the error with its line.
         Err(_) => {
@@ -34,5 +34,5 @@ pub(crate) fn run(command: &Report, out: &mut impl Write) -> Result<Status, Fail
         &snapshot.json().map_err(std::io::Error::from)?,
     );
     output::write_one(&command.output, html.into_bytes(), out)?;
-    Ok(Status::of(snapshot.ok()))
+    Ok(Status::new(snapshot.ok()))
 }

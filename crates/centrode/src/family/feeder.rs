@@ -109,7 +109,7 @@ impl Resolved for Feeder {
     }
 
     fn widen(design: &FeederDesign) -> Result<Widening, WideningError> {
-        let Widened { share, design } = Widened::of(design)?;
+        let Widened { share, design } = Widened::search(design)?;
         let linkage = &design.linkage;
         let lengths = Dimension::ALL.into_iter().filter(|d| !d.is_of_pivot());
         let numbers = lengths.map(|d| (d.key().to_owned(), d.of(linkage)));
@@ -140,7 +140,7 @@ impl Resolved for Feeder {
 
 /// Torque of the crank along the cycle; none where a link makes no plate.
 fn torques(machine: &Feeder) -> Vec<Curve> {
-    let Ok(system) = FeederForces::of(machine) else {
+    let Ok(system) = FeederForces::analyse(machine) else {
         return Vec::new();
     };
     let input: Vec<f64> = (0..=LOOKS)

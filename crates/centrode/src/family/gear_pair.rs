@@ -61,7 +61,7 @@ impl Mechanism for GearPair {
     }
 
     fn check_with_curves(&self) -> (Report, Vec<Curve>) {
-        let contact = Contact::of(self);
+        let contact = Contact::analyse(self);
         (check_contact(self, &contact), contact_curves(&contact))
     }
 

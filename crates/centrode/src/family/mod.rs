@@ -32,10 +32,10 @@ use centrode_mechanism::three_arm::ThreeArm;
 
 /// Every family there is.
 pub static FAMILIES: Families = Families(&[
-    Family::of::<GearPair>(),
-    Family::of::<ThreeArm>(),
-    Family::of::<SpiralShaft>(),
-    Family::of::<MovingBox>(),
-    Family::of::<Feeder>(),
-    Family::of::<Composed>(),
+    Family::new::<GearPair>(),
+    Family::new::<ThreeArm>(),
+    Family::new::<SpiralShaft>(),
+    Family::new::<MovingBox>(),
+    Family::new::<Feeder>(),
+    Family::new::<Composed>(),
 ]);

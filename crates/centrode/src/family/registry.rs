@@ -82,9 +82,9 @@ pub struct Family {
 impl Family {
     /// The family of a mechanism.
     #[must_use]
-    pub const fn of<M: Resolved>() -> Self {
+    pub const fn new<M: Resolved>() -> Self {
         Self {
-            design: DesignFamily::of::<M::Design>(),
+            design: DesignFamily::new::<M::Design>(),
             noun: M::NOUN,
             parts: M::PARTS,
             resolve: |design| Ok(Arc::new(M::resolve(own(design)?)?)),
@@ -134,7 +134,7 @@ impl Family {
         values: &[f64],
         depth: Depth,
     ) -> Result<Response, DesignError> {
-        Response::of(design, key, values, |design| {
+        Response::evaluate(design, key, values, |design| {
             Some(self.resolve(design).ok()?.report(depth))
         })
     }

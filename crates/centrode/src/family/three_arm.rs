@@ -54,7 +54,7 @@ impl Mechanism for ThreeArm {
     }
 
     fn check_with_curves(&self) -> (Report, Vec<Curve>) {
-        let teeth = TrainTeeth::of(self);
+        let teeth = TrainTeeth::analyse(self);
         let found = check_three_arm_teeth(self, &teeth);
         (found, checked_curves(self, teeth.ok().flatten().as_ref()))
     }

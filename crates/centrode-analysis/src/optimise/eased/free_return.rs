@@ -39,7 +39,7 @@ impl Easing {
                 bands,
                 ..spec.clone()
             };
-            match Self::of(&closed, count, &spec) {
+            match Self::through(&closed, count, &spec) {
                 Ok(easing) => {
                     let start = easing.evaluate(&easing.start);
                     let is_better = |best: &Evaluation| start.order(best).is_lt();

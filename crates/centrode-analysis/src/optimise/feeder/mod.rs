@@ -152,7 +152,7 @@ impl DesignProblem for FeederProblem {
             missed.any(|goal| goal.name == name)
         };
         if missed("transmission-angle") {
-            return Some(match Attainable::of(&self.start) {
+            return Some(match Attainable::search(&self.start) {
                 Some(found) => format!("infeasible: {found}"),
                 None => "infeasible: the bounds hold no crank-rocker that would do".into(),
             });

@@ -132,7 +132,7 @@ fn lengths_that_do_not_turn_are_worst_and_can_be_stored() {
 
 #[test]
 fn the_widened_design_is_the_shipped_one() {
-    let found = Widened::of(&published()).expect("found");
+    let found = Widened::search(&published()).expect("found");
     assert!((100.0 * found.share - 22.4432).abs() < 1e-4);
     let shipped = shipped(include_str!(
         "../../../../../tests/designs/feeder-widened.toml"
@@ -151,7 +151,7 @@ fn the_widened_design_is_the_shipped_one() {
     ] {
         *ends = [ends[0] + 0.002, ends[1] - 0.002];
     }
-    let attainable = Attainable::of(&narrower).expect("crank-rockers");
+    let attainable = Attainable::search(&narrower).expect("crank-rockers");
     assert!(attainable.widening.is_some());
 }
 
@@ -160,12 +160,12 @@ fn bounds_that_need_no_widening_are_not_widened() {
     let mut design = published();
     design.goals.transmission_angle = 12_f64.to_radians();
     assert!(matches!(
-        Widened::of(&design),
+        Widened::search(&design),
         Err(NotWidened::Needless { .. })
     ));
     design.goals.transmission_angle = 89.9_f64.to_radians();
     assert!(matches!(
-        Widened::of(&design),
+        Widened::search(&design),
         Err(NotWidened::NoUse { .. })
     ));
 }

@@ -52,11 +52,11 @@ impl Widened {
     ///
     /// # Errors
     /// [`NotWidened`].
-    pub fn of(design: &FeederDesign) -> Result<Self, NotWidened> {
+    pub fn search(design: &FeederDesign) -> Result<Self, NotWidened> {
         let goals = &design.goals;
         let wanted = goals.transmission_angle;
         let none = NotWidened::NoUse { wanted };
-        let found = Attainable::of(design).ok_or(none)?;
+        let found = Attainable::search(design).ok_or(none)?;
         let attainable = found.transmission_angle;
         let needless = NotWidened::Needless { attainable, wanted };
         let share = found.widening.ok_or(needless)?;

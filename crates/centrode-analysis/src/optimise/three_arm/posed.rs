@@ -196,7 +196,8 @@ fn quick(design: &mut ThreeArmDesign) -> Option<(Vec<Goal>, f64)> {
 
 /// Greatest convex and concave curvature of both pitch curves, 1/mm.
 fn curvatures(rolling: &Rolling) -> [f64; 2] {
-    let ranges = [Member::Driver, Member::Driven].map(|member| CurvatureRange::of(rolling, member));
+    let ranges =
+        [Member::Driver, Member::Driven].map(|member| CurvatureRange::new(rolling, member));
     let greatest = |of: fn(&CurvatureRange) -> f64| ranges.iter().map(of).fold(0.0, f64::max);
     [
         greatest(|range| range.greatest.1),

@@ -50,7 +50,7 @@ impl ArmClearance {
     ///
     /// # Errors
     /// [`ArmClearanceError`] where a pose or the contour is not finite.
-    pub fn of(
+    pub fn analyse(
         mechanism: &ThreeArm,
         arm: &ArmBody,
         tolerance: Tolerance,
@@ -110,7 +110,7 @@ pub fn between_arms(
     arm: &ArmBody,
     tolerance: Tolerance,
 ) -> Result<Option<Clearance>, ArmClearanceError> {
-    let shares = Shares::of(tolerance);
+    let shares = Shares::new(tolerance);
     let found = among_arms(mechanism, arm, shares, |moving, pairs| {
         shares.least(moving, pairs, [0.0, TAU])
     })?;
@@ -133,13 +133,13 @@ impl ArmClearanceCourse {
     ///
     /// # Errors
     /// [`ArmClearanceError`] where a pose or the contour is not finite.
-    pub fn of(
+    pub fn analyse(
         mechanism: &ThreeArm,
         arm: &ArmBody,
         tolerance: Tolerance,
         parts: u32,
     ) -> Result<Self, ArmClearanceError> {
-        let shares = Shares::of(tolerance);
+        let shares = Shares::new(tolerance);
         let place = |i: u32, share: f64| TAU * (f64::from(i) + share) / f64::from(parts);
         let along = |moving: &[Moving<'_>], pairs: &[[usize; 2]]| {
             let least = (0..parts).map(|i| {
@@ -218,7 +218,7 @@ fn from_tray(
     arm: &ArmBody,
     tolerance: Tolerance,
 ) -> Result<Option<Clearance>, ArmClearanceError> {
-    let shares = Shares::of(tolerance);
+    let shares = Shares::new(tolerance);
     let found = beside_tray(mechanism, arm, shares, |moving, pairs| {
         shares.least(moving, pairs, [0.0, TAU])
     })?;
@@ -252,7 +252,7 @@ fn from_unpicked(
     }
     let arm = std::slice::from_ref(arm.outline());
     let stems = (&tray.stems[..], tray.place);
-    let shares = Shares::of(tolerance);
+    let shares = Shares::new(tolerance);
     at_rest(mechanism, arm, stems, shares, |moving, pairs| {
         shares.least(moving, pairs, [0.0, TAU])
     })
@@ -294,7 +294,7 @@ fn from_seedlings(
     };
     let release = mechanism.planting(0);
     let inputs = [release - PI, release + PI];
-    let shares = Shares::of(tolerance);
+    let shares = Shares::new(tolerance);
     let stem = shares.body(&[stem])?;
     let arm = shares.body(std::slice::from_ref(arm.outline()))?;
     let motion = shares.motion(&arm, inputs, |input| {

@@ -54,8 +54,8 @@ fn posed(machine: &ThreeArm, outline: &[Point], arm: u32, input: f64) -> Vec<Poi
 fn the_clearance_along_the_turn_has_the_least_one_and_is_that_of_the_outlines() {
     let (machine, arm) = (published(3), default_arm());
     let fine = tolerance(1e-3);
-    let whole = ArmClearance::of(&machine, &arm, fine).expect("finite");
-    let course = ArmClearanceCourse::of(&machine, &arm, fine, 90).expect("finite");
+    let whole = ArmClearance::analyse(&machine, &arm, fine).expect("finite");
+    let course = ArmClearanceCourse::analyse(&machine, &arm, fine, 90).expect("finite");
     let least = |list: &[f64]| list.iter().copied().fold(f64::INFINITY, f64::min);
     let off = least(&course.arms) - whole.arms.expect("three arms").least;
     assert!(off.abs() < 2e-3, "{off}");
@@ -77,7 +77,7 @@ fn the_clearance_along_the_turn_has_the_least_one_and_is_that_of_the_outlines() 
             course.input[i]
         );
     }
-    let single = ArmClearanceCourse::of(&published(1), &arm, fine, 4).expect("finite");
+    let single = ArmClearanceCourse::analyse(&published(1), &arm, fine, 4).expect("finite");
     assert!(single.arms.is_empty() && single.tray.len() == 4);
 }
 
@@ -137,7 +137,7 @@ fn arms_too_long_overlap_and_one_arm_is_alone() {
 #[test]
 fn tray_and_stems_are_where_the_machine_has_them() {
     let (machine, arm) = (published(3), default_arm());
-    let found = ArmClearance::of(&machine, &arm, tolerance(1e-2)).expect("finite");
+    let found = ArmClearance::analyse(&machine, &arm, tolerance(1e-2)).expect("finite");
     assert_eq!(
         found.arms,
         between_arms(&machine, &arm, tolerance(1e-2)).expect("finite")
@@ -204,7 +204,7 @@ fn the_arm_bends_the_row_above_by_as_much_as_samples_say() {
         [[-length, -2.0], [0.0, -2.0], [0.0, 2.0], [-length, 2.0]]
             .map(|[x, y]| picked + Vector::new(x, y + spacing))
     };
-    let found = ArmClearance::of(&machine, &arm, tolerance(1e-2)).expect("finite");
+    let found = ArmClearance::analyse(&machine, &arm, tolerance(1e-2)).expect("finite");
     let unpicked = found.unpicked.expect("stems");
     assert!((unpicked.least + 7.7).abs() < 0.1, "{unpicked:?}");
     // The deepest point lies on the border of one and so far inside the other.
@@ -222,7 +222,7 @@ fn the_arm_bends_the_row_above_by_as_much_as_samples_say() {
         design.tray.hole_spacing = spacing;
         design.tray.stem_length = length;
         let wide = ThreeArm::resolve(&design).expect("a mechanism");
-        let found = ArmClearance::of(&wide, &arm, tolerance(1e-2)).expect("finite");
+        let found = ArmClearance::analyse(&wide, &arm, tolerance(1e-2)).expect("finite");
         let unpicked = found.unpicked.expect("stems");
         let row = row(spacing, length);
         let samples = (0..3600).map(|i| posed(&wide, &outline, 0, TAU * f64::from(i) / 3600.0));
@@ -239,7 +239,7 @@ fn the_arm_bends_the_row_above_by_as_much_as_samples_say() {
         let mut design = machine.design().clone();
         design.tray.unpicked = rows;
         let other = ThreeArm::resolve(&design).expect("a mechanism");
-        let found = ArmClearance::of(&other, &arm, tolerance(1e-2)).expect("finite");
+        let found = ArmClearance::analyse(&other, &arm, tolerance(1e-2)).expect("finite");
         assert_eq!(found.unpicked.is_some(), expected);
     }
 }

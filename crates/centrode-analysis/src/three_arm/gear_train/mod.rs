@@ -39,7 +39,7 @@ impl TrainTeeth {
     ///
     /// # Errors
     /// [`GearPairError`] where no teeth can be laid out or cut.
-    pub fn of(mechanism: &ThreeArm) -> Result<Option<Self>, GearPairError> {
+    pub fn analyse(mechanism: &ThreeArm) -> Result<Option<Self>, GearPairError> {
         if mechanism.design().gear_tooth_count().is_none() {
             return Ok(None);
         }
@@ -52,7 +52,7 @@ impl TrainTeeth {
 
     /// Runs cut teeth together.
     fn run(pair: GearPair) -> Self {
-        let contact = Contact::of(&pair);
+        let contact = Contact::analyse(&pair);
         let checked = check_contact(&pair, &contact);
         Self {
             pair,
@@ -253,7 +253,7 @@ fn between(
     if clearance.bound > 0.0 {
         return Ok(clearance);
     }
-    let shares = Shares::of(tolerance);
+    let shares = Shares::new(tolerance);
     let body = |link: ThreeArmLink| shares.body(std::slice::from_ref(gear(link).outline()));
     let bodies = [body(links[0])?, body(links[1])?];
     let motion = |k: usize| {

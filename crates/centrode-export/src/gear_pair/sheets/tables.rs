@@ -60,7 +60,7 @@ pub(super) fn data(part: &SheetGear<'_>, found: &[Datum]) -> Table {
     rows.add("Length of pitch curve", "", number(gear.pitch_length(), 6));
     let (least, greatest) = pair.rolling().radii(part.member);
     rows.add("Pitch radius", "r", range([least, greatest], 4));
-    let bend = CurvatureRange::of(pair.rolling(), part.member);
+    let bend = CurvatureRange::new(pair.rolling(), part.member);
     rows.add(
         "Curvature of pitch curve",
         "1/mm",

@@ -82,7 +82,7 @@ impl RodJoint {
             Self::PinOnRod(_) => (sin / cos, start.tan()),
             Self::PinOnFork(_) => (sin, start.sin()),
         };
-        MotionJet::of(&((now - Taylor::constant(out)) * Taylor::constant(length)))
+        MotionJet::from_series(&((now - Taylor::constant(out)) * Taylor::constant(length)))
     }
 
     /// Swing of the fork, rad, that has retracted the rod by a displacement, with the derivatives of both.
@@ -96,7 +96,7 @@ impl RodJoint {
             Self::PinOnRod(_) => (share + Taylor::constant(start.tan())).atan(),
             Self::PinOnFork(_) => (share + Taylor::constant(start.sin())).asin(),
         };
-        MotionJet::of(&(angle - Taylor::constant(start)))
+        MotionJet::from_series(&(angle - Taylor::constant(start)))
     }
 }
 

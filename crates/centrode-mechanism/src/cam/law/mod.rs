@@ -209,7 +209,7 @@ impl Law {
     /// The law and its first three derivatives at `x`, meant for 0 to 1.
     #[must_use]
     pub fn at(&self, x: f64) -> MotionJet {
-        MotionJet::of(&self.form.of(Taylor::variable(x)))
+        MotionJet::from_series(&self.form.of(Taylor::variable(x)))
     }
 
     /// Places inside (0, 1) where a derivative jumps, ascending.

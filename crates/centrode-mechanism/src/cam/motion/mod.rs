@@ -155,7 +155,7 @@ impl Motion {
                 from,
                 span,
                 level,
-                course: Course::of(segment)?,
+                course: Course::new(segment)?,
             });
             from += span;
             lowest = lowest.min(level);
@@ -241,7 +241,7 @@ pub(crate) fn ends(motion: &dyn Transmission) -> Vec<f64> {
 }
 
 impl Course {
-    fn of(segment: &SegmentSpec) -> Result<Self, SpecError> {
+    fn new(segment: &SegmentSpec) -> Result<Self, SpecError> {
         Ok(match segment {
             SegmentSpec::Rise(travel) | SegmentSpec::Return(travel) => {
                 Self::Law(travel.law.resolve()?, segment.change())
@@ -275,7 +275,7 @@ impl MotionPiece {
             Course::Law(law, stroke) => law.of(x) * Taylor::constant(*stroke),
             Course::Polynomial(polynomial) => polynomial.of(x),
         };
-        MotionJet::of(&(Taylor::constant(self.level) + moved))
+        MotionJet::from_series(&(Taylor::constant(self.level) + moved))
     }
 
     fn breaks(&self) -> impl Iterator<Item = f64> + '_ {

@@ -33,7 +33,7 @@ pub(super) struct Crank<'a> {
 }
 
 impl<'a> Crank<'a> {
-    pub(super) fn of(
+    pub(super) fn new(
         design: &'a ComposedDesign,
         spec: &'a GearDriveSpec,
     ) -> Result<Self, GearDriveError> {

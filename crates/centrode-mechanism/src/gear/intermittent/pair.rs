@@ -68,7 +68,7 @@ impl IntermittentPair {
             accuracy,
             pair,
         };
-        let whole = Radial::of(&made.pair.driven().outline().flatten(accuracy));
+        let whole = Radial::new(&made.pair.driven().outline().flatten(accuracy));
         // The driver is cut by a driven gear whose notch fits; the finished one has its play.
         let tool = made.notched(&whole, lock_radius).polygon(accuracy);
         let play = spec.backlash / (2.0 * made.base_radius());
@@ -176,7 +176,7 @@ impl IntermittentPair {
         let turned = Rotation2::new(0.5 * self.law.entry);
         let corners = self.pair.driver().outline().flatten(accuracy);
         let corners: Vec<Point> = corners.iter().map(|p| turned * p).collect();
-        let mut blank = Radial::of(&corners);
+        let mut blank = Radial::new(&corners);
         blank.fill(self.law.motion_angle(), TAU, self.lock_radius);
         blank
     }
@@ -204,7 +204,7 @@ impl IntermittentPair {
             .collect();
         inputs.extend(self.law.breaks());
         inputs.sort_by(f64::total_cmp);
-        let chains: Vec<Chain> = bodies.iter().flat_map(|body| Chain::of(body)).collect();
+        let chains: Vec<Chain> = bodies.iter().flat_map(|body| Chain::new(body)).collect();
         for &side in plays {
             let placed = |input: f64| {
                 let off = if always || (input > 0.0 && input < motion) {

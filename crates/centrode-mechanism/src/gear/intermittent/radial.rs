@@ -63,7 +63,7 @@ pub(super) struct Chain {
 
 impl Chain {
     /// The chains of a closed polygon.
-    pub(super) fn of(polygon: &[Point]) -> Vec<Self> {
+    pub(super) fn new(polygon: &[Point]) -> Vec<Self> {
         let count = polygon.len();
         let chain = |start: usize| {
             let end = (start + CHAIN).min(count);
@@ -110,7 +110,7 @@ impl Radial {
     }
 
     /// Contour of a closed polygon around the origin.
-    pub(super) fn of(polygon: &[Point]) -> Self {
+    pub(super) fn new(polygon: &[Point]) -> Self {
         let mut radial = Self::unbounded();
         radial.cut_polygon(polygon);
         radial
@@ -258,7 +258,7 @@ mod tests {
     #[test]
     fn a_polygon_is_kept_and_a_circle_cut_out_of_it() {
         let square = [[-2.0, -2.0], [2.0, -2.0], [2.0, 2.0], [-2.0, 2.0]].map(Point::from);
-        let radial = Radial::of(&square);
+        let radial = Radial::new(&square);
         assert!((radial.at(0.0) - 2.0).abs() < 1e-12);
         assert!((radial.at(PI / 4.0) - 8.0_f64.sqrt()).abs() < 1e-12);
         let back = radial.polygon(tolerance(1e-3));
@@ -278,7 +278,7 @@ mod tests {
         // A straight way of the point at x = 3, in coarse steps.
         for step in 0..4 {
             let (before, now) = (at(f64::from(step) - 2.0), at(f64::from(step) - 1.0));
-            for chain in Chain::of(&needle) {
+            for chain in Chain::new(&needle) {
                 assert!(chain.is_near(&now, 6.0) && !chain.is_near(&at(30.0), 6.0));
                 blank.cut_moving(&chain.placed(&before, 6.0), &chain.placed(&now, 6.0));
             }

@@ -122,7 +122,7 @@ impl GearPair {
                 implied,
             });
         }
-        let rolling = Rolling::of(pitch.curve, ratio)?;
+        let rolling = Rolling::new(pitch.curve, ratio)?;
         if let Some((turn, angle)) = rolling.corner() {
             return Err(GearPairError::Corner { turn, angle });
         }

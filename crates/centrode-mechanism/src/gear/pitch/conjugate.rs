@@ -48,11 +48,11 @@ impl Conjugate {
         }
         let of = self.of.resolve().map_err(|e| PitchError::Of(Box::new(e)))?;
         let [n1, n2] = self.mean_ratio;
-        let rolling = Rolling::of(of.curve, (n1, n2))
+        let rolling = Rolling::new(of.curve, (n1, n2))
             .map_err(|reason| PitchError::NoConjugate(Box::new(reason)))?;
         let definition = format!("conjugate, {n1}:{n2}, of {}", of.definition);
         let curve = Rolled {
-            curve: gear::ConjugateCurve::of(rolling),
+            curve: gear::ConjugateCurve::new(rolling),
             scale: 1.0,
         };
         Draft::new("of", curve, size, definition)

@@ -267,7 +267,7 @@ fn sized(key: &'static str, length: f64) -> Result<f64, PitchError> {
 
 /// Length of one turn of a curve, mm.
 fn perimeter(curve: &dyn Curve) -> f64 {
-    Antiderivative::of(|t| curve.at(t).first.norm(), &proof::piece_ends(curve)).total()
+    Antiderivative::new(|t| curve.at(t).first.norm(), &proof::piece_ends(curve)).total()
 }
 
 #[cfg(test)]

@@ -73,7 +73,7 @@ impl Curve for PiecewiseCurve {
         let [a, b] = self.plane(t);
         match self.coordinates {
             Coordinates::Polar => polar_jet(
-                &Direction::at(a[0]),
+                &Direction::from_angle(a[0]),
                 [a[1], a[2], a[3]],
                 &b.map(|d| d * self.scale),
             ),

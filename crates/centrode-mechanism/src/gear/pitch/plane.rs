@@ -12,7 +12,7 @@ pub(crate) struct Direction {
 }
 
 impl Direction {
-    pub(crate) fn at(angle: f64) -> Self {
+    pub(crate) fn from_angle(angle: f64) -> Self {
         let (sin, cos) = angle.sin_cos();
         Self { angle, sin, cos }
     }
@@ -106,7 +106,7 @@ impl<L: RadiusLaw> Curve for PolarCurve<L> {
     }
 
     fn at(&self, t: f64) -> Jet {
-        let direction = Direction::at(t);
+        let direction = Direction::from_angle(t);
         let radius = self.law.radius(&direction).map(|d| d * self.scale);
         polar_jet(&direction, [1.0, 0.0, 0.0], &radius)
     }
@@ -118,7 +118,7 @@ impl<L: RadiusLaw> ScalableCurve for PolarCurve<L> {
     }
 
     fn side(&self, t: f64) -> f64 {
-        self.law.radius(&Direction::at(t))[0].signum()
+        self.law.radius(&Direction::from_angle(t))[0].signum()
     }
 
     fn goes_round_by_form(&self) -> bool {

@@ -269,7 +269,7 @@ fn draft(
             let radius = draft.curve.at(t).point.coords.norm();
             radius / (a - radius)
         };
-        Antiderivative::of(q, &ends).total()
+        Antiderivative::new(q, &ends).total()
     });
     draft.implied_ratio = Some(turns(key, total / TAU)?);
     Ok(draft)

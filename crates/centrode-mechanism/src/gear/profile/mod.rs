@@ -201,7 +201,7 @@ impl Cutter<'_> {
                 Side::Leading => (lead_center, lead_end, true),
                 Side::Trailing => (trail_center, trail_end, false),
             };
-            let swing = Swing::of(corner, center, end);
+            let swing = Swing::new(corner, center, end);
             let (from, to) = if leads { (center, end) } else { (end, center) };
             let curve = |w: f64| flank.fillet(corner, swing.parameter(w));
             let cut = |t: f64| swing.own(t);

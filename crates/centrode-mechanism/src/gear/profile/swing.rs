@@ -11,7 +11,7 @@ pub(super) struct Swing {
 }
 
 impl Swing {
-    pub(super) fn of(corner: &Corner, center: f64, end: f64) -> Self {
+    pub(super) fn new(corner: &Corner, center: f64, end: f64) -> Self {
         let straight = (corner.depth - corner.radius).abs();
         let roll = (corner.end - corner.center).abs();
         Self {

@@ -11,7 +11,7 @@ impl Rolling {
     ///
     /// # Errors
     /// [`RollingError`] when no such curve exists.
-    pub fn of(curve: Arc<dyn Curve>, mean_ratio: (u32, u32)) -> Result<Self, RollingError> {
+    pub fn new(curve: Arc<dyn Curve>, mean_ratio: (u32, u32)) -> Result<Self, RollingError> {
         let ratio = reduced(mean_ratio)?;
         let period = curve.period();
         let (start, half) = axis_crossings(&*curve, period)?;
@@ -29,7 +29,7 @@ impl Rolling {
         breaks.extend(jumps.iter().copied().filter(|&b| b > start));
         breaks.push(start + period);
 
-        let arc = Antiderivative::of(|t| curve.at(t).first.norm(), &breaks);
+        let arc = Antiderivative::new(|t| curve.at(t).first.norm(), &breaks);
         let nodes: Vec<(f64, f64)> = arc
             .nodes()
             .map(|(t, weight)| {
@@ -240,7 +240,7 @@ fn closure(nodes: &[(f64, f64)], greatest: f64, wanted: f64) -> f64 {
 }
 
 fn driven_angle(curve: &dyn Curve, breaks: &[f64], a: f64) -> Antiderivative {
-    Antiderivative::of(
+    Antiderivative::new(
         |t| {
             let jet = curve.at(t);
             let r = jet.point.coords.norm();

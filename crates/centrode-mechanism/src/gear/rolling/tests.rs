@@ -14,7 +14,7 @@ fn a_knot_where_the_cycle_starts_is_its_start_whatever_the_rounding() {
                 ..Bspline::default()
             };
             let curve = PitchSpec::Bspline(spline).resolve().expect("a curve").curve;
-            let rolling = Rolling::of(curve, (1, 1)).expect("rolls");
+            let rolling = Rolling::new(curve, (1, 1)).expect("rolls");
             let (start, end) = (rolling.start, rolling.start + f64::from(count));
             let frame = rolling.frame(Member::Driven, end);
             assert!((frame.arc / rolling.arc.total() - 1.0).abs() < 1e-15);

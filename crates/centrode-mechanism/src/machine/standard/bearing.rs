@@ -35,7 +35,7 @@ const BEARINGS: [(&str, [f64; 3]); 37] = [
 impl Bearing {
     /// The largest bearing of a bore that is no wider than a room, mm; `None` where there is none.
     #[must_use]
-    pub fn of(bore: f64, room: f64) -> Option<Self> {
+    pub fn for_bore(bore: f64, room: f64) -> Option<Self> {
         Self::every(bore)
             .filter(|bearing| bearing.width <= room)
             .max_by(|a, b| a.outer.total_cmp(&b.outer))
@@ -85,13 +85,13 @@ mod tests {
 
     #[test]
     fn a_bearing_is_the_largest_that_the_room_takes() {
-        let name = |bore: f64, room: f64| Bearing::of(bore, room).map(|b| b.designation);
+        let name = |bore: f64, room: f64| Bearing::for_bore(bore, room).map(|b| b.designation);
         assert_eq!(name(10.0, 6.0), Some("61800"));
         assert_eq!(name(10.0, 8.0), Some("6000"));
         assert_eq!(name(10.0, 20.0), Some("6200"));
         assert_eq!((name(10.0, 4.9), name(16.0, 20.0)), (None, None));
         assert_eq!(Bearing::narrowest(12.0).map(|b| b.width), Some(5.0));
-        let bearing = Bearing::of(10.0, 6.0).expect("a bearing");
+        let bearing = Bearing::for_bore(10.0, 6.0).expect("a bearing");
         assert_eq!(
             bearing.name(),
             "Deep groove ball bearing ISO 15 - 61800 - 10 x 19 x 5"

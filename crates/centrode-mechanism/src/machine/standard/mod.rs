@@ -32,7 +32,7 @@ pub struct Dowel {
 impl Dowel {
     /// The longest pin of a diameter that is no longer than a room, mm; `None` where there is no such pin.
     #[must_use]
-    pub fn of(diameter: f64, room: f64) -> Option<Self> {
+    pub fn for_diameter(diameter: f64, room: f64) -> Option<Self> {
         let known = DOWELS.contains(&diameter);
         let mut fitting = LENGTHS.into_iter().rev();
         // A length of whole layers differs from it by rounding.
@@ -167,7 +167,7 @@ mod tests {
 
     #[test]
     fn designations_are_those_of_the_standards() {
-        let pin = |diameter, room| Dowel::of(diameter, room).map(Dowel::name);
+        let pin = |diameter, room| Dowel::for_diameter(diameter, room).map(Dowel::name);
         let name = |diameter, room| pin(diameter, room).unwrap_or_default();
         assert_eq!(name(8.0, 32.0), "Pin ISO 8734 - 8 x 32 - A");
         assert_eq!(name(8.0, 31.9), "Pin ISO 8734 - 8 x 30 - A");

@@ -215,11 +215,11 @@ impl KeyPoses {
             }
         }
         let chains = apart.iter();
-        let chains = chains.map(|(circle, law)| Self::of(poses, *circle, law, possible));
+        let chains = chains.map(|(circle, law)| Self::from_law(poses, *circle, law, possible));
         chains.collect()
     }
 
-    fn of(
+    fn from_law(
         poses: &[KeyPose],
         circle: Circle,
         law: &MildLaw,

@@ -58,7 +58,7 @@ pub(super) fn split(chain: &TwoBar, bend: f64) -> Result<Split, SplitError> {
         if level + 2 < GRIDS.len() {
             continue;
         }
-        let Some(nodes) = Nodes::of(&found.rests) else {
+        let Some(nodes) = Nodes::new(&found.rests) else {
             break;
         };
         let check = |i: u32| {
@@ -198,7 +198,7 @@ struct Nodes {
 
 impl Nodes {
     /// From the inverse of the law less its argument at equal steps of a turn; none where it turns back.
-    fn of(inverse: &[f64]) -> Option<Self> {
+    fn new(inverse: &[f64]) -> Option<Self> {
         let count = inverse.len();
         let theta = |i: usize| TAU * i as f64 / count as f64;
         let place = |i: usize| theta(i) + inverse[i % count];

@@ -107,5 +107,5 @@ fn bar(length: f64, angle: &MotionJet) -> [Vector; 4] {
 }
 
 fn published_path() -> WantedPath {
-    WantedPath::of(Arc::new(TipPath(published())))
+    WantedPath::new(Arc::new(TipPath(published())))
 }

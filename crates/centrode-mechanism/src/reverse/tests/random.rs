@@ -61,7 +61,7 @@ fn machine() -> impl Strategy<Value = ThreeArm> {
 
 /// Bars and pitch curve from the path alone, held against those that made it.
 fn come_back(machine: &ThreeArm) -> Result<[f64; 3], String> {
-    let path = WantedPath::of(Arc::new(TipPath(machine.clone())));
+    let path = WantedPath::new(Arc::new(TipPath(machine.clone())));
     let design = machine.design();
     let chain = TwoBar::new(&path, Point::origin(), Some(design.direction))
         .map_err(|fault| fault.to_string())?;

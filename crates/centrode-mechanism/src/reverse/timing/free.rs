@@ -110,6 +110,6 @@ impl LogSpeed {
 
     fn way(self) -> Antiderivative {
         let ends = [self.from, self.from + self.span];
-        Antiderivative::of(|input| self.at(input)[0].exp(), &ends)
+        Antiderivative::new(|input| self.at(input)[0].exp(), &ends)
     }
 }

@@ -188,7 +188,7 @@ impl Timing {
         if sections.is_empty() {
             return Err(TimingError::Nothing);
         }
-        let swing = Swing::of(output.as_ref())?;
+        let swing = Swing::new(output.as_ref())?;
         let mut best: Result<(f64, Self), TimingError> = Err(TimingError::Nothing);
         for placed in order::placed(output.as_ref(), &swing, sections)? {
             let made = search::mildest(&output, &swing, &placed);
@@ -214,7 +214,7 @@ impl Timing {
             stretches: Vec::new(),
         };
         let fixed = placed.iter().zip(shapes);
-        let fixed: Vec<Stretch> = fixed.map(|(p, shape)| Stretch::of(p, shape)).collect();
+        let fixed: Vec<Stretch> = fixed.map(|(p, shape)| Stretch::new(p, shape)).collect();
         for (i, stretch) in fixed.iter().enumerate() {
             let next = (i + 1) % fixed.len();
             let mut after = fixed[next].clone();
@@ -312,7 +312,7 @@ impl Timing {
 }
 
 impl Stretch {
-    fn of(placed: &Placed<'_>, shape: &StretchShape) -> Self {
+    fn new(placed: &Placed<'_>, shape: &StretchShape) -> Self {
         let [from, to] = placed.angles;
         let angles = match placed.section.wanted {
             Wanted::Even(_) => placed.angles,

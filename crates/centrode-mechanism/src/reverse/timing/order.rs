@@ -34,7 +34,7 @@ pub(super) struct Placed<'a> {
 }
 
 impl Swing {
-    pub(super) fn of(output: &dyn Transmission) -> Result<Self, TimingError> {
+    pub(super) fn new(output: &dyn Transmission) -> Result<Self, TimingError> {
         let advance = output.advance();
         if advance != 0.0 {
             return Err(TimingError::Advances { advance });

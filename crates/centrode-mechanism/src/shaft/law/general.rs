@@ -122,7 +122,7 @@ impl Resolved {
         ends.retain(|&t| t > 0.0);
         ends.insert(0, 0.0);
         ends.push(TAU);
-        let way = Antiderivative::of(|t| speed.at(t).0[0], &ends);
+        let way = Antiderivative::new(|t| speed.at(t).0[0], &ends);
         let total = way.total();
         if total > 0.0 && total.is_finite() {
             let scale = lead / total;

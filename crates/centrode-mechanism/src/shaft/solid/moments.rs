@@ -114,7 +114,7 @@ fn grooved(sum: &mut VolumeMoments, groove: &Groove, fillet: f64) {
         return;
     }
     for (angle, turned) in nodes([0.0, FRAC_PI_2], FILLET) {
-        let level = Level::of(half, floor, fillet, angle);
+        let level = Level::new(half, floor, fillet, angle);
         let height = fillet * angle.cos() * turned;
         sum.subtract(&opened(
             groove,
@@ -136,7 +136,7 @@ fn opened(groove: &Groove, half: f64, radii: &[(f64, f64)], even: u32) -> Volume
     lines.push(TAU);
     let mut sum = VolumeMoments::default();
     // Sixteen nodes between two lines: a constant needs no more panels.
-    for (angle, turned) in Antiderivative::of(|_| 1.0, &lines).nodes() {
+    for (angle, turned) in Antiderivative::new(|_| 1.0, &lines).nodes() {
         let heights = plan.heights_at(angle);
         for [low, high] in plan.open(0, |edge| heights[edge]) {
             for (z, along) in nodes([heights[low], heights[high]], 1) {

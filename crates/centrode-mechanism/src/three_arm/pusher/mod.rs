@@ -71,12 +71,12 @@ impl ThreeArm {
         let fork = design.fork.clone().unwrap_or_else(usual_fork);
         let sizes = self.arm_sizes();
         sizes.validate()?;
-        Pusher::of(self, &cam, fork, &sizes)
+        Pusher::new(self, &cam, fork, &sizes)
     }
 }
 
 impl Pusher {
-    fn of(
+    fn new(
         mechanism: &ThreeArm,
         spec: &PusherCamSpec,
         fork: ForkSpec,
@@ -97,7 +97,7 @@ impl Pusher {
                 needed,
             });
         }
-        let spans = Spans::of(spec, &fork, sizes)?;
+        let spans = Spans::new(spec, &fork, sizes)?;
         let stroke = sizes.push_rod.stroke;
         let (pin, rod) = (0.5 * stroke, sizes.rod_end() + fork.slot_width);
         if pin < rod {
@@ -286,7 +286,7 @@ impl Pusher {
 
 impl Spans {
     /// Extents with the rod in the middle, the fork behind it, the cam with the roller behind the fork.
-    fn of(cam: &PusherCamSpec, fork: &ForkSpec, sizes: &ArmBodySpec) -> Result<Self, PusherError> {
+    fn new(cam: &PusherCamSpec, fork: &ForkSpec, sizes: &ArmBodySpec) -> Result<Self, PusherError> {
         let rod = &sizes.push_rod;
         let gap = 0.1 * rod.diameter;
         let front = -0.5 * rod.diameter - gap;

@@ -105,7 +105,7 @@ impl Sweep {
     pub fn figures(&mut self, design: &ThreeArmDesign) -> Result<Figures, SweepError> {
         let spline = spline_of(design)?;
         self.stage.load(spline)?;
-        let machine = path::Machine::of(design, &self.stage);
+        let machine = path::Machine::new(design, &self.stage);
         self.path.follow(&self.stage, &machine)?;
         let [below, above] =
             [-1.0, 1.0].map(|up| self.path.farthest(&self.stage, &machine, [0.0, up]));
@@ -164,7 +164,7 @@ impl Sweep {
     /// [`ThreeArm::picking_depth`](super::ThreeArm::picking_depth), of the last design, which is given again.
     #[must_use]
     pub fn picking_depth(&self, design: &ThreeArmDesign) -> f64 {
-        let machine = path::Machine::of(design, &self.stage);
+        let machine = path::Machine::new(design, &self.stage);
         let (sin, cos) = design.tray.inclination.sin_cos();
         let inwards = [-design.direction.sign() * cos, sin];
         let farthest = self.path.farthest(&self.stage, &machine, inwards);

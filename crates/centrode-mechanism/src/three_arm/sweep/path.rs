@@ -33,7 +33,7 @@ struct Tip {
 }
 
 impl Machine {
-    pub(super) fn of(design: &ThreeArmDesign, stage: &Stage) -> Self {
+    pub(super) fn new(design: &ThreeArmDesign, stage: &Stage) -> Self {
         let sign = design.direction.sign();
         let chi = stage.angle(stage.at_driven(-design.bend - PI)).value;
         let reference = design.planet_reference.unwrap_or_else(|| {

@@ -32,7 +32,7 @@ struct Moved {
 }
 
 impl<'a> Outcome<'a> {
-    pub(super) fn of(
+    pub(super) fn new(
         problem: &dyn DesignProblem,
         search: &'a DesignSearch,
         best: &[f64],

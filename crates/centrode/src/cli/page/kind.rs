@@ -35,7 +35,7 @@ pub(super) fn switched(document: &DocumentMut, steps: &[Step], kind: &str) -> Op
         steps,
         kind,
     };
-    let mut starts = starts(kind, &Measures::of(&design, &names, old));
+    let mut starts = starts(kind, &Measures::new(&design, &names, old));
     for start in &mut starts {
         start.retain(|key, value| key != "kind" && keys.get(key) != Some(value));
     }

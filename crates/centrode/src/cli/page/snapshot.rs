@@ -80,19 +80,19 @@ impl From<&DesignError> for Fault {
 }
 
 impl Verdict {
-    fn of(mechanism: &dyn Mechanism, found: &Report) -> Self {
+    fn new(mechanism: &dyn Mechanism, found: &Report) -> Self {
         Self {
             ok: found.ok(),
             summary: report::summary(found),
             findings: found.findings.iter().map(report::words).collect(),
-            goals: Goals::of(mechanism, found),
+            goals: Goals::new(mechanism, found),
             figures: report::sections(found),
         }
     }
 }
 
 impl Goals {
-    fn of(mechanism: &dyn Mechanism, found: &Report) -> Self {
+    fn new(mechanism: &dyn Mechanism, found: &Report) -> Self {
         Self {
             goals: found.goals.iter().map(report::goal_words).collect(),
             limits: mechanism.limits(found),
@@ -187,7 +187,7 @@ impl Snapshot {
 
 impl Subject {
     /// Resolves a design file and draws it; without a mechanism, the snapshot says why.
-    pub(crate) fn of(text: String) -> Result<Self, Box<Snapshot>> {
+    pub(crate) fn from_text(text: String) -> Result<Self, Box<Snapshot>> {
         let snapshot = Snapshot::of_text(text);
         match resolved(&snapshot.text) {
             Ok(mechanism) => Ok(Self::new(snapshot, mechanism)),
@@ -198,7 +198,7 @@ impl Subject {
     /// Resolves and draws a design that is worked on: a detail of a body that cannot be is a finding, and the rest is drawn without it.
     pub(crate) fn without_faulty_details(text: String) -> Result<Self, Box<Snapshot>> {
         let mut snapshot = Snapshot::of_text(text);
-        match Made::of(&snapshot.text) {
+        match Made::new(&snapshot.text) {
             Ok(made) => {
                 snapshot.detail = made.left_out.as_ref().map(|left_out| Fault {
                     message: left_out.message(),
@@ -250,7 +250,7 @@ impl Subject {
 
     /// Goals, checked as far as the motion tells.
     pub(crate) fn goals(&self) -> Goals {
-        Goals::of(&*self.mechanism, &self.mechanism.check_motion())
+        Goals::new(&*self.mechanism, &self.mechanism.check_motion())
     }
 
     /// Snapshot with the results of the checks.
@@ -261,7 +261,7 @@ impl Subject {
             left_out.report(&mut found);
         }
         snapshot.curves.extend(curves);
-        snapshot.verdict = Some(Verdict::of(&*self.mechanism, &found));
+        snapshot.verdict = Some(Verdict::new(&*self.mechanism, &found));
         snapshot
     }
 }

@@ -28,7 +28,7 @@ pub(super) struct Measures {
 
 impl Measures {
     /// Measures of a table of the design, both as written.
-    pub(super) fn of(design: &Value, path: &[&str], old: &Value) -> Self {
+    pub(super) fn new(design: &Value, path: &[&str], old: &Value) -> Self {
         let ratio_in = |table: &Value| {
             let pair = table.get("mean_ratio")?.as_array()?;
             let turns = |i: usize| u32::try_from(pair.get(i)?.as_u64()?).ok();
@@ -65,7 +65,7 @@ fn mean_radius(pitch: &Value) -> Option<f64> {
     ends.retain(|&t| t > 0.0);
     ends.insert(0, 0.0);
     ends.push(pitch.curve.period());
-    Some(Antiderivative::of(|t| pitch.curve.at(t).first.norm(), &ends).total() / TAU)
+    Some(Antiderivative::new(|t| pitch.curve.at(t).first.norm(), &ends).total() / TAU)
 }
 
 /// Tables from which a kind can start, the preferred one first: each holds the keys it needs besides the defaults.

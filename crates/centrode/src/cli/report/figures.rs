@@ -38,7 +38,7 @@ pub(crate) struct Cell {
 }
 
 impl Cell {
-    fn of(report: &Report, key: &str, unit: Unit) -> Option<Self> {
+    fn new(report: &Report, key: &str, unit: Unit) -> Option<Self> {
         let value = *report.values.get(key)?;
         Some(Self {
             key: key.into(),
@@ -64,7 +64,7 @@ pub(crate) fn sections(report: &Report) -> Vec<Section> {
             let cells: Vec<Option<Cell>> = row
                 .keys
                 .iter()
-                .map(|key| Cell::of(report, key, row.unit))
+                .map(|key| Cell::new(report, key, row.unit))
                 .collect();
             if cells.iter().any(Option::is_some) {
                 let (name, unit) = (row.title.to_owned(), row.unit.shown());
@@ -84,7 +84,7 @@ pub(crate) fn sections(report: &Report) -> Vec<Section> {
         .map(|key| Line {
             name: (*key).into(),
             unit: "",
-            cells: vec![Cell::of(report, key, Unit::Number)],
+            cells: vec![Cell::new(report, key, Unit::Number)],
         })
         .collect();
     if !rows.is_empty() {

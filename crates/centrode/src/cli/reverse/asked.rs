@@ -167,7 +167,7 @@ fn path_design(source: &Source) -> Result<Option<(PathDesign, DesignFile)>, Fail
     if !(source.name().ends_with(".toml") || text.lines().any(has_key)) {
         return Ok(None);
     }
-    let family = [DesignFamily::of::<PathDesign>()];
+    let family = [DesignFamily::new::<PathDesign>()];
     let (file, _) =
         DesignFile::read(source.bytes(), &family).map_err(|error| source.blame(error))?;
     let design = file.design().downcast_ref::<PathDesign>().cloned();

@@ -63,7 +63,7 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
         line(out, &name, &words(goal))?;
     }
     let Some(output) = &command.output else {
-        return Ok(Status::of(posed.is_reached));
+        return Ok(Status::new(posed.is_reached));
     };
     let text = design.to_toml();
     let text = text.map_err(|error| Failure::Files(Box::new(error)))?;
@@ -80,7 +80,7 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
                 Err(error) => Err(Failure::Usage(error.to_string())),
             }
         }
-        None => Ok(Status::of(posed.is_reached)),
+        None => Ok(Status::new(posed.is_reached)),
     }
 }
 

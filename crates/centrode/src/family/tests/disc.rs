@@ -131,7 +131,7 @@ impl Resolved for Disc {
 }
 
 /// List of the one family.
-static DISCS: Families = Families(&[Family::of::<Disc>()]);
+static DISCS: Families = Families(&[Family::new::<Disc>()]);
 
 #[test]
 fn a_family_of_ones_own_is_read_checked_and_exported_as_any_other() {

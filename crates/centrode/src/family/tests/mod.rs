@@ -61,7 +61,7 @@ fn a_family_is_found_by_its_word_alone() {
 fn a_design_of_another_family_is_refused_at_its_family() {
     let design = FAMILIES.read(ThreeArmDesign::TEMPLATE.as_bytes());
     let design = design.expect("a design");
-    let pairs = Family::of::<GearPair>();
+    let pairs = Family::new::<GearPair>();
     let error = pairs.resolve(design.design()).expect_err("another family");
     assert_eq!(error.key, "family");
     assert_eq!(

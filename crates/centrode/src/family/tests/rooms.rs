@@ -143,5 +143,5 @@ fn a_match_over_families_would_be_found() {
     let matched = "match family {\n    \"three-arm\" => 3,\n    // \"feeder\"\n    _ => 1,\n}";
     assert_eq!(named(matched), ["\"three-arm\""]);
     assert_eq!(named("let Mechanism::Feeder(feeder) = it"), ["Feeder"]);
-    assert!(named("FeederForces::of(three_arm)").is_empty());
+    assert!(named("FeederForces::analyse(three_arm)").is_empty());
 }

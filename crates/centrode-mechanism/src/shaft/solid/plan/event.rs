@@ -11,7 +11,7 @@ pub(super) struct Event {
 }
 
 impl Event {
-    pub(super) fn at(phi: f64) -> Self {
+    pub(super) fn new(phi: f64) -> Self {
         Self {
             phi,
             pairs: Vec::new(),
@@ -22,5 +22,5 @@ impl Event {
 
 /// Even lines round the shaft.
 pub(super) fn even(count: u32) -> impl Iterator<Item = Event> {
-    (0..count).map(move |i| Event::at(TAU * f64::from(i) / f64::from(count)))
+    (0..count).map(move |i| Event::new(TAU * f64::from(i) / f64::from(count)))
 }

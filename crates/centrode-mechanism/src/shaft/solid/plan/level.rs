@@ -12,7 +12,7 @@ pub(in crate::shaft::solid) struct Level {
 impl Level {
     /// A line along the fillet: at the angle 0 the foot of the wall, `half` off the middle; at a quarter turn the
     /// floor.
-    pub(in crate::shaft::solid) fn of(half: f64, floor: f64, fillet: f64, angle: f64) -> Self {
+    pub(in crate::shaft::solid) fn new(half: f64, floor: f64, fillet: f64, angle: f64) -> Self {
         let (sin, cos) = angle.sin_cos();
         Self {
             half: half - fillet * (1.0 - cos),
@@ -33,7 +33,7 @@ pub(super) fn levels(groove: &Groove, fillet: f64, limit: f64) -> Vec<Level> {
     let step = 2.0 * (1.0 - (limit / fillet).min(0.5)).acos();
     let count = (FRAC_PI_2 / step).ceil().clamp(1.0, 64.0);
     (0..=count as u32)
-        .map(|i| Level::of(half, floor, fillet, FRAC_PI_2 * f64::from(i) / count))
+        .map(|i| Level::new(half, floor, fillet, FRAC_PI_2 * f64::from(i) / count))
         .collect()
 }
 

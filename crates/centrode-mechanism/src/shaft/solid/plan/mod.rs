@@ -68,7 +68,7 @@ impl<'a> Plan<'a> {
         let mut plan = Self::empty(groove, vec![level]);
         let mut events: Vec<Event> = even(count).collect();
         events.extend(plan.meetings(&plan.rows(LOOKS.max(count))));
-        events.extend(plan.breaks().into_iter().map(Event::at));
+        events.extend(plan.breaks().into_iter().map(Event::new));
         plan.set_lines(events);
         plan
     }
@@ -107,7 +107,7 @@ impl<'a> Plan<'a> {
             for pair in self.swapped(before, after) {
                 meetings.push(Event {
                     pairs: vec![pair],
-                    ..Event::at(self.meeting(pair, angle(i), angle(i + 1)))
+                    ..Event::new(self.meeting(pair, angle(i), angle(i + 1)))
                 });
             }
         }
@@ -223,7 +223,7 @@ impl<'a> Plan<'a> {
         let [deep, above] = [self.edge(low).level, self.edge(low).level.checked_sub(1)?];
         let floor = self.groove.radius() - self.groove.depth();
         let fillet = self.levels[0].radius - floor;
-        let at = |angle: f64| Level::of(0.5 * self.groove.width(), floor, fillet, angle);
+        let at = |angle: f64| Level::new(0.5 * self.groove.width(), floor, fillet, angle);
         let apart = |angle: f64| {
             let half = at(angle).half;
             self.found(low, half, phi, None).0 - self.found(high, half, phi, None).0
