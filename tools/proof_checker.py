@@ -11,7 +11,7 @@ The driver stands in its own axes. At the driver angle phi the driven gear, turn
 
     X = a e^(i phi) + e^(i (phi + psi)) q.
 
-Its seat `on` is the least psi of its play, `back` the greatest. With w the half width, for every phi of the cycle:
+Its seat `on` is the least psi of its backlash, `back` the greatest. With w the half width, for every phi of the cycle:
 
  1. Neither contour meets the other at any psi from on + w to back - w. Two pieces are apart by the discs around them,
     or by a parabola H(X) = Im y - k (Re y)^2 = 0, y = conj(T) (X - c), through a point c of a contour along its unit
@@ -108,7 +108,7 @@ class Pair:
 
 
 def check(number):
-    """Checks a stretch; gives the parts it took and the ranges of both seats, less the law, and of the play."""
+    """Checks a stretch; gives the parts it took and the ranges of both seats, less the law, and of the backlash."""
     stretch = dict(PAIR.stretches[number])
     stretch["ends"] = ends(stretch)
     whole = Box(PAIR, stretch)
@@ -129,7 +129,7 @@ def check(number):
     width = (PAIR.width + PAIR.off) * UNIT
     ranges = [spread(seats[0]) + width, spread(seats[1]) + width, spread(seats[1] - seats[0]) + 2 * width]
     if not ranges[2] > -4 * PAIR.width:
-        raise RejectedError(f"the play is negative {where}")
+        raise RejectedError(f"the backlash is negative {where}")
     return boxes, [(float(low(r)), float(high(r))) for r in ranges]
 
 
@@ -169,8 +169,8 @@ def run(path, design, workers):
     turns, width = round(PAIR.cycle / tau), 2 * proof["half_width"]
     cycle = "one turn" if turns == 1 else f"{turns} turns"
     print(f"proved: the gears of {proof['pair']!r} hold each other at every angle of {cycle} of the driver,")
-    print("and keep apart in their play")
-    for name, (least, greatest) in zip(("error pushed on", "error pushed back", "play"), ranges, strict=True):
+    print("and keep apart within their backlash")
+    for name, (least, greatest) in zip(("error pushed on", "error pushed back", "backlash"), ranges, strict=True):
         print(f"{name}: {least:.4e} to {greatest:.4e} rad")
     print(f"each error at every angle within {width:.1e} rad; {count} stretches, {sum(n for n, _ in found)} boxes")
 

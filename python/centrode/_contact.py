@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 class Contact:
     """The contact of a pair along its cycle, one value an input; made by `GearPair.contact`.
 
-    Where nothing is near enough to drive, the mesh has come apart: errors and play are infinite.
+    Where nothing is near enough to drive, the mesh has come apart: errors and backlash are infinite.
     """
 
     __module__ = "centrode"
@@ -26,9 +26,9 @@ class Contact:
     reverse_transmission_error: NDArray[float64]
     """The same with the driver pushing it back."""
     backlash: NDArray[float64]
-    """Play of the driven gear with the driver held, rad."""
+    """Turn of the driven gear between the flanks that push it on and back, the driver held, rad."""
     normal_backlash: NDArray[float64]
-    """Play along the common normal of the driving contact, mm."""
+    """Backlash times the distance of the driven axis from the line of action, `r2 cos(alpha)` (ISO 21771), mm."""
     contacts: NDArray[uint32]
     """Pairs of teeth in contact when the driver pushes the driven gear on."""
     penetration: NDArray[float64]

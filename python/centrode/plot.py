@@ -191,7 +191,7 @@ def _over_input(
 
 
 def contact(of: GearPair | Contact, axes: NDArray[Any] | None = None) -> NDArray[Any]:
-    """Draw a contact analysis: transmission error, teeth in contact, play, clearance.
+    """Draw a contact analysis: transmission error, teeth in contact, backlash, clearance.
 
     Args:
         of: A pair, which is analysed, or an analysis made before.
@@ -203,7 +203,7 @@ def contact(of: GearPair | Contact, axes: NDArray[Any] | None = None) -> NDArray
             from matplotlib import pyplot
 
         _, axes = pyplot.subplots(4, 1, sharex=True, figsize=(8.0, 8.0), layout="constrained")
-    error, count, play, clearance = np.ravel(axes)
+    error, count, backlash, clearance = np.ravel(axes)
     degrees = np.degrees(analysis.input)
     error.plot(degrees, analysis.transmission_error, color=_DRIVER, label="driving on")
     error.plot(degrees, analysis.reverse_transmission_error, color=_DRIVEN, label="driving back")
@@ -212,8 +212,8 @@ def contact(of: GearPair | Contact, axes: NDArray[Any] | None = None) -> NDArray
     count.step(degrees, analysis.contacts, where="mid", color=_DRIVER)
     count.set_ylabel("pairs of teeth\nin contact")
     count.set_ylim(bottom=0)
-    play.plot(degrees, np.degrees(analysis.backlash), color=_DRIVER)
-    play.set_ylabel("play of the\ndriven gear, deg")
+    backlash.plot(degrees, np.degrees(analysis.backlash), color=_DRIVER)
+    backlash.set_ylabel("backlash of the\ndriven gear, deg")
     for values, color, label in (
         (analysis.clearance, _DRIVER, "tip to root"),
         (analysis.fillet_clearance, _DRIVEN, "to a fillet"),

@@ -254,7 +254,7 @@ EXEMPT = {
         INPUT: (r"to 1\. Round", r"1 to 1\."),
     },
     "docs/tutorial/6-simulate.md": {
-        INPUT: (r"play of 0\.05 mm", r"at 2 rad/s"),
+        INPUT: (r"backlash of 0\.05 mm", r"at 2 rad/s"),
     },
     "docs/tutorial/index.md": {
         "number of a step": (r'<a href="[^"]*">\d</a>',),

@@ -111,7 +111,7 @@ def python():
 PAGES = {
     "README.md": [
         Said("The 2018 elliptic pair (k = {}, m = 2.25 mm", lambda: K),
-        Said("both flanks | {} rad, without play and with 0.05 mm of it", error),
+        Said("both flanks | {} rad, without backlash and with 0.05 mm of it", error),
         Said("as published to every digit: {} mm, {} mm", ellipse),
     ],
     "docs/measured.md": [

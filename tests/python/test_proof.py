@@ -68,7 +68,7 @@ def test_the_checker_accepts_the_proof_of_a_pair(file, design):
     status, answer = checked(file, design)
     assert status == 0, answer
     assert answer.startswith("proved: ")
-    # Pushed on and back the driven gear stands half of its play to either side of the law.
+    # Pushed on and back the driven gear stands half of its backlash to either side of the law.
     assert "each error at every angle within 8.0e-10 rad" in answer
 
 
@@ -193,13 +193,13 @@ def test_teeth_that_meet_in_the_play_are_told_before_a_file_is_written(run, tmp_
     assert done.returncode == 2
     assert not (tmp_path / "x.proof").exists()
     told = re.search(
-        r"angle (\S+) rad tooth 22 of the driver meets tooth 21 of the driven gear at \((\S+), (\S+)\) mm in the play, "
+        r"angle (\S+) rad tooth 22 of the driver meets tooth 21 of the driven gear at \((\S+), (\S+)\) mm within the backlash, "
         r"(\S+) rad from where the driven gear stands pushed on",
         done.stderr,
     )
     phi, x, y, turn = map(float, told.groups())
     pair, turns = ct.load(design), [k * 5e-5 for k in range(-50, 20)]
-    # Before it there is one play; after it something stands in its midst, so far from where the gear stood.
+    # Before it there is one backlash; after it something stands in its midst, so far from where the gear stood.
     assert len(free(pair, phi - 1e-4, turns)) == 1
     low, high = free(pair, phi + 5e-4, turns)
     assert low[0] + turn == pytest.approx(high[0], abs=1.5e-4)

@@ -283,7 +283,7 @@ mod tests {
     }
 
     /// Angular backlash of a tooth on the driven gear, rad.
-    fn play(pair: &IntermittentPair) -> f64 {
+    fn backlash(pair: &IntermittentPair) -> f64 {
         let length = pair.pair().rolling().pitch_length(Member::Driven);
         0.05 / (length / TAU * 20_f64.to_radians().cos())
     }
@@ -292,7 +292,7 @@ mod tests {
     fn held(spec: &IntermittentPairSpec) {
         let (pair, contact) = contact(spec);
         assert!(contact.deepest() < 1e-3, "{spec:?}: {}", contact.deepest());
-        let most = 1.1 * play(&pair);
+        let most = 1.1 * backlash(&pair);
         for column in [&contact.ahead, &contact.back] {
             for moving in [false, true] {
                 let loose = contact.greatest(column, moving);
@@ -308,7 +308,7 @@ mod tests {
         let (pair, contact) = contact(&spec);
         let least = contact.ahead.iter().chain(&contact.back).copied();
         let least = least.fold(f64::INFINITY, f64::min);
-        assert!(least > 0.95 * play(&pair), "{least}");
+        assert!(least > 0.95 * backlash(&pair), "{least}");
     }
 
     #[test]
@@ -341,7 +341,7 @@ mod tests {
         let (pair, contact) = contact(&spec(40, [3, 4], 30, 0.0));
         assert!(contact.deepest() < 1e-3, "{}", contact.deepest());
         assert!((pair.shock() - 4.0 / 3.0).abs() < 1e-9 && pair.cams().is_empty());
-        let locked = pair.locked_play();
+        let locked = pair.locked_backlash();
         let motion = pair.law().motion_angle();
         let ends = 0.25 * (TAU - motion);
         // Where the locking arc's ends come to the notch they hold less well; cams do it better.

@@ -28,7 +28,7 @@ pub fn sheet_data(report: &analysis::Report) -> Vec<Datum> {
     let backlash = range("normal_backlash_min", "normal_backlash_max");
     contact_ratio
         .zip(backlash)
-        .map_or_else(Vec::new, |(ratio, play)| contact_data(ratio, play))
+        .map_or_else(Vec::new, |(ratio, backlash)| contact_data(ratio, backlash))
 }
 
 /// Its examples are tested.

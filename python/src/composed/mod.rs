@@ -227,7 +227,7 @@ impl Machine {
     /// the force on each body by its name, N along x and y of the frame; `closures` that on the second body of the pin that
     /// closes a dyad, by both; `meshes` that along the normal of the teeth that move a body, by its name, N.
     ///
-    /// Inertia, weight and the loads of the design count; friction and play are left out. `drives` is the torque (N mm) or
+    /// Inertia, weight and the loads of the design count; friction and backlash are left out. `drives` is the torque (N mm) or
     /// force (N) of what moves a body: zero where teeth or a dyad do.
     ///
     /// Args:

@@ -168,7 +168,7 @@ impl Mechanism {
 
     /// Forces at inputs, rad, that turn evenly: the torque of the input and what joints, pins, rollers and teeth carry.
     ///
-    /// The links weigh what their bodies do, with the loads of the design. Wear, play and, but for grooves and rails,
+    /// The links weigh what their bodies do, with the loads of the design. Wear, backlash and, but for grooves and rails,
     /// friction are left out.
     ///
     /// Args:

@@ -25,7 +25,7 @@ pub struct ContactExtremes {
     pub penetration: Extreme,
     /// Least and greatest angular backlash, rad.
     pub backlash: [Extreme; 2],
-    /// Least and greatest normal backlash, mm.
+    /// Least and greatest normal backlash, mm, as that of [`Contact::normal_backlash`].
     pub normal_backlash: [Extreme; 2],
     /// Least distance of a tip from a root, mm; infinite where none is near.
     pub clearance: Extreme,

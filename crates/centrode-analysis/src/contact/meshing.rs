@@ -116,9 +116,11 @@ impl<'a> Meshing<'a> {
             |seat: &Seat, sign: f64| seat.angle - self.ideal(&places, phi, law, sign * half);
         out.transmission_error.push(error(&forward, 1.0));
         out.reverse_transmission_error.push(error(&back, -1.0));
-        let play = back.angle - forward.angle;
-        out.backlash.push(play);
-        out.normal_backlash.push(play * forward.lever);
+        let backlash = back.angle - forward.angle;
+        out.backlash.push(backlash);
+        let point = self.pair.pitch_point(phi);
+        out.normal_backlash
+            .push(backlash * point.driven_radius * point.pressure_angle.cos());
         // Flanks that stand as designed slide on each other where they face each other at the law's angle; where none do, an edge
         // slides where it touches.
         let touching: Vec<(Point, Vector)> = self
@@ -128,10 +130,10 @@ impl<'a> Meshing<'a> {
             .collect();
         // Wedged between two sides: half of the missing room.
         out.penetration
-            .push((-play * 0.5 * forward.lever.min(back.lever)).max(0.0));
+            .push((-backlash * 0.5 * forward.lever.min(back.lever)).max(0.0));
         // Where the gears penetrate at the law's angle though there is room for them, they are put in its middle.
         let off = (law - back.angle).max(forward.angle - law);
-        let (places, clash) = if play > 0.0 && off * a > SEATED * self.module {
+        let (places, clash) = if backlash > 0.0 && off * a > SEATED * self.module {
             let pose = Pose::new(phi, 0.5 * (forward.angle + back.angle), a);
             let mut candidates = self.candidates(&pose);
             (self.places(&mut candidates, &pose), candidates.clash)
@@ -204,7 +206,7 @@ impl<'a> Meshing<'a> {
 
     /// Angle of the driven gear if the flanks had the designed backlash exactly.
     ///
-    /// At the law's own angle flanks thinned for play are parallel and half the play apart; the driven gear is turned
+    /// At the law's own angle flanks thinned for backlash are parallel and half the backlash apart; the driven gear is turned
     /// until they touch. Where no flanks face each other as designed the lever is that of the law's own normal.
     fn ideal(&self, places: &[Place], phi: f64, law: f64, half: f64) -> f64 {
         if half == 0.0 {

@@ -56,7 +56,8 @@ pub struct Contact {
     pub reverse_transmission_error: Vec<f64>,
     /// Angular backlash of the driven gear with the driver held, rad.
     pub backlash: Vec<f64>,
-    /// Normal backlash of the driving contact, mm.
+    /// Normal backlash, mm: angular backlash times the distance of the driven axis from the line of action, along which the
+    /// driver pushes on by the law, `r2 cos(alpha)` (ISO 21771).
     pub normal_backlash: Vec<f64>,
     /// Pairs of teeth in contact when the driver pushes the driven gear on.
     pub contacts: Vec<u32>,

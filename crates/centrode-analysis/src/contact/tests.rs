@@ -50,7 +50,7 @@ fn the_error_where_an_edge_touches_is_from_where_the_designed_flank_would_stand(
 
 /// Turning the driven gear by half the backlash takes at both inputs the contact past the end of a flank.
 #[test]
-fn flanks_thinned_for_play_stand_where_designed_at_their_ends_too() {
+fn flanks_thinned_for_backlash_stand_where_designed_at_their_ends_too() {
     let contact = Contact::analyse_at(&design("quintic-pair"), &[0.0, 4.476_110_580_575_04]);
     let errors = contact.transmission_error.iter();
     for error in errors.chain(&contact.reverse_transmission_error) {
@@ -89,7 +89,7 @@ fn a_certificate_follows_the_contact_over_the_ends_of_trimmed_flanks() {
     let proof = prove(&pair).expect("a certificate");
     let ends = proof.stretches.windows(2);
     assert!(ends.into_iter().all(|two| two[0].to == two[1].from));
-    // Here a tooth stands in the play.
+    // Here a tooth stands within the backlash.
     let found = prove(&design("transplanter-pair-2021"));
     let angle = |error: &ProofError| match error {
         ProofError::Step { phi, .. } => *phi,
@@ -101,7 +101,7 @@ fn a_certificate_follows_the_contact_over_the_ends_of_trimmed_flanks() {
 
 /// The place comes from turning one outline against the other as polygons.
 #[test]
-fn a_tooth_that_comes_into_the_play_makes_a_seat_jump() {
+fn a_tooth_that_comes_into_the_backlash_makes_a_seat_jump() {
     let pair = design("transplanter-pair-2021");
     let jumps = Contact::analyse(&pair).seat_jumps(&pair);
     let first = jumps.first().expect("a jump");
@@ -148,7 +148,7 @@ fn gears_that_cannot_be_followed_have_no_certificate_and_it_says_where() {
     let Err(ProofError::NoRoom { phi, overlap }) = prove(&pair) else {
         panic!("no room");
     };
-    // There the pair has no play, and lacks it by so much.
+    // There the pair has no backlash, and lacks it by so much.
     let contact = Contact::analyse_at(&pair, &[phi]);
     assert!(
         (contact.backlash[0] + overlap).abs() < 1e-9 && overlap > 1e-6,

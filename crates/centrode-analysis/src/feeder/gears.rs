@@ -83,7 +83,7 @@ pub(super) fn gears(feeder: &Feeder, report: &mut Report) {
     let asked = 0.5 * spec.backlash / pitch;
     // Pins on cams hold it as closely as teeth do.
     let asked = if pair.cams().is_empty() {
-        asked.max(pair.locked_play())
+        asked.max(pair.locked_backlash())
     } else {
         asked
     };

@@ -94,7 +94,7 @@ fn data(feeder: &Feeder, gears: &IntermittentPair, member: Member, teeth: &str) 
         Datum::new("Pitch diameter", "d", number(pitch, 4)),
         Datum::new("Normal backlash", "jn", number(spec.backlash, 4)),
         Datum::new("Radius of locking arc", "", number(gears.lock_radius(), 4)),
-        Datum::new("Play of lock", "", number(spec.lock_play, 4)),
+        Datum::new("Play of lock", "", number(spec.lock_clearance, 4)),
         Datum::new("Centre distance", "a", number(gears.center_distance(), 4)),
     ];
     data.extend(by_thickness(pair, spec.backlash));

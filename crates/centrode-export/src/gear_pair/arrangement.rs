@@ -5,7 +5,7 @@ use centrode_mechanism::machine::{Blank, Callout, Datum, Fit, Machine, Part, Sup
 use crate::sheet::{fit, number, range};
 
 /// Findings of an analysis of the contact, for the tables of sheets: least and greatest number of pairs of teeth in contact,
-/// least and greatest play along the common normal, mm.
+/// least and greatest backlash along the common normal, mm.
 #[must_use]
 pub fn contact_data(contact_ratio: [f64; 2], backlash: [f64; 2]) -> Vec<Datum> {
     vec![
@@ -179,12 +179,12 @@ pub(crate) fn by_thickness(pair: &GearPair, backlash: f64) -> Vec<Datum> {
     let (sin, cos) = pair.teeth().tool.pressure_angle.sin_cos();
     // Both gears are thinner, each by one deviation.
     let written = pair.design().teeth.thickness_deviations;
-    let play = written
+    let backlash = written
         .unwrap_or_default()
         .map(|deviation| backlash - 2.0 * deviation * cos);
     // Nowhere takes a shorter distance more backlash than twice its share across a flank where the pitch curves are square to
     // the line of centres.
-    let shorter = play[0] / (2.0 * sin);
+    let shorter = backlash[0] / (2.0 * sin);
     if shorter > 0.0 {
         let within = format!("{} ±{}", number(a, 4), number(0.5 * shorter, 3));
         data.push(Datum::new(
@@ -203,7 +203,7 @@ pub(crate) fn by_thickness(pair: &GearPair, backlash: f64) -> Vec<Datum> {
             "Es",
             format!("{upper} / {lower}"),
         ),
-        Datum::new("Backlash by thickness, normal", "jn", range(play, 4)),
+        Datum::new("Backlash by thickness, normal", "jn", range(backlash, 4)),
         Datum::new(
             "Centre distance, least by backlash",
             "a",

@@ -33,7 +33,7 @@ pub struct GearsSpec {
     /// Normal backlash of the teeth, mm.
     pub backlash: f64,
     /// Clearance between locking arc and notch, mm.
-    pub lock_play: f64,
+    pub lock_clearance: f64,
     /// Radius of the locking arc, mm; left out, the driver's pitch radius.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub lock_radius: Option<f64>,
@@ -82,7 +82,7 @@ impl Default for GearsSpec {
             entry: 20_f64.to_radians(),
             module: 3.0,
             backlash: 0.1,
-            lock_play: 0.05,
+            lock_clearance: 0.05,
             lock_radius: None,
             pin_diameter: None,
             pin_circle: None,
@@ -125,7 +125,7 @@ impl GearsSpec {
         };
         teeth.validate()?;
         not_negative("backlash", self.backlash)?;
-        not_negative("lock_play", self.lock_play)?;
+        not_negative("lock_clearance", self.lock_clearance)?;
         in_range(
             "pin_angle_deg",
             self.pin_angle.to_degrees(),
@@ -175,7 +175,7 @@ impl GearsSpec {
         pair.teeth.thickness_deviations = self.thickness_deviations;
         IntermittentPairSpec {
             lock_radius: self.lock_radius,
-            lock_play: self.lock_play,
+            lock_clearance: self.lock_clearance,
             backlash: self.backlash,
             pins: Pins {
                 diameter: Some(self.cam_pin()),

@@ -133,10 +133,10 @@ impl Feeder {
         let bar = self.six_bar();
         let now = bar.slider_distance(self.start()).position;
         // As far as the slot lets it.
-        let play = self.design().plates.slot_play;
+        let clearance = self.design().plates.slot_clearance;
         let range = [
-            bar.least_slider_distance() - now - play,
-            bar.greatest_slider_distance() - now + play,
+            bar.least_slider_distance() - now - clearance,
+            bar.greatest_slider_distance() - now + clearance,
         ];
         ([along.x, along.y, 0.0], range)
     }

@@ -263,7 +263,7 @@ impl Feeder {
     /// Ends of the effector's slot, distances from its pivot, mm.
     fn slot(&self) -> Result<[f64; 2], FeederError> {
         let spec = &self.design().plates;
-        let more = 0.5 * spec.slider_length + spec.slot_play;
+        let more = 0.5 * spec.slider_length + spec.slot_clearance;
         let start = self.six_bar().least_slider_distance() - more;
         let end = self.six_bar().greatest_slider_distance() + more;
         let radius = 0.5 * spec.pin_diameter;

@@ -22,7 +22,7 @@ pub struct PlatesSpec {
     /// Length of the slider along the slot, mm.
     pub slider_length: f64,
     /// Clearance of the slider at the ends of the slot, mm.
-    pub slot_play: f64,
+    pub slot_clearance: f64,
     /// Tolerance class of the holes for the pins, ISO 286, for the drawing.
     pub hole_fit: String,
     /// Tolerance class of the frame's holes in which the gears' shafts turn, ISO 286, for the drawing.
@@ -48,7 +48,7 @@ impl Default for PlatesSpec {
             pin_diameter: 10.0,
             slot_width: 16.0,
             slider_length: 16.0,
-            slot_play: 1.0,
+            slot_clearance: 1.0,
             hole_fit: "H8".into(),
             bearing_fit: "F8".into(),
             pin_fit: "f7".into(),
@@ -93,7 +93,7 @@ impl PlatesSpec {
             " mm",
         )?;
         not_negative("gap", self.gap)?;
-        not_negative("slot_play", self.slot_play)?;
+        not_negative("slot_clearance", self.slot_clearance)?;
         for (key, value) in [
             ("hole_fit", &self.hole_fit),
             ("bearing_fit", &self.bearing_fit),

@@ -104,7 +104,7 @@ fn what_is_no_feeder_is_refused_with_its_key() {
         (|d| d.bounds.frame = [6.0, 5.0], "bounds.frame"),
         (|d| d.goals.swing = 7.0, "goals.swing_deg"),
         (|d| d.gears.module = 0.0, "gears.module"),
-        (|d| d.gears.lock_play = -1.0, "gears.lock_play"),
+        (|d| d.gears.lock_clearance = -1.0, "gears.lock_clearance"),
         (|d| d.plates.width = f64::INFINITY, "plates.width"),
         (
             |d| d.making.pivot_tolerance = -0.1,

@@ -15,6 +15,7 @@ mod rolling;
 mod stage;
 mod teeth;
 mod tool;
+mod tooth_chords;
 mod tooth_passage;
 
 pub use conjugate::ConjugateCurve;

@@ -18,7 +18,7 @@ pub struct TeethParameters {
     pub addendum: Addendum,
     /// Position of the teeth.
     pub phase: Phase,
-    /// Normal backlash: play between mating flanks along their common normal, mm.
+    /// Normal backlash: distance between mating flanks along their common normal, mm.
     pub backlash: f64,
     /// Greatest angular backlash of the driven gear with the driver held, rad; replaces `backlash`.
     pub backlash_angle: Option<f64>,
@@ -47,14 +47,14 @@ pub enum TeethError {
         greatest: f64,
     },
     /// A tooth or a space is left with no width.
-    #[error("the {} is left with a tooth {width} mm wide on a pitch of {pitch} mm; the play takes {play} mm of it", .member.name())]
+    #[error("the {} is left with a tooth {width} mm wide on a pitch of {pitch} mm; the backlash takes {backlash} mm of it", .member.name())]
     NoWidth {
         /// Gear at fault.
         member: Member,
         /// Width of the tooth on the pitch curve, mm.
         width: f64,
         /// Thinning, mm.
-        play: f64,
+        backlash: f64,
         /// Pitch, mm.
         pitch: f64,
     },
@@ -104,7 +104,7 @@ pub(crate) fn layout(
             return Err(TeethError::NoWidth {
                 member,
                 width: width - 2.0 * thinning,
-                play: 2.0 * thinning,
+                backlash: 2.0 * thinning,
                 pitch,
             });
         }

@@ -154,10 +154,10 @@ impl Fit {
         }
     }
 
-    /// Least and greatest play, mm, below zero where the parts press: the hole's limits less the shaft's. None where a class or
+    /// Least and greatest clearance, mm, below zero where the parts press: the hole's limits less the shaft's. None where a class or
     /// the size is beyond the tables of [`limits_of_size`].
     #[must_use]
-    pub fn play(&self) -> Option<[f64; 2]> {
+    pub fn clearance(&self) -> Option<[f64; 2]> {
         let [least, greatest] = limits_of_size(self.size, &self.hole)?;
         let [thin, thick] = limits_of_size(self.size, &self.shaft)?;
         Some([least - thick, greatest - thin])
@@ -263,7 +263,7 @@ mod tests {
             let off = (found[0] - 1e-3 * low).abs() + (found[1] - 1e-3 * high).abs();
             assert!(off < 1e-12, "{size}: {found:?}");
             let seat = Fit::new("seat", size, ["H7", "r6"]);
-            assert!(seat.play().expect("classes")[1] <= 0.0, "{size}");
+            assert!(seat.clearance().expect("classes")[1] <= 0.0, "{size}");
         }
         assert_eq!(limits_of_size(16.0, "r10"), None);
     }
@@ -293,13 +293,13 @@ mod tests {
     }
 
     #[test]
-    fn play_is_least_of_the_smallest_hole_and_the_thickest_shaft() {
+    fn clearance_is_least_of_the_smallest_hole_and_the_thickest_shaft() {
         let fit = |hole: &str, shaft: &str| Fit::new("pin", 10.0, [hole, shaft]);
-        let [least, greatest] = fit("H8", "f7").play().expect("known classes");
+        let [least, greatest] = fit("H8", "f7").clearance().expect("known classes");
         assert!((least - 0.013).abs() < 1e-12 && (greatest - 0.05).abs() < 1e-12);
-        let [least, greatest] = fit("H7", "p6").play().expect("known classes");
+        let [least, greatest] = fit("H7", "p6").clearance().expect("known classes");
         assert!((least + 0.024).abs() < 1e-12 && greatest.abs() < 1e-12);
-        assert_eq!(fit("H8", "").play(), None);
+        assert_eq!(fit("H8", "").clearance(), None);
         let mut machine = Machine::default();
         let named = |name: &str| Fit {
             name: name.into(),

@@ -46,8 +46,8 @@ impl ThreeArm {
         }
         let bodies = [&design.sun, &design.intermediate, &design.planet];
         let width = bodies.iter().map(|b| b.width).fold(0.0, f64::max);
-        let (play, wall) = (design.gearbox.play, design.gearbox.wall);
-        let front = width + play;
+        let (clearance, wall) = (design.gearbox.clearance, design.gearbox.wall);
+        let front = width + clearance;
         Some(GearboxBody {
             outline: Outline::hull(&around)?,
             holes: holes
@@ -58,7 +58,7 @@ impl ThreeArm {
                     Outline::circle(center, 0.5 * bearing.map_or(bore, |bearing| bearing.outer))
                 })
                 .collect(),
-            spans: [[-play - wall, -play], [front, front + wall]],
+            spans: [[-clearance - wall, -clearance], [front, front + wall]],
         })
     }
 
@@ -78,6 +78,6 @@ impl ThreeArm {
         let bodies = [&design.sun, &design.intermediate, &design.planet];
         let width = bodies.iter().map(|b| b.width).fold(0.0, f64::max);
         let gearbox = &design.gearbox;
-        width + 2.0 * gearbox.play + gearbox.wall + 0.5 * self.arm_sizes().housing.width
+        width + 2.0 * gearbox.clearance + gearbox.wall + 0.5 * self.arm_sizes().housing.width
     }
 }

@@ -34,7 +34,7 @@ impl ThreeArm {
             return Vec::new();
         };
         let (design, [rear, front]) = (self.design(), gearbox.spans);
-        let (play, free) = (design.gearbox.play, f64::INFINITY);
+        let (clearance, free) = (design.gearbox.clearance, f64::INFINITY);
         let beyond = self.arm_level() + span(arm, "cover-front").map_or(0.0, |[_, top]| top);
         let shaft = |body: &BodySpec, links: Vec<TurnedPiece>, names, (span, room)| {
             let bar = Bar::new(body.bore, &body.shaft_fit, span).held(room);
@@ -73,7 +73,7 @@ impl ThreeArm {
             &design.sun,
             vec![TurnedPiece::upright("sun", [0.0; 3])],
             ["shaft-carrier", "Shaft of the carrier"],
-            ([behind, front[1]], [0.0, play]),
+            ([behind, front[1]], [0.0, clearance]),
         );
         carrier.part.notes =
             vec!["Free end for its bearing and the drive, to be cut to length.".into()];
@@ -81,7 +81,7 @@ impl ThreeArm {
             &design.intermediate,
             self.on_chains("intermediate", [0.0; 3]),
             ["shaft-intermediate", "Shaft of an intermediate gear"],
-            ([rear[0], front[1]], [free, play]),
+            ([rear[0], front[1]], [free, clearance]),
         );
         let planet = shaft(
             &design.planet,

@@ -125,9 +125,9 @@ pub enum ProofError {
         /// Driver angle, rad.
         phi: f64,
     },
-    /// A seat jumps: teeth meet in the play.
+    /// A seat jumps: teeth meet within the backlash.
     #[error(
-        "at the driver angle {phi:.6} rad tooth {} of the driver meets tooth {} of the driven gear at ({:.4}, {:.4}) mm in the play, \
+        "at the driver angle {phi:.6} rad tooth {} of the driver meets tooth {} of the driven gear at ({:.4}, {:.4}) mm within the backlash, \
         {turn:.3e} rad from where the driven gear stands pushed {side}, so it is not held at every angle: take a pitch curve of \
         gentler curvature, or more teeth of a smaller module", .teeth.0, .teeth.1, .point.x, .point.y
     )]

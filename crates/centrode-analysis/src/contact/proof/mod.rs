@@ -220,7 +220,7 @@ impl Prover<'_> {
                 known.push(*feature);
                 let track = Track::new(&self.meshing, *feature, (from, to), (sample.phi, *meeting));
                 let Some(track) = track else { continue };
-                let is_close = 0.5 * track.play(holder) * self.meshing.pair.center_distance()
+                let is_close = 0.5 * track.backlash(holder) * self.meshing.pair.center_distance()
                     < CLOSE * self.meshing.module;
                 if is_close && let Some(phi) = track.leaves(&self.meshing, (from, to)) {
                     return Found::Cut(phi);

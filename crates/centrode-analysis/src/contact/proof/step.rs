@@ -1,4 +1,4 @@
-//! Seats that jump: a tooth comes into the play of the driven gear without touching where the gear was held before.
+//! Seats that jump: a tooth comes into the backlash of the driven gear without touching where the gear was held before.
 
 use super::{HALF_WIDTH, ProofError, ProofStretch, Prover, track::Side};
 

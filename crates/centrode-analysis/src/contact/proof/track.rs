@@ -142,7 +142,7 @@ impl Track {
     }
 
     /// Least turn between its meeting and another's along the stretch, rad.
-    pub(super) fn play(&self, other: &Self) -> f64 {
+    pub(super) fn backlash(&self, other: &Self) -> f64 {
         let both = self.meetings.iter().zip(&other.meetings);
         both.filter_map(|(a, b)| Some((a.as_ref()?.angle - b.as_ref()?.angle).abs()))
             .fold(f64::INFINITY, f64::min)

@@ -37,7 +37,7 @@ impl IntermittentPair {
     pub(super) fn cut_cams(
         &self,
         pins: &Pins,
-        play: f64,
+        backlash: f64,
         accuracy: Tolerance,
     ) -> Result<Vec<Cam>, IntermittentPairError> {
         let radius = 0.5 * pins.diameter.unwrap_or(2.5 * self.pair().module());
@@ -64,7 +64,7 @@ impl IntermittentPair {
             let at = self.mate(handed_over, self.law().at(handed_over).position) * places[0];
             let mut blank = Radial::unbounded();
             blank.limit(at.coords.norm());
-            let cam = self.swept(blank, &bodies, play, true);
+            let cam = self.swept(blank, &bodies, backlash, true);
             Cam {
                 outline: Outline::polygon(&cam.polygon(accuracy)),
                 pins: places,

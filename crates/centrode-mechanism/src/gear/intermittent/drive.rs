@@ -46,7 +46,7 @@ pub enum IntermittentError {
 /// Both counts are of pitches all round. N teeth kept turn the driven gear by N of its pitches while
 /// the driver turns by N of its own, so one driven turn a driver turn with a dwell needs a driver with
 /// more pitches than the driven gear: equal pitch circles, a full turn and a dwell contradict each
-/// other. Angles are those of the pitch circles; the law holds for teeth that enter and leave without play.
+/// other. Angles are those of the pitch circles; the law holds for teeth that enter and leave without backlash.
 ///
 /// Without an entry the driven gear's speed jumps at the first tooth. An entry of angle beta - cam
 /// plates or a shaped first tooth - brings it to speed along w = ratio (10 u³ - 15 u⁴ + 6 u⁵), u from 0

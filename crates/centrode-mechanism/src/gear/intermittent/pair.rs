@@ -34,7 +34,7 @@ pub struct IntermittentPair {
     pair: GearPair,
     law: IntermittentLaw,
     lock_radius: f64,
-    locked_play: f64,
+    locked_backlash: f64,
     driver: Outline,
     driven: Outline,
     cams: Vec<Cam>,
@@ -59,7 +59,7 @@ impl IntermittentPair {
         let mut made = Self {
             law,
             lock_radius,
-            locked_play: 0.0,
+            locked_backlash: 0.0,
             driver: Outline::polygon(&[]),
             driven: Outline::polygon(&[]),
             cams: Vec::new(),
@@ -69,11 +69,11 @@ impl IntermittentPair {
             pair,
         };
         let whole = Radial::new(&made.pair.driven().outline().flatten(accuracy));
-        // The driver is cut by a driven gear whose notch fits; the finished one has its play.
+        // The driver is cut by a driven gear whose notch fits; the finished one has its clearance.
         let tool = made.notched(&whole, lock_radius).polygon(accuracy);
-        let play = spec.backlash / (2.0 * made.base_radius());
+        let backlash = spec.backlash / (2.0 * made.base_radius());
         let blank = made.blank(accuracy);
-        let driver = made.swept(blank, std::slice::from_ref(&tool), play, false);
+        let driver = made.swept(blank, std::slice::from_ref(&tool), backlash, false);
         made.teeth = teeth(&driver, lock_radius + TOOTH * made.pair.module());
         if made.teeth == 0 {
             return Err(IntermittentPairError::NoTeethLeft {
@@ -82,11 +82,11 @@ impl IntermittentPair {
             });
         }
         made.driver = Outline::polygon(&driver.polygon(accuracy));
-        let finished = made.notched(&whole, lock_radius + spec.lock_play);
+        let finished = made.notched(&whole, lock_radius + spec.lock_clearance);
         made.driven = Outline::polygon(&finished.polygon(accuracy));
-        made.locked_play = made.worked_locked_play(accuracy);
+        made.locked_backlash = made.worked_locked_backlash(accuracy);
         if spec.entry > 0.0 {
-            made.cams = made.cut_cams(&spec.pins, play, accuracy)?;
+            made.cams = made.cut_cams(&spec.pins, backlash, accuracy)?;
         }
         Ok(made)
     }
@@ -187,28 +187,28 @@ impl IntermittentPair {
         Isometry2::rotation(input) * placed
     }
 
-    /// The `blank` less the region swept by `bodies` over one driver turn, with the driven gear offset by +-`play`
+    /// The `blank` less the region swept by `bodies` over one driver turn, with the driven gear offset by +-`backlash`
     /// while it moves (throughout if `always`).
     pub(super) fn swept(
         &self,
         mut blank: Radial,
         bodies: &[Vec<Point>],
-        play: f64,
+        backlash: f64,
         always: bool,
     ) -> Radial {
         let reach = blank.greatest();
         let motion = self.law.motion_angle();
-        let plays: &[f64] = if play > 0.0 { &[-1.0, 1.0] } else { &[0.0] };
+        let sides: &[f64] = if backlash > 0.0 { &[-1.0, 1.0] } else { &[0.0] };
         let mut inputs: Vec<f64> = (0..=STEPS)
             .map(|i| TAU * f64::from(i) / f64::from(STEPS))
             .collect();
         inputs.extend(self.law.breaks());
         inputs.sort_by(f64::total_cmp);
         let chains: Vec<Chain> = bodies.iter().flat_map(|body| Chain::new(body)).collect();
-        for &side in plays {
+        for &side in sides {
             let placed = |input: f64| {
                 let off = if always || (input > 0.0 && input < motion) {
-                    side * play
+                    side * backlash
                 } else {
                     0.0
                 };
@@ -309,14 +309,14 @@ impl IntermittentPair {
     /// Angle, rad, by which the driven gear can turn either way when the locking arc alone holds it: where the arc
     /// faces the whole notch, in the middle of the dwell. Pins on cams hold it closer.
     #[must_use]
-    pub fn locked_play(&self) -> f64 {
-        self.locked_play
+    pub fn locked_backlash(&self) -> f64 {
+        self.locked_backlash
     }
 
-    /// Angle of [`locked_play`](Self::locked_play) on the finished contour: a corner of the driven gear at the
+    /// Angle of [`locked_backlash`](Self::locked_backlash) on the finished contour: a corner of the driven gear at the
     /// distance p from its axis meets the locking arc where the cosine of its angle from the line of centres is (a² +
     /// p² - r²)/(2 a p).
-    fn worked_locked_play(&self, accuracy: Tolerance) -> f64 {
+    fn worked_locked_backlash(&self, accuracy: Tolerance) -> f64 {
         let (a, r) = (self.center_distance(), self.lock_radius);
         let corners = self.driven.flatten(accuracy);
         let free = |stop: u32| {

@@ -16,7 +16,7 @@ pub struct IntermittentPairSpec {
     /// Radius of the locking arc, mm; left out, that of the driver's pitch point at rest.
     pub lock_radius: Option<f64>,
     /// Clearance between locking arc and notch, mm.
-    pub lock_play: f64,
+    pub lock_clearance: f64,
     /// Normal backlash of the teeth, mm.
     pub backlash: f64,
     /// The pins of the entry cam.
@@ -53,7 +53,7 @@ impl IntermittentPairSpec {
             teeth,
             entry,
             lock_radius: None,
-            lock_play: 0.05,
+            lock_clearance: 0.05,
             backlash: 0.1,
             pins: Pins::default(),
         }
@@ -70,7 +70,7 @@ impl IntermittentPairSpec {
         if let Some(radius) = self.lock_radius {
             positive("lock_radius", radius)?;
         }
-        not_negative("lock_play", self.lock_play)?;
+        not_negative("lock_clearance", self.lock_clearance)?;
         not_negative("backlash", self.backlash)?;
         for (key, value) in [
             ("pin_diameter", self.pins.diameter),

@@ -72,6 +72,9 @@ fn what_is_no_intermittent_pair_is_refused() {
         refused(&|s| s.lock_radius = Some(100.0)),
         IntermittentPairError::LockOverlaps { .. }
     ));
-    assert_eq!(refused(&|s| s.lock_play = -1.0).key(), "lock_play");
+    assert_eq!(
+        refused(&|s| s.lock_clearance = -1.0).key(),
+        "lock_clearance"
+    );
     assert_eq!(refused(&|s| s.entry = f64::NAN).key(), "entry_deg");
 }

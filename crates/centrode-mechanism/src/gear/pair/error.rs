@@ -88,10 +88,10 @@ impl GearPairError {
             | Self::MeanRatio { .. } => "mean_ratio".into(),
             Self::Rolling(_) | Self::Corner { .. } => "pitch".into(),
             Self::Teeth(TeethError::TipRadius { .. }) => "tool.tip_radius_coefficient".into(),
-            // Without the play there would be a tooth.
-            Self::Teeth(TeethError::NoWidth { width, play, .. }) if width + play > 0.0 => {
-                "teeth.backlash".into()
-            }
+            // Without the backlash there would be a tooth.
+            Self::Teeth(TeethError::NoWidth {
+                width, backlash, ..
+            }) if width + backlash > 0.0 => "teeth.backlash".into(),
             Self::Teeth(TeethError::NoWidth { .. }) => "teeth.thickness_split".into(),
             Self::Teeth(TeethError::NotCongruent { .. }) => "teeth.phase".into(),
             Self::Profile(_) | Self::NoToothCount | Self::DrivenTeeth { .. } => {

@@ -79,7 +79,7 @@ pub struct GearboxSpec {
     /// Thickness of its plates, mm.
     pub wall: f64,
     /// Clearance between the gears' faces and the plates, mm.
-    pub play: f64,
+    pub clearance: f64,
     /// Whether the shafts turn in ball bearings in the plates, where bearings of their bores are as narrow as these are thick.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub bearings: bool,
@@ -90,7 +90,7 @@ impl Default for GearboxSpec {
         Self {
             housing_offset: 10.0,
             wall: 6.0,
-            play: 2.0,
+            clearance: 2.0,
             bearings: false,
         }
     }
@@ -104,6 +104,6 @@ impl GearboxSpec {
     pub fn validate(&self) -> Result<(), SpecError> {
         not_negative("housing_offset", self.housing_offset)?;
         positive("wall", self.wall)?;
-        not_negative("play", self.play)
+        not_negative("clearance", self.clearance)
     }
 }
