@@ -193,7 +193,8 @@ def test_teeth_that_meet_in_the_play_are_told_before_a_file_is_written(run, tmp_
     assert done.returncode == 2
     assert not (tmp_path / "x.proof").exists()
     told = re.search(
-        r"angle (\S+) rad tooth 22 of the driver meets tooth 21 of the driven gear at \((\S+), (\S+)\) mm within the backlash, "
+        r"angle (\S+) rad tooth 22 of the driver meets tooth 21 of the driven gear at \((\S+), (\S+)\) mm "
+        r"within the backlash, "
         r"(\S+) rad from where the driven gear stands pushed on",
         done.stderr,
     )

@@ -85,7 +85,7 @@ class Box:
         return [(a, part) for part in b.parts]
 
     def apart(self, a, b, offset=0.0, half=None):
-        """Whether the discs of two nodes are apart at every angle of the box and every turn in the play."""
+        """Whether the discs of two nodes are apart at every angle of the box and every turn within the backlash."""
         half = self.play / 2 if half is None else half
         places = self.turned.get(offset)
         if places is None:
@@ -106,7 +106,7 @@ class Box:
         return self.apart(a, b, offset + half, half) and self.apart(a, b, offset - half, half)
 
     def is_free(self):
-        """Claim 1: whether no two pieces meet in the play."""
+        """Claim 1: whether no two pieces meet within the backlash."""
         near = self.near()
         pairs = [(int(a.first), int(b.first)) for a, b in near]
         # Those that touch first: a parabola between them parts many others.
