@@ -26,8 +26,8 @@ class Box:
         law = pair.law.along(self.middle, self.half)
         ahead = arb_poly([self.middle, self.half])
         seats = [self.along(s) for s in stretch["seats"]]
-        play = seats[1] - seats[0]
-        self.play = floats.upper(magnitude(sweep(play)) + 2 * pair.width)
+        backlash = seats[1] - seats[0]
+        self.backlash = floats.upper(magnitude(sweep(backlash)) + 2 * pair.width)
         clear = [ahead + law + s + e * pair.width for s, e in zip(seats, (1, -1), strict=True)]
         between = ahead + law + (seats[0] + seats[1]) * arb(0.5)
         self.axis = self.turning(ahead, pair.distance)
@@ -86,7 +86,7 @@ class Box:
 
     def apart(self, a, b, offset=0.0, half=None):
         """Whether the discs of two nodes are apart at every angle of the box and every turn within the backlash."""
-        half = self.play / 2 if half is None else half
+        half = self.backlash / 2 if half is None else half
         places = self.turned.get(offset)
         if places is None:
             # A float near e^(i offset): what it lacks is left to the rounding of the motion.
@@ -101,7 +101,7 @@ class Box:
             return True
         if not room > 0 or swing < a.radius + b.radius:
             return False
-        # The play is wider than the discs: in two parts.
+        # The backlash is wider than the discs: in two parts.
         half /= 2
         return self.apart(a, b, offset + half, half) and self.apart(a, b, offset - half, half)
 

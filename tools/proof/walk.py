@@ -24,8 +24,8 @@ class Walk:
         self.contour = (meeting.pair.driver, meeting.pair.driven)[member]
         self.motion = meeting.motions[member]
         self.piece, self.staying = meeting.pieces[member], {}
-        # Turned in its play the driven gear reaches as much farther.
-        self.slack, self.more = self.contour.slack, meeting.box.play * self.contour.bound
+        # Turned in its backlash the driven gear reaches as much farther.
+        self.slack, self.more = self.contour.slack, meeting.box.backlash * self.contour.bound
 
     def curve(self, piece, start, stop):
         """Bounds on the second derivative of the height in x over a part; none where x does not run on."""
@@ -62,7 +62,7 @@ class Walk:
         return max(abs(y.real) + across for y, across, _ in places)
 
     def stays(self, piece, start, stop):
-        """Whether a part of a gear stays on its side when the driven gear is turned on in its play."""
+        """Whether a part of a gear stays on its side when the driven gear is turned on in its backlash."""
         if self.member == 0:
             return True
         if piece not in self.staying:
@@ -74,7 +74,7 @@ class Walk:
         m, (point, *reach) = self.meeting, self.contour.hull(piece, start, stop).points
         y, across, _ = self.motion.place(point, *reach)
         arm, along, up = self.motion.turn(point, *reach)
-        more = m.box.play * (abs(arm) + along + up)
+        more = m.box.backlash * (abs(arm) + along + up)
         across, along, up = across + more, along + more, up + more
         # H gains arm.real + 2 k y.real arm.imag a radian.
         bend = 2 * self.k
