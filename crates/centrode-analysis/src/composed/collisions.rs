@@ -4,8 +4,8 @@ use centrode_geometry::{Bounds, Point, Tolerance, greatest_of};
 use centrode_mechanism::composed::Composed;
 use centrode_mechanism::machine::{JointKind, Machine, Surface};
 
-use super::Made;
 use super::clearance::surfaces;
+use super::{Made, ends as ends_of};
 use crate::interference::LinkPair;
 use crate::{Finding, Place, Report, Severity, Unit};
 
@@ -47,6 +47,17 @@ impl<'a> Piece<'a> {
             radius: far.fold(0.0, f64::max) + tolerance.mm(),
         })
     }
+}
+
+/// Plates, and gears that are not to mesh, of a machine that share a height and collide: the findings `plates-collide` and
+/// `gears-collide` of its check, the deepest first.
+#[must_use]
+pub fn composed_collisions(composed: &Composed) -> Vec<Finding> {
+    let mut report = Report::default();
+    collisions(&Made::new(composed), &ends_of(composed), &mut report);
+    let deep = |finding: &Finding| finding.measured.unwrap_or(0.0);
+    report.findings.sort_by(|a, b| deep(a).total_cmp(&deep(b)));
+    report.findings
 }
 
 /// Plates, and gears that are not to mesh, that share a height and collide.
