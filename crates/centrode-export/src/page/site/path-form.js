@@ -74,13 +74,13 @@ const FIELDS = {
   "gears.split": { kind: "choice", unit: "", choices: SPLITS, doc: "How two stages of gears share the motion." },
   "gears.module": { unit: "mm", positive: true, optional: true, doc: "Module of full teeth up to which the path is eased, and no more." },
   "gears.aim": { kind: "choice", unit: "", optional: true, choices: AIMS, doc: "What is made the most of where something is free." },
-  "path.tolerances": { label: "Tolerance of each point", kind: "switch", unit: "", doc: "Each point has a tolerance of its own, in the place of one band for all." },
-  "path.directions": { label: "Directions of the clamp", kind: "switch", unit: "", doc: "Directions of the clamp wanted at points: drag the small circles beside them, or type them in the table." },
+  "path.tolerances": { label: "Tolerances", kind: "switch", unit: "", doc: "Each point has a tolerance of its own, in the place of one band for all." },
+  "path.directions": { label: "Directions", kind: "switch", unit: "", doc: "Directions of the clamp wanted at points: drag the small circles beside them, or type them in the table." },
   "wishes.carrier": range("mm", "Least and greatest length of the carrier."),
   "wishes.arm": range("mm", "Least and greatest length of the arm."),
   "wishes.center_distance": { ...range("mm", "Least and greatest centre distance of the gears."), label: "Centre distance" },
   "wishes.ratio": range("", "Least and greatest ratio of planet to carrier."),
-  "wishes.clamp_deg": { label: "Clamp from the arm", unit: "°", optional: true, doc: "Direction of the clamp less that of the arm; left out, the one that suits the directions best." },
+  "wishes.clamp_deg": { label: "Clamp", unit: "°", optional: true, doc: "Direction of the clamp less that of the arm; left out, the one that suits the directions best." },
   "wishes.turn.from": { label: "Turn from point", kind: "integer", unit: "", least: 1, optional: true, doc: "Turn of the carrier: number of the point from which it is counted." },
   "wishes.turn.to": { label: "Turn to point", kind: "integer", unit: "", least: 1, optional: true, doc: "Number of the point up to which it is counted." },
   "wishes.turn.between_deg": { label: "Turn", kind: "numbers", unit: "°", least: 0, greatest: 360, optional: true, holders: ["least", "greatest"], doc: "Least and greatest turn of the carrier from the one point to the other." },
@@ -95,7 +95,7 @@ const PLAIN = {
 /** Columns of points that may be empty, with their headings. */
 const FREE = {
   tolerance: ["±", "mm", "Distance within which the path may pass the point; empty, none."],
-  direction_deg: ["clamp", "°", "Direction of the clamp there, from x; empty, it is free."],
+  direction_deg: ["dir", "°", "Direction of the clamp there, from x; empty, it is free."],
   direction_tolerance_deg: ["±", "°", `How far off it may be; empty, ${USUAL}.`],
 };
 

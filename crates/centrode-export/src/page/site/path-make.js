@@ -16,7 +16,7 @@ const BAND = 0.03;
 const round = (size) => Number(size.toPrecision(1));
 
 /** Says how far a search is. */
-export const heed = (evaluations) => progress(`${evaluations.toLocaleString("en")} evaluations,`);
+export const heed = (evaluations) => progress(`${evaluations.toLocaleString("en")} evaluations`);
 
 /** Makes the machine of a wish; where no teeth will do, says so and offers to ease the path. */
 export async function make(wish, complain) {
@@ -30,7 +30,7 @@ export async function make(wish, complain) {
         await name(answer);
         return;
       }
-      band = isEased ? await remedy(wish, answer.refused, band) : await refuse(answer.refused);
+      band = isEased ? await remedy(wish, answer, band) : await refuse(answer);
       if (!band) return;
     }
   } catch (error) {
@@ -47,12 +47,12 @@ async function name({ text, told: rows, goals, findings }) {
 }
 
 /** Says why what is sought gives no machine. */
-async function refuse(reason) {
-  await dialogs.ask("No machine", [element("p", {}, reason), element("p", {}, "What helps: a greater bend, another split, or other places.")], [["close", "Close", "main"]]);
+async function refuse({ refused, goals }) {
+  await dialogs.ask("No machine", [element("p", {}, refused), ...told.wishes(goals, "Wishes", "h3"), element("p", {}, "What helps: a greater bend, another split, or other places.")], [["close", "Close", "main"]]);
 }
 
 /** Says why there is no machine; resolves to a band within which the path is to be eased, or to null. */
-async function remedy(wish, reason, before) {
+async function remedy(wish, { refused, goals }, before) {
   const box = element("input", { type: "text", inputmode: "decimal", class: "number", id: "band", value: String(2 * before || round(BAND * sizeOf(wish.path))), "aria-describedby": "band-remark" });
   const remark = element("p", { class: "remark", id: "band-remark", role: "alert" });
   const sound = async () => {
@@ -63,7 +63,8 @@ async function remedy(wish, reason, before) {
     return false;
   };
   const answer = await dialogs.ask("No machine", [
-    element("p", {}, reason),
+    element("p", {}, refused),
+    ...told.wishes(goals, "Wishes", "h3"),
     element("p", {}, "What helps:"),
     element("ul", { class: "remedies" },
       element("li", {}, "another axis: where the field is bright, coloured by the least radius,"),

@@ -11,11 +11,15 @@ use crate::cli::reverse::words::{self, Told};
 use crate::mechanism::design::Design as _;
 use crate::mechanism::reverse::Split;
 
-/// A design with sound teeth.
+/// A design with sound teeth, or what was found without such.
 #[derive(Debug, Serialize)]
 pub(super) struct Machine {
     /// The design file.
-    text: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    text: Option<String>,
+    /// Reason why there are no sound teeth.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    refused: Option<String>,
     /// Names and words of what was found.
     told: Vec<Told>,
     /// What else was wanted, and how far it is reached.
@@ -35,16 +39,24 @@ pub(super) fn machine(
     let split = Split::new(&found.chain, design.split, design.bend);
     let split = split.map_err(|error| error.to_string())?;
     let made = rolled(&design, &found.chain, &split).map_err(|error| error.to_string())?;
-    let toothed = Toothed::new(&made).map_err(|error| without_teeth(&error))?;
-    let mut told = found.told.clone();
-    told.extend(toothed.teeth.iter().map(words::teeth));
-    let findings = found.findings.iter().chain(&toothed.findings);
+    // What was found is told even where there are no teeth.
+    let (toothed, refused) = match Toothed::new(&made) {
+        Ok(toothed) => (Some(toothed), None),
+        Err(error) => (None, Some(without_teeth(&error))),
+    };
+    let text = toothed.as_ref().map(|toothed| toothed.design.to_toml());
+    let teeth = toothed.iter().flat_map(|toothed| &toothed.teeth);
+    let collisions = toothed.iter().flat_map(|toothed| &toothed.findings);
+    let findings = found.findings.iter().chain(collisions);
     Ok(Machine {
-        text: toothed
-            .design
-            .to_toml()
-            .map_err(|error| error.to_string())?,
-        told,
+        text: text.transpose().map_err(|error| error.to_string())?,
+        refused,
+        told: found
+            .told
+            .iter()
+            .cloned()
+            .chain(teeth.map(words::teeth))
+            .collect(),
         goals: goals(&found.goals),
         findings: findings.map(words::finding).collect(),
     })
