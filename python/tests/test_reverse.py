@@ -498,7 +498,7 @@ def test_arms_that_collide_are_findings_with_their_place():
     t = np.arange(40) * 2 * np.pi / 40
     radius = 60 + 1.5 * np.cos(2 * t)
     path = np.column_stack([100 + radius * np.cos(t), radius * np.sin(t)])
-    made = ct.reverse(path, (100, 5), arms=12)
+    made = ct.reverse(path, (0, 0), arms=8)
     found = [finding for finding in made.findings if finding.rule == "gears-collide"]
     assert found
     machine = made.machine()
@@ -507,7 +507,7 @@ def test_arms_that_collide_are_findings_with_their_place():
     assert found[0].measured == min(finding.measured for finding in found)
     place = found[0].place
     assert 0 <= place.input <= 2 * np.pi
-    assert ct.reverse(path, (100, 5), arms=1).findings == ()
+    assert ct.reverse(path, (0, 0), arms=1).findings == ()
 
 
 @pytest.mark.parametrize(

@@ -152,7 +152,7 @@ function show({ picture, curves, figures, fault, goals, findings, found }, more 
   charts.place.classList.toggle("stale", Boolean(fault));
   if (!fault) charts.show(curves);
   transport.show(curves);
-  judge(fault, found);
+  judge(fault, found && { missed: (goals ?? []).filter(({ met }) => !met).length });
   if (fault?.of === "wish") fill(blamed(fault.message));
   byId("wished").replaceChildren(...lines.wishes(goals, found || !isSought(wish) ? "Wishes" : "Wishes as drawn"), ...lines.findings(findings));
   const names = new Set(figures.map(({ name }) => name));
@@ -170,11 +170,12 @@ function show({ picture, curves, figures, fault, goals, findings, found }, more 
 /** Says whether there is a machine; what has been said already is not said again. */
 function judge(fault, found) {
   const place = byId("possible");
-  const head = fault ? heading(fault) : `✓ ${found ? "A machine is found" : "This axis is possible"}`;
+  const missed = found?.missed ? `, which misses ${found.missed === 1 ? "a wish" : `${found.missed} wishes`}` : "";
+  const head = fault ? heading(fault) : `${missed ? "!" : "✓"} ${found ? `A machine is found${missed}` : "This axis is possible"}`;
   const words = fault ? capital(fault.message) : "";
   if (place.dataset.said === head + words) return;
   place.dataset.said = head + words;
-  const kind = fault ? fault.of === "sought" ? "" : "error" : "good";
+  const kind = fault ? fault.of === "sought" ? "" : "error" : missed ? "" : "good";
   place.replaceChildren(element("div", { class: `title ${kind}` }, element("h2", {}, head)), ...(words ? [element("p", {}, words)] : []));
 }
 
