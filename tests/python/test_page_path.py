@@ -37,11 +37,20 @@ def running(tmp_path_factory):
         yield running
 
 
-@pytest.fixture
-def page(browser, running):
+@pytest.fixture(scope="module")
+def shared(browser, running):
     granted = ["clipboard-read", "clipboard-write"]
     with shown(browser, f"{running.url}path", ready=solved, permissions=granted) as page:
         yield page
+
+
+@pytest.fixture
+def page(shared, running):
+    """The page as it comes, in the one window of these tests."""
+    shared.evaluate("sessionStorage.clear()")
+    shared.goto(f"{running.url}path")
+    solved(shared)
+    return shared
 
 
 def figures(page):
@@ -378,9 +387,9 @@ def test_a_made_machine_is_the_design_of_the_command_line(page, running):
 
 def test_a_machine_of_the_path_as_it_is_drawn_is_that_of_the_command_line(running):
     axis = [345.5876, 355.1393]
-    made, _ = answered(running, "path/machine", {"design": DESIGN | {"axis": axis}})
+    made, _ = answered(running, "path/machine", {"design": DESIGN | {"axis": axis, "arms": 1}})
     design = running.folder / "as-drawn.toml"
-    told(running.folder, EXAMPLE, "--axis", "345.5876,355.1393", "--bend", "40", "--arms", "3", "-o", design)
+    told(running.folder, EXAMPLE, "--axis", "345.5876,355.1393", "--bend", "40", "-o", design)
     assert made["text"] == design.read_text()
 
 
@@ -434,6 +443,7 @@ def test_key_poses_are_dragged_by_place_and_direction_and_a_machine_found(page, 
     page.locator("#undo").click()
     page.locator("#undo").click()
     expect(field(page, "poses.direction_deg-1")).to_have_value("20.89")
+    typed(page, "gears.arms", "1")
     page.get_by_role("button", name="Find the machine").click()
     expect(page.locator("#possible h2")).to_contain_text("A machine is found", timeout=30_000)
     folder = running.folder
@@ -441,7 +451,7 @@ def test_key_poses_are_dragged_by_place_and_direction_and_a_machine_found(page, 
     with page.expect_download() as found:
         page.get_by_role("button", name="Points as CSV").click()
     found.value.save_as(poses)
-    done = centrode("reverse", poses, "--poses", "--bend", "40", "--arms", "3", "-o", folder / "posed.toml").stdout
+    done = centrode("reverse", poses, "--poses", "--bend", "40", "-o", folder / "posed.toml").stdout
     own = figures(page)
     for name in ("clamp", "carrier", "arm", "ratio", "pose 4", "pair second-stage"):
         assert re.search(rf"^{name} +{re.escape(own[name])}$", done, re.M), name

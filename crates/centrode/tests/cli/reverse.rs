@@ -575,7 +575,10 @@ fn an_axis_at_the_border_of_its_box_is_told_with_the_side() {
     let unevenness = |told: &str| figure(told, "ratio", "factor of ");
     assert!(unevenness(&wide) < unevenness(&told), "{wide}");
     // The search that eases a path tells it, too.
-    let design = wished("").replace("[path]", "aim = \"mild\"\naxis_box = [[200, 100], [240, 150]]\n[path]");
+    let design = wished("").replace(
+        "[path]",
+        "aim = \"mild\"\naxis_box = [[200, 100], [240, 150]]\n[path]",
+    );
     let eased = fed(&["reverse", "-"], design.as_bytes());
     assert!(
         text(&eased.stdout).contains("axis-at-border"),

@@ -4,9 +4,12 @@ use std::sync::{Arc, Mutex, PoisonError};
 use super::wish::{Wish, points};
 use crate::cli::reverse::found::Found;
 
+/// A machine that was found, and the words of its wish.
+type Last = (String, Arc<Found>);
+
 /// The machine found last, by the wish: what is made of it need not seek it again.
 #[derive(Clone, Default)]
-pub(crate) struct Kept(Arc<Mutex<Option<(String, Arc<Found>)>>>);
+pub(crate) struct Kept(Arc<Mutex<Option<Last>>>);
 
 impl Kept {
     /// Seeks the machine of a wish, unless it is the one found last.
