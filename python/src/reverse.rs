@@ -172,7 +172,7 @@ impl Reversed {
         record::goals(py, self.eased_path().map_or(&[], |eased| &eased.goals))
     }
 
-    /// What there is to tell of the machine: that the axis found stands at the border of its box, `axis-at-border`, and of several
+    /// Findings on the machine: that the axis found stands at the border of its box, `axis-at-border`, and of several
     /// arms whose plates or gears collide, `plates-collide` and `gears-collide`, as the check of `machine()` tells it, the deepest
     /// first. Several arms cost the teeth of `machine()`.
     #[getter]

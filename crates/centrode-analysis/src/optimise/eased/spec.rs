@@ -1,4 +1,4 @@
-//! What an easing is asked for, and what it finds.
+//! Request and result of an easing.
 
 use centrode_geometry::Point;
 use centrode_mechanism::reverse::{Aim, AxisRange, TwoBar, Wishes};
@@ -55,6 +55,6 @@ pub struct EasedPath {
     pub clamp: Option<f64>,
     /// Evaluations of the search.
     pub evaluations: u64,
-    /// What there is to tell of the axis: `axis-at-border`.
+    /// Finding on the axis, where there is one: `axis-at-border`.
     pub findings: Vec<Finding>,
 }

@@ -77,7 +77,7 @@ export function change(shapes, name, key, place, value) {
   return null;
 }
 
-/** What is known of the keys of a shape. */
+/** Fields of a shape by their keys. */
 export const FIELDS = {
   radius: { unit: "mm", positive: true, doc: "Radius of the circle." },
   below: { unit: "mm", doc: "Height of the ground, which fills all below it: its y." },

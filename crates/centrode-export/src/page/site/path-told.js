@@ -1,4 +1,4 @@
-// What is told of further wishes and of the machine that was found.
+// Further wishes, and findings on the machine that was found.
 
 import { element } from "./elements.js";
 

@@ -120,7 +120,7 @@ async function find() {
   }
 }
 
-/** What the buttons of shapes do. */
+/** Acts of the buttons of shapes. */
 const act = {
   add: (kind) => {
     const shape = shapes.added(kind, wish.keep_out, wish[wish.given]);

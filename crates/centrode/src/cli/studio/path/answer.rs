@@ -23,9 +23,9 @@ pub(super) struct Answer {
     picture: Picture,
     curves: Vec<Curve>,
     figures: Vec<Figure>,
-    /// What else is wanted, and how far it is reached.
+    /// Further wishes, and how far they are reached.
     goals: Vec<GoalAnswer>,
-    /// What there is to tell: names of rules and words.
+    /// Findings: names of rules and words.
     findings: Vec<Told>,
     fault: Option<Fault>,
 }

@@ -22,9 +22,9 @@ pub(super) struct Machine {
     refused: Option<String>,
     /// Names and words of what was found.
     told: Vec<Told>,
-    /// What else was wanted, and how far it is reached.
+    /// Further wishes, and how far they are reached.
     goals: Vec<GoalAnswer>,
-    /// What there is to tell: names of rules and words.
+    /// Findings: names of rules and words.
     findings: Vec<Told>,
 }
 

@@ -8,7 +8,7 @@ use crate::mechanism::reverse::{PathDesign, WantedPoints, Wishes};
 /// Most points that the page shows, each with a row and a handle.
 const MOST: usize = 200;
 
-/// What a file holds, for the page.
+/// Contents of a file, for the page.
 #[derive(Debug, Serialize)]
 pub(super) struct Opened {
     /// The design, or what of it a file of points holds.
