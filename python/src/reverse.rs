@@ -7,8 +7,7 @@ use std::ops::ControlFlow;
 use std::sync::{Arc, OnceLock};
 
 use centrode_analysis::optimise::three_arm::PosedProblem;
-use centrode_analysis::{Finding, composed_collisions, with_sound_teeth};
-use centrode_mechanism::composed::{Composed, ComposedDesign};
+use centrode_analysis::{composed_collisions, with_sound_teeth};
 use centrode_mechanism::design::Design as _;
 use centrode_mechanism::machine::Piecewise;
 use centrode_mechanism::reverse::{
@@ -92,16 +91,6 @@ impl Reversed {
     }
 }
 
-/// Plates and gears of several arms that collide; none where there are no sound teeth, and hence no machine.
-fn collisions(design: &ComposedDesign) -> Vec<Finding> {
-    if design.copies.is_empty() {
-        return Vec::new();
-    }
-    let composed = with_sound_teeth(design, |_| true).ok();
-    let composed = composed.and_then(|(design, _)| Composed::resolve(&design).ok());
-    composed.map_or_else(Vec::new, |composed| composed_collisions(&composed))
-}
-
 #[pymethods]
 impl Reversed {
     /// Axis of the carrier, mm.
@@ -181,8 +170,15 @@ impl Reversed {
             Given::Path { findings, .. } => findings.clone(),
             Given::Poses { .. } => Vec::new(),
         };
-        let design = self.made.design.clone();
-        found.extend(wait(py, move || collisions(&design))?);
+        if self.arms > 1 {
+            let design = self.made.design.clone();
+            // Without sound teeth there is no machine.
+            let collisions = move || match with_sound_teeth(&design, |_| true) {
+                Ok((design, _)) => composed_collisions(&design),
+                Err(_) => Vec::new(),
+            };
+            found.extend(wait(py, collisions)?);
+        }
         record::findings(py, &found)
     }
 

@@ -1,7 +1,7 @@
 //! Plates and gears that collide.
 
 use centrode_geometry::{Bounds, Point, Tolerance, greatest_of};
-use centrode_mechanism::composed::Composed;
+use centrode_mechanism::composed::{Composed, ComposedDesign};
 use centrode_mechanism::machine::{JointKind, Machine, Surface};
 
 use super::clearance::surfaces;
@@ -49,12 +49,16 @@ impl<'a> Piece<'a> {
     }
 }
 
-/// Plates, and gears that are not to mesh, of a machine that share a height and collide: the findings `plates-collide` and
-/// `gears-collide` of its check, the deepest first.
+/// Plates, and gears that are not to mesh, of a machine with copied chains that share a height and collide: the findings
+/// `plates-collide` and `gears-collide` of its check, the deepest first. A design without copies, or of no machine, has none.
 #[must_use]
-pub fn composed_collisions(composed: &Composed) -> Vec<Finding> {
+pub fn composed_collisions(design: &ComposedDesign) -> Vec<Finding> {
+    let composed = (!design.copies.is_empty()).then(|| Composed::resolve(design));
+    let Some(Ok(composed)) = composed else {
+        return Vec::new();
+    };
     let mut report = Report::default();
-    collisions(&Made::new(composed), &ends_of(composed), &mut report);
+    collisions(&Made::new(&composed), &ends_of(&composed), &mut report);
     let deep = |finding: &Finding| finding.measured.unwrap_or(0.0);
     report.findings.sort_by(|a, b| deep(a).total_cmp(&deep(b)));
     report.findings

@@ -10,7 +10,7 @@ use std::path::Path;
 
 use crate::analysis::optimise::EasingError;
 use crate::analysis::{Finding, SoundTeeth, Unit};
-use crate::mechanism::design::{Design as _, DesignSpec as _};
+use crate::mechanism::design::DesignSpec as _;
 use crate::mechanism::reverse::{
     AxisMap, KeyPose, PathDesign, ReversedMachine, Split, SplitKind, TwoBar, WantedPath,
 };

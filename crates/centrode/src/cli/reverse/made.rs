@@ -1,7 +1,7 @@
 //! The machine of a chain, for the command and the page.
 
 use crate::analysis::{Finding, NoSoundTeeth, SoundTeeth, composed_collisions, with_sound_teeth};
-use crate::mechanism::composed::{Composed, ComposedDesign};
+use crate::mechanism::design::Design;
 use crate::mechanism::reverse::{MachineError, PathDesign, ReversedMachine, Split, TwoBar};
 
 /// The machine of a chain, with the names and the shapes to keep out of of a design.
@@ -21,7 +21,7 @@ pub(crate) fn rolled(
 
 /// A machine with sound teeth.
 pub(crate) struct Toothed {
-    pub(crate) design: ComposedDesign,
+    pub(crate) design: Box<dyn Design>,
     pub(crate) teeth: Vec<SoundTeeth>,
     /// Plates and gears of several arms that collide, as its check tells them: the deepest of each kind.
     pub(crate) findings: Vec<Finding>,
@@ -31,20 +31,15 @@ impl Toothed {
     pub(crate) fn new(made: &ReversedMachine) -> Result<Self, NoSoundTeeth> {
         let (design, teeth) = with_sound_teeth(&made.design, |_| true)?;
         Ok(Self {
-            findings: collisions(&design),
-            design,
+            findings: deepest(composed_collisions(&design)),
+            design: Box::new(design),
             teeth,
         })
     }
 }
 
-fn collisions(design: &ComposedDesign) -> Vec<Finding> {
-    // One arm has nothing of its own to run into, and what makes no machine is for its check to tell.
-    let composed = (!design.copies.is_empty()).then(|| Composed::resolve(design));
-    let Some(Ok(composed)) = composed else {
-        return Vec::new();
-    };
-    let all = composed_collisions(&composed);
+/// The deepest collision of each kind, with how many more there are.
+fn deepest(all: Vec<Finding>) -> Vec<Finding> {
     let mut told: Vec<(Finding, usize)> = Vec::new();
     for finding in all {
         match told

@@ -8,7 +8,6 @@ use super::wish::Wish;
 use crate::analysis::{NoSoundTeeth, Unit};
 use crate::cli::reverse::made::{Toothed, rolled};
 use crate::cli::reverse::words::{self, Told};
-use crate::mechanism::design::Design as _;
 use crate::mechanism::reverse::Split;
 
 /// A design with sound teeth, or what was found without such.
