@@ -17,7 +17,7 @@ from ._optimised import Optimised
 from ._over_pins import OverPins
 from ._part import Part
 from ._remedy import PairRemedy
-from ._report import Report
+from ._report import Finding, Report
 from ._sheet import Drawing, Sheets
 from ._six_bar import DeadCenters
 from ._slider_force import SliderForce
@@ -1085,6 +1085,8 @@ class Reversed:
     @property
     def full_module(self) -> float | None: ...
     @property
+    def findings(self) -> tuple[Finding, ...]: ...
+    @property
     def goals(self) -> tuple[Goal, ...]: ...
     @property
     def tip_error(self) -> float: ...
@@ -1124,6 +1126,7 @@ def reverse(
     module: _Real | None = None,
     aim: Literal["module", "mild", "small"] | None = None,
     wishes: dict[str, Any] | None = None,
+    axis_box: tuple[tuple[_Real, _Real], tuple[_Real, _Real]] | None = None,
 ) -> Reversed: ...
 
 @final

@@ -152,6 +152,14 @@ pub(crate) fn report<'py>(py: Python<'py>, report: &Report) -> PyResult<Bound<'p
     )
 }
 
+/// Findings.
+pub(crate) fn findings<'py>(
+    py: Python<'py>,
+    findings: &[Finding],
+) -> PyResult<Bound<'py, PyTuple>> {
+    tuple(py, findings.iter().map(|f| finding(py, f)))
+}
+
 /// Result of a search.
 pub(crate) fn optimised<'py>(
     py: Python<'py>,

@@ -7,11 +7,11 @@ use std::ops::ControlFlow;
 use std::sync::{Arc, OnceLock};
 
 use centrode_analysis::optimise::three_arm::PosedProblem;
-use centrode_analysis::with_sound_teeth;
+use centrode_analysis::{composed_collisions, with_sound_teeth};
 use centrode_mechanism::design::Design as _;
 use centrode_mechanism::machine::Piecewise;
 use centrode_mechanism::reverse::{
-    Aim, AxisMap, AxisRange, KeyPoses, ReversedMachine, Split, SplitKind, TwoBar, WantedPath,
+    Aim, AxisMap, KeyPoses, PathDesign, ReversedMachine, Split, SplitKind, TwoBar, WantedPath,
 };
 use centrode_mechanism::transmission::Transmission as _;
 use pyo3::prelude::{Bound, Py, PyAny, PyResult, Python, pyclass, pymethods};
@@ -161,6 +161,27 @@ impl Reversed {
         record::goals(py, self.eased_path().map_or(&[], |eased| &eased.goals))
     }
 
+    /// Findings on the machine: that the axis found stands at the border of its box, `axis-at-border`, and of several
+    /// arms whose plates or gears collide, `plates-collide` and `gears-collide`, as the check of `machine()` tells it, the deepest
+    /// first. Several arms cost the teeth of `machine()`.
+    #[getter]
+    fn findings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
+        let mut found = match &self.given {
+            Given::Path { findings, .. } => findings.clone(),
+            Given::Poses { .. } => Vec::new(),
+        };
+        if self.arms > 1 {
+            let design = self.made.design.clone();
+            // Without sound teeth there is no machine.
+            let collisions = move || match with_sound_teeth(&design, |_| true) {
+                Ok((design, _)) => composed_collisions(&design),
+                Err(_) => Vec::new(),
+            };
+            found.extend(wait(py, collisions)?);
+        }
+        record::findings(py, &found)
+    }
+
     /// Greatest distance of the tip from the path, mm, with the laws of the gears as the design holds them.
     #[getter]
     fn tip_error(&self) -> f64 {
@@ -235,7 +256,15 @@ impl Reversed {
     fn axes<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
         if self.axes.get().is_none() {
             let path = self.chain.path().clone();
-            let map = wait(py, move || AxisMap::new(&path, AxisRange::about(&path)))?;
+            let axis_box = match &self.given {
+                Given::Path { axis_box, .. } => *axis_box,
+                Given::Poses { .. } => None,
+            };
+            let design = PathDesign {
+                axis_box,
+                ..PathDesign::default()
+            };
+            let map = wait(py, move || AxisMap::new(&path, design.axes(&path)))?;
             // Another thread may have been quicker, with the same map.
             let _ = self.axes.set(map);
         }
@@ -289,10 +318,12 @@ impl Reversed {
             Given::Path {
                 points,
                 axis,
+                axis_box,
                 eased,
+                ..
             } => {
                 let keywords = keywords.with("path", Rows::new(points))?;
-                let keywords = keywords.with("axis", *axis)?;
+                let keywords = keywords.with("axis", *axis)?.with("axis_box", *axis_box)?;
                 let asked = eased.as_ref().map(|eased| &eased.asked);
                 let keywords = keywords.with("band", asked.map(|asked| asked.bands.clone()))?;
                 let keywords = keywords.with("open", asked.is_some_and(|asked| asked.is_open))?;

@@ -454,6 +454,65 @@ def test_a_wish_out_of_reach_is_come_near_to_and_told():
 @pytest.mark.parametrize(
     ("wishes", "key"),
     [
+        ({"clamp_deg": "up"}, "wishes.clamp_deg"),
+        ({"arm": {"at_least": "long"}}, "wishes.arm.at_least"),
+        ({"arm": 5}, "wishes.arm"),
+        (
+            {"directions": [{"point": 1, "direction_deg": 0}, {"point": "two", "direction_deg": 1}]},
+            "wishes.directions[1].point",
+        ),
+        ({"directions": [{"point": 99, "direction_deg": 1}]}, "wishes.directions[0].point"),
+        ({"keep_out": {"tray": {"corners": [[0, 0], [1, "x"]]}}}, "wishes.keep_out.tray.corners[1][1]"),
+        ({"turn": {"from": 1, "to": 2, "between_deg": 5}}, "wishes.turn.between_deg"),
+    ],
+)
+def test_a_wish_of_a_wrong_type_names_its_key(wishes, key):
+    with pytest.raises(ct.DesignError) as told:
+        ct.reverse(DRAWN, wishes=wishes)
+    assert told.value.key == key
+    assert key in str(told.value)
+
+
+def test_an_axis_at_the_border_of_its_box_is_a_finding():
+    corners = ((240, 150), (200, 100))
+    made = ct.reverse(DRAWN, bend_deg=40, axis_box=corners)
+    (finding,) = made.findings
+    assert finding.rule == "axis-at-border"
+    x, y = made.axis
+    assert 200 <= x <= 240
+    assert 100 <= y <= 150
+    assert min(abs(x - 200), abs(x - 240), abs(y - 100), abs(y - 150)) < 0.1
+    assert (made.axes.x[0], made.axes.x[-1], made.axes.y[0], made.axes.y[-1]) == (200, 240, 100, 150)
+    assert pickle.loads(pickle.dumps(made)).axis == made.axis
+    # No axis of the box is milder.
+    ratios = made.axes.ratios[made.axes.possible]
+    assert max(made.ratios[1], 1 / made.ratios[0]) <= np.maximum(ratios[:, 1], 1 / ratios[:, 0]).min() + 1e-9
+    assert ct.reverse(DRAWN, (260, 160), bend_deg=40).findings == ()
+    with pytest.raises(ct.DesignError, match="axis_box"):
+        ct.reverse(DRAWN, (260, 160), axis_box=corners)
+    with pytest.raises(ct.DesignError, match="axis_box"):
+        ct.reverse(DRAWN, axis_box=((1, 2), (1, 5)))
+
+
+def test_arms_that_collide_are_findings_with_their_place():
+    t = np.arange(40) * 2 * np.pi / 40
+    radius = 60 + 1.5 * np.cos(2 * t)
+    path = np.column_stack([100 + radius * np.cos(t), radius * np.sin(t)])
+    made = ct.reverse(path, (0, 0), arms=8)
+    found = [finding for finding in made.findings if finding.rule == "gears-collide"]
+    assert found
+    machine = made.machine()
+    told = {finding.message for finding in machine.check().findings}
+    assert {finding.message for finding in found} <= told
+    assert found[0].measured == min(finding.measured for finding in found)
+    place = found[0].place
+    assert 0 <= place.input <= 2 * np.pi
+    assert ct.reverse(path, (0, 0), arms=1).findings == ()
+
+
+@pytest.mark.parametrize(
+    ("wishes", "key"),
+    [
         ({"arm": {"at_least": -1}}, "arm.at_least"),
         ({"arms": {}}, "unknown field `arms`"),
         ({"directions": [{"point": 99, "direction_deg": 1}]}, "directions"),

@@ -5,6 +5,7 @@ import math
 import re
 
 import pytest
+import tomllib
 from axe_playwright_python.sync_playwright import Axe
 from conftest import centrode
 from page import drag, field, settled, shown
@@ -15,7 +16,8 @@ from studio import studio
 X = [0, 60, 150, 230, 262, 235, 170, 100, 40, -5, -30, -38, -30]
 Y = [0, 70, 150, 215, 262, 300, 330, 330, 300, 250, 190, 130, 60]
 EXAMPLE = list(zip(X, Y, strict=True))
-WISH = {"points": EXAMPLE, "axis": [260, 160], "bend_deg": 40, "arms": 3, "split": "powers"}
+DESIGN = {"axis": [260, 160], "bend_deg": 40, "arms": 3, "split": "powers", "path": {"points": EXAMPLE}}
+WISH = {"design": DESIGN}
 
 
 def solved(page):
@@ -35,11 +37,20 @@ def running(tmp_path_factory):
         yield running
 
 
-@pytest.fixture
-def page(browser, running):
+@pytest.fixture(scope="module")
+def shared(browser, running):
     granted = ["clipboard-read", "clipboard-write"]
     with shown(browser, f"{running.url}path", ready=solved, permissions=granted) as page:
         yield page
+
+
+@pytest.fixture
+def page(shared, running):
+    """The page as it comes, in the one window of these tests."""
+    shared.evaluate("sessionStorage.clear()")
+    shared.goto(f"{running.url}path")
+    solved(shared)
+    return shared
 
 
 def figures(page):
@@ -56,9 +67,24 @@ def told(folder, points, *options, name="wished.csv", check=True):
     return {name.strip(): words for name, words in lines}, done.stderr
 
 
+def column(page, number, table="path"):
+    """Words in a column of the table of points."""
+    cells = page.locator(f'[id^="field-{table}."][data-column="{number}"]')
+    return cells.evaluate_all("all => all.map(input => input.value)")
+
+
 def rows(page):
-    cells = page.locator(".points tbody input").evaluate_all("all => all.map(input => Number(input.value))")
-    return list(zip(cells[::2], cells[1::2], strict=True))
+    given = field(page, "wanted.given").input_value()
+    return [(float(x), float(y)) for x, y in zip(column(page, 0, given), column(page, 1, given), strict=True)]
+
+
+def answered(running, path, wish):
+    """The answer of a search, which comes last, and how often it was told how far that was."""
+    status, text = running.ask("POST", path, wish)
+    assert status == 200
+    *news, last = [json.loads(line) for line in text.splitlines()]
+    assert all(set(one) == {"evaluations"} for one in news)
+    return last["answer"], [one["evaluations"] for one in news]
 
 
 def handle(page, name):
@@ -66,7 +92,8 @@ def handle(page, name):
 
 
 def counted(page, count):
-    expect(page.locator(".points tbody tr")).to_have_count(count)
+    table = field(page, "wanted.given").input_value()
+    expect(page.locator(f'[id^="field-{table}."][data-column="0"]')).to_have_count(count)
     solved(page)
 
 
@@ -360,10 +387,9 @@ def test_a_made_machine_is_the_design_of_the_command_line(page, running):
 
 def test_a_machine_of_the_path_as_it_is_drawn_is_that_of_the_command_line(running):
     axis = [345.5876, 355.1393]
-    status, made = running.json("POST", "path/machine", WISH | {"axis": axis, "band": None})
-    assert status == 200
+    made, _ = answered(running, "path/machine", {"design": DESIGN | {"axis": axis, "arms": 1}})
     design = running.folder / "as-drawn.toml"
-    told(running.folder, EXAMPLE, "--axis", "345.5876,355.1393", "--bend", "40", "--arms", "3", "-o", design)
+    told(running.folder, EXAMPLE, "--axis", "345.5876,355.1393", "--bend", "40", "-o", design)
     assert made["text"] == design.read_text()
 
 
@@ -417,6 +443,7 @@ def test_key_poses_are_dragged_by_place_and_direction_and_a_machine_found(page, 
     page.locator("#undo").click()
     page.locator("#undo").click()
     expect(field(page, "poses.direction_deg-1")).to_have_value("20.89")
+    typed(page, "gears.arms", "1")
     page.get_by_role("button", name="Find the machine").click()
     expect(page.locator("#possible h2")).to_contain_text("A machine is found", timeout=30_000)
     folder = running.folder
@@ -424,7 +451,7 @@ def test_key_poses_are_dragged_by_place_and_direction_and_a_machine_found(page, 
     with page.expect_download() as found:
         page.get_by_role("button", name="Points as CSV").click()
     found.value.save_as(poses)
-    done = centrode("reverse", poses, "--poses", "--bend", "40", "--arms", "3", "-o", folder / "posed.toml").stdout
+    done = centrode("reverse", poses, "--poses", "--bend", "40", "-o", folder / "posed.toml").stdout
     own = figures(page)
     for name in ("clamp", "carrier", "arm", "ratio", "pose 4", "pair second-stage"):
         assert re.search(rf"^{name} +{re.escape(own[name])}$", done, re.M), name
@@ -436,17 +463,18 @@ def test_key_poses_are_dragged_by_place_and_direction_and_a_machine_found(page, 
     assert (folder / "from-poses.toml").read_text() == (folder / "posed.toml").read_text()
 
 
-def test_the_return_of_a_stroke_is_found(page):
+def test_the_return_of_a_stroke_is_found(page, running):
     field(page, "wanted.given").select_option("stroke")
     counted(page, 5)
     expect(page.locator("#field")).to_be_hidden()
-    with page.expect_response("**/path/find", timeout=30_000) as found:
-        page.get_by_role("button", name="Find the machine").click()
-    expect(page.locator("#possible h2")).to_contain_text("A machine is found")
+    page.get_by_role("button", name="Find the machine").click()
+    expect(page.locator("#possible h2")).to_contain_text("A machine is found", timeout=30_000)
     assert "free return" in figures(page)
     stroke = rows(page)
     assert stroke == EXAMPLE[:5]
-    flat = found.value.json()["picture"]["shapes"][0][0]["vertices"]
+    path = {"points": stroke, "open": True}
+    answer, _ = answered(running, "path/find", {"design": {"bend_deg": 40, "arms": 3, "split": "powers", "path": path}})
+    flat = answer["picture"]["shapes"][0][0]["vertices"]
     path = [complex(x, y) for x, y in zip(flat[::3], flat[1::3], strict=True)]
     around = [*path[1:], path[0]]
     for point in stroke:
@@ -460,6 +488,204 @@ def test_the_return_of_a_stroke_is_found(page):
     page.get_by_role("button", name="Delete point 3", exact=True).click()
     counted(page, 4)
     expect(page.locator("#possible h2")).to_contain_text("Not sought yet")
+
+
+def saved(page, folder, button="Save the path"):
+    """Text of the file that a button gives."""
+    with page.expect_download() as found:
+        page.get_by_role("button", name=button).click()
+    found.value.save_as(folder / "saved")
+    return (folder / "saved").read_text()
+
+
+def wishes(page):
+    return page.locator("#wished li").all_text_contents()
+
+
+def test_directions_at_points_are_dragged_typed_and_told(page, running):
+    field(page, "path.directions").check()
+    drag(page, handle(page, "direction at point 5"), 10, -25)
+    solved(page)
+    angle = float(column(page, 2)[4])
+    assert 40 < angle < 85
+    # The one direction there is fixes the clamp: it is met as it is drawn.
+    assert wishes(page) == ["✓ clamp off its direction at point 5 0 deg, wanted -2.0000 deg to 2.0000 deg"]
+    handle(page, "direction at point 9").focus()
+    page.keyboard.press("ArrowDown")
+    expect(field(page, "path.direction_deg-8")).not_to_have_value("")
+    typed(page, "path.direction_deg-8", "-140")
+    typed(page, "path.direction_tolerance_deg-8", "0")
+    expect(page.locator('[id="remark-path.direction_tolerance_deg"]')).to_contain_text("a number above 0")
+    typed(page, "path.direction_tolerance_deg-8", "5")
+    solved(page)
+    assert len(wishes(page)) == 2
+    assert any("missed by" in words for words in wishes(page))
+    # Points added before them leave them where they are.
+    handle(page, "point 3 of the path").focus()
+    page.keyboard.press("Insert")
+    counted(page, 14)
+    assert [i for i, words in enumerate(column(page, 2)) if words] == [5, 9]
+    design = tomllib.loads(saved(page, running.folder))
+    assert design["wishes"]["directions"] == [
+        {"point": 6, "direction_deg": angle, "tolerance_deg": 2.0},
+        {"point": 10, "direction_deg": -140.0, "tolerance_deg": 5.0},
+    ]
+    handle(page, "direction at point 10").focus()
+    page.keyboard.press("Delete")
+    expect(field(page, "path.direction_deg-9")).to_have_value("")
+    solved(page)
+    assert len(wishes(page)) == 1
+    page.locator("#undo").click()
+    expect(field(page, "path.direction_deg-9")).to_have_value("-140")
+
+
+def test_shapes_to_keep_out_of_are_added_dragged_and_deleted(page, running):
+    page.get_by_role("button", name="Circle").focus()
+    page.keyboard.press("Enter")
+    field(page, "wishes.keep_out.circle.name").fill("stem")
+    page.keyboard.press("Enter")
+    solved(page)
+    x, y = (float(field(page, f"wishes.keep_out.stem.center{end}").input_value()) for end in ("", "-1"))
+    scale = middle(page, "radius of stem")[0] - middle(page, "centre of stem")[0]
+    radius = float(field(page, "wishes.keep_out.stem.radius").input_value())
+    drag(page, handle(page, "centre of stem"), 30, -40)
+    solved(page)
+    moved = [float(field(page, f"wishes.keep_out.stem.center{end}").input_value()) for end in ("", "-1")]
+    assert moved == pytest.approx([x + 30 * radius / scale, y + 40 * radius / scale], abs=1)
+    handle(page, "radius of stem").focus()
+    page.keyboard.press("Shift+ArrowLeft")
+    expect(field(page, "wishes.keep_out.stem.radius")).not_to_have_value(str(radius))
+    page.get_by_role("button", name="Polygon").click()
+    solved(page)
+    handle(page, "corner 2 of polygon").focus()
+    page.keyboard.press("Insert")
+    expect(handle(page, "corner 5 of polygon")).to_be_visible()
+    before = [float(x) for x in column(page, 0, "wishes.keep_out.polygon")]
+    drag(page, handle(page, "middle of polygon"), 60, 0)
+    solved(page)
+    after = [float(x) for x in column(page, 0, "wishes.keep_out.polygon")]
+    steps = [b - a for a, b in zip(before, after, strict=True)]
+    assert steps == pytest.approx([60 * radius / scale] * 5, abs=1)
+    page.get_by_role("button", name="Ground").click()
+    typed(page, "wishes.keep_out.ground.clearance", "3")
+    typed(page, "wishes.keep_out.ground.below", "-150")
+    solved(page)
+    told = wishes(page)
+    assert [re.search("from ([a-z]+)", words)[1] for words in told] == ["ground", "polygon", "stem"]
+    design = tomllib.loads(saved(page, running.folder))
+    shapes = design["wishes"]["keep_out"]
+    assert shapes["ground"] == {"below": -150.0, "clearance": 3.0}
+    assert shapes["stem"]["center"] == moved
+    assert [corner[0] for corner in shapes["polygon"]["corners"]] == after
+    # The figures are those of the command.
+    path = running.folder / "shapes.toml"
+    path.write_text(saved(page, running.folder).replace("[path]", "[path]\ncrossing = false"))
+    done = centrode("reverse", path, check=False).stdout
+    assert len(re.findall("distance of the arm from", done)) == 3
+    typed(page, "wishes.keep_out.ground.name", "arm")
+    expect(page.locator("#possible h2")).to_contain_text("A value breaks a rule")
+    expect(page.locator('[id="remark-wishes.keep_out.arm"]')).to_contain_text("a body of that name")
+    typed(page, "wishes.keep_out.arm.name", "stem")
+    expect(page.locator('[id="remark-wishes.keep_out.arm.name"]')).to_contain_text("there is a shape stem already")
+    handle(page, "height of arm").focus()
+    page.keyboard.press("Delete")
+    expect(field(page, "wishes.keep_out.arm.below")).to_have_count(0)
+    page.get_by_role("button", name="Delete polygon").click()
+    expect(handle(page, "corner 2 of polygon")).to_have_count(0)
+    solved(page)
+    assert len(wishes(page)) == 1
+
+
+WANTED = f"""family = "path"
+name = "wanted"
+bend_deg = 40
+axis = [264.9914, 162.9171]
+[path]
+points = {[list(point) for point in EXAMPLE]}
+band = 5
+[wishes]
+carrier = {{ at_most = 131 }}
+arm = {{ at_least = 150, at_most = 190 }}
+directions = [
+    {{ point = 5, direction_deg = 40, tolerance_deg = 5 }},
+    {{ point = 9, direction_deg = 85, tolerance_deg = 5 }},
+]
+turn = {{ from = 1, to = 5, between_deg = [20, 150] }}
+[wishes.keep_out.tray]
+corners = [[320, 330], [360, 330], [360, 420], [320, 420]]
+clearance = 2
+"""
+
+
+def test_a_machine_with_wishes_is_that_of_the_command_and_its_search_is_cancelled(page, running):
+    folder = running.folder
+    (folder / "wanted.toml").write_text(WANTED)
+    page.locator("#path-file").set_input_files(folder / "wanted.toml")
+    expect(page.locator('#notices [data-key="path"]')).to_contain_text("13 points, with all that is wanted")
+    solved(page)
+    expect(field(page, "wishes.carrier-1")).to_have_value("131")
+    expect(handle(page, "corner 4 of tray")).to_be_visible()
+    assert column(page, 2)[4] == "40"
+    assert len(wishes(page)) == 7
+    text = saved(page, folder)
+    kept, given = tomllib.loads(text), tomllib.loads(WANTED)
+    assert {**kept, "split": None, "arms": None} == {**given, "split": None, "arms": None}
+    make, dialog = page.get_by_role("button", name="Make the machine"), page.locator("#dialog")
+    make.click()
+    expect(page.locator("#working-time")).to_contain_text("evaluations")
+    page.get_by_role("button", name="Cancel").click()
+    expect(page.locator("#working")).to_be_hidden()
+    expect(dialog).to_be_hidden()
+    page.get_by_role("button", name="Find the machine").click()
+    expect(page.locator("#possible h2")).to_contain_text("A machine is found", timeout=60_000)
+    expect(page.locator("#wished h2")).to_have_text("Wishes: all reached")
+    found = wishes(page)
+    make.click()
+    expect(dialog).to_contain_text("teeth of second-stage", timeout=60_000)
+    assert dialog.locator("li").all_text_contents() == found
+    name = page.get_by_label("File", exact=True)
+    name.fill("with-wishes.toml")
+    name.press("Enter")
+    expect(page.locator("#file")).to_have_text("with-wishes.toml")
+    (folder / "kept.toml").write_text(text)
+    told = centrode("reverse", folder / "kept.toml", "-o", folder / "by-file.toml").stdout
+    assert (folder / "with-wishes.toml").read_text() == (folder / "by-file.toml").read_text()
+    assert all(words.removeprefix("✓ ") in told for words in found)
+
+
+def test_what_is_out_of_reach_is_told_with_the_miss(page, running):
+    page.locator("summary", has_text="Bounds, clamp, turn").click()
+    typed(page, "axis.x", "345.5876")
+    typed(page, "axis.y", "355.1393")
+    typed(page, "wishes.carrier-1", "20")
+    typed(page, "gears.arms", "8")
+    solved(page)
+    expect(page.locator("#wished h2")).to_have_text("Wishes as drawn: 1 of 1 missed")
+    (drawn,) = wishes(page)
+    assert re.search("^✕ length of the carrier .* mm, wanted at most 20.0000 mm, missed by ", drawn)
+    page.get_by_role("button", name="Make the machine").click()
+    dialog = page.locator("#dialog")
+    expect(dialog).to_contain_text("Wishes: 1 of 1 missed", timeout=60_000)
+    expect(dialog.locator("li")).to_contain_text("missed by")
+    # Eight arms have no room beside each other.
+    expect(dialog.locator('[data-rule="gears-collide"]')).to_contain_text(re.compile("overlap by .* at an input of"))
+    page.keyboard.press("Escape")
+
+
+def test_columns_of_a_file_become_bands_and_directions(page, running):
+    rows = ["x,y,tolerance,direction_deg,direction_tolerance_deg"]
+    rows += [f"{x},{y},{i % 3},{40 if i == 4 else ''},{3.5 if i == 4 else ''}" for i, (x, y) in enumerate(EXAMPLE)]
+    (running.folder / "bands.csv").write_text("\n".join(rows) + "\n")
+    page.locator("#path-file").set_input_files(running.folder / "bands.csv")
+    expect(page.locator('#notices [data-key="path"]')).to_contain_text("13 points, each with a tolerance, 1 direction")
+    solved(page)
+    assert column(page, 2) == [str(i % 3) for i in range(13)]
+    assert [column(page, k)[4] for k in (3, 4)] == ["40", "3.5"]
+    expect(field(page, "gears.band")).to_have_count(0)
+    design = tomllib.loads(saved(page, running.folder))
+    assert design["path"]["tolerance"] == [float(i % 3) for i in range(13)]
+    assert design["wishes"] == {"directions": [{"point": 5, "direction_deg": 40.0, "tolerance_deg": 3.5}]}
+    assert saved(page, running.folder, "Points as CSV") == "\n".join(rows) + "\n"
 
 
 def test_poses_of_a_file_may_have_no_machine(page, running):
@@ -483,34 +709,36 @@ def test_poses_of_a_file_may_have_no_machine(page, running):
 @pytest.mark.parametrize(
     ("change", "words"),
     [
-        ({"points": EXAMPLE[:3]}, "the path has 3 points; a closed curve takes at least 4"),
-        ({"points": [[0, 0], [0, 0], [10, 0], [10, 10]]}, "points 1 and 2 of the path are both (0, 0) mm"),
-        ({"points": [[1e10, 0], [0, 0], [10, 0], [10, 10]]}, "coordinates may be up to"),
+        ({"path": {"points": EXAMPLE[:3]}}, "the path has 3 points; a closed curve takes at least 4"),
+        ({"path": {"points": [[0, 0], [0, 0], [10, 0], [10, 10]]}}, "points 1 and 2 of the path are both (0, 0) mm"),
+        ({"path": {"points": [[1e10, 0], [0, 0], [10, 0], [10, 10]]}}, "coordinates may be up to"),
+        ({"path": {"file": "path.csv"}}, "path.file: the points are in path.csv"),
         ({"bend_deg": 175}, "the bend must be at most 170"),
-        ({"arms": 4000000000}, "a machine has 1 to 12 arms, not 4000000000"),
-        ({"split": "thirds"}, 'there is no split "thirds"'),
+        ({"arms": 4000000000}, "arms: must be 1 to 12, not 4000000000"),
         ({"split": "one-pair"}, "the planet must lag by 0.611111 turns, 11/18"),
         ({"axis": [1e12, 0]}, "must be two finite numbers within"),
+        ({"wishes": {"turn": {"from": 1, "to": 14, "between_deg": [0, 9]}}}, "wishes.turn.to: must be 1 to 13, not 14"),
+        ({"wishes": {"keep_out": {"arm": {"below": 0}}}}, "wishes.keep_out.arm"),
     ],
-    ids=["few", "twice", "far", "bend", "arms", "split", "resonance", "axis"],
+    ids=["few", "twice", "far", "file", "bend", "arms", "resonance", "axis", "turn", "name"],
 )
 def test_a_wish_that_cannot_be_met_is_told(running, change, words):
-    status, answer = running.json("POST", "path/solve", WISH | change)
+    wish = {"design": DESIGN | change}
+    status, answer = running.json("POST", "path/solve", wish)
     assert status == 200
     assert words in answer["fault"]["message"]
-    status, answer = running.json("POST", "path/machine", WISH | change | {"band": None})
-    assert status == 200
-    assert words in answer["refused"]
+    assert words in answered(running, "path/machine", wish)[0]["refused"]
 
 
 def test_strangers_and_nonsense_are_refused(running):
-    for path in ("solve", "find", "map", "axis", "open", "machine"):
+    for path in ("solve", "find", "map", "axis", "open", "machine", "design"):
         for headers in ({"Host": "example.org"}, {"Origin": "http://example.org"}, {"Origin": None}):
             assert running.ask("POST", f"path/{path}", WISH, headers)[0] == 403
         assert running.ask("POST", f"path/{path}", {"points": [["NaN", 0]]})[0] == 422
         assert running.ask("POST", f"path/{path}", b"", {"Content-Length": str(5 << 20)})[0] == 413
     assert running.ask("GET", f"/{'0' * 32}/path", absolute=True)[0] == 403
-    refused = running.json("POST", "path/map", WISH | {"count": 100_000})[1]["refused"]
+    wide = {"points": EXAMPLE, "bend_deg": 40, "count": 100_000}
+    refused = running.json("POST", "path/map", wide)[1]["refused"]
     assert refused == "a map has 2 to 200 axes a side, not 100000"
 
 

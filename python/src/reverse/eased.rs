@@ -1,9 +1,9 @@
 use std::ops::ControlFlow;
 
-use centrode_analysis::Goal;
 use centrode_analysis::optimise::{Easing, EasingSpec};
+use centrode_analysis::{Finding, Goal};
 use centrode_geometry::Point;
-use centrode_mechanism::reverse::{Aim, DrawnPath, TwoBar, Wishes};
+use centrode_mechanism::reverse::{Aim, AxisRange, DrawnPath, TwoBar, Wishes};
 use pyo3::prelude::{Python, pyfunction};
 
 use crate::array::{Rows, Values};
@@ -19,6 +19,8 @@ pub(super) struct Asked {
     pub(super) is_open: bool,
     pub(super) aim: Option<Aim>,
     pub(super) wishes: Wishes,
+    /// Corners of the box in which the axis is sought, mm.
+    pub(super) axis_box: Option<[[f64; 2]; 2]>,
 }
 
 /// A path eased within bands.
@@ -31,6 +33,7 @@ pub(super) struct Eased {
     pub(super) goals: Vec<Goal>,
     /// Direction of the clamp less that of the arm, rad.
     pub(super) clamp: Option<f64>,
+    pub(super) findings: Vec<Finding>,
 }
 
 /// Bands and module that were asked for.
@@ -40,6 +43,7 @@ pub(super) fn asked(
     is_open: bool,
     aim: Option<Aim>,
     wishes: Wishes,
+    axis_box: Option<[[f64; 2]; 2]>,
 ) -> Answer<Option<Asked>> {
     let is_wished = aim.is_some() || !wishes.is_free();
     let asked = |bands: Vec<f64>| {
@@ -49,6 +53,7 @@ pub(super) fn asked(
             is_open,
             aim,
             wishes,
+            axis_box,
         }))
     };
     match (band, module) {
@@ -74,6 +79,7 @@ impl Eased {
         let axis = axis.map(|(x, y)| Point::new(x, y));
         let spec = EasingSpec {
             axis,
+            axes: asked.axis_box.map(AxisRange::between),
             aim: asked.aim.unwrap_or_default(),
             wishes: asked.wishes.clone(),
             ..EasingSpec::new(&asked.bands, bend_deg.to_radians())
@@ -89,6 +95,7 @@ impl Eased {
             points: found.points,
             goals: found.goals,
             clamp: found.clamp,
+            findings: found.findings,
         };
         Ok((found.chain, eased))
     }

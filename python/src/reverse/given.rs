@@ -1,9 +1,10 @@
 use std::sync::OnceLock;
 
-use centrode_analysis::optimise::EasingError;
-use centrode_geometry::Point;
+use centrode_analysis::Finding;
+use centrode_analysis::optimise::{EasingError, axis_at_border};
+use centrode_geometry::{Bounds, Point};
 use centrode_mechanism::reverse::{
-    AxisMap, AxisRange, KeyPose, KeyPoses, SplitKind, TwoBar, WantedPath,
+    AxisMap, KeyPose, KeyPoses, PathDesign, SplitKind, TwoBar, WantedPath,
 };
 use pyo3::prelude::{Bound, Python, pyfunction};
 use pyo3::types::PyDict;
@@ -23,6 +24,9 @@ pub(super) enum Given {
     Path {
         points: Vec<Point>,
         axis: Option<(f64, f64)>,
+        axis_box: Option<[[f64; 2]; 2]>,
+        /// Whether the axis found stands at the border of its box.
+        findings: Vec<Finding>,
         eased: Option<Box<Eased>>,
     },
     Poses {
@@ -39,6 +43,8 @@ pub(super) enum Given {
 ///     axis: Axis of the carrier, mm; left out, the mildest: that of the least change of the gears' ratio.
 ///     split: "powers", two different pairs, "mildest", two whose sharpest pitch curve is as blunt as can be, or "one-pair", one
 ///         pair twice.
+///     axis_box: Two corners of the box in which the axis is sought, mm; left out, the path's box with a quarter of its size round
+///         it. `findings` tells where the axis found stands at its border.
 ///     bend_deg: Angle from the carrier's first leg, to the intermediate gear, to its second, degrees.
 ///     arms: Number of arms.
 ///     control: Whether the points are the control points of a closed cubic B-spline, which need not pass them.
@@ -64,8 +70,8 @@ pub(super) enum Given {
 /// (125.612, 186.594, True)
 #[pyfunction]
 #[pyo3(
-    signature = (path, axis=None, *, split="powers", bend_deg=60.0, arms=Count::Fits(1), control=false, band=None, open=false, module=None, aim=None, wishes=None),
-    text_signature = "(path, axis=None, *, split='powers', bend_deg=60.0, arms=1, control=False, band=None, open=False, module=None, aim=None, wishes=None)"
+    signature = (path, axis=None, *, split="powers", bend_deg=60.0, arms=Count::Fits(1), control=false, band=None, open=false, module=None, aim=None, wishes=None, axis_box=None),
+    text_signature = "(path, axis=None, *, split='powers', bend_deg=60.0, arms=1, control=False, band=None, open=False, module=None, aim=None, wishes=None, axis_box=None)"
 )]
 #[expect(clippy::too_many_arguments, reason = "keywords")]
 pub(crate) fn reverse(
@@ -81,6 +87,7 @@ pub(crate) fn reverse(
     module: Option<f64>,
     aim: Option<&str>,
     wishes: Option<Bound<'_, PyDict>>,
+    axis_box: Option<[[f64; 2]; 2]>,
 ) -> Answer<Reversed> {
     let aim = aim.map(|aim| Word::of("aim", aim)).transpose()?;
     let wishes = wishes.map(|wishes| wished::read(&wishes)).transpose()?;
@@ -97,32 +104,54 @@ pub(crate) fn reverse(
         (true, false) => WantedPath::knots(&points),
         (false, _) => points,
     };
-    let easing = eased::asked(band, module, open, aim, wishes.unwrap_or_default())?;
+    let design = PathDesign {
+        axis: axis.map(|(x, y)| [x, y]),
+        axis_box,
+        ..PathDesign::default()
+    };
+    design.check_axes()?;
+    let easing = eased::asked(
+        band,
+        module,
+        open,
+        aim,
+        wishes.unwrap_or_default(),
+        axis_box,
+    )?;
     wait(py, move || {
         if let Some(asked) = easing {
-            let (chain, eased) = Eased::search(&points, asked, axis, bend_deg)?;
+            let (chain, mut eased) = Eased::search(&points, asked, axis, bend_deg)?;
             let given = Given::Path {
                 points,
                 axis,
+                axis_box,
+                findings: std::mem::take(&mut eased.findings),
                 eased: Some(Box::new(eased)),
             };
             return Reversed::new(given, chain, OnceLock::new(), (kind, bend_deg, arms));
         }
         let path = WantedPath::through(&points)?;
         let mut axes = OnceLock::new();
+        let mut findings = Vec::new();
         let chain = match axis {
             Some((x, y)) => TwoBar::new(&path, Point::new(x, y), None)?,
             None => {
-                let map = AxisMap::new(&path, AxisRange::about(&path));
+                let range = design.axes(&path);
+                let map = AxisMap::new(&path, range);
                 let tried = map.found().len();
                 let chain = map.mildest(&path).ok_or(EasingError::NoAxis { tried })?;
                 axes = OnceLock::from(map);
+                let [low, high] = [0, 1].map(|end| Point::new(range.x[end], range.y[end]));
+                let room: Bounds = [low, high].into_iter().collect();
+                findings.extend(axis_at_border(chain.axis(), &room));
                 chain
             }
         };
         let given = Given::Path {
             points,
             axis,
+            axis_box,
+            findings,
             eased: None,
         };
         Reversed::new(given, chain, axes, (kind, bend_deg, arms))

@@ -17,11 +17,16 @@ pub(super) fn read(wishes: &Bound<'_, PyDict>) -> Answer<Wishes> {
         .import("json")?
         .call_method("dumps", (wishes,), Some(&keywords))?;
     let text: String = text.extract()?;
-    serde_json::from_str(&text).map_err(|error| {
-        let told = error.to_string();
+    let reader = &mut serde_json::Deserializer::from_str(&text);
+    serde_path_to_error::deserialize(reader).map_err(|error| {
+        let key = match error.path().to_string() {
+            path if path == "." => "wishes".to_owned(),
+            path => format!("wishes.{path}"),
+        };
+        let told = error.inner().to_string();
         // Its place in the text is none of the caller's.
         let told = told.split(" at line ").next().unwrap_or_default();
-        Raised::sentence("wishes", told.to_owned())
+        Raised::sentence(&key, format!("{key}: {told}"))
     })
 }
 

@@ -1,11 +1,11 @@
 //! Plates and gears that collide.
 
 use centrode_geometry::{Bounds, Point, Tolerance, greatest_of};
-use centrode_mechanism::composed::Composed;
+use centrode_mechanism::composed::{Composed, ComposedDesign};
 use centrode_mechanism::machine::{JointKind, Machine, Surface};
 
-use super::Made;
 use super::clearance::surfaces;
+use super::{Made, ends as ends_of};
 use crate::interference::LinkPair;
 use crate::{Finding, Place, Report, Severity, Unit};
 
@@ -47,6 +47,21 @@ impl<'a> PartSurfaces<'a> {
             radius: far.fold(0.0, f64::max) + tolerance.mm(),
         })
     }
+}
+
+/// Plates, and gears that are not to mesh, of a machine with copied chains that share a height and collide: the findings
+/// `plates-collide` and `gears-collide` of its check, the deepest first. A design without copies, or of no machine, has none.
+#[must_use]
+pub fn composed_collisions(design: &ComposedDesign) -> Vec<Finding> {
+    let composed = (!design.copies.is_empty()).then(|| Composed::resolve(design));
+    let Some(Ok(composed)) = composed else {
+        return Vec::new();
+    };
+    let mut report = Report::default();
+    collisions(&Made::new(&composed), &ends_of(&composed), &mut report);
+    let deep = |finding: &Finding| finding.measured.unwrap_or(0.0);
+    report.findings.sort_by(|a, b| deep(a).total_cmp(&deep(b)));
+    report.findings
 }
 
 /// Plates, and gears that are not to mesh, that share a height and collide.

@@ -21,6 +21,7 @@ use centrode_mechanism::composed::Composed;
 use centrode_mechanism::machine::Machine;
 
 pub use self::clearance::composed_clearance;
+pub use self::collisions::composed_collisions;
 use self::figures::FIGURES;
 use self::forces::Loaded;
 pub use self::goals::composed_figures;

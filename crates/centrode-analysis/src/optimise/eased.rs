@@ -1,6 +1,8 @@
 mod aimed;
+mod border;
 mod error;
 mod free_return;
+mod spec;
 mod wished;
 
 use std::f64::consts::TAU;
@@ -11,10 +13,12 @@ use centrode_mechanism::gear::Limits;
 use centrode_mechanism::reverse::{Aim, AxisMap, AxisRange, TwoBar, WantedPath, Wishes};
 
 use super::{Ended, Evaluation, Method, Problem, Settings, minimise};
-use crate::Goal;
 
 use aimed::{aimed, best_axis};
+pub use border::axis_at_border;
 pub use error::EasingError;
+pub use spec::{EasedPath, EasingSpec};
+pub use wished::reached;
 
 /// Most points that are moved each on its own; of more, the moves are a sum of harmonics.
 const SINGLE: usize = 24;
@@ -57,55 +61,6 @@ pub struct Easing {
     given: usize,
 }
 
-/// Room that a path has, and wishes about its machine.
-#[derive(Clone, Debug)]
-pub struct EasingSpec {
-    /// Distance within which the path may pass each point, mm, or one for all.
-    pub bands: Vec<f64>,
-    /// Axis of the carrier, mm, if it is given.
-    pub axis: Option<Point>,
-    /// Angle from the carrier's first leg to its second, rad.
-    pub bend: f64,
-    /// Figure that is made the most of.
-    pub aim: Aim,
-    /// Further wishes.
-    pub wishes: Wishes,
-}
-
-impl EasingSpec {
-    /// Points within their bands, mm, of a machine with a bend, rad, its axis free, for the largest teeth.
-    #[must_use]
-    pub fn new(bands: &[f64], bend: f64) -> Self {
-        Self {
-            bands: bands.to_vec(),
-            axis: None,
-            bend,
-            aim: Aim::Module,
-            wishes: Wishes::default(),
-        }
-    }
-}
-
-/// A path eased within its bands, and its machine.
-#[derive(Clone, Debug)]
-pub struct EasedPath {
-    /// Points of the path; after those given stand those of a free return.
-    pub points: Vec<Point>,
-    /// Distance of each point given from where it was wanted, mm.
-    pub moved: Vec<f64>,
-    /// Carrier and arm.
-    pub chain: TwoBar,
-    /// Module up to which full teeth are surely sound, mm: on the pitch curves of the wanted path, where the axis found makes a
-    /// machine for it, and on those of the eased one.
-    pub module: (Option<f64>, f64),
-    /// Further wishes, and how far they are reached.
-    pub goals: Vec<Goal>,
-    /// Direction of the clamp less that of the arm, rad, where directions were wanted.
-    pub clamp: Option<f64>,
-    /// Evaluations of the search.
-    pub evaluations: u64,
-}
-
 impl Easing {
     /// The search for a path through points each within its band, mm. Without an axis the search starts from the one of a grid
     /// about the path that comes nearest to the wishes, and of several that reach them is the best by its aim.
@@ -133,12 +88,16 @@ impl Easing {
         let axis = match spec.axis {
             Some(axis) => (TwoBar::new(&path, axis, None)?.axis(), None),
             None => {
-                let map = AxisMap::new(&path, AxisRange::about(&path));
+                let axes = spec.axes.unwrap_or_else(|| AxisRange::about(&path));
+                let map = AxisMap::new(&path, axes);
                 let tried = map.found().len();
                 let axis = best_axis(&path, &map, points.len(), spec);
                 let axis = axis.ok_or(EasingError::NoAxis { tried })?;
                 // A far axis makes an ever milder machine, and an ever larger one: no farther than the map goes.
-                let room = ROOM * path.bounds().diagonal();
+                let room = match spec.axes {
+                    Some(_) => f64::INFINITY,
+                    None => ROOM * path.bounds().diagonal(),
+                };
                 let AxisRange { x, y, .. } = *map.range();
                 let low = Point::new(x[0].max(axis.x - room), y[0].max(axis.y - room));
                 let high = Point::new(x[1].min(axis.x + room), y[1].min(axis.y + room));
@@ -255,6 +214,12 @@ impl Easing {
             chain: eased,
             points,
             evaluations,
+            findings: self
+                .axis
+                .1
+                .iter()
+                .filter_map(|room| axis_at_border(axis, room))
+                .collect(),
         })
     }
 

@@ -24,7 +24,7 @@ pub mod three_arm;
 
 pub use design::{DesignProblem, NotSearched, Variable};
 pub use design_search::{DesignSearch, Strategy};
-pub use eased::{EasedPath, Easing, EasingError, EasingSpec};
+pub use eased::{EasedPath, Easing, EasingError, EasingSpec, axis_at_border, reached};
 pub use guided::{GuidedSearch, GuidedStep};
 pub use problem::{Candidate, Evaluation, Problem};
 pub(crate) use random::Random;

@@ -108,15 +108,18 @@ const SCRIPTS: [Asset; 40] = assets!(
 );
 
 /// The scripts of the start page and of the page of a path, which no report needs.
-const START_SCRIPTS: [Asset; 8] = assets!(
+const START_SCRIPTS: [Asset; 11] = assets!(
     "text/javascript; charset=utf-8":
     "new-file.js",
     "path.js",
+    "path-design.js",
     "path-field.js",
     "path-file.js",
     "path-form.js",
     "path-make.js",
+    "path-shapes.js",
     "path-solving.js",
+    "path-told.js",
     "start.js",
 );
 

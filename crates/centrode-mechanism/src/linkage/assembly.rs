@@ -69,11 +69,11 @@ pub(super) enum Step {
 ///
 /// ```
 /// use centrode_geometry::Point;
-/// use centrode_mechanism::linkage::{Branch, Link, Linkage};
+/// use centrode_mechanism::linkage::{Branch, LinkId, Linkage};
 ///
 /// let mut linkage = Linkage::new();
-/// let a = linkage.point(Link::FRAME, Point::new(0.0, 0.0))?;
-/// let d = linkage.point(Link::FRAME, Point::new(105.0, 0.0))?;
+/// let a = linkage.point(LinkId::FRAME, Point::new(0.0, 0.0))?;
+/// let d = linkage.point(LinkId::FRAME, Point::new(105.0, 0.0))?;
 /// let (_, b) = linkage.crank(a, 77.0, 0.0)?;
 /// let bars = linkage.rrr(b, d, (147.0, 127.0), Branch::Upper)?;
 /// let pose = linkage.at(1.0)?;

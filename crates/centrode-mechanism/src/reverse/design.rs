@@ -3,12 +3,13 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{SplitKind, Wishes};
+use super::path::FARTHEST;
+use super::{AxisRange, SplitKind, WantedPath, Wishes};
 use crate::degrees;
 use crate::design::DesignSpec;
 use crate::gear::design::SpecError;
 use crate::gear::design::rule::{
-    Rule, broken, count_in_range, file_name, finite, not_negative, positive, single_line,
+    Rule, broken, count_in_range, file_name, finite, in_range, not_negative, positive, single_line,
 };
 
 /// A path wanted of a tip, and what else is wanted of the machine.
@@ -24,6 +25,9 @@ pub struct PathDesign {
     /// Axis of the carrier, mm; left out, it is sought.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub axis: Option<[f64; 2]>,
+    /// Two corners of the box in which it is sought, mm; left out, the path's box with a quarter of its size round it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub axis_box: Option<[[f64; 2]; 2]>,
     /// Angle from the carrier's first leg, to the intermediate gear, to its second, rad (degrees in the file).
     #[serde(default = "default_bend", rename = "bend_deg", with = "degrees")]
     #[schemars(with = "f64")]
@@ -135,9 +139,7 @@ impl DesignSpec for PathDesign {
     fn rules(&self) -> Result<(), SpecError> {
         file_name("name", &self.name)?;
         single_line("title", &self.title)?;
-        for x in self.axis.iter().flatten() {
-            finite("axis", *x)?;
-        }
+        self.check_axes()?;
         finite("bend_deg", self.bend)?;
         count_in_range("arms", self.arms, 1, 12)?;
         let count = self.path.validate().map_err(|e| e.inside("path"))?;
@@ -152,6 +154,7 @@ impl Default for PathDesign {
             name: default_name(),
             title: String::new(),
             axis: None,
+            axis_box: None,
             bend: default_bend(),
             split: SplitKind::default(),
             arms: one(),
@@ -159,6 +162,58 @@ impl Default for PathDesign {
             aim: None,
             path: PathSpec::default(),
             wishes: Wishes::default(),
+        }
+    }
+}
+
+impl PathDesign {
+    /// Checks axis and box.
+    ///
+    /// # Errors
+    /// [`SpecError`] with the key at fault: both are given, a number is none, or the box has no room.
+    pub fn check_axes(&self) -> Result<(), SpecError> {
+        for x in self.axis.iter().flatten() {
+            finite("axis", *x)?;
+        }
+        if let Some(corners) = self.axis_box {
+            if self.axis.is_some() {
+                return broken("axis_box", Rule::Excludes("axis"));
+            }
+            for x in corners.iter().flatten() {
+                in_range("axis_box", *x, [-FARTHEST, FARTHEST], " mm")?;
+            }
+            let [[x, y], [u, v]] = corners;
+            if x == u || y == v {
+                let words = "as two corners that differ in x and in y";
+                return broken("axis_box", Rule::Needed(words));
+            }
+        }
+        Ok(())
+    }
+
+    /// Axes among which one is sought for a path: of the box given, or about the path.
+    #[must_use]
+    pub fn axes(&self, path: &WantedPath) -> AxisRange {
+        let about = AxisRange::about(path);
+        match self.axis_box {
+            Some(corners) => AxisRange {
+                count: about.count,
+                ..AxisRange::between(corners)
+            },
+            None => about,
+        }
+    }
+
+    /// Distances within which the path may pass its points, mm, one for all or one for each; none where it is to be followed as
+    /// it is, and nothing else is wanted.
+    #[must_use]
+    pub fn bands(&self) -> Option<Vec<f64>> {
+        let path = &self.path;
+        let is_wished = !self.wishes.is_free() || self.aim.is_some();
+        match path.band {
+            Some(band) => Some(vec![band]),
+            None if !path.tolerance.is_empty() => Some(path.tolerance.clone()),
+            None => (path.open || is_wished).then(|| vec![0.0]),
         }
     }
 }

@@ -88,6 +88,16 @@ impl AxisRange {
         }
     }
 
+    /// Grid over the box of two corners, mm.
+    #[must_use]
+    pub fn between([[x, y], [u, v]]: [[f64; 2]; 2]) -> Self {
+        Self {
+            x: [x.min(u), x.max(u)],
+            y: [y.min(v), y.max(v)],
+            count: [GRID; 2],
+        }
+    }
+
     /// Axis by its number along x and along y.
     #[must_use]
     pub fn axis(&self, i: u32, j: u32) -> Point {

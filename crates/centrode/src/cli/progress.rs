@@ -46,6 +46,11 @@ impl Progress {
         }
         self.bar.set_message(what);
     }
+
+    /// Says how far a step is.
+    pub(crate) fn tell(&self, words: String) {
+        self.bar.set_message(words);
+    }
 }
 
 fn show_late(bar: &ProgressBar, finished: &Receiver<()>) {

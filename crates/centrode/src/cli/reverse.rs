@@ -1,27 +1,31 @@
 pub(crate) mod asked;
-mod found;
+pub(crate) mod found;
+pub(crate) mod made;
 mod posed;
 pub(crate) mod words;
 
 use std::io::Write;
+use std::ops::ControlFlow;
 use std::path::Path;
 
-use crate::analysis::{SoundTeeth, Unit, with_sound_teeth};
-use crate::mechanism::design::{Design as _, DesignSpec as _};
-use crate::mechanism::gear::design::Addendum;
+use crate::analysis::optimise::EasingError;
+use crate::analysis::{Finding, SoundTeeth, Unit};
+use crate::mechanism::design::DesignSpec as _;
 use crate::mechanism::reverse::{
-    AxisMap, PathDesign, ReversedMachine, Split, SplitKind, TwoBar, WantedPath,
+    AxisMap, KeyPose, PathDesign, ReversedMachine, Split, SplitKind, TwoBar, WantedPath,
 };
 
 use crate::cli::Status;
 use crate::cli::args::Reverse;
 use crate::cli::failure::Failure;
 use crate::cli::input::Source;
+use crate::cli::interrupt::Interrupt;
 use crate::cli::output;
 use crate::cli::progress::Progress;
 
 use asked::Asked;
-use found::Found;
+use found::{Found, NotFound};
+use made::Toothed;
 
 /// Width of the names of figures.
 const NAME: usize = 24;
@@ -39,12 +43,15 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
     let (asked, found) = match command.poses {
         true => {
             let source = source(command)?;
-            let found = Found::by_poses(&source, &progress)?;
+            progress.step("trying places of the arm's axis");
+            let poses =
+                KeyPose::from_csv(source.bytes()).map_err(|error| source.refused(&error))?;
+            let found = Found::by_poses(&poses).map_err(|error| source.refused(&error))?;
             (Asked::of_poses(source, command)?, found)
         }
         false => {
             let asked = Asked::read(command)?;
-            let found = Found::by_path(command, &asked, &progress)?;
+            let found = sought(command, &asked, &progress)?;
             (asked, found)
         }
     };
@@ -58,26 +65,26 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
     let split = Split::new(chain, kind, bend)
         .map_err(|error| Failure::Usage(format!("--bend {bend_deg}: {error}")))?;
     progress.step("rolling the pitch curves");
-    let made = ReversedMachine::new(chain, &split, design.arms, design.steps);
+    let made = made::rolled(design, chain, &split);
     let made = made.map_err(|error| Failure::Files(Box::new(error)))?;
-    let mut made = made.with_obstacles(&design.wishes.keep_out);
-    made.design.name.clone_from(&design.name);
-    if !design.title.is_empty() {
-        made.design.title.clone_from(&design.title);
-    }
     progress.step("looking for sound teeth");
-    let toothed = command
-        .output
-        .as_ref()
-        .map(|_| with_sound_teeth(&made.design, |_| true));
+    let toothed = command.output.as_ref().map(|_| Toothed::new(&made));
     drop(progress);
+    if let Some(words) = &asked.drawing {
+        line(out, "path", words)?;
+    }
     for (name, words) in &found.told {
         line(out, name, words)?;
     }
+    for goal in &found.goals {
+        let (name, words) = words::goal(goal);
+        line(out, &name, &words)?;
+    }
+    findings(&found.findings, out)?;
     chosen((design.arms, bend_deg), &found, &split, out)?;
     gears(&made, out)?;
-    if let Some(map) = &found.map {
-        possible(map, out)?;
+    if let Some(map) = map(&asked, &found) {
+        possible(&map, out)?;
     }
     others(chain, kind, bend, out)?;
     let (Some(output), Some(toothed)) = (&command.output, toothed) else {
@@ -85,9 +92,10 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
     };
     // What was found is told even where there are no teeth.
     out.flush()?;
-    let (design, sound) = toothed.map_err(|error| Failure::Files(Box::new(error)))?;
-    teeth(&sound, out)?;
-    let text = design.to_toml();
+    let toothed = toothed.map_err(|error| Failure::Files(Box::new(error)))?;
+    teeth(&toothed.teeth, out)?;
+    findings(&toothed.findings, out)?;
+    let text = toothed.design.to_toml();
     let text = text.map_err(|error| Failure::Files(Box::new(error)))?;
     writeln!(out)?;
     output::write_one(output, text.into_bytes(), out)?;
@@ -96,6 +104,63 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
 
 pub(crate) fn line(out: &mut impl Write, name: &str, words: &str) -> std::io::Result<()> {
     writeln!(out, "{name:NAME$}{words}")
+}
+
+/// Seeks the machine of a path; progress is told, and Ctrl-C ends the search and keeps the best so far.
+fn sought(command: &Reverse, asked: &Asked, progress: &Progress) -> Result<Found, Failure> {
+    let is_searched = asked.design.bands().is_some();
+    progress.step(match is_searched {
+        true => "seeking the path",
+        false => "trying axes",
+    });
+    let interrupt = is_searched.then(Interrupt::watch).transpose();
+    let interrupt = interrupt.map_err(Failure::Serve)?;
+    let came = || interrupt.as_ref().is_some_and(Interrupt::came);
+    let mut evaluations = 0;
+    let found = Found::by_path(&asked.design, &asked.points, &mut |done| {
+        evaluations = done;
+        progress.tell(format!("seeking the path, {done} evaluations,"));
+        match came() {
+            true => ControlFlow::Break(()),
+            false => ControlFlow::Continue(()),
+        }
+    });
+    let mut found = found.map_err(|error| refused(command, asked, error))?;
+    if came() {
+        let words = format!("stopped after {evaluations} evaluations: the best so far");
+        found.told.push(("search".into(), words));
+    }
+    Ok(found)
+}
+
+fn refused(command: &Reverse, asked: &Asked, error: NotFound) -> Failure {
+    match error {
+        NotFound::Crossing(error) => {
+            let name = asked.source.name();
+            Failure::Usage(format!(
+                "{name}: {error} With --crossing such a path is taken."
+            ))
+        }
+        NotFound::Axis { at: [x, y], fault } => Failure::Usage(format!("--axis {x},{y}: {fault}")),
+        NotFound::Easing(EasingError::Module { .. }) => {
+            let module = command.module.unwrap_or_default();
+            Failure::Usage(format!(
+                "--module is greater than zero, in mm, not {module}"
+            ))
+        }
+        error @ NotFound::NoAxis { .. } => Failure::Usage(error.to_string()),
+        error => asked.source.refused(&error),
+    }
+}
+
+/// Axes tried for a path that is followed as it is.
+fn map(asked: &Asked, found: &Found) -> Option<AxisMap> {
+    let is_as_given = !asked.points.is_empty() && asked.design.bands().is_none();
+    is_as_given.then(|| {
+        let path = found.chain.path();
+        let tried = || AxisMap::new(path, asked.design.axes(path));
+        found.map.clone().unwrap_or_else(tried)
+    })
 }
 
 /// Source of the path or the poses.
@@ -190,24 +255,16 @@ pub(crate) fn sharpest(chain: &TwoBar, split: &Split) -> String {
 }
 
 pub(crate) fn teeth(found: &[SoundTeeth], out: &mut impl Write) -> std::io::Result<()> {
-    for teeth in found {
-        let kind = match teeth.addendum {
-            Addendum::Full => "full",
-            Addendum::Fitted => "fitted",
-        };
-        let full = match teeth.addendum {
-            Addendum::Full => String::new(),
-            Addendum::Fitted => {
-                let module = Unit::Millimetre.tell(teeth.full_module);
-                format!("; full ones are undercut above {module}")
-            }
-        };
-        let words = format!(
-            "{} {kind} teeth, module {}{full}",
-            teeth.tooth_count,
-            Unit::Millimetre.tell(teeth.module)
-        );
-        line(out, &format!("teeth of {}", teeth.pair), &words)?;
-    }
-    Ok(())
+    found.iter().try_for_each(|teeth| {
+        let (name, words) = words::teeth(teeth);
+        line(out, &name, &words)
+    })
+}
+
+/// Prints findings, each at a line.
+fn findings(found: &[Finding], out: &mut impl Write) -> std::io::Result<()> {
+    found.iter().try_for_each(|finding| {
+        let (name, words) = words::finding(finding);
+        line(out, &name, &words)
+    })
 }

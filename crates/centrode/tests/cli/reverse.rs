@@ -1,6 +1,7 @@
 //! A machine made from a path: what is printed, the file, and every way in which a path is bad.
 
 use std::fs;
+use std::path::Path;
 
 use crate::{centrode, fed, text};
 
@@ -490,4 +491,203 @@ fn directions_stand_in_a_column_of_their_own_and_points_in_a_file_beside_the_des
         assert!(told.contains(&words), "{told}");
     }
     assert!(told.contains("wanted -2.0000 deg to 2.0000 deg"), "{told}");
+}
+
+/// Path of a file in a folder, as a word of the command line.
+fn written(folder: &Path, name: &str, contents: &str) -> String {
+    let path = folder.join(name);
+    fs::write(&path, contents).expect("written");
+    path.display().to_string()
+}
+
+#[test]
+fn a_wish_about_a_point_that_the_file_lacks_is_shown_at_the_line_of_the_design() {
+    let folder = tempfile::tempdir().expect("a folder");
+    written(folder.path(), "path.csv", DRAWN);
+    let design =
+        "family = \"path\"\n[path]\nfile = \"path.csv\"\n[wishes]\narm = { at_least = 5 }\n";
+    for (wish, word) in [
+        (
+            "directions = [{ point = 14, direction_deg = 3 }]",
+            "wishes.directions[0].point: must be 1 to 13, not 14",
+        ),
+        (
+            "turn = { from = 1, to = 20, between_deg = [3, 5] }",
+            "wishes.turn.to: must be 1 to 13, not 20",
+        ),
+    ] {
+        let path = written(folder.path(), "path.toml", &format!("{design}{wish}\n"));
+        let run = centrode(&["reverse", &path]);
+        let told = text(&run.stderr);
+        assert_eq!(run.status.code(), Some(2), "{told}");
+        assert!(
+            told.contains(word) && told.contains("path.toml:6:"),
+            "{told}"
+        );
+        assert!(!told.contains("path.csv"), "{told}");
+    }
+}
+
+#[test]
+fn an_axis_at_the_border_of_its_box_is_told_with_the_side() {
+    let narrow = [
+        "reverse",
+        "-",
+        "--axis-box",
+        "240,150,200,100",
+        "--bend",
+        "40",
+    ];
+    let told = fed(&narrow, DRAWN.as_bytes());
+    let told = text(&told.stdout);
+    let line = told.lines().find(|line| line.starts_with("axis-at-border"));
+    let line = line.unwrap_or_else(|| panic!("{told}"));
+    assert!(
+        line.contains("whose x ends at 240.0000 mm") || line.contains("whose y ends at 150"),
+        "{line}"
+    );
+    assert!(line.contains("what helps: a wider box"), "{line}");
+    // The axis lies in the box, and is no better than one of a wider box.
+    let axis = told
+        .lines()
+        .find_map(|line| line.strip_prefix("axis of the carrier"));
+    let axis = axis
+        .and_then(|words| words.split(" mm").next())
+        .unwrap_or_default();
+    let axis = axis.split(',').map(|x| x.trim().parse().expect("a number"));
+    let axis: Vec<f64> = axis.collect();
+    assert!(
+        (200.0..=240.0).contains(&axis[0]) && (100.0..=150.0).contains(&axis[1]),
+        "{told}"
+    );
+    let wide = fed(
+        &[
+            "reverse",
+            "-",
+            "--axis-box",
+            "200,100,420,400",
+            "--bend",
+            "40",
+        ],
+        DRAWN.as_bytes(),
+    );
+    let wide = text(&wide.stdout);
+    let unevenness = |told: &str| figure(told, "ratio", "factor of ");
+    assert!(unevenness(&wide) < unevenness(&told), "{wide}");
+    // The search that eases a path tells it, too.
+    let design = wished("").replace(
+        "[path]",
+        "aim = \"mild\"\naxis_box = [[200, 100], [240, 150]]\n[path]",
+    );
+    let eased = fed(&["reverse", "-"], design.as_bytes());
+    assert!(
+        text(&eased.stdout).contains("axis-at-border"),
+        "{}",
+        text(&eased.stdout)
+    );
+    for (words, wrong) in [
+        (&["--axis-box", "1,2,1,5"][..], "two corners that differ"),
+        (&["--axis-box", "1,2,3"], "two corners that differ"),
+        (
+            &["--axis-box", "1,2,3,4", "--axis", "1,2"],
+            "cannot be used with",
+        ),
+    ] {
+        let run = fed(&[&["reverse", "-"], words].concat(), DRAWN.as_bytes());
+        assert_eq!(run.status.code(), Some(2));
+        assert!(text(&run.stderr).contains(wrong), "{}", text(&run.stderr));
+    }
+    let both = design.replace("axis_box", "axis = [1, 2]\naxis_box");
+    let run = fed(&["reverse", "-"], both.as_bytes());
+    let told = text(&run.stderr);
+    assert!(
+        told.contains("axis_box: cannot be given together with axis") && told.contains("input:5:"),
+        "{told}"
+    );
+}
+
+#[test]
+fn arms_that_collide_are_told_as_the_check_tells_them() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = written(folder.path(), "path.csv", &mild());
+    let to = folder.path().join("arms.toml").display().to_string();
+    let run = |arms: &str| {
+        let axis = ["--axis", "0,0", "--arms", arms, "-o", &to];
+        let run = centrode(&[&["reverse", &path][..], &axis].concat());
+        assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+        text(&run.stdout)
+    };
+    assert!(!run("1").contains("collide"));
+    let told = run("8");
+    let line = told.lines().find(|line| line.starts_with("gears-collide"));
+    let line = line.unwrap_or_else(|| panic!("{told}"));
+    let check = centrode(&["check", &to, "--json"]);
+    let report: serde_json::Value = serde_json::from_slice(&check.stdout).expect("JSON");
+    let found = report["findings"].as_array().expect("a list").iter();
+    let collide: Vec<&serde_json::Value> = found.filter(|f| f["rule"] == "gears-collide").collect();
+    let deep = |finding: &&&serde_json::Value| finding["measured"].as_f64().expect("a depth");
+    let deepest = collide
+        .iter()
+        .min_by(|a, b| deep(a).total_cmp(&deep(b)))
+        .expect("one");
+    let message = deepest["message"].as_str().expect("words");
+    assert!(
+        message.contains("at an input of") && line.contains(message),
+        "{line}\n{message}"
+    );
+    let more = format!("({} more pairs collide less deeply)", collide.len() - 1);
+    assert!(line.contains(&more), "{line}");
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn ctrl_c_ends_the_search_and_keeps_the_best() {
+    use std::process::{Command, Stdio};
+    use std::time::{Duration, Instant};
+
+    use crate::search::catches_interrupt;
+
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = written(folder.path(), "path.csv", &mild());
+    let to = folder.path().join("arms.toml");
+    let child = Command::new(env!("CARGO_BIN_EXE_centrode"))
+        .args([
+            "reverse",
+            &path,
+            "--band",
+            "2",
+            "-o",
+            &to.display().to_string(),
+        ])
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("runs");
+    let id = child.id();
+    let begun = Instant::now();
+    while !catches_interrupt(id) {
+        assert!(begun.elapsed() < Duration::from_secs(60), "never listens");
+        std::thread::sleep(Duration::from_millis(10));
+    }
+    std::thread::sleep(Duration::from_millis(300));
+    let sent = Command::new("kill")
+        .args(["-INT", &id.to_string()])
+        .status();
+    assert!(sent.expect("kill is there").success());
+    let ended = child.wait_with_output().expect("ends");
+    let told = text(&ended.stdout);
+    assert_eq!(
+        ended.status.code(),
+        Some(0),
+        "{told}{}",
+        text(&ended.stderr)
+    );
+    let done = figure(&told, "search", "stopped after ");
+    assert!(done > 0.0 && done < 6000.0, "{told}");
+    assert!(figure(&told, "path eased", "by ") <= 2.0, "{told}");
+    assert!(
+        fs::read_to_string(to)
+            .expect("a design")
+            .starts_with("family = \"machine\"")
+    );
 }

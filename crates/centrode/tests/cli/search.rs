@@ -352,7 +352,7 @@ fn the_least_widening_is_written_as_shipped() {
 
 /// Whether a process of this number catches Ctrl-C.
 #[cfg(target_os = "linux")]
-fn catches_interrupt(id: u32) -> bool {
+pub(crate) fn catches_interrupt(id: u32) -> bool {
     let status = fs::read_to_string(format!("/proc/{id}/status")).unwrap_or_default();
     let caught = status.lines().find_map(|l| l.strip_prefix("SigCgt:"));
     let mask = caught.and_then(|hex| u64::from_str_radix(hex.trim(), 16).ok());

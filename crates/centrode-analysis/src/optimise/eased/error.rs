@@ -43,7 +43,7 @@ pub enum EasingError {
         axis: &'static str,
     },
     /// A wish that breaks a rule.
-    #[error(transparent)]
+    #[error("wishes.{0}")]
     Wish(#[from] SpecError),
     /// A module that is none.
     #[error("the module wanted is greater than zero, in mm, not {module}")]

@@ -17,6 +17,13 @@ const SPARE: f64 = 5e-3;
 /// That of a turn, rad.
 const TURN: f64 = 0.2;
 
+/// Wishes as goals of carrier and arm, with how far they reach them: of a path that runs through so many points at equal steps of
+/// its parameter, and a machine with a bend, rad.
+#[must_use]
+pub fn reached(wishes: &Wishes, chain: &TwoBar, bend: f64, points: usize) -> Vec<Goal> {
+    goals(wishes, chain, bend, points).0
+}
+
 /// Goals of a machine with its points along the path at equal steps of the parameter; and the direction of its clamp less that of
 /// its arm, rad, where directions are wanted.
 pub(super) fn goals(

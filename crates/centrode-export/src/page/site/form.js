@@ -31,6 +31,8 @@ export class Form {
     /** Id of what gets the focus once it is there. */
     this.wish = null;
     this.folded = new Set(["drawing"]);
+    /** Tables without a value that were opened all the same. */
+    this.unfolded = new Set();
     /** Whether the last design was none. */
     this.failed = false;
     /** Grows with every change of an input, which keeps the number it was changed at. */
@@ -86,7 +88,7 @@ export class Form {
     const [start, end] = ahead.includes(focused) ? [focused.selectionStart, focused.selectionEnd] : [];
     this.controls.clear();
     this.points.clear();
-    this.place.replaceChildren(this.find.place, ...tables.filter((table) => table.fields.length).map((table) => this.table(table)));
+    this.place.replaceChildren(this.find.place, ...tables.filter((table) => table.fields.length || table.actions).map((table) => this.table(table)));
     for (const old of ahead) this.carry(old, byId(old.id));
     const again = focused?.id ? byId(focused.id) : null;
     again?.focus();
@@ -107,20 +109,28 @@ export class Form {
   }
 
   table(table) {
-    const name = table.key ? table.key.split(".").map(words).join(" · ") : "General";
+    const name = table.title ?? (table.key ? table.key.split(".").map(words).join(" · ") : "General");
     const fold = element("details", { class: "table" },
       element("summary", { title: table.doc || undefined }, name),
-      ...this.rows(table));
-    const fully = this.folded.has(table.key) || (table.optional && table.fields.every((field) => field.value === null));
+      ...this.rows(table), this.actions(table));
+    const isBlank = (value) => value === null || (Array.isArray(value) && value.every(isBlank));
+    const fully = this.folded.has(table.key) || (table.optional && !this.unfolded.has(table.key) && table.fields.every((field) => isBlank(field.value)));
     fold.open = this.fixed || !fully;
     fold.addEventListener("toggle", () => {
-      if (fold.open) this.folded.delete(table.key);
-      else this.folded.add(table.key);
+      this.folded[fold.open ? "delete" : "add"](table.key);
+      this.unfolded[fold.open ? "add" : "delete"](table.key);
     });
     const remark = element("p", { class: "remark", id: `remark-${table.key}` });
     fold.querySelector("summary").after(remark);
     if (table.key) this.controls.set(table.key, { field: null, remark, row: fold, inputs: [] });
     return fold;
+  }
+
+  /** Buttons of a table that do more than change a value. */
+  actions({ actions }) {
+    if (!actions || this.fixed) return null;
+    const button = ({ id, words: name, title, act }) => element("button", { type: "button", id, title, onclick: act }, name);
+    return element("p", { class: "group actions" }, ...actions.map(button));
   }
 
   /** The fields of a table, two lists of a curve's points as one. */
@@ -140,7 +150,7 @@ export class Form {
     const remark = element("p", { class: "remark", id: `remark-${field.key}` });
     const control = { field, remark, inputs: [] };
     this.controls.set(field.key, control);
-    const label = element("label", { for: id, title: field.doc || undefined }, words(field.key), ...(field.symbol ? [" ", symbol(field.symbol)] : []));
+    const label = element("label", { for: id, title: field.doc || undefined }, field.label ?? words(field.key), ...(field.symbol ? [" ", symbol(field.symbol)] : []));
     const boxes = this.inputs(field, id, control);
     const unit = element("span", { class: "unit" }, field.unit);
     control.row = element("div", { class: `field ${sizeOf(field)}` }, label, boxes, unit, remark);
@@ -168,9 +178,9 @@ export class Form {
     }
     if (Array.isArray(field.value) && ["numbers", "integers"].includes(field.kind)) {
       const few = field.value.length < 4 ? ` of-${field.value.length}` : "";
-      const list = element("div", { class: `numbers${few}`, role: "group", "aria-label": words(field.key) });
+      const list = element("div", { class: `numbers${few}`, role: "group", "aria-label": field.label ?? words(field.key) });
       control.inputs = field.value.map((_, i) => this.number(field, `${field.key}[${i}]`, {
-        ...common, id: i ? `${id}-${i}` : id, "aria-label": `${words(field.key)} ${i + 1}`,
+        ...common, id: i ? `${id}-${i}` : id, "aria-label": `${field.label ?? words(field.key)} ${field.holders?.[i] ?? i + 1}`,
       }));
       list.append(...control.inputs);
       return list;
@@ -283,7 +293,7 @@ export class Form {
         this.options(input, field, value);
       } else {
         const text = value === null || value === undefined ? "" : String(value);
-        input.placeholder = field.optional && field.value === null ? "auto" : "";
+        input.placeholder = field.holders?.[i] ?? (field.optional && field.value === null ? "auto" : "");
         // What is being typed is not touched, nor what is on its way; a number changed elsewhere is not being typed.
         const idle = input.value === (input.dataset.value ?? "");
         input.dataset.value = text;

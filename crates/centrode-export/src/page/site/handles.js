@@ -86,6 +86,7 @@ export class Handles {
         this.marks.set(handle.name, mark);
         this.layer.insertBefore(mark, next);
       }
+      mark.classList.toggle("free", Boolean(handle.free));
       const point = pointOf(handle);
       const number = mark.querySelector(".number");
       const count = point ? String(point[1] + 1) : "";
@@ -162,6 +163,7 @@ export class Handles {
     mark.addEventListener("keydown", (event) => {
       this.nudge(name, event);
       this.count(name, event);
+      this.drop(name, event);
     });
     return mark;
   }
@@ -227,7 +229,8 @@ export class Handles {
 
   /** Adds a point where the curve, or the line between two of its points, is clicked twice. */
   insert(event) {
-    const own = this.list.filter((handle) => pointOf(handle));
+    const [table] = pointOf(this.list.find((handle) => pointOf(handle)) ?? { keys: [""] }) ?? [];
+    const own = this.list.filter((handle) => pointOf(handle)?.[0] === table);
     const points = own.length > 1 && byId("show-handles").checked && this.points(pointOf(own[0])[0]);
     if (!points || event.target.closest("button, label, .handle")) return;
     const bounds = this.stage.box.getBoundingClientRect();
@@ -293,6 +296,17 @@ export class Handles {
     event.preventDefault();
     event.stopPropagation();
     this.began();
+  }
+
+  /** Delete at what is no point of a curve gives the edits that drop it, where there are such. */
+  drop(name, event) {
+    const { drop } = this.named(name) ?? {};
+    if (!drop || !["Delete", "Backspace"].includes(event.key) || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault();
+    event.stopPropagation();
+    this.began();
+    this.stage.box.focus();
+    this.edit(drop, true);
   }
 
   nudge(name, event) {

@@ -14,8 +14,18 @@ function poses(text) {
   return wrong ? { refused: wrong } : { points: rows, note: `${rows.length} poses` };
 }
 
-/** Listens to both buttons: `take(rows)` gets those of a file, `rows()` are those shown, `given()` says what they are, `tell(words, severity)` takes a message. */
-export function listen({ given, take, rows, tell }) {
+/** Gives the browser a file to keep. */
+function keep(name, text, type) {
+  const address = URL.createObjectURL(new Blob([text], { type }));
+  element("a", { href: address, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(address), 1000);
+}
+
+/**
+ * Listens to the buttons of files: `take(found)` gets what a file holds, `table()` are heads and rows of what is shown, `asked()` is the
+ * wish as the program is asked, `given()` says what is given, `tell(words, severity)` takes a message.
+ */
+export function listen({ given, take, table, asked, tell }) {
   const input = byId("path-file");
   byId("open-path").addEventListener("click", () => input.click());
   input.addEventListener("change", async () => {
@@ -24,9 +34,9 @@ export function listen({ given, take, rows, tell }) {
     try {
       if (file.size > LARGEST) throw new Error(`the file has ${file.size} bytes; the limit is ${LARGEST}`);
       const text = await file.text();
-      const found = given() === "poses" ? poses(text) : await server.readPath(text);
+      const found = given() === "poses" && !/^\s*family\s*=/m.test(text) ? poses(text) : await server.readPath(text);
       if (found.refused) throw new Error(found.refused);
-      take(found.points);
+      take(found);
       tell(`${file.name}: ${found.note}.`, "note");
     } catch (error) {
       tell(`${file.name}: ${error.message}`, "error");
@@ -35,12 +45,16 @@ export function listen({ given, take, rows, tell }) {
       input.value = "";
     }
   });
-  byId("save-path").addEventListener("click", () => {
-    const list = rows();
-    const head = ["x", "y", "direction_deg"].slice(0, list[0].length);
-    const text = [head, ...list].map((row) => row.join(",")).join("\n");
-    const address = URL.createObjectURL(new Blob([`${text}\n`], { type: "text/csv" }));
-    element("a", { href: address, download: `${given()}.csv` }).click();
-    setTimeout(() => URL.revokeObjectURL(address), 1000);
+  byId("save-points").addEventListener("click", () => {
+    keep(`${given()}.csv`, `${table().map((row) => row.join(",")).join("\n")}\n`, "text/csv");
+  });
+  byId("save-path").addEventListener("click", async () => {
+    try {
+      const text = await server.pathDesign(asked());
+      if (text.refused) throw new Error(text.refused);
+      keep("path.toml", text, "application/toml");
+    } catch (error) {
+      tell(error.message, "error");
+    }
   });
 }

@@ -1,31 +1,46 @@
-// Path, axis and gears that are wished for: as the form shows them, and as the program is asked.
+// Path, axis, gears and further wishes as the form and the picture show them.
+
+import { RANGES, USUAL, columnsOf, designOf } from "./path-design.js";
+import * as shapes from "./path-shapes.js";
+
+const none = (list) => list.map(() => null);
+const points = (x, y) => ({ x, y, tolerance: none(x), direction_deg: none(x), direction_tolerance_deg: none(x) });
 
 /** The drawn path of the documentation, with an axis beside it, its working part, and key poses. */
 export const EXAMPLE = {
   given: "path",
-  path: {
-    x: [0, 60, 150, 230, 262, 235, 170, 100, 40, -5, -30, -38, -30],
-    y: [0, 70, 150, 215, 262, 300, 330, 330, 300, 250, 190, 130, 60],
-  },
+  path: points([0, 60, 150, 230, 262, 235, 170, 100, 40, -5, -30, -38, -30], [0, 70, 150, 215, 262, 300, 330, 330, 300, 250, 190, 130, 60]),
   poses: {
     x: [249.08, 167.32, 104.4, 175.51],
     y: [50.03, 64.88, 34.05, 14.69],
     direction_deg: [31.93, 20.89, 42.55, 53.59],
   },
-  stroke: { x: [0, 60, 150, 230, 262], y: [0, 70, 150, 215, 262] },
+  stroke: points([0, 60, 150, 230, 262], [0, 70, 150, 215, 262]),
   axis: [260, 160],
+  free: false,
   bend: 40,
   arms: 3,
   split: "powers",
   band: 0,
+  each: false,
+  module: null,
+  aim: null,
+  directed: false,
+  ...Object.fromEntries(RANGES.map((key) => [key, [null, null]])),
+  clamp: null,
+  turn: null,
+  keep_out: [],
+  rest: { design: {}, path: {} },
 };
 
 /** Fewer points make no closed curve, and fewer poses no machine. */
 const FEWEST = { path: 4, stroke: 3, poses: 3 };
-/** Length of the clamp as it is drawn, as a share of the size of all poses. */
+/** Length of the clamp as it is drawn, as a share of the size of all poses; and of a direction, of the path's. */
 const CLAMP = 0.2;
-/** More rows and handles would take the page too long. */
+const ARROW = 0.13;
+/** More rows and handles would take the page too long, and more handles of directions that are not wanted yet. */
 const MOST = 200;
+const MOST_FREE = 60;
 
 const GIVEN = [
   { word: "path", doc: "A closed path: the tip passes its points in order." },
@@ -39,22 +54,54 @@ const SPLITS = [
   { word: "one-pair", doc: "One pair twice: sun and planet are the same part." },
 ];
 
+const AIMS = [
+  { word: "module", doc: "The largest full teeth." },
+  { word: "mild", doc: "The ratio nearest to 1." },
+  { word: "small", doc: "The least reach of the tip." },
+];
+
+const range = (unit, doc) => ({ kind: "numbers", unit, least: 0, optional: true, holders: ["least", "greatest"], doc });
+
 /** Fields by their keys: where their value stands, and what is known of them. */
 const FIELDS = {
   "wanted.given": { kind: "choice", unit: "", choices: GIVEN, doc: "A closed path, its working part with the return free, or a few key poses with the path between them free." },
   "axis.x": { unit: "mm", doc: "Axis about which the carrier turns. Drag it in the picture, too." },
   "axis.y": { unit: "mm", doc: "Axis about which the carrier turns. Drag it in the picture, too." },
+  "axis.sought": { label: "Seek it, too", kind: "switch", unit: "", doc: "The axis is sought on and about the path when the machine is found or made; the one drawn shows one that may be." },
   "gears.bend_deg": { unit: "°", least: -170, greatest: 170, doc: "Angle from the carrier's first leg, to the intermediate gear, to its second. A greater bend gives greater gears." },
   "gears.arms": { kind: "integer", unit: "", least: 1, greatest: 12, doc: "Number of arms." },
   "gears.band": { unit: "mm", least: 0, greatest: 1e6, doc: "Distance within which the path may pass its points: it is eased there, for larger teeth, when the machine is made. Zero: through its points." },
   "gears.split": { kind: "choice", unit: "", choices: SPLITS, doc: "How two stages of gears share the motion." },
+  "gears.module": { unit: "mm", positive: true, optional: true, doc: "Module of full teeth up to which the path is eased, and no more." },
+  "gears.aim": { kind: "choice", unit: "", optional: true, choices: AIMS, doc: "What is made the most of where something is free." },
+  "path.tolerances": { label: "Tolerances", kind: "switch", unit: "", doc: "Each point has a tolerance of its own, in the place of one band for all." },
+  "path.directions": { label: "Directions", kind: "switch", unit: "", doc: "Directions of the clamp wanted at points: drag the small circles beside them, or type them in the table." },
+  "wishes.carrier": range("mm", "Least and greatest length of the carrier."),
+  "wishes.arm": range("mm", "Least and greatest length of the arm."),
+  "wishes.center_distance": { ...range("mm", "Least and greatest centre distance of the gears."), label: "Centre distance" },
+  "wishes.ratio": range("", "Least and greatest ratio of planet to carrier."),
+  "wishes.clamp_deg": { label: "Clamp", unit: "°", optional: true, doc: "Direction of the clamp less that of the arm; left out, the one that suits the directions best." },
+  "wishes.turn.from": { label: "Turn from point", kind: "integer", unit: "", least: 1, optional: true, doc: "Turn of the carrier: number of the point from which it is counted." },
+  "wishes.turn.to": { label: "Turn to point", kind: "integer", unit: "", least: 1, optional: true, doc: "Number of the point up to which it is counted." },
+  "wishes.turn.between_deg": { label: "Turn", kind: "numbers", unit: "°", least: 0, greatest: 360, optional: true, holders: ["least", "greatest"], doc: "Least and greatest turn of the carrier from the one point to the other." },
 };
 
-const numbers = (key, value, doc, unit = "mm") => ({ key, kind: "numbers", value, unit, doc, written: true });
+/** Keys that are one number of the wish. */
+const PLAIN = {
+  "wanted.given": "given", "axis.sought": "free", "gears.bend_deg": "bend", "gears.arms": "arms", "gears.split": "split", "gears.band": "band",
+  "gears.module": "module", "gears.aim": "aim", "path.tolerances": "each", "path.directions": "directed", "wishes.clamp_deg": "clamp",
+};
 
-function field(key, value) {
-  return { key, kind: "number", value, written: true, choices: [], ...FIELDS[key] };
-}
+/** Columns of points that may be empty, with their headings. */
+const FREE = {
+  tolerance: ["±", "mm", "Distance within which the path may pass the point; empty, none."],
+  direction_deg: ["dir", "°", "Direction of the clamp there, from x; empty, it is free."],
+  direction_tolerance_deg: ["±", "°", `How far off it may be; empty, ${USUAL}.`],
+};
+
+const numbers = (key, value, doc, unit = "mm", heading) => ({ key, kind: "numbers", value, unit, doc, heading, written: true });
+
+const field = (key, value) => ({ key, kind: "number", value, written: true, choices: [], ...FIELDS[key] });
 
 /** A coordinate with no more digits than one reads. */
 const short = (value) => Number(value.toFixed(3));
@@ -62,114 +109,249 @@ const short = (value) => Number(value.toFixed(3));
 /** A point halfway on to the next of a smooth closed curve. */
 function onward(points, i) {
   const at = (k) => points[(i + k + points.length) % points.length];
-  return [0, 1].map((k) => short((9 * (at(0)[k] + at(1)[k]) - at(-1)[k] - at(2)[k]) / 16));
+  const place = [0, 1].map((k) => short((9 * (at(0)[k] + at(1)[k]) - at(-1)[k] - at(2)[k]) / 16));
+  return [...place, ...none(points[i].slice(2))];
 }
 
-/** A pose halfway to the next. */
-const between = (poses, i) => poses[i].map((one, k) => short((one + poses[(i + 1) % poses.length][k]) / 2));
+/** A pose halfway to the next, or a point, of which nothing else is wanted. */
+const between = (poses, i) => poses[i].map((one, k) => {
+  const other = poses[(i + 1) % poses.length][k];
+  return one === null || other === null ? null : short((one + other) / 2);
+});
+
+/** Names of the columns of what is given. */
+function columns(wish) {
+  if (wish.given === "poses") return ["x", "y", "direction_deg"];
+  return ["x", "y", ...(wish.each ? ["tolerance"] : []), ...(wish.directed ? ["direction_deg", "direction_tolerance_deg"] : [])];
+}
 
 /** The table of what is given. */
 function given(wish) {
   const kind = wish.given;
-  const doc = kind === "poses" ? "Place of the tip." : "Points that the tip passes, in order.";
-  const columns = ["x", "y"].map((name) => numbers(`${kind}.${name}`, wish[kind][name], doc));
-  const options = { columns: ["x", "y"], fewest: FEWEST[kind], halfway: between };
+  const poses = kind === "poses";
+  const names = columns(wish);
+  const column = (name) => {
+    const [heading, unit, doc] = FREE[name] ?? [undefined, "mm", poses ? "Place of the tip." : "Points that the tip passes, in order."];
+    if (poses && heading) return numbers("poses.direction_deg", wish.poses.direction_deg, "Direction of the clamp.", "°");
+    return numbers(`${kind}.${name}`, wish[kind][name], doc, unit, heading);
+  };
+  const options = { columns: names, fewest: FEWEST[kind], halfway: between, optional: poses ? 3 : 2 };
   if (kind === "path") Object.assign(options, { smooth: true, halfway: onward });
-  if (kind === "poses") {
-    Object.assign(options, { columns: ["x", "y", "direction_deg"], noun: "pose" });
-    columns.push(numbers("poses.direction_deg", wish.poses.direction_deg, "Direction of the clamp.", "°"));
-  }
-  return { key: kind, doc: GIVEN.find(({ word }) => word === kind).doc, points: options, fields: columns };
+  if (poses) options.noun = "pose";
+  const switches = poses ? [] : [field("path.tolerances", wish.each), field("path.directions", wish.directed)];
+  return { key: kind, doc: GIVEN.find(({ word }) => word === kind).doc, points: options, fields: [...switches, ...names.map(column)] };
 }
 
-/** Tables of the form. */
-export function tables(wish) {
-  const { axis, bend, arms, split, band } = wish;
+/** Tables of the form; `act` has what the buttons of shapes do. */
+export function tables(wish, act) {
+  const { axis, bend, arms, split, band, free, module, aim, turn } = wish;
   const gears = [field("gears.bend_deg", bend), field("gears.arms", arms), field("gears.split", split)];
-  if (wish.given !== "poses") gears.push(field("gears.band", band));
+  const found = [{ key: "wanted", doc: "What is given", fields: [field("wanted.given", wish.given)] }];
+  if (wish.given === "path") found.push({ key: "axis", doc: "Axis of the carrier", fields: [field("axis.x", axis[0]), field("axis.y", axis[1]), field("axis.sought", free)] });
+  if (wish.given === "poses") return [...found, { key: "gears", doc: "Gears and arms", fields: gears }, given(wish)];
+  gears.push(...(wish.each ? [] : [field("gears.band", band)]), field("gears.module", module), field("gears.aim", aim));
+  const wishes = [
+    ...RANGES.map((key) => field(`wishes.${key}`, wish[key])),
+    field("wishes.clamp_deg", wish.clamp),
+    field("wishes.turn.from", turn?.from ?? null), field("wishes.turn.to", turn?.to ?? null), field("wishes.turn.between_deg", turn?.between ?? [null, null]),
+  ];
   return [
-    { key: "wanted", doc: "What is given", fields: [field("wanted.given", wish.given)] },
-    ...(wish.given === "path" ? [{ key: "axis", doc: "Axis of the carrier", fields: [field("axis.x", axis[0]), field("axis.y", axis[1])] }] : []),
+    ...found,
     { key: "gears", doc: "Gears and arms", fields: gears },
     given(wish),
+    { key: "wishes", title: "Bounds, clamp, turn", doc: "What else is wanted of the machine", optional: true, fields: wishes },
+    ...shapes.tables(wish.keep_out, act),
   ];
 }
 
 /** Reason why a value is none of a key. */
 function fault(key, value) {
-  const { kind, least, greatest } = FIELDS[key] ?? {};
-  if (kind === "choice") return null;
-  if (typeof value !== "number") return value === "" ? "a number is missing" : `${value} is no number`;
+  const plain = key.replace(/\[\d+\]$/, "");
+  const [, column] = /^(?:path|stroke)\.([a-z_]+)$/.exec(plain) ?? [];
+  const [, own] = /^wishes\.keep_out\.[^.]+\.([a-z]+)$/.exec(plain) ?? [];
+  const known = FIELDS[plain] ?? (own && shapes.FIELDS[own]) ?? {};
+  const { kind, least = column?.endsWith("tolerance") ? 0 : undefined, greatest, positive = column === "direction_tolerance_deg", optional = column in FREE } = known;
+  if (["choice", "switch", "text"].includes(kind)) return null;
+  if (value === null || value === "") return optional || isDropped(key) ? null : "a number is missing";
+  if (typeof value !== "number") return `${value} is no number`;
   if (kind === "integer" && !Number.isInteger(value)) return `${value} is no whole number`;
-  if (value < least || value > greatest) return `a number from ${least} to ${greatest}, not ${value}`;
+  if (positive && !(value > 0)) return `a number above 0, not ${value}`;
+  if (value < least || value > greatest) return greatest === undefined ? `a number from ${least}, not ${value}` : `a number from ${least} to ${greatest}, not ${value}`;
   return null;
+}
+
+/** Whether a key names a shape, whose lack of a value drops it. */
+const isDropped = (key) => /^wishes\.keep_out\.[^.]+$/.test(key);
+
+/** Sets the turn of the carrier: a part of it brings the others with it, and without a point there is none. */
+function turned(wish, key, place, value) {
+  const turn = wish.turn ?? { from: 1, to: 2, between: [0, 360] };
+  if (place !== undefined) turn.between[Number(place)] = value ?? [0, 360][Number(place)];
+  else if (value === null) return null;
+  else turn[key] = value;
+  return turn;
+}
+
+/** Points counted anew after one was added or deleted: the turn keeps its own. */
+function recounted(turn, before, after) {
+  const step = after.length - before.length;
+  if (!turn || Math.abs(step) !== 1) return turn;
+  const differs = before.findIndex((one, i) => one !== after[i]);
+  const first = differs < 0 ? Math.min(before.length, after.length) : differs;
+  const moved = (number) => Math.min(Math.max(number > first + (step > 0 ? 0 : 1) ? number + step : number, 1), after.length);
+  return { ...turn, from: moved(turn.from), to: moved(turn.to) };
 }
 
 /** The wish with other values, or the first key at fault and the reason. */
 export function changed(wish, edits) {
   const next = structuredClone(wish);
   for (const { key, value } of edits) {
-    const [, table, list, place] = /^(path|stroke|poses)\.([a-z_]+)(?:\[(\d+)\])?$/.exec(key) ?? [];
     const values = Array.isArray(value) ? value : [value];
     const wrong = values.map((one) => fault(key, one)).find(Boolean) ?? (values.length > MOST ? `${values.length} points; the page shows up to ${MOST}` : null);
     if (wrong) return { key, wrong };
-    if (list && place === undefined) next[table][list] = values;
-    else if (list) next[table][list][Number(place)] = value;
-    else if (key === "axis.x") next.axis[0] = value;
-    else if (key === "axis.y") next.axis[1] = value;
-    else next[{ "wanted.given": "given", "gears.bend_deg": "bend", "gears.arms": "arms", "gears.split": "split", "gears.band": "band" }[key]] = value;
+    const amiss = set(next, key, Array.isArray(value) ? values.map((one) => (one === "" ? null : one)) : value === "" ? null : value);
+    if (amiss) return { key, wrong: amiss };
   }
+  const { given: kind } = next;
+  if (kind !== "poses") next.turn = recounted(next.turn, wish[kind].x, next[kind].x);
   return { next };
+}
+
+/** Takes the value of a key; returns what is wrong, if anything. */
+function set(next, key, value) {
+  const [, table, list, place] = /^(path|stroke|poses)\.([a-z_]+)(?:\[(\d+)\])?$/.exec(key) ?? [];
+  const [, shape, own, at] = /^wishes\.keep_out\.([^.[\]]+)(?:\.([a-z.]+))?(?:\[(\d+)\])?$/.exec(key) ?? [];
+  const [, wished, end] = /^wishes\.([a-z_]+)\[(\d)\]$/.exec(key) ?? [];
+  const [, turn, bound] = /^wishes\.turn\.([a-z_]+)(?:\[(\d)\])?$/.exec(key) ?? [];
+  if (key in PLAIN) next[PLAIN[key]] = value;
+  else if (shape) return shapes.change(next.keep_out, shape, own, at, value);
+  else if (turn) next.turn = turned(next, turn, bound, value);
+  else if (wished) next[wished][Number(end)] = value;
+  else if (list && place === undefined) spread(next[table], list, value);
+  else if (list) {
+    next[table][list][Number(place)] = value;
+    if (list === "direction_deg" && table !== "poses" && value === null) next[table].direction_tolerance_deg[Number(place)] = null;
+  } else next.axis["xy".indexOf(key.at(-1))] = value;
+  return null;
+}
+
+/** A column with its values; what other columns have no values for is free. */
+function spread(table, list, values) {
+  table[list] = values;
+  for (const name of Object.keys(FREE)) if (list === "x" && table[name] && table[name].length !== values.length) table[name] = values.map((_, i) => table[name][i] ?? null);
 }
 
 /** Rows of what is given: points, or poses. */
 export function rowsOf(wish) {
   const { x, y, direction_deg } = wish[wish.given];
-  return x.map((one, i) => (direction_deg ? [one, y[i], direction_deg[i]] : [one, y[i]]));
+  return x.map((one, i) => (wish.given === "poses" ? [one, y[i], direction_deg[i]] : [one, y[i]]));
 }
 
-/** The wish with other rows of what is given. */
-export function withRows(wish, rows) {
-  const names = ["x", "y", "direction_deg"].slice(0, wish.given === "poses" ? 3 : 2);
-  return { ...wish, [wish.given]: Object.fromEntries(names.map((name, k) => [name, rows.map((row) => row[k])])) };
+/** Heads and rows of what is given, with all that its table shows. */
+export function tableOf(wish) {
+  const names = columns(wish);
+  const blank = (name, value) => value ?? (name === "tolerance" ? 0 : "");
+  return [names, ...wish[wish.given].x.map((_, i) => names.map((name) => blank(name, wish[wish.given][name][i])))];
+}
+
+/** The wish with other poses. */
+export function withPoses(wish, rows) {
+  return { ...wish, poses: Object.fromEntries(["x", "y", "direction_deg"].map((name, k) => [name, rows.map((row) => row[k])])) };
+}
+
+/** A wish that was kept, with whatever it lacks. */
+export function whole(wish) {
+  const found = { ...structuredClone(EXAMPLE), ...wish };
+  for (const kind of ["path", "stroke"]) found[kind] = { ...columnsOf({ points: found[kind].x.map((x, i) => [x, found[kind].y[i]]) }), ...found[kind] };
+  return found;
 }
 
 /** A wish as the program is asked. */
-export function asked(wish) {
-  const choices = { bend_deg: wish.bend, arms: wish.arms, split: wish.split };
-  const rows = rowsOf(wish);
-  if (wish.given === "path") return { points: rows, axis: wish.axis, ...choices };
-  return wish.given === "poses" ? { poses: rows, ...choices } : { stroke: rows, band: wish.band, ...choices };
+export function asked(wish, options) {
+  const design = designOf(wish, options);
+  return wish.given === "poses" ? { design, poses: rowsOf(wish) } : { design };
 }
 
 /** Greatest distance across a path, or poses. */
-export const sizeOf = ({ x, y }) => Math.hypot(Math.max(...x) - Math.min(...x), Math.max(...y) - Math.min(...y));
+export const sizeOf = (points) => shapes.boxOf(points).size;
 
 const HANDLE = { link: 0, plane: "cartesian", scale: 1, origin: [0, 0], chained: true };
+const DEG = Math.PI / 180;
+
+/** Direction that is offered at a point: away from the middle of the path. */
+function offered({ x, y }, i) {
+  const { left, right, low, high } = shapes.boxOf({ x, y });
+  return Math.round(Math.atan2(y[i] - (low + high) / 2, x[i] - (left + right) / 2) / DEG);
+}
+
+/** Handles of the directions wanted at points, and of those that may be. */
+function directions(wish) {
+  const { given: kind } = wish;
+  const { x, y, direction_deg } = wish[kind];
+  const length = ARROW * sizeOf(wish[kind]);
+  return direction_deg.flatMap((angle, i) => {
+    const free = angle === null;
+    if (free && x.length > MOST_FREE) return [];
+    const key = `${kind}.direction_deg[${i}]`;
+    return [{
+      ...HANDLE, name: `direction at point ${i + 1}`, kind: "direction", free, plane: "polar", origin: [x[i], y[i]], chained: false,
+      keys: ["", key], values: [length, angle ?? offered(wish[kind], i)], drop: free ? undefined : [{ key, value: null }],
+    }];
+  });
+}
 
 /** Points of the picture that can be dragged. */
 export function handles(wish) {
   const { given, axis } = wish;
   const { x, y, direction_deg } = wish[given];
-  const noun = direction_deg ? "pose" : "point";
+  const noun = given === "poses" ? "pose" : "point";
   const points = x.map((one, i) => ({ ...HANDLE, name: `${noun} ${i + 1} of the path`, keys: [`${given}.x[${i}]`, `${given}.y[${i}]`], values: [one, y[i]] }));
-  if (given === "path") return [...points, { ...HANDLE, name: "axis of the carrier", kind: "axis", chained: false, keys: ["axis.x", "axis.y"], values: axis }];
-  if (given === "stroke") return points;
+  if (given !== "poses") {
+    points.push(...(wish.directed ? directions(wish) : []), ...shapes.handles(wish.keep_out, HANDLE, wish[given]));
+    if (given === "path") points.push({ ...HANDLE, name: "axis of the carrier", kind: "axis", chained: false, keys: ["axis.x", "axis.y"], values: axis });
+    return points;
+  }
   const length = CLAMP * sizeOf(wish.poses);
   return [...points, ...direction_deg.map((angle, i) => ({
     ...HANDLE, name: `direction of pose ${i + 1}`, plane: "polar", origin: [x[i], y[i]], chained: false, keys: ["", `poses.direction_deg[${i}]`], values: [length, angle],
   }))];
 }
 
-/** Lines that show what is wanted: the clamp in every pose; of a stroke, its points joined. */
+/** A line from a place in a direction, degrees. */
+function ray(role, [x, y], length, angle) {
+  return { role, closed: false, vertices: [x, y, 0, x + length * Math.cos(angle * DEG), y + length * Math.sin(angle * DEG), 0] };
+}
+
+/** Lines that show what is wanted: the clamp in every pose or at points, within its tolerance; of a stroke, its points joined; shapes. */
 export function wantedLines(wish) {
-  const { x, y, direction_deg } = wish[wish.given];
-  if (!direction_deg) return [{ role: "beside", closed: false, vertices: x.flatMap((one, i) => [one, y[i], 0]) }];
-  const length = CLAMP * sizeOf(wish.poses);
-  return direction_deg.map((angle, i) => {
-    const [c, s] = [Math.cos((angle * Math.PI) / 180), Math.sin((angle * Math.PI) / 180)];
-    return { role: "clamp", closed: false, vertices: [x[i], y[i], 0, x[i] + length * c, y[i] + length * s, 0] };
-  });
+  const { x, y, direction_deg, direction_tolerance_deg } = wish[wish.given];
+  const at = (i) => [x[i], y[i]];
+  if (wish.given === "poses") return direction_deg.map((angle, i) => ray("clamp", at(i), CLAMP * sizeOf(wish.poses), angle));
+  const found = wish.given === "stroke" ? [{ role: "beside", closed: false, vertices: x.flatMap((one, i) => [one, y[i], 0]) }] : [];
+  const length = ARROW * sizeOf(wish[wish.given]);
+  if (wish.directed) {
+    direction_deg.forEach((angle, i) => {
+      if (angle === null) return;
+      const off = direction_tolerance_deg[i] ?? USUAL;
+      found.push(ray("clamp", at(i), length, angle), ray("pose", at(i), 1.15 * length, angle - off), ray("pose", at(i), 1.15 * length, angle + off));
+    });
+  }
+  return [...found, ...shapes.lines(wish.keep_out, wish[wish.given])];
+}
+
+/** A picture with the lines of what is wanted, and room for the shapes. */
+export function withWanted(picture, wish) {
+  const { links, motion } = picture;
+  const [left, low, right, high] = picture.extent;
+  const places = wish.given === "poses" ? [] : shapes.places(wish.keep_out);
+  const [xs, ys] = [0, 1].map((k) => places.map((place) => place[k]));
+  return {
+    ...picture,
+    shapes: [...picture.shapes, wantedLines(wish)],
+    links: [...links, { name: "wanted", shape: picture.shapes.length }],
+    motion: { ...motion, poses: [...motion.poses, [0, 0, 0]] },
+    extent: [Math.min(left, ...xs), Math.min(low, ...ys), Math.max(right, ...xs), Math.max(high, ...ys)],
+  };
 }
 
 /** What is wanted as a picture: the order of the places, and the lines. */
@@ -177,9 +359,9 @@ export function wantedPicture(wish) {
   const { x, y } = wish[wish.given];
   const room = 2 * CLAMP * sizeOf({ x, y });
   return {
-    shapes: [[{ role: "beside", closed: wish.given === "poses", vertices: x.flatMap((one, i) => [one, y[i], 0]) }], wantedLines(wish)],
-    links: [{ name: "path", shape: 0 }, { name: "wanted", shape: 1 }],
-    motion: { input_name: "carrier", input: [0, 2 * Math.PI], poses: [[0, 0, 0], [0, 0, 0]] },
+    shapes: [[{ role: "beside", closed: wish.given !== "stroke", vertices: x.flatMap((one, i) => [one, y[i], 0]) }]],
+    links: [{ name: "path", shape: 0 }],
+    motion: { input_name: "carrier", input: [0, 2 * Math.PI], poses: [[0, 0, 0]] },
     handles: [],
     marks: [],
     extent: [Math.min(...x) - room, Math.min(...y) - room, Math.max(...x) + room, Math.max(...y) + room],

@@ -5,8 +5,9 @@ import { element } from "./elements.js";
 import * as files from "./new-file.js";
 import { worked } from "./numbers.js";
 import { asked, sizeOf } from "./path-form.js";
+import * as told from "./path-told.js";
 import * as server from "./server.js";
-import { work } from "./work.js";
+import { progress, work } from "./work.js";
 
 /** Band that is offered, as a share of the path's size. */
 const BAND = 0.03;
@@ -14,18 +15,22 @@ const BAND = 0.03;
 /** A handsome number near a size. */
 const round = (size) => Number(size.toPrecision(1));
 
+/** Says how far a search is. */
+export const heed = (evaluations) => progress(`${evaluations.toLocaleString("en")} evaluations`);
+
 /** Makes the machine of a wish; where no teeth will do, says so and offers to ease the path. */
 export async function make(wish, complain) {
-  let band = wish.given === "path" && wish.band > 0 ? wish.band : null;
+  const isEased = wish.given === "path" && !wish.each;
+  let band = wish.band;
   const stop = new AbortController();
   try {
     for (;;) {
-      const answer = await work((signal) => server.makePath(wish.given === "path" ? { ...asked(wish), band } : asked(wish), signal), stop);
+      const answer = await work((signal) => server.makePath(asked(wish, { band }), signal, heed), stop);
       if (!answer.refused) {
         await name(answer);
         return;
       }
-      band = wish.given === "path" ? await remedy(wish, answer.refused, band) : await refuse(answer.refused);
+      band = isEased ? await remedy(wish, answer, band) : await refuse(answer);
       if (!band) return;
     }
   } catch (error) {
@@ -34,20 +39,20 @@ export async function make(wish, complain) {
 }
 
 /** Asks where the design is to be. */
-async function name({ text, told }) {
+async function name({ text, told: rows, goals, findings }) {
   const { taken, folder } = await server.offer();
-  const rows = told.map(([head, words]) => element("tr", {}, element("th", { scope: "row" }, head), element("td", {}, words)));
-  const table = element("table", { class: "told" }, element("tbody", {}, ...rows));
-  await files.make({ text }, "The machine of the path, with sound teeth.", files.free("reversed", taken), folder, [table]);
+  const row = ([head, words]) => element("tr", {}, element("th", { scope: "row" }, head), element("td", {}, words));
+  const table = element("table", { class: "told" }, element("tbody", {}, ...rows.map(row)));
+  await files.make({ text }, "The machine of the path, with sound teeth.", files.free("reversed", taken), folder, [...told.wishes(goals, "Wishes", "h3"), ...told.findings(findings), table]);
 }
 
 /** Says why what is sought gives no machine. */
-async function refuse(reason) {
-  await dialogs.ask("No machine", [element("p", {}, reason), element("p", {}, "What helps: a greater bend, another split, or other places.")], [["close", "Close", "main"]]);
+async function refuse({ refused, goals }) {
+  await dialogs.ask("No machine", [element("p", {}, refused), ...told.wishes(goals, "Wishes", "h3"), element("p", {}, "What helps: a greater bend, another split, or other places.")], [["close", "Close", "main"]]);
 }
 
 /** Says why there is no machine; resolves to a band within which the path is to be eased, or to null. */
-async function remedy(wish, reason, before) {
+async function remedy(wish, { refused, goals }, before) {
   const box = element("input", { type: "text", inputmode: "decimal", class: "number", id: "band", value: String(2 * before || round(BAND * sizeOf(wish.path))), "aria-describedby": "band-remark" });
   const remark = element("p", { class: "remark", id: "band-remark", role: "alert" });
   const sound = async () => {
@@ -58,7 +63,8 @@ async function remedy(wish, reason, before) {
     return false;
   };
   const answer = await dialogs.ask("No machine", [
-    element("p", {}, reason),
+    element("p", {}, refused),
+    ...told.wishes(goals, "Wishes", "h3"),
     element("p", {}, "What helps:"),
     element("ul", { class: "remedies" },
       element("li", {}, "another axis: where the field is bright, coloured by the least radius,"),

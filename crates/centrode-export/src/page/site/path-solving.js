@@ -50,7 +50,7 @@ export class Solving {
     const stop = new AbortController();
     this[mark] = stop;
     try {
-      return await work((signal) => server.solvePath({ ...asked(wish), ...options }, signal), stop);
+      return await work((signal) => server.solvePath({ ...asked(wish, { placed: true }), ...options }, signal), stop);
     } catch (error) {
       if (!stop.signal.aborted) this.complain(error);
       return null;

@@ -9,9 +9,12 @@ import { History } from "./history.js";
 import * as layout from "./layout.js";
 import { Field } from "./path-field.js";
 import * as file from "./path-file.js";
-import { EXAMPLE, asked, changed, handles as marks, rowsOf, tables, wantedLines, wantedPicture, withRows } from "./path-form.js";
+import { isSought, withOpened } from "./path-design.js";
+import { EXAMPLE, asked, changed, handles as marks, rowsOf, tableOf, tables, wantedPicture, whole, withPoses, withWanted } from "./path-form.js";
 import * as maker from "./path-make.js";
+import * as shapes from "./path-shapes.js";
 import { Solving } from "./path-solving.js";
+import * as lines from "./path-told.js";
 import * as server from "./server.js";
 import { Stage } from "./stage.js";
 import * as theme from "./theme.js";
@@ -51,7 +54,7 @@ const solving = new Solving({ show: (answer, more) => wish.given === "path" && s
 
 /** What is drawn is kept while the window is open: a design made of it leads away from this page, and back. */
 const KEPT = "centrode-path";
-let wish = kept() ?? EXAMPLE;
+let wish = kept();
 /** Figures that are shown. */
 let told = [];
 /** What ends the search for the machine. */
@@ -79,6 +82,7 @@ function take(next, final, fresh = true) {
   field.shown = isPath;
   for (const id of ["field", "field-readout"]) byId(id).hidden = !isPath;
   byId("show-field").parentElement.hidden = !isPath;
+  byId("save-path").hidden = wish.given === "poses";
   finding?.abort();
   if (isPath) {
     byId("verdict").setAttribute("aria-busy", "true");
@@ -93,7 +97,7 @@ function take(next, final, fresh = true) {
 function unfound() {
   byId("verdict").setAttribute("aria-busy", "false");
   const words = wish.given === "poses" ? "takes these poses" : "runs along these points, with any return to the first,";
-  show({ picture: wantedPicture(wish), curves: [], figures: [], fault: { of: "sought", message: `The machine whose tip ${words} is sought when you say so: it takes some seconds.` } });
+  show({ curves: [], figures: [], fault: { of: "sought", message: `The machine whose tip ${words} is sought when you say so: it takes some seconds.` } });
 }
 
 /** Seeks the machine of poses or of a stroke. */
@@ -102,16 +106,10 @@ async function find() {
   finding = stop;
   byId("verdict").setAttribute("aria-busy", "true");
   try {
-    const answer = await work((signal) => server.findMachine(asked(wish), signal), stop);
+    const answer = await work((signal) => server.findMachine(asked(wish), signal, maker.heed), stop);
     if (finding !== stop) return;
-    if (answer.refused) {
-      show({ picture: wantedPicture(wish), curves: [], figures: [], fault: { of: "none", message: answer.refused } });
-    } else {
-      const { shapes, links, motion } = answer.picture;
-      links.push({ name: "wanted", shape: shapes.push(wantedLines(wish)) - 1 });
-      motion.poses.push([0, 0, 0]);
-      show(answer);
-    }
+    if (answer.refused) show({ curves: [], figures: [], fault: { of: "none", message: answer.refused } });
+    else show({ ...answer, found: true });
   } catch (error) {
     if (!stop.signal.aborted) complain(error);
   } finally {
@@ -122,51 +120,75 @@ async function find() {
   }
 }
 
+/** Acts of the buttons of shapes. */
+const act = {
+  add: (kind) => {
+    const shape = shapes.added(kind, wish.keep_out, wish[wish.given]);
+    take({ ...wish, keep_out: [...wish.keep_out, shape] }, true);
+    byId(`delete-${shape.name}`)?.closest("details").querySelector("input").focus();
+  },
+  drop: (name) => {
+    take({ ...wish, keep_out: wish.keep_out.filter((shape) => shape.name !== name) }, true);
+    byId("add-circle")?.focus();
+  },
+};
+
 /** Shows the wish in the form, with what is wrong with it. */
 function fill(error) {
-  form.show({ tables: tables(wish), error, verdict: error ? undefined : { findings: [] } });
+  form.show({ tables: tables(wish, act), error, verdict: error ? undefined : { findings: [] } });
+}
+
+/** The key of a message of the program that begins with one, and the rule. */
+function blamed(message) {
+  const [, key, rule] = /^([a-z_.]+(?:\[\d+\])?[\w.[\]-]*):? (.*)$/.exec(message) ?? [];
+  return key ? { key: key.replace(/^(bend_deg|arms|split|aim)$/, "gears.$1").replace(/^path\.(band|module)$/, "gears.$1"), message: rule, rule: "" } : null;
 }
 
 /** Shows what the program answers; where `more` figures are to come, those from before stay, faded. */
-function show({ picture, curves, figures, fault }, more = false) {
-  stage.show(picture);
+function show({ picture, curves, figures, fault, goals, findings, found }, more = false) {
+  stage.show(withWanted(picture?.links.length ? picture : wantedPicture(wish), wish));
   handles.show(marks(wish));
   transport.draw();
   charts.place.classList.toggle("stale", Boolean(fault));
   if (!fault) charts.show(curves);
   transport.show(curves);
-  judge(fault);
+  judge(fault, found && { missed: (goals ?? []).filter(({ met }) => !met).length });
+  if (fault?.of === "wish") fill(blamed(fault.message));
+  byId("wished").replaceChildren(...lines.wishes(goals, found || !isSought(wish) ? "Wishes" : "Wishes as drawn"), ...lines.findings(findings));
   const names = new Set(figures.map(({ name }) => name));
   const stale = more && !fault ? told.filter(({ name }) => !names.has(name)) : [];
   told = [...figures, ...stale.map((one) => ({ ...one, stale: true }))];
   const rows = told.map(({ name, words, stale: faded }) =>
     element("tr", { class: faded && "stale" }, element("th", { scope: "row" }, name), element("td", { "data-key": name }, words)));
   byId("figures").replaceChildren(...(rows.length ? [element("table", { class: "figures" }, element("tbody", {}, ...rows))] : []));
-  byId("make").disabled = Boolean(fault);
-  byId("finding").hidden = wish.given === "path" || !fault;
+  // Another axis may be possible, where it is free.
+  const isAble = !fault || (fault.of === "axis" && wish.free);
+  byId("make").disabled = !isAble;
+  byId("finding").hidden = wish.given === "path" ? found || !isAble || !isSought(wish) : !fault;
 }
 
 /** Says whether there is a machine; what has been said already is not said again. */
-function judge(fault) {
+function judge(fault, found) {
   const place = byId("possible");
-  const head = fault ? heading(fault) : `✓ ${wish.given === "path" ? "This axis is possible" : "A machine is found"}`;
+  const missed = found?.missed ? `, which misses ${found.missed === 1 ? "a wish" : `${found.missed} wishes`}` : "";
+  const head = fault ? heading(fault) : `${missed ? "!" : "✓"} ${found ? `A machine is found${missed}` : "This axis is possible"}`;
   const words = fault ? capital(fault.message) : "";
   if (place.dataset.said === head + words) return;
   place.dataset.said = head + words;
-  const kind = fault ? fault.of === "sought" ? "" : "error" : "good";
+  const kind = fault ? fault.of === "sought" ? "" : "error" : missed ? "" : "good";
   place.replaceChildren(element("div", { class: `title ${kind}` }, element("h2", {}, head)), ...(words ? [element("p", {}, words)] : []));
 }
 
 const capital = (words) => words.charAt(0).toUpperCase() + words.slice(1);
 
-const heading = ({ of }) => ({ path: "✕ No path", axis: "✕ This axis is not possible", split: "✕ No gears", sought: "○ Not sought yet", none: "✕ No machine found" })[of];
+const heading = ({ of }) => ({ path: "✕ No path", axis: "✕ This axis is not possible", split: "✕ No gears", wish: "✕ A value breaks a rule", sought: "○ Not sought yet", none: "✕ No machine found" })[of];
 
 // A window may have no storage.
 function kept() {
   try {
-    return JSON.parse(sessionStorage.getItem(KEPT));
+    return whole(JSON.parse(sessionStorage.getItem(KEPT)) ?? {});
   } catch {
-    return null;
+    return EXAMPLE;
   }
 }
 
@@ -218,8 +240,9 @@ function listen() {
   byId("make").addEventListener("click", () => maker.make(wish, complain));
   file.listen({
     given: () => wish.given,
-    rows: () => rowsOf(wish),
-    take: (rows) => take(withRows(wish, rows), true),
+    table: () => tableOf(wish),
+    asked: () => asked(wish),
+    take: (found) => take(wish.given === "poses" && found.points ? withPoses(wish, found.points) : withOpened(wish, EXAMPLE, found), true),
     tell: (words, severity) => dialogs.notice("path", words, [], severity),
   });
   addEventListener("keydown", (event) => {

@@ -33,13 +33,13 @@ function cells(line) {
   return /\..*,|,.*[.,]/.test(plain) ? plain.split(",") : [plain];
 }
 
-/** Rows of numbers in a text, without a head; an error names the line. */
-export function rowsIn(text) {
+/** Rows of numbers in a text, without a head; an error names the line. Cells from the column `optional` on may be empty. */
+export function rowsIn(text, optional = Infinity) {
   const lines = text.split(/\r\n|\r|\n/).map((line, i) => [i + 1, line]).filter(([, line]) => line.trim());
   const rows = lines.map(([number, line]) => [number, cells(line).map(typed)]);
   if (rows.length > 1 && rows[0][1].every((cell) => typeof cell !== "number")) rows.shift();
   for (const [number, row] of rows) {
-    const wrong = row.find((cell) => typeof cell !== "number");
+    const wrong = row.find((cell, column) => typeof cell !== "number" && !(cell === "" && column >= optional));
     if (wrong !== undefined) return { error: `line ${number}: ${wrong === "" ? "a number is missing" : `${wrong} is no number`}` };
   }
   return { rows: rows.map(([number, row]) => Object.assign(row, { line: number })) };
@@ -56,9 +56,12 @@ function between([a, b], [c, d], polar) {
 }
 
 export class Points {
-  /** Of `noun`s at least `fewest` are needed; a new one lies `halfway(points, i)` to the next. Through `smooth` ones a closed curve passes. */
-  constructor(form, key, pair, { smooth = false, fewest = FEWEST, noun = "point", halfway } = {}) {
-    Object.assign(this, { smooth, fewest, noun, halfway });
+  /**
+   * Of `noun`s at least `fewest` are needed; a new one lies `halfway(points, i)` to the next. Through `smooth` ones a closed curve passes.
+   * Cells from the column `optional` on may be empty.
+   */
+  constructor(form, key, pair, { smooth = false, fewest = FEWEST, noun = "point", halfway, optional = Infinity } = {}) {
+    Object.assign(this, { smooth, fewest, noun, halfway, optional });
     this.form = form;
     this.key = key;
     this.pair = pair;
@@ -67,7 +70,7 @@ export class Points {
     this.given = null;
     this.controls = pair.map((field) => {
       const remark = element("p", { class: "remark", id: `remark-${field.key}` });
-      const row = element("th", { scope: "col", title: field.doc || undefined }, words(field.key), ...(field.symbol ? [" ", symbol(field.symbol)] : []), " ", element("span", { class: "unit" }, field.unit));
+      const row = element("th", { scope: "col", title: field.doc || undefined, "aria-label": field.heading && words(field.key) }, field.heading ?? words(field.key), ...(field.symbol ? [" ", symbol(field.symbol)] : []), " ", element("span", { class: "unit" }, field.unit));
       const control = { field, remark, row, inputs: [] };
       form.controls.set(field.key, control);
       return control;
@@ -77,7 +80,7 @@ export class Points {
     const body = element("tbody", {}, ...rows);
     body.addEventListener("paste", (event) => this.paste(event));
     body.addEventListener("keydown", (event) => this.keyed(event));
-    this.place = element("div", { class: "points" },
+    this.place = element("div", { class: pair.length > 3 ? "points wide" : "points" },
       element("table", { "aria-label": `${capital(this.noun)}s` }, element("thead", {}, element("tr", {}, element("th", { scope: "col" }, "No."), ...this.controls.map(({ row }) => row),
         form.fixed ? null : element("td", {}))), body),
       ...this.controls.map(({ remark }) => remark), buttons);
@@ -85,7 +88,12 @@ export class Points {
 
   /** How many numbers each has, in words. */
   get many() {
-    return this.pair.length === 2 ? "two" : "three";
+    return ["two", "three"][Math.min(this.optional, this.pair.length) - 2] ?? String(this.pair.length);
+  }
+
+  /** Fewest numbers of a row. */
+  get least() {
+    return Math.min(this.optional, this.pair.length);
   }
 
   /** Id of an input of the table. */
@@ -131,7 +139,8 @@ export class Points {
   /** Adds a point after another: a given one, or one halfway to the next. */
   add(i, wish = this.id(0, i + 1), given = null) {
     const { points } = this;
-    const next = given ?? this.halfway?.(points, i) ?? between(points[i], points[(i + 1) % points.length], this.polar);
+    const blank = this.pair.slice(2).map(() => null);
+    const next = (given && [...given, ...blank]) ?? this.halfway?.(points, i) ?? between(points[i], points[(i + 1) % points.length], this.polar);
     this.give(points.toSpliced(i + 1, 0, next), wish);
   }
 
@@ -154,7 +163,7 @@ export class Points {
   paste(event) {
     const { row, column } = event.target.dataset;
     const text = event.clipboardData?.getData("text/plain") ?? "";
-    const { rows, error } = rowsIn(text);
+    const { rows, error } = rowsIn(text, Math.max(0, this.optional - Number(column)));
     if (row === undefined || this.form.fixed) return;
     // One cell is the browser's, and so is what is no table.
     if (error ? !/[\t\n]/.test(text.trim()) : rows.length < 2 && (rows[0]?.length ?? 0) < 2) return;
@@ -166,7 +175,7 @@ export class Points {
     }
     const points = this.points.map((point) => [...point]);
     rows.forEach((cells, k) => {
-      points[Number(row) + k] ??= [];
+      points[Number(row) + k] ??= this.pair.map(() => null);
       cells.forEach((value, c) => {
         points[Number(row) + k][Number(column) + c] = value;
       });
@@ -180,7 +189,7 @@ export class Points {
   fault(rows, row, column) {
     const wide = rows.find((cells) => column + cells.length > this.pair.length);
     if (wide) return `line ${wide.line}: more numbers than columns`;
-    const bare = rows.find((cells, k) => row + k >= this.points.length && cells.length < this.pair.length);
+    const bare = rows.find((cells, k) => row + k >= this.points.length && column + cells.length < this.least);
     return bare ? `line ${bare.line}: a new ${this.noun} needs ${this.many} numbers` : null;
   }
 
@@ -197,10 +206,10 @@ export class Points {
     const remark = element("p", { class: "remark", role: "status" });
     let points = null;
     const sound = async () => {
-      const { rows, error } = rowsIn(area.value);
-      const short = rows?.find((cells) => cells.length !== this.pair.length);
+      const { rows, error } = rowsIn(area.value, this.optional);
+      const short = rows?.find((cells) => cells.length < this.least || cells.length > this.pair.length);
       const fault = error ?? (short ? `line ${short.line}: a ${this.noun} has ${this.many} numbers` : null) ?? (rows.length < this.fewest ? `a curve has at least ${this.fewest} points` : null);
-      points = fault ? null : rows.map((cells) => [...cells]);
+      points = fault ? null : rows.map((cells) => this.pair.map((_, column) => cells[column] ?? null));
       remark.replaceChildren(...(fault ? [element("span", { class: "error" }, fault)] : []));
       return points !== null;
     };

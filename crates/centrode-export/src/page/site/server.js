@@ -49,6 +49,28 @@ async function ask(path, method, body, signal, keepalive = false) {
   return answer;
 }
 
+/** An answer that takes long: `heed(evaluations)` hears how far it is. */
+async function streamed(path, body, signal, heed) {
+  const reader = (await ask(path, "POST", body, signal)).body.pipeThrough(new TextDecoderStream()).getReader();
+  let text = "";
+  for (;;) {
+    let part;
+    try {
+      part = await reader.read();
+    } catch {
+      throw new Away();
+    }
+    if (part.done) throw new Away();
+    const lines = (text + part.value).split("\n");
+    text = lines.pop();
+    for (const line of lines) {
+      const { evaluations, answer } = JSON.parse(line);
+      if (answer) return answer;
+      heed(evaluations);
+    }
+  }
+}
+
 const json = async (answer) => (await answer).json();
 
 export const offer = () => json(ask("start", "GET"));
@@ -56,11 +78,12 @@ export const picture = (kind, name) => json(ask(`pictures/${kind}/${encodeURICom
 export const open = (path) => json(ask("open", "POST", { path }));
 export const make = (from, path) => json(ask("new", "POST", { from, path }));
 export const solvePath = (wish, signal) => json(ask("path/solve", "POST", wish, signal));
-export const findMachine = (wish, signal) => json(ask("path/find", "POST", wish, signal));
+export const findMachine = (wish, signal, heed) => streamed("path/find", wish, signal, heed);
 export const mapAxes = (wish, signal) => json(ask("path/map", "POST", wish, signal));
 export const bestAxis = (wish, signal) => json(ask("path/axis", "POST", wish, signal));
 export const readPath = (text) => json(ask("path/open", "POST", { text }));
-export const makePath = (wish, signal) => json(ask("path/machine", "POST", wish, signal));
+export const makePath = (wish, signal, heed) => streamed("path/machine", wish, signal, heed);
+export const pathDesign = (wish) => json(ask("path/design", "POST", wish));
 export const design = () => json(ask("design", "GET"));
 export const save = (text, base, over) => json(ask("save", "POST", { text, base, over }));
 // It arrives although the page is left; browsers send no more than 64 KiB that way.

@@ -23,11 +23,20 @@ export async function work(job, stop = new AbortController()) {
   }
 }
 
+/** How far a job is, in words. */
+let far = "";
+
+/** Says how far a job is, in words. */
+export function progress(words) {
+  far = words;
+}
+
 function show() {
   const longest = jobs.size ? performance.now() - Math.min(...jobs.values()) : 0;
   byId("working").hidden = longest < PATIENCE;
-  byId("working-time").textContent = `${Math.floor(longest / 1000)} s`;
+  byId("working-time").textContent = `${far && `${far}, `}${Math.floor(longest / 1000)} s`;
   if (jobs.size) return;
+  progress("");
   clearInterval(ticking);
   ticking = 0;
 }

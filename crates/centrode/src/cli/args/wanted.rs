@@ -28,6 +28,9 @@ pub(crate) struct Reverse {
     /// Axis of the carrier, mm; left out, it is sought on and about the path: the mildest, or the best by --aim
     #[arg(long, value_parser = place, allow_hyphen_values = true, value_name = "X,Y")]
     pub(crate) axis: Option<[f64; 2]>,
+    /// Box in which the axis is sought, by two corners, mm; left out, the path's box with a quarter of its size round it
+    #[arg(long, value_parser = corners, allow_hyphen_values = true, value_name = "X,Y,X,Y", conflicts_with_all = ["axis", "poses"])]
+    pub(crate) axis_box: Option<[[f64; 2]; 2]>,
     /// Let the path pass within so far of its points, and ease it there until its gears are as blunt as can be; a column headed
     /// `tolerance` in the file gives each point its own
     #[arg(
@@ -111,10 +114,24 @@ pub(crate) struct Drive {
 
 /// Reads a place in the plane.
 fn place(word: &str) -> Result<[f64; 2], String> {
-    let number = |word: &str| word.trim().parse::<f64>().ok().filter(|x| x.is_finite());
-    let both = word.split_once(',').map(|(x, y)| (number(x), number(y)));
-    match both {
-        Some((Some(x), Some(y))) => Ok([x, y]),
+    match numbers(word)[..] {
+        [Some(x), Some(y)] => Ok([x, y]),
         _ => Err("not two numbers of millimetres, as in 260,160".into()),
     }
+}
+
+/// Reads two corners of a box.
+fn corners(word: &str) -> Result<[[f64; 2]; 2], String> {
+    match numbers(word)[..] {
+        [Some(x), Some(y), Some(u), Some(v)] if x != u && y != v => Ok([[x, y], [u, v]]),
+        _ => Err(
+            "not x and y of two corners that differ in both, in millimetres, as in -100,-50,350,400"
+                .into(),
+        ),
+    }
+}
+
+fn numbers(word: &str) -> Vec<Option<f64>> {
+    let number = |word: &str| word.trim().parse::<f64>().ok().filter(|x| x.is_finite());
+    word.split(',').map(number).collect()
 }

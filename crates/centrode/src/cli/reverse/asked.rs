@@ -3,6 +3,7 @@ use std::path::Path;
 use crate::analysis::Unit;
 use crate::geometry::Point;
 use crate::mechanism::design::{DesignFamily, DesignFile};
+use crate::mechanism::gear::design::SpecError;
 use crate::mechanism::reverse::{
     Aim, DrawnPath, PathDesign, PathError, SplitKind, WantedPath, WantedPoints,
 };
@@ -35,12 +36,23 @@ impl Asked {
         let points = design.path.points.iter().map(|&p| p.into()).collect();
         let mut asked = match (&file, &design.path.file) {
             (None, _) => Self::of_points(PathDesign::default(), source, command)?,
-            (Some(_), Some(name)) => {
+            (Some(file), Some(name)) => {
                 let folder = command.path.as_deref().and_then(Path::parent);
                 let path = folder.unwrap_or(Path::new("")).join(name);
                 let points = Source::open_up_to(&path, WantedPath::LARGEST)?;
+                let wishes = design.wishes.clone();
                 let design = std::mem::take(&mut design);
-                Self::of_points(design, points, command)?
+                let asked = Self::of_points(design, points, command)?;
+                // A number of a point stands in the design, and not in the file that holds too few of them.
+                let count = asked.points.len();
+                let is_closed = count > 1 && asked.points.first() == asked.points.last();
+                let checked = wishes.validate(count - usize::from(is_closed));
+                checked.map_err(|error| {
+                    let key = format!("wishes.{}", error.key);
+                    let error = SpecError { key, ..error };
+                    source.blame(file.blame(error.into()))
+                })?;
+                asked
             }
             (Some(_), None) => Self {
                 design,
@@ -108,7 +120,9 @@ impl Asked {
     /// Takes what the command line says, before what the file does.
     fn take(&mut self, command: &Reverse) -> Result<(), Failure> {
         let design = &mut self.design;
-        design.axis = command.axis.or(design.axis);
+        if command.axis.is_some() || command.axis_box.is_some() {
+            (design.axis, design.axis_box) = (command.axis, command.axis_box);
+        }
         if let Some(bend) = command.bend {
             design.bend = bend.to_radians();
         }
@@ -133,17 +147,6 @@ impl Asked {
             return Err(Failure::Usage(words.into()));
         }
         Ok(())
-    }
-
-    /// Bands of the points; none where the path is to be followed as it is and nothing else is wanted.
-    pub(super) fn bands(&self) -> Option<Vec<f64>> {
-        let path = &self.design.path;
-        let is_wished = !self.design.wishes.is_free() || self.design.aim.is_some();
-        match path.band {
-            Some(band) => Some(vec![band]),
-            None if !path.tolerance.is_empty() => Some(path.tolerance.clone()),
-            None => (path.open || is_wished).then(|| vec![0.0]),
-        }
     }
 
     /// Angle from the carrier's first leg to its second, degrees, as it was given.

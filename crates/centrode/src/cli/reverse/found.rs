@@ -1,78 +1,97 @@
 use std::ops::ControlFlow;
 
-use crate::analysis::optimise::{EasedPath, Easing, EasingError, EasingSpec};
-use crate::analysis::{Goal, Unit};
-use crate::geometry::Point;
-use crate::mechanism::reverse::{Aim, AxisMap, AxisRange, KeyPose, KeyPoses, TwoBar, WantedPath};
+use crate::analysis::optimise::{EasedPath, Easing, EasingError, EasingSpec, axis_at_border};
+use crate::analysis::{Finding, Goal, Unit};
+use crate::geometry::{Bounds, Point};
+use crate::mechanism::reverse::{
+    Aim, AxisFault, AxisMap, KeyPose, KeyPoses, PathDesign, PathError, PoseError, TwoBar,
+    WantedPath,
+};
 
-use crate::cli::args::Reverse;
-use crate::cli::failure::Failure;
-use crate::cli::input::Source;
-use crate::cli::progress::Progress;
+use super::words::{self, Told};
 
-use super::asked::Asked;
-use super::words;
-
-/// Carrier and arm that were found.
-pub(super) struct Found {
-    pub(super) chain: TwoBar,
+/// Carrier and arm that were found, for the command and the page.
+pub(crate) struct Found {
+    pub(crate) chain: TwoBar,
     /// Why this axis.
-    pub(super) why: String,
-    /// Axes tried for a path.
-    pub(super) map: Option<AxisMap>,
+    pub(crate) why: String,
+    /// Axes tried for a path that is followed as it is.
+    pub(crate) map: Option<AxisMap>,
     /// Further lines to tell: names and words.
-    pub(super) told: Vec<(String, String)>,
+    pub(crate) told: Vec<Told>,
+    /// Further wishes, and how far they are reached.
+    pub(crate) goals: Vec<Goal>,
+    pub(crate) findings: Vec<Finding>,
     /// Whether what was wanted is reached.
-    pub(super) is_reached: bool,
+    pub(crate) is_reached: bool,
+}
+
+/// Reason why nothing is found for a path.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum NotFound {
+    #[error(transparent)]
+    Path(PathError),
+    #[error(transparent)]
+    Crossing(PathError),
+    #[error("{fault}")]
+    Axis { at: [f64; 2], fault: AxisFault },
+    #[error("{} ({faults})", EasingError::NoAxis { tried: *tried })]
+    NoAxis { tried: usize, faults: String },
+    #[error(transparent)]
+    Easing(EasingError),
 }
 
 impl Found {
-    pub(super) fn by_path(
-        command: &Reverse,
-        asked: &Asked,
-        progress: &Progress,
-    ) -> Result<Self, Failure> {
-        let drawing = asked.drawing.iter();
-        let mut told: Vec<(String, String)> = drawing
-            .map(|words| ("path".to_owned(), words.clone()))
-            .collect();
-        let Some(bands) = asked.bands() else {
-            let path = WantedPath::through(&asked.points);
-            let path = path.map_err(|error| asked.source.refused(&error))?;
-            check_crossing(asked, &path)?;
-            progress.step("trying axes");
-            return Self::as_given(asked, &path, told);
-        };
-        progress.step("easing the path");
-        let design = &asked.design;
+    /// Seeks the machine of a design whose points are these; `observe` hears of evaluations and may end the search, whose best is
+    /// then taken.
+    pub(crate) fn by_path(
+        design: &PathDesign,
+        points: &[Point],
+        observe: &mut dyn FnMut(u64) -> ControlFlow<()>,
+    ) -> Result<Self, NotFound> {
+        match design.bands() {
+            Some(bands) => Self::eased(design, points, &bands, observe),
+            None => {
+                let path = WantedPath::through(points).map_err(NotFound::Path)?;
+                check_crossing(design, &path)?;
+                Self::as_given(design, &path)
+            }
+        }
+    }
+
+    fn eased(
+        design: &PathDesign,
+        points: &[Point],
+        bands: &[f64],
+        observe: &mut dyn FnMut(u64) -> ControlFlow<()>,
+    ) -> Result<Self, NotFound> {
         let axis = design.axis.map(Point::from);
+        let path = WantedPath::through(points).ok();
+        let axes = path.filter(|_| design.axis_box.is_some());
         let spec = EasingSpec {
             axis,
+            axes: axes.map(|path| design.axes(&path)),
             aim: design.aim.unwrap_or_default(),
             wishes: design.wishes.clone(),
-            ..EasingSpec::new(&bands, design.bend)
+            ..EasingSpec::new(bands, design.bend)
         };
         let easing = match design.path.open {
-            true => Easing::with_free_return(&asked.points, &spec),
-            false => Easing::new(&asked.points, &spec),
+            true => Easing::with_free_return(points, &spec),
+            false => Easing::new(points, &spec),
         };
         let module = design.path.module;
-        let eased =
-            easing.and_then(|easing| easing.search(module, &mut |_| ControlFlow::Continue(())));
-        let eased = eased.map_err(|error| refused(command, asked, error))?;
-        check_crossing(asked, eased.chain.path())?;
+        let eased = easing.and_then(|easing| easing.search(module, observe));
+        let eased = eased.map_err(|error| match (error, design.axis) {
+            (EasingError::Axis(fault), Some(at)) => NotFound::Axis { at, fault },
+            (error, _) => NotFound::Easing(error),
+        })?;
+        check_crossing(design, eased.chain.path())?;
         let reached = eased.module.1;
         let is_module = module.is_none_or(|module| reached >= module);
         let is_all = eased.goals.iter().all(|goal| goal.met() != Some(false));
-        told.extend(eased_words(
-            &eased,
-            module,
-            bands.iter().any(|band| *band > 0.0),
-        ));
-        if let Some(clamp) = eased.clamp {
-            told.push(words::clamp(clamp));
-        }
-        told.extend(eased.goals.iter().map(goal_words));
+        let is_moved = bands.iter().any(|band| *band > 0.0);
+        let mut told = eased_words(&eased, module, is_moved);
+        told.extend(eased.clamp.map(words::clamp));
         Ok(Self {
             why: match (axis, design.aim.unwrap_or_default()) {
                 (Some(_), _) => "as asked",
@@ -84,42 +103,48 @@ impl Found {
             chain: eased.chain,
             map: None,
             told,
+            goals: eased.goals,
+            findings: eased.findings,
             is_reached: is_module && is_all,
         })
     }
 
     /// The machine of a path as it is wanted.
-    fn as_given(
-        asked: &Asked,
-        path: &WantedPath,
-        told: Vec<(String, String)>,
-    ) -> Result<Self, Failure> {
-        let map = AxisMap::new(path, AxisRange::about(path));
-        let (chain, why) = match asked.design.axis {
-            Some([x, y]) => {
-                let chain = TwoBar::new(path, Point::new(x, y), None);
-                let chain =
-                    chain.map_err(|fault| Failure::Usage(format!("--axis {x},{y}: {fault}")))?;
-                (chain, "as asked")
-            }
-            None => {
-                let chain = map.mildest(path).ok_or_else(|| none_possible(&map))?;
-                (chain, "the mildest found")
-            }
+    fn as_given(design: &PathDesign, path: &WantedPath) -> Result<Self, NotFound> {
+        let Some(at) = design.axis else {
+            return Self::mildest(design, path);
         };
+        let chain = TwoBar::new(path, at.into(), None);
         Ok(Self {
-            chain,
-            why: why.into(),
-            map: Some(map),
-            told,
+            chain: chain.map_err(|fault| NotFound::Axis { at, fault })?,
+            why: "as asked".into(),
+            map: None,
+            told: Vec::new(),
+            goals: Vec::new(),
+            findings: Vec::new(),
             is_reached: true,
         })
     }
 
-    pub(super) fn by_poses(source: &Source, progress: &Progress) -> Result<Self, Failure> {
-        progress.step("trying places of the arm's axis");
-        let poses = KeyPose::from_csv(source.bytes()).map_err(|error| source.refused(&error))?;
-        let found = KeyPoses::new(&poses).map_err(|error| source.refused(&error))?;
+    fn mildest(design: &PathDesign, path: &WantedPath) -> Result<Self, NotFound> {
+        let range = design.axes(path);
+        let map = AxisMap::new(path, range);
+        let chain = map.mildest(path).ok_or_else(|| none_possible(&map))?;
+        let [low, high] = [0, 1].map(|end| Point::new(range.x[end], range.y[end]));
+        let room: Bounds = [low, high].into_iter().collect();
+        Ok(Self {
+            findings: axis_at_border(chain.axis(), &room).into_iter().collect(),
+            chain,
+            why: "the mildest found".into(),
+            map: Some(map),
+            told: Vec::new(),
+            goals: Vec::new(),
+            is_reached: true,
+        })
+    }
+
+    pub(crate) fn by_poses(poses: &[KeyPose]) -> Result<Self, PoseError> {
+        let found = KeyPoses::new(poses)?;
         Ok(Self {
             told: words::poses(found.clamp, &found.misses),
             chain: found.chain,
@@ -128,59 +153,23 @@ impl Found {
                 found.possible
             ),
             map: None,
+            goals: Vec::new(),
+            findings: Vec::new(),
             is_reached: true,
         })
     }
 }
 
 /// Checks that a path does not cross itself, unless that is allowed.
-fn check_crossing(asked: &Asked, path: &WantedPath) -> Result<(), Failure> {
-    if asked.design.path.crossing {
-        return Ok(());
+fn check_crossing(design: &PathDesign, path: &WantedPath) -> Result<(), NotFound> {
+    match design.path.crossing {
+        true => Ok(()),
+        false => path.check_simple().map_err(NotFound::Crossing),
     }
-    path.check_simple().map_err(|error| {
-        let name = asked.source.name();
-        Failure::Usage(format!(
-            "{name}: {error} With --crossing such a path is taken."
-        ))
-    })
-}
-
-fn refused(command: &Reverse, asked: &Asked, error: EasingError) -> Failure {
-    match (error, asked.design.axis) {
-        (EasingError::Axis(fault), Some([x, y])) => {
-            Failure::Usage(format!("--axis {x},{y}: {fault}"))
-        }
-        (EasingError::Module { .. }, _) => {
-            let module = command.module.unwrap_or_default();
-            Failure::Usage(format!(
-                "--module is greater than zero, in mm, not {module}"
-            ))
-        }
-        (error, _) => asked.source.refused(&error),
-    }
-}
-
-/// Line on a goal: its figure, what was wanted, and by how much it is missed.
-fn goal_words(goal: &Goal) -> (String, String) {
-    let tell = |x: f64| goal.unit.tell(x);
-    let value = goal.value.map_or_else(String::new, tell);
-    let wanted = match goal.wanted {
-        [Some(least), Some(most)] => format!("{} to {}", tell(least), tell(most)),
-        [Some(least), None] => format!("at least {}", tell(least)),
-        [None, Some(most)] => format!("at most {}", tell(most)),
-        [None, None] => String::new(),
-    };
-    let missed = match goal.margin {
-        Some(margin) if margin < 0.0 => format!(", missed by {}", tell(-margin)),
-        _ => String::new(),
-    };
-    let words = format!("{} {value}, wanted {wanted}{missed}", goal.title);
-    (format!("goal {}", goal.number), words)
 }
 
 /// Lines on how far a path was eased, and what full teeth it bears.
-fn eased_words(eased: &EasedPath, module: Option<f64>, is_moved: bool) -> Vec<(String, String)> {
+fn eased_words(eased: &EasedPath, module: Option<f64>, is_moved: bool) -> Vec<Told> {
     let mm = |x: f64| Unit::Millimetre.tell(x);
     let moved = eased.moved.iter().enumerate();
     let (most, far) = moved.fold((0, 0.0), |most, (i, &moved)| match moved > most.1 {
@@ -218,7 +207,7 @@ fn eased_words(eased: &EasedPath, module: Option<f64>, is_moved: bool) -> Vec<(S
     told
 }
 
-fn none_possible(map: &AxisMap) -> Failure {
+fn none_possible(map: &AxisMap) -> NotFound {
     let faults = map.found().iter().filter_map(|found| found.as_ref().err());
     let mut counts: Vec<(&str, usize)> = Vec::new();
     for fault in faults {
@@ -227,11 +216,9 @@ fn none_possible(map: &AxisMap) -> Failure {
             None => counts.push((fault.name(), 1)),
         }
     }
-    let words: Vec<String> = counts
-        .iter()
-        .map(|(name, count)| format!("{name} {count}"))
-        .collect();
-    let tried = map.found().len();
-    let none = EasingError::NoAxis { tried };
-    Failure::Usage(format!("{none} ({})", words.join(", ")))
+    let words = counts.iter().map(|(name, count)| format!("{name} {count}"));
+    NotFound::NoAxis {
+        tried: map.found().len(),
+        faults: words.collect::<Vec<_>>().join(", "),
+    }
 }

@@ -1,6 +1,7 @@
 //! Words on a machine made from a path, for the command and the page.
 
-use crate::analysis::Unit;
+use crate::analysis::{Finding, Goal, SoundTeeth, Unit};
+use crate::mechanism::gear::design::Addendum;
 use crate::mechanism::reverse::{ReversedMachine, TwoBar};
 use crate::mechanism::three_arm::design::Direction;
 
@@ -71,4 +72,51 @@ pub(crate) fn poses(angle: f64, misses: &[[f64; 2]]) -> Vec<Told> {
     };
     let poses = misses.iter().enumerate().map(pose);
     std::iter::once(clamp(angle)).chain(poses).collect()
+}
+
+/// Line on a goal: its figure, what was wanted, and by how much it is missed.
+pub(crate) fn goal(goal: &Goal) -> Told {
+    let tell = |x: f64| goal.unit.tell(x);
+    let value = goal.value.map_or_else(String::new, tell);
+    let wanted = match goal.wanted {
+        [Some(least), Some(most)] => format!("{} to {}", tell(least), tell(most)),
+        [Some(least), None] => format!("at least {}", tell(least)),
+        [None, Some(most)] => format!("at most {}", tell(most)),
+        [None, None] => String::new(),
+    };
+    let missed = match goal.margin {
+        Some(margin) if margin < 0.0 => format!(", missed by {}", tell(-margin)),
+        _ => String::new(),
+    };
+    let words = format!("{} {value}, wanted {wanted}{missed}", goal.title);
+    (format!("goal {}", goal.number), words)
+}
+
+/// Line on a finding.
+pub(crate) fn finding(finding: &Finding) -> Told {
+    let remedy = finding
+        .remedy
+        .map_or_else(String::new, |remedy| format!("; what helps: {remedy}"));
+    (
+        finding.rule.to_owned(),
+        format!("{}{remedy}", finding.message),
+    )
+}
+
+/// Line on the teeth of a pair.
+pub(crate) fn teeth(teeth: &SoundTeeth) -> Told {
+    let mm = |x: f64| Unit::Millimetre.tell(x);
+    let (kind, full) = match teeth.addendum {
+        Addendum::Full => ("full", String::new()),
+        Addendum::Fitted => {
+            let words = format!("; full ones are undercut above {}", mm(teeth.full_module));
+            ("fitted", words)
+        }
+    };
+    let words = format!(
+        "{} {kind} teeth, module {}{full}",
+        teeth.tooth_count,
+        mm(teeth.module)
+    );
+    (format!("teeth of {}", teeth.pair), words)
 }

@@ -267,7 +267,14 @@ pub(crate) async fn apart<T: Send + 'static>(
 }
 
 /// Guard that cancels when it is dropped: nobody waits for the answer any more.
-struct Wait(Cancel);
+#[derive(Default)]
+pub(crate) struct Wait(Cancel);
+
+impl Wait {
+    pub(crate) fn cancel(&self) -> Cancel {
+        self.0.clone()
+    }
+}
 
 impl Drop for Wait {
     fn drop(&mut self) {
@@ -279,8 +286,8 @@ impl Drop for Wait {
 pub(crate) async fn computed<T: Send + 'static>(
     job: impl FnOnce() -> T + Send + 'static,
 ) -> Result<T, Refused> {
-    let wait = Wait(Cancel::default());
-    let cancel = wait.0.clone();
+    let wait = Wait::default();
+    let cancel = wait.cancel();
     let done = apart(move || cancel.run(job)).await?;
     done.map_err(|cancelled| Refused::because(StatusCode::INTERNAL_SERVER_ERROR, cancelled))
 }

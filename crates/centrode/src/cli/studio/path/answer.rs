@@ -1,15 +1,19 @@
+use std::ops::ControlFlow;
+
 use serde::Serialize;
 
 use super::drawing::{self, Drawing, mark};
-use super::sought::Sought;
-use super::wish::{Choices, Wish};
-use crate::analysis::Unit;
+use super::sought::Kept;
+use super::wish::{Wish, points};
+use crate::analysis::optimise::reached;
+use crate::analysis::{Goal, Unit};
+use crate::cli::reverse::words::Told;
 use crate::cli::reverse::{sharpest, words};
 use crate::export::page::{Curve, Mark, Picture};
 use crate::geometry::Point;
 use crate::mechanism::gear::Limits;
 use crate::mechanism::reverse::{
-    AxisFault, PathError, ReversedMachine, Split, SplitKind, TwoBar, WantedPath,
+    AxisFault, PathDesign, PathError, ReversedMachine, Split, SplitKind, TwoBar, WantedPath,
 };
 
 /// Machine of a path and an axis, for the page.
@@ -19,7 +23,29 @@ pub(super) struct Answer {
     picture: Picture,
     curves: Vec<Curve>,
     figures: Vec<Figure>,
+    /// Further wishes, and how far they are reached.
+    goals: Vec<GoalAnswer>,
+    /// Findings: names of rules and words.
+    findings: Vec<Told>,
     fault: Option<Fault>,
+}
+
+/// A further wish, in the words of `centrode reverse`.
+#[derive(Debug, Serialize)]
+pub(super) struct GoalAnswer {
+    name: String,
+    words: String,
+    met: bool,
+}
+
+/// Wishes in words.
+pub(super) fn goals(goals: &[Goal]) -> Vec<GoalAnswer> {
+    let answer = |goal: &Goal| GoalAnswer {
+        name: goal.name.to_string(),
+        words: words::goal(goal).1,
+        met: goal.met() != Some(false),
+    };
+    goals.iter().map(answer).collect()
 }
 
 /// A figure in the words of `centrode reverse`.
@@ -32,64 +58,82 @@ struct Figure {
 /// Reason why there is no machine.
 #[derive(Debug, Serialize)]
 struct Fault {
-    /// Input to blame: `path`, `axis` or `split`.
+    /// Input to blame: `path`, `axis`, `split`, or `wish` for a key of the design.
     of: &'static str,
     message: String,
 }
 
 impl Answer {
     pub(super) fn new(ask: &Wish) -> Self {
-        let wanted = match ask.path() {
-            Ok(wanted) => wanted,
-            Err(error) => return Self::no_path(ask, &error),
+        let design = match ask.design() {
+            Ok(design) => design,
+            Err(reason) => return Self::without(Picture::default(), "wish", reason),
         };
-        if let Err(error) = wanted.check_simple() {
+        let passed = points(&design);
+        let wanted = match WantedPath::through(&passed) {
+            Ok(wanted) => wanted,
+            Err(error) => return Self::no_path(&passed, &error),
+        };
+        if let (false, Err(error)) = (design.path.crossing, wanted.check_simple()) {
             return Self::crossing(&wanted, &error);
         }
-        let chain = match TwoBar::new(&wanted, ask.axis(), None) {
+        let Some(axis) = design.axis else {
+            let words = "the axis is missing".to_owned();
+            return Self::without(drawing::path(&wanted, Vec::new()), "axis", words);
+        };
+        let chain = match TwoBar::new(&wanted, axis.into(), None) {
             Ok(chain) => chain,
             Err(fault) => {
                 let picture = drawing::path(&wanted, places(&fault));
                 return Self::without(picture, "axis", fault.to_string());
             }
         };
-        let answer = Self::of_chain(&ask.choices, &chain, ask.rest);
+        let answer = Self::of_chain(&design, &chain, ask.rest);
         let mut answer = answer.unwrap_or_else(|reason| {
             let mut answer = Self::without(drawing::path(&wanted, Vec::new()), "split", reason);
             answer.figures = figures(&chain, None);
             answer
         });
+        // The machine as it is drawn; what is sought may reach more.
+        let count = passed.len() - usize::from(passed.first() == passed.last());
+        answer.goals = goals(&reached(&design.wishes, &chain, design.bend, count));
         if ask.others {
-            answer.figures.extend(others(&ask.choices, &chain));
+            answer.figures.extend(others(&design, &chain));
         }
         answer
     }
 
     /// The machine that is sought.
-    pub(super) fn found(ask: &Sought) -> Result<Self, String> {
-        let found = ask.found()?;
-        let mut answer = Self::of_chain(ask.choices(), &found.chain, true)?;
-        let told = found.told.into_iter();
+    pub(super) fn found(
+        ask: &Wish,
+        kept: &Kept,
+        observe: &mut dyn FnMut(u64) -> ControlFlow<()>,
+    ) -> Result<Self, String> {
+        let design = ask.design()?;
+        let found = kept.found(ask, observe)?;
+        let mut answer = Self::of_chain(&design, &found.chain, true)?;
+        let told = found.told.iter();
         answer
             .figures
-            .extend(told.map(|(name, words)| figure(&name, words)));
+            .extend(told.map(|(name, words)| figure(name, words.clone())));
+        answer.goals = goals(&found.goals);
+        answer.findings = found.findings.iter().map(words::finding).collect();
         Ok(answer)
     }
 
-    fn of_chain(choices: &Choices, chain: &TwoBar, rest: bool) -> Result<Self, String> {
-        choices.check_arms()?;
-        let (bend, arms) = (choices.bend(), choices.arms);
-        let split = Split::new(chain, choices.kind()?, bend).map_err(|error| error.to_string())?;
+    fn of_chain(design: &PathDesign, chain: &TwoBar, rest: bool) -> Result<Self, String> {
+        let (bend, arms) = (design.bend, design.arms);
+        let split = Split::new(chain, design.split, bend).map_err(|error| error.to_string())?;
         let drawn = Drawing::new(chain, &split, arms).map_err(|error| error.to_string())?;
         let mut figures = figures(chain, Some(bend));
         if rest {
-            figures.extend(rested(chain, &split, arms)?);
+            figures.extend(rested(chain, &split, design)?);
         }
         Ok(Self {
             picture: drawn.picture(),
             curves: drawn.curves(),
             figures,
-            fault: None,
+            ..Self::default()
         })
     }
 
@@ -101,12 +145,12 @@ impl Answer {
         }
     }
 
-    fn no_path(ask: &Wish, error: &PathError) -> Self {
+    fn no_path(points: &[Point], error: &PathError) -> Self {
         let mut marks = Vec::new();
         if let PathError::Twice { x, y, .. } = error {
             marks.push(mark("twice", Point::new(*x, *y)));
         }
-        let picture = drawing::polygon(&ask.points, marks);
+        let picture = drawing::polygon(points, marks);
         Self::without(picture, "path", error.to_string())
     }
 
@@ -153,8 +197,9 @@ fn figures(chain: &TwoBar, bend: Option<f64>) -> Vec<Figure> {
 }
 
 /// Figures that take longer: of the pitch curves as they are written.
-fn rested(chain: &TwoBar, split: &Split, arms: u32) -> Result<Vec<Figure>, String> {
-    let made = ReversedMachine::new(chain, split, arms, None).map_err(|error| error.to_string())?;
+fn rested(chain: &TwoBar, split: &Split, design: &PathDesign) -> Result<Vec<Figure>, String> {
+    let made = ReversedMachine::new(chain, split, design.arms, design.steps);
+    let made = made.map_err(|error| error.to_string())?;
     let pairs = made.design.pairs.keys().zip(&made.least_radii);
     let pairs = pairs.map(|(name, radii)| words::least_radii(name, *radii));
     let mut found: Vec<Figure> = pairs.map(|(name, words)| figure(&name, words)).collect();
@@ -170,12 +215,12 @@ fn rested(chain: &TwoBar, split: &Split, arms: u32) -> Result<Vec<Figure>, Strin
 }
 
 /// Figures of the splits that were not chosen.
-fn others(choices: &Choices, chain: &TwoBar) -> Vec<Figure> {
+fn others(design: &PathDesign, chain: &TwoBar) -> Vec<Figure> {
     let kinds = SplitKind::NAMES.into_iter();
-    let kinds = kinds.filter(|(_, kind)| choices.kind() != Ok(*kind));
+    let kinds = kinds.filter(|(_, kind)| design.split != *kind);
     kinds
         .map(|(name, kind)| {
-            let words = match Split::new(chain, kind, choices.bend()) {
+            let words = match Split::new(chain, kind, design.bend) {
                 Ok(split) => sharpest(chain, &split),
                 Err(error) => error.to_string(),
             };

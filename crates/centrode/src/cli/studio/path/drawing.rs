@@ -1,7 +1,6 @@
 use std::f64::consts::{PI, TAU};
 
 use super::stages::{STEPS, Stage};
-use super::wish;
 use crate::export::page::{Curve, Mark, Motion, Path, Picture, PictureLink};
 use crate::geometry::{Bounds, Point, Vector};
 use crate::mechanism::machine::LineRole;
@@ -28,11 +27,10 @@ pub(super) fn path(wanted: &WantedPath, marks: Vec<Mark>) -> Picture {
 }
 
 /// A polygon through points that are no path, with places on it.
-pub(super) fn polygon(points: &[[f64; 2]], marks: Vec<Mark>) -> Picture {
-    let points = wish::points(points);
+pub(super) fn polygon(points: &[Point], marks: Vec<Mark>) -> Picture {
     let bounds: Bounds = points.iter().copied().collect();
     let [x, y] = [[bounds.min.x, bounds.max.x], [bounds.min.y, bounds.max.y]];
-    still(&points, LineRole::Beside, [x, y], marks)
+    still(points, LineRole::Beside, [x, y], marks)
 }
 
 fn still(points: &[Point], role: LineRole, [x, y]: [[f64; 2]; 2], marks: Vec<Mark>) -> Picture {

@@ -1,83 +1,64 @@
-use serde::{Deserialize, Serialize};
+use std::ops::ControlFlow;
 
-use super::sought::{Found, Sought, moved, searched};
-use super::wish::{Wish, points};
-use crate::analysis::optimise::{Easing, EasingSpec};
-use crate::analysis::{NoSoundTeeth, SoundTeeth, Unit, with_sound_teeth};
-use crate::mechanism::design::Design as _;
-use crate::mechanism::gear::design::Addendum;
-use crate::mechanism::reverse::{ReversedMachine, Split, TwoBar};
+use serde::Serialize;
 
-/// Request of a machine: of a wish, or of one whose machine is sought.
-#[derive(Debug, Deserialize)]
-#[serde(untagged)]
-pub(super) enum Ask {
-    Sought(Sought),
-    Path {
-        #[serde(flatten)]
-        wish: Wish,
-        /// Distance within which the path may pass its points, mm.
-        band: Option<f64>,
-    },
-}
+use super::answer::{GoalAnswer, goals};
+use super::sought::Kept;
+use super::wish::Wish;
+use crate::analysis::{NoSoundTeeth, Unit};
+use crate::cli::reverse::made::{Toothed, rolled};
+use crate::cli::reverse::words::{self, Told};
+use crate::mechanism::reverse::Split;
 
-/// A design with sound teeth.
+/// A design with sound teeth, or what was found without such.
 #[derive(Debug, Serialize)]
 pub(super) struct Machine {
     /// The design file.
-    text: String,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    text: Option<String>,
+    /// Reason why there are no sound teeth.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    refused: Option<String>,
     /// Names and words of what was found.
-    told: Vec<(String, String)>,
+    told: Vec<Told>,
+    /// Further wishes, and how far they are reached.
+    goals: Vec<GoalAnswer>,
+    /// Findings: names of rules and words.
+    findings: Vec<Told>,
 }
 
 /// Makes the design that `centrode reverse -o` writes.
-pub(super) fn machine(ask: &Ask) -> Result<Machine, String> {
-    let (found, choices) = match ask {
-        Ask::Sought(sought) => (sought.found()?, sought.choices()),
-        Ask::Path { wish, band } => (found(wish, *band)?, &wish.choices),
-    };
-    let Found { chain, mut told } = found;
-    choices.check_arms()?;
-    let split = Split::new(&chain, choices.kind()?, choices.bend());
+pub(super) fn machine(
+    wish: &Wish,
+    kept: &Kept,
+    observe: &mut dyn FnMut(u64) -> ControlFlow<()>,
+) -> Result<Machine, String> {
+    let design = wish.design()?;
+    let found = kept.found(wish, observe)?;
+    let split = Split::new(&found.chain, design.split, design.bend);
     let split = split.map_err(|error| error.to_string())?;
-    let made = ReversedMachine::new(&chain, &split, choices.arms, None);
-    let made = made.map_err(|error| error.to_string())?;
-    let toothed = with_sound_teeth(&made.design, |_| true);
-    let (design, teeth) = toothed.map_err(|error| without_teeth(&error))?;
-    told.extend(teeth.iter().map(line));
-    let text = design.to_toml().map_err(|error| error.to_string())?;
-    Ok(Machine { text, told })
-}
-
-/// The chain of a path as it is wished for, or within a band that whose gears are the bluntest.
-fn found(wish: &Wish, band: Option<f64>) -> Result<Found, String> {
-    if let Some(band) = band {
-        let spec = EasingSpec {
-            axis: Some(wish.axis()),
-            ..EasingSpec::new(&[band], wish.choices.bend())
-        };
-        let eased = searched(Easing::new(&points(&wish.points), &spec))?;
-        let told = vec![moved(&eased)];
-        let chain = eased.chain;
-        return Ok(Found { chain, told });
-    }
-    let wanted = wish.path().map_err(|error| error.to_string())?;
-    wanted.check_simple().map_err(|error| error.to_string())?;
-    let chain = TwoBar::new(&wanted, wish.axis(), None).map_err(|fault| fault.to_string())?;
-    let told = Vec::new();
-    Ok(Found { chain, told })
-}
-
-fn line(teeth: &SoundTeeth) -> (String, String) {
-    let kind = match teeth.addendum {
-        Addendum::Full => "full",
-        Addendum::Fitted => "fitted",
+    let made = rolled(&design, &found.chain, &split).map_err(|error| error.to_string())?;
+    // What was found is told even where there are no teeth.
+    let (toothed, refused) = match Toothed::new(&made) {
+        Ok(toothed) => (Some(toothed), None),
+        Err(error) => (None, Some(without_teeth(&error))),
     };
-    let module = Unit::Millimetre.tell(teeth.module);
-    (
-        format!("teeth of {}", teeth.pair),
-        format!("{} {kind} teeth, module {module}", teeth.tooth_count),
-    )
+    let text = toothed.as_ref().map(|toothed| toothed.design.to_toml());
+    let teeth = toothed.iter().flat_map(|toothed| &toothed.teeth);
+    let collisions = toothed.iter().flat_map(|toothed| &toothed.findings);
+    let findings = found.findings.iter().chain(collisions);
+    Ok(Machine {
+        text: text.transpose().map_err(|error| error.to_string())?,
+        refused,
+        told: found
+            .told
+            .iter()
+            .cloned()
+            .chain(teeth.map(words::teeth))
+            .collect(),
+        goals: goals(&found.goals),
+        findings: findings.map(words::finding).collect(),
+    })
 }
 
 /// The reason with what can be done on the page.

@@ -7,8 +7,10 @@ mod made;
 mod opened;
 mod sought;
 mod stages;
+mod stream;
 mod wish;
 
+use axum::extract::State;
 use axum::response::{Html, IntoResponse as _, Response};
 use axum::routing::{get, post};
 use axum::{Json, Router};
@@ -16,6 +18,10 @@ use serde::Serialize;
 
 use super::routes::{Refused, computed};
 use crate::export::page;
+use crate::mechanism::design::Design as _;
+use sought::Kept;
+use stream::streamed;
+use wish::Wish;
 
 /// Every address of the page, below that of the start page.
 pub(crate) fn routes<S: Clone + Send + Sync + 'static>() -> Router<S> {
@@ -27,16 +33,18 @@ pub(crate) fn routes<S: Clone + Send + Sync + 'static>() -> Router<S> {
         .route("/path/axis", post(axis))
         .route("/path/open", post(open))
         .route("/path/machine", post(machine))
+        .route("/path/design", post(design))
+        .with_state(Kept::default())
 }
 
 /// Machine of a path and an axis, or why there is none.
-async fn solve(Json(ask): Json<wish::Wish>) -> Result<Response, Refused> {
+async fn solve(Json(ask): Json<Wish>) -> Result<Response, Refused> {
     answered(move || answer::Answer::new(&ask)).await
 }
 
-/// Machine of key poses, or of the working part of a path.
-async fn find(Json(ask): Json<sought::Sought>) -> Result<Response, Refused> {
-    answered(move || told(answer::Answer::found(&ask))).await
+/// Machine that is sought: of key poses, of the working part of a path, or of a path with more wishes.
+async fn find(State(kept): State<Kept>, Json(ask): Json<Wish>) -> Response {
+    streamed(move |observe| answer::Answer::found(&ask, &kept, observe))
 }
 
 /// Possible axes about a path.
@@ -49,14 +57,23 @@ async fn axis(Json(ask): Json<field::Best>) -> Result<Response, Refused> {
     answered(move || told(field::best(&ask))).await
 }
 
-/// Points of a file.
+/// Points of a file, or all that it wants.
 async fn open(Json(ask): Json<super::routes::Text>) -> Result<Response, Refused> {
-    answered(move || told(opened::points(&ask.text))).await
+    answered(move || told(opened::opened(&ask.text))).await
 }
 
 /// Design of the machine, with sound teeth.
-async fn machine(Json(ask): Json<made::Ask>) -> Result<Response, Refused> {
-    answered(move || told(made::machine(&ask))).await
+async fn machine(State(kept): State<Kept>, Json(ask): Json<Wish>) -> Response {
+    streamed(move |observe| made::machine(&ask, &kept, observe))
+}
+
+/// A wish as a design file that `centrode reverse` reads.
+async fn design(Json(ask): Json<Wish>) -> Result<Response, Refused> {
+    answered(move || {
+        let text = ask.design().map(|design| design.to_toml());
+        told(text.and_then(|text| text.map_err(|error| error.message())))
+    })
+    .await
 }
 
 /// Computes an answer for as long as somebody waits for it.

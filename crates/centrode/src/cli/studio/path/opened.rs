@@ -2,22 +2,56 @@ use serde::Serialize;
 
 use crate::analysis::Unit;
 use crate::cli::reverse::asked::{WITHIN, drawn};
-use crate::mechanism::reverse::WantedPoints;
+use crate::mechanism::design::DesignSpec as _;
+use crate::mechanism::reverse::{PathDesign, WantedPoints, Wishes};
 
 /// Most points that the page shows, each with a row and a handle.
 const MOST: usize = 200;
 
-/// Points of a file, for the page.
+/// Contents of a file, for the page.
 #[derive(Debug, Serialize)]
-pub(super) struct Points {
-    points: Vec<[f64; 2]>,
-    /// How they were found.
+pub(super) struct Opened {
+    /// The design, or what of it a file of points holds.
+    design: PathDesign,
+    /// Whether it is a design file: all of it holds, and not its points alone.
+    whole: bool,
+    /// How it was found.
     note: String,
 }
 
-/// Reads the points of a CSV file, or lays points along the one path of an SVG file.
-pub(super) fn points(text: &str) -> Result<Points, String> {
+/// Reads a design of family path or the points of a CSV file, or lays points along the one path of an SVG file.
+pub(super) fn opened(text: &str) -> Result<Opened, String> {
+    let opened = read(text)?;
+    let count = opened.design.path.points.len();
+    match count > MOST {
+        true => Err(format!(
+            "the path has {count} points; the page shows up to {MOST}: take fewer, or use centrode reverse"
+        )),
+        false => Ok(opened),
+    }
+}
+
+fn read(text: &str) -> Result<Opened, String> {
     let bytes = text.as_bytes();
+    let has_family = |line: &str| line.trim_start().starts_with("family") && line.contains('=');
+    if text.lines().any(has_family) {
+        let design = PathDesign::from_toml(text).map_err(|error| error.to_string())?;
+        if let Some(file) = &design.path.file {
+            return Err(format!(
+                "its points are in another file, {file}: open that, or write them at path.points"
+            ));
+        }
+        let note = format!(
+            "{} points, with all that is wanted",
+            design.path.points.len()
+        );
+        return Ok(Opened {
+            design,
+            whole: true,
+            note,
+        });
+    }
+    let mut design = PathDesign::default();
     let drawn = drawn(bytes, WITHIN).map_err(|error| error.to_string())?;
     let (points, note) = if let Some(drawn) = drawn {
         let off = Unit::Millimetre.tell(drawn.deviation.value);
@@ -26,15 +60,26 @@ pub(super) fn points(text: &str) -> Result<Points, String> {
         (drawn.points, note)
     } else {
         let read = WantedPoints::from_csv(bytes).map_err(|error| error.to_string())?;
-        let note = format!("{} points", read.points.len());
+        let mut note = format!("{} points", read.points.len());
+        if read.tolerances.is_some() {
+            note += ", each with a tolerance";
+        }
+        match read.directions.len() {
+            0 => {}
+            1 => note += ", 1 direction",
+            count => note += &format!(", {count} directions"),
+        }
+        design.path.tolerance = read.tolerances.unwrap_or_default();
+        design.wishes = Wishes {
+            directions: read.directions,
+            ..Wishes::default()
+        };
         (read.points, note)
     };
-    let count = points.len();
-    if count > MOST {
-        return Err(format!(
-            "the path has {count} points; the page shows up to {MOST}: take fewer, or use centrode reverse"
-        ));
-    }
-    let points = points.iter().map(|p| [p.x, p.y]).collect();
-    Ok(Points { points, note })
+    design.path.points = points.iter().map(|p| [p.x, p.y]).collect();
+    Ok(Opened {
+        design,
+        whole: false,
+        note,
+    })
 }

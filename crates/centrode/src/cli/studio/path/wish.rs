@@ -1,20 +1,17 @@
 use serde::Deserialize;
 
 use crate::geometry::Point;
-use crate::mechanism::reverse::{MachineError, PathError, SplitKind, WantedPath};
+use crate::mechanism::design::{Design as _, DesignSpec as _};
+use crate::mechanism::reverse::{KeyPose, PathDesign, PathError, WantedPath};
 
-/// Most arms of a machine.
-const MOST_ARMS: u32 = 12;
-
-/// Path, axis and choices of the page.
+/// Wish of the page: the design that `centrode reverse` reads, or key poses with its choices.
 #[derive(Clone, Debug, Deserialize)]
 pub(super) struct Wish {
-    /// Points of the path, mm.
-    pub(super) points: Vec<[f64; 2]>,
-    /// Axis of the carrier, mm.
-    pub(super) axis: [f64; 2],
-    #[serde(flatten)]
-    pub(super) choices: Choices,
+    /// The design; of key poses, its bend, split and arms count.
+    design: PathDesign,
+    /// Key poses in the place of a path: places of the tip, mm, and directions of the clamp, degrees.
+    #[serde(default)]
+    poses: Vec<[f64; 3]>,
     /// Whether the hand rests: what takes longer is told, too.
     #[serde(default)]
     pub(super) rest: bool,
@@ -23,52 +20,54 @@ pub(super) struct Wish {
     pub(super) others: bool,
 }
 
-/// Choices of the gears.
-#[derive(Clone, Debug, Deserialize)]
-pub(super) struct Choices {
-    bend_deg: f64,
-    pub(super) arms: u32,
-    /// Word of the split.
-    split: String,
-}
-
 impl Wish {
-    pub(super) fn path(&self) -> Result<WantedPath, PathError> {
-        path(&self.points)
+    /// The design as the command reads it from its file, or the key and the rule that it breaks.
+    pub(super) fn design(&self) -> Result<PathDesign, String> {
+        let mut design = self.design.clone();
+        if !self.poses.is_empty() {
+            design.path.points = self.poses.iter().map(|[x, y, _]| [*x, *y]).collect();
+        }
+        if let Some(file) = &design.path.file {
+            return Err(format!(
+                "path.file: the points are in {file}, which the page cannot read: open that file"
+            ));
+        }
+        // Points that make no path are told in the words of the path.
+        let text = design.to_toml().map_err(|error| error.message())?;
+        PathDesign::from_toml(&text).map_err(|error| error.message())
     }
 
-    pub(super) fn axis(&self) -> Point {
-        self.axis.into()
+    /// Key poses; none where a path is given.
+    pub(super) fn poses(&self) -> Option<Vec<KeyPose>> {
+        let pose = |[x, y, direction]: &[f64; 3]| KeyPose {
+            point: Point::new(*x, *y),
+            direction: direction.to_radians(),
+        };
+        (!self.poses.is_empty()).then(|| self.poses.iter().map(pose).collect())
+    }
+
+    /// Words by which the answer to one wish is known from that to another.
+    pub(super) fn key(&self) -> String {
+        let poses = &self.poses;
+        let text = self.design.to_toml();
+        text.map_or_else(|_| String::new(), |text| format!("{text}{poses:?}"))
     }
 }
 
-impl Choices {
-    /// Angle from the carrier's first leg to its second, rad.
-    pub(super) fn bend(&self) -> f64 {
-        self.bend_deg.to_radians()
-    }
-
-    /// Checks the number of arms before as many are drawn.
-    pub(super) fn check_arms(&self) -> Result<(), String> {
-        let (arms, greatest) = (self.arms, MOST_ARMS);
-        let error = MachineError::Arms { arms, greatest };
-        let is_number = (1..=greatest).contains(&arms);
-        is_number.then_some(()).ok_or_else(|| error.to_string())
-    }
-
-    pub(super) fn kind(&self) -> Result<SplitKind, String> {
-        let mut kinds = SplitKind::NAMES.iter();
-        let kind = kinds.find(|(name, _)| *name == self.split);
-        let kind = kind.map(|(_, kind)| *kind);
-        kind.ok_or_else(|| format!("there is no split {:?}", self.split))
+/// Points of a design's path: those it passes.
+pub(super) fn points(design: &PathDesign) -> Vec<Point> {
+    let rows = self::rows(&design.path.points);
+    match design.path.control {
+        true => WantedPath::knots(&rows),
+        false => rows,
     }
 }
 
-pub(super) fn points(rows: &[[f64; 2]]) -> Vec<Point> {
+pub(super) fn rows(rows: &[[f64; 2]]) -> Vec<Point> {
     rows.iter().copied().map(Point::from).collect()
 }
 
 /// Path through the points of the page.
 pub(super) fn path(rows: &[[f64; 2]]) -> Result<WantedPath, PathError> {
-    WantedPath::through(&points(rows))
+    WantedPath::through(&self::rows(rows))
 }

@@ -1,0 +1,54 @@
+//! Answers that take long: the evaluations done come first, a line each, and the answer last.
+
+use std::ops::ControlFlow;
+use std::time::{Duration, Instant};
+
+use axum::body::{Body, Bytes};
+use axum::http::header;
+use axum::response::{IntoResponse as _, Response};
+use futures_util::stream::unfold;
+use serde::Serialize;
+use serde_json::json;
+use tokio::sync::mpsc::unbounded_channel;
+
+use super::super::routes::Wait;
+use super::told;
+
+/// Interval at which progress is told.
+const EVERY: Duration = Duration::from_millis(200);
+
+/// Does a job for as long as somebody listens: lines of JSON, `{"evaluations": 300}`, and the answer as `{"answer": ...}`.
+pub(super) fn streamed<T: Serialize>(
+    job: impl FnOnce(&mut dyn FnMut(u64) -> ControlFlow<()>) -> Result<T, String> + Send + 'static,
+) -> Response {
+    let wait = Wait::default();
+    let cancel = wait.cancel();
+    let (told_so_far, news) = unbounded_channel::<String>();
+    tokio::task::spawn_blocking(move || {
+        let mut next = Instant::now() + EVERY;
+        let mut observe = |evaluations: u64| {
+            if Instant::now() >= next {
+                next = Instant::now() + EVERY;
+                let line = json!({ "evaluations": evaluations }).to_string();
+                if told_so_far.send(line).is_err() {
+                    return ControlFlow::Break(());
+                }
+            }
+            ControlFlow::Continue(())
+        };
+        let answer = cancel.run(|| told(job(&mut observe)));
+        let line = match answer {
+            Ok(answer) => json!({ "answer": answer }),
+            Err(cancelled) => json!({ "answer": { "refused": cancelled.to_string() } }),
+        };
+        // Nobody may be there any more.
+        let _ = told_so_far.send(line.to_string());
+    });
+    let lines = unfold((news, wait), |(mut news, wait)| async move {
+        let line = news.recv().await?;
+        let line: Result<Bytes, std::convert::Infallible> = Ok(Bytes::from(line + "\n"));
+        Some((line, (news, wait)))
+    });
+    let kind = [(header::CONTENT_TYPE, "application/x-ndjson")];
+    (kind, Body::from_stream(lines)).into_response()
+}
