@@ -391,11 +391,10 @@ impl<'a> Train<'a> {
         let idler = leg + self.first.driven_angle(direction);
         let back = leg + self.bend + PI;
         let polar = self.second.driver_jet(idler + self.mount - back).position;
-        let arm = back - polar + self.turned;
         let bar = |length: f64, angle: f64| Vector::new(angle.cos(), angle.sin()) * length;
         chain.axis()
             + bar(self.first.center_distance(), leg)
             + bar(self.second.center_distance(), leg + self.bend)
-            + bar(chain.arm(), arm)
+            + bar(chain.arm(), back - polar + self.turned)
     }
 }
