@@ -5,7 +5,7 @@ use centrode_geometry::{Extreme, Jet, Point, Vector, greatest_sampled, rounding}
 
 use super::distance::{Distance, Series, taylor};
 use super::limit::squares;
-use super::path::Looks;
+use super::path::PathSamples;
 use super::{AxisFault, WantedPath};
 use crate::formula::Taylor;
 use crate::machine::Piecewise;
@@ -127,7 +127,7 @@ impl TwoBar {
     /// Finds the extremes of the ratio, and that both bars turn one way.
     fn check(&mut self) -> Result<(), AxisFault> {
         let least = LEAST_SPEED * TAU / self.path.period();
-        let looks = Looks::new(&self.path, usize::MAX);
+        let looks = PathSamples::new(&self.path, usize::MAX);
         let mut known = Vec::with_capacity(looks.samples.len());
         for sample in &looks.samples {
             let speeds = self.speeds(sample.at, &sample.jet);

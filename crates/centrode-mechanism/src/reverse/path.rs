@@ -300,12 +300,12 @@ impl WantedPath {
 }
 
 /// Samples of a path, those of each piece up to its end.
-pub(super) struct Looks {
+pub(super) struct PathSamples {
     pub(super) pieces: Vec<SampledPiece>,
     pub(super) samples: Vec<Sample>,
 }
 
-impl Looks {
+impl PathSamples {
     /// Those of `most` pieces at most, evenly spread.
     pub(super) fn new(path: &WantedPath, most: usize) -> Self {
         let count = path.pieces().len();

@@ -5,7 +5,7 @@ use centrode_geometry::{Extreme, greatest_sampled, rounding};
 use super::TwoBar;
 use super::curvature::curvatures;
 use super::distance::Series;
-use super::path::{Looks, Sample};
+use super::path::{PathSamples, Sample};
 use super::split::SHARE;
 
 /// Most pieces of the path that a map looks at: of more it takes as many, evenly spread.
@@ -52,7 +52,7 @@ impl TwoBar {
 
     /// Greatest value of a measure of the four curvatures, times the centre distance.
     fn greatest_bend(&self, most: usize, of: impl Fn([f64; 4]) -> f64) -> Extreme {
-        let looks = Looks::new(self.path(), most);
+        let looks = PathSamples::new(self.path(), most);
         let jets = looks.samples.iter();
         let speeds: Vec<[Series; 2]> = jets.map(|s| self.speed_series(s.at, &s.jet)).collect();
         let scale = self.scale(&looks.samples, &speeds);

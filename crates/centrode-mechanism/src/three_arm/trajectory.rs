@@ -58,7 +58,7 @@ pub struct Trajectory {
 const LOOKS: u32 = 720;
 
 /// Even samples of the tip's path: input, reach in a direction, reach by input.
-struct Looks<'a> {
+struct ReachSamples<'a> {
     mechanism: &'a ThreeArm,
     direction: Vector,
     list: Vec<[f64; 3]>,
@@ -71,7 +71,7 @@ fn tips(mechanism: &ThreeArm) -> Vec<(f64, PointMotion)> {
     (0..=LOOKS).map(look).collect()
 }
 
-impl<'a> Looks<'a> {
+impl<'a> ReachSamples<'a> {
     fn along(mechanism: &'a ThreeArm, tips: &[(f64, PointMotion)], direction: Vector) -> Self {
         let look = |(input, tip): &(f64, PointMotion)| {
             let [reach, slope] = reach(tip, &direction);
@@ -145,9 +145,9 @@ impl Trajectory {
     pub(super) fn new(mechanism: &ThreeArm) -> Result<Self, ThreeArmError> {
         let design = mechanism.design();
         let tips = tips(mechanism);
-        let upright = Looks::along(mechanism, &tips, Vector::y());
+        let upright = ReachSamples::along(mechanism, &tips, Vector::y());
         let (lowest, highest) = (upright.extreme(-1.0), upright.extreme(1.0));
-        let towards = Looks::along(mechanism, &tips, mechanism.tray_direction());
+        let towards = ReachSamples::along(mechanism, &tips, mechanism.tray_direction());
         let farthest = towards.extreme(1.0);
         let (picking, picking_rule) = match (design.work.picking, design.tray.distance) {
             (Some(given), _) => (given, PickingRule::Given),

@@ -8,7 +8,7 @@ use crate::mechanism::reverse::{
     WantedPath,
 };
 
-use super::words::{self, Told};
+use super::words::{self, Labelled};
 
 /// Carrier and arm that were found, for the command and the page.
 pub(crate) struct Found {
@@ -18,7 +18,7 @@ pub(crate) struct Found {
     /// Axes tried for a path that is followed as it is.
     pub(crate) map: Option<AxisMap>,
     /// Further lines to tell: names and words.
-    pub(crate) told: Vec<Told>,
+    pub(crate) told: Vec<Labelled>,
     /// Further wishes, and how far they are reached.
     pub(crate) goals: Vec<Goal>,
     pub(crate) findings: Vec<Finding>,
@@ -169,7 +169,7 @@ fn check_crossing(design: &PathDesign, path: &WantedPath) -> Result<(), NotFound
 }
 
 /// Lines on how far a path was eased, and what full teeth it bears.
-fn eased_words(eased: &EasedPath, module: Option<f64>, is_moved: bool) -> Vec<Told> {
+fn eased_words(eased: &EasedPath, module: Option<f64>, is_moved: bool) -> Vec<Labelled> {
     let mm = |x: f64| Unit::Millimetre.tell(x);
     let moved = eased.moved.iter().enumerate();
     let (most, far) = moved.fold((0, 0.0), |most, (i, &moved)| match moved > most.1 {

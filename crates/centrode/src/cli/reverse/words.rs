@@ -6,7 +6,7 @@ use crate::mechanism::reverse::{ReversedMachine, TwoBar};
 use crate::mechanism::three_arm::design::Direction;
 
 /// Name of a figure, and its words.
-pub(crate) type Told = (String, String);
+pub(crate) type Labelled = (String, String);
 
 fn mm(x: f64) -> String {
     Unit::Millimetre.tell(x)
@@ -41,7 +41,7 @@ pub(crate) fn least_radius(chain: &TwoBar, bend: f64) -> (&'static str, String) 
 }
 
 /// Line on the least convex radii of a pair's pitch curves.
-pub(crate) fn least_radii(pair: &str, [driver, driven]: [f64; 2]) -> Told {
+pub(crate) fn least_radii(pair: &str, [driver, driven]: [f64; 2]) -> Labelled {
     let words = format!(
         "least convex radius {} (driver), {} (driven)",
         mm(driver),
@@ -58,13 +58,13 @@ pub(crate) fn tip_error(made: &ReversedMachine) -> (&'static str, String) {
 }
 
 /// Line on the clamp.
-pub(crate) fn clamp(angle: f64) -> Told {
+pub(crate) fn clamp(angle: f64) -> Labelled {
     let words = format!("{} from the arm", Unit::Angle.tell(angle));
     ("clamp".to_owned(), words)
 }
 
 /// Lines on the clamp and on how far each pose is missed.
-pub(crate) fn poses(angle: f64, misses: &[[f64; 2]]) -> Vec<Told> {
+pub(crate) fn poses(angle: f64, misses: &[[f64; 2]]) -> Vec<Labelled> {
     let pose = |(index, [off, turned]): (usize, &[f64; 2])| {
         let (off, turned) = (mm(*off), Unit::Angle.tell(*turned));
         let name = format!("pose {}", index + 1);
@@ -75,7 +75,7 @@ pub(crate) fn poses(angle: f64, misses: &[[f64; 2]]) -> Vec<Told> {
 }
 
 /// Line on a goal: its figure, what was wanted, and by how much it is missed.
-pub(crate) fn goal(goal: &Goal) -> Told {
+pub(crate) fn goal(goal: &Goal) -> Labelled {
     let tell = |x: f64| goal.unit.tell(x);
     let value = goal.value.map_or_else(String::new, tell);
     let wanted = match goal.wanted {
@@ -93,7 +93,7 @@ pub(crate) fn goal(goal: &Goal) -> Told {
 }
 
 /// Line on a finding.
-pub(crate) fn finding(finding: &Finding) -> Told {
+pub(crate) fn finding(finding: &Finding) -> Labelled {
     let remedy = finding
         .remedy
         .map_or_else(String::new, |remedy| format!("; what helps: {remedy}"));
@@ -104,7 +104,7 @@ pub(crate) fn finding(finding: &Finding) -> Told {
 }
 
 /// Line on the teeth of a pair.
-pub(crate) fn teeth(teeth: &SoundTeeth) -> Told {
+pub(crate) fn teeth(teeth: &SoundTeeth) -> Labelled {
     let mm = |x: f64| Unit::Millimetre.tell(x);
     let (kind, full) = match teeth.addendum {
         Addendum::Full => ("full", String::new()),

@@ -7,7 +7,7 @@ use super::sought::Kept;
 use super::wish::{Wish, points};
 use crate::analysis::optimise::reached;
 use crate::analysis::{Goal, Unit};
-use crate::cli::reverse::words::Told;
+use crate::cli::reverse::words::Labelled;
 use crate::cli::reverse::{sharpest, words};
 use crate::export::page::{Curve, Mark, Picture};
 use crate::geometry::Point;
@@ -26,7 +26,7 @@ pub(super) struct Answer {
     /// Further wishes, and how far they are reached.
     goals: Vec<GoalAnswer>,
     /// Findings: names of rules and words.
-    findings: Vec<Told>,
+    findings: Vec<Labelled>,
     fault: Option<Fault>,
 }
 

@@ -7,7 +7,7 @@ use super::sought::Kept;
 use super::wish::Wish;
 use crate::analysis::{NoSoundTeeth, Unit};
 use crate::cli::reverse::made::{Toothed, rolled};
-use crate::cli::reverse::words::{self, Told};
+use crate::cli::reverse::words::{self, Labelled};
 use crate::mechanism::reverse::Split;
 
 /// A design with sound teeth, or what was found without such.
@@ -20,11 +20,11 @@ pub(super) struct Machine {
     #[serde(skip_serializing_if = "Option::is_none")]
     refused: Option<String>,
     /// Names and words of what was found.
-    told: Vec<Told>,
+    told: Vec<Labelled>,
     /// Further wishes, and how far they are reached.
     goals: Vec<GoalAnswer>,
     /// Findings: names of rules and words.
-    findings: Vec<Told>,
+    findings: Vec<Labelled>,
 }
 
 /// Makes the design that `centrode reverse -o` writes.

@@ -86,14 +86,14 @@ async fn answered<T: Serialize + Send + 'static>(
 /// Answer, or the reason why there is none. That is no failure: browsers would log it as one.
 #[derive(Serialize)]
 #[serde(untagged)]
-enum Told<T> {
+enum FoundOrRefused<T> {
     Found(T),
     Refused { refused: String },
 }
 
-fn told<T>(found: Result<T, String>) -> Told<T> {
+fn told<T>(found: Result<T, String>) -> FoundOrRefused<T> {
     match found {
-        Ok(found) => Told::Found(found),
-        Err(refused) => Told::Refused { refused },
+        Ok(found) => FoundOrRefused::Found(found),
+        Err(refused) => FoundOrRefused::Refused { refused },
     }
 }
