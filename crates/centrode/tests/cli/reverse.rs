@@ -642,39 +642,11 @@ fn arms_that_collide_are_told_as_the_check_tells_them() {
 #[cfg(target_os = "linux")]
 #[test]
 fn ctrl_c_ends_the_search_and_keeps_the_best() {
-    use std::process::{Command, Stdio};
-    use std::time::{Duration, Instant};
-
-    use crate::search::catches_interrupt;
-
     let folder = tempfile::tempdir().expect("a folder");
     let path = written(folder.path(), "path.csv", &mild());
     let to = folder.path().join("arms.toml");
-    let child = Command::new(env!("CARGO_BIN_EXE_centrode"))
-        .args([
-            "reverse",
-            &path,
-            "--band",
-            "2",
-            "-o",
-            &to.display().to_string(),
-        ])
-        .stdout(Stdio::piped())
-        .stderr(Stdio::piped())
-        .spawn()
-        .expect("runs");
-    let id = child.id();
-    let begun = Instant::now();
-    while !catches_interrupt(id) {
-        assert!(begun.elapsed() < Duration::from_secs(60), "never listens");
-        std::thread::sleep(Duration::from_millis(10));
-    }
-    std::thread::sleep(Duration::from_millis(300));
-    let sent = Command::new("kill")
-        .args(["-INT", &id.to_string()])
-        .status();
-    assert!(sent.expect("kill is there").success());
-    let ended = child.wait_with_output().expect("ends");
+    let made = to.display().to_string();
+    let ended = crate::search::interrupted(&["reverse", &path, "--band", "2", "-o", &made]);
     let told = text(&ended.stdout);
     assert_eq!(
         ended.status.code(),

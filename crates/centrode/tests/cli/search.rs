@@ -352,7 +352,7 @@ fn the_least_widening_is_written_as_shipped() {
 
 /// Whether a process of this number catches Ctrl-C.
 #[cfg(target_os = "linux")]
-pub(crate) fn catches_interrupt(id: u32) -> bool {
+fn catches_interrupt(id: u32) -> bool {
     let status = fs::read_to_string(format!("/proc/{id}/status")).unwrap_or_default();
     let caught = status.lines().find_map(|l| l.strip_prefix("SigCgt:"));
     let mask = caught.and_then(|hex| u64::from_str_radix(hex.trim(), 16).ok());
@@ -360,20 +360,14 @@ pub(crate) fn catches_interrupt(id: u32) -> bool {
     mask.is_some_and(|mask| mask & 2 != 0)
 }
 
+/// Output of a command that is interrupted as Ctrl-C does, a while after it listens.
 #[cfg(target_os = "linux")]
-#[test]
-fn ctrl_c_ends_a_search_and_keeps_the_best_so_far() {
+pub(crate) fn interrupted(words: &[&str]) -> std::process::Output {
     use std::process::{Command, Stdio};
     use std::time::{Duration, Instant};
 
-    let folder = tempfile::tempdir().expect("a place to write");
-    let to = folder.path().join("best.toml").display().to_string();
-    let published = shipped("feeder-2022.toml");
-    let words = ["optimise", &published, "--method", "de", "-o", &to];
-    let endless = ["--evaluations", "1000000000000"];
     let child = Command::new(env!("CARGO_BIN_EXE_centrode"))
         .args(words)
-        .args(endless)
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
         .spawn()
@@ -389,7 +383,18 @@ fn ctrl_c_ends_a_search_and_keeps_the_best_so_far() {
         .args(["-INT", &id.to_string()])
         .status();
     assert!(sent.expect("kill is there").success());
-    let ended = child.wait_with_output().expect("ends");
+    child.wait_with_output().expect("ends")
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn ctrl_c_ends_a_search_and_keeps_the_best_so_far() {
+    let folder = tempfile::tempdir().expect("a place to write");
+    let to = folder.path().join("best.toml").display().to_string();
+    let published = shipped("feeder-2022.toml");
+    let words = ["optimise", &published, "--method", "de", "-o", &to];
+    let endless = ["--evaluations", "1000000000000"];
+    let ended = interrupted(&[&words[..], &endless].concat());
     let told = text(&ended.stdout);
     assert_eq!(
         ended.status.code(),
