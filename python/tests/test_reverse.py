@@ -113,7 +113,7 @@ def test_the_least_radius_is_that_of_the_law_by_differences():
         (DRAWN.ravel(), {}, ct.DesignError, "path"),
         (np.where(DRAWN == 70, np.nan, DRAWN), {}, ct.DesignError, "path"),
         (DRAWN, {"axis": (60, 200)}, ct.MechanismError, "axis"),
-        (DRAWN, {"axis": (float("nan"), 0)}, ct.MechanismError, "axis"),
+        (DRAWN, {"axis": (float("nan"), 0)}, ct.DesignError, "axis"),
         (DRAWN, {"split": "halves"}, ct.DesignError, "split"),
         (DRAWN, {"axis": (260, 160), "split": "one-pair", "bend_deg": -60}, ct.MechanismError, "split"),
         (DRAWN, {"axis": (260, 160), "bend_deg": 180}, ct.MechanismError, "split"),

@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 
 use centrode_geometry::{Bounds, Point, Vector};
 use centrode_mechanism::gear::Limits;
-use centrode_mechanism::reverse::{Aim, AxisMap, AxisRange, TwoBar, WantedPath, Wishes};
+use centrode_mechanism::reverse::{Aim, AxisMap, AxisRange, PathError, TwoBar, WantedPath, Wishes};
 
 use super::{Ended, Evaluation, Method, Problem, Settings, minimise};
 
@@ -74,8 +74,8 @@ impl Easing {
 
     /// The search for a path through points, of which the first `given` were given.
     fn through(points: &[Point], given: usize, spec: &EasingSpec) -> Result<Self, EasingError> {
-        let path = WantedPath::through(points)?;
         let mut bands = each(&spec.bands, points.len())?;
+        let path = curve(points, &bands)?;
         let is_closed = points.len() > 1 && points.first() == points.last();
         let points = &points[..points.len() - usize::from(is_closed)];
         bands.truncate(points.len());
@@ -86,7 +86,10 @@ impl Easing {
         }
         spec.wishes.validate(given.min(points.len()))?;
         let axis = match spec.axis {
-            Some(axis) => (TwoBar::new(&path, axis, None)?.axis(), None),
+            Some(axis) => {
+                let given = WantedPath::through(points)?;
+                (TwoBar::new(&given, axis, None)?.axis(), None)
+            }
             None => {
                 let axes = spec.axes.unwrap_or_else(|| AxisRange::about(&path));
                 let map = AxisMap::new(&path, axes);
@@ -167,20 +170,29 @@ impl Easing {
             found.aim = Aim::Module;
         }
         let start = found.evaluate(&found.start);
+        let (mut nearest, mut reach) = (start, found.reach);
+        let mut chosen = None;
         for _ in 0..HALVINGS {
             let Some((point, ended)) = best(&found, wanted.map(|module| -module)) else {
                 break;
             };
             // Wishes out of reach are come as near to as can be.
-            let is_better = found.evaluate(&point).order(&start).is_lt();
+            let here = found.evaluate(&point);
+            let (is_better, is_feasible) = (here.order(&nearest).is_lt(), here.feasible());
+            let had_one = chosen.is_some();
             if is_better {
-                found.start = point;
+                (nearest, reach, chosen) = (here, found.reach, Some(point));
             }
-            // Bands as wide as the path leave hardly any machine to be found.
-            if is_better || ended == Ended::Stopped || found.moves() == 0 {
+            // Bands as wide as the path leave hardly any machine to be found: narrower ones are tried until they find no more.
+            let is_done = if is_better { is_feasible } else { had_one };
+            if is_done || ended == Ended::Stopped || found.moves() == 0 {
                 break;
             }
             found.reach *= 0.5;
+        }
+        found.reach = reach;
+        if let Some(point) = chosen {
+            found.start = point;
         }
         found.aim = self.aim;
         let is_reached = |easing: &Self| {
@@ -200,7 +212,7 @@ impl Easing {
         let points = found.eased(&found.start);
         let moved = points.iter().zip(&self.points[..self.given]);
         let axis = found.axis_at(&found.start);
-        let eased = TwoBar::new(&WantedPath::smoothly_through(&points)?, axis, None)?;
+        let eased = TwoBar::new(&curve(&points, &self.bands)?, axis, None)?;
         // A free return was not wanted as it was tried first.
         let is_whole = self.given == self.points.len();
         let before = WantedPath::through(&self.points)?;
@@ -274,7 +286,7 @@ impl Easing {
     }
 
     fn chain(&self, variables: &[f64]) -> Option<TwoBar> {
-        let path = WantedPath::smoothly_through(&self.eased(variables)).ok()?;
+        let path = curve(&self.eased(variables), &self.bands).ok()?;
         let chain = TwoBar::new(&path, self.axis_at(variables), None).ok()?;
         // A free return must not cross the working part.
         let is_whole = self.given == self.points.len();
@@ -338,6 +350,15 @@ impl Problem for Easing {
             objective,
             constraints,
         }
+    }
+}
+
+/// The curve through points: that of a path followed as it is, where no point may move, or of a degree that leaves no jump in the
+/// curvature of gears.
+fn curve(points: &[Point], bands: &[f64]) -> Result<WantedPath, PathError> {
+    match bands.iter().any(|band| *band > 0.0) {
+        true => WantedPath::smoothly_through(points),
+        false => WantedPath::through(points),
     }
 }
 

@@ -13,6 +13,8 @@ struct Entry {
     value: Range<usize>,
     /// Length of a list.
     length: Option<usize>,
+    /// Lengths of the lists in it.
+    inner: Vec<Option<usize>>,
 }
 
 impl Keys {
@@ -25,11 +27,16 @@ impl Keys {
     fn add(&mut self, table: &DeTable<'_>, prefix: &str) {
         for (key, value) in table {
             let path = format!("{prefix}{}", key.get_ref());
+            let list = value.get_ref().as_array();
+            let length = |one: &DeValue<'_>| one.as_array().map(|list| list.len());
             self.0.push(Entry {
                 path: path.clone(),
                 key: key.span(),
                 value: value.span(),
-                length: value.get_ref().as_array().map(|list| list.len()),
+                length: length(value.get_ref()),
+                inner: list.map_or_else(Vec::new, |list| {
+                    list.iter().map(|one| length(one.get_ref())).collect()
+                }),
             });
             // The parser refuses deep nesting, so this recursion is shallow.
             if let DeValue::Table(inner) = value.get_ref() {
@@ -52,16 +59,23 @@ impl Keys {
     /// The first list that is longer than what was read of it: its key, its length, and how much was read.
     ///
     /// Serde reads a list of fixed length and leaves the rest.
-    pub(super) fn cut(&self, read: &toml::Table) -> Option<(&str, usize, usize)> {
+    pub(super) fn cut(&self, read: &toml::Table) -> Option<(String, usize, usize)> {
         self.0.iter().find_map(|entry| {
             let (way, last) = entry.path.rsplit_once('.').unwrap_or(("", &entry.path));
             let steps = way.split('.').filter(|step| !step.is_empty());
             let table = steps
                 .into_iter()
                 .try_fold(read, |table, step| table.get(step)?.as_table())?;
-            let kept = table.get(last)?.as_array()?.len();
-            let length = entry.length.filter(|length| *length > kept)?;
-            Some((entry.path.as_str(), length, kept))
+            let kept = table.get(last)?.as_array()?;
+            if let Some(length) = entry.length.filter(|length| *length > kept.len()) {
+                return Some((entry.path.clone(), length, kept.len()));
+            }
+            let mut pairs = entry.inner.iter().zip(kept).enumerate();
+            pairs.find_map(|(i, (length, kept))| {
+                let kept = kept.as_array()?.len();
+                let length = length.filter(|length| *length > kept)?;
+                Some((format!("{}[{i}]", entry.path), length, kept))
+            })
         })
     }
 

@@ -60,8 +60,8 @@ impl<'a> Reader<'a> {
         let read = toml::Table::try_from(&design).unwrap_or_default();
         if let Some((key, length, kept)) = self.keys.cut(&read) {
             let fault = DesignFault::WrongType(format!("must have {kept} values, not {length}"));
-            let offset = self.keys.offset(key).unwrap_or(0);
-            return Err(self.error(fault, key.into(), offset));
+            let offset = self.keys.offset(&key).unwrap_or(0);
+            return Err(self.error(fault, key, offset));
         }
         design.rules().map_err(|SpecError { key, rule }| {
             let offset = self.keys.offset(&key).unwrap_or(0);

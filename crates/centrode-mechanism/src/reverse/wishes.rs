@@ -197,6 +197,10 @@ impl Wishes {
         for (i, wanted) in self.directions.iter().enumerate() {
             let key = |word: &str| format!("directions[{i}].{word}");
             is_point(&key("point"), wanted.point)?;
+            let before = &self.directions[..i];
+            if before.iter().any(|other| other.point == wanted.point) {
+                return broken(&key("point"), Rule::Twice(wanted.point as f64));
+            }
             finite(&key("direction_deg"), wanted.direction)?;
             positive(&key("tolerance_deg"), degrees::rounded(wanted.tolerance))?;
         }

@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 use std::path::Path;
 
 use crate::analysis::optimise::EasingError;
-use crate::analysis::{Finding, SoundTeeth, Unit};
+use crate::analysis::{Finding, Severity, SoundTeeth, Unit};
 use crate::mechanism::design::DesignSpec as _;
 use crate::mechanism::reverse::{
     AxisMap, KeyPose, PathDesign, ReversedMachine, Split, SplitKind, TwoBar, WantedPath,
@@ -40,19 +40,20 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
         return posed::run(command, out);
     }
     let progress = Progress::new(4);
-    let (asked, found) = match command.poses {
+    // Kept to the end, so that a second Ctrl-C ends what comes after the search.
+    let (asked, found, _interrupt) = match command.poses {
         true => {
             let source = source(command)?;
             progress.step("trying places of the arm's axis");
             let poses =
                 KeyPose::from_csv(source.bytes()).map_err(|error| source.refused(&error))?;
             let found = Found::by_poses(&poses).map_err(|error| source.refused(&error))?;
-            (Asked::of_poses(source, command)?, found)
+            (Asked::of_poses(source, command)?, found, None)
         }
         false => {
             let asked = Asked::read(command)?;
-            let found = sought(command, &asked, &progress)?;
-            (asked, found)
+            let (found, interrupt) = sought(command, &asked, &progress)?;
+            (asked, found, interrupt)
         }
     };
     if let Some(output) = &command.output {
@@ -99,7 +100,11 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
     let text = text.map_err(|error| Failure::Files(Box::new(error)))?;
     writeln!(out)?;
     output::write_one(output, text.into_bytes(), out)?;
-    Ok(Status::new(found.is_reached))
+    let errors = toothed
+        .findings
+        .iter()
+        .filter(|finding| finding.severity == Severity::Error);
+    Ok(Status::new(found.is_reached && errors.count() == 0))
 }
 
 pub(crate) fn line(out: &mut impl Write, name: &str, words: &str) -> std::io::Result<()> {
@@ -107,7 +112,11 @@ pub(crate) fn line(out: &mut impl Write, name: &str, words: &str) -> std::io::Re
 }
 
 /// Seeks the machine of a path; progress is told, and Ctrl-C ends the search and keeps the best so far.
-fn sought(command: &Reverse, asked: &Asked, progress: &Progress) -> Result<Found, Failure> {
+fn sought(
+    command: &Reverse,
+    asked: &Asked,
+    progress: &Progress,
+) -> Result<(Found, Option<Interrupt>), Failure> {
     let is_searched = asked.design.bands().is_some();
     progress.step(match is_searched {
         true => "seeking the path",
@@ -130,7 +139,7 @@ fn sought(command: &Reverse, asked: &Asked, progress: &Progress) -> Result<Found
         let words = format!("stopped after {evaluations} evaluations: the best so far");
         found.told.push(("search".into(), words));
     }
-    Ok(found)
+    Ok((found, interrupt))
 }
 
 fn refused(command: &Reverse, asked: &Asked, error: NotFound) -> Failure {

@@ -607,18 +607,62 @@ fn an_axis_at_the_border_of_its_box_is_told_with_the_side() {
 }
 
 #[test]
+fn points_of_three_numbers_and_second_directions_are_refused_where_they_stand() {
+    let points = "[[0, 0], [60, 70, 1], [150, 150], [90, 200]]";
+    for (text_of, message) in [
+        (
+            format!("family = \"path\"\n[path]\npoints = {points}\n"),
+            "path.points[1]: must have 2 values, not 3",
+        ),
+        (
+            format!(
+                "family = \"path\"\n[path]\npoints = {}\n[wishes]\ndirections = [{{ point = 2, direction_deg = 0 }}, {{ point = 2, direction_deg = 90 }}]\n",
+                points.replace(", 1]", "]")
+            ),
+            "wishes.directions[1].point: is 2 a second time",
+        ),
+    ] {
+        let run = fed(&["reverse", "-"], text_of.as_bytes());
+        let told = text(&run.stderr);
+        assert_eq!(run.status.code(), Some(2), "{told}");
+        assert!(told.contains(message), "{told}");
+    }
+}
+
+#[test]
+fn a_wish_that_is_met_changes_nothing_where_nothing_may_move() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = written(folder.path(), "path.csv", &mild());
+    let design = |wishes: &str| {
+        let name = format!("path{}.toml", wishes.len());
+        let content = format!(
+            "family = \"path\"\naxis = [0, 0]\n[path]\nfile = {:?}\n{wishes}",
+            Path::new(&path).file_name().expect("a name")
+        );
+        fs::write(folder.path().join(&name), content).expect("written");
+        let name = folder.path().join(name).display().to_string();
+        let run = centrode(&["reverse", &name]);
+        assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+        figure(&text(&run.stdout), "carrier", &format!("{:24}", "carrier"))
+    };
+    let plain = design("");
+    let wished = design("[wishes]\ncarrier = { at_least = 1 }\n");
+    assert!((plain - wished).abs() < 1e-9, "{plain} {wished}");
+}
+
+#[test]
 fn arms_that_collide_are_told_as_the_check_tells_them() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = written(folder.path(), "path.csv", &mild());
     let to = folder.path().join("arms.toml").display().to_string();
-    let run = |arms: &str| {
+    let run = |arms: &str, status: i32| {
         let axis = ["--axis", "0,0", "--arms", arms, "-o", &to];
         let run = centrode(&[&["reverse", &path][..], &axis].concat());
-        assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
+        assert_eq!(run.status.code(), Some(status), "{}", text(&run.stderr));
         text(&run.stdout)
     };
-    assert!(!run("1").contains("collide"));
-    let told = run("8");
+    assert!(!run("1", 0).contains("collide"));
+    let told = run("8", 1);
     let line = told.lines().find(|line| line.starts_with("gears-collide"));
     let line = line.unwrap_or_else(|| panic!("{told}"));
     let check = centrode(&["check", &to, "--json"]);
@@ -635,7 +679,7 @@ fn arms_that_collide_are_told_as_the_check_tells_them() {
         message.contains("at an input of") && line.contains(message),
         "{line}\n{message}"
     );
-    let more = format!("({} more pairs collide less deeply)", collide.len() - 1);
+    let more = format!("({} more pairs collide, none deeper)", collide.len() - 1);
     assert!(line.contains(&more), "{line}");
 }
 

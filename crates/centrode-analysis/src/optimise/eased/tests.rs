@@ -1,3 +1,7 @@
+use std::f64::consts::PI;
+
+use centrode_mechanism::reverse::WantedDirection;
+
 use super::*;
 
 const DRAWN: [[f64; 2]; 13] = [
@@ -52,6 +56,34 @@ fn within_a_band_gears_grow_blunter_and_no_point_leaves_it() {
 fn a_band_as_wide_as_the_path_is_no_worse_than_a_narrow_one() {
     let [narrow, wide] = [5.0, 200.0].map(|band| search(&easing(band, [260.0, 160.0]), None));
     assert!(wide.module.1 > narrow.module.1, "{:?}", wide.module);
+}
+
+#[test]
+fn wishes_out_of_reach_are_missed_by_no_more_within_wider_bands() {
+    let points: Vec<Point> = DRAWN.iter().map(|&p| p.into()).collect();
+    let direction = |point: usize, direction: f64| WantedDirection {
+        point,
+        direction,
+        tolerance: WantedDirection::usual_tolerance(),
+    };
+    let wishes = Wishes {
+        directions: vec![direction(1, 0.0), direction(5, 0.5 * PI)],
+        ..Wishes::default()
+    };
+    let missed = [0.0, 25.0, 100.0, 200.0].map(|band| {
+        let spec = EasingSpec {
+            wishes: wishes.clone(),
+            ..EasingSpec::new(&[band], 40.0_f64.to_radians())
+        };
+        let found = search(&Easing::new(&points, &spec).expect("a machine"), None);
+        let goals = found.goals.iter();
+        goals.fold(0.0_f64, |most, goal| most.max(-goal.margin.unwrap_or(0.0)))
+    });
+    // A search finds no more than it finds.
+    assert!(
+        missed.windows(2).all(|pair| pair[1] < pair[0] + 0.05),
+        "{missed:?}"
+    );
 }
 
 #[test]

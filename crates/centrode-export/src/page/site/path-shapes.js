@@ -27,7 +27,8 @@ export function added(kind, shapes, points) {
   const named = (count) => (count > 1 ? `${kind}-${count}` : kind);
   let count = 1;
   while (taken.includes(named(count))) count += 1;
-  const [x, y, half] = [short(right + BESIDE * size), short((low + high) / 2), short(LARGE * size)];
+  // Each below the one before, so that none covers another.
+  const [x, y, half] = [short(right + BESIDE * size), short((low + high) / 2 - 2.5 * LARGE * size * shapes.length), short(LARGE * size)];
   const shape = { name: named(count), kind, clearance: 0 };
   if (kind === "circle") return { ...shape, center: [x, y], radius: half };
   if (kind === "ground") return { ...shape, below: short(low - BESIDE * size) };
@@ -62,7 +63,7 @@ export function change(shapes, name, key, place, value) {
     shapes.splice(at, 1);
   } else if (key === "name") {
     if (shapes.some((other) => other !== shape && other.name === value)) return `there is a shape ${value} already`;
-    if (!/^[A-Za-z0-9_-]{1,64}$/.test(value)) return "1 to 64 letters, digits, - or _";
+    if (!/^[A-Za-z0-9_-]{1,64}$/.test(value ?? "")) return "1 to 64 letters, digits, - or _";
     shape.name = value;
   } else if (key === "at.x" || key === "at.y") {
     // The whole polygon moves with its middle.

@@ -49,6 +49,9 @@ pub enum Rule {
     /// Strokes of another kind than the follower makes.
     #[error("needs {0} in every segment, for this follower")]
     Stroke(&'static str),
+    /// A number that must not come twice.
+    #[error("is {} a second time", told(*.0))]
+    Twice(f64),
     /// A key that must be given.
     #[error("is needed {0}")]
     Needed(&'static str),

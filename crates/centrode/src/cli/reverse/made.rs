@@ -52,12 +52,12 @@ fn deepest(all: Vec<Finding>) -> Vec<Finding> {
     }
     let counted = |(mut finding, more): (Finding, usize)| {
         let pairs = if more == 1 {
-            "pair collides"
+            "pair collides,"
         } else {
-            "pairs collide"
+            "pairs collide,"
         };
         if more > 0 {
-            finding.message += &format!(" ({more} more {pairs} less deeply)");
+            finding.message += &format!(" ({more} more {pairs} none deeper)");
         }
         finding
     };

@@ -22,12 +22,18 @@ pub(super) struct Opened {
 /// Reads a design of family path or the points of a CSV file, or lays points along the one path of an SVG file.
 pub(super) fn opened(text: &str) -> Result<Opened, String> {
     let opened = read(text)?;
-    let count = opened.design.path.points.len();
-    match count > MOST {
-        true => Err(format!(
+    let points = &opened.design.path.points;
+    let count = points.len();
+    let is_number = |point: &[f64; 2]| point.iter().all(|x| x.is_finite());
+    if let Some(i) = points.iter().position(|point| !is_number(point)) {
+        return Err(format!("point {} is not a finite number", i + 1));
+    }
+    match count {
+        0..3 => Err(format!("the path has {count} points; it takes at least 3")),
+        3..=MOST => Ok(opened),
+        _ => Err(format!(
             "the path has {count} points; the page shows up to {MOST}: take fewer, or use centrode reverse"
         )),
-        false => Ok(opened),
     }
 }
 
