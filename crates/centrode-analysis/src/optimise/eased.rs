@@ -75,7 +75,7 @@ impl Easing {
     /// The search for a path through points, of which the first `given` were given.
     fn through(points: &[Point], given: usize, spec: &EasingSpec) -> Result<Self, EasingError> {
         let mut bands = each(&spec.bands, points.len())?;
-        let path = curve(points, &bands)?;
+        let path = WantedPath::through(points)?;
         let is_closed = points.len() > 1 && points.first() == points.last();
         let points = &points[..points.len() - usize::from(is_closed)];
         bands.truncate(points.len());
@@ -86,25 +86,15 @@ impl Easing {
         }
         spec.wishes.validate(given.min(points.len()))?;
         let axis = match spec.axis {
-            Some(axis) => {
-                let given = WantedPath::through(points)?;
-                (TwoBar::new(&given, axis, None)?.axis(), None)
-            }
+            Some(axis) => (TwoBar::new(&path, axis, None)?.axis(), None),
             None => {
-                let axes = spec.axes.unwrap_or_else(|| AxisRange::about(&path));
-                let map = AxisMap::new(&path, axes);
-                let tried = map.found().len();
-                let axis = best_axis(&path, &map, points.len(), spec);
-                let axis = axis.ok_or(EasingError::NoAxis { tried })?;
-                // A far axis makes an ever milder machine, and an ever larger one: no farther than the map goes.
-                let room = match spec.axes {
-                    Some(_) => f64::INFINITY,
-                    None => ROOM * path.bounds().diagonal(),
-                };
-                let AxisRange { x, y, .. } = *map.range();
-                let low = Point::new(x[0].max(axis.x - room), y[0].max(axis.y - room));
-                let high = Point::new(x[1].min(axis.x + room), y[1].min(axis.y + room));
-                (axis, Some([low, high].into_iter().collect()))
+                let (axis, room) = sought(&path, points.len(), spec)?;
+                // The path is eased by another curve, for which that place may be none.
+                let smooth = WantedPath::smoothly_through(points)?;
+                let is_possible = TwoBar::new(&smooth, axis, None).is_ok();
+                let again = (!is_possible).then(|| sought(&smooth, points.len(), spec));
+                let (axis, room) = again.and_then(Result::ok).unwrap_or((axis, room));
+                (axis, Some(room))
             }
         };
         let step = path.period() / points.len() as f64;
@@ -212,7 +202,7 @@ impl Easing {
         let points = found.eased(&found.start);
         let moved = points.iter().zip(&self.points[..self.given]);
         let axis = found.axis_at(&found.start);
-        let eased = TwoBar::new(&curve(&points, &self.bands)?, axis, None)?;
+        let eased = TwoBar::new(&self.curve(&points)?, axis, None)?;
         // A free return was not wanted as it was tried first.
         let is_whole = self.given == self.points.len();
         let before = WantedPath::through(&self.points)?;
@@ -285,8 +275,17 @@ impl Easing {
         }
     }
 
+    /// The curve through points: where nothing may move, that of a path followed as it is; else one of degree five, which leaves no
+    /// jump in the curvature of gears.
+    fn curve(&self, points: &[Point]) -> Result<WantedPath, PathError> {
+        match self.moves() == 0 && self.axis.1.is_none() {
+            true => WantedPath::through(points),
+            false => WantedPath::smoothly_through(points),
+        }
+    }
+
     fn chain(&self, variables: &[f64]) -> Option<TwoBar> {
-        let path = curve(&self.eased(variables), &self.bands).ok()?;
+        let path = self.curve(&self.eased(variables)).ok()?;
         let chain = TwoBar::new(&path, self.axis_at(variables), None).ok()?;
         // A free return must not cross the working part.
         let is_whole = self.given == self.points.len();
@@ -353,13 +352,26 @@ impl Problem for Easing {
     }
 }
 
-/// The curve through points: that of a path followed as it is, where no point may move, or of a degree that leaves no jump in the
-/// curvature of gears.
-fn curve(points: &[Point], bands: &[f64]) -> Result<WantedPath, PathError> {
-    match bands.iter().any(|band| *band > 0.0) {
-        true => WantedPath::smoothly_through(points),
-        false => WantedPath::through(points),
-    }
+/// Axis from which a search starts, and the box in which it is sought.
+fn sought(
+    path: &WantedPath,
+    points: usize,
+    spec: &EasingSpec,
+) -> Result<(Point, Bounds), EasingError> {
+    let axes = spec.axes.unwrap_or_else(|| AxisRange::about(path));
+    let map = AxisMap::new(path, axes);
+    let tried = map.found().len();
+    let axis = best_axis(path, &map, points, spec);
+    let axis = axis.ok_or(EasingError::NoAxis { tried })?;
+    // A far axis makes an ever milder machine, and an ever larger one: no farther than the map goes.
+    let room = match spec.axes {
+        Some(_) => f64::INFINITY,
+        None => ROOM * path.bounds().diagonal(),
+    };
+    let AxisRange { x, y, .. } = *map.range();
+    let low = Point::new(x[0].max(axis.x - room), y[0].max(axis.y - room));
+    let high = Point::new(x[1].min(axis.x + room), y[1].min(axis.y + room));
+    Ok((axis, [low, high].into_iter().collect()))
 }
 
 /// A band for each point, of one for each or one for all.
