@@ -669,6 +669,7 @@ class GearPair(Mechanism):
         center_distance: _Real | None = None,
         tool: Rack | Shaper | None = None,
         addendum: Literal["full", "fitted"] = "full",
+        fit: Sequence[Literal["addendum", "thickness_split", "pressure_angle", "phase"]] = (),
         phase: _Phase = "auto",
         backlash: _Real = 0.0,
         backlash_angle: _Real | None = None,
@@ -690,6 +691,11 @@ class GearPair(Mechanism):
     def drawing(self) -> DrawingSpec: ...
     @property
     def addendum(self) -> Literal["full", "fitted"]: ...
+    @property
+    def fit(self) -> list[Literal["addendum", "thickness_split", "pressure_angle", "phase"]]: ...
+    @property
+    def thickness_split(self) -> float: ...
+    def settled(self) -> GearPair: ...
     @property
     def center_distance(self) -> float: ...
     @property

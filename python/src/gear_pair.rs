@@ -46,6 +46,8 @@ const FARTHEST: f64 = 1e6;
 ///     center_distance: mm; it follows from pitch curve and mean ratio, and is checked if given.
 ///     tool: What cuts both gears; the rack of ISO 53, profile A, if left out.
 ///     addendum: "full": every tooth as high as the tool asks. "fitted": each as high as works.
+///     fit: What is chosen so that fitted teeth work deepest, in the place of what is given here: "addendum",
+///         "thickness_split", "pressure_angle" of the tool, "phase".
 ///     phase: Where the teeth sit on the driver: "tooth" or "space" at the polar angle zero, "congruent" so that
 ///         both gears come out the same part, "auto", or the pitches from the polar angle zero to a tooth.
 ///     backlash: Play of the pair along the normal, mm.
@@ -100,7 +102,7 @@ impl GearPair {
 #[pymethods]
 impl GearPair {
     #[new]
-    #[pyo3(signature = (pitch, *, mean_ratio=[Count::Fits(1), Count::Fits(1)], tooth_count=None, center_distance=None, tool=None, addendum="full", phase=Place(Phase::Auto), backlash=0.0, backlash_angle=None, thickness_split=0.5, least_tip_width_coefficient=0.2, thickness_deviations=None, pin_diameter=None, driver=None, driven=None, drawing=None, name="gear-pair", title=""), text_signature = "(pitch, *, mean_ratio=(1, 1), tooth_count=None, center_distance=None, tool=None, addendum='full', phase='auto', backlash=0.0, backlash_angle=None, thickness_split=0.5, least_tip_width_coefficient=0.2, thickness_deviations=None, pin_diameter=None, driver=None, driven=None, drawing=None, name='gear-pair', title='')")]
+    #[pyo3(signature = (pitch, *, mean_ratio=[Count::Fits(1), Count::Fits(1)], tooth_count=None, center_distance=None, tool=None, addendum="full", fit=Vec::new(), phase=Place(Phase::Auto), backlash=0.0, backlash_angle=None, thickness_split=0.5, least_tip_width_coefficient=0.2, thickness_deviations=None, pin_diameter=None, driver=None, driven=None, drawing=None, name="gear-pair", title=""), text_signature = "(pitch, *, mean_ratio=(1, 1), tooth_count=None, center_distance=None, tool=None, addendum='full', fit=(), phase='auto', backlash=0.0, backlash_angle=None, thickness_split=0.5, least_tip_width_coefficient=0.2, thickness_deviations=None, pin_diameter=None, driver=None, driven=None, drawing=None, name='gear-pair', title='')")]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn new(
         py: Python<'_>,
@@ -110,6 +112,7 @@ impl GearPair {
         center_distance: Option<f64>,
         tool: Option<Tool>,
         addendum: &str,
+        fit: Vec<String>,
         phase: Place,
         backlash: f64,
         backlash_angle: Option<f64>,
@@ -137,6 +140,10 @@ impl GearPair {
             tool: tool.map(|tool| tool.0).unwrap_or_default(),
             teeth: TeethSpec {
                 addendum: Word::of("teeth.addendum", addendum)?,
+                fit: fit
+                    .iter()
+                    .map(|word| Word::of("teeth.fit", word))
+                    .collect::<Answer<_>>()?,
                 phase: phase.0,
                 backlash,
                 backlash_angle,
@@ -161,13 +168,38 @@ impl GearPair {
     /// Tool that cuts both gears.
     #[getter]
     fn tool(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
-        tool::object(py, &self.0.design().tool)
+        tool::object(py, &self.0.settled_design().tool)
     }
 
     /// "full" or "fitted".
     #[getter]
     fn addendum(&self) -> &'static str {
-        self.0.design().teeth.addendum.word()
+        self.0.teeth().addendum.word()
+    }
+
+    /// What was chosen so that the teeth work deepest.
+    #[getter]
+    fn fit(&self) -> Vec<&'static str> {
+        let fit = self.0.design().teeth.fit.iter();
+        fit.map(|fit| fit.word()).collect()
+    }
+
+    /// The driver's share of the pitch.
+    #[getter]
+    fn thickness_split(&self) -> f64 {
+        self.0.teeth().thickness_split
+    }
+
+    /// The pair with what was chosen written down: it has the same gears, and its design leaves nothing free.
+    ///
+    /// >>> import centrode as ct
+    /// >>> pitch = ct.pitch.ellipse(eccentricity=0.45, module=2, tooth_count=17)
+    /// >>> pair = ct.GearPair(pitch, fit=["addendum", "pressure_angle"])
+    /// >>> pair.settled().fit, pair.settled().tool == pair.tool
+    /// ([], True)
+    fn settled(&self, py: Python<'_>) -> Answer<Py<Self>> {
+        let made = Self::made(py, self.0.settled_design())?;
+        Ok(Py::new(py, made)?)
     }
 
     /// Distance between the shafts, mm.

@@ -4,7 +4,7 @@ use centrode_analysis::optimise::Strategy;
 use centrode_export::dxf::{Curves, Version};
 use centrode_mechanism::cam::design::Turn;
 use centrode_mechanism::design::{Projection, SheetSize};
-use centrode_mechanism::gear::design::{Addendum, Phase};
+use centrode_mechanism::gear::design::{Addendum, Fit, Phase};
 use centrode_mechanism::gear::pitch::{Interpolation, Plane};
 use centrode_mechanism::linkage::Branch;
 use centrode_mechanism::reverse::{Aim, SplitKind};
@@ -39,6 +39,15 @@ pub(crate) trait Word: Copy + PartialEq + 'static {
 impl Word for Addendum {
     const WORDS: &'static [(&'static str, Self)] =
         &[("full", Self::Full), ("fitted", Self::Fitted)];
+}
+
+impl Word for Fit {
+    const WORDS: &'static [(&'static str, Self)] = &[
+        ("addendum", Self::Addendum),
+        ("thickness_split", Self::ThicknessSplit),
+        ("pressure_angle", Self::PressureAngle),
+        ("phase", Self::Phase),
+    ];
 }
 
 impl Word for Phase {

@@ -14,6 +14,9 @@ const SAME: f64 = 1e-10;
 /// Distance from an edge's contact, pitches, at which the contact that ends there is looked at.
 const BESIDE: f64 = 2.5e-10;
 
+/// Share of a speed by which the contact beside an edge may be slower than at it.
+const ENDED: f64 = 1e-8;
+
 /// Figures of a contact that change steadily along the cycle, where they are greatest and least.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ContactExtremes {
@@ -230,9 +233,11 @@ impl<'a> Search<'a> {
         let meshing = self.meshing();
         let walk = meshing.edge_walk();
         let edges = meshing.edge_contacts(&walk);
+        // Speed at edges at which the contact was seen to end, just beside which nothing is slower by more than rounding.
+        let mut ended: f64 = 0.0;
         let beside = BESIDE * pair.cycle() / f64::from(pair.driver().tooth_count());
         for edge in edges {
-            let known = best.value * (1.0 + SAME);
+            let known = best.value.max(ended) * (1.0 + SAME);
             if edge.fastest <= known {
                 break;
             }
@@ -246,6 +251,9 @@ impl<'a> Search<'a> {
             }
             for phi in [phi - beside, phi + beside] {
                 let value = self.value(&sliding, phi);
+                if value >= speed * (1.0 - ENDED) {
+                    ended = ended.max(speed);
+                }
                 if value > best.value {
                     let input = phi.rem_euclid(pair.cycle());
                     best = Extreme { input, value };

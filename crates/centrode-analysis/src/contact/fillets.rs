@@ -222,39 +222,62 @@ impl Approach<'_> {
         gap.or_else(beyond).unwrap_or(self.within).min(self.within)
     }
 
-    /// Steps at which a fillet is near or is met in the next, fillet by fillet.
-    fn steps(&self, all: Range<usize>) -> Vec<Step> {
-        let (mate, alone) = (self.mate(), &self.fillets.alone);
-        let mut found: Vec<Step> = Vec::new();
+    /// Places of the edge along some steps, in the mate's axes, that are near the fillets' reach: the step, the place, and how near
+    /// it must be to meet something there or in the next step.
+    fn places(&self, all: Range<usize>) -> Vec<(usize, Point, f64)> {
         let mut ways = [0.0; 2];
         let mut next = self.point(&self.walk.poses[all.start]);
+        let mut found = Vec::new();
         for step in all {
-            let (pose, point) = (&self.walk.poses[step], next);
+            let point = next;
             next = self.point(&self.walk.poses[step + 1]);
             ways = [ways[1], (next - point).norm()];
             let near = self.within + WAY * ways[0].max(ways[1]);
-            if !alone.is_near(&point.coords, near) {
-                continue;
+            if self.fillets.alone.is_near(&point.coords, near) {
+                found.push((step, point, near));
             }
-            let start = found.len();
-            alone.tree.each(
-                &|run| (run.center - point).norm_squared() < (run.radius + near).powi(2),
+        }
+        found
+    }
+
+    /// Parts of fillets that are near some place, in the contour's order, each with its fillet.
+    fn near(&self, places: &[(usize, Point, f64)]) -> Vec<(usize, usize)> {
+        let mut found = Vec::new();
+        if let Some(&(_, middle, _)) = places.get(places.len() / 2) {
+            let reach = |(_, point, near): &(usize, Point, f64)| (point - middle).norm() + near;
+            let reach = places.iter().map(reach).fold(0.0, f64::max);
+            self.fillets.alone.tree.each(
+                &|run| (run.center - middle).norm_squared() < (run.radius + reach).powi(2),
                 |k| {
-                    let i = self.fillets.parts[k];
-                    let Some(fillet) = self.fillets.first[i] else {
-                        return;
-                    };
-                    let part = &mate.parts[i];
-                    let is_close = part.clear_of(&point) < self.within;
-                    let gap = is_close.then(|| self.gap(i, pose)).flatten();
-                    match found[start..].iter_mut().find(|s| s.fillet == fillet) {
-                        Some(known) => {
-                            known.gap = known.gap.into_iter().chain(gap).reduce(f64::min)
-                        }
-                        None => found.push(Step { fillet, step, gap }),
-                    }
+                    let part = self.fillets.parts[k];
+                    found.extend(self.fillets.first[part].map(|fillet| (part, fillet)));
                 },
             );
+        }
+        found
+    }
+
+    /// Steps at which a fillet is near or is met in the next, fillet by fillet.
+    fn steps(&self, all: Range<usize>) -> Vec<Step> {
+        let mate = self.mate();
+        let places = self.places(all);
+        let parts = self.near(&places);
+        let mut found: Vec<Step> = Vec::new();
+        for (step, point, near) in places {
+            let pose = &self.walk.poses[step];
+            let start = found.len();
+            for &(i, fillet) in &parts {
+                let part = &mate.parts[i];
+                if (part.center - point).norm_squared() >= (part.radius + near).powi(2) {
+                    continue;
+                }
+                let is_close = part.clear_of(&point) < self.within;
+                let gap = is_close.then(|| self.gap(i, pose)).flatten();
+                match found[start..].iter_mut().find(|s| s.fillet == fillet) {
+                    Some(known) => known.gap = known.gap.into_iter().chain(gap).reduce(f64::min),
+                    None => found.push(Step { fillet, step, gap }),
+                }
+            }
         }
         found.sort_by_key(|s| (s.fillet, s.step));
         found

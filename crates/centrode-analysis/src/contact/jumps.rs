@@ -2,11 +2,7 @@
 
 use centrode_mechanism::gear::GearPair;
 
-use super::{
-    Contact,
-    meshing::{Meshing, Seat},
-    touch::Pose,
-};
+use super::{Contact, meshing::Meshing, seat::Seat, touch::Pose};
 
 /// Difference between neighbouring samples, rad, below which no jump is sought.
 const LEAST: f64 = 1e-6;

@@ -1,4 +1,4 @@
-use std::cell::Cell;
+use std::cell::RefCell;
 
 use centrode_geometry::{Point, Vector, checkpoint};
 use centrode_mechanism::gear::GearPair;
@@ -8,11 +8,12 @@ use super::{
     body::GearOutline,
     hit::Hit,
     places::{Candidates, Kind, Place, SHALLOW, gaps},
-    proof::{Feature, Meeting},
-    stretch::Stretch,
+    seat::Seat,
+    stretch::{Divided, Stretch},
     touch::{self, Pose, Touch},
     tree::Run,
     turning::{Limits, Turning},
+    window::{Allowance, Window},
 };
 
 /// Greatest distance, in modules, of places that are examined.
@@ -46,7 +47,7 @@ pub(super) struct Meshing<'a> {
     pub(super) driver: GearOutline<'a>,
     pub(super) driven: GearOutline<'a>,
     /// Parts of the driven gear.
-    pub(super) stretches: Vec<Stretch>,
+    pub(super) stretches: Vec<Divided>,
     pub(super) module: f64,
     /// Whether all teeth are as the tool would make them.
     whole: bool,
@@ -55,8 +56,9 @@ pub(super) struct Meshing<'a> {
     pub(super) close: f64,
     /// Parameters at which parts faced each other at the sample before.
     pub(super) memory: Vec<(usize, usize, (f64, f64))>,
-    /// Places of the driver's parts among the posed ones of a pose, where they are at all.
-    pub(super) slots: Vec<Cell<usize>>,
+    /// Parts that are near each other in poses like the last.
+    pub(super) window: RefCell<Window>,
+    pub(super) allowance: Allowance,
 }
 
 impl<'a> Meshing<'a> {
@@ -67,9 +69,10 @@ impl<'a> Meshing<'a> {
         Self {
             pair,
             stretches: parts
-                .map(|(j, part)| Stretch::from_part(j, part, |p| *p, |v| *v))
+                .map(|(j, part)| Divided::new(Stretch::from_part(j, part, |p| *p, |v| *v)))
                 .collect(),
-            slots: vec![Cell::new(0); driver.parts.len()],
+            window: RefCell::default(),
+            allowance: Allowance::new(pair, near),
             driver,
             driven,
             module: pair.module(),
@@ -78,6 +81,11 @@ impl<'a> Meshing<'a> {
             close: CLOSE * pair.module() + 2.0 * pair.backlash(),
             memory: Vec::new(),
         }
+    }
+
+    /// Forgets the sample before.
+    pub(super) fn begin(&mut self) {
+        self.memory.clear();
     }
 
     /// Analyses one pose and adds its figures.
@@ -363,29 +371,6 @@ impl<'a> Meshing<'a> {
             turning.look(&candidates.posed[k].0, &self.stretches[j]);
         }
         turning.finish()
-    }
-}
-
-/// Seat of the driven gear pushed to one side.
-pub(super) struct Seat {
-    pub(super) angle: f64,
-    /// Distance of the driven axis from the common normal, mm.
-    lever: f64,
-    contacts: u32,
-    /// Points on the driver and its outward normals there, one a pair of teeth.
-    touches: Vec<(Point, Vector)>,
-    /// Driven angle from which the contacts were found, rad.
-    start: f64,
-    pub(super) hits: Vec<Hit>,
-}
-
-impl Seat {
-    /// Features that meet in its contacts.
-    pub(super) fn features(&self) -> Vec<(Feature, Meeting)> {
-        self.hits
-            .iter()
-            .flat_map(|hit| hit.features(self.start))
-            .collect()
     }
 }
 

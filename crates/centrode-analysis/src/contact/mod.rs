@@ -14,6 +14,7 @@ mod meeting;
 mod meshing;
 mod places;
 mod proof;
+mod seat;
 mod span;
 mod stretch;
 #[cfg(test)]
@@ -22,19 +23,27 @@ mod touch;
 mod tree;
 mod turning;
 mod walk;
+mod window;
 
+use std::ops::Range;
+
+use centrode_geometry::Cancel;
 use centrode_mechanism::gear::design::Addendum;
 use centrode_mechanism::gear::{GearPair, Member, Tooth, ToothSide};
 pub use extremes::ContactExtremes;
 pub use jumps::SeatJump;
 use meshing::Meshing;
 pub use proof::{Proof, ProofError, ProofMeeting, ProofStretch, prove};
+use rayon::prelude::{IntoParallelIterator, ParallelIterator};
 
 /// Samples a pitch where no flank is undercut or short.
 const SAMPLES_PER_PITCH: u32 = 4;
 
 /// Samples a pitch where contact may be lost.
 const FINE_SAMPLES_PER_PITCH: u32 = 48;
+
+/// Samples that are analysed one after the other, each from what is known of the one before.
+const RUN: u32 = 512;
 
 /// Transmission error, rad, below which flanks carry the motion.
 const CARRIED: f64 = 1e-9;
@@ -99,18 +108,66 @@ impl Contact {
     #[must_use]
     pub fn sampled(pair: &GearPair, per_pitch: u32) -> Self {
         let (n1, _) = pair.mean_ratio();
-        let rolling = pair.rolling();
         let teeth = pair.driver().tooth_count() * n1;
         // One more than a multiple of the teeth: every sample is elsewhere on its tooth.
         let count = teeth * per_pitch.max(1) + 1;
-        let length = rolling.pitch_length(Member::Driver) * f64::from(n1);
+        let runs = count.div_ceil(RUN);
+        let cores = (rayon::current_num_threads() as u32).min(runs);
+        if cores < 2 {
+            return Self::stretch(pair, 0..runs, count);
+        }
+        let cancel = Cancel::current();
+        let stretches = (0..cores).into_par_iter().panic_fuse().map(|core| {
+            let _scope = cancel.enter();
+            let [from, to] = [core, core + 1].map(|k| k * runs / cores);
+            Self::stretch(pair, from..to, count)
+        });
+        stretches.reduce(Self::default, Self::followed_by)
+    }
+
+    /// Analyses runs of samples, of so many in the cycle. Every run begins anew, so the figures do not depend on which are done
+    /// together.
+    fn stretch(pair: &GearPair, runs: Range<u32>, count: u32) -> Self {
+        let rolling = pair.rolling();
+        let length = rolling.pitch_length(Member::Driver) * f64::from(pair.mean_ratio().0);
         let mut meshing = Meshing::new(pair);
         let mut out = Self::default();
-        for i in 0..count {
-            let t = rolling.parameter(length * f64::from(i) / f64::from(count));
-            meshing.sample(rolling.angle(t), rolling.driven_angle_at(t), &mut out);
+        for run in runs {
+            meshing.begin();
+            for i in run * RUN..count.min((run + 1) * RUN) {
+                let t = rolling.parameter(length * f64::from(i) / f64::from(count));
+                meshing.sample(rolling.angle(t), rolling.driven_angle_at(t), &mut out);
+            }
         }
         out
+    }
+
+    /// Samples followed by others.
+    fn followed_by(mut self, mut next: Self) -> Self {
+        for (list, more) in [
+            (&mut self.input, &mut next.input),
+            (&mut self.law, &mut next.law),
+            (&mut self.driven_angle, &mut next.driven_angle),
+            (
+                &mut self.reverse_driven_angle,
+                &mut next.reverse_driven_angle,
+            ),
+            (&mut self.transmission_error, &mut next.transmission_error),
+            (
+                &mut self.reverse_transmission_error,
+                &mut next.reverse_transmission_error,
+            ),
+            (&mut self.backlash, &mut next.backlash),
+            (&mut self.normal_backlash, &mut next.normal_backlash),
+            (&mut self.penetration, &mut next.penetration),
+            (&mut self.clearance, &mut next.clearance),
+            (&mut self.fillet_clearance, &mut next.fillet_clearance),
+            (&mut self.sliding, &mut next.sliding),
+        ] {
+            list.append(more);
+        }
+        self.contacts.append(&mut next.contacts);
+        self
     }
 
     /// Analyses given driver angles, rad.

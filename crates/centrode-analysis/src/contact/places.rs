@@ -6,9 +6,8 @@ use centrode_mechanism::gear::{Member, Role};
 use super::{
     body::{Cone, Corner, OutlinePart},
     meshing::Meshing,
-    stretch::Stretch,
+    stretch::{Divided, Stretch},
     touch::{self, Pose, Touch},
-    tree::Near,
 };
 
 /// Depth, in modules, up to which a penetration is accepted without a second test.
@@ -39,7 +38,7 @@ pub(super) enum Kind {
 #[derive(Debug)]
 pub(super) struct Candidates {
     /// Parts of the driver, in the driven gear's axes, and their normals.
-    pub(super) posed: Vec<(Stretch, Cone)>,
+    pub(super) posed: Vec<(Divided, Cone)>,
     /// Index into these, and part of the driven gear.
     pub(super) pairs: Vec<(usize, usize)>,
     /// Depth to which one gear reaches into the core of the other, mm.
@@ -55,26 +54,29 @@ impl Meshing<'_> {
             pairs: Vec::with_capacity(512),
             clash: self.driver.tree.deepest(&pose.axis, self.driven.core),
         };
-        let search = Near {
-            driver: &self.driver.tree,
-            driven: &self.driven.tree,
-            near,
-            place: |p: &Point| pose.back(p),
-        };
-        search.pairs(|i, j| {
-            let slot = &self.slots[i];
-            let known = |k: &usize| out.posed.get(*k).is_some_and(|(s, _)| s.part == i);
-            let k = Some(slot.get()).filter(known).unwrap_or_else(|| {
+        let mut window = self.window.borrow_mut();
+        if !window.holds(pose, near, self.allowance) {
+            let gears = [&self.driver, &self.driven];
+            window.fill(gears, pose, (self.about(pose), near), self.allowance);
+        }
+        let mut slots = vec![None; window.drivers()];
+        window.pairs(pose, near, |slot, i, j| {
+            let k = *slots[slot].get_or_insert_with(|| {
                 let part = &self.driver.parts[i];
                 let stretch = Stretch::from_part(i, part, |p| pose.back(p), |v| pose.turn_back(v));
                 let normals = part.normals.turned(pose.turn_back(&part.normals.direction));
-                slot.set(out.posed.len());
-                out.posed.push((stretch, normals));
-                slot.get()
+                out.posed.push((Divided::new(stretch), normals));
+                out.posed.len() - 1
             });
             out.pairs.push((k, j));
         });
         out
+    }
+
+    /// The pitch point in a pose, in the driver's axes.
+    fn about(&self, pose: &Pose) -> Point {
+        let ratio = self.pair.ratio(pose.axis.y.atan2(pose.axis.x));
+        pose.axis * (ratio / (1.0 + ratio))
     }
 
     /// Finds every point at which the outlines face each other nearer than the limit.
@@ -101,13 +103,14 @@ impl Meshing<'_> {
             };
         for &(k, j) in &candidates.pairs {
             checkpoint();
-            let (stretch, normals) = &candidates.posed[k];
+            let (Divided { whole: stretch, .. }, normals) = &candidates.posed[k];
+            let mate = &self.stretches[j].whole;
             let i = stretch.part;
             let (a, b) = (&self.driver.parts[i], &self.driven.parts[j]);
             let kind = kind(a.role, b.role);
             if normals.opposes(&b.normals)
-                && in_range(stretch, &self.stretches[j], &b.normals, limit(kind), module)
-                && beside(stretch, &self.stretches[j], &b.normals, limit(kind), module)
+                && in_range(stretch, mate, &b.normals, limit(kind), module)
+                && beside(stretch, mate, &b.normals, limit(kind), module)
                 && self.driver.curvature(i).1 + self.driven.curvature(j).1 > 0.0
             {
                 let known = self.memory.iter().find(|m| (m.0, m.1) == (i, j));
@@ -118,7 +121,7 @@ impl Meshing<'_> {
                 // Where the sample before is far off, what is known from it may lead nowhere.
                 let touch = known
                     .and_then(|m| touch::parts(a, b, pose, m.2))
-                    .or_else(|| touch::parts(a, b, pose, stretch.facing(&self.stretches[j])))
+                    .or_else(|| touch::parts(a, b, pose, stretch.facing(mate)))
                     .or_else(|| is_sharp().then(|| touch::sharp_parts(a, b, pose)).flatten());
                 keep(touch, kind, (i, j), None);
             }
@@ -127,10 +130,11 @@ impl Meshing<'_> {
                     let limit = limit(corner_kind(corner.on_flank, other.role));
                     let reach = other.radius + limit;
                     (point - mate.center).norm_squared() <= reach * reach
+                        && mate.may_be_within(&point, limit, 0.5 * module)
                         && mate.may_face(&point, limit.max(0.5 * module))
                 };
             if let Some(corner) = &a.corner
-                && near_corner(corner, b, &self.stretches[j], stretch.point[0])
+                && near_corner(corner, b, mate, stretch.point[0])
             {
                 let normal = pose.turn_back(&corner.normals.direction);
                 if corner.normals.turned(normal).opposes(&b.normals) {
@@ -160,7 +164,7 @@ impl Meshing<'_> {
         let mut first = 0;
         for at in 0..candidates.pairs.len() {
             let (k, j) = candidates.pairs[at];
-            let i = candidates.posed[k].0.part;
+            let i = candidates.posed[k].0.whole.part;
             if memory.iter().any(|m| (m.0, m.1) == (i, j)) {
                 candidates.pairs.swap(first, at);
                 first += 1;

@@ -1,7 +1,7 @@
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-use centrode_geometry::{PolySegment, Segment, Vector};
+use centrode_geometry::{Point, PolySegment, Segment, Vector};
 
 /// Proven bounds of a stretch of a segment.
 #[derive(Clone, Copy, Debug)]
@@ -87,6 +87,76 @@ pub(super) fn curvature(segment: &Segment, u0: f64, u1: f64) -> (f64, f64) {
     }
 }
 
+/// Least and greatest distance of a point from the normals between two parameters, mm, positive where the segment leads away from
+/// the point.
+pub(super) fn levers(segment: &Segment, u0: f64, u1: f64, axis: Point) -> (f64, f64) {
+    let along = |direction: Vector, point: Point| direction.normalize().dot(&(point - axis));
+    let ends = [u0, u1].map(|u| segment.tangent(u));
+    match segment {
+        Segment::Line(..) => {
+            let [start, end] = [u0, u1].map(|u| along(ends[0], segment.at(u).point));
+            (start.min(end), start.max(end))
+        }
+        Segment::Arc(arc) => {
+            // Every normal goes through the centre.
+            let from = arc.center() - axis;
+            let [start, end] = ends.map(|t| along(t, arc.center()));
+            let is_between = |d: Vector| {
+                let turn = ends[0].perp(&ends[1]);
+                turn * ends[0].perp(&d) >= 0.0 && turn * d.perp(&ends[1]) >= 0.0
+            };
+            let long = 0.5 * (u1 - u0) * arc.sweep().abs() >= 0.9 * PI;
+            let low = if long || is_between(-from) {
+                -from.norm()
+            } else {
+                start.min(end)
+            };
+            let high = if long || is_between(from) {
+                from.norm()
+            } else {
+                start.max(end)
+            };
+            (low, high)
+        }
+        Segment::Poly(poly) => {
+            let points = polygon(poly, u0, u1);
+            let first: [Vector; COUNT - 1] = std::array::from_fn(|i| points[i + 1] - points[i]);
+            let mut away = [0.0; 2 * COUNT - 2];
+            for (i, p) in points.iter().enumerate() {
+                let from = p - axis.coords;
+                for (j, d) in first.iter().enumerate() {
+                    away[i + j] += TABLES.levers[i][j] * from.dot(d);
+                }
+            }
+            let low = away.iter().copied().fold(f64::INFINITY, f64::min);
+            let high = away.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+            let speeds = speeds(&points, &first);
+            (
+                over(low, low < 0.0, speeds, 1),
+                over(high, high > 0.0, speeds, 1),
+            )
+        }
+    }
+}
+
+/// Bounds of the speed along a polynomial segment, less its degree: by its progress along the chord, and by its differences.
+fn speeds(points: &[Vector; COUNT], first: &[Vector; COUNT - 1]) -> (f64, f64) {
+    let chord = points[COUNT - 1] - points[0];
+    let along = first.iter().map(|d| chord.dot(d));
+    let slowest = along.fold(f64::INFINITY, f64::min) / chord.norm();
+    (slowest, first.iter().map(Vector::norm).fold(0.0, f64::max))
+}
+
+/// Bound of a value over a power of the speed: away from zero the slowest speed tells, towards zero the fastest.
+fn over(value: f64, outward: bool, (slowest, fastest): (f64, f64), power: i32) -> f64 {
+    let speed = if outward { slowest } else { fastest };
+    if speed > 0.0 {
+        value / speed.powi(power)
+    } else {
+        f64::INFINITY.copysign(value)
+    }
+}
+
 /// Coefficients of a polynomial segment.
 const COUNT: usize = 14;
 
@@ -96,6 +166,8 @@ struct Tables {
     powers: [[f64; COUNT]; COUNT],
     /// Weights of the cross products of first and second differences.
     products: [[f64; COUNT - 2]; COUNT - 1],
+    /// Weights of the products of points and first differences.
+    levers: [[f64; COUNT - 1]; COUNT],
 }
 
 static TABLES: LazyLock<Tables> = LazyLock::new(|| {
@@ -120,8 +192,12 @@ static TABLES: LazyLock<Tables> = LazyLock::new(|| {
     let product = |i: usize, j: usize| {
         choose(degree - 1, i) * choose(degree - 2, j) / choose(2 * degree - 3, i + j)
     };
+    let lever = |i: usize, j: usize| {
+        choose(degree, i) * choose(degree - 1, j) / choose(2 * degree - 1, i + j)
+    };
     Tables {
         powers: std::array::from_fn(|i| std::array::from_fn(|k| power(i, k))),
+        levers: std::array::from_fn(|i| std::array::from_fn(|j| lever(i, j))),
         products: std::array::from_fn(|i| std::array::from_fn(|j| product(i, j))),
     }
 });
@@ -206,8 +282,6 @@ fn hull(points: &[Vector; COUNT]) -> Span {
 /// Bounds of a polynomial segment's curvature: the cross product of its derivatives has control values too.
 fn bend(points: &[Vector; COUNT]) -> (f64, f64) {
     let degree = (COUNT - 1) as f64;
-    let chord = points[COUNT - 1] - points[0];
-    let size = chord.norm();
     let first: [Vector; COUNT - 1] = std::array::from_fn(|i| points[i + 1] - points[i]);
     let second: [Vector; COUNT - 2] = std::array::from_fn(|i| first[i + 1] - first[i]);
     let products = &TABLES.products;
@@ -219,28 +293,16 @@ fn bend(points: &[Vector; COUNT]) -> (f64, f64) {
     }
     let low = cross.iter().copied().fold(f64::INFINITY, f64::min);
     let high = cross.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    let slowest = first
-        .iter()
-        .map(|d| chord.dot(d))
-        .fold(f64::INFINITY, f64::min)
-        / size;
-    let fastest = first.iter().map(Vector::norm).fold(0.0, f64::max);
-    let curvature = |cross: f64, outward: bool| {
-        // Away from zero the slowest speed bends most, towards zero the fastest bends least.
-        let speed = if outward { slowest } else { fastest };
-        if speed > 0.0 {
-            cross * (degree - 1.0) / (degree * speed.powi(3))
-        } else {
-            f64::INFINITY.copysign(cross)
-        }
-    };
+    let speeds = speeds(points, &first);
+    let curvature =
+        |cross: f64, outward: bool| over(cross, outward, speeds, 3) * (degree - 1.0) / degree;
     (curvature(low, low < 0.0), curvature(high, high > 0.0))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use centrode_geometry::{Arc, Point, PolySegment, Tolerance};
+    use centrode_geometry::{Arc, Tolerance};
 
     #[test]
     fn the_bounds_hold_every_stretch_and_tighten_with_it() {
@@ -261,10 +323,20 @@ mod tests {
                 let start = segment.at(u0);
                 let chord = segment.at(u1).point - start.point;
                 let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+                let axis = Point::new(1.3, 0.4);
+                let (lower, upper) = levers(segment, u0, u1, axis);
+                let (mut least_lever, mut greatest_lever) = (f64::INFINITY, f64::NEG_INFINITY);
                 for i in 0..=200 {
                     let jet = segment.at(u0 + (u1 - u0) * f64::from(i) / 200.0);
                     let k = jet.first.perp(&jet.second) / jet.first.norm().powi(3);
                     (low, high) = (low.min(k), high.max(k));
+                    let lever = (jet.point - axis).dot(&jet.first) / jet.first.norm();
+                    assert!(
+                        lower - 1e-12 <= lever && lever <= upper + 1e-12,
+                        "{lower} {lever} {upper}"
+                    );
+                    (least_lever, greatest_lever) =
+                        (least_lever.min(lever), greatest_lever.max(lever));
                     let slope = chord.perp(&jet.first) / chord.dot(&jet.first);
                     assert!(span.slopes.0 - 1e-9 <= slope && slope <= span.slopes.1 + 1e-9);
                     let off = chord.perp(&(jet.point - start.point)).abs() / chord.norm();
@@ -276,6 +348,11 @@ mod tests {
                     "{least} {low} {high} {greatest}"
                 );
                 if u1 - u0 < 0.01 {
+                    let width = greatest_lever - least_lever;
+                    assert!(
+                        upper - lower < 1.1 * width + 1e-6,
+                        "{lower} {upper} {width}"
+                    );
                     assert!(
                         greatest - least < 2.0 * (high - low) + 1e-2,
                         "{least} {low} {high} {greatest}"

@@ -1,5 +1,7 @@
 //! Stretches of a contour about the driven axis, in the driven gear's axes.
 
+use std::cell::OnceCell;
+
 use centrode_geometry::{Point, SegmentJet, Vector};
 
 use super::{
@@ -10,6 +12,9 @@ use super::{
 
 /// Rounding of a place along a stretch, as a share of its length.
 const ROUNDING: f64 = 1e-9;
+
+/// Share of the lever of an idle contact that the levers of what is found to be monotone have at least.
+const SURE: f64 = 0.25;
 
 /// Newton step of the parameter at which iteration stops.
 pub(super) const SETTLED: f64 = 1e-8;
@@ -36,21 +41,8 @@ impl Stretch {
         let chord = point[1] - point[0];
         let center = 0.5 * (point[0] + point[1]);
         let radius = 0.5 * chord.norm() + span.sagitta;
-        let mut sense = 0.0;
-        let (cos, sin) = span.lean;
-        let away = center.dot(&chord);
-        let least = away.abs() * cos - center.perp(&chord).abs() * sin;
-        if least > radius * chord.norm() {
-            sense = away.signum();
-        }
-        let squared = if sense == 0.0 {
-            let distance = center.norm();
-            [distance - radius, distance + radius].map(|d| d.max(0.0).powi(2))
-        } else {
-            let [start, end] = point.map(|p| p.norm_squared());
-            [start.min(end), start.max(end)]
-        };
-        Self {
+        let distance = center.norm();
+        let stretch = Self {
             part,
             u,
             point,
@@ -58,8 +50,35 @@ impl Stretch {
             span,
             center,
             radius,
+            sense: 0.0,
+            squared: [distance - radius, distance + radius].map(|d| d.max(0.0).powi(2)),
+        };
+        let (cos, sin) = span.lean;
+        let away = center.dot(&chord);
+        let least = away.abs() * cos - center.perp(&chord).abs() * sin;
+        if least > radius * chord.norm() {
+            stretch.leading(away.signum())
+        } else {
+            stretch
+        }
+    }
+
+    /// The stretch, of which it is known that its distance from the axis grows (1) or falls (-1) all along.
+    fn leading(self, sense: f64) -> Self {
+        let [start, end] = self.point.map(|p| p.norm_squared());
+        Self {
             sense,
-            squared,
+            squared: [start.min(end), start.max(end)],
+            ..self
+        }
+    }
+
+    /// The stretch, which is monotone where that of which it is a part is.
+    fn part_of(self, whole: &Self) -> Self {
+        if self.sense == whole.sense || whole.sense == 0.0 {
+            self
+        } else {
+            self.leading(whole.sense)
         }
     }
 
@@ -99,6 +118,16 @@ impl Stretch {
         !self.span.slopes.1.is_finite() || (-off <= along && along <= size + off) || along.is_nan()
     }
 
+    /// Whether a point may be no farther outside of the stretch than this, or inside than that, along a normal.
+    pub(super) fn may_be_within(&self, point: &Vector, outside: f64, inside: f64) -> bool {
+        let chord = self.point[1] - self.point[0];
+        let right = (point - self.point[0]).perp(&chord) / chord.norm();
+        let (low, high) = self.span.bulge;
+        !self.span.slopes.1.is_finite()
+            || right.is_nan()
+            || (low - inside <= right && right <= high + outside)
+    }
+
     /// Upper bound of the stretch's extent in a direction.
     pub(super) fn farthest(&self, direction: &Vector) -> f64 {
         let [start, end] = self.point;
@@ -115,6 +144,41 @@ impl Stretch {
         let ends = part.ends.each_ref().map(|p| point(p).coords);
         let tangents = part.span.tangents.each_ref().map(vector);
         Self::new(index, [-1.0, 1.0], ends, tangents, part.span)
+    }
+}
+
+/// A stretch and what it is divided into, found when first needed.
+#[derive(Clone, Debug)]
+pub(super) struct Divided {
+    pub(super) whole: Stretch,
+    parts: OnceCell<Vec<Divided>>,
+}
+
+impl Divided {
+    pub(super) fn new(whole: Stretch) -> Self {
+        Self {
+            whole,
+            parts: OnceCell::new(),
+        }
+    }
+
+    /// What it is divided into, on its contour: nothing where all its normals pass the axis nearer than `idle`, itself where it
+    /// is found to be monotone only now, and else its halves.
+    pub(super) fn parts(&self, contour: &Contour<'_>, idle: f64) -> &[Self] {
+        self.parts.get_or_init(|| {
+            let whole = &self.whole;
+            if whole.sense == 0.0 {
+                let (low, high) = contour.levers(whole);
+                // Up to an extreme of the distance meetings are ill defined: what is monotone keeps off it.
+                if low.max(-high) > SURE * idle {
+                    return vec![Self::new(whole.leading(low.signum()))];
+                }
+                if low.abs().max(high.abs()) < idle {
+                    return Vec::new();
+                }
+            }
+            contour.halves(whole).map(Self::new).into()
+        })
     }
 }
 
@@ -139,6 +203,13 @@ impl Contour<'_> {
                 second: pose.turn_back(&jet.second),
             },
         }
+    }
+
+    /// Bounds of the distance of the axis from the normals, positive where the stretch leads away.
+    fn levers(&self, stretch: &Stretch) -> (f64, f64) {
+        let [u0, u1] = stretch.u;
+        let axis = self.pose.map_or(Point::origin(), |pose| pose.axis);
+        span::levers(self.body.parts[stretch.part].segment, u0, u1, axis)
     }
 
     /// Parameter at which a stretch comes to a squared distance, to within a step that `Meeting::angle` corrects.
@@ -191,13 +262,8 @@ impl Contour<'_> {
             return *stretch;
         }
         let span = Span::new(self.body.parts[stretch.part].segment, u[0], u[1]);
-        Stretch::new(
-            stretch.part,
-            u,
-            ends.map(|e| e.1.0),
-            ends.map(|e| e.1.1),
-            span,
-        )
+        let [point, tangent] = [ends.map(|e| e.1.0), ends.map(|e| e.1.1)];
+        Stretch::new(stretch.part, u, point, tangent, span).part_of(stretch)
     }
 
     /// The two halves of a stretch; those of a whole part are kept.
@@ -215,7 +281,7 @@ impl Contour<'_> {
         [0, 1].map(|k| {
             let (mut u, mut point, mut tangent) = (stretch.u, stretch.point, stretch.tangent);
             (u[1 - k], point[1 - k], tangent[1 - k]) = (middle, jet.point.coords, jet.first);
-            Stretch::new(stretch.part, u, point, tangent, spans[k])
+            Stretch::new(stretch.part, u, point, tangent, spans[k]).part_of(stretch)
         })
     }
 }

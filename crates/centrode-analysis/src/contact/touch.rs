@@ -28,6 +28,11 @@ impl Pose {
         Self::new(phi, pair.driven_angle(phi), pair.center_distance())
     }
 
+    /// Turn of the gears to each other between two poses, rad, or twice the sine of half of it.
+    pub(super) fn turn_between(&self, other: &Self) -> f64 {
+        (self.sin - other.sin).hypot(self.cos - other.cos)
+    }
+
     pub(super) fn turn(&self, v: &Vector) -> Vector {
         Vector::new(
             self.cos * v.x - self.sin * v.y,

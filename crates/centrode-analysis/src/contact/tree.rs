@@ -159,16 +159,17 @@ struct Posed {
 }
 
 /// Search for the parts of two contours that are near each other.
-pub(super) struct Near<'a, F> {
+pub(super) struct Near<'a, F, R> {
     pub(super) driver: &'a Tree,
     pub(super) driven: &'a Tree,
-    /// Distance within which two parts are near.
-    pub(super) near: f64,
+    /// Distance from the centre of a driver's circle, by its radius, within which something is near; no circle within another
+    /// reaches beyond the outer one.
+    pub(super) reach: R,
     /// Point of the driver in the driven gear's axes.
     pub(super) place: F,
 }
 
-impl<F: Fn(&Point) -> Point> Near<'_, F> {
+impl<F: Fn(&Point) -> Point, R: Fn(&Point, f64) -> f64> Near<'_, F, R> {
     /// Every pair of parts, of driver and driven gear, whose circles are near each other, in the order of the driven
     /// gear's parts.
     pub(super) fn pairs(&self, mut found: impl FnMut(usize, usize)) {
@@ -182,7 +183,7 @@ impl<F: Fn(&Point) -> Point> Near<'_, F> {
     fn posed(&self, run: &Run) -> Posed {
         Posed {
             center: (self.place)(&run.center).coords,
-            reach: run.radius + self.near,
+            reach: (self.reach)(&run.center, run.radius),
             first: run.first,
             count: run.count,
             at: run.at,
@@ -260,7 +261,7 @@ mod tests {
                 let search = Near {
                     driver: &one,
                     driven: &other,
-                    near,
+                    reach: |_: &Point, radius: f64| radius + near,
                     place,
                 };
                 let mut found = Vec::new();

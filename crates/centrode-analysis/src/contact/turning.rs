@@ -12,7 +12,7 @@ use super::{
     body::GearOutline,
     hit::Hit,
     meeting::Meeting,
-    stretch::{Contour, SETTLED, Stretch},
+    stretch::{Contour, Divided, SETTLED, Stretch},
     touch::Pose,
 };
 
@@ -98,7 +98,8 @@ impl<'a> Turning<'a> {
     }
 
     /// Searches wherever two stretches may meet first.
-    pub(super) fn look(&mut self, a: &Stretch, b: &Stretch) {
+    pub(super) fn look(&mut self, one: &Divided, other: &Divided) {
+        let (a, b) = (&one.whole, &other.whole);
         // Only a side of the driver that faces on stops the driven gear that turns back.
         if a.sense * self.sign > 0.0 || b.sense * self.sign < 0.0 || self.clear(a, b) {
             return;
@@ -111,12 +112,12 @@ impl<'a> Turning<'a> {
                 return;
             }
             if first {
-                for half in self.driver.halves(a) {
-                    self.look(&half, b);
+                for part in one.parts(&self.driver, self.idle) {
+                    self.look(part, other);
                 }
             } else {
-                for half in self.driven.halves(b) {
-                    self.look(a, &half);
+                for part in other.parts(&self.driven, self.idle) {
+                    self.look(one, part);
                 }
             }
             return;
@@ -136,10 +137,9 @@ impl<'a> Turning<'a> {
         }
         if a.is_whole() && b.is_whole() {
             // Their halves are known too, and most are clear of each other.
-            let halves = self.driven.halves(b);
-            for a in self.driver.halves(a) {
-                for b in &halves {
-                    self.look(&a, b);
+            for part in one.parts(&self.driver, self.idle) {
+                for mate in other.parts(&self.driven, self.idle) {
+                    self.look(part, mate);
                 }
             }
             return;

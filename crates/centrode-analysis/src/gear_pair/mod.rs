@@ -8,6 +8,7 @@ mod teeth;
 use std::f64::consts::PI;
 
 use centrode_geometry::Extreme;
+use centrode_mechanism::gear::design::Fit;
 use centrode_mechanism::gear::{GearPair, Limits, Member, ToolKind};
 
 use self::remedy::remedy;
@@ -55,6 +56,18 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
     values.insert("center_distance", pair.center_distance());
     values.insert("module", pair.module());
     values.insert("phase", pair.phase());
+    // Chosen here and written nowhere else.
+    for fit in &pair.design().teeth.fit {
+        match fit {
+            Fit::ThicknessSplit => {
+                values.insert("thickness_split", pair.teeth().thickness_split);
+            }
+            Fit::PressureAngle => {
+                values.insert("tool_pressure_angle", pair.teeth().tool.pressure_angle);
+            }
+            Fit::Addendum | Fit::Phase => {}
+        }
+    }
     values.insert("closure_error", rolling.closure_error());
     let (least, greatest) = rolling.radii(Member::Driver);
     let a = pair.center_distance();

@@ -2,6 +2,7 @@
 
 mod conjugate;
 pub mod design;
+mod fit;
 mod fitted;
 mod flank;
 mod flank_count;

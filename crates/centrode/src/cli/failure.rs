@@ -185,8 +185,8 @@ mod tests {
         let text = "family = \"gear-pair\"\n[pitch]\nkind = \"circle\"\nradius = 9\n[teeth]\nbacklsh = 1\n";
         assert_eq!(
             shown(text),
-            "error: teeth.backlsh: unknown key, did you mean \"backlash\"?; known are addendum, phase, \
-             backlash, backlash_angle_deg, thickness_split, least_tip_width_coefficient, thickness_deviations, pin_diameter\n \
+            "error: teeth.backlsh: unknown key, did you mean \"backlash\"?; known are addendum, fit, \
+             phase, backlash, backlash_angle_deg, thickness_split, least_tip_width_coefficient, thickness_deviations, pin_diameter\n \
              --> pair.toml:6:1\n  |\n6 | backlsh = 1\n  | ^^^^^^^\n"
         );
     }

@@ -13,7 +13,7 @@ mod tool;
 
 pub use body::{BodySpec, Keyway};
 pub use rule::{Rule, SpecError};
-pub use teeth::{Addendum, Phase, TeethSpec};
+pub use teeth::{Addendum, Fit, Phase, TeethSpec};
 pub use tool::{Rack, Shaper, ToolSpec};
 
 use rule::{broken, count_in_range, file_name, positive, single_line};

@@ -12,6 +12,10 @@ use crate::degrees;
 pub struct TeethSpec {
     /// Height of the teeth: "full", as high as the tool asks, or "fitted", each as high as works.
     pub addendum: Addendum,
+    /// What is chosen so that fitted teeth work deepest, in the place of what is written: "addendum", "thickness_split",
+    /// "pressure_angle" of the tool, "phase".
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub fit: Vec<Fit>,
     /// Position of the teeth on the driver's pitch curve.
     pub phase: Phase,
     /// Total backlash of the pair along the normal, mm.
@@ -41,6 +45,7 @@ impl Default for TeethSpec {
     fn default() -> Self {
         Self {
             addendum: Addendum::Full,
+            fit: Vec::new(),
             phase: Phase::Auto,
             backlash: 0.0,
             backlash_angle: None,
@@ -61,6 +66,20 @@ pub enum Addendum {
     Full,
     /// Trimmed tooth by tooth to what works.
     Fitted,
+}
+
+/// Number of the teeth that is chosen so that the least contact ratio of a flank becomes greatest.
+#[derive(Clone, Copy, Debug, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Fit {
+    /// Height of every tooth, as with `addendum = "fitted"`.
+    Addendum,
+    /// The driver's share of the pitch, from 0.35 to 0.65.
+    ThicknessSplit,
+    /// Pressure angle of the tool, from 14.5 to 30 degrees.
+    PressureAngle,
+    /// Position of the teeth on the driver's pitch curve.
+    Phase,
 }
 
 /// Position of the teeth on the driver's pitch curve.

@@ -152,6 +152,14 @@ impl ToolSpec {
             Self::Shaper(shaper) => shaper.pressure_angle,
         }
     }
+
+    /// Pressure angle, rad, to be changed.
+    pub(crate) fn pressure_angle_mut(&mut self) -> &mut f64 {
+        match self {
+            Self::Rack(rack) => &mut rack.pressure_angle,
+            Self::Shaper(shaper) => &mut shaper.pressure_angle,
+        }
+    }
 }
 
 impl Rack {

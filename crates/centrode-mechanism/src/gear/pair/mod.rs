@@ -9,7 +9,8 @@ use centrode_geometry::{Recent, Tolerance};
 use crate::design::DrawingSpec;
 
 use super::{
-    design::{BodySpec, GearPairDesign, Phase, ToolSpec},
+    design::{BodySpec, Fit, GearPairDesign, Phase, ToolSpec},
+    fit::Fits,
     flank::{Flank, Side},
     profile::Cutter,
     rolling::{Member, Rolling},
@@ -71,7 +72,12 @@ impl GearPair {
                 .map_err(|_| GearPairError::DrivenTeeth { driver, ratio })?,
         };
         let module = rolling.pitch_length(Member::Driver) / (PI * f64::from(driver));
-        let teeth = parameters(design, module);
+        let fits = Fits {
+            rolling: &rolling,
+            counts: &counts,
+            module,
+        };
+        let teeth = parameters(&fits.settled(design), module);
         let plan = layout(&rolling, &counts, &teeth)?;
         let tolerance =
             Tolerance::new(OUTLINE_TOLERANCE * module).map_err(|_| GearPairError::NoToothCount)?;
@@ -154,7 +160,7 @@ impl GearPair {
     /// # Errors
     /// [`GearPairError`] where too little of a tooth is left.
     pub fn thinned(&self, by: f64) -> Result<Self, GearPairError> {
-        let mut design = self.design.clone();
+        let mut design = self.settled_design();
         design.teeth.phase = Phase::Pitches(self.phase);
         design.teeth.backlash_angle = None;
         // Each gear takes half of the backlash, and that on two flanks.
@@ -162,7 +168,24 @@ impl GearPair {
         Self::resolve(&design)
     }
 
-    /// Design of the pair.
+    /// Design of the pair with what it leaves free (`teeth.fit`) as it was chosen: it gives the same pair, and nothing is free.
+    #[must_use]
+    pub fn settled_design(&self) -> GearPairDesign {
+        let mut design = self.design.clone();
+        for fit in std::mem::take(&mut design.teeth.fit) {
+            match fit {
+                Fit::Addendum => design.teeth.addendum = self.teeth.addendum,
+                Fit::ThicknessSplit => design.teeth.thickness_split = self.teeth.thickness_split,
+                Fit::Phase => design.teeth.phase = self.teeth.phase,
+                Fit::PressureAngle => {
+                    *design.tool.pressure_angle_mut() = self.teeth.tool.pressure_angle;
+                }
+            }
+        }
+        design
+    }
+
+    /// Design of the pair, as written.
     #[must_use]
     pub fn design(&self) -> &GearPairDesign {
         &self.design

@@ -271,6 +271,12 @@ impl ThreeArmDesign {
         }
         self.tool.validate().map_err(|e| e.inside("tool"))?;
         self.teeth.validate().map_err(|e| e.inside("teeth"))?;
+        if !self.teeth.fit.is_empty() {
+            let rule = Rule::Unused(
+                "here: fit one of its gears and the next as a gear pair, and write what is found",
+            );
+            return broken("fit", rule).map_err(|e: SpecError| e.inside("teeth"));
+        }
         self.arm.validate().map_err(|e| e.inside("arm"))?;
         if let Some(cam) = &self.cam {
             cam.validate().map_err(|e| e.inside("cam"))?;
