@@ -46,8 +46,8 @@ const FARTHEST: f64 = 1e6;
 ///     center_distance: mm; it follows from pitch curve and mean ratio, and is checked if given.
 ///     tool: What cuts both gears; the rack of ISO 53, profile A, if left out.
 ///     addendum: "full": every tooth as high as the tool asks. "fitted": each as high as works.
-///     fit: What is chosen so that fitted teeth work deepest, in the place of what is given here: "addendum",
-///         "thickness_split", "pressure_angle" of the tool, "phase".
+///     fit: What is chosen so that fitted teeth work deepest, in the place of what is given here: "thickness_split",
+///         "pressure_angle" of the tool, "phase"; "addendum" stands for fitted teeth, which all of them have.
 ///     phase: Where the teeth sit on the driver: "tooth" or "space" at the polar angle zero, "congruent" so that
 ///         both gears come out the same part, "auto", or the pitches from the polar angle zero to a tooth.
 ///     backlash: Play of the pair along the normal, mm.
@@ -358,13 +358,14 @@ impl GearPair {
         Ok(record::contact(py, contact?)?)
     }
 
-    /// From how many teeth on full teeth, and fitted ones, carry the motion by their flanks alone, each with the pair so
-    /// changed; a kind that does not up to 600 teeth is left out. Takes as long as a dozen pairs or two.
+    /// From how many teeth on full teeth, fitted ones, and fitted ones of chosen thickness, pressure angle and phase carry the
+    /// motion by their flanks alone, each with the pair so changed. A kind that does not up to 600 teeth is left out; a choice is
+    /// looked for only where as many fitted teeth as there are do not. Takes seconds.
     ///
     /// >>> import centrode as ct
     /// >>> pitch = ct.pitch.from_ratio("1 + 0.45*cos(2*phi)", module=2, tooth_count=24)
-    /// >>> [(found.addendum, found.least_tooth_count) for found in ct.GearPair(pitch).remedies()]
-    /// [('fitted', 31)]
+    /// >>> [(found.addendum, len(found.fit), found.least_tooth_count) for found in ct.GearPair(pitch).remedies()]
+    /// [('fitted', 0, 31), ('fitted', 3, 24)]
     fn remedies<'py>(&self, py: Python<'py>) -> Answer<Bound<'py, PyTuple>> {
         let pair = Arc::clone(&self.0);
         let found = wait(py, move || remedies(&pair))?;

@@ -127,6 +127,7 @@ pub(crate) fn remedy<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     record!(py, "centrode._remedy" "PairRemedy", remedy => [least_tooth_count]
         addendum: remedy.addendum.word(),
+        fit: PyTuple::new(py, remedy.fit.iter().map(|fit| fit.word()))?,
         pair: pair,
     )
 }

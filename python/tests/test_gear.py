@@ -109,3 +109,21 @@ def test_gears_are_equal_where_their_pairs_are():
     assert pair.driver == pair.driver == ct.GearPair(pitch).driver
     assert pair.driver != pair.driven
     assert pair.driver != ct.GearPair(pitch, backlash=0.1).driver
+
+
+def test_what_is_free_is_chosen_so_that_the_flanks_carry_the_motion():
+    law = ct.pitch.from_ratio("1 + 0.45*cos(2*phi)", module=2, tooth_count=24)
+    written = ct.GearPair(law, addendum="fitted")
+    chosen = ct.GearPair(law, fit=["addendum", "pressure_angle"])
+    errors = [pair.check().values["transmission_error_max"] for pair in (written, chosen)]
+    assert errors[0] > 1e-6 and errors[1] < 1e-9
+    assert chosen.addendum == "fitted" and chosen.fit == ["addendum", "pressure_angle"]
+    assert chosen.tool.pressure_angle != written.tool.pressure_angle
+    assert chosen.check().values["tool_pressure_angle"] == chosen.tool.pressure_angle
+    # What is loaded again chooses again; what is settled has nothing to choose, and the same gears.
+    again = ct.GearPair.from_toml(chosen.to_toml())
+    assert again.tool == chosen.tool and again.fit == chosen.fit
+    settled = chosen.settled()
+    assert settled.fit == [] and np.array_equal(settled.driver.outline(), chosen.driver.outline())
+    with pytest.raises(ct.DesignError, match=r"teeth\.fit"):
+        ct.GearPair(law, fit=["backlash"])

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, SQRT_2, TAU};
 
 use centrode_analysis::{check, remedies};
-use centrode_mechanism::gear::design::{Addendum, GearPairDesign, Rack, ToolSpec};
+use centrode_mechanism::gear::design::{Addendum, Fit, GearPairDesign, Rack, ToolSpec};
 use centrode_mechanism::gear::pitch::{PitchSpec, Polar, Ratio, Transmission};
 use centrode_mechanism::gear::{GearPair, Member, ToothSide};
 use serde::Deserialize;
@@ -117,7 +117,7 @@ fn a_strong_law_is_carried_from_the_tooth_count_on_that_is_named_and_not_below()
     let weak = by_ratio("1 + 0.45*cos(2*phi)", 24, Addendum::Fitted);
     assert!(error(&weak).0 > CARRIED);
     let found = remedies(&GearPair::resolve(&weak).expect("a pair"));
-    let [remedy] = &found[..] else {
+    let [remedy, chosen] = &found[..] else {
         panic!("{found:?}");
     };
     assert_eq!(
@@ -136,6 +136,42 @@ fn a_strong_law_is_carried_from_the_tooth_count_on_that_is_named_and_not_below()
     assert!((own - made).abs() < 1e-12 * own);
     let one_below = weak.with_tooth_count(30);
     assert!(error(&one_below).0 > CARRIED);
+
+    // With thickness, pressure angle and phase chosen as many teeth as written are enough, and one fewer is not.
+    assert_eq!(chosen.least_tooth_count, 24);
+    assert!(chosen.design.teeth.fit.is_empty());
+    let sound = error(&chosen.design);
+    assert!(sound.0 <= CARRIED && sound.1, "{sound:?}");
+    let mut fewer = by_ratio("1 + 0.45*cos(2*phi)", 23, Addendum::Fitted);
+    fewer.teeth.fit = chosen.fit.clone();
+    assert!(error(&fewer).0 > CARRIED);
+}
+
+#[test]
+fn what_is_chosen_is_sound_wherever_what_is_written_is() {
+    let ratios = [
+        "1 + 0.3*cos(phi)",
+        "1 + 0.4*cos(2*phi)",
+        "1 + 0.2*cos(phi) + 0.15*sin(3*phi)",
+    ];
+    for (ratio, teeth) in ratios
+        .iter()
+        .flat_map(|r| [14, 19, 26].map(|teeth| (r, teeth)))
+    {
+        let written = by_ratio(ratio, teeth, Addendum::Fitted);
+        for fit in [
+            &[Fit::PressureAngle][..],
+            &[Fit::ThicknessSplit, Fit::Phase],
+        ] {
+            let mut chosen = written.clone();
+            chosen.teeth.fit = fit.to_vec();
+            let [before, after] = [&written, &chosen].map(error);
+            assert!(
+                !before.1 || after.1,
+                "{ratio} {teeth} {fit:?}: {before:?} {after:?}"
+            );
+        }
+    }
 }
 
 #[test]

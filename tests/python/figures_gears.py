@@ -73,9 +73,9 @@ def baesel():
 
 
 def remedy():
-    """Least count of fitted teeth that carry 1 + 0.45 cos 2 phi."""
+    """Least counts of fitted teeth that carry 1 + 0.45 cos 2 phi, as they are and with a choice."""
     law = ct.pitch.from_ratio("1 + 0.45*cos(2*phi)", module=2, tooth_count=24)
-    return ct.GearPair(law, addendum="fitted").remedies()[0].least_tooth_count
+    return [found.least_tooth_count for found in ct.GearPair(law, addendum="fitted").remedies()]
 
 
 def press():
@@ -128,7 +128,7 @@ PAGES = {
         Said("mixed harmonics at {} rad", lambda: lost("limit_mixed_harmonics")),
     ],
     "docs/strong-laws.md": [
-        Said("cos 2 phi: fitted teeth with {}, full", remedy),
+        Said("cos 2 phi: fitted teeth with {}, full ones at none of the counts; with {}, where", remedy),
         Said("distance {} mm, and of the {} flanks", lambda: [baesel(), 2 * 14]),
     ],
     "docs/adapters.md": [

@@ -99,7 +99,7 @@ fn sound(
     }
     let mut fitted = design.clone();
     fitted.teeth.addendum = Addendum::Fitted;
-    let count = least_count(&fitted, FIRST).ok_or_else(|| NoSoundTeeth::None {
+    let count = least_count(&fitted, FIRST, MOST_TEETH).ok_or_else(|| NoSoundTeeth::None {
         pair: name.into(),
         full_module,
     })?;

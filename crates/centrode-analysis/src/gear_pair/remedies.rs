@@ -1,7 +1,7 @@
 //! Tooth counts from which the flanks alone carry the motion.
 
 use centrode_mechanism::gear::GearPair;
-use centrode_mechanism::gear::design::{Addendum, GearPairDesign};
+use centrode_mechanism::gear::design::{Addendum, Fit, GearPairDesign};
 
 use super::{PENETRATION, thinned};
 use crate::Contact;
@@ -16,6 +16,8 @@ pub const MOST_TEETH: u32 = 600;
 pub struct PairRemedy {
     /// Height of the teeth.
     pub addendum: Addendum,
+    /// What was chosen beside that height, and is written in the design.
+    pub fit: Vec<Fit>,
     /// Tooth count of the driver at which they do: with one step fewer they do not. A greater one may fail again.
     pub least_tooth_count: u32,
     /// The design with such teeth: as many as written where those are enough, else the least that are, on pitch curves of the
@@ -23,36 +25,57 @@ pub struct PairRemedy {
     pub design: GearPairDesign,
 }
 
-/// Finds from which tooth count on full teeth, and fitted ones, carry the motion of a pair by their flanks alone.
+/// Finds from which tooth count on full teeth, fitted ones, and fitted ones of chosen phase, thickness and pressure angle carry the
+/// motion of a pair by their flanks alone.
 ///
 /// They do where the transmission error stays below 1e-9 rad, more only by what the play thins them, and nothing penetrates,
 /// over the samples of [`Contact::analyse`]. Counts grow by a quarter till one does and are halved between it and the greatest that does
 /// not: the count found carries the motion and the one below it does not, but a greater one may fail again. A kind of teeth that does not up to [`MOST_TEETH`]
-/// is left out. Each count tried costs a pair and its contact.
+/// is left out. Each count tried costs a pair and its contact; a choice (`teeth.fit`) is looked for only where as many fitted
+/// teeth as written do not carry, up to the count from which they do and to twice the one written.
 #[must_use]
 pub fn remedies(pair: &GearPair) -> Vec<PairRemedy> {
     let written = pair.driver().tooth_count();
-    let kinds = [Addendum::Full, Addendum::Fitted].into_iter();
-    kinds
-        .filter_map(|addendum| {
-            let mut design = pair.design().clone();
-            design.teeth.addendum = addendum;
-            let least = least_count(&design, written)?;
-            Some(PairRemedy {
-                addendum,
-                least_tooth_count: least,
-                design: if least > written {
-                    design.with_tooth_count(least)
-                } else {
-                    design
-                },
-            })
-        })
-        .collect()
+    let mut design = pair.settled_design();
+    let changed = |design: &GearPairDesign, least: u32| match least > written {
+        true => design.with_tooth_count(least),
+        false => design.clone(),
+    };
+    let mut found = Vec::new();
+    for addendum in [Addendum::Full, Addendum::Fitted] {
+        design.teeth.addendum = addendum;
+        let least = least_count(&design, written, MOST_TEETH);
+        found.extend(least.map(|least| PairRemedy {
+            addendum,
+            fit: Vec::new(),
+            least_tooth_count: least,
+            design: changed(&design, least),
+        }));
+    }
+    let fitted = found
+        .iter()
+        .find(|remedy| remedy.addendum == Addendum::Fitted);
+    // Each count tried costs a hundred layouts.
+    let most = fitted.map_or(written, |remedy| {
+        (remedy.least_tooth_count - 1).min(2 * written)
+    });
+    design.teeth.fit = vec![Fit::ThicknessSplit, Fit::PressureAngle, Fit::Phase];
+    if most >= written
+        && let Some(least) = least_count(&design, written, most)
+        && let Ok(pair) = GearPair::resolve(&changed(&design, least))
+    {
+        found.push(PairRemedy {
+            addendum: Addendum::Fitted,
+            fit: design.teeth.fit,
+            least_tooth_count: least,
+            design: pair.settled_design(),
+        });
+    }
+    found
 }
 
-/// The least tooth count at which the flanks of a design carry its motion, looked for from one on.
-pub(crate) fn least_count(design: &GearPairDesign, written: u32) -> Option<u32> {
+/// The least tooth count at which the flanks of a design carry its motion, looked for from one on and up to another.
+pub(crate) fn least_count(design: &GearPairDesign, written: u32, most: u32) -> Option<u32> {
     // The driven gear has a whole number of teeth.
     let step = design.mean_ratio[1];
     let carries = |steps: u32| is_carried(&design.with_tooth_count(steps * step));
@@ -65,10 +88,11 @@ pub(crate) fn least_count(design: &GearPairDesign, written: u32) -> Option<u32> 
         }
     } else {
         while low == 0 || !carries(high) {
-            (low, high) = (high, high + high.div_ceil(4));
-            if high * step > MOST_TEETH {
+            // The last one tried is the greatest there is.
+            if high >= most / step {
                 return None;
             }
+            (low, high) = (high, (high + high.div_ceil(4)).min(most / step));
         }
     }
     while high - low > 1 {

@@ -1,15 +1,17 @@
 //! Phase, thickness and pressure angle at which fitted teeth work deepest.
 //!
-//! A flank works from its mate's tip to its own: along the pitch curve, by the sum of both tips' rolls. Over the pitch that is how
-//! many such flanks hold the gears at once, its contact ratio; where the least of all flanks is above one, the flanks alone carry
-//! the motion. What is free is chosen for the greatest least: from a grid of places on, by ever smaller steps along each number.
+//! Along the pitch curve a flank works from its mate's tip to its own, by the sum of both tips' rolls. Where one flank ends the next
+//! has begun if what is left of the one and what there is of the other are more than a pitch together; over the pitch that is the
+//! contact ratio there. Where the least of them is above one, the flanks alone carry the motion. What is free is chosen for the
+//! greatest least: from a grid of places on, by ever smaller steps along each number.
 
 use centrode_geometry::checkpoint;
 
 use super::{
     design::{Addendum, Fit, GearPairDesign, Phase},
+    flank::Side,
     pair::parameters,
-    profile::{ToothPlan, Top},
+    profile::{FlankPlan, Top},
     rolling::{Member, Rolling},
     teeth::{Counts, Layout, layout},
 };
@@ -32,21 +34,21 @@ struct Free {
 const FREE: [Free; 3] = [
     Free {
         fit: Fit::Phase,
-        first: &[0.0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875],
+        first: &[0.0, 0.25, 0.5, 0.75],
         range: [f64::NEG_INFINITY, f64::INFINITY],
         step: 0.064,
         parts: 1000.0,
     },
     Free {
         fit: Fit::ThicknessSplit,
-        first: &[0.44, 0.5, 0.56],
+        first: &[0.45, 0.55],
         range: [0.35, 0.65],
         step: 0.032,
         parts: 1000.0,
     },
     Free {
         fit: Fit::PressureAngle,
-        first: &[17.5, 20.0, 25.0],
+        first: &[17.5, 23.0],
         range: [14.5, 30.0],
         step: 1.6,
         parts: 20.0,
@@ -96,9 +98,11 @@ impl Fits<'_> {
     pub(super) fn settled(&self, design: &GearPairDesign) -> GearPairDesign {
         let mut base = design.clone();
         let fits = std::mem::take(&mut base.teeth.fit);
-        if fits.contains(&Fit::Addendum) {
-            base.teeth.addendum = Addendum::Fitted;
+        if fits.is_empty() {
+            return base;
         }
+        // What is chosen is chosen for fitted teeth.
+        base.teeth.addendum = Addendum::Fitted;
         let free: Vec<&Free> = FREE.iter().filter(|f| fits.contains(&f.fit)).collect();
         if free.is_empty() {
             return base;
@@ -152,36 +156,51 @@ impl Fits<'_> {
         layout(self.rolling, self.counts, &teeth).ok()
     }
 
-    /// The least contact ratio of a flank, and a little of their mean; without limit below where there are no teeth.
+    /// The least contact ratio from a flank to the next, and a little of their mean; without limit below where there are no teeth.
     fn merit(&self, design: &GearPairDesign) -> f64 {
         checkpoint();
-        let mut fitted = design.clone();
-        fitted.teeth.addendum = Addendum::Fitted;
-        let is_valid = fitted.tool.validate().is_ok() && fitted.teeth.validate().is_ok();
-        let Some(layout) = is_valid.then(|| self.layout(&fitted)).flatten() else {
+        let is_valid = design.tool.validate().is_ok() && design.teeth.validate().is_ok();
+        let Some(layout) = is_valid.then(|| self.layout(design)).flatten() else {
             return f64::NEG_INFINITY;
         };
-        let pitch = self.rolling.pitch_length(Member::Driver) / f64::from(self.counts.driver);
-        let (least, mean) = contact_ratios(&layout, pitch);
+        let (least, mean) = self.contact_ratios(&layout);
         least + MEAN * mean
     }
-}
 
-/// Least and mean contact ratio of the flanks of fitted teeth.
-fn contact_ratios(layout: &Layout, pitch: f64) -> (f64, f64) {
-    let flanks = |teeth: &[ToothPlan]| -> Vec<f64> {
-        let flanks = teeth
-            .iter()
-            .flat_map(|tooth| [&tooth.leading, &tooth.trailing]);
-        let ratio = flanks.map(|flank| match flank.top {
-            Top::Reach(reach) => (reach + flank.active_depth) / pitch,
-            _ => 0.0,
-        });
-        ratio.collect()
-    };
-    let ratios = [flanks(&layout.driver), flanks(&layout.driven)].concat();
-    let least = ratios.iter().copied().fold(f64::INFINITY, f64::min);
-    (least, ratios.iter().sum::<f64>() / ratios.len() as f64)
+    /// Least and mean contact ratio from one flank to the next.
+    fn contact_ratios(&self, layout: &Layout) -> (f64, f64) {
+        let Layout { driver, driven, .. } = layout;
+        let pitch = self.rolling.pitch_length(Member::Driver) / f64::from(self.counts.driver);
+        let meshes = driver.len() * self.rolling.mean_ratio().0 as usize;
+        let both = |m: usize, side: Side| {
+            let mate = &driven[m % driven.len()];
+            match side {
+                Side::Trailing => (&driver[m % driver.len()].trailing, &mate.leading),
+                Side::Leading => (&driver[(m + 1) % driver.len()].leading, &mate.trailing),
+            }
+        };
+        // Up to a flank's tip, where the mate's goes so deep.
+        let above = |flank: &FlankPlan, mate: &FlankPlan| match flank.top {
+            Top::Reach(reach) => reach.min(mate.corner.end),
+            Top::Height(_) => 0.0,
+        };
+        let mut least = f64::INFINITY;
+        let mut sum = 0.0;
+        for side in [Side::Leading, Side::Trailing] {
+            for m in 0..meshes {
+                let ((one, its), (next, mate)) = (both(m, side), both((m + 1) % meshes, side));
+                // A driver's flank works from its tip on, or up to it.
+                let along = if side.sign() > 0.0 {
+                    above(its, one) + above(next, mate)
+                } else {
+                    above(one, its) + above(mate, next)
+                };
+                least = least.min(along / pitch);
+                sum += along / pitch;
+            }
+        }
+        (least, sum / (2 * meshes) as f64)
+    }
 }
 
 /// All combinations of the first values and those written.
@@ -195,4 +214,55 @@ fn grid(free: &[&Free], start: &[f64]) -> Vec<Vec<f64>> {
             .collect();
     }
     all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::gear::GearPair;
+    use crate::gear::pitch::{Ellipse, PitchSpec};
+
+    const ALL: [Fit; 4] = [
+        Fit::Addendum,
+        Fit::ThicknessSplit,
+        Fit::PressureAngle,
+        Fit::Phase,
+    ];
+
+    fn weak(fit: &[Fit]) -> GearPairDesign {
+        let mut design = GearPairDesign::new(PitchSpec::Ellipse(Ellipse {
+            eccentricity: 0.5,
+            module: Some(2.0),
+            tooth_count: Some(13),
+            ..Ellipse::default()
+        }));
+        design.teeth.fit = fit.to_vec();
+        design
+    }
+
+    #[test]
+    fn the_settled_design_gives_the_same_gears_and_leaves_nothing_free() {
+        for fit in [&ALL[..1], &ALL[1..3], &ALL] {
+            let pair = GearPair::resolve(&weak(fit)).expect("a pair");
+            let settled = pair.settled_design();
+            assert!(settled.teeth.fit.is_empty());
+            let again = GearPair::resolve(&settled).expect("a pair");
+            assert_eq!(again.driver().outline(), pair.driver().outline(), "{fit:?}");
+            assert_eq!(again.driven().outline(), pair.driven().outline(), "{fit:?}");
+            assert_eq!(pair.design().teeth.fit, fit);
+        }
+    }
+
+    #[test]
+    fn nothing_is_chosen_that_is_not_free() {
+        let written = weak(&[]);
+        let settled = GearPair::resolve(&weak(&[Fit::PressureAngle])).expect("a pair");
+        let settled = settled.settled_design();
+        assert_ne!(settled.tool.pressure_angle(), written.tool.pressure_angle());
+        let degrees = settled.tool.pressure_angle().to_degrees();
+        assert!((14.5..=30.0).contains(&degrees), "{degrees}");
+        assert_eq!(settled.teeth.addendum, Addendum::Fitted);
+        assert_eq!(settled.teeth.phase, written.teeth.phase);
+        assert_eq!(settled.teeth.thickness_split, written.teeth.thickness_split);
+    }
 }

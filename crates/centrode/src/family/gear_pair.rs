@@ -19,10 +19,20 @@ const DRAWN: f64 = 2e-3;
 
 /// A remedy in words.
 fn words(pair: &GearPair, remedy: &PairRemedy) -> String {
-    let teeth = match remedy.addendum {
-        Addendum::Full => "full teeth",
-        Addendum::Fitted => "fitted teeth",
+    let mut teeth = match remedy.addendum {
+        Addendum::Full => "full teeth".to_owned(),
+        Addendum::Fitted => "fitted teeth".to_owned(),
     };
+    if !remedy.fit.is_empty() {
+        let GearPairDesign {
+            teeth: spec, tool, ..
+        } = &remedy.design;
+        let angle = tool.pressure_angle().to_degrees();
+        teeth += &format!(
+            " of thickness split {} and pressure angle {angle:.2} deg, their phase chosen too,",
+            spec.thickness_split
+        );
+    }
     let (least, written) = (remedy.least_tooth_count, pair.driver().tooth_count());
     // The driven gear has a whole number of teeth.
     let fewer = least - pair.mean_ratio().1;
@@ -35,6 +45,9 @@ fn words(pair: &GearPair, remedy: &PairRemedy) -> String {
     let start = format!(
         "{teeth} carry the motion by their flanks alone with {least} teeth of the driver{below}"
     );
+    if least == written && !remedy.fit.is_empty() {
+        return format!("{start}, as many as written");
+    }
     if least <= written {
         return format!("{start}, and with the {written} written");
     }

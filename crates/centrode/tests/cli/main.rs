@@ -353,7 +353,19 @@ fn a_remedy_is_a_design_that_mends_what_the_check_finds() {
     let json = fed(&["check", "--remedy", "--json", "-"], weak);
     let json: serde_json::Value = serde_json::from_slice(&json.stdout).expect("JSON");
     let told = json["remedies"][0]["design"].as_str().expect("a design");
-    assert!(design.ends_with(&format!("{told}\n")), "{told}");
+    assert!(
+        design.contains(&format!("\n{told}\n# fitted teeth of thickness split")),
+        "{told}"
+    );
+    // With a choice as many teeth as written are enough.
+    let words = json["remedies"][1]["words"].as_str().expect("words");
+    assert!(
+        words.ends_with("as many as written") && design.contains(words),
+        "{words}"
+    );
+    let chosen = json["remedies"][1]["design"].as_str().expect("a design");
+    let mended = fed(&["check", "--json", "-"], chosen.as_bytes());
+    assert_eq!(mended.status.code(), Some(0), "{}", text(&mended.stdout));
     let none = centrode(&["check", "--remedy", &shipped("press.toml")]);
     assert_eq!(none.status.code(), Some(2));
     assert!(text(&none.stderr).contains("no remedy is known for this design"));

@@ -12,8 +12,8 @@ use crate::degrees;
 pub struct TeethSpec {
     /// Height of the teeth: "full", as high as the tool asks, or "fitted", each as high as works.
     pub addendum: Addendum,
-    /// What is chosen so that fitted teeth work deepest, in the place of what is written: "addendum", "thickness_split",
-    /// "pressure_angle" of the tool, "phase".
+    /// What is chosen so that fitted teeth work deepest, in the place of what is written: "thickness_split", "pressure_angle" of
+    /// the tool, "phase"; "addendum" stands for fitted teeth, which all of them have.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub fit: Vec<Fit>,
     /// Position of the teeth on the driver's pitch curve.
@@ -68,11 +68,11 @@ pub enum Addendum {
     Fitted,
 }
 
-/// Number of the teeth that is chosen so that the least contact ratio of a flank becomes greatest.
+/// Number of the teeth that is chosen so that the least contact ratio from one flank to the next becomes greatest.
 #[derive(Clone, Copy, Debug, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Fit {
-    /// Height of every tooth, as with `addendum = "fitted"`.
+    /// Height of every tooth: with any choice the teeth are fitted.
     Addendum,
     /// The driver's share of the pitch, from 0.35 to 0.65.
     ThicknessSplit,

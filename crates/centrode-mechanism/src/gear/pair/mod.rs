@@ -172,9 +172,10 @@ impl GearPair {
     #[must_use]
     pub fn settled_design(&self) -> GearPairDesign {
         let mut design = self.design.clone();
+        design.teeth.addendum = self.teeth.addendum;
         for fit in std::mem::take(&mut design.teeth.fit) {
             match fit {
-                Fit::Addendum => design.teeth.addendum = self.teeth.addendum,
+                Fit::Addendum => {}
                 Fit::ThicknessSplit => design.teeth.thickness_split = self.teeth.thickness_split,
                 Fit::Phase => design.teeth.phase = self.teeth.phase,
                 Fit::PressureAngle => {
