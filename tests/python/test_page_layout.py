@@ -118,6 +118,18 @@ def test_borders_are_moved_by_hand_and_by_keys_and_stay(browser, tmp_path):
         assert form.evaluate(width) == before
 
 
+def test_a_window_that_was_narrow_has_its_panes_again_once_it_is_wide(browser, tmp_path):
+    width = "pane => pane.getBoundingClientRect().width"
+    with opened(browser, tmp_path, CIRCLE) as (page, _):
+        panes = [page.locator("#form"), page.locator("#verdict")]
+        before = [pane.evaluate(width) for pane in panes]
+        page.set_viewport_size({"width": 390, "height": 800})
+        page.get_by_role("tab", name="Design").click()
+        page.set_viewport_size({"width": 1440, "height": 900})
+        expect(page.locator("#tabs")).to_be_hidden()
+        assert [pane.evaluate(width) for pane in panes] == before
+
+
 def test_one_chart_is_enlarged_and_stays_so_over_edits(browser, tmp_path):
     with opened(browser, tmp_path, ARMS) as (page, _):
         names = page.locator("#charts .chart b").all_text_contents()

@@ -5,7 +5,7 @@ import math
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from page import CIRCLE, FEEDER, POINTS, drawing, opened
+from page import ARMS, CIRCLE, FEEDER, POINTS, drawing, field, opened, settled
 from PIL import Image
 from playwright.sync_api import expect
 from studio import studio
@@ -91,6 +91,48 @@ def test_a_picture_without_a_mesh_offers_none_and_axe_finds_nothing(browser, tmp
         assert not Axe().run(page).response["violations"]
 
 
+MESHES = [
+    name
+    for chain in (1, 2, 3)
+    for name in (f"sun and intermediate gear {chain}", f"intermediate gear {chain} and planet {chain}")
+]
+
+
+def test_the_meshes_of_three_arms_are_looked_at_one_after_the_other(browser, tmp_path):
+    with opened(browser, tmp_path, ARMS, color_scheme="light") as (page, _):
+        before, mesh = drawing(page), page.locator("#mesh")
+        for number, name in enumerate(MESHES, 1):
+            mesh.click()
+            expect(mesh).to_have_text(f"Mesh {number}/6")
+            expect(mesh).to_have_attribute("title", name)
+            places = set()
+            for turn in (0.2, 0.205, 0.21):
+                page.locator("#scrub").fill(str(turn))
+                near = [dot for dot in dots(page) if math.hypot(*dot) < 150]
+                assert near
+                places.update(near)
+            # They move, and the pitch point stays in the middle.
+            assert len(places) > 3
+            page.locator("#scrub").fill("0")
+        # Each of six meshes touches at one place at least.
+        assert int(mesh.get_attribute("data-contacts")) >= 6
+        mesh.click()
+        expect(mesh).to_have_text("Mesh")
+        expect(mesh).to_have_attribute("aria-pressed", "false")
+        assert drawing(page) == before
+
+
+def test_a_change_keeps_the_view_at_the_mesh_of_three_arms(browser, tmp_path):
+    with opened(browser, tmp_path, ARMS) as (page, _):
+        mesh = page.locator("#mesh")
+        close_to_the_mesh(page)
+        mesh.click()
+        field(page, "arm.tip_distance").press("ArrowUp")
+        settled(page)
+        expect(mesh).to_have_text("Mesh 2/6")
+        assert int(mesh.get_attribute("data-contacts")) >= 6
+
+
 @pytest.mark.parametrize(
     ("name", "share"), [("elliptic-pair-2018", 0.01), ("lobed-pair-5-2", 0.01), ("transplanter-pair-2021", 0.04)]
 )
@@ -101,7 +143,7 @@ def test_as_many_flanks_touch_as_the_contact_analysis_of_the_finished_outlines_c
     with studio(copy) as served:
         ask = {"text": copy.read_text(), "edits": [], "depth": "checks"}
         _, snapshot = served.json("POST", "solve", ask)
-    contacts = snapshot["picture"]["contacts"]
+    (contacts,) = snapshot["picture"]["contacts"]
     cycle = contacts["pitch_point"]["input"][-1]
     ends = [(path["input"][0], path["input"][-1]) for path in contacts["paths"]]
     counted = next(curve for curve in snapshot["curves"] if curve["chart"] == "Contacts at once")

@@ -672,6 +672,84 @@ def test_what_is_out_of_reach_is_told_with_the_miss(page, running):
     page.keyboard.press("Escape")
 
 
+def test_a_value_at_fault_is_not_passed_over(page, running):
+    make = page.locator("#make")
+    expect(make).to_be_enabled()
+    typed(page, "gears.bend_deg", "500")
+    expect(page.locator('[id="remark-gears.bend_deg"]')).to_contain_text("a number from -170 to 170, not 500")
+    expect(make).to_be_disabled()
+    for place in [page.locator("#amiss"), make]:
+        words = place.text_content() if place is not make else place.get_attribute("title")
+        assert "Gears · Bend: a number from -170 to 170, not 500" in words
+    # Nor by what the program answers afterwards.
+    page.wait_for_timeout(300)
+    expect(make).to_be_disabled()
+    assert saved(page, running.folder).count("bend_deg = 40") == 1
+    typed(page, "gears.bend_deg", "45")
+    solved(page)
+    expect(make).to_be_enabled()
+    expect(page.locator("#amiss")).to_be_hidden()
+    assert make.get_attribute("title") == "Sound teeth are sought, and the design opened"
+
+
+def test_a_turn_goes_with_its_point_and_needs_both(page, running):
+    page.locator("summary", has_text="Bounds, clamp, turn").click()
+    make, amiss = page.locator("#make"), page.locator("#amiss")
+    typed(page, "wishes.turn.from", "2")
+    expect(page.locator('[id="remark-wishes.turn.to"]')).to_contain_text("give both, or neither")
+    expect(make).to_be_disabled()
+    typed(page, "wishes.turn.to", "6")
+    expect(amiss).to_contain_text("no turn is given")
+    typed(page, "wishes.turn.between_deg-1", "170")
+    solved(page)
+    expect(amiss).to_be_hidden()
+    turn = {"from": 2, "to": 6, "between_deg": [0.0, 170.0]}
+    assert tomllib.loads(saved(page, running.folder))["wishes"]["turn"] == turn
+    # Another point is deleted: the wish keeps its own.
+    handle(page, "point 4 of the path").focus()
+    page.keyboard.press("Delete")
+    counted(page, 12)
+    expect(field(page, "wishes.turn.to")).to_have_value("5")
+    expect(page.locator('#notices [data-key="turn"]')).to_have_count(0)
+    handle(page, "point 5 of the path").focus()
+    page.keyboard.press("Delete")
+    counted(page, 11)
+    expect(page.locator('#notices [data-key="turn"]')).to_contain_text("With point 5 its wish for a turn of the carrier")
+    expect(field(page, "wishes.turn.from")).to_have_value("")
+    assert "wishes" not in tomllib.loads(saved(page, running.folder))
+    page.get_by_role("button", name="Undo").click()
+    counted(page, 12)
+    expect(field(page, "wishes.turn.to")).to_have_value("5")
+    # What is taken away from one end stays at the other.
+    field(page, "wishes.turn.to").fill("")
+    field(page, "wishes.turn.to").press("Enter")
+    expect(field(page, "wishes.turn.from")).to_have_value("2")
+    expect(make).to_be_disabled()
+
+
+def test_the_axis_is_sought_within_a_box(page, running):
+    expect(field(page, "axis.within_x")).to_have_count(0)
+    field(page, "axis.sought").check()
+    solved(page)
+    for key, value in [("x", "200"), ("x-1", "300"), ("y", "120")]:
+        typed(page, f"axis.within_{key}", value)
+    expect(page.locator('[id="remark-axis.within_y"]')).to_contain_text("four numbers")
+    expect(page.locator("#make")).to_be_disabled()
+    typed(page, "axis.within_y-1", "200")
+    solved(page)
+    expect(page.locator("#make")).to_be_enabled()
+    text = saved(page, running.folder)
+    design = tomllib.loads(text)
+    assert "axis" not in design
+    assert design["axis_box"] == [[200.0, 120.0], [300.0, 200.0]]
+    page.get_by_role("button", name="Find the machine").click()
+    expect(page.locator("#possible h2")).to_contain_text("A machine is found", timeout=60_000)
+    (running.folder / "boxed.toml").write_text(text.replace("200.0]", "210.0]"))
+    page.locator("#path-file").set_input_files(running.folder / "boxed.toml")
+    expect(field(page, "axis.within_y-1")).to_have_value("210")
+    assert tomllib.loads(saved(page, running.folder))["axis_box"] == [[200.0, 120.0], [300.0, 210.0]]
+
+
 def test_columns_of_a_file_become_bands_and_directions(page, running):
     rows = ["x,y,tolerance,direction_deg,direction_tolerance_deg"]
     rows += [f"{x},{y},{i % 3},{40 if i == 4 else ''},{3.5 if i == 4 else ''}" for i, (x, y) in enumerate(EXAMPLE)]

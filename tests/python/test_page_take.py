@@ -10,7 +10,7 @@ import pytest
 from axe_playwright_python.sync_playwright import Axe
 from conftest import centrode
 from page import ARMS, CIRCLE, FEEDER, field, opened, settled, shown
-from PIL import Image, ImageChops, ImageStat
+from PIL import Image, ImageChops, ImageColor, ImageStat
 from playwright.sync_api import expect
 
 SVG = "{http://www.w3.org/2000/svg}"
@@ -97,6 +97,40 @@ def test_a_webm_plays_for_the_stated_length(browser, tmp_path):
         player.close()
         assert size[0] == 320
         assert size[2] == pytest.approx(1, abs=0.25)
+
+
+@pytest.mark.parametrize("design", [CIRCLE, ARMS], ids=lambda path: path.stem)
+def test_what_touches_in_a_mesh_is_in_the_files_of_the_picture(browser, tmp_path, design):
+    with opened(browser, tmp_path, design, color_scheme="light") as (page, _):
+        _, without = taken(page, "svg")
+        assert b"data-mesh" not in without
+        page.locator("#mesh").click()
+        _, text = taken(page, "svg")
+        root = ElementTree.fromstring(text)
+        dots = [dot for dot in root.iter(f"{SVG}circle") if dot.get("data-mesh") == "contact"]
+        assert len(dots) == int(page.locator("#mesh").get_attribute("data-contacts")) > 0
+        lines = [line for line in root.iter(f"{SVG}path") if line.get("data-mesh") == "line"]
+        assert len(lines) == (6 if design == ARMS else 1)
+        ink = dots[0].get("fill")
+        _, data = taken(page, "gif", 320, 1)
+        film = Image.open(io.BytesIO(data))
+        wanted, seen = ImageColor.getrgb(ink), []
+        for index in range(film.n_frames):
+            film.seek(index)
+            frame = film.convert("RGB")
+            pixels = frame.load()
+            # A few colours are all that a GIF has.
+            hits = [
+                (x, y)
+                for x in range(frame.width)
+                for y in range(frame.height)
+                if max(abs(a - b) for a, b in zip(pixels[x, y], wanted, strict=True)) < 12
+            ]
+            seen.append(frozenset(hits))
+        # Of the arms' gears a tooth edge carries the motion in 4 % of the cycle, as their check says.
+        assert sum(len(hits) > 20 for hits in seen) >= film.n_frames - (2 if design == ARMS else 0)
+        # Of 24 teeth in 20 pictures every fifth is alike.
+        assert len(set(seen)) >= 5
 
 
 def test_a_length_that_cannot_be_is_refused_in_words(browser, tmp_path):

@@ -1,9 +1,11 @@
-use crate::roots::bracketed_root;
-
 /// Nodes of a panel; the integrand is a polynomial of one degree less on it.
 const NODES: usize = 16;
 /// Relative size of the last two Chebyshev coefficients below which they are taken for rounding.
 const NOISE: f64 = 3e-14;
+/// Step, as a share of the panel, after which the next one of Newton's method is rounding.
+const SURE: f64 = 1e-8;
+/// Steps after which halving alone has come to rounding.
+const MOST_STEPS: u32 = 60;
 /// Halvings after which a panel is accepted as it is: the integrand is then not analytic there.
 const DEEPEST: u32 = 12;
 
@@ -26,6 +28,8 @@ struct Panel {
     before: f64,
     /// Chebyshev coefficients of the integral from the start of the panel.
     integral: [f64; NODES + 1],
+    /// Those of the integrand.
+    integrand: [f64; NODES],
 }
 
 impl Antiderivative {
@@ -93,6 +97,7 @@ impl Antiderivative {
             panels.push(Panel {
                 before: sum,
                 integral,
+                integrand: series,
             });
             ends.push(b);
             // Compensated: a thousand panels lose no digit.
@@ -135,15 +140,7 @@ impl Antiderivative {
         let (a, b) = (self.ends[index], self.ends[index + 1]);
         let u = ((t - a) - (b - t)) / (b - a);
         let panel = &self.panels[index];
-        // Even and odd terms apart, as series in T2(u): two short chains instead of a long one.
-        let twice = 4.0 * u * u - 2.0;
-        let ([mut even, mut even2], [mut odd, mut odd2]) = ([0.0; 2], [0.0; 2]);
-        for pair in panel.integral[1..].chunks_exact(2).rev() {
-            (odd, odd2) = (twice * odd + (pair[0] - odd2), odd);
-            (even, even2) = (twice * even + (pair[1] - even2), even);
-        }
-        let even = 0.5 * twice * even - even2 + panel.integral[0];
-        panel.before + (u * (odd - odd2) + even)
+        panel.before + sum(panel.integral[0], &panel.integral[1..], u)
     }
 
     /// Argument at which the integral of a positive function reaches `value`, between zero and the total.
@@ -164,8 +161,50 @@ impl Antiderivative {
         if high <= 0.0 {
             return b;
         }
-        bracketed_root(|t| self.at_panel(index, t) - value, a, b, low, high)
+        crate::checkpoint();
+        // Newton's method, kept between the ends of the panel.
+        let integrand = &self.panels[index].integrand;
+        let sure = SURE * (b - a);
+        let mut t = a + (b - a) * (-low / (high - low));
+        let [mut low, mut high] = [a, b];
+        for _ in 0..MOST_STEPS {
+            let off = self.at_panel(index, t) - value;
+            if off > 0.0 {
+                high = t;
+            } else {
+                low = t;
+            }
+            let u = ((t - a) - (b - t)) / (b - a);
+            let step = off / sum(integrand[0], &integrand[1..], u);
+            let next = t - step;
+            t = if next >= low && next <= high {
+                next
+            } else {
+                0.5 * (low + high)
+            };
+            if step.abs() <= sure {
+                break;
+            }
+        }
+        t
     }
+}
+
+/// A Chebyshev series by its constant and the rest at a place of [-1, 1].
+fn sum(constant: f64, rest: &[f64], u: f64) -> f64 {
+    // Even and odd terms apart, as series in T2(u): two short chains instead of a long one.
+    let twice = 4.0 * u * u - 2.0;
+    let ([mut even, mut even2], [mut odd, mut odd2]) = ([0.0; 2], [0.0; 2]);
+    let pairs = rest.chunks_exact(2);
+    if let [last] = pairs.remainder() {
+        odd = *last;
+    }
+    for pair in pairs.rev() {
+        (odd, odd2) = (twice * odd + (pair[0] - odd2), odd);
+        (even, even2) = (twice * even + (pair[1] - even2), even);
+    }
+    let even = 0.5 * twice * even - even2 + constant;
+    u * (odd - odd2) + even
 }
 
 struct Tables {
@@ -211,6 +250,24 @@ mod tests {
         }
         let sum: f64 = p.nodes().map(|(t, w)| w / (1.0 + 25.0 * t * t)).sum();
         assert!((sum - p.total()).abs() < 1e-14);
+    }
+
+    #[test]
+    fn the_inverse_of_a_steep_and_of_a_flat_integral_is_found() {
+        let steep = |t: f64| (40.0 * t).exp() + 1e-9;
+        let p = Antiderivative::new(steep, &[0.0, 0.25, 1.0]);
+        let exact = |t: f64| ((40.0 * t).exp() - 1.0) / 40.0 + 1e-9 * t;
+        for i in 0..=500 {
+            let t = f64::from(i) / 500.0;
+            let off = exact(p.inverse(exact(t))) - exact(t);
+            assert!(off.abs() <= 1e-13 * p.total(), "{t}: {off}");
+        }
+        assert_eq!((p.inverse(0.0), p.inverse(p.total())), (0.0, 1.0));
+        let slow = Antiderivative::new(|t: f64| t * t, &[0.0, 2.0]);
+        for i in 0..=100 {
+            let t = 0.02 * f64::from(i);
+            assert!((slow.inverse(t.powi(3) / 3.0) - t).abs() < 1e-5, "{t}");
+        }
     }
 
     #[test]

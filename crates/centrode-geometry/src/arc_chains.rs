@@ -5,10 +5,32 @@ use crate::{
     smooth_run::Node,
 };
 
-/// Chains followed side by side.
-const WIDTH: usize = 12;
-/// End nodes tried for the next arc of a chain.
-const BRANCHES: usize = 2;
+/// How thoroughly the fewest arcs are searched for.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Beam {
+    /// Chains followed side by side.
+    width: usize,
+    /// End nodes tried for the next arc of a chain.
+    branches: usize,
+    /// Offsets tried there, of [`SIDES`].
+    sides: usize,
+}
+
+impl Beam {
+    /// For files: hardly ever an arc too many.
+    pub(crate) const THOROUGH: Self = Self {
+        width: 12,
+        branches: 2,
+        sides: SIDES.len(),
+    };
+    /// For what is seen: a few arcs more in a fraction of the time.
+    pub(crate) const QUICK: Self = Self {
+        width: 4,
+        branches: 2,
+        sides: 1,
+    };
+}
+
 /// Lengths tried for the next arc, in arcs as planned.
 const REACHES: [f64; 20] = [
     16.0, 4.0, 2.0, 1.7, 1.5, 1.4, 1.3, 1.2, 1.15, 1.1, 1.05, 1.0, 0.95, 0.9, 0.85, 0.8, 0.65, 0.5,
@@ -50,12 +72,14 @@ pub(crate) struct ArcChains<'a> {
     limit: f64,
     plan: ArcPlan,
     links: Vec<ArcChain>,
+    beam: Beam,
 }
 
 impl<'a> ArcChains<'a> {
     /// Plans the chains of a run; `free` says at which ends the tangent need not be the curve's own.
-    pub(crate) fn new(nodes: &'a [Node], free: [bool; 2], limit: f64) -> Self {
+    pub(crate) fn new(nodes: &'a [Node], free: [bool; 2], limit: f64, beam: Beam) -> Self {
         Self {
+            beam,
             nodes,
             free,
             limit,
@@ -90,7 +114,8 @@ impl<'a> ArcChains<'a> {
                     Some((count + 2, link, biarc))
                 });
             }
-            let mut next = Vec::with_capacity(WIDTH * BRANCHES * SIDES.len());
+            let mut next =
+                Vec::with_capacity(self.beam.width * self.beam.branches * self.beam.sides);
             for &link in &front {
                 self.carry_on(link, &mut next);
             }
@@ -138,7 +163,7 @@ impl<'a> ArcChains<'a> {
                 continue;
             }
             tried = end;
-            let sides = if end == last { 1 } else { SIDES.len() };
+            let sides = if end == last { 1 } else { self.beam.sides };
             let known = next.len();
             for side in 0..sides {
                 if let Some(link) = self.link(before, end, side) {
@@ -147,7 +172,7 @@ impl<'a> ArcChains<'a> {
                 }
             }
             found += usize::from(next.len() > known);
-            if found == BRANCHES {
+            if found == self.beam.branches {
                 return;
             }
         }
@@ -207,7 +232,7 @@ impl<'a> ArcChains<'a> {
     /// The best chains, only one of those that arrive at a place alike.
     fn best(&self, mut links: Vec<usize>) -> Vec<usize> {
         links.sort_by(|&a, &b| self.links[b].merit.total_cmp(&self.links[a].merit));
-        let mut kept: Vec<usize> = Vec::with_capacity(WIDTH);
+        let mut kept: Vec<usize> = Vec::with_capacity(self.beam.width);
         let place = |link: usize| {
             let ArcChain {
                 node, side, lean, ..
@@ -218,7 +243,7 @@ impl<'a> ArcChains<'a> {
             if kept.iter().all(|&other| place(other) != place(link)) {
                 kept.push(link);
             }
-            if kept.len() == WIDTH {
+            if kept.len() == self.beam.width {
                 break;
             }
         }

@@ -1,4 +1,4 @@
-use crate::{Outline, Point, Segment, bracketed_root};
+use crate::{Outline, Point, Segment, bracketed_root, greatest};
 
 /// The smallest axis-aligned rectangle around a shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -140,11 +140,48 @@ impl Outline {
         }
         bounds
     }
+
+    /// Distance of the farthest point of the outline from a place, exact to rounding.
+    #[must_use]
+    pub fn farthest(&self, from: Point) -> f64 {
+        let corner = |bounds: Bounds| {
+            let [low, high] = [bounds.min - from, bounds.max - from].map(|v| v.abs());
+            low.x.max(high.x).hypot(low.y.max(high.y))
+        };
+        let ends = self.segments().iter().map(|s| (s.start() - from).norm());
+        let mut farthest = ends.fold(0.0, f64::max);
+        let reach = |segment: &Segment| {
+            let parts = [-1.0, -0.5, 0.0, 0.5, 1.0];
+            let parts = parts.windows(2).map(|u| segment.enclosure(u[0], u[1]));
+            parts.map(corner).fold(0.0, f64::max)
+        };
+        for segment in self.segments() {
+            // First by one rectangle, then by closer ones.
+            if corner(segment.enclosure(-1.0, 1.0)) > farthest && reach(segment) > farthest {
+                let far = |u: f64| (segment.at(u).point - from).norm();
+                farthest = farthest.max(greatest(far, &[-1.0, 1.0]).value);
+            }
+        }
+        farthest
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use crate::{Outline, Point, Tolerance, shapes::rosette};
+
+    #[test]
+    fn no_point_is_farther_than_the_farthest() {
+        let circle = Outline::circle(Point::new(3.0, 4.0), 5.0);
+        assert!((circle.farthest(Point::origin()) - 10.0).abs() < 1e-12);
+        let outline = rosette(20.0, 3.0, 7, Tolerance::new(1e-9).expect("positive"));
+        let points = outline.flatten(Tolerance::new(1e-6).expect("positive"));
+        for from in [[0.0, 0.0], [3.0, -1.0], [40.0, 25.0]].map(Point::from) {
+            let near = points.iter().map(|p| (p - from).norm());
+            let off = outline.farthest(from) - near.fold(0.0, f64::max);
+            assert!((0.0..2e-6).contains(&off), "{from}: {off}");
+        }
+    }
 
     #[test]
     fn bounds_touch_the_extremes() {

@@ -110,6 +110,26 @@ pub fn checkpoint() {
     }
 }
 
+/// Results of two jobs that run side by side, the second on a thread of its own, both under the token of the calling thread.
+///
+/// ```
+/// assert_eq!(centrode_geometry::together(|| 6, || 7), (6, 7));
+/// ```
+pub fn together<A, B: Send>(one: impl FnOnce() -> A, other: impl FnOnce() -> B + Send) -> (A, B) {
+    let cancel = Cancel::current();
+    std::thread::scope(|scope| {
+        let other = scope.spawn(move || {
+            let _scope = cancel.enter();
+            other()
+        });
+        let one = one();
+        match other.join() {
+            Ok(other) => (one, other),
+            Err(unwound) => resume_unwind(unwound),
+        }
+    })
+}
+
 #[cold]
 fn stop() {
     // A destructor that runs while the stack unwinds must end normally.

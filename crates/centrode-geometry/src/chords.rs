@@ -1,4 +1,8 @@
-use crate::{Outline, Point, Segment, Tolerance, Vector, arc_chains::ArcChains, smooth_run::Node};
+use crate::{
+    Outline, Point, Segment, Tolerance, Vector,
+    arc_chains::{ArcChains, Beam},
+    smooth_run::Node,
+};
 
 /// Turn, rad, above which a vertex is a corner however short its chords.
 const SHARP: f64 = 0.5;
@@ -88,7 +92,7 @@ impl Fit {
     fn arcs(&self, chain: &[Point], free: bool) -> Vec<Segment> {
         let nodes = nodes(&even(chain), !free);
         let mut arcs = Vec::new();
-        ArcChains::new(&nodes, [free; 2], self.limit).fewest(&mut arcs);
+        ArcChains::new(&nodes, [free; 2], self.limit, Beam::THOROUGH).fewest(&mut arcs);
         arcs
     }
 

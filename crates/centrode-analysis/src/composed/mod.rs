@@ -41,17 +41,6 @@ const HOLDS_BADLY: f64 = 30.0;
 /// Lengths are mm, angles rad, speeds mm/s. Every extreme is over the whole cycle.
 #[must_use]
 pub fn check_composed(composed: &Composed) -> Report {
-    let mut report = Report {
-        groups: FIGURES.to_vec(),
-        ..Report::default()
-    };
-    let values = &mut report.values;
-    values.insert("period", composed.period());
-    values.insert("input_rpm", composed.design().input.speed_rpm);
-    values.insert("body_count", composed.bodies().len() as f64 - 1.0);
-    values.insert("dyad_count", composed.dyads().len() as f64);
-    let [x, y] = composed.design().gravity.unwrap_or_default();
-    values.insert("gravity", x.hypot(y));
     let under = Cancel::current();
     // Teeth take about as long as the motion, of which they know nothing.
     let (pairs, motion) = rayon::join(
@@ -64,21 +53,57 @@ pub fn check_composed(composed: &Composed) -> Report {
             Motion::new(composed, &ends(composed))
         },
     );
-    dyads(composed, &motion, &mut report);
-    joints::joints(composed, &motion, &mut report);
-    joints::four_bars(composed, &mut report);
-    cams::cams(composed, &mut report);
-    points(composed, motion, &mut report);
     let made = Made {
         pairs: OnceCell::from(pairs),
         ..Made::new(composed)
     };
-    if let (Some(machine), Some(loaded)) = (made.machine(), made.loaded()) {
-        forces::forces(loaded, machine, &mut report);
+    checked(&made, motion, Depth::Whole)
+}
+
+/// Checks the motion of a composed machine alone: all of [`check_composed`] but teeth, cams, forces and collisions, which
+/// only goals that name them ask for.
+#[must_use]
+pub fn check_composed_motion(composed: &Composed) -> Report {
+    let motion = Motion::new(composed, &ends(composed));
+    checked(&Made::new(composed), motion, Depth::Motion)
+}
+
+/// How much is checked.
+#[derive(Clone, Copy, Eq, PartialEq)]
+enum Depth {
+    Motion,
+    Whole,
+}
+
+fn checked(made: &Made<'_>, motion: Motion, depth: Depth) -> Report {
+    let composed = made.composed;
+    let mut report = Report {
+        groups: FIGURES.to_vec(),
+        ..Report::default()
+    };
+    let values = &mut report.values;
+    values.insert("period", composed.period());
+    values.insert("input_rpm", composed.design().input.speed_rpm);
+    values.insert("body_count", composed.bodies().len() as f64 - 1.0);
+    values.insert("dyad_count", composed.dyads().len() as f64);
+    let [x, y] = composed.design().gravity.unwrap_or_default();
+    values.insert("gravity", x.hypot(y));
+    let is_whole = depth == Depth::Whole;
+    dyads(composed, &motion, &mut report);
+    joints::joints(composed, &motion, &mut report);
+    joints::four_bars(composed, &mut report);
+    if is_whole {
+        cams::cams(composed, &mut report);
     }
-    pairs::pairs(&made, &mut report);
-    collisions::collisions(&made, &ends(composed), &mut report);
-    let found = goals::goals(&made);
+    points(composed, motion, &mut report);
+    if is_whole {
+        if let (Some(machine), Some(loaded)) = (made.machine(), made.loaded()) {
+            forces::forces(loaded, machine, &mut report);
+        }
+        pairs::pairs(made, &mut report);
+        collisions::collisions(made, &ends(composed), &mut report);
+    }
+    let found = goals::goals(made);
     clearance::apart(composed, &found, &mut report);
     report.goals = found.iter().map(|found| found.goal.clone()).collect();
     report.blame_goals(|goal| Missed {

@@ -1,37 +1,90 @@
 use centrode_geometry::Point;
-use centrode_mechanism::gear::{GearPair, Member, ToothSide};
+use centrode_mechanism::gear::{GearPair, Member, Tooth, ToothSide};
 
 use crate::page::{Contacts, Track, short};
 
 /// Samples of the path of one contact.
 const SAMPLES: u32 = 8;
 /// Samples of the pitch point in one turn of the driver.
-const PITCH_SAMPLES: u32 = 120;
-/// Places are rounded by this share of the module, inputs by the same number of radians.
-const ROUNDING: f64 = 1e-4;
+pub(crate) const PITCH_SAMPLES: u32 = 120;
+/// Places are rounded by this share of the module, inputs of gears on fixed axes by the same number of radians.
+pub(crate) const ROUNDING: f64 = 1e-4;
+
+/// Flanks of the driver that touch.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub(crate) enum Flanks {
+    /// Those that go ahead as the driver turns clockwise: they touch where it drives that way.
+    Leading,
+    /// The others.
+    Trailing,
+}
+
+impl Flanks {
+    /// That of a tooth of the driver.
+    fn of(self, tooth: &Tooth) -> ToothSide {
+        match self {
+            Self::Leading => tooth.leading,
+            Self::Trailing => tooth.trailing,
+        }
+    }
+
+    /// Those of the mate.
+    fn mates(self) -> Self {
+        match self {
+            Self::Leading => Self::Trailing,
+            Self::Trailing => Self::Leading,
+        }
+    }
+}
 
 /// Places at which the flanks touch while the driver drives, along one cycle, in the axes of the frame.
 ///
-/// By the law of gearing a flank touches its mate where its normal passes through the pitch point; as long as both flanks are
-/// there. The driver turns clockwise: it drives by its leading flanks.
+/// The driver turns clockwise: it drives by its leading flanks.
 #[must_use]
 pub fn contacts(pair: &GearPair) -> Contacts {
-    let (rolling, tool) = (pair.rolling(), &pair.teeth().tool);
-    let length = ROUNDING * pair.module();
-    let rounded = |input: f64, at: Point| {
-        (
-            short(input, ROUNDING),
-            [short(at.x, length), short(at.y, length)],
-        )
-    };
+    let rolling = pair.rolling();
     let steps = PITCH_SAMPLES * pair.mean_ratio().0;
     let pitch_points = (0..=steps).map(|i| {
         let phi = pair.cycle() * f64::from(i) / f64::from(steps);
-        rounded(phi, Point::new(rolling.radius(phi), 0.0))
+        (phi, Point::new(rolling.radius(phi), 0.0))
     });
+    let paths = paths(pair, Flanks::Leading).into_iter();
+    let units = [ROUNDING, ROUNDING * pair.module()];
+    Contacts {
+        mesh: "driver and driven gear".into(),
+        pitch_point: track(pitch_points, units),
+        paths: paths.map(|path| track(path, units)).collect(),
+    }
+}
+
+/// A track of inputs and places, rounded to units.
+pub(crate) fn track(
+    samples: impl IntoIterator<Item = (f64, Point)>,
+    [angle, length]: [f64; 2],
+) -> Track {
+    let rounded = |(input, at): (f64, Point)| {
+        (
+            short(input, angle),
+            [short(at.x, length), short(at.y, length)],
+        )
+    };
+    Track::from_samples(samples.into_iter().map(rounded))
+}
+
+/// Paths of contact of one cycle: polar angles of the driver, ascending, and places with the driver's axis at the origin and
+/// the driven gear's on the x axis.
+///
+/// By the law of gearing a flank touches its mate where its normal passes through the pitch point; as long as both flanks are
+/// there.
+pub(crate) fn paths(pair: &GearPair, flanks: Flanks) -> Vec<Vec<(f64, Point)>> {
+    let (rolling, tool) = (pair.rolling(), &pair.teeth().tool);
     let lengths = [Member::Driver, Member::Driven].map(|member| rolling.pitch_length(member));
     let teeth = [pair.driver().teeth(), pair.driven().teeth()];
     let (sin, cos) = tool.pressure_angle.sin_cos();
+    let aside = match flanks {
+        Flanks::Leading => -sin,
+        Flanks::Trailing => sin,
+    };
     // The driven flank about the same place of the pitch curves, as the gears roll on.
     let mate = |crossing: f64| {
         let along = crossing.rem_euclid(lengths[1]);
@@ -39,7 +92,7 @@ pub fn contacts(pair: &GearPair) -> Contacts {
             let apart = (side.crossing - along).rem_euclid(lengths[1]);
             apart.min(lengths[1] - apart)
         };
-        let sides = teeth[1].iter().map(|tooth| tooth.trailing);
+        let sides = teeth[1].iter().map(|tooth| flanks.mates().of(tooth));
         let nearest = sides.min_by(|a, b| off(a).total_cmp(&off(b)))?;
         let shift = along - nearest.crossing;
         let (low, high) = nearest.active?;
@@ -47,7 +100,7 @@ pub fn contacts(pair: &GearPair) -> Contacts {
         Some([low + turns, high + turns])
     };
     let turns = (0..pair.mean_ratio().0).map(f64::from);
-    let flanks = turns.flat_map(|turn| teeth[0].iter().map(move |tooth| (turn, tooth.leading)));
+    let sides = turns.flat_map(|turn| teeth[0].iter().map(move |tooth| (turn, flanks.of(tooth))));
     let path = |(turn, side): (f64, ToothSide)| {
         let (low, high) = side.active?;
         let start = turn * lengths[0];
@@ -60,18 +113,15 @@ pub fn contacts(pair: &GearPair) -> Contacts {
             let arc = low + (high - low) * f64::from(i) / f64::from(SAMPLES);
             let t = rolling.parameter(arc);
             let frame = rolling.frame(Member::Driver, t);
-            let line = frame.tangent * cos - frame.normal * sin;
+            let line = frame.tangent * cos + frame.normal * aside;
             let point = frame.point + line * ((side.crossing - arc) * cos);
             let phi = rolling.angle(t);
             let turned = nalgebra::Rotation2::new(-phi) * point;
-            rounded(phi + turn * std::f64::consts::TAU, turned)
+            (phi + turn * std::f64::consts::TAU, turned)
         });
-        Some(Track::from_samples(samples))
+        Some(samples.collect())
     };
-    Contacts {
-        pitch_point: Track::from_samples(pitch_points),
-        paths: flanks.filter_map(path).collect(),
-    }
+    sides.filter_map(path).collect()
 }
 
 #[cfg(test)]

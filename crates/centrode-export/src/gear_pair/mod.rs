@@ -18,6 +18,7 @@ pub use arrangement::contact_data;
 pub(crate) use arrangement::{by_thickness, list, list_pair, of_both};
 use centrode_mechanism::gear::{GearPair, GearPairError, Member};
 pub use contacts::contacts;
+pub(crate) use contacts::{Flanks, PITCH_SAMPLES, ROUNDING, paths, track};
 pub use curves::curves;
 use drawn::Drawn;
 pub use links::{drawn, machine};

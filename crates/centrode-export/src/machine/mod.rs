@@ -12,6 +12,7 @@ mod parts;
 mod picture;
 mod rim;
 mod spatial;
+mod still;
 mod whole;
 
 use centrode_mechanism::machine::Machine;

@@ -1,6 +1,6 @@
 use std::f64::consts::{PI, TAU};
 
-use centrode_geometry::{Point, Tolerance};
+use centrode_geometry::{Point, Tolerance, together};
 use centrode_mechanism::machine::{
     Figure, Line, LinePath, LineRole, Machine, Quantity, Seat, Sketch,
 };
@@ -9,6 +9,7 @@ use nalgebra::{Isometry2, Isometry3, Vector3};
 
 use super::motion::within;
 use super::rim::rim;
+use super::still::Still;
 use crate::page::{Mark, Motion, Path, Picture, PictureLink, short};
 
 /// Fewest steps of a period.
@@ -32,25 +33,23 @@ const ANGLE: f64 = 1e-6;
 #[must_use]
 pub fn picture(machine: &Machine, tolerance: Tolerance) -> Picture {
     let rims: Vec<Vec<Point>> = machine.sketches.iter().map(rim).collect();
-    let course = Course::within(machine, &rims, tolerance);
-    let length = 0.1 * tolerance.mm();
-    // Figures that look alike are fitted once.
-    let still = |sketch: &Sketch| {
-        sketch
-            .lines
-            .iter()
-            .map(|line| still(line, tolerance))
-            .collect()
+    let still = Still::new(machine, tolerance);
+    // Contours take longer than the course: whoever is first goes on with what is left of them.
+    let course = || {
+        let course = Course::within(machine, &rims, tolerance);
+        still.fit();
+        course
     };
-    let still: Vec<Vec<Option<Path>>> = machine.sketches.iter().map(still).collect();
+    let (course, ()) = together(course, || still.fit());
+    let length = 0.1 * tolerance.mm();
     let paths = |(index, figure): (usize, &Figure)| PictureLink {
         name: figure.name.clone(),
         paths: machine.sketches[figure.sketch]
             .lines
             .iter()
-            .zip(&still[figure.sketch])
-            .filter_map(|(line, still)| {
-                still.clone().or_else(|| course.way(line, index, tolerance))
+            .filter_map(|line| match &line.path {
+                LinePath::Trace(_) => course.way(line, index, tolerance),
+                _ => still.path(line),
             })
             .collect(),
     };
@@ -84,7 +83,7 @@ pub fn picture(machine: &Machine, tolerance: Tolerance) -> Picture {
                 at: mark.at,
             })
             .collect(),
-        contacts: None,
+        contacts: Vec::new(),
         extent: course.extent(machine, &rims),
     }
 }
@@ -211,18 +210,6 @@ impl Course {
             }
         }
         extent
-    }
-}
-
-/// A line that is the same whatever moves.
-fn still(line: &Line, tolerance: Tolerance) -> Option<Path> {
-    match &line.path {
-        LinePath::Contour(outline) => Some(Path::closed(line.role, outline, tolerance)),
-        LinePath::Chain(corners) => {
-            let corners: Vec<Point> = corners.iter().copied().map(Point::from).collect();
-            Some(Path::open(line.role, &corners))
-        }
-        LinePath::Trace(_) => None,
     }
 }
 

@@ -1,3 +1,5 @@
+use super::hash;
+
 /// A file of the page.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub struct Asset {
@@ -137,8 +139,28 @@ pub fn asset(name: &str) -> Option<&'static Asset> {
         .find(|asset| asset.name == name)
 }
 
-/// Only what is in the file: no request leaves a report.
-const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline' data:; style-src 'unsafe-inline'; img-src data: blob:";
+/// The script that starts the page.
+const STARTER: &str = "import \"page/main.js\";";
+
+/// Only what is in the file: no request leaves a report, and what runs in it is named by its hash. The other modules come as
+/// `data:` addresses from the import map, which has a hash, too.
+fn policy(imports: &str) -> String {
+    let styles: Vec<String> = STYLES
+        .iter()
+        .map(|a| hash::source(&inline(a.text)))
+        .collect();
+    format!(
+        "default-src 'none'; script-src {} {} data:; style-src {}; img-src data: blob:",
+        hash::source(imports),
+        hash::source(STARTER),
+        styles.join(" ")
+    )
+}
+
+/// Content of the element of a style.
+fn inline(style: &str) -> String {
+    format!("\n{style}")
+}
 
 /// The page with a snapshot in it, as one file that needs nothing else.
 ///
@@ -147,7 +169,7 @@ const POLICY: &str = "default-src 'none'; script-src 'unsafe-inline' data:; styl
 pub fn report(title: &str, snapshot: &str) -> String {
     let styles: String = STYLES
         .iter()
-        .map(|a| format!("<style>\n{}</style>\n", a.text))
+        .map(|a| format!("<style>{}</style>\n", inline(a.text)))
         .collect();
     let imports: Vec<String> = SCRIPTS
         .iter()
@@ -159,14 +181,15 @@ pub fn report(title: &str, snapshot: &str) -> String {
             )
         })
         .collect();
+    let imports = format!("{{\"imports\":{{{}}}}}", imports.join(",\n"));
+    let policy = policy(&imports);
     let script = format!(
-        "<script type=\"importmap\">{{\"imports\":{{{}}}}}</script>\n\
+        "<script type=\"importmap\">{imports}</script>\n\
          <script type=\"application/json\" id=\"snapshot\">{}</script>\n\
-         <script type=\"module\">import \"page/main.js\";</script>\n",
-        imports.join(",\n"),
+         <script type=\"module\">{STARTER}</script>\n",
         snapshot.replace('<', "\\u003c"),
     );
-    let policy = format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{POLICY}\">\n");
+    let policy = format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">\n");
     let title = title.replace('&', "&amp;").replace('<', "&lt;");
     let page = between(INDEX, "<title>", "</title>", &title);
     let page = between(&page, "<!-- policy -->", "<!-- /policy -->", &policy);

@@ -4,6 +4,7 @@
 //! lines and arcs, the pose of every link along the cycle. The same assets show it in the local program
 //! and in the self-contained report.
 
+mod hash;
 mod html;
 mod path;
 mod scene;
@@ -29,8 +30,8 @@ pub struct Picture {
     pub handles: Vec<Handle>,
     /// Places worth a name.
     pub marks: Vec<Mark>,
-    /// Places at which gears touch.
-    pub contacts: Option<Contacts>,
+    /// Places at which gears touch, mesh by mesh.
+    pub contacts: Vec<Contacts>,
     /// Least x, least y, greatest x, greatest y of everything over the whole cycle, mm.
     pub extent: [f64; 4],
 }
@@ -58,9 +59,11 @@ pub struct Mark {
 /// Places at which the flanks of two gears touch, in the axes of the picture.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Contacts {
+    /// The gears, in words.
+    pub mesh: String,
     /// The pitch point: the line of action passes through it.
     pub pitch_point: Track,
-    /// Paths of contact, one for each time that two flanks meet in a cycle.
+    /// Paths of contact, one for each time that two flanks meet in a cycle; none before teeth are cut.
     pub paths: Vec<Track>,
 }
 

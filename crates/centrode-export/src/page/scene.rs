@@ -10,8 +10,8 @@ struct Scene<'a> {
     motion: &'a Motion,
     handles: &'a [Handle],
     marks: &'a [Mark],
-    #[serde(skip_serializing_if = "Option::is_none")]
-    contacts: Option<&'a Contacts>,
+    #[serde(skip_serializing_if = "<[_]>::is_empty")]
+    contacts: &'a [Contacts],
     extent: [f64; 4],
 }
 
@@ -48,7 +48,7 @@ impl Serialize for Picture {
             motion,
             handles,
             marks,
-            contacts: contacts.as_ref(),
+            contacts,
             extent: *extent,
         };
         scene.serialize(serializer)

@@ -1,5 +1,5 @@
 use std::f64::consts::TAU;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, PoisonError};
 
 use centrode_geometry::{MassProperties, Solid};
 use centrode_mechanism::gear::{GearPair, Member};
@@ -7,7 +7,7 @@ use centrode_mechanism::machine::{
     self, Column, Form, GearMesh, Input, Joint, JointKind, Linear, LinkPoint, Quantity,
     STANDARD_GRAVITY, Shape,
 };
-use centrode_mechanism::three_arm::{Pusher, ThreeArm, ThreeArmLink};
+use centrode_mechanism::three_arm::{LinkMotion, Pusher, ThreeArm, ThreeArmLink};
 use centrode_mechanism::transmission::{FromFn, MotionJet, Transmission};
 use nalgebra::Isometry2;
 
@@ -41,6 +41,7 @@ pub(super) fn machine(
         laws: Arc::new(Laws {
             mechanism: mechanism.clone(),
             pusher: parts.map(|parts| parts.pusher.clone()),
+            last: (0..mechanism.arms()).map(|_| Mutex::default()).collect(),
         }),
         machine: machine::Machine {
             name: design.name.clone(),
@@ -84,6 +85,23 @@ pub(super) fn machine(
 pub(super) struct Laws {
     pub(super) mechanism: ThreeArm,
     pub(super) pusher: Option<Pusher>,
+    /// Links of each chain at the input at which they were asked for last.
+    last: Vec<Mutex<Option<(f64, [LinkMotion; 3])>>>,
+}
+
+impl Laws {
+    /// Intermediate gear, planet and arm of a chain: the train is solved once where its joints ask in turn.
+    fn links(&self, chain: u32, input: f64) -> [LinkMotion; 3] {
+        let last = &self.last[chain as usize];
+        let known = *last.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, links)) = known.filter(|(at, _)| at.to_bits() == input.to_bits()) {
+            return links;
+        }
+        // Not under the lock: it may be cancelled.
+        let links = self.mechanism.chain(chain, input).links();
+        *last.lock().unwrap_or_else(PoisonError::into_inner) = Some((input, links));
+        links
+    }
 }
 
 /// Index of a shape, what the link weighs, and its surfaces.
@@ -265,11 +283,11 @@ impl Builder<'_> {
         let mechanism = self.mechanism;
         let name = format!("intermediate_{k}");
         let intermediate = self.gear(ThreeArmPart::Intermediate, &name)?;
-        let first = self.on_carrier(carrier, intermediate, ThreeArmLink::Intermediate(k));
+        let first = self.on_carrier(carrier, intermediate, (k, 0));
         self.column(first, &name, "rad", "intermediate gear against the carrier");
         let name = format!("planet_{k}");
         let planet = self.gear(ThreeArmPart::Planet, &name)?;
-        let second = self.on_carrier(carrier, planet, ThreeArmLink::Planet(k));
+        let second = self.on_carrier(carrier, planet, (k, 1));
         let meaning = "planet, and the arm with it, against the carrier";
         self.column(second, &name, "rad", meaning);
         for (links, joint) in [
@@ -309,20 +327,22 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// The joint of a gear on the carrier.
-    fn on_carrier(&mut self, carrier: usize, gear: usize, link: ThreeArmLink) -> usize {
+    /// The joint of a gear on the carrier: of a chain its intermediate gear, or its planet.
+    fn on_carrier(&mut self, carrier: usize, gear: usize, (chain, number): (u32, usize)) -> usize {
         let mechanism = self.mechanism;
         let turn = move |laws: &Laws, input: f64| {
-            let (mechanism, train) = (&laws.mechanism, laws.mechanism.train());
+            let train = laws.mechanism.train();
             let carrier = MotionJet {
                 position: train.carrier_start() + train.direction().sign() * input,
                 velocity: train.direction().sign(),
                 ..MotionJet::default()
             };
-            mechanism.link(link, input).angle.plus(-1.0, &carrier)
+            let motion = laws.links(chain, input)[number];
+            motion.angle.plus(-1.0, &carrier)
         };
         let got = turn(&self.laws, TAU).position - turn(&self.laws, 0.0).position;
         let law = self.law(TAU * (got / TAU).round(), turn);
+        let link = [ThreeArmLink::Intermediate, ThreeArmLink::Planet][number](chain);
         let at = mechanism.on_carrier(link);
         let joint = Joint::turning(carrier, gear, law).at([at.x, at.y, 0.0]);
         self.machine.joint(joint)

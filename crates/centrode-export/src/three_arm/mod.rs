@@ -3,6 +3,7 @@
 mod arrangement;
 mod assembly;
 mod bodies;
+mod contacts;
 mod curves;
 mod figures;
 mod limbs;
@@ -20,6 +21,7 @@ use centrode_mechanism::three_arm::{PusherError, ThreeArm};
 
 use crate::gear_pair::{self, Label};
 use crate::{Bundle, ExportError, Format, Options, Package, cam, turned};
+pub use contacts::contacts;
 pub use curves::{arm_curves, curves};
 use machine::Machine;
 pub use part::ThreeArmPart;

@@ -1,3 +1,5 @@
+use std::f64::consts::TAU;
+
 use super::rolling::{Member, Rolling};
 use crate::transmission::{MotionJet, Transmission};
 
@@ -6,7 +8,9 @@ impl Rolling {
     ///
     /// phi' = w/r^2 and phi2' = w/(r (a - r)) with w the cross product of P and P'.
     fn along(&self, t: f64) -> [MotionJet; 2] {
-        let jet = self.curve().at(t);
+        let (inside, turns) = self.wrapped(t);
+        let jet = self.curve().at(inside);
+        let angle = self.polar_angle(inside, &jet) + turns * TAU;
         let (p, d1, d2, d3) = (jet.point.coords, jet.first, jet.second, jet.third);
         let a = self.center_distance();
         let r = p.norm();
@@ -30,10 +34,7 @@ impl Rolling {
             r1 * (a - 2.0 * r),
             r2 * (a - 2.0 * r) - 2.0 * r1 * r1,
         ];
-        [
-            turn(self.angle(t), own),
-            turn(self.driven_angle_at(t), mate),
-        ]
+        [turn(angle, own), turn(self.driven_angle_at(t), mate)]
     }
 
     /// Driven angle at a driver angle with its derivatives: the pair's transmission function.
@@ -66,7 +67,7 @@ impl Transmission for Rolling {
 
     fn advance(&self) -> f64 {
         let (driver, driven) = self.mean_ratio();
-        std::f64::consts::TAU * f64::from(driven) / f64::from(driver)
+        TAU * f64::from(driven) / f64::from(driver)
     }
 
     fn breaks(&self) -> Vec<f64> {
@@ -80,7 +81,7 @@ impl Transmission for Rolling {
 mod tests {
     use super::*;
     use crate::gear::pitch::{Ellipse, PitchSpec, Polar};
-    use std::f64::consts::{PI, TAU};
+    use std::f64::consts::PI;
 
     fn rolling(spec: &PitchSpec, ratio: (u32, u32)) -> Rolling {
         let pitch = spec.resolve().expect("a curve");

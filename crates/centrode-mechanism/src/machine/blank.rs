@@ -1,6 +1,6 @@
 use std::fmt;
 
-use centrode_geometry::{Outline, Point, Tolerance, Vector, convex_hull, greatest};
+use centrode_geometry::{Outline, Point, Tolerance, Vector, convex_hull};
 use nalgebra::Isometry2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -45,7 +45,7 @@ impl Blank {
         });
         if most - least < 2.0 * FINE {
             return Some(Self::Round {
-                diameter: 2.0 * farthest(outline, middle)?,
+                diameter: 2.0 * outline.farthest(middle),
                 length: thickness,
             });
         }
@@ -74,24 +74,9 @@ impl Blank {
     /// Round bar about the origin of a contour, as a turned part has it.
     #[must_use]
     pub fn round(outline: &Outline, length: f64) -> Option<Self> {
-        let diameter = 2.0 * farthest(outline, Point::origin())?;
-        Some(Self::Round { diameter, length })
+        let diameter = 2.0 * outline.farthest(Point::origin());
+        (diameter > 0.0).then_some(Self::Round { diameter, length })
     }
-}
-
-/// Distance of the farthest point of a contour from a place, mm.
-fn farthest(outline: &Outline, from: Point) -> Option<f64> {
-    let segments = outline.segments();
-    let mut most = vec![0.0_f64; segments.len()];
-    for sample in outline.samples(Tolerance::new(FINE).ok()?) {
-        let far = (sample.point - from).norm();
-        most[sample.segment] = most[sample.segment].max(far);
-    }
-    let near = most.iter().copied().fold(0.0, f64::max) - 2.0 * FINE;
-    let candidates = segments.iter().zip(most).filter(|(_, far)| *far >= near);
-    let exact = candidates
-        .map(|(segment, _)| greatest(|u| (segment.at(u).point - from).norm(), &[-1.0, 1.0]).value);
-    exact.reduce(f64::max)
 }
 
 impl fmt::Display for Blank {

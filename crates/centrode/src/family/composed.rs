@@ -2,7 +2,9 @@ use std::sync::Arc;
 
 use centrode_analysis::optimise::composed::ComposedProblem;
 use centrode_analysis::optimise::{DesignProblem, NotSearched};
-use centrode_analysis::{Report, Table, Unit, check_composed, composed_figures};
+use centrode_analysis::{
+    Report, Table, Unit, check_composed, check_composed_motion, composed_figures,
+};
 use centrode_export::page::{Curve, Handle, HandlePlane, Picture};
 use centrode_export::{Bundle, ExportError, Format, Options};
 use centrode_export::{composed, machine};
@@ -38,6 +40,14 @@ impl Mechanism for Composed {
 
     fn check(&self) -> Report {
         check_composed(self)
+    }
+
+    fn check_motion(&self) -> Report {
+        check_composed_motion(self)
+    }
+
+    fn goals_come_first(&self) -> bool {
+        !self.design().goals.is_empty()
     }
 
     fn pairs(&self) -> Result<Vec<(String, Arc<GearPair>)>, GearPairError> {

@@ -45,6 +45,10 @@ impl Mechanism for Feeder {
         check_strokes(self)
     }
 
+    fn goals_come_first(&self) -> bool {
+        true
+    }
+
     fn check_with_curves(&self) -> (Report, Vec<Curve>) {
         (check_feeder(self), torques(self))
     }

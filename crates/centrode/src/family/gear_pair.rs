@@ -109,7 +109,7 @@ impl Mechanism for GearPair {
             let length = self.driver().pitch_length();
             picture.handles = handles(&self.design().pitch, length, link);
         }
-        picture.contacts = Some(gear_pair::contacts(self));
+        picture.contacts = vec![gear_pair::contacts(self)];
         picture
     }
 

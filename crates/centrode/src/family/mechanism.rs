@@ -31,6 +31,11 @@ pub trait Mechanism: Any + Debug + Send + Sync {
         self.check()
     }
 
+    /// Whether it has goals that [`Mechanism::check_motion`] tells much sooner than [`Mechanism::check`].
+    fn goals_come_first(&self) -> bool {
+        false
+    }
+
     /// Report of [`Mechanism::check`] with the curves along the cycle that it yields.
     fn check_with_curves(&self) -> (Report, Vec<Curve>) {
         (self.check(), Vec::new())

@@ -53,6 +53,10 @@ impl Mechanism for ThreeArm {
         check_arms(self)
     }
 
+    fn goals_come_first(&self) -> bool {
+        true
+    }
+
     fn check_with_curves(&self) -> (Report, Vec<Curve>) {
         let teeth = TrainTeeth::analyse(self);
         let found = check_three_arm_teeth(self, &teeth);
@@ -180,6 +184,7 @@ fn drawn(mechanism: &ThreeArm, teeth: Option<&GearPair>) -> Picture {
         return Picture::default();
     };
     let mut picture = machine::picture(&machine, tolerance);
+    picture.contacts = three_arm::contacts(mechanism, teeth);
     if let Some(sun) = picture.links.iter().position(|link| link.name == "sun") {
         let length = mechanism.rolling().pitch_length(Member::Driver);
         picture.handles = handles(&mechanism.design().pitch, length, sun);

@@ -330,14 +330,14 @@ class Chart {
   }
 
   at(input, hovered) {
+    // Nothing is measured here: a browser would lay out the page anew for every chart.
     const left = (at) => this.plot.valToPos(at * DEG, "x");
-    const now = left(input);
-    this.line.style.transform = `translateX(${now}px)`;
-    this.line.hidden = now < 0 || now > this.plot.over.clientWidth;
+    const [first, last] = this.charts.range;
+    this.line.style.transform = `translateX(${left(input)}px)`;
+    this.line.hidden = input * DEG < first - NOISE || input * DEG > last + NOISE;
     if (hovered !== null) {
-      const place = left(hovered);
-      this.pointed.style.transform = `translateX(${place}px)`;
-      this.pointed.classList.toggle("leftward", place > this.plot.over.clientWidth / 2);
+      this.pointed.style.transform = `translateX(${left(hovered)}px)`;
+      this.pointed.classList.toggle("leftward", 2 * hovered * DEG > first + last);
       this.degrees.textContent = this.charts.written(hovered * DEG);
     }
     this.curves.forEach((curve, i) => {

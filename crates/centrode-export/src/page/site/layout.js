@@ -69,14 +69,17 @@ function tabs(names) {
 
 function borders() {
   const main = document.querySelector("main");
-  const widths = kept();
+  // What was chosen, and what a window has room for: a narrow one is not to spoil the wide one it becomes.
+  const chosen = kept();
+  const widths = [...chosen];
   const marks = BORDERS.map(([pane, name], i) => element("div", { class: `border border-${pane}`, role: "separator", tabindex: 0,
     "aria-orientation": "vertical", "aria-label": name, "aria-controls": pane, title: "Drag to move; double-click for the usual width", ondblclick: () => set(i, BORDERS[i][2]) }));
   const most = (i) => Math.max(LEAST, main.clientWidth - MIDDLE - widths[1 - i]);
   const set = (i, width) => {
     widths[i] = Math.round(Math.min(Math.max(width, LEAST), most(i)));
+    chosen[i] = widths[i];
     show();
-    document.cookie = `${COOKIE}=${widths.join("-")}; path=/; max-age=31536000; samesite=strict`;
+    document.cookie = `${COOKIE}=${chosen.join("-")}; path=/; max-age=31536000; samesite=strict`;
   };
   const show = () => marks.forEach((mark, i) => {
     main.style.setProperty(`--${BORDERS[i][0]}-width`, `${widths[i]}px`);
@@ -107,6 +110,7 @@ function borders() {
   main.append(...marks);
   // A window that has become smaller has less room for panes.
   addEventListener("resize", () => {
+    widths.splice(0, widths.length, ...chosen);
     BORDERS.forEach((_, i) => {
       widths[i] = Math.max(LEAST, Math.min(widths[i], most(i)));
     });

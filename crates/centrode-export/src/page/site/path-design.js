@@ -19,7 +19,9 @@ function wishesOf(wish) {
   const { direction_deg, direction_tolerance_deg } = wish[wish.given];
   const directions = direction_deg.flatMap((angle, i) => (angle === null ? [] : [{ point: i + 1, direction_deg: angle, tolerance_deg: direction_tolerance_deg[i] ?? USUAL }]));
   if (wish.directed && directions.length) found.directions = directions;
-  if (wish.turn) found.turn = { from: wish.turn.from, to: wish.turn.to, between_deg: wish.turn.between };
+  const { turn } = wish;
+  // One that is half given is told by its field.
+  if (turn && turn.from !== null && turn.to !== null) found.turn = { from: turn.from, to: turn.to, between_deg: [turn.between[0] ?? 0, turn.between[1] ?? 360] };
   if (wish.keep_out.length) found.keep_out = shapes.written(wish.keep_out);
   return found;
 }
@@ -31,7 +33,9 @@ export function designOf(wish, { placed = false, band = wish.band } = {}) {
   if (given === "poses") return { ...design, path: {} };
   if (given === "path" && (placed || !wish.free)) {
     design.axis = axis;
-    delete design.axis_box;
+  } else if (given === "path" && wish.box.flat().every((end) => end !== null)) {
+    const [[left, right], [low, high]] = wish.box;
+    design.axis_box = [[left, low], [right, high]];
   }
   if (aim) design.aim = aim;
   const { x, y, tolerance } = wish[given];
@@ -66,14 +70,14 @@ export function columnsOf({ points, tolerance = [] }, directions = []) {
 
 /** The wish with what a file holds: all of a design, or points with their tolerances and directions. */
 export function withOpened(wish, start, { design, whole }) {
-  const { path: { points, tolerance = [], band = 0, module = null, open = false, ...path }, wishes = {}, axis, bend_deg, arms, split, aim, ...others } = design;
+  const { path: { points, tolerance = [], band = 0, module = null, open = false, ...path }, wishes = {}, axis, axis_box: box, bend_deg, arms, split, aim, ...others } = design;
   const columns = columnsOf({ points, tolerance }, wishes.directions);
   const [each, directed] = [tolerance.length > 0, (wishes.directions ?? []).length > 0];
   if (!whole) return { ...wish, [wish.given]: columns, each, directed };
   const given = open ? "stroke" : "path";
   return {
     ...structuredClone(start), given, [given]: columns, each, directed, band, module,
-    axis: axis ?? wish.axis, free: !axis, bend: bend_deg, arms, split, aim: aim ?? null,
+    axis: axis ?? wish.axis, free: !axis, box: box ? [0, 1].map((k) => [Math.min(box[0][k], box[1][k]), Math.max(box[0][k], box[1][k])]) : [[null, null], [null, null]], bend: bend_deg, arms, split, aim: aim ?? null,
     ...Object.fromEntries(RANGES.map((key) => [key, [wishes[key]?.at_least ?? null, wishes[key]?.at_most ?? null]])),
     clamp: wishes.clamp_deg ?? null,
     turn: wishes.turn ? { from: wishes.turn.from, to: wishes.turn.to, between: wishes.turn.between_deg } : null,

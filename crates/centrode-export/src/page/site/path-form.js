@@ -18,6 +18,7 @@ export const EXAMPLE = {
   stroke: points([0, 60, 150, 230, 262], [0, 70, 150, 215, 262]),
   axis: [260, 160],
   free: false,
+  box: [[null, null], [null, null]],
   bend: 40,
   arms: 3,
   split: "powers",
@@ -68,6 +69,8 @@ const FIELDS = {
   "axis.x": { unit: "mm", doc: "Axis about which the carrier turns. Drag it in the picture, too." },
   "axis.y": { unit: "mm", doc: "Axis about which the carrier turns. Drag it in the picture, too." },
   "axis.sought": { label: "Seek it, too", kind: "switch", unit: "", doc: "The axis is sought on and about the path when the machine is found or made; the one drawn shows one that may be." },
+  "axis.within_x": { ...range("mm", "Least and greatest x of the axis that is sought; left out, those of the map of possible axes."), least: undefined, label: "Within x" },
+  "axis.within_y": { ...range("mm", "Least and greatest y of the axis that is sought; left out, those of the map of possible axes."), least: undefined, label: "Within y" },
   "gears.bend_deg": { unit: "°", least: -170, greatest: 170, doc: "Angle from the carrier's first leg, to the intermediate gear, to its second. A greater bend gives greater gears." },
   "gears.arms": { kind: "integer", unit: "", least: 1, greatest: 12, doc: "Number of arms." },
   "gears.band": { unit: "mm", least: 0, greatest: 1e6, doc: "Distance within which the path may pass its points: it is eased there, for larger teeth, when the machine is made. Zero: through its points." },
@@ -147,7 +150,10 @@ export function tables(wish, act) {
   const { axis, bend, arms, split, band, free, module, aim, turn } = wish;
   const gears = [field("gears.bend_deg", bend), field("gears.arms", arms), field("gears.split", split)];
   const found = [{ key: "wanted", doc: "What is given", fields: [field("wanted.given", wish.given)] }];
-  if (wish.given === "path") found.push({ key: "axis", doc: "Axis of the carrier", fields: [field("axis.x", axis[0]), field("axis.y", axis[1]), field("axis.sought", free)] });
+  if (wish.given === "path") {
+    const box = free ? [field("axis.within_x", wish.box[0]), field("axis.within_y", wish.box[1])] : [];
+    found.push({ key: "axis", doc: "Axis of the carrier", fields: [field("axis.x", axis[0]), field("axis.y", axis[1]), field("axis.sought", free), ...box] });
+  }
   if (wish.given === "poses") return [...found, { key: "gears", doc: "Gears and arms", fields: gears }, given(wish)];
   gears.push(...(wish.each ? [] : [field("gears.band", band)]), field("gears.module", module), field("gears.aim", aim));
   const wishes = [
@@ -183,23 +189,42 @@ function fault(key, value) {
 /** Whether a key names a shape, whose lack of a value drops it. */
 const isDropped = (key) => /^wishes\.keep_out\.[^.]+$/.test(key);
 
-/** Sets the turn of the carrier: a part of it brings the others with it, and without a point there is none. */
+/** Sets a part of the turn of the carrier; of which nothing is left there is none. */
 function turned(wish, key, place, value) {
-  const turn = wish.turn ?? { from: 1, to: 2, between: [0, 360] };
-  if (place !== undefined) turn.between[Number(place)] = value ?? [0, 360][Number(place)];
-  else if (value === null) return null;
+  const turn = wish.turn ?? { from: null, to: null, between: [null, null] };
+  if (place !== undefined) turn.between[Number(place)] = value;
   else turn[key] = value;
-  return turn;
+  return [turn.from, turn.to, ...turn.between].every((one) => one === null) ? null : turn;
 }
 
-/** Points counted anew after one was added or deleted: the turn keeps its own. */
+/** Points counted anew after one was added or deleted: the turn keeps its own, and goes with one of them. */
 function recounted(turn, before, after) {
   const step = after.length - before.length;
-  if (!turn || Math.abs(step) !== 1) return turn;
+  if (!turn || Math.abs(step) !== 1) return { turn };
   const differs = before.findIndex((one, i) => one !== after[i]);
   const first = differs < 0 ? Math.min(before.length, after.length) : differs;
-  const moved = (number) => Math.min(Math.max(number > first + (step > 0 ? 0 : 1) ? number + step : number, 1), after.length);
-  return { ...turn, from: moved(turn.from), to: moved(turn.to) };
+  const gone = step < 0 && [turn.from, turn.to].includes(first + 1);
+  if (gone) return { turn: null, note: `With point ${first + 1} its wish for a turn of the carrier, from point ${turn.from ?? "–"} to point ${turn.to ?? "–"}, is gone; Undo has both again.` };
+  const moved = (number) => (number === null || number <= first ? number : number + step);
+  return { turn: { ...turn, from: moved(turn.from), to: moved(turn.to) } };
+}
+
+/** Points in words, to be compared. */
+const places = ({ x, y }) => x.map((one, i) => `${one} ${y[i]}`);
+
+/** What a wish lacks before it can be told to the program: its key and the reason; null where it is whole. */
+export function lacks(wish) {
+  if (wish.given === "poses") return null;
+  if (wish.turn) {
+    const missing = ["from", "to"].find((end) => wish.turn[end] === null);
+    if (missing) return { key: `wishes.turn.${missing}`, wrong: "a turn is wished between two points: give both, or neither" };
+    if (wish.turn.between.every((end) => end === null)) return { key: "wishes.turn.between_deg", wrong: "no turn is given between the two points" };
+  }
+  if (!wish.free || wish.given !== "path") return null;
+  const ends = wish.box.flat();
+  const some = ends.filter((end) => end !== null).length;
+  if (some > 0 && some < ends.length) return { key: `axis.within_${wish.box[0].includes(null) ? "x" : "y"}`, wrong: "the axis is sought within four numbers, or, without any, on the map" };
+  return null;
 }
 
 /** The wish with other values, or the first key at fault and the reason. */
@@ -213,8 +238,9 @@ export function changed(wish, edits) {
     if (amiss) return { key, wrong: amiss };
   }
   const { given: kind } = next;
-  if (kind !== "poses") next.turn = recounted(next.turn, wish[kind].x, next[kind].x);
-  return { next };
+  if (kind === "poses") return { next };
+  const { turn, note } = recounted(next.turn, places(wish[kind]), places(next[kind]));
+  return { next: { ...next, turn }, note };
 }
 
 /** Takes the value of a key; returns what is wrong, if anything. */
@@ -223,9 +249,11 @@ function set(next, key, value) {
   const [, shape, own, at] = /^wishes\.keep_out\.([^.[\]]+)(?:\.([a-z.]+))?(?:\[(\d+)\])?$/.exec(key) ?? [];
   const [, wished, end] = /^wishes\.([a-z_]+)\[(\d)\]$/.exec(key) ?? [];
   const [, turn, bound] = /^wishes\.turn\.([a-z_]+)(?:\[(\d)\])?$/.exec(key) ?? [];
+  const [, within, side] = /^axis\.within_([xy])\[(\d)\]$/.exec(key) ?? [];
   if (key in PLAIN) next[PLAIN[key]] = value;
   else if (shape) return shapes.change(next.keep_out, shape, own, at, value);
   else if (turn) next.turn = turned(next, turn, bound, value);
+  else if (within) next.box["xy".indexOf(within)][Number(side)] = value;
   else if (wished) next[wished][Number(end)] = value;
   else if (list && place === undefined) spread(next[table], list, value);
   else if (list) {

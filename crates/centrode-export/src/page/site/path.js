@@ -2,7 +2,7 @@
 
 import { Charts } from "./charts.js";
 import * as dialogs from "./dialogs.js";
-import { byId, element } from "./elements.js";
+import { byId, element, place } from "./elements.js";
 import { Form } from "./form.js";
 import { Handles } from "./handles.js";
 import { History } from "./history.js";
@@ -10,7 +10,7 @@ import * as layout from "./layout.js";
 import { Field } from "./path-field.js";
 import * as file from "./path-file.js";
 import { isSought, withOpened } from "./path-design.js";
-import { EXAMPLE, asked, changed, handles as marks, rowsOf, tableOf, tables, wantedPicture, whole, withPoses, withWanted } from "./path-form.js";
+import { EXAMPLE, asked, changed, handles as marks, lacks, rowsOf, tableOf, tables, wantedPicture, whole, withPoses, withWanted } from "./path-form.js";
 import * as maker from "./path-make.js";
 import * as shapes from "./path-shapes.js";
 import { Solving } from "./path-solving.js";
@@ -57,18 +57,46 @@ const KEPT = "centrode-path";
 let wish = kept();
 /** Figures that are shown. */
 let told = [];
+/** The key at fault of what was typed last, and why; what is shown is that of the value before. */
+let amiss = null;
 /** What ends the search for the machine. */
 let finding = null;
 const history = new History(JSON.stringify(wish));
 
 /** Takes new values; `final` ends a drag. */
 function edit(edits, final) {
-  const { next, key, wrong } = changed(wish, edits);
+  const { next, key, wrong, note } = changed(wish, edits);
   if (wrong) {
-    fill({ key, message: wrong, rule: "" });
+    refuse({ key, wrong });
     return;
   }
   take(next, final);
+  if (note) dialogs.notice("turn", note, [], "warning");
+  else dialogs.withdraw("turn");
+}
+
+/** Says what is wrong with a value, of which no machine is made. */
+function refuse(fault) {
+  amiss = fault;
+  fill({ key: fault.key, message: fault.wrong, rule: "" });
+  able();
+}
+
+/** Whether the machine that is shown may be made. */
+let isPossible = false;
+
+/** Buttons that make a machine; a value at fault is not passed over. */
+function able() {
+  const why = amiss && `${place(amiss.key)}: ${amiss.wrong}`;
+  for (const id of ["make", "find-machine"]) {
+    const button = byId(id);
+    button.dataset.usual ??= button.title;
+    button.title = why ?? button.dataset.usual;
+  }
+  byId("make").disabled = !isPossible || Boolean(amiss);
+  byId("find-machine").disabled = Boolean(amiss);
+  byId("amiss").hidden = !amiss;
+  byId("amiss").textContent = amiss ? `✕ ${why}. What is shown is of the value before: no machine is made of it.` : "";
 }
 
 /** Takes another wish. */
@@ -76,8 +104,10 @@ function take(next, final, fresh = true) {
   wish = next;
   if (final && fresh) history.push(JSON.stringify(wish));
   if (final) keep();
-  fill(null);
+  amiss = lacks(wish);
+  fill(amiss && { key: amiss.key, message: amiss.wrong, rule: "" });
   buttons();
+  able();
   const isPath = wish.given === "path";
   field.shown = isPath;
   for (const id of ["field", "field-readout"]) byId(id).hidden = !isPath;
@@ -141,7 +171,7 @@ function fill(error) {
 /** The key of a message of the program that begins with one, and the rule. */
 function blamed(message) {
   const [, key, rule] = /^([a-z_.]+(?:\[\d+\])?[\w.[\]-]*):? (.*)$/.exec(message) ?? [];
-  return key ? { key: key.replace(/^(bend_deg|arms|split|aim)$/, "gears.$1").replace(/^path\.(band|module)$/, "gears.$1"), message: rule, rule: "" } : null;
+  return key ? { key: key.replace(/^(bend_deg|arms|split|aim)$/, "gears.$1").replace(/^path\.(band|module)$/, "gears.$1").replace(/^axis_box$/, "axis.within_x"), message: rule, rule: "" } : null;
 }
 
 /** Shows what the program answers; where `more` figures are to come, those from before stay, faded. */
@@ -163,7 +193,8 @@ function show({ picture, curves, figures, fault, goals, findings, found }, more 
   byId("figures").replaceChildren(...(rows.length ? [element("table", { class: "figures" }, element("tbody", {}, ...rows))] : []));
   // Another axis may be possible, where it is free.
   const isAble = !fault || (fault.of === "axis" && wish.free);
-  byId("make").disabled = !isAble;
+  isPossible = isAble;
+  able();
   byId("finding").hidden = wish.given === "path" ? found || !isAble || !isSought(wish) : !fault;
 }
 

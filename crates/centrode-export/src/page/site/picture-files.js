@@ -4,6 +4,7 @@ import * as dialogs from "./dialogs.js";
 import { handOver, image } from "./chart-files.js";
 import { byId, drawn, element } from "./elements.js";
 import { gif } from "./gif.js";
+import * as mesh from "./mesh.js";
 import { Painter, strokes } from "./painter.js";
 import { color, paper } from "./theme.js";
 
@@ -86,7 +87,19 @@ function svg(stage, title) {
     label.textContent = words;
     root.append(drawn("circle", { cx: px, cy: py, r: 4, fill: color("pinned") }), label);
   }
+  if (stage.mesh.on) root.append(...meshes(stage));
   return `${new XMLSerializer().serializeToString(root)}\n`;
+}
+
+/** What touches in the meshes that are shown. */
+function meshes(stage) {
+  const { LOOK: { ink, width, dashes, pitch: small, point: large } } = mesh;
+  const dot = ([cx, cy], r, fill, part) => drawn("circle", { cx, cy, r, fill: color(fill), stroke: color("sheet"), "stroke-width": width, "data-mesh": part });
+  return mesh.touching(stage, stage.input).flatMap(({ pitch, points, line }) => [
+    ...(line ? [drawn("path", { d: `M${line[0].join(" ")}L${line[1].join(" ")}`, stroke: color(ink), "stroke-width": width, "stroke-dasharray": dashes.join(" "), "data-mesh": "line" })] : []),
+    dot(pitch, small, "ink", "pitch"),
+    ...points.map((point) => dot(point, large, ink, "contact")),
+  ]);
 }
 
 /** Least x, least y, greatest x, greatest y of all lines at places of the cycle. */
@@ -109,7 +122,7 @@ function around({ picture, motion }) {
   return box;
 }
 
-/** A machine on a canvas of its own, whole, on white, at any place of its cycle. */
+/** A machine on a canvas of its own, whole or close to a mesh, on white, at any place of its cycle. */
 class Film extends Painter {
   constructor(stage, width) {
     super(document.createElement("canvas"), { willReadFrequently: true });
@@ -122,6 +135,8 @@ class Film extends Painter {
     Object.assign(this.canvas, { width, height: this.height });
     this.stage = stage;
     this.frame(ROOM);
+    // Close to a mesh it shows as much as the page does, and follows as the page does.
+    if (stage.mesh.on) this.view = { ...stage.view, scale: (stage.view.scale * width) / stage.width };
   }
 
   get pitched() {
@@ -132,9 +147,13 @@ class Film extends Painter {
     this.clear();
     this.context.fillStyle = "#ffffff";
     this.context.fillRect(0, 0, this.width, this.height);
-    const poses = this.parts(share * this.scene.motion.cycle);
+    const input = share * this.scene.motion.cycle;
+    const middle = this.stage.mesh.middle(input);
+    if (middle) [this.view.x, this.view.y] = middle;
+    const poses = this.parts(input);
     this.axes(poses);
     this.marks(poses);
+    if (this.stage.mesh.on) mesh.draw(this, input);
   }
 }
 

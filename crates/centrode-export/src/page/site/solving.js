@@ -8,7 +8,7 @@ import { byId } from "./elements.js";
 import { work } from "./work.js";
 
 /** Checks slower than this come after the picture, ms. */
-export const SLOW = 40;
+export const SLOW = 20;
 /** Whoever waits longer is told so, ms. */
 const PATIENCE = 300;
 /** A picture that takes longer is not waited for while a drag goes on, ms. */
@@ -103,8 +103,8 @@ async function solve() {
  * Tells the goals of the picture that is shown, before its details and checks: a drag waits for them while they are quick.
  * Resolves to whether the checks are to follow.
  */
-async function tell({ text, coarse, goals }) {
-  if (goals || !coarse) return true;
+async function tell({ text, goals_first: first, goals }) {
+  if (goals || !first) return true;
   if (state.pending && state.told > LIVE) {
     // Tried again some pictures later.
     state.told *= 0.8;

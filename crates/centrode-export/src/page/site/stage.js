@@ -64,7 +64,7 @@ export class Stage extends Painter {
   }
 
   fit() {
-    this.mesh.press(false);
+    this.mesh.press(null);
     this.fitted = true;
     this.frame();
     this.draw();

@@ -1,10 +1,11 @@
 mod error;
+mod knots;
 mod resolve;
 
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-use centrode_geometry::{Antiderivative, Curve, Jet, Point, Vector, bracketed_root, pieces};
+use centrode_geometry::{Antiderivative, Curve, Jet, Point, Vector, pieces};
 
 pub use error::RollingError;
 
@@ -74,6 +75,8 @@ pub struct Rolling {
     half: f64,
     /// The curve's breaks in `[start, start + period)`.
     jumps: Vec<f64>,
+    /// Parameters of one turn with the polar angle at each: between two the curve is smooth and turns little.
+    knots: Vec<[f64; 2]>,
     arc: Antiderivative,
     driven: Antiderivative,
     center_distance: f64,
@@ -172,18 +175,6 @@ impl Rolling {
         let turns = (arc / self.arc.total()).floor();
         let rest = (arc - turns * self.arc.total()).clamp(0.0, self.arc.total());
         self.arc.inverse(rest) + turns * self.curve.period()
-    }
-
-    /// Curve parameter at a driver polar angle; any real angle.
-    #[must_use]
-    pub fn parameter_at_angle(&self, phi: f64) -> f64 {
-        let period = self.curve.period();
-        let turns = (phi / TAU).floor();
-        let wanted = phi - turns * TAU;
-        let angle = |t: f64| self.polar_angle(t, &self.curve.at(t)) - wanted;
-        let (low, high) = (self.start, self.start + period);
-        let (f_low, f_high) = (-wanted, TAU - wanted);
-        bracketed_root(angle, low, high, f_low, f_high) + turns * period
     }
 
     /// Curve parameter at a driven angle; any real angle.
@@ -339,7 +330,8 @@ impl Rolling {
         self.jumps.contains(&inside)
     }
 
-    fn wrapped(&self, t: f64) -> (f64, f64) {
+    /// Parameter of that place in the first turn, and the turns before it.
+    pub(in crate::gear) fn wrapped(&self, t: f64) -> (f64, f64) {
         let period = self.curve.period();
         if t >= self.start && t <= self.start + period {
             return (t, 0.0);
@@ -352,7 +344,7 @@ impl Rolling {
     }
 
     /// Polar angle in the turn the parameter lies in, whatever the rounding at its ends.
-    fn polar_angle(&self, t: f64, jet: &Jet) -> f64 {
+    pub(in crate::gear) fn polar_angle(&self, t: f64, jet: &Jet) -> f64 {
         let angle = jet.point.y.atan2(jet.point.x);
         let middle = if t <= self.half { 0.5 * PI } else { 1.5 * PI };
         angle + TAU * ((middle - angle) / TAU).round()

@@ -72,11 +72,12 @@ impl Rolling {
                 wanted,
             });
         }
-        let rolling = Self {
+        let mut rolling = Self {
             curve,
             start,
             half,
             jumps,
+            knots: Vec::new(),
             arc,
             driven,
             center_distance: a,
@@ -84,6 +85,7 @@ impl Rolling {
             least,
             greatest,
         };
+        rolling.knots = rolling.knots_at(&breaks);
         rolling.check_repeats()?;
         Ok(rolling)
     }

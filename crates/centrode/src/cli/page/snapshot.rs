@@ -3,7 +3,7 @@ use std::sync::{Arc, OnceLock};
 use crate::analysis::Report;
 use crate::export::page::{Curve, Picture};
 use crate::family::{FAMILIES, Limit, Mechanism};
-use crate::geometry::Cancel;
+use crate::geometry::together;
 use crate::mechanism::design::DesignError;
 use serde::Serialize;
 
@@ -31,6 +31,8 @@ pub(crate) struct Snapshot {
     picture: Option<Picture>,
     /// Whether the picture lacks details that take longer to make.
     coarse: bool,
+    /// Whether its goals are told before the rest of the checks.
+    goals_first: bool,
     curves: Vec<Curve>,
     /// Speed of the input, rad/s, where the design has one.
     speed: Option<f64>,
@@ -109,22 +111,6 @@ pub(crate) fn drawn(text: &str) -> Result<String, String> {
 /// Mechanism of a design file.
 pub(super) fn resolved(text: &str) -> Result<Arc<dyn Mechanism>, DesignError> {
     FAMILIES.read(text.as_bytes())?.mechanism()
-}
-
-/// Results of two jobs that run side by side, under the token of the calling thread.
-fn together<A, B: Send>(one: impl FnOnce() -> A, other: impl FnOnce() -> B + Send) -> (A, B) {
-    let cancel = Cancel::current();
-    std::thread::scope(|scope| {
-        let other = scope.spawn(move || {
-            let _scope = cancel.enter();
-            other()
-        });
-        let one = one();
-        match other.join() {
-            Ok(other) => (one, other),
-            Err(unwound) => std::panic::resume_unwind(unwound),
-        }
-    })
 }
 
 /// Design that has become a mechanism.
@@ -218,6 +204,7 @@ impl Subject {
         let (picture, curves) = together(|| mechanism.picture(), || mechanism.curves());
         snapshot.picture = Some(picture);
         snapshot.coarse = mechanism.is_coarse();
+        snapshot.goals_first = mechanism.goals_come_first();
         snapshot.curves = curves;
         snapshot.speed = mechanism.input_speed();
         Self {
