@@ -33,6 +33,9 @@ DESIGNS = sorted(path.stem for path in (ROOT / "tests" / "designs").glob("*.toml
 FLAT = ("feeder", "machine", "three-arm")
 NUMBER = r"-?[\d.]+"
 HOLE = re.compile(rf"^(?:[^:]+: )?Ø({NUMBER})(?: (\S+))?")
+# Threads, with the drills of ISO 2306.
+THREAD = re.compile(rf"^(?:[^:]+: )?M({NUMBER})-6H (through|\u00d7 ({NUMBER}) from both faces)$")
+DRILLS = {1.6: 1.25, 2: 1.6, 2.5: 2.05, 3: 2.5, 4: 3.3, 5: 4.2, 6: 5, 8: 6.8, 10: 8.5, 12: 10.2}
 PLACE = re.compile(rf"^at ({NUMBER}), ({NUMBER})")
 KEYWAY = re.compile(rf"^keyway ({NUMBER})")
 KEYED = re.compile(rf"^Ø \+ depth ({NUMBER}) \(\+0\.100 / 0\), at {NUMBER}°$")
@@ -192,6 +195,12 @@ def cylinders(shape):
             yield at.X(), at.Y(), cylinder.Radius()
 
 
+def thickness(shape):
+    bounds = Bnd_Box()
+    BRepBndLib.AddOptimal_s(shape, bounds, True, False)
+    return bounds.CornerMax().Z() - bounds.CornerMin().Z()
+
+
 @pytest.mark.parametrize("name", [name for name in DESIGNS if family(name) in FLAT])
 def test_a_plate_made_from_its_sheet_alone_is_its_solid(name, exported):
     assert plates_made_from_their_sheets(exported(name))
@@ -227,6 +236,8 @@ def plates_made_from_their_sheets(folder):
             length += polygon(outlines["opening"]).length
         shape = solid(folder / f"{part}.step")
         round_faces = list(cylinders(shape))
+        drilled = sum("drilled Ø" in text for text in texts)
+        assert drilled == sum(bool(THREAD.match(text)) for text in texts), part
 
         def has(x, y, radius, faces=round_faces):
             return any(math.dist((x, y, radius), face) < 2e-4 for face in faces)
@@ -240,6 +251,11 @@ def plates_made_from_their_sheets(folder):
                 # Whatever is drilled has a class, and with it limits.
                 assert hole[2], (part, text)
                 bored = 2 * radius
+            if (thread := THREAD.match(text)) and (at := PLACE.match(after)):
+                radius = DRILLS[float(thread[1])] / 2
+                area -= math.pi * radius**2
+                assert has(float(at[1]), float(at[2]), radius), (part, text, after)
+                assert 2 * float(thread[3] or 0) < thickness(shape), (part, text)
             if (keyway := KEYWAY.match(text)) and (keyed := KEYED.match(after)):
                 half, above = float(keyway[1]) / 2, float(keyed[1]) - bored / 2
                 # What the keyway takes beyond the bore's circle.
@@ -259,15 +275,15 @@ def plates_made_from_their_sheets(folder):
         numbers = [float(text) for text in views if re.fullmatch(r"\d+(\.\d+)?", text)]
         for side in (high.X() - low.X(), high.Y() - low.Y(), high.Z() - low.Z()):
             assert min(abs(side - x) for x in numbers) < 6e-4, (part, side)
-        thickness = high.Z() - low.Z()
+        thick = high.Z() - low.Z()
         properties = GProp_GProps()
         BRepGProp.VolumeProperties_s(shape, properties)
         if "opening" in outlines:
             # A wall may have a bore through it that is told in words.
-            assert properties.Mass() <= area * thickness + 1e-3 * length * thickness, part
+            assert properties.Mass() <= area * thick + 1e-3 * length * thick, part
             continue
         # Corners are written to a micrometre.
-        assert abs(properties.Mass() - area * thickness) < 1e-3 * length * thickness, part
+        assert abs(properties.Mass() - area * thick) < 1e-3 * length * thick, part
     return made
 
 

@@ -10,6 +10,8 @@ mod gear_pair;
 mod goal;
 pub mod interference;
 mod intermittent_contact;
+mod key_pressure;
+mod no_screws;
 pub mod optimise;
 mod report;
 mod response;

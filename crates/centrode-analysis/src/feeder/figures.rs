@@ -60,6 +60,7 @@ pub(crate) const FIGURES: &[FigureGroup] = &[
             row("the same over the return", &["crank_quick_return"], Number),
             row("torque of the crank, at most", &["crank_torque_moving_max", "crank_torque_still_max"], NewtonMillimetre),
             row("pressure on the crank's key", &["crank_key_pressure_max", "crank_key_pressure_still_max"], NewtonPerSquareMillimetre),
+            row("pressure on the keys of the gears", &["gear_driven_key_pressure_max", "gear_driver_key_pressure_max"], NewtonPerSquareMillimetre),
             row("jump of the crank's speed", &["crank_speed_jump"], RadianPerSecond),
             row("crank's acceleration", &["crank_acceleration_max"], RadianPerSecondSquared),
             row("teeth left on the driver", &["gear_teeth"], Count),

@@ -3,13 +3,14 @@ use std::cell::Cell;
 use centrode_geometry::{Extreme, SolidError, Vector, greatest_each};
 use centrode_mechanism::feeder::{Feeder, FeederError, FeederPart};
 use centrode_mechanism::gear::design::Keyway;
-use centrode_mechanism::machine::{Key, allowed_pressure};
+use centrode_mechanism::machine::Key;
 
 use crate::forces::{Balance, Forces, ForcesError};
-use crate::{Finding, Place, Report, Severity, Table, Unit};
+use crate::key_pressure::LoadedKey;
+use crate::{Report, Table, Unit};
 
-/// Figures of a state: the torque and the force in every joint.
-const FIGURES: usize = 1 + FeederForces::CONNECTIONS.len();
+/// Figures of a state: the torques of crank and input, and the force in every joint.
+const FIGURES: usize = 2 + FeederForces::CONNECTIONS.len();
 
 /// Reason why there are no forces.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -137,8 +138,9 @@ pub(super) fn forces(feeder: &Feeder, report: &mut Report) {
             return [f64::NAN; FIGURES];
         };
         let joints = FeederForces::joints(&forces);
-        std::array::from_fn(|k| match k.checked_sub(1) {
-            None => FeederForces::torque(&forces).abs(),
+        std::array::from_fn(|k| match k.checked_sub(2) {
+            None if k == 0 => FeederForces::torque(&forces).abs(),
+            None => forces.input_torque.abs(),
             Some(joint) => joints[joint].norm(),
         })
     };
@@ -161,10 +163,10 @@ pub(super) fn forces(feeder: &Feeder, report: &mut Report) {
         values.insert("crank_key_pressure_max", pressure(moving[0].value));
         values.insert("crank_key_pressure_still_max", pressure(still[0].value));
     }
-    keys(feeder, [&still[0], &moving[0]], report);
+    keys(feeder, [&still, &moving], report);
     let of = |Extreme { value, .. }: &Extreme| *value;
     let greatest = still.iter().zip(&moving).map(|(a, b)| vec![of(a), of(b)]);
-    let rows = FeederForces::CONNECTIONS.iter().zip(greatest.skip(1));
+    let rows = FeederForces::CONNECTIONS.iter().zip(greatest.skip(2));
     report.tables.push(Table {
         name: "joint_forces",
         title: "Greatest force in a joint",
@@ -174,51 +176,52 @@ pub(super) fn forces(feeder: &Feeder, report: &mut Report) {
     });
 }
 
-/// Keys of the crank's shaft that are pressed harder than the weakest material beside them allows, at the greatest torque of the
-/// crank, held still or moving.
-fn keys(feeder: &Feeder, torques: [&Extreme; 2], report: &mut Report) {
+/// Pressure on the keys of both shafts at the greatest torques, held still or moving, and those that are pressed harder than the
+/// weakest material beside them allows: the crank's shaft carries the torque of the crank, the other that of the input.
+fn keys(feeder: &Feeder, [still, moving]: [&[Extreme]; 2], report: &mut Report) {
     let (body, plates) = (feeder.design().gears.body(), &feeder.design().plates);
-    let Some(keyway) = body.keyway else {
+    let Some(hub) = body.keyway else {
         return;
     };
-    let Extreme { input, value } = match torques[0].value > torques[1].value {
-        true => *torques[0],
-        false => *torques[1],
-    };
-    let shaft = &*body.material;
-    for (part, key, hub) in [
+    let (gear, plate) = (&*body.material, &*plates.material);
+    let (square, round) = (
+        Key::square(hub, plates.thickness),
+        Key::round(hub, body.width),
+    );
+    for (part, figure, key, torque, material) in [
+        ("crank", None, square, 0, plate),
         (
-            "crank",
-            Key::square(keyway, plates.thickness),
-            &*plates.material,
+            "gear-driven",
+            Some("gear_driven_key_pressure_max"),
+            round,
+            0,
+            gear,
         ),
-        ("gear-driven", Key::round(keyway, body.width), shaft),
+        (
+            "gear-driver",
+            Some("gear_driver_key_pressure_max"),
+            round,
+            1,
+            gear,
+        ),
     ] {
-        let allowed = [shaft, hub].map(allowed_pressure);
-        let ([Some(one), Some(other)], Some(key)) = (allowed, key) else {
+        let Some(key) = key else {
             continue;
         };
-        let allowed = one.min(other);
-        let pressure = keyway.pressure(value, body.bore, key.bearing_length());
-        if pressure <= allowed {
-            continue;
-        }
-        report.findings.push(Finding {
-            rule: "key-pressure",
-            severity: Severity::Error,
-            message: format!(
-                "{} in the {part} is pressed by {pressure:.1} N/mm² at {value:.0} N·mm: its hub and shaft bear {allowed:.1} N/mm²",
-                key.name()
-            ),
-            measured: Some(pressure),
-            required: Some(allowed),
-            unit: Unit::NewtonPerSquareMillimetre,
-            remedy: Some("a thicker hub, or a wider bore with its key"),
-            place: Place {
-                part: Some(part.into()),
-                input: Some(input),
-                ..Place::default()
-            },
-        });
+        let torque = match still[torque].value > moving[torque].value {
+            true => still[torque],
+            false => moving[torque],
+        };
+        let loaded = LoadedKey {
+            key,
+            hub,
+            diameter: body.bore,
+            materials: &[gear, material],
+            torque,
+            part,
+        };
+        let values = &mut report.values;
+        values.extend(figure.map(|figure| (figure, loaded.pressure())));
+        loaded.check(report);
     }
 }

@@ -21,6 +21,7 @@ pub(crate) use goals::{feed_stroke, goals};
 pub use swing_spread::{SixBarTolerances, SwingSpread};
 
 use self::figures::FIGURES;
+use crate::no_screws::no_screws;
 use crate::{Finding, Place, Report, Severity, Table, Unit};
 
 /// Number of random six-bars, Monte Carlo samples within the tolerances.
@@ -35,6 +36,7 @@ const ON_CHORD: f64 = 1e-3;
 pub fn check_feeder(feeder: &Feeder) -> Report {
     let mut report = check_strokes(feeder);
     gears::gears(feeder, &mut report);
+    screws(feeder, &mut report);
     report.worst_first();
     report
 }
@@ -56,6 +58,16 @@ pub fn check_strokes(feeder: &Feeder) -> Report {
     plates::plates(feeder, &mut report);
     report.worst_first();
     report
+}
+
+/// Tells of a frame for whose plates no screws are found.
+fn screws(feeder: &Feeder, report: &mut Report) {
+    let found = feeder.frame_screws();
+    report.findings.extend(no_screws(
+        ("frame", "the plates of the frame"),
+        found,
+        "thicker plates (plates.thickness), or a smaller plates.screw",
+    ));
 }
 
 /// Checks the figures that the lengths alone determine.

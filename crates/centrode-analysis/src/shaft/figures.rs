@@ -1,7 +1,7 @@
 use crate::figure::{FigureGroup, row};
 use crate::unit::Unit::{
-    Angle, Count, MetrePerSecondSquared, Millimetre, Newton, NewtonMillimetre, Number,
-    TurnsPerMinute,
+    Angle, Count, MetrePerSecondSquared, Millimetre, Newton, NewtonMillimetre,
+    NewtonPerSquareMillimetre, Number, TurnsPerMinute,
 };
 
 /// Figures of a spiral shaft and its moving box, in the order in which they are shown.
@@ -51,6 +51,7 @@ pub(crate) const FIGURES: &[FigureGroup] = &[
             row("greatest in a reversal", &["normal_force_reversal_max"], Newton),
             row("least torque", &["torque_min"], NewtonMillimetre),
             row("greatest torque", &["torque_max"], NewtonMillimetre),
+            row("pressure on the journal's key", &["key_pressure_max"], NewtonPerSquareMillimetre),
             row("speed", &["speed_rpm"], TurnsPerMinute),
             row("stays on one wall up to", &["contact_limit_rpm"], TurnsPerMinute),
             row("the same, reversals too", &["contact_limit_cycle_rpm"], TurnsPerMinute),
@@ -70,6 +71,8 @@ pub(crate) const FIGURES: &[FigureGroup] = &[
             row("greatest acceleration", &["box_acceleration_max_m_s2"], MetrePerSecondSquared),
             row("least normal force", &["box_normal_force_min"], Newton),
             row("greatest normal force", &["box_normal_force_max"], Newton),
+            row("greatest torque of the shaft", &["box_torque_max"], NewtonMillimetre),
+            row("pressure on the keys of driver and driven gear", &["driver_key_pressure_max", "driven_key_pressure_max"], NewtonPerSquareMillimetre),
             row("stays on one wall up to", &["box_contact_limit_rpm"], TurnsPerMinute),
         ],
     },

@@ -5,10 +5,14 @@ mod tables;
 
 use std::f64::consts::{FRAC_PI_6, TAU};
 
+use centrode_geometry::Extreme;
+use centrode_mechanism::gear::design::Keyway;
+use centrode_mechanism::machine::Key;
 use centrode_mechanism::shaft::{Pick, Schedule, SpiralShaft};
 
 use self::crossings::crossings;
 use self::figures::FIGURES;
+use crate::key_pressure::LoadedKey;
 use crate::{Finding, Place, Report, Severity, Unit};
 
 pub use moving_box::check_moving_box;
@@ -246,6 +250,16 @@ fn forces(shaft: &SpiralShaft, report: &mut Report) {
     values.insert("torque_min", range.torque[0].value);
     values.insert("torque_max", range.torque[1].value);
     values.insert("jamming_angle", load.jamming_angle());
+    let [least, greatest] = range.torque;
+    let torque = match -least.value > greatest.value {
+        true => Extreme {
+            value: -least.value,
+            ..least
+        },
+        false => greatest,
+    };
+    key(shaft, torque, report);
+    let values = &mut report.values;
     let limit = load.contact_limit_rpm(range.deceleration.value);
     values.insert("contact_limit_rpm", limit);
     values.insert(
@@ -270,6 +284,27 @@ fn forces(shaft: &SpiralShaft, report: &mut Report) {
             place: at(steepest.input),
         });
     }
+}
+
+/// Pressure on the key of the near journal at a torque, and whether the shaft bears it.
+fn key(shaft: &SpiralShaft, torque: Extreme, report: &mut Report) {
+    let body = shaft.body();
+    let hub = body.keyway.map(Keyway::of_hub);
+    let key = hub.and_then(|hub| Some((hub, Key::round(hub, body.keyway_length)?)));
+    let Some((hub, key)) = key else {
+        return;
+    };
+    let loaded = LoadedKey {
+        key,
+        hub,
+        diameter: body.journal_diameter,
+        materials: &[&body.material],
+        torque,
+        part: "shaft",
+    };
+    let values = &mut report.values;
+    values.insert("key_pressure_max", loaded.pressure());
+    loaded.check(report);
 }
 
 fn contact(limit: f64, speed: f64, report: &mut Report) {

@@ -1,9 +1,11 @@
-use centrode_geometry::extremes;
+use centrode_geometry::{extremes, greatest};
 use centrode_mechanism::gear::GearPair;
+use centrode_mechanism::machine::Key;
 use centrode_mechanism::shaft::{EllipticDrive, MovingBox};
 use centrode_mechanism::transmission::Transmission;
 
 use super::{check_shaft, contact, moved, tables};
+use crate::key_pressure::LoadedKey;
 use crate::{Finding, Place, Report, Severity, Unit, gear_pair};
 
 /// Checks a moving box: its shaft, and the motion its drive gives it. The figures of the box itself begin
@@ -52,8 +54,76 @@ pub fn check_moving_box(machine: &MovingBox) -> Report {
     values.insert("box_normal_force_max", greatest);
     report.findings.retain(|f| f.rule != "contact-lost");
     contact(limit, load.speed_rpm, &mut report);
+    keys(machine, drive, &mut report);
     report.worst_first();
     report
+}
+
+/// Pressure on the keys of both gears at the greatest torques that the box asks of them, in place of that of the shaft turned
+/// evenly, and those that are pressed harder than their materials bear.
+fn keys(machine: &MovingBox, drive: &EllipticDrive, report: &mut Report) {
+    let Some(design) = machine.design().gear_pair(drive) else {
+        return;
+    };
+    let shaft = machine.shaft();
+    let radius = shaft.groove().radius();
+    let torque = |input: f64| {
+        let turn = machine.shaft_turn(input);
+        let lead = (shaft.law().at(turn.position).velocity / radius).atan();
+        let force = shaft.load().force(machine.stroke_at(input), lead, radius);
+        (force.torque, turn.velocity)
+    };
+    let ends = machine.stroke_pieces();
+    let of_shaft = greatest(|input| torque(input).0.abs(), &ends);
+    // What the gears carry, they carry without loss.
+    let of_driver = greatest(
+        |input| {
+            let (torque, ratio) = torque(input);
+            (torque * ratio).abs()
+        },
+        &ends,
+    );
+    report.values.insert("box_torque_max", of_shaft.value);
+    let at_even_speed =
+        |f: &Finding| f.rule == "key-pressure" && f.place.part.as_deref() == Some("shaft");
+    report.findings.retain(|f| !at_even_speed(f));
+    // The key of the journal is that of the driven gear.
+    report.values.remove("key_pressure_max");
+    for (part, figure, body, torque) in [
+        (
+            "driver",
+            "driver_key_pressure_max",
+            &design.driver,
+            of_driver,
+        ),
+        (
+            "driven",
+            "driven_key_pressure_max",
+            &design.driven,
+            of_shaft,
+        ),
+    ] {
+        let key = body
+            .keyway
+            .and_then(|hub| Some((hub, Key::round(hub, body.width)?)));
+        let Some((hub, key)) = key else {
+            continue;
+        };
+        let loaded = LoadedKey {
+            key,
+            hub,
+            diameter: body.bore,
+            materials: match part {
+                "driven" => &[&body.material, &shaft.body().material],
+                // The driver's shaft is the customer's.
+                _ => &[&body.material],
+            },
+            torque,
+            part,
+        };
+        report.values.insert(figure, loaded.pressure());
+        loaded.check(report);
+    }
 }
 
 /// Reports what is wrong with the gears, or that none can be cut.

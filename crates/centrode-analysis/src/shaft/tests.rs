@@ -302,3 +302,73 @@ fn table_row(report: &Report, name: &str) -> Vec<f64> {
     let row = rows.iter().find(|(of, _)| of == "as designed");
     row.expect("a row").1.clone()
 }
+
+/// On a journal of 16 mm a key of 5 x 5 mm, 18 mm long with round ends, bears over 13 mm and 2 mm of the hub's keyway.
+#[test]
+fn keys_of_shaft_and_gears_are_pressed_by_the_torques_they_carry() {
+    let mut design = published();
+    let light = report(&design);
+    let torque = light.values["torque_max"].max(-light.values["torque_min"]);
+    let pressure = torque / 8.0 / (2.0 * 13.0);
+    assert!((light.values["key_pressure_max"] / pressure - 1.0).abs() < 1e-12);
+    assert!(!rules(&light).contains(&"key-pressure"));
+    design.load.mass *= 1000.0;
+    let heavy = report(&design);
+    let finding = heavy.findings.iter().find(|f| f.rule == "key-pressure");
+    let finding = finding.expect("a finding");
+    assert!((finding.measured.expect("a pressure") / (1000.0 * pressure) - 1.0).abs() < 1e-9);
+    assert_eq!(finding.required, Some(0.9 * 235.0));
+    let mut design = MovingBoxDesign {
+        scheme: Scheme::EllipticGear,
+        gears: Some(EllipticGears {
+            speed_ratio: Some(3.0),
+            ..EllipticGears::default()
+        }),
+        ..MovingBoxDesign::default()
+    };
+    let machine = MovingBox::resolve(&design).expect("resolves");
+    let report = check_moving_box(&machine);
+    let (shaft, load) = (machine.shaft(), machine.shaft().load());
+    let torque = |input: f64| {
+        let turn = machine.shaft_turn(input).position;
+        let lead = (shaft.law().at(turn).velocity / shaft.groove().radius()).atan();
+        load.force(machine.stroke_at(input), lead, shaft.groove().radius())
+            .torque
+    };
+    // What goes in is what comes out.
+    let driving = |input: f64| {
+        let step = 1e-6;
+        let [before, after] = [-step, step].map(|h| machine.shaft_turn(input + h).position);
+        torque(input) * (after - before) / (2.0 * step)
+    };
+    let greatest = |of: &dyn Fn(f64) -> f64| {
+        let [low, high] = seen(of);
+        high.max(-low)
+    };
+    let gears = design.gears.as_ref().expect("gears");
+    let width = gears.body.width;
+    let long = [10.0, 12.0, 14.0, 16.0, 18.0, 20.0, 22.0, 25.0, 28.0];
+    let long = long
+        .into_iter()
+        .rev()
+        .find(|long| *long <= width)
+        .expect("a key");
+    for (figure, torque) in [
+        ("driven_key_pressure_max", greatest(&torque)),
+        ("driver_key_pressure_max", greatest(&driving)),
+    ] {
+        let pressure = torque / 8.0 / (2.0 * (long - 5.0));
+        let found = report.values[figure];
+        assert!(
+            (found / pressure - 1.0).abs() < 1e-6,
+            "{figure}: {found} {pressure}"
+        );
+    }
+    assert!(!report.values.contains_key("key_pressure_max"));
+    design.shaft.load.mass *= 1000.0;
+    let heavy = check_moving_box(&MovingBox::resolve(&design).expect("resolves"));
+    let pressed = heavy.findings.iter().filter(|f| f.rule == "key-pressure");
+    let mut parts: Vec<_> = pressed.filter_map(|f| f.place.part.as_deref()).collect();
+    parts.sort_unstable();
+    assert_eq!(parts, ["driven", "driver"]);
+}

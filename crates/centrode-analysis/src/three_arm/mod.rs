@@ -6,6 +6,7 @@ mod figures;
 mod gear_train;
 mod goals;
 mod pusher;
+mod screws;
 mod variants;
 
 use std::f64::consts::TAU;
@@ -19,6 +20,7 @@ use self::figures::FIGURES;
 use self::gear_train::check_gear_train;
 use self::goals::all_goals;
 use self::pusher::check_pusher;
+use self::screws::check_screws;
 use crate::report::Missed;
 use crate::{Finding, Goal, Place, Report, Severity, Table, Unit, gear_pair};
 
@@ -46,6 +48,7 @@ pub fn check_three_arm_teeth(
     check_teeth(mechanism, teeth, &mut report);
     check_pusher(mechanism, &mut report);
     check_bearings(mechanism, &mut report);
+    check_screws(mechanism, &mut report);
     report.worst_first();
     report
 }

@@ -6,6 +6,7 @@ use centrode_mechanism::machine::{
     self, Axis, Blank, Datum, Dimension, Fit, Form, Line, LineRole, Machine,
 };
 
+use super::plates::spacer;
 use crate::sheet::number;
 use crate::turned;
 
@@ -32,6 +33,7 @@ pub(super) fn tell(feeder: &Feeder, plates: &[Plate], machine: &mut Machine) {
     gears(feeder, machine);
     let shafts = feeder.turned(plates);
     turned::list(&shafts, machine);
+    screws(feeder, machine);
     let of_cams = shafts
         .into_iter()
         .filter(|pieces| !pieces.fit.name.is_empty());
@@ -85,6 +87,28 @@ fn list(feeder: &Feeder, plate: &Plate, machine: &mut Machine) {
         place: machine.place_on_edge(name, &plate.outline),
         ..machine::Part::default()
     });
+}
+
+/// Spacers between the plates of the frame, and the screws into them.
+fn screws(feeder: &Feeder, machine: &mut Machine) {
+    let found = feeder.frame_screws().and_then(Result::ok);
+    let (Some(screws), Some(spacer)) = (found, spacer(feeder)) else {
+        return;
+    };
+    let frame = FeederPart::Frame;
+    let mass = spacer.mass([0.0, spacer.thickness]).ok();
+    machine.part(machine::Part {
+        name: "spacer of the frame".into(),
+        links: vec![frame.link(); screws.at.len()],
+        blank: Blank::plate(&spacer.outline, spacer.thickness),
+        mass: mass.map(|mass| mass.mass),
+        remark: format!("{} long", number(spacer.thickness, PLACES)),
+        material: spacer.material,
+        file: spacer.name,
+        ..machine::Part::default()
+    });
+    let role = "of the frame's plates";
+    turned::list(&[screws.screws(&[frame.name().into()], role)], machine);
 }
 
 /// Fits of the pins of the joints and of the slider.

@@ -1,7 +1,8 @@
 use centrode_mechanism::feeder::{Feeder, FeederPart, Plate};
 use centrode_mechanism::gear::IntermittentPair;
-use centrode_mechanism::machine::{Form, Machine, Quantity, Shape};
+use centrode_mechanism::machine::{Form, Machine, Mounted, Quantity, Shape};
 
+use super::plates::spacer;
 use super::{arrangement, figures};
 use crate::ExportError;
 
@@ -51,9 +52,36 @@ pub(super) fn machine(feeder: &Feeder, plates: &[Plate]) -> Result<Machine, Expo
         link.mass = Some(mass);
         link.shape = Some(shape);
     }
+    spacers(feeder, &mut machine)?;
     // Shafts and pins add to the masses of the plates.
     arrangement::tell(feeder, plates, &mut machine);
     Ok(machine)
+}
+
+/// Spacers between the plates of the frame.
+fn spacers(feeder: &Feeder, machine: &mut Machine) -> Result<(), ExportError> {
+    let found = feeder.frame_screws().and_then(Result::ok);
+    let (Some(screws), Some(spacer)) = (found, spacer(feeder)) else {
+        return Ok(());
+    };
+    let solid = spacer
+        .solid()
+        .map_err(ExportError::no_solid(&spacer.name))?;
+    let own = solid.mass_properties(spacer.density);
+    let shape = machine.shape(Shape {
+        name: format!("links/{}", spacer.name),
+        part: String::new(),
+        form: Form::Solids(vec![solid]),
+    });
+    for at in &screws.at {
+        let body = Mounted {
+            shape,
+            at: [at.x, at.y, screws.faces[0] + screws.plate],
+            turn: [0.0; 3],
+        };
+        machine.mount_body(FeederPart::Frame.link(), body, Some(own));
+    }
+    Ok(())
 }
 
 fn meaning_of(part: FeederPart) -> (&'static str, &'static str) {

@@ -36,13 +36,14 @@ pub fn machine(feeder: &Feeder) -> Result<Machine, ExportError> {
 pub fn drawn(feeder: &Feeder, gears: Option<&IntermittentPair>) -> Machine {
     let plates = FeederPart::ALL
         .into_iter()
-        .filter_map(|part| feeder.plate(part).ok());
+        .filter_map(|part| feeder.screwed(feeder.plate(part).ok()?).ok());
     links::drawn(feeder, &plates.collect::<Vec<_>>(), gears)
 }
 
 /// Every part as a plate.
 fn cut(feeder: &Feeder) -> Result<Vec<Plate>, FeederError> {
-    let plates = FeederPart::ALL.into_iter().map(|part| feeder.plate(part));
+    let plates = FeederPart::ALL.into_iter();
+    let plates = plates.map(|part| feeder.screwed(feeder.plate(part)?));
     plates.collect()
 }
 
@@ -66,6 +67,9 @@ pub fn files(
     let mut package = Package::new("a feeder", named, formats, options);
     for part in &plates {
         plates::made(feeder, part).add(&mut package, &design.drawing)?;
+    }
+    if let Some(spacer) = plates::spacer(feeder) {
+        spacer.add(&mut package, &design.drawing)?;
     }
     turned::add(&feeder.turned(&plates), &mut package, &design.drawing)?;
     package.drawing("assembly", |_| Ok(assembly(feeder, &plates)))?;

@@ -39,6 +39,9 @@ pub(super) fn made(feeder: &Feeder, plate: &Plate) -> plate::Plate {
         fit: spec.slot_fit.clone(),
         ..Hole::from(outline.clone())
     });
+    let of_frame = feeder.frame_screws().and_then(Result::ok);
+    let of_frame = of_frame.filter(|_| !plate.screws.is_empty());
+    let screws = of_frame.iter().flat_map(Hole::clearance);
     let name = plate.part.name();
     let note = match plate.part {
         FeederPart::Slider => {
@@ -52,7 +55,7 @@ pub(super) fn made(feeder: &Feeder, plate: &Plate) -> plate::Plate {
         title: capital(name),
         quantity: plate.part.quantity() as usize,
         outline: plate.outline.clone(),
-        holes: pins.chain(slot).collect(),
+        holes: pins.chain(slot).chain(screws).collect(),
         opening: None,
         thickness: plate.thickness,
         material: spec.material.clone(),
@@ -62,6 +65,14 @@ pub(super) fn made(feeder: &Feeder, plate: &Plate) -> plate::Plate {
         exactness: None,
         marks: Vec::new(),
     }
+}
+
+/// Spacer between the plates of the frame; none without screws.
+pub(super) fn spacer(feeder: &Feeder) -> Option<plate::Plate> {
+    let spec = &feeder.design().plates;
+    let screws = feeder.frame_screws()?.ok()?;
+    let made = (screws.at.len(), &*spec.material, spec.density);
+    Some(plate::Plate::spacer(&screws, "Spacer of the frame", made))
 }
 
 /// The six-bar where it rests, seen along the shafts, with the paths of its joints and its tip.

@@ -7,7 +7,8 @@ use crate::sheet::geometrical::Frame;
 
 impl Plate {
     /// Frames of each hole. The first datum is the seat of a shaft, or else the first hole with a class; the second is the hole
-    /// with a class that lies farthest from it. All others lie in position to both.
+    /// with a class that lies farthest from it. All others lie in position to both. Holes of screws are datums only where no other
+    /// hole has a class.
     pub(super) fn frames(&self) -> Vec<Vec<Frame>> {
         let mut frames = vec![Vec::new(); self.holes.len()];
         let Some((first, origin)) = self.first_datum() else {
@@ -19,12 +20,16 @@ impl Plate {
             Some((index, (at - origin).norm()))
         });
         let others: Vec<(usize, f64)> = fitted.filter(|(index, _)| *index != first).collect();
-        let second = others.iter().max_by(|a, b| a.1.total_cmp(&b.1));
+        // Holes of screws, which have play, are datums only of each other.
+        let of_screws = self.holes[first].screw.is_some();
+        let seats = others.iter();
+        let seats = seats.filter(|(index, _)| of_screws || self.holes[*index].screw.is_none());
+        let second = seats.max_by(|a, b| a.1.total_cmp(&b.1));
         let second = second.map(|(index, _)| *index);
         for &(index, distance) in &others {
-            let datums = match Some(index) == second {
-                true => one.to_string(),
-                false => format!("{one} {two}"),
+            let datums = match second {
+                Some(other) if other != index => format!("{one} {two}"),
+                _ => one.to_string(),
             };
             let position = Frame::position(distance, self.holes[index].off, &datums);
             frames[index].extend(position);
@@ -78,7 +83,10 @@ impl Plate {
             .holes
             .iter()
             .position(|hole| hole.is_seat && with_class(&hole));
-        let first = seat.or_else(|| self.holes.iter().position(|hole| with_class(&hole)))?;
+        let mut holes = self.holes.iter();
+        let fitted = || holes.position(|hole| with_class(&hole) && hole.screw.is_none());
+        let first = seat.or_else(fitted);
+        let first = first.or_else(|| self.holes.iter().position(|hole| with_class(&hole)))?;
         Some((first, self.holes[first].axis()?))
     }
 

@@ -2,6 +2,7 @@ use std::f64::consts::TAU;
 
 use centrode_geometry::{Outline, Point, Segment};
 use centrode_mechanism::gear::design::BodySpec;
+use centrode_mechanism::machine::{Fastening, Screw};
 
 use crate::sheet::{fit, number};
 
@@ -22,9 +23,61 @@ pub(crate) struct Hole {
     pub(crate) is_seat: bool,
     /// Further lines beside it.
     pub(crate) notes: Vec<String>,
+    /// Screw that it is for, whether through it or into a thread.
+    pub(crate) screw: Option<ScrewHole>,
+}
+
+/// Hole of a screw.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum ScrewHole {
+    /// That it goes through.
+    Clearance(Screw),
+    /// Drilled through for its thread, which is as deep from either face, mm, or goes through, too.
+    Thread(Screw, Option<f64>),
+}
+
+impl ScrewHole {
+    /// How far its place may be off either way, mm: screws that are fixed in a thread find their holes where hole and thread
+    /// share the play, each with a cylinder of half of it.
+    fn off(self) -> f64 {
+        let (Self::Clearance(screw) | Self::Thread(screw, _)) = self;
+        0.25 * (screw.clearance_hole() - screw.diameter)
+    }
 }
 
 impl Hole {
+    /// Holes in a plate that screws go through.
+    pub(crate) fn clearance(fastening: &Fastening) -> Vec<Self> {
+        let screw = fastening.screw;
+        let all = fastening.clearance_holes().into_iter();
+        all.map(|outline| Self {
+            fit: Screw::HOLE.into(),
+            notes: vec![format!("for ISO 4762 - {}", screw.thread())],
+            ..Self::of_screw(outline, ScrewHole::Clearance(screw))
+        })
+        .collect()
+    }
+
+    /// Holes in what is between the plates, with their threads.
+    pub(crate) fn threads(fastening: &Fastening) -> Vec<Self> {
+        let (screw, depth) = (fastening.screw, fastening.thread_depth());
+        let all = fastening.drilled_holes().into_iter();
+        all.map(|outline| Self {
+            fit: Screw::THREAD.into(),
+            notes: vec![format!("drilled Ø{} through", number(screw.drill(), 3))],
+            ..Self::of_screw(outline, ScrewHole::Thread(screw, depth))
+        })
+        .collect()
+    }
+
+    fn of_screw(outline: Outline, screw: ScrewHole) -> Self {
+        Self {
+            off: screw.off(),
+            screw: Some(screw),
+            ..Self::from(outline)
+        }
+    }
+
     /// The bore of a body, with its keyway where it has one.
     pub(crate) fn bore(outline: Outline, body: &BodySpec) -> Self {
         let mut bore = Self {
@@ -53,6 +106,7 @@ impl From<Outline> for Hole {
             off: 0.0,
             is_seat: false,
             notes: Vec::new(),
+            screw: None,
         }
     }
 }
@@ -98,6 +152,13 @@ impl Hole {
 
     /// Diameter or width with its limits; empty for a contour of another shape.
     pub(super) fn size(&self) -> String {
+        if let Some(ScrewHole::Thread(screw, depth)) = self.screw {
+            let thread = format!("{}-{}", screw.thread(), self.fit);
+            return match depth {
+                Some(depth) => format!("{thread} × {} from both faces", number(depth, 3)),
+                None => format!("{thread} through"),
+            };
+        }
         match self.kind() {
             HoleKind::Round(_, radius) => fit::bore(2.0 * radius, &self.fit),
             HoleKind::Slot(_, radius) => {

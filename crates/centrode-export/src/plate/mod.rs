@@ -9,13 +9,14 @@ use centrode_geometry::{
 };
 use centrode_mechanism::design::DrawingSpec;
 use centrode_mechanism::gear::design::BodySpec;
+use centrode_mechanism::machine::Fastening;
 
 use crate::drawing::{CENTER, Drawing, EntityShape, HOLE, PROFILE};
 use crate::dxf::Curves;
 use crate::sheet::{Table, mass};
 use crate::{ExportError, Package};
 pub(crate) use hole::Hole;
-use hole::HoleKind;
+use hole::{HoleKind, ScrewHole};
 
 /// A part of one thickness.
 #[derive(Clone, Debug)]
@@ -76,6 +77,33 @@ impl Plate {
             material: body.material.clone(),
             density: body.density,
             notes: Vec::new(),
+            tables: Vec::new(),
+            exactness: None,
+            marks: Vec::new(),
+        }
+    }
+
+    /// A spacer between two plates that screws hold, twice as thick as these are, so many of it.
+    pub(crate) fn spacer(
+        screws: &Fastening,
+        title: &str,
+        (quantity, material, density): (usize, &str, f64),
+    ) -> Self {
+        let one = Fastening {
+            at: vec![Point::origin()],
+            ..screws.clone()
+        };
+        Self {
+            name: "spacer".into(),
+            title: title.into(),
+            quantity,
+            outline: Outline::circle(Point::origin(), screws.screw.diameter),
+            holes: Hole::threads(&one),
+            opening: None,
+            thickness: screws.between(),
+            material: material.into(),
+            density,
+            notes: vec!["Those of one machine are of one length within 0.02 mm.".into()],
             tables: Vec::new(),
             exactness: None,
             marks: Vec::new(),

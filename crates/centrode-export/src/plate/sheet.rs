@@ -1,7 +1,7 @@
 use centrode_geometry::{Arc, Bounds, Outline, Point, Segment, Tolerance, Vector};
 use centrode_mechanism::design::{DrawingSpec, Projection, SheetSize};
 
-use super::{Hole, HoleKind, Plate};
+use super::{Hole, HoleKind, Plate, ScrewHole};
 use crate::SheetOptions;
 use crate::drawing::{Anchor, EntityShape};
 use crate::sheet::geometrical::{Characteristic, NoteLine};
@@ -98,6 +98,7 @@ impl Plate {
         for hole in &self.holes {
             draft.draw(Pen::Outline, EntityShape::Contour(hole.outline.scaled(k)));
             hole.cross(&mut draft, k);
+            hole.thread(&mut draft, k);
         }
         let Bounds { min, max } = self.outline.bounds();
         let (low, high) = (min * k, max * k);
@@ -354,6 +355,21 @@ impl Hole {
             let (x, y) = (Vector::new(arm, 0.0), Vector::new(0.0, arm));
             draft.line(Pen::Axis, at - x, at + x);
             draft.line(Pen::Axis, at - y, at + y);
+        }
+    }
+
+    /// Three quarters of a thin circle of the thread's diameter, ISO 6410-1.
+    fn thread(&self, draft: &mut Draft, k: f64) {
+        if let (Some(ScrewHole::Thread(screw, _)), HoleKind::Round(at, _)) =
+            (self.screw, self.kind())
+        {
+            let (middle, radius) = (at * k, 0.5 * screw.diameter * k);
+            let arc = Arc {
+                start: middle + Vector::new(0.0, radius),
+                end: middle + Vector::new(radius, 0.0),
+                bulge: (0.375 * std::f64::consts::PI).tan(),
+            };
+            draft.draw(Pen::Thin, EntityShape::Arc(arc));
         }
     }
 

@@ -5,6 +5,9 @@ use centrode_mechanism::machine::{Fit, limits_of_size};
 
 use super::number;
 
+/// Tolerance class of the width of a keyway in a shaft, ISO 286.
+pub(crate) const SHAFT_KEYWAY: &str = "N9";
+
 /// A bore as written on a drawing: diameter, class, and the limits where they are known.
 pub(crate) fn bore(diameter: f64, class: &str) -> String {
     fitted(&format!("Ø{}", number(diameter, 4)), diameter, class)

@@ -31,7 +31,7 @@ pub(super) fn tell(parts: &Machine<'_>, machine: &mut machine::Machine) {
         "Shown as arm I picks; arms II and III follow it.",
         "Gears seen through the front plate of the carrier.",
         "Dash-dotted: pitch curves, path of the tips.",
-        "Springs and screws: bought, not listed.",
+        "Springs: bought, not listed.",
     ]
     .map(String::from)
     .into();
@@ -87,6 +87,7 @@ pub(super) fn links(part: ThreeArmPart, arms: u32, machine: &machine::Machine) -
         ThreeArmPart::Assembly => Vec::new(),
         ThreeArmPart::Sun => alone("sun", 1),
         ThreeArmPart::Carrier => alone("carrier", 2),
+        ThreeArmPart::Spacer => alone("carrier", part.quantity(arms) as usize),
         ThreeArmPart::Intermediate => chains("intermediate", 1),
         ThreeArmPart::Planet => chains("planet", 1),
         ThreeArmPart::Cam => chains("cam", 1),

@@ -31,8 +31,7 @@ pub(super) fn draw(parts: &Machine<'_>, machine: &mut machine::Machine) {
             }
         }
     }
-    let gearbox = &parts.gearbox;
-    let sketch = machine.sketch("carrier", contours([&gearbox.outline], &gearbox.holes));
+    let sketch = machine.sketch("carrier", plate(ThreeArmPart::Carrier));
     let carrier = machine.link_named("carrier").unwrap_or(0);
     machine.draw("carrier", carrier, sketch);
 }

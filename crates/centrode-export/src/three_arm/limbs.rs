@@ -5,6 +5,7 @@ use nalgebra::Isometry2;
 use super::ThreeArmPart;
 use super::links::{Builder, Seen};
 use super::machine::{Machine, no_fork};
+use super::pieces::Pieces;
 use crate::ExportError;
 
 /// Times the tolerance by which the bodies of an arm may stand off it: arms touch nothing as closely as teeth do.
@@ -12,7 +13,7 @@ const COARSE: f64 = 20.0;
 
 /// The parts every chain has.
 pub(super) struct Limbs {
-    pub(super) arm: Seen,
+    pub(super) arm: Pieces,
     pub(super) touching: Vec<usize>,
     pub(super) cam: Seen,
     pub(super) fork: Seen,
@@ -24,14 +25,19 @@ impl Limbs {
         let plate = |part: ThreeArmPart| parts.plate_of(part).ok_or_else(no_fork);
         let span = |name: &str| parts.of_arm(name).map_or([0.0, 1.0], |p| p.span);
         let arm = [
-            (ThreeArmPart::Housing, "housing"),
-            (ThreeArmPart::CoverRear, "cover-rear"),
-            (ThreeArmPart::CoverFront, "cover-front"),
-            (ThreeArmPart::Clamp, "flake-left"),
-            (ThreeArmPart::Clamp, "flake-right"),
+            (ThreeArmPart::Housing, vec!["housing"]),
+            (ThreeArmPart::CoverRear, vec!["cover-rear"]),
+            (ThreeArmPart::CoverFront, vec!["cover-front"]),
+            (ThreeArmPart::Clamp, vec!["flake-left", "flake-right"]),
         ];
-        let arm = arm.map(|(part, name)| Ok((plate(part)?, span(name))));
-        let arm: Vec<_> = arm.into_iter().collect::<Result<_, ExportError>>()?;
+        // Each part is a body of its own material.
+        let arm = arm.map(|(part, names)| {
+            let levels = names.into_iter().map(|name| [0.0, 0.0, span(name)[0]]);
+            builder.pieces(&plate(part)?, &levels.collect::<Vec<_>>())
+        });
+        let arm = arm
+            .into_iter()
+            .collect::<Result<Vec<Pieces>, ExportError>>()?;
         let pusher = &parts.pusher;
         let place = Vector::new(pusher.fork_spec().arm_length, 0.0);
         let place = Isometry2::new(place, 0.0);
@@ -45,7 +51,7 @@ impl Limbs {
             (roller, pusher.cam_span()),
         ];
         Ok(Self {
-            arm: builder.body("arm-body", &arm)?,
+            arm: arm.concat(),
             touching: touching(parts, builder),
             cam: builder.body(
                 "cam-body",

@@ -222,14 +222,21 @@ impl Builder<'_> {
     }
 
     fn carrier(&mut self, base: usize) -> Result<usize, ExportError> {
-        let mut seen = None;
+        let carrier = self.bodied("carrier", None);
         if let Some(parts) = self.parts {
             let plate = parts.plate_of(ThreeArmPart::Carrier);
             let plate = plate.ok_or_else(no_gearbox)?;
-            let [rear, front] = parts.gearbox.spans;
-            seen = Some(self.body("carrier-body", &[(plate.clone(), rear), (plate, front)])?);
+            let levels = parts.gearbox.spans.map(|[bottom, _]| [0.0, 0.0, bottom]);
+            let plates = self.pieces(&plate, &levels)?;
+            self.mount(carrier, &plates);
+            let spacer = parts.plate_of(ThreeArmPart::Spacer);
+            if let (Some(spacer), Some(screws)) = (spacer, &parts.screws[0]) {
+                let [[_, bottom], _] = parts.gearbox.spans;
+                let at = screws.at.iter().map(|at| [at.x, at.y, bottom]);
+                let spacers = self.pieces(&spacer, &at.collect::<Vec<_>>())?;
+                self.mount(carrier, &spacers);
+            }
         }
-        let carrier = self.bodied("carrier", seen);
         let train = self.mechanism.train();
         let law = Linear {
             start: train.carrier_start(),
@@ -316,7 +323,10 @@ impl Builder<'_> {
             self.machine.joint(turned);
         }
         let touching = limbs.map_or(Vec::new(), |limbs| limbs.touching.clone());
-        let arm = self.bodied(&format!("arm_{k}"), limbs.map(|limbs| limbs.arm));
+        let arm = self.bodied(&format!("arm_{k}"), None);
+        if let Some(limbs) = limbs {
+            self.mount(arm, &limbs.arm);
+        }
         self.machine.links[arm].surfaces = touching;
         let on_planet = mechanism.train().arm_on_planet() + mechanism.clamp_mounting();
         let fixed = Joint::fixed(planet, arm).at([0.0, 0.0, level]);

@@ -1,8 +1,8 @@
 use centrode_geometry::{Outline, Point};
 use centrode_mechanism::arm::{ArmBody, ArmPart};
 use centrode_mechanism::gear::{GearPair, Member};
-use centrode_mechanism::machine::{Fit, TurnedPieces};
-use centrode_mechanism::three_arm::making::{self, PRESSED, RINGS, RUNNING, SLIDING, STEEL};
+use centrode_mechanism::machine::{Fastening, Fit, TurnedPieces, with_bosses};
+use centrode_mechanism::three_arm::making::{self, PRESSED, RINGS, SLIDING, STEEL};
 use centrode_mechanism::three_arm::{GearboxBody, Pusher, ThreeArm};
 
 use super::ThreeArmPart;
@@ -14,8 +14,6 @@ const LIGHT: (&str, f64) = ("aluminium alloy", 2700.0);
 
 /// Tolerance class, ISO 286, of the holes in which the shafts of the gears turn, which are made to fit the gears.
 const BEARING: &str = "F7";
-/// Classes of the roller on its pressed pin.
-const ROLLING: [&str; 2] = ["E9", "m6"];
 /// Of openings that only leave room.
 const PASSING: [&str; 2] = ["H11", "h11"];
 
@@ -30,6 +28,8 @@ pub(super) struct Machine<'a> {
     pub(super) gearbox: GearboxBody,
     /// Contour and holes of the fork.
     fork: (Outline, Vec<Outline>),
+    /// Screws of the carrier's plates, and of the covers of an arm.
+    pub(super) screws: [Option<Fastening>; 2],
 }
 
 impl<'a> Machine<'a> {
@@ -37,10 +37,16 @@ impl<'a> Machine<'a> {
         let pusher = mechanism.pusher()?;
         let gearbox = mechanism.gearbox().ok_or_else(no_gearbox)?;
         let fork = pusher.fork_outline().ok_or_else(no_fork)?;
+        let arm = mechanism.arm_body()?;
+        let screws = [
+            mechanism.carrier_screws(&arm),
+            mechanism.cover_screws(&pusher, &arm),
+        ];
         Ok(Self {
             mechanism,
             pairs: mechanism.pairs()?,
-            arm: mechanism.arm_body()?,
+            screws: screws.map(|screws| screws.and_then(Result::ok)),
+            arm,
             pusher,
             gearbox,
             fork,
@@ -156,10 +162,19 @@ impl<'a> Machine<'a> {
                 [BEARING, &body.shaft_fit],
             )],
         };
+        let [pivot, swinging] = self
+            .pusher
+            .pivot_fit()
+            .fits(["fork's pin in the front cover", "fork on its pin"]);
+        let [pressed, rolling] = self
+            .pusher
+            .roller_fit()
+            .fits(["roller's pin in the fork", "roller on its pin"]);
         let all = [
-            Fit::new("pivot of the fork", spec.pivot_bore, RUNNING),
-            Fit::new("roller's pin in the fork", spec.roller_bore, PRESSED),
-            Fit::new("roller on its pin", spec.roller_bore, ROLLING),
+            pivot,
+            swinging,
+            pressed,
+            rolling,
             Fit::of_width("slot of the fork", spec.slot_width, SLIDING),
             Fit::new("pin in the push rod", 0.5 * spec.slot_width, PRESSED),
             Fit::of_width("push rod in the housing", rod, SLIDING),
@@ -171,19 +186,36 @@ impl<'a> Machine<'a> {
     /// A part that is a plate, in its own frame, its holes with their classes.
     pub(super) fn plate_of(&self, part: ThreeArmPart) -> Option<Plate> {
         let mut plate = self.bare_plate(part)?;
-        let classes: &[[&str; 2]] = match part {
-            ThreeArmPart::Carrier => return Some(self.carrier(plate)),
-            ThreeArmPart::Fork => &[RUNNING, PRESSED, SLIDING],
-            ThreeArmPart::Roller => &[ROLLING],
-            ThreeArmPart::PushRod => &[PRESSED],
-            ThreeArmPart::CoverRear | ThreeArmPart::CoverFront => &[PASSING],
+        let (pivot, roller) = (self.pusher.pivot_fit(), self.pusher.roller_fit());
+        let [carrier, covers] = self.screws.each_ref().map(Option::as_ref);
+        let classes: &[&str] = match part {
+            ThreeArmPart::Carrier => &[],
+            ThreeArmPart::Fork => &[pivot.running, roller.pressed, SLIDING[0]],
+            ThreeArmPart::Roller => &[roller.running],
+            ThreeArmPart::PushRod => &[PRESSED[0]],
+            ThreeArmPart::CoverRear => &[PASSING[0]],
+            ThreeArmPart::CoverFront if self.mechanism.arm_sizes().housing.bore == 0.0 => {
+                &[pivot.pressed]
+            }
+            ThreeArmPart::CoverFront => &[PASSING[0], pivot.pressed],
             _ => &[],
         };
-        // The last class is that of all further holes.
-        let further = classes.last().into_iter().cycle();
-        let all = classes.iter().chain(further);
-        for (hole, [class, _]) in plate.holes.iter_mut().zip(all) {
+        for (hole, class) in plate.holes.iter_mut().zip(classes) {
             hole.fit = (*class).into();
+        }
+        if part == ThreeArmPart::Carrier {
+            plate = self.carrier(plate);
+        }
+        let through = match part {
+            ThreeArmPart::Carrier => carrier,
+            ThreeArmPart::CoverRear | ThreeArmPart::CoverFront => covers,
+            _ => None,
+        };
+        plate
+            .holes
+            .extend(through.into_iter().flat_map(Hole::clearance));
+        if let (ThreeArmPart::Housing, Some(covers)) = (part, covers) {
+            plate.holes.extend(Hole::threads(covers));
         }
         Some(plate)
     }
@@ -244,14 +276,29 @@ impl<'a> Machine<'a> {
                 let span = self.pusher.cam_span();
                 Some(self.plate(part, circle(spec.roller_radius), holes, span, STEEL))
             }
+            ThreeArmPart::Spacer => {
+                let screws = self.screws[0].as_ref()?;
+                let quantity = part.quantity(self.mechanism.arms()) as usize;
+                Some(Plate::spacer(
+                    screws,
+                    part.title(),
+                    (quantity, STEEL.0, STEEL.1),
+                ))
+            }
             ThreeArmPart::Housing => Some(
-                light("housing")?
+                self.housing(light("housing")?)
                     .noted(in_arm)
                     .noted(along)
                     .noted(&self.bore_in_words()),
             ),
             ThreeArmPart::CoverRear => Some(light("cover-rear")?.noted(in_arm).noted(along)),
-            ThreeArmPart::CoverFront => Some(light("cover-front")?.noted(in_arm).noted(along)),
+            ThreeArmPart::CoverFront => {
+                let mut cover = light("cover-front")?;
+                let pin = self.pusher.pivot_fit().size;
+                let seat = Outline::circle(self.pusher.pivot(), 0.5 * pin);
+                cover.holes.extend((pin > 0.0).then(|| Hole::from(seat)));
+                Some(cover.noted(in_arm).noted(along))
+            }
             ThreeArmPart::Clamp => {
                 let found = self.of_arm("flake-left")?;
                 let steel = ("spring steel", STEEL.1);
@@ -264,6 +311,24 @@ impl<'a> Machine<'a> {
             | ThreeArmPart::Intermediate
             | ThreeArmPart::Planet
             | ThreeArmPart::Assembly => None,
+        }
+    }
+
+    /// The housing with bosses on its wall for the screws of the covers.
+    fn housing(&self, plate: Plate) -> Plate {
+        let Some(screws) = &self.screws[1] else {
+            return plate;
+        };
+        let with_bosses = |mut hole: Hole| {
+            let radius = screws.screw.diameter;
+            if let Some(bossed) = with_bosses(&hole.outline, &screws.at, radius) {
+                hole.outline = bossed;
+            }
+            hole
+        };
+        Plate {
+            holes: plate.holes.into_iter().map(with_bosses).collect(),
+            ..plate
         }
     }
 

@@ -10,6 +10,7 @@ mod limbs;
 mod links;
 mod machine;
 mod part;
+mod pieces;
 mod pushed;
 mod surroundings;
 

@@ -18,6 +18,8 @@ pub enum ThreeArmPart {
     Roller,
     /// The carrier's plate, on either side of the gears.
     Carrier,
+    /// What holds the carrier's plates apart.
+    Spacer,
     /// The wall of an arm's housing.
     Housing,
     /// The cover of an arm's housing towards the gearbox.
@@ -34,7 +36,7 @@ pub enum ThreeArmPart {
 
 impl ThreeArmPart {
     /// All of them, in the order files are written.
-    pub const ALL: [Self; 13] = [
+    pub const ALL: [Self; 14] = [
         Self::Sun,
         Self::Intermediate,
         Self::Planet,
@@ -42,6 +44,7 @@ impl ThreeArmPart {
         Self::Fork,
         Self::Roller,
         Self::Carrier,
+        Self::Spacer,
         Self::Housing,
         Self::CoverRear,
         Self::CoverFront,
@@ -61,6 +64,7 @@ impl ThreeArmPart {
             Self::Fork => "fork",
             Self::Roller => "roller",
             Self::Carrier => "carrier",
+            Self::Spacer => "spacer",
             Self::Housing => "housing",
             Self::CoverRear => "cover-rear",
             Self::CoverFront => "cover-front",
@@ -81,6 +85,7 @@ impl ThreeArmPart {
             Self::Fork => "Fork",
             Self::Roller => "Cam roller",
             Self::Carrier => "Carrier plate",
+            Self::Spacer => "Spacer of the carrier plates",
             Self::Housing => "Arm housing",
             Self::CoverRear => "Rear cover of the arm",
             Self::CoverFront => "Front cover of the arm",
@@ -97,6 +102,8 @@ impl ThreeArmPart {
             Self::Sun | Self::Assembly => 1,
             Self::Carrier => 2,
             Self::Clamp => 2 * arms,
+            // As many to every arm as make three or more.
+            Self::Spacer => arms * 3_u32.div_ceil(arms.max(1)),
             _ => arms,
         }
     }

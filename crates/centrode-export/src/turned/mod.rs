@@ -38,6 +38,8 @@ fn remark(pieces: &TurnedPieces) -> String {
     let size = fit::shaft(&pieces.fit);
     match &*pieces.role {
         "" => size,
+        // Screws have the size in their name.
+        role if pieces.fit.size == 0.0 => role.into(),
         role => format!("{size}, {role}"),
     }
 }

@@ -12,8 +12,6 @@ use crate::sheet::{
 
 /// Letter of the section; datums have the first two.
 const SECTION: char = 'C';
-/// Tolerance class of a keyway in a shaft, ISO 286.
-const KEYWAY: &str = "N9";
 /// Tolerance class of the width of a ring's groove, ISO 286.
 const GROOVE: &str = "H13";
 /// Places of lengths.
@@ -50,7 +48,7 @@ impl Drawn<'_> {
             let words = [NoteLine::from(fit::bore(step.diameter, &step.class))];
             across(
                 step.diameter,
-                (self.keyway, KEYWAY),
+                (self.keyway, fit::SHAFT_KEYWAY),
                 SECTION,
                 &words,
                 tolerance,

@@ -29,7 +29,7 @@ impl Contour {
         self.belt(0.0)
     }
 
-    fn belt(&self, inset: f64) -> Option<Outline> {
+    pub(super) fn belt(&self, inset: f64) -> Option<Outline> {
         Outline::hull(&[
             (Point::origin(), self.drum_radius - inset),
             (self.on_axis(self.rear), self.tube_radius - inset),

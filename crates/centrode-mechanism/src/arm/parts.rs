@@ -26,6 +26,8 @@ pub struct ArmBody {
     outline: Outline,
     tip: Point,
     parts: Vec<ArmPart>,
+    contour: Contour,
+    is_mirrored: bool,
 }
 
 /// Error of an arm that cannot be built.
@@ -176,6 +178,8 @@ impl ArmBody {
             outline: turned(whole),
             tip: Point::new(contour.tip, -pusher_offset),
             parts,
+            contour,
+            is_mirrored: other_side,
         })
     }
 
@@ -183,6 +187,16 @@ impl ArmBody {
     #[must_use]
     pub fn outline(&self) -> &Outline {
         &self.outline
+    }
+
+    /// Contour of the housing a distance within its outside, mm; `None` where nothing is left.
+    #[must_use]
+    pub fn within(&self, inset: f64) -> Option<Outline> {
+        let belt = self.contour.belt(inset)?;
+        match self.is_mirrored {
+            true => mirrored(&belt),
+            false => Some(belt),
+        }
     }
 
     /// The clamp's tip, in the arm's frame.

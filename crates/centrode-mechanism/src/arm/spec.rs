@@ -2,7 +2,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::gear::design::SpecError;
-use crate::gear::design::rule::{not_negative, positive};
+use crate::gear::design::rule::{not_negative, positive, screw_size};
 
 /// The parts of an arm, around its planet's axis and along its pusher's axis.
 ///
@@ -40,6 +40,10 @@ pub struct HousingSpec {
     pub bore: f64,
     /// Diameter of the hole in the rear cover for the sleeve that carries the cam, mm; 0 for none.
     pub sleeve_bore: f64,
+    /// Nominal diameter of the screws of the covers, ISO 4762, mm: 3 for M3, 0 for none; left out, the largest no thicker than a
+    /// cover that finds room.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub screw: Option<f64>,
 }
 
 impl Default for HousingSpec {
@@ -52,6 +56,7 @@ impl Default for HousingSpec {
             wall: 3.0,
             bore: 12.0,
             sleeve_bore: 17.0,
+            screw: None,
         }
     }
 }
@@ -169,6 +174,7 @@ impl ArmBodySpec {
         ] {
             not_negative(key, size)?;
         }
+        screw_size("housing.screw", self.housing.screw)?;
         Ok(())
     }
 
@@ -197,6 +203,7 @@ impl ArmBodySpec {
                 wall: k * self.housing.wall,
                 bore: k * self.housing.bore,
                 sleeve_bore: k * self.housing.sleeve_bore,
+                screw: self.housing.screw,
             },
             clamp: ClampSpec {
                 root_height: k * self.clamp.root_height,

@@ -7,6 +7,7 @@
 mod design;
 mod dimension;
 mod error;
+mod frame;
 mod gears;
 mod links;
 mod mount;

@@ -100,6 +100,8 @@ pub struct Plate {
     pub outline: Outline,
     /// Holes of the joints that have one, in their order.
     pub holes: Vec<Outline>,
+    /// Holes of the screws that hold the frame's plates apart.
+    pub screws: Vec<Outline>,
     /// Ends of the slot along x, mm, round ends included, and its contour.
     pub slot: Option<([f64; 2], Outline)>,
     /// Joints.
@@ -111,11 +113,12 @@ pub struct Plate {
 }
 
 impl Plate {
-    /// Contours of all cut-outs: holes and slot.
+    /// Contours of all cut-outs: holes, slot, holes of screws.
     #[must_use]
     pub fn cut_outs(&self) -> Vec<Outline> {
         let slot = self.slot.iter().map(|(_, contour)| contour.clone());
-        self.holes.iter().cloned().chain(slot).collect()
+        let holes = self.holes.iter().cloned().chain(slot);
+        holes.chain(self.screws.iter().cloned()).collect()
     }
 
     /// The plate lying on z = 0.
@@ -227,6 +230,7 @@ impl Feeder {
             part,
             outline: Outline::hull(&circles).ok_or_else(no_plate)?,
             holes,
+            screws: Vec::new(),
             slot,
             joints,
             bottom: part.layer() * (spec.thickness + spec.gap),

@@ -2,7 +2,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::gear::design::SpecError;
-use crate::gear::design::rule::{in_range, not_negative, positive, single_line};
+use crate::gear::design::rule::{in_range, not_negative, positive, screw_size, single_line};
 
 /// The links as plates, stacked along the shafts: crank, coupler, rocker, effector.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -23,6 +23,10 @@ pub struct PlatesSpec {
     pub slider_length: f64,
     /// Clearance of the slider at the ends of the slot, mm.
     pub slot_clearance: f64,
+    /// Nominal diameter of the screws of the frame, ISO 4762, mm: 6 for M6, 0 for none; left out, the largest no thicker than a plate
+    /// that finds room.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub screw: Option<f64>,
     /// Tolerance class of the holes for the pins, ISO 286, for the drawing.
     pub hole_fit: String,
     /// Tolerance class of the frame's holes in which the gears' shafts turn, ISO 286, for the drawing.
@@ -49,6 +53,7 @@ impl Default for PlatesSpec {
             slot_width: 16.0,
             slider_length: 16.0,
             slot_clearance: 1.0,
+            screw: None,
             hole_fit: "H8".into(),
             bearing_fit: "F8".into(),
             pin_fit: "f7".into(),
@@ -94,6 +99,7 @@ impl PlatesSpec {
         )?;
         not_negative("gap", self.gap)?;
         not_negative("slot_clearance", self.slot_clearance)?;
+        screw_size("screw", self.screw)?;
         for (key, value) in [
             ("hole_fit", &self.hole_fit),
             ("bearing_fit", &self.bearing_fit),

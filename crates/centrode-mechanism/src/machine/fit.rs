@@ -132,6 +132,30 @@ pub struct Fit {
     pub shaft: String,
 }
 
+/// A pin pressed in one part, on which another turns: one size, a tolerance class each.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PinFit {
+    /// Nominal diameter of pin and holes, mm.
+    pub size: f64,
+    /// Tolerance class of the pin, ISO 286.
+    pub pin: &'static str,
+    /// Of the hole that it is pressed in.
+    pub pressed: &'static str,
+    /// Of the hole that turns on it.
+    pub running: &'static str,
+}
+
+impl PinFit {
+    /// The fit of the hole that it is pressed in, and of the one that turns on it, with their names.
+    #[must_use]
+    pub fn fits(&self, [pressed, running]: [&str; 2]) -> [Fit; 2] {
+        [
+            Fit::new(pressed, self.size, [self.pressed, self.pin]),
+            Fit::new(running, self.size, [self.running, self.pin]),
+        ]
+    }
+}
+
 impl Fit {
     /// Fit of a diameter (mm), of a hole's and a shaft's class.
     #[must_use]

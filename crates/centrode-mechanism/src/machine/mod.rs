@@ -6,7 +6,9 @@
 mod arrangement;
 mod bar;
 mod blank;
+mod boss;
 mod contact;
+mod fastening;
 mod figure;
 mod fit;
 mod jet;
@@ -34,16 +36,19 @@ use crate::transmission::Transmission;
 pub use arrangement::{Arrangement, Axis, Callout, Datum, Dimension, Place};
 pub(crate) use bar::Bar;
 pub use blank::Blank;
+pub use boss::with_bosses;
 pub use contact::{Closure, Contact, ContactLine, GearMesh, Guide, GuideForce, PitchCurves};
+pub(crate) use fastening::ScrewRoom;
+pub use fastening::{Fastening, FasteningError};
 pub use figure::{Figure, Line, LinePath, LineRole, Mark, Seat, Sketch};
-pub use fit::{Fit, limits_of_size, preferred_size};
+pub use fit::{Fit, PinFit, limits_of_size, preferred_size};
 pub use jet::{FrameJet, PointJet};
 pub use joint::{Joint, JointKind};
 pub use law::{Constant, Linear, Piecewise};
 pub use load::{Axes, Load, STANDARD_GRAVITY};
 pub use part::{Part, Supply};
 pub use sound::{MachineError, loose_link};
-pub use standard::{Bearing, Circlip, Dowel, Key, allowed_pressure};
+pub use standard::{Bearing, Circlip, Dowel, Key, Screw, allowed_pressure};
 pub use turned::{SeatedKey, TurnedPart, TurnedPiece, TurnedPieces, TurnedStep};
 
 /// Rigid links, and how each of them moves with the one input.

@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use centrode_geometry::{MassProperties, Solid};
 use nalgebra::Point3;
 
-use super::{Blank, Form, Machine, Mounted, Part, Shape, Supply, TurnedPiece, TurnedPieces};
+use super::{Blank, Form, Link, Machine, Mounted, Part, Shape, Supply, TurnedPiece, TurnedPieces};
 
 /// Density of rings, keys and bearings: steel, kg/m^3.
 const STEEL: f64 = 7850.0;
@@ -63,6 +63,15 @@ impl Part {
     pub fn word(&self) -> String {
         let word = self.name.to_lowercase().replace(" - ", "-");
         word.replace(" x ", "x").replace([' ', '/'], "-")
+    }
+}
+
+impl Link {
+    fn mount(&mut self, body: Mounted, own: Option<MassProperties>) {
+        let carried = own.map(|own| own.placed(&body.place()));
+        let all: Vec<MassProperties> = self.mass.into_iter().chain(carried).collect();
+        self.mass = MassProperties::together(&all).or(self.mass);
+        self.mounted.push(body);
     }
 }
 
@@ -158,10 +167,13 @@ impl Machine {
         };
         let at = (upon * Point3::from(at)).coords.into();
         let body = Mounted { shape, at, turn };
-        let own = own.filter(|_| !piece.is_counted);
-        let carried = own.map(|own| own.placed(&body.place()));
-        let all: Vec<MassProperties> = link.mass.into_iter().chain(carried).collect();
-        link.mass = MassProperties::together(&all).or(link.mass);
-        link.mounted.push(body);
+        link.mount(body, own.filter(|_| !piece.is_counted));
+    }
+
+    /// Mounts a body on a link, which it makes heavier by its mass.
+    pub fn mount_body(&mut self, link: usize, body: Mounted, own: Option<MassProperties>) {
+        if let Some(link) = self.links.get_mut(link) {
+            link.mount(body, own);
+        }
     }
 }

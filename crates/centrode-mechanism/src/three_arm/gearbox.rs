@@ -3,7 +3,7 @@ use nalgebra::Rotation2;
 
 use super::{ThreeArm, ThreeArmLink};
 use crate::gear::Member;
-use crate::machine::Bearing;
+use crate::machine::{Bearing, Fastening};
 
 /// Body of the carrier: a plate on either side of the gears, with a hole at every axis.
 #[derive(Clone, Debug)]
@@ -25,20 +25,30 @@ impl ThreeArm {
         Rotation2::new(-carrier) * self.link(link, 0.0).origin.position
     }
 
+    /// Circles about all axes in the carrier's frame, wider than the largest pitch radius by an offset, mm.
+    pub(super) fn around_gears(&self, offset: f64) -> Vec<(Point, f64)> {
+        let radius = |member| self.rolling().radii(member).1 + offset;
+        let (sun, intermediate) = (radius(Member::Driver), radius(Member::Driven));
+        let chains = (0..self.arms()).flat_map(|k| {
+            let middle = self.on_carrier(ThreeArmLink::Intermediate(k));
+            let outer = self.on_carrier(ThreeArmLink::Planet(k));
+            [(middle, intermediate), (outer, sun)]
+        });
+        std::iter::once((Point::origin(), sun))
+            .chain(chains)
+            .collect()
+    }
+
     /// The carrier's plates: the belt around circles of the housing's offset over the largest pitch radius
     /// about every axis.
     #[must_use]
     pub fn gearbox(&self) -> Option<GearboxBody> {
         let design = self.design();
-        let offset = design.gearbox.housing_offset;
-        let radius = |member| self.rolling().radii(member).1 + offset;
-        let (sun, intermediate) = (radius(Member::Driver), radius(Member::Driven));
-        let mut around = vec![(Point::origin(), sun)];
+        let around = self.around_gears(design.gearbox.housing_offset);
         let mut holes = vec![(Point::origin(), design.sun.bore)];
         for k in 0..self.arms() {
             let middle = self.on_carrier(ThreeArmLink::Intermediate(k));
             let outer = self.on_carrier(ThreeArmLink::Planet(k));
-            around.extend([(middle, intermediate), (outer, sun)]);
             holes.extend([
                 (middle, design.intermediate.bore),
                 (outer, design.planet.bore),
@@ -70,14 +80,15 @@ impl ThreeArm {
         Bearing::for_bore(bore, gearbox.wall).filter(|_| gearbox.bearings)
     }
 
-    /// Distance of the middle of the arms' housings from the rear faces of the gears, mm: behind them are the
-    /// gearbox's front plate and a clearance equal to that of the gears.
+    /// Distance of the middle of the arms' housings from the rear faces of the gears, mm: behind them are the gearbox's front
+    /// plate, a clearance equal to that of the gears and the heads of the screws of the covers.
     #[must_use]
     pub fn arm_level(&self) -> f64 {
         let design = self.design();
         let bodies = [&design.sun, &design.intermediate, &design.planet];
         let width = bodies.iter().map(|b| b.width).fold(0.0, f64::max);
-        let gearbox = &design.gearbox;
-        width + 2.0 * gearbox.clearance + gearbox.wall + 0.5 * self.arm_sizes().housing.width
+        let (gearbox, housing) = (&design.gearbox, self.arm_sizes().housing);
+        let heads = Fastening::highest_head(housing.screw, housing.wall);
+        width + 2.0 * gearbox.clearance + gearbox.wall + heads + 0.5 * housing.width
     }
 }

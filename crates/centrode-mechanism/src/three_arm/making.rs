@@ -2,12 +2,14 @@
 
 /// Material of what carries load, with its density in kg/m^3.
 pub const STEEL: (&str, f64) = ("steel", 7850.0);
-/// Tolerance classes, ISO 286, of what turns on a pin, hole and shaft.
-pub const RUNNING: [&str; 2] = ["H7", "f7"];
-/// Of pins that are pressed in, ISO 8734.
+/// Tolerance classes, ISO 286, of pins that are pressed in, hole and pin, ISO 8734.
 pub const PRESSED: [&str; 2] = ["H7", "m6"];
 /// Of what slides in a slot or a square bore.
 pub const SLIDING: [&str; 2] = ["H9", "e9"];
+/// Of the hole of a roller on a pin that is pressed into another part.
+pub const ROLLING: &str = "E9";
+/// Of that of a fork on such a pin.
+pub const SWINGING: &str = "E8";
 /// Of ball bearings: their outer ring pressed in a plate that holds it along the shaft, their inner ring, round which the load goes,
 /// on the shaft.
 pub const BEARING: [&str; 2] = ["N7", "k6"];

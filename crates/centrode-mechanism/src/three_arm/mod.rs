@@ -4,6 +4,7 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 pub mod design;
+mod fastened;
 mod figures;
 mod gearbox;
 pub mod making;

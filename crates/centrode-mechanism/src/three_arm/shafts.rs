@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::making::{BEARING, PRESSED, RUNNING, SLIDING, STEEL};
+use super::making::{BEARING, PRESSED, SLIDING, STEEL};
 use super::{Pusher, ThreeArm};
 use crate::arm::ArmBody;
 use crate::gear::design::BodySpec;
@@ -12,13 +12,22 @@ use crate::machine::{
 
 /// Diameters of its own that the carrier's shaft goes on behind the gearbox.
 const DRIVEN_END: f64 = 3.0;
+/// Share of the fork's thickness that its pin may fall short of, so that one of a standard length does.
+const SHORT: f64 = 0.3;
 
 impl ThreeArm {
-    /// All parts that are turned, and the dowels; no shafts of gears without a bore, and none without a gearbox.
+    /// All parts that are turned, the dowels and the screws; no shafts of gears without a bore, and none without a gearbox.
     #[must_use]
     pub fn turned(&self, pusher: &Pusher, arm: &ArmBody) -> Vec<TurnedPieces> {
         let mut all = self.shafts(arm);
         all.extend(self.pins(pusher, arm));
+        let carrier = self.carrier_screws(arm).and_then(Result::ok);
+        all.extend(
+            carrier.map(|screws| screws.screws(&["carrier".into()], "of the carrier's plates")),
+        );
+        let covers = self.cover_screws(pusher, arm).and_then(Result::ok);
+        let arms: Vec<String> = (0..self.arms()).map(|k| format!("arm_{k}")).collect();
+        all.extend(covers.map(|screws| screws.screws(&arms, "of the covers of the arms")));
         all
     }
 
@@ -99,20 +108,32 @@ impl ThreeArm {
         let (fork, cam) = (pusher.fork_span(), pusher.cam_span());
         let wide = |name: &str| span(arm, name).unwrap_or([0.0, 1.0]);
         // The cam behind the fork reaches beyond the pivot.
-        let [_, cover] = wide("housing");
-        let bar = Bar::new(spec.pivot_bore, RUNNING[1], [fork[0], cover]);
+        let [_, cover] = wide("cover-front");
+        let seat = pusher.pivot_fit();
+        // From the rear face of the fork, or a little above it where no pin is as long, to the outside of the front cover.
+        let standard = Dowel::for_diameter(seat.size, cover - fork[0]);
+        let standard = standard.filter(|pin| cover - pin.length < fork[0] + SHORT * spec.width);
+        let low = standard.map_or(fork[0], |pin| cover - pin.length);
+        let bar = Bar::new(seat.size, seat.pin, [low, cover]);
         let mut pivot = bar.part(["pin-fork", "Pin of the fork"], STEEL);
-        pivot.notes = vec!["From the rear face of the fork to the front cover.".into()];
+        pivot.notes = vec!["Pressed into the front cover, flush with its outside.".into()];
         let at = pusher.pivot();
+        let [pressed, _] = seat.fits([""; 2]);
         let pivot = TurnedPieces {
             pieces: self.on_chains("arm", [at.x, at.y, bar.bottom()]),
-            ..TurnedPieces::new(pivot, Fit::new("", spec.pivot_bore, RUNNING))
+            role: standard
+                .map_or("", |_| "of the fork, pressed into the front cover")
+                .into(),
+            standard: standard.map(Dowel::name),
+            ..TurnedPieces::new(pivot, pressed)
         };
         // From the roller, which is behind it, through the fork.
         let (low, high) = (fork[0].min(cam[0]), fork[1].max(cam[1]));
         let standard = Dowel::for_diameter(spec.roller_bore, high - low);
         let long = standard.map_or(high - low, |pin| pin.length);
-        let bar = Bar::new(spec.roller_bore, PRESSED[1], [high - long, high]);
+        let seat = pusher.roller_fit();
+        let bar = Bar::new(seat.size, seat.pin, [high - long, high]);
+        let [pressed, _] = seat.fits([""; 2]);
         let roller = TurnedPieces {
             pieces: self.on_chains("fork", [spec.arm_length, 0.0, high - long]),
             role: standard
@@ -121,7 +142,7 @@ impl ThreeArm {
             standard: standard.map(Dowel::name),
             ..TurnedPieces::new(
                 bar.part(["pin-roller", "Pin of the roller"], STEEL),
-                Fit::new("", spec.roller_bore, PRESSED),
+                pressed,
             )
         };
         let thin = 0.5 * spec.slot_width;

@@ -408,3 +408,44 @@ fn seedlings_stay_where_they_were_planted() {
     design.seedling.width = 0.0;
     assert_eq!(resolved(&design).stem(), None);
 }
+
+/// Three spacers, each a third of a turn from the last, and arms that stand further from the gearbox by a head of the covers' screws.
+#[test]
+fn screws_are_as_many_and_as_large_as_the_plates_take() {
+    let mut design = published();
+    let mechanism = resolved(&design);
+    let arm = mechanism.arm_body().expect("an arm");
+    let pusher = mechanism.pusher().expect("a pusher");
+    let carrier = mechanism
+        .carrier_screws(&arm)
+        .expect("asked")
+        .expect("room");
+    assert_eq!(carrier.screw.name(), "Screw ISO 4762 - M6 x 12");
+    assert_eq!(carrier.at.len(), 3);
+    for pair in carrier.at.windows(2) {
+        let turned = nalgebra::Rotation2::new(std::f64::consts::TAU / 3.0) * pair[0];
+        assert!((turned - pair[1]).norm() < 1e-9);
+    }
+    let covers = mechanism
+        .cover_screws(&pusher, &arm)
+        .expect("asked")
+        .expect("room");
+    assert_eq!((covers.screw.diameter, covers.at.len()), (3.0, 4));
+    let with = mechanism.arm_level();
+    let mut body = mechanism.arm_sizes();
+    body.housing.screw = Some(0.0);
+    design.arm.body = Some(body);
+    design.gearbox.screw = Some(0.0);
+    let without = resolved(&design);
+    assert_eq!(without.arm_level(), with - 3.0);
+    assert_eq!(without.carrier_screws(&arm), None);
+    assert_eq!(without.cover_screws(&pusher, &arm), None);
+    design.gearbox.screw = Some(5.5);
+    let error = ThreeArm::resolve(&design)
+        .expect_err("no such screw")
+        .to_string();
+    assert!(
+        error.contains("gearbox.screw must be 0 or the size of a screw"),
+        "{error}"
+    );
+}

@@ -11,14 +11,15 @@ use crate::{
     machine::arrangement,
     package::title_or_name,
     sheet::{
-        Corner, Draft, Scale, Sheet, SheetBlock, SheetError, TitleBlock, compose, mass, number,
-        view_letters,
+        Corner, Draft, Scale, Sheet, SheetBlock, SheetError, TitleBlock, compose, fit, mass,
+        number, view_letters,
     },
 };
 use centrode_geometry::Tolerance;
 use centrode_mechanism::{
     design::{DrawingSpec, SheetSize},
-    gear::{GearPair, Member, OverPins},
+    gear::{GearPair, Member, OverPins, design::Keyway},
+    machine::Fit,
 };
 use part::SheetGear;
 pub(super) use part::middle;
@@ -200,6 +201,16 @@ fn notes(part: &SheetGear<'_>) -> Vec<String> {
             0.0 => "Keyway on the x axis, at polar angle 0°.".to_owned(),
             angle => format!("Keyway at polar angle {}°.", number(angle.to_degrees(), 4)),
         });
+    }
+    if part.label.is_none() && body.bore > 0.0 {
+        // Of a pair alone the shaft belongs to the machine around it: its sheet is not here.
+        let shaft = Fit::new("", body.bore, [&body.bore_fit, &body.shaft_fit]);
+        lines.push(format!("To sit on a shaft {}", fit::shaft(&shaft)));
+        if let Some(key) = body.keyway.map(Keyway::of_shaft) {
+            let width = fit::keyway(key.width, fit::SHAFT_KEYWAY);
+            let rest = fit::shaft_depth(body.bore, key);
+            lines.push(format!("with a keyway {width}, Ø - depth {rest}."));
+        }
     }
     if let Some(label) = part.label {
         lines.push(format!("{} of these a machine.", label.quantity));

@@ -1,6 +1,7 @@
 use thiserror::Error;
 
 use crate::digits::told;
+use crate::machine::Screw;
 
 /// A value of a description that breaks a rule.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -58,6 +59,9 @@ pub enum Rule {
     /// A key where it means nothing.
     #[error("has no meaning {0}")]
     Unused(&'static str),
+    /// A screw that there is none of.
+    #[error("must be 0 or the size of a screw, 1.6, 2, 2.5, 3, 4, 5, 6, 8, 10 or 12 mm, not {}", told(*.0))]
+    NoScrew(f64),
     /// A name that cannot name a file.
     #[error("must be 1 to 64 letters, digits, '-' or '_', not {0:?}")]
     Name(String),
@@ -143,6 +147,18 @@ pub(crate) fn not_negative(key: &str, value: f64) -> Result<(), SpecError> {
 }
 
 /// Checks a name that can name a file.
+/// Checks the nominal diameter of screws, mm: none, or one that there is.
+pub(crate) fn screw_size(key: &str, diameter: Option<f64>) -> Result<(), SpecError> {
+    let Some(diameter) = diameter else {
+        return Ok(());
+    };
+    finite(key, diameter)?;
+    match diameter == 0.0 || Screw::sizes().any(|known| known == diameter) {
+        true => Ok(()),
+        false => broken(key, Rule::NoScrew(diameter)),
+    }
+}
+
 pub(crate) fn file_name(key: &str, name: &str) -> Result<(), SpecError> {
     let safe = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
     if name.is_empty() || name.len() > 64 || !name.chars().all(safe) {

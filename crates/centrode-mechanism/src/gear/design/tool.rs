@@ -144,6 +144,15 @@ impl ToolSpec {
         }
     }
 
+    /// Height of the teeth above the pitch curve, in modules.
+    #[must_use]
+    pub fn addendum_coefficient(&self) -> f64 {
+        match self {
+            Self::Rack(rack) => rack.addendum_coefficient,
+            Self::Shaper(shaper) => shaper.addendum_coefficient,
+        }
+    }
+
     /// Pressure angle, rad.
     #[must_use]
     pub fn pressure_angle(&self) -> f64 {

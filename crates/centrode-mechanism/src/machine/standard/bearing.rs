@@ -13,12 +13,11 @@ pub struct Bearing {
     pub designation: &'static str,
 }
 
-/// Designation, bore, outer diameter, width, mm; ISO 15:2017, dimension series 18, 10 and 02, the designations of ISO 15:2017 and
-/// DIN 625-1: series 618, 60 and 62.
+/// Designation, bore, outer diameter, width, mm; ISO 15:2017, dimension series 18, 10 and 02, the designations of DIN 625-1: series
+/// 618, 60 and 62.
 #[rustfmt::skip]
-const BEARINGS: [(&str, [f64; 3]); 37] = [
-    ("618/5", [5.0, 11.0, 3.0]), ("618/6", [6.0, 13.0, 3.5]), ("618/7", [7.0, 14.0, 3.5]),
-    ("618/8", [8.0, 16.0, 4.0]), ("618/9", [9.0, 17.0, 4.0]), ("61800", [10.0, 19.0, 5.0]),
+const BEARINGS: [(&str, [f64; 3]); 32] = [
+    ("61800", [10.0, 19.0, 5.0]),
     ("61801", [12.0, 21.0, 5.0]), ("61802", [15.0, 24.0, 5.0]), ("61803", [17.0, 26.0, 5.0]),
     ("61804", [20.0, 32.0, 7.0]), ("61805", [25.0, 37.0, 7.0]), ("61806", [30.0, 42.0, 7.0]),
     ("606", [6.0, 17.0, 6.0]), ("607", [7.0, 19.0, 6.0]), ("608", [8.0, 22.0, 7.0]),
@@ -100,12 +99,52 @@ mod tests {
         assert!((bearing.solid().expect("a body").volume() - ring).abs() < 1e-9);
     }
 
+    /// Series, from thin to thick: dimension series 18, 10 and 02.
+    const SERIES: [&str; 3] = ["618", "60", "62"];
+
+    /// The height of a ring's section grows with the diameter series 8, 0 and 2 of one bore, and no bearing of a thicker section is
+    /// narrower; of one series widths keep to a share of the section that ISO 15 lets grow thinner with the bore.
+    #[test]
+    fn dimensions_follow_the_dimension_series_of_iso_15() {
+        let series = |name: &str| SERIES.into_iter().position(|series| is_of(name, series));
+        for (name, [bore, outer, width]) in BEARINGS {
+            let own = series(name).expect(name);
+            for (other, [same, wider, thicker]) in BEARINGS {
+                if same == bore && series(other) > Some(own) {
+                    assert!(wider > outer && thicker >= width, "{name} {other}");
+                }
+            }
+            // Width series 1 and 0: between half and one and a quarter of the section's height.
+            let share = width / (0.5 * (outer - bore));
+            assert!((0.85..=1.25).contains(&share), "{name}: {share}");
+        }
+        // Names without a bore code have the bore as their last digit.
+        for (name, [bore, ..]) in BEARINGS.iter().filter(|(name, _)| name.len() == 3) {
+            assert_eq!(name[2..].parse(), Ok(*bore), "{name}");
+        }
+        // Bore codes below four.
+        for (code, bore) in ["00", "01", "02", "03"]
+            .into_iter()
+            .zip([10.0, 12.0, 15.0, 17.0])
+        {
+            let all = BEARINGS
+                .iter()
+                .filter(|(name, _)| name.len() > 3 && name.ends_with(code));
+            let bores: Vec<f64> = all.map(|(_, sizes)| sizes[0]).collect();
+            assert_eq!(bores, [bore; 3], "{code}");
+        }
+    }
+
+    fn is_of(name: &str, series: &str) -> bool {
+        name.strip_prefix(series).is_some_and(|rest| rest.len() < 3)
+    }
+
     #[test]
     fn bearings_of_a_series_grow_with_their_bores_and_bores_follow_the_designation() {
-        for series in ["618", "60", "62"] {
+        for series in SERIES {
             let own: Vec<[f64; 3]> = BEARINGS
                 .into_iter()
-                .filter(|(name, _)| name.starts_with(series))
+                .filter(|(name, _)| is_of(name, series))
                 .map(|(_, sizes)| sizes)
                 .collect();
             assert!(

@@ -2,6 +2,7 @@
 
 mod bearing;
 mod key;
+mod screw;
 
 use centrode_geometry::{Arc, Outline, Point, Segment, Solid};
 use schemars::JsonSchema;
@@ -9,6 +10,7 @@ use serde::{Deserialize, Serialize};
 
 pub use bearing::Bearing;
 pub use key::{Key, allowed_pressure};
+pub use screw::Screw;
 
 /// Diameters of parallel pins of hardened steel, mm; ISO 8734:1997.
 const DOWELS: [f64; 14] = [

@@ -5,7 +5,7 @@ use super::angle;
 use crate::arm::{ArmBodySpec, UsualArm};
 use crate::degrees;
 use crate::gear::design::SpecError;
-use crate::gear::design::rule::{in_range, not_negative, positive};
+use crate::gear::design::rule::{in_range, not_negative, positive, screw_size};
 
 /// An arm, fixed to its planet.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -83,6 +83,10 @@ pub struct GearboxSpec {
     /// Whether the shafts turn in ball bearings in the plates, where bearings of their bores are as narrow as these are thick.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub bearings: bool,
+    /// Nominal diameter of the screws of the plates, ISO 4762, mm: 6 for M6, 0 for none; left out, the largest no thicker than a
+    /// plate that finds room.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub screw: Option<f64>,
 }
 
 impl Default for GearboxSpec {
@@ -92,6 +96,7 @@ impl Default for GearboxSpec {
             wall: 6.0,
             clearance: 2.0,
             bearings: false,
+            screw: None,
         }
     }
 }
@@ -104,6 +109,7 @@ impl GearboxSpec {
     pub fn validate(&self) -> Result<(), SpecError> {
         not_negative("housing_offset", self.housing_offset)?;
         positive("wall", self.wall)?;
-        not_negative("clearance", self.clearance)
+        not_negative("clearance", self.clearance)?;
+        screw_size("screw", self.screw)
     }
 }

@@ -8,9 +8,11 @@ use nalgebra::Rotation2;
 
 use super::ThreeArm;
 use super::design::{ForkSpec, PusherCamSpec};
+use super::making::{PRESSED, ROLLING, SWINGING};
 use crate::arm::{ArmBody, ArmBodySpec, ArmError};
 use crate::cam::design::{Dwell, MotionSpec, SegmentSpec, Travel, Turn};
 use crate::cam::{Cam, CamError, Fork, Lever, Motion, RodJoint};
+use crate::machine::PinFit;
 use crate::transmission::{MotionJet, Transmission};
 
 pub use error::PusherError;
@@ -160,6 +162,28 @@ impl Pusher {
     #[must_use]
     pub fn fork_spec(&self) -> &ForkSpec {
         &self.spec
+    }
+
+    /// Fit of the fork's pivot: a pin in the front cover of the arm.
+    #[must_use]
+    pub fn pivot_fit(&self) -> PinFit {
+        let [pressed, pin] = PRESSED;
+        PinFit {
+            size: self.spec.pivot_bore,
+            pin,
+            pressed,
+            running: SWINGING,
+        }
+    }
+
+    /// Fit of the roller: a pin in the fork.
+    #[must_use]
+    pub fn roller_fit(&self) -> PinFit {
+        PinFit {
+            size: self.spec.roller_bore,
+            running: ROLLING,
+            ..self.pivot_fit()
+        }
     }
 
     /// Stroke of the rod, mm.

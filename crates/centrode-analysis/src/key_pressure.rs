@@ -1,0 +1,62 @@
+use centrode_geometry::Extreme;
+use centrode_mechanism::gear::design::Keyway;
+use centrode_mechanism::machine::{Key, allowed_pressure};
+
+use crate::{Finding, Place, Report, Severity, Unit};
+
+/// A key that carries a torque from a shaft to a hub.
+pub(crate) struct LoadedKey<'a> {
+    pub(crate) key: Key,
+    /// Keyway of the hub.
+    pub(crate) hub: Keyway,
+    /// Diameter of the shaft, mm.
+    pub(crate) diameter: f64,
+    /// Materials of shaft and hub; one of which the design says nothing is left out.
+    pub(crate) materials: &'a [&'a str],
+    /// Greatest torque, N mm, and the input at which it comes.
+    pub(crate) torque: Extreme,
+    /// Part with the hub.
+    pub(crate) part: &'a str,
+}
+
+impl LoadedKey<'_> {
+    /// Greatest pressure on its sides, N/mm²; DIN 6892, method C.
+    pub(crate) fn pressure(&self) -> f64 {
+        let long = self.key.bearing_length();
+        self.hub.pressure(self.torque.value, self.diameter, long)
+    }
+
+    /// Tells of a key that is pressed harder than the weakest material beside it allows.
+    pub(crate) fn check(&self, report: &mut Report) {
+        let allowed = self
+            .materials
+            .iter()
+            .map(|material| allowed_pressure(material));
+        let Some(allowed) = allowed.collect::<Option<Vec<f64>>>() else {
+            return;
+        };
+        let allowed = allowed.into_iter().fold(f64::INFINITY, f64::min);
+        let pressure = self.pressure();
+        if pressure <= allowed {
+            return;
+        }
+        let (name, part) = (self.key.name(), self.part);
+        let Extreme { input, value } = self.torque;
+        report.findings.push(Finding {
+            rule: "key-pressure",
+            severity: Severity::Error,
+            message: format!(
+                "{name} in the {part} is pressed by {pressure:.1} N/mm² at {value:.0} N·mm: its hub and shaft bear {allowed:.1} N/mm²"
+            ),
+            measured: Some(pressure),
+            required: Some(allowed),
+            unit: Unit::NewtonPerSquareMillimetre,
+            remedy: Some("a thicker hub, or a wider bore with its key"),
+            place: Place {
+                part: Some(part.into()),
+                input: Some(input),
+                ..Place::default()
+            },
+        });
+    }
+}
