@@ -14,7 +14,8 @@ impl Outline {
         self.arcs_by(tolerance, Beam::THOROUGH)
     }
 
-    /// Outline of lines and arcs as [`arcs`](Self::arcs), found in a fraction of the time with some arcs more: for what is seen.
+    /// Outline of lines and arcs as [`arcs`](Self::arcs), found in a fraction of the time with some arcs more: for what
+    /// is seen.
     #[must_use]
     pub fn arcs_to_see(&self, tolerance: Tolerance) -> Self {
         self.arcs_by(tolerance, Beam::QUICK)

@@ -110,7 +110,8 @@ pub fn checkpoint() {
     }
 }
 
-/// Results of two jobs that run side by side, the second on a thread of its own, both under the token of the calling thread.
+/// Results of two jobs that run side by side, the second on a thread of its own, both under the token of the calling
+/// thread.
 ///
 /// ```
 /// assert_eq!(centrode_geometry::together(|| 6, || 7), (6, 7));

@@ -60,8 +60,8 @@ pub fn check_composed(composed: &Composed) -> Report {
     checked(&made, motion, Depth::Whole)
 }
 
-/// Checks the motion of a composed machine alone: all of [`check_composed`] but teeth, cams, forces and collisions, which
-/// only goals that name them ask for.
+/// Checks the motion of a composed machine alone: all of [`check_composed`] but teeth, cams, forces and collisions,
+/// which only goals that name them ask for.
 #[must_use]
 pub fn check_composed_motion(composed: &Composed) -> Report {
     let motion = Motion::new(composed, &ends(composed));

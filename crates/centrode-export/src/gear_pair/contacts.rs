@@ -71,11 +71,11 @@ pub(crate) fn track(
     Track::from_samples(samples.into_iter().map(rounded))
 }
 
-/// Paths of contact of one cycle: polar angles of the driver, ascending, and places with the driver's axis at the origin and
-/// the driven gear's on the x axis.
+/// Paths of contact of one cycle: polar angles of the driver, ascending, and places with the driver's axis at the origin
+/// and the driven gear's on the x axis.
 ///
-/// By the law of gearing a flank touches its mate where its normal passes through the pitch point; as long as both flanks are
-/// there.
+/// By the law of gearing a flank touches its mate where its normal passes through the pitch point; as long as both
+/// flanks are there.
 pub(crate) fn paths(pair: &GearPair, flanks: Flanks) -> Vec<Vec<(f64, Point)>> {
     let (rolling, tool) = (pair.rolling(), &pair.teeth().tool);
     let lengths = [Member::Driver, Member::Driven].map(|member| rolling.pitch_length(member));

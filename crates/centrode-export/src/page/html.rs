@@ -142,8 +142,8 @@ pub fn asset(name: &str) -> Option<&'static Asset> {
 /// The script that starts the page.
 const STARTER: &str = "import \"page/main.js\";";
 
-/// Only what is in the file: no request leaves a report, and what runs in it is named by its hash. The other modules come as
-/// `data:` addresses from the import map, which has a hash, too.
+/// Only what is in the file: no request leaves a report, and what runs in it is named by its hash. The other modules come
+/// as `data:` addresses from the import map, which has a hash, too.
 fn policy(imports: &str) -> String {
     let styles: Vec<String> = STYLES
         .iter()

@@ -73,8 +73,8 @@ impl Mesh {
     }
 }
 
-/// Places at which the flanks of sun, intermediate gears and planets touch, while the carrier drives by the sun that is held;
-/// without teeth the pitch points alone.
+/// Places at which the flanks of sun, intermediate gears and planets touch, while the carrier drives by the sun that is
+/// held; without teeth the pitch points alone.
 #[must_use]
 pub fn contacts(mechanism: &ThreeArm, teeth: Option<&GearPair>) -> Vec<Contacts> {
     let meshes = [Mesh::Sun, Mesh::Planet];

@@ -80,13 +80,16 @@ pub(super) fn machine(
     Ok(builder.machine)
 }
 
+/// Input, and the links of a chain there.
+type Solved = (f64, [LinkMotion; 3]);
+
 /// The laws of the joints.
 #[derive(Debug)]
 pub(super) struct Laws {
     pub(super) mechanism: ThreeArm,
     pub(super) pusher: Option<Pusher>,
-    /// Links of each chain at the input at which they were asked for last.
-    last: Vec<Mutex<Option<(f64, [LinkMotion; 3])>>>,
+    /// Of each chain what was asked for last.
+    last: Vec<Mutex<Option<Solved>>>,
 }
 
 impl Laws {
