@@ -121,6 +121,10 @@ impl Resolved for ThreeArm {
             "carrier",
             "Three arms: the plate on either side of the gears",
         ),
+        PartName::new(
+            "spacer",
+            "Three arms: what holds the carrier's plates apart",
+        ),
         PartName::new("housing", "Three arms: the wall of an arm's housing"),
         PartName::new("cover-rear", "Three arms: its cover towards the gearbox"),
         PartName::new("cover-front", "Three arms: its cover away from the gearbox"),
