@@ -3,7 +3,7 @@ const NODES: usize = 16;
 /// Relative size of the last two Chebyshev coefficients below which they are taken for rounding.
 const NOISE: f64 = 3e-14;
 /// Step, as a share of the panel, after which the next one of Newton's method is rounding.
-const SURE: f64 = 1e-8;
+const SURE: f64 = 1e-11;
 /// Steps after which halving alone has come to rounding.
 const MOST_STEPS: u32 = 60;
 /// Halvings after which a panel is accepted as it is: the integrand is then not analytic there.

@@ -162,7 +162,7 @@ impl Divided {
         }
     }
 
-    /// What it is divided into, on its contour: nothing where all its normals pass the axis nearer than `idle`, itself where it
+    /// Parts it is divided into, on its contour: nothing where all its normals pass the axis nearer than `idle`, itself where it
     /// is found to be monotone only now, and else its halves.
     pub(super) fn parts(&self, contour: &Contour<'_>, idle: f64) -> &[Self] {
         self.parts.get_or_init(|| {

@@ -16,7 +16,7 @@ pub const MOST_TEETH: u32 = 600;
 pub struct PairRemedy {
     /// Height of the teeth.
     pub addendum: Addendum,
-    /// What was chosen beside that height, and is written in the design.
+    /// Numbers chosen beside that height, and written in the design.
     pub fit: Vec<Fit>,
     /// Tooth count of the driver at which they do: with one step fewer they do not. A greater one may fail again.
     pub least_tooth_count: u32,

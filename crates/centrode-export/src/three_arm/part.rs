@@ -18,7 +18,7 @@ pub enum ThreeArmPart {
     Roller,
     /// The carrier's plate, on either side of the gears.
     Carrier,
-    /// What holds the carrier's plates apart.
+    /// Tube that holds the carrier's plates apart.
     Spacer,
     /// The wall of an arm's housing.
     Housing,

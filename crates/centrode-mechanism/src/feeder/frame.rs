@@ -19,7 +19,7 @@ const PLACES: u32 = 180;
 const STEP: f64 = 0.125;
 const STEPS: u32 = 80;
 
-/// What places of screws hang on.
+/// Lengths that places of screws hang on.
 type Frame = (LinkageSpec, PlatesSpec, GearsSpec);
 
 impl Feeder {
@@ -112,7 +112,7 @@ impl Feeder {
         ]
     }
 
-    /// What the links sweep between the plates of the frame, and the gears behind them.
+    /// Outlines that the links sweep between the plates of the frame, and the gears behind them.
     fn swept(&self) -> Vec<([Point; 2], f64)> {
         let (spec, gears) = (&self.design().plates, &self.design().gears);
         let [a, d, f, g] = self.on_frame();

@@ -55,6 +55,9 @@ const FREE: [Free; 3] = [
     },
 ];
 
+/// Choices of which gears are tried to be cut.
+const TRIED: usize = 12;
+
 /// Halvings of the first steps.
 const HALVINGS: u32 = 5;
 
@@ -94,18 +97,18 @@ pub(super) struct Fits<'a> {
 }
 
 impl Fits<'_> {
-    /// The design with what it leaves free chosen, and nothing free.
-    pub(super) fn settled(&self, design: &GearPairDesign) -> GearPairDesign {
+    /// The design with what it leaves free chosen and nothing free: the best choices, then what is written. A later one serves where
+    /// no gears can be cut by those before.
+    pub(super) fn settled(&self, design: &GearPairDesign) -> Vec<GearPairDesign> {
         let mut base = design.clone();
         let fits = std::mem::take(&mut base.teeth.fit);
-        if fits.is_empty() {
-            return base;
-        }
-        // What is chosen is chosen for fitted teeth.
-        base.teeth.addendum = Addendum::Fitted;
         let free: Vec<&Free> = FREE.iter().filter(|f| fits.contains(&f.fit)).collect();
+        if !fits.is_empty() {
+            // What is chosen is chosen for fitted teeth.
+            base.teeth.addendum = Addendum::Fitted;
+        }
         if free.is_empty() {
-            return base;
+            return vec![base];
         }
         let phase = self.layout(&base).map_or(0.0, |layout| layout.phase);
         let start: Vec<f64> = free.iter().map(|f| f.written(&base, phase)).collect();
@@ -116,14 +119,33 @@ impl Fits<'_> {
             }
             design
         };
+        let mut ranked = self.ranked(&free, &start, &with);
+        ranked.retain(|(merit, values)| merit.is_finite() && *values != start);
+        ranked.dedup_by(|a, b| a.1 == b.1);
+        let best = ranked.iter().take(TRIED).map(|(_, values)| with(values));
+        // Where nothing is better what is written stays, to the letter.
+        let written = self.merit(&with(&start));
+        let is_better = ranked.first().is_some_and(|(merit, _)| *merit > written);
+        best.filter(|_| is_better).chain([base.clone()]).collect()
+    }
+
+    /// All choices that were tried, the best first.
+    fn ranked(
+        &self,
+        free: &[&Free],
+        start: &[f64],
+        with: &impl Fn(&[f64]) -> GearPairDesign,
+    ) -> Vec<(f64, Vec<f64>)> {
         let merit = |values: &[f64]| self.merit(&with(values));
-        let mut best = (merit(&start), start.clone());
-        for values in grid(&free, &start) {
-            let found = merit(&values);
-            if found > best.0 {
-                best = (found, values);
-            }
-        }
+        let mut tried: Vec<(f64, Vec<f64>)> = grid(free, start)
+            .into_iter()
+            .map(|values| (merit(&values), values))
+            .collect();
+        let first = |tried: &[(f64, Vec<f64>)]| {
+            let best = tried.iter().max_by(|a, b| a.0.total_cmp(&b.0));
+            best.map_or((f64::NEG_INFINITY, start.to_vec()), Clone::clone)
+        };
+        let mut best = first(&tried);
         for halving in 0..=HALVINGS {
             loop {
                 let before = best.0;
@@ -132,10 +154,11 @@ impl Fits<'_> {
                     for step in [-step, step] {
                         let mut values = best.1.clone();
                         values[k] = free.rounded(values[k] + step);
-                        let found = merit(&values);
-                        if found > best.0 {
-                            best = (found, values);
+                        let found = (merit(&values), values);
+                        if found.0 > best.0 {
+                            best = found.clone();
                         }
+                        tried.push(found);
                     }
                 }
                 if best.0 <= before {
@@ -143,11 +166,8 @@ impl Fits<'_> {
                 }
             }
         }
-        // Where nothing is better what is written stays, to the letter.
-        match best.1 == start {
-            true => base,
-            false => with(&best.1),
-        }
+        tried.sort_by(|a, b| b.0.total_cmp(&a.0));
+        tried
     }
 
     /// Layout of a design's teeth, fitted, if it has one.
@@ -179,10 +199,10 @@ impl Fits<'_> {
                 Side::Leading => (&driver[(m + 1) % driver.len()].leading, &mate.trailing),
             }
         };
-        // Up to a flank's tip, where the mate's goes so deep.
+        // Up to a flank's tip, as far as the mate's flank goes: deeper the tip cuts into the fillet.
         let above = |flank: &FlankPlan, mate: &FlankPlan| match flank.top {
-            Top::Reach(reach) => reach.min(mate.corner.end),
-            Top::Height(_) => 0.0,
+            Top::Reach(reach) if reach <= mate.corner.end => reach,
+            _ => f64::NEG_INFINITY,
         };
         let mut least = f64::INFINITY;
         let mut sum = 0.0;
@@ -231,9 +251,9 @@ mod tests {
 
     fn weak(fit: &[Fit]) -> GearPairDesign {
         let mut design = GearPairDesign::new(PitchSpec::Ellipse(Ellipse {
-            eccentricity: 0.5,
+            eccentricity: 0.45,
             module: Some(2.0),
-            tooth_count: Some(13),
+            tooth_count: Some(17),
             ..Ellipse::default()
         }));
         design.teeth.fit = fit.to_vec();

@@ -77,31 +77,43 @@ impl GearPair {
             counts: &counts,
             module,
         };
-        let teeth = parameters(&fits.settled(design), module);
-        let plan = layout(&rolling, &counts, &teeth)?;
         let tolerance =
             Tolerance::new(OUTLINE_TOLERANCE * module).map_err(|_| GearPairError::NoToothCount)?;
-        let cut = |member: Member| -> Result<Gear, GearPairError> {
-            let (count, plans, body) = match member {
-                Member::Driver => (counts.driver, &plan.driver, &design.driver),
-                Member::Driven => (counts.driven, &plan.driven, &design.driven),
+        let make = |settled: &GearPairDesign| -> Result<_, GearPairError> {
+            let teeth = parameters(settled, module);
+            let plan = layout(&rolling, &counts, &teeth)?;
+            let cut = |member: Member| -> Result<Gear, GearPairError> {
+                let (count, plans, body) = match member {
+                    Member::Driver => (counts.driver, &plan.driver, &design.driver),
+                    Member::Driven => (counts.driven, &plan.driven, &design.driven),
+                };
+                let cutter = Cutter {
+                    rolling: &rolling,
+                    member,
+                    tool: &teeth.tool,
+                    tolerance,
+                };
+                Gear::new(
+                    &rolling,
+                    member,
+                    count,
+                    cutter.cut(plans)?,
+                    body.clone(),
+                    tolerance,
+                )
             };
-            let cutter = Cutter {
-                rolling: &rolling,
-                member,
-                tool: &teeth.tool,
-                tolerance,
-            };
-            Gear::new(
-                &rolling,
-                member,
-                count,
-                cutter.cut(plans)?,
-                body.clone(),
-                tolerance,
-            )
+            let gears = [cut(Member::Driver)?, cut(Member::Driven)?];
+            Ok((teeth, plan, gears))
         };
-        let (driver, driven) = (cut(Member::Driver)?, cut(Member::Driven)?);
+        let settled = fits.settled(design);
+        let mut made = make(&settled[0]);
+        for next in &settled[1..] {
+            if made.is_err() {
+                // No contour with these teeth: the next best.
+                made = make(next);
+            }
+        }
+        let (teeth, plan, [driver, driven]) = made?;
         Ok(Self {
             design: design.clone(),
             definition,

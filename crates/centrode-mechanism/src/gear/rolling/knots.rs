@@ -9,7 +9,7 @@ use super::Rolling;
 /// Knots of a turn, breaks aside.
 const KNOTS: u32 = 96;
 /// Step, as a share of the distance of two knots, after which the next one is rounding.
-const SURE: f64 = 1e-8;
+const SURE: f64 = 1e-11;
 /// Steps after which halving alone has come to rounding.
 const MOST_STEPS: u32 = 60;
 
