@@ -123,7 +123,7 @@ def objects():
         ct.FlankPlace(1, "leading", None),
         ct.Table("a", "b", "mm", ("c",), {"d": (1.0,)}),
         arms.arm_clearance(),
-        ct.PairRemedy("full", 23, pair),
+        ct.PairRemedy("full", (), 23, pair),
         reverse,
         posed,
         reverse.axes,

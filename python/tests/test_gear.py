@@ -116,14 +116,18 @@ def test_what_is_free_is_chosen_so_that_the_flanks_carry_the_motion():
     written = ct.GearPair(law, addendum="fitted")
     chosen = ct.GearPair(law, fit=["addendum", "pressure_angle"])
     errors = [pair.check().values["transmission_error_max"] for pair in (written, chosen)]
-    assert errors[0] > 1e-6 and errors[1] < 1e-9
-    assert chosen.addendum == "fitted" and chosen.fit == ["addendum", "pressure_angle"]
+    assert errors[0] > 1e-6
+    assert errors[1] < 1e-9
+    assert chosen.addendum == "fitted"
+    assert chosen.fit == ["addendum", "pressure_angle"]
     assert chosen.tool.pressure_angle != written.tool.pressure_angle
     assert chosen.check().values["tool_pressure_angle"] == chosen.tool.pressure_angle
     # What is loaded again chooses again; what is settled has nothing to choose, and the same gears.
     again = ct.GearPair.from_toml(chosen.to_toml())
-    assert again.tool == chosen.tool and again.fit == chosen.fit
+    assert again.tool == chosen.tool
+    assert again.fit == chosen.fit
     settled = chosen.settled()
-    assert settled.fit == [] and np.array_equal(settled.driver.outline(), chosen.driver.outline())
+    assert settled.fit == []
+    assert np.array_equal(settled.driver.outline(), chosen.driver.outline())
     with pytest.raises(ct.DesignError, match=r"teeth\.fit"):
         ct.GearPair(law, fit=["backlash"])

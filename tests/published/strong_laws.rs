@@ -148,7 +148,7 @@ fn a_strong_law_is_carried_from_the_tooth_count_on_that_is_named_and_not_below()
 }
 
 #[test]
-fn what_is_chosen_is_sound_wherever_what_is_written_is() {
+fn what_is_chosen_is_sound_wherever_what_is_written_carries() {
     let ratios = [
         "1 + 0.3*cos(phi)",
         "1 + 0.4*cos(2*phi)",
@@ -167,7 +167,7 @@ fn what_is_chosen_is_sound_wherever_what_is_written_is() {
             chosen.teeth.fit = fit.to_vec();
             let [before, after] = [&written, &chosen].map(error);
             assert!(
-                !before.1 || after.1,
+                before.0 > CARRIED || after.1,
                 "{ratio} {teeth} {fit:?}: {before:?} {after:?}"
             );
         }
