@@ -12,8 +12,8 @@ use crate::degrees;
 pub struct TeethSpec {
     /// Height of the teeth: "full", as high as the tool asks, or "fitted", each as high as works.
     pub addendum: Addendum,
-    /// What is chosen so that fitted teeth work deepest, in the place of what is written: "thickness_split", "pressure_angle" of
-    /// the tool, "phase"; "addendum" stands for fitted teeth, which all of them have.
+    /// Numbers chosen so that fitted teeth work deepest, in the place of those written: the driver's share of the pitch, the tool's
+    /// pressure angle, the phase; "addendum" stands for fitted teeth, which they are with any of these.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub fit: Vec<Fit>,
     /// Position of the teeth on the driver's pitch curve.
