@@ -177,7 +177,7 @@ impl GearPair {
         self.0.teeth().addendum.word()
     }
 
-    /// What was chosen so that the teeth work deepest.
+    /// Numbers chosen so that the teeth work deepest, by their words.
     #[getter]
     fn fit(&self) -> Vec<&'static str> {
         let fit = self.0.design().teeth.fit.iter();

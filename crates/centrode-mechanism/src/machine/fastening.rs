@@ -183,7 +183,7 @@ impl Fastening {
 pub(crate) struct ScrewRoom {
     /// Line on which their axes lie; none where there is no such.
     pub(crate) line: Option<Outline>,
-    /// What is there already: circles that move along a straight line between two places, with their radius, mm.
+    /// Room taken already: circles that move along a straight line between two places, with their radius, mm.
     pub(crate) taken: Vec<([Point; 2], f64)>,
     /// Every place is there as often, turned about the origin.
     pub(crate) turns: u32,

@@ -76,7 +76,7 @@ impl ThreeArm {
         })
     }
 
-    /// What moves within an arm's housing, and the openings of its covers.
+    /// Room taken by the parts that move within an arm's housing, and by the openings of its covers.
     fn moving_inside(&self, pusher: &Pusher, arm: &ArmBody) -> Vec<([Point; 2], f64)> {
         let (spec, housing) = (pusher.fork_spec(), self.arm_sizes().housing);
         let origin = Point::origin();
