@@ -3,7 +3,54 @@ use centrode_mechanism::gear::GearPair;
 use centrode_mechanism::gear::design::{Addendum, GearPairDesign};
 use centrode_mechanism::three_arm::{ThreeArm, design::ThreeArmDesign};
 
-use super::{Contact, ProofError, ProofStretch, prove};
+use super::{
+    Contact, ProofError, ProofStretch, meshing::Meshing, prove, touch::Pose, window::Allowance,
+};
+
+/// Many teeth on a circle off its centre by half its radius.
+fn many(teeth: u32) -> GearPair {
+    let text = format!(
+        "family = \"gear-pair\"\n[pitch]\nkind = \"eccentric-circle\"\nradius = {teeth}\neccentricity = 0.5\ntooth_count = {teeth}\n[teeth]\nbacklash = 0.05\n"
+    );
+    let design = GearPairDesign::from_toml(&text).expect("a design");
+    GearPair::resolve(&design).expect("a pair")
+}
+
+#[test]
+fn parts_near_in_a_window_are_those_near_in_every_pose() {
+    let pair = many(300);
+    let kept = Meshing::new(&pair);
+    let mut anew = Meshing::new(&pair);
+    anew.allowance = Allowance::none();
+    let pairs = |meshing: &Meshing<'_>, pose: &Pose| -> Vec<(usize, usize)> {
+        let found = meshing.candidates(pose);
+        let part = |&(k, j): &(usize, usize)| (found.posed[k].0.whole.part, j);
+        found.pairs.iter().map(part).collect()
+    };
+    // Small steps, with the driven gear off its law now and then, and a leap.
+    for i in 0..400 {
+        let phi = 0.7 + 0.0021 * f64::from(i) + if i > 200 { 1.3 } else { 0.0 };
+        let psi = pair.driven_angle(phi) + [0.0, 3e-4, -5e-3][i as usize % 3];
+        let pose = Pose::new(phi, psi, pair.center_distance());
+        let found = pairs(&kept, &pose);
+        assert!(!found.is_empty());
+        assert_eq!(found, pairs(&anew, &pose), "{phi}");
+    }
+}
+
+#[test]
+fn a_long_cycle_has_the_same_figures_on_any_number_of_cores() {
+    let pair = many(300);
+    let on = |cores: usize| {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(cores).build();
+        pool.expect("threads")
+            .install(|| Contact::sampled(&pair, 4))
+    };
+    let one = on(1);
+    assert_eq!(one.input.len(), 1201);
+    assert_eq!(one, on(2));
+    assert_eq!(one, on(3));
+}
 
 fn design(name: &str) -> GearPair {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../tests/designs");

@@ -69,6 +69,17 @@ impl Allowance {
     }
 }
 
+#[cfg(test)]
+impl Allowance {
+    /// Nothing is allowed: what is near is looked for in every pose.
+    pub(super) fn none() -> Self {
+        Self {
+            turn: 0.0,
+            drift: 0.0,
+        }
+    }
+}
+
 impl Window {
     /// Whether all that is as near as this in a pose is in the window.
     pub(super) fn holds(&self, pose: &Pose, near: f64, allowance: Allowance) -> bool {
