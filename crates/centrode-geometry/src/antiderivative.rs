@@ -1,11 +1,9 @@
+use crate::bracketed_newton;
+
 /// Nodes of a panel; the integrand is a polynomial of one degree less on it.
 const NODES: usize = 16;
 /// Relative size of the last two Chebyshev coefficients below which they are taken for rounding.
 const NOISE: f64 = 3e-14;
-/// Step, as a share of the panel, after which the next one of Newton's method is rounding.
-const SURE: f64 = 1e-11;
-/// Steps after which halving alone has come to rounding.
-const MOST_STEPS: u32 = 60;
 /// Halvings after which a panel is accepted as it is: the integrand is then not analytic there.
 const DEEPEST: u32 = 12;
 
@@ -162,31 +160,13 @@ impl Antiderivative {
             return b;
         }
         crate::checkpoint();
-        // Newton's method, kept between the ends of the panel.
         let integrand = &self.panels[index].integrand;
-        let sure = SURE * (b - a);
-        let mut t = a + (b - a) * (-low / (high - low));
-        let [mut low, mut high] = [a, b];
-        for _ in 0..MOST_STEPS {
+        let at = |t: f64| {
             let off = self.at_panel(index, t) - value;
-            if off > 0.0 {
-                high = t;
-            } else {
-                low = t;
-            }
             let u = ((t - a) - (b - t)) / (b - a);
-            let step = off / sum(integrand[0], &integrand[1..], u);
-            let next = t - step;
-            t = if next >= low && next <= high {
-                next
-            } else {
-                0.5 * (low + high)
-            };
-            if step.abs() <= sure {
-                break;
-            }
-        }
-        t
+            (off, off / sum(integrand[0], &integrand[1..], u))
+        };
+        bracketed_newton(at, a, b, a + (b - a) * (-low / (high - low)))
     }
 }
 

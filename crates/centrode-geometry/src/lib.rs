@@ -70,7 +70,7 @@ pub use outline::{Arc, OpenOutline, Outline, Segment};
 pub use poly_segment::{PolySegment, SegmentJet};
 pub use quadrature::gauss_legendre;
 pub use recent::Recent;
-pub use roots::{bracketed_minimum, bracketed_minimum_below, bracketed_root};
+pub use roots::{bracketed_minimum, bracketed_minimum_below, bracketed_newton, bracketed_root};
 pub use rounded::ShortSide;
 pub use shell::{Shell, ShellCurve, ShellEdge, ShellFace, ShellSurface};
 pub use shell_builder::{ShellBuilder, ShellSide};

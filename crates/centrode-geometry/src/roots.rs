@@ -70,6 +70,48 @@ pub fn bracketed_root(
     b
 }
 
+/// Step of [`bracketed_newton`], as a share of the bracket, after which the next one is rounding.
+const SURE: f64 = 1e-11;
+/// Steps after which halving alone has come to rounding.
+const MOST_STEPS: u32 = 60;
+
+/// Root of a function that grows from `low` to `high`, by Newton's method from a start, kept between them: where a step leaves what
+/// is known to hold the root, that is halved.
+///
+/// `at` gives the function's value and Newton's step, the value over the slope.
+///
+/// ```
+/// let root = centrode_geometry::bracketed_newton(|x| (x * x - 2.0, (x * x - 2.0) / (2.0 * x)), 1.0, 2.0, 1.5);
+/// assert!((root - 2.0_f64.sqrt()).abs() < 1e-15);
+/// ```
+pub fn bracketed_newton(
+    mut at: impl FnMut(f64) -> (f64, f64),
+    mut low: f64,
+    mut high: f64,
+    start: f64,
+) -> f64 {
+    let sure = SURE * (high - low);
+    let mut t = start;
+    for _ in 0..MOST_STEPS {
+        let (value, step) = at(t);
+        if value > 0.0 {
+            high = t;
+        } else {
+            low = t;
+        }
+        let next = t - step;
+        t = if next >= low && next <= high {
+            next
+        } else {
+            0.5 * (low + high)
+        };
+        if step.abs() <= sure {
+            break;
+        }
+    }
+    t
+}
+
 /// The point and value of a minimum of `f` inside `[low, high]`, by golden section and parabolas.
 ///
 /// The value is exact to the float limit; the point to the square root of it where `f` is smooth.

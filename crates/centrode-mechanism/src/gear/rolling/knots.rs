@@ -2,16 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use centrode_geometry::{checkpoint, pieces};
+use centrode_geometry::{bracketed_newton, checkpoint, pieces};
 
 use super::Rolling;
 
 /// Knots of a turn, breaks aside.
 const KNOTS: u32 = 96;
-/// Step, as a share of the distance of two knots, after which the next one is rounding.
-const SURE: f64 = 1e-11;
-/// Steps after which halving alone has come to rounding.
-const MOST_STEPS: u32 = 60;
 
 impl Rolling {
     /// Parameters of one turn, at its breaks and evenly between them, with the polar angle at each.
@@ -33,34 +29,18 @@ impl Rolling {
         let turns = (phi / TAU).floor();
         let wanted = phi - turns * TAU;
         let before = turns * self.curve.period();
-        let [[mut low, from], [mut high, to]] = self.around(wanted);
+        let [[low, from], [high, to]] = self.around(wanted);
         if wanted == from {
             return low + before;
         }
-        // Newton's method, kept between the knots.
-        let sure = SURE * (high - low);
-        let mut t = low + (high - low) * (wanted - from) / (to - from);
-        for _ in 0..MOST_STEPS {
+        let at = |t: f64| {
             let jet = self.curve.at(t);
             let off = self.polar_angle(t, &jet) - wanted;
-            if off > 0.0 {
-                high = t;
-            } else {
-                low = t;
-            }
             let p = jet.point.coords;
-            let step = off * p.norm_squared() / p.perp(&jet.first);
-            let next = t - step;
-            t = if next >= low && next <= high {
-                next
-            } else {
-                0.5 * (low + high)
-            };
-            if step.abs() <= sure {
-                break;
-            }
-        }
-        t + before
+            (off, off * p.norm_squared() / p.perp(&jet.first))
+        };
+        let start = low + (high - low) * (wanted - from) / (to - from);
+        bracketed_newton(at, low, high, start) + before
     }
 
     /// Neighbouring knots, the first at most at a polar angle within a turn, the second beyond it.
