@@ -25,7 +25,7 @@ import shapely
 COARSE, FINE = 1e-6, 1e-9
 """Greatest distances of a polygon from its contour, modules."""
 PATIENCE = 60
-"""Seconds after which a pair is given up."""
+"""Seconds of processor time after which a pair is given up."""
 
 
 def toml(value):
@@ -213,8 +213,8 @@ def examine(task):
     def give_up(*_):
         raise TimeoutError
 
-    signal.signal(signal.SIGALRM, give_up)
-    signal.alarm(PATIENCE)
+    signal.signal(signal.SIGPROF, give_up)
+    signal.setitimer(signal.ITIMER_PROF, PATIENCE)
     began = time.process_time()
     try:
         pair = ct.GearPair.from_toml(text(design))
@@ -232,7 +232,7 @@ def examine(task):
     except ct.Error as error:
         return number, [], str(error), time.process_time() - began
     finally:
-        signal.alarm(0)
+        signal.setitimer(signal.ITIMER_PROF, 0)
     return number, faults, None, took
 
 

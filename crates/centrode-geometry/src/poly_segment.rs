@@ -1,3 +1,5 @@
+use nalgebra::UnitComplex;
+
 use crate::{Point, Tolerance, Vector};
 
 /// Number of interpolation nodes of a [`PolySegment`]: degree thirteen.
@@ -181,6 +183,18 @@ impl PolySegment {
             end: self.start,
             coefficients,
         }
+    }
+
+    /// The segment turned about the origin.
+    #[must_use]
+    pub fn turned(&self, turn: &UnitComplex<f64>) -> Self {
+        self.mapped(|p| turn * p, |v| turn * v)
+    }
+
+    /// The mirror image about the x axis.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        self.mapped(|p| Point::new(p.x, -p.y), |v| Vector::new(v.x, -v.y))
     }
 
     /// The image under an affine map, `vector` being its linear part.

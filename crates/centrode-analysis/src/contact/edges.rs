@@ -5,8 +5,9 @@ use centrode_mechanism::gear::{Member, Role};
 
 use super::{
     body::{GearOutline, OutlinePart},
+    cycle::period,
     meshing::Meshing,
-    touch::Pose,
+    touch::{Pose, Stand, foot},
     tree::Run,
     walk::Walk,
 };
@@ -25,6 +26,8 @@ pub(super) struct EdgeContact {
     edge: Edge,
     /// Step of the walk after which it is.
     step: usize,
+    /// Whether the contact comes to the flank there, and does not leave it.
+    pub(super) begins: bool,
     /// Bound of the sliding speed there per speed of the driver, mm/rad.
     pub(super) fastest: f64,
 }
@@ -34,6 +37,8 @@ pub(super) struct EdgeContact {
 struct Edge {
     point: Point,
     normal: Vector,
+    /// Side of the normal on which the flank is, by the sign of distances from it.
+    side: f64,
 }
 
 impl Edge {
@@ -43,18 +48,22 @@ impl Edge {
     }
 }
 
-/// Ends of flanks that push the driven gear on: at the tip, and where the fillet begins.
-fn edges(body: &GearOutline<'_>) -> Vec<Edge> {
+/// Ends of flanks that push the driven gear on (`sign` 1) or back (-1): at the tip, and where the fillet begins.
+fn edges(body: &GearOutline<'_>, sign: f64) -> Vec<Edge> {
     let count = body.parts.len();
     // The driver turns clockwise and pushes along its outward normals; the driven gear turns the other way and is pushed against
     // its own.
     let drives = |edge: &Edge| {
         let way = Vector::new(edge.point.y, -edge.point.x);
-        edge.normal.dot(&way) > 0.0
+        sign * edge.normal.dot(&way) > 0.0
     };
-    let edge = |part: &OutlinePart<'_>, point: Point, tangent: Vector| {
+    let edge = |part: &OutlinePart<'_>, point: Point, tangent: Vector, side: f64| {
         let normal = Vector::new(tangent.y, -tangent.x).normalize();
-        (part.role == Role::Flank).then_some(Edge { point, normal })
+        (part.role == Role::Flank).then_some(Edge {
+            point,
+            normal,
+            side,
+        })
     };
     let mut found = Vec::new();
     for (k, after) in body.parts.iter().enumerate() {
@@ -62,8 +71,8 @@ fn edges(body: &GearOutline<'_>) -> Vec<Edge> {
         let is_end = after.corner.is_some() || before.role != after.role;
         let point = after.ends[0];
         if is_end {
-            found.extend(edge(before, point, before.span.tangents[1]));
-            found.extend(edge(after, point, after.span.tangents[0]));
+            found.extend(edge(before, point, before.span.tangents[1], -1.0));
+            found.extend(edge(after, point, after.span.tangents[0], 1.0));
         }
     }
     found.retain(drives);
@@ -80,13 +89,14 @@ fn pitch_point(member: Member, ratio: f64, pose: &Pose) -> Vector {
 }
 
 impl Meshing<'_> {
-    /// Steps along a cycle between which contacts at edges are sought.
+    /// Steps along a period between which contacts at edges are sought.
     pub(super) fn edge_walk(&self) -> Walk {
-        Walk::new(self.pair, STEPS)
+        Walk::new(self.pair, Stand::Law, STEPS)
     }
 
-    /// Contacts at edges of flanks of both gears that drive, over one cycle, those that may slide fastest first.
-    pub(super) fn edge_contacts(&self, walk: &Walk) -> Vec<EdgeContact> {
+    /// Contacts at edges of flanks of both gears that drive on (`sign` 1) or back (-1), over one period, those that may slide fastest
+    /// first.
+    pub(super) fn edge_contacts(&self, walk: &Walk, sign: f64) -> Vec<EdgeContact> {
         let mut found = Vec::new();
         let ratios: Vec<f64> = walk
             .inputs
@@ -100,7 +110,7 @@ impl Meshing<'_> {
             let steps = ratios.iter().zip(&walk.poses);
             let points = steps.map(|(&ratio, pose)| pitch_point(member, ratio, pose));
             let points: Vec<Vector> = points.collect();
-            for edge in edges(body) {
+            for edge in edges(body, sign) {
                 let touched = self.touched(&edge, member);
                 for steps in walk.passages(member, edge.point) {
                     found.extend(steps.filter_map(|step| {
@@ -113,6 +123,7 @@ impl Meshing<'_> {
                             member,
                             edge,
                             step,
+                            begins: edge.side * g > 0.0,
                             fastest: high + (high - low),
                         })
                     }));
@@ -136,13 +147,27 @@ impl Meshing<'_> {
         let pose = Pose::at_law(self.pair, phi);
         let away = point(phi, &pose) - self.touched(edge, *member);
         let sliding = away.norm() * (1.0 + self.pair.ratio(phi));
-        (0.0..self.pair.cycle())
+        (0.0..period(self.pair))
             .contains(&phi)
             .then_some((phi, sliding))
     }
 
-    /// Whether the mate has a flank where an edge would touch it.
+    /// Whether the mate has a flank near where an edge would touch it.
     pub(super) fn has_mate(&self, contact: &EdgeContact, phi: f64) -> bool {
+        self.any_mate(contact, phi, |_, _| true)
+    }
+
+    /// Whether the mate has a flank where an edge would touch it.
+    pub(super) fn meets(&self, contact: &EdgeContact, phi: f64) -> bool {
+        self.any_mate(contact, phi, |part, point| foot(part, point).is_some())
+    }
+
+    fn any_mate(
+        &self,
+        contact: &EdgeContact,
+        phi: f64,
+        touches: impl Fn(&OutlinePart<'_>, &Point) -> bool,
+    ) -> bool {
         let pose = Pose::at_law(self.pair, phi);
         let edge = &contact.edge;
         let half = Point::from(edge.point.coords + edge.normal * (0.5 * self.pair.backlash()));
@@ -154,7 +179,7 @@ impl Meshing<'_> {
         let may = |run: &Run| (run.center - point).norm_squared() < (run.radius + near).powi(2);
         mate.tree.any(&may, &mut |part| {
             let part = &mate.parts[part];
-            part.role == Role::Flank && part.clear_of(&point) < near
+            part.role == Role::Flank && part.clear_of(&point) < near && touches(part, &point)
         })
     }
 

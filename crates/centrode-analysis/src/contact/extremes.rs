@@ -3,7 +3,15 @@
 use centrode_geometry::{Extreme, bracketed_minimum_below};
 use centrode_mechanism::gear::GearPair;
 
-use super::{CARRIED, Contact, meshing::Meshing};
+use super::{
+    CARRIED, Contact,
+    count::{Counts, sampled},
+    cycle::{Base, period},
+    edges::EdgeContact,
+    meshing::Meshing,
+    touch::Stand,
+    walk::Walk,
+};
 
 /// Angle, rad, of which a seat tells no more.
 const ROUNDING: f64 = 1e-12;
@@ -13,6 +21,9 @@ const SAME: f64 = 1e-10;
 
 /// Distance from an edge's contact, pitches, at which the contact that ends there is looked at.
 const BESIDE: f64 = 2.5e-10;
+
+/// Pitches on either side of where an edge comes deepest into a fillet within which the gears are farthest off their law.
+const REACH: f64 = 1.0 / 16.0;
 
 /// Share of a speed by which the contact beside an edge may be slower than at it.
 const ENDED: f64 = 1e-8;
@@ -36,6 +47,11 @@ pub struct ContactExtremes {
     pub fillet_clearance: Extreme,
     /// Greatest sliding speed of flanks in contact per driver speed, mm/rad.
     pub sliding: Extreme,
+    /// Fewest and most pairs of teeth in contact with the driver pushing on. Where the flanks carry the motion they follow from the
+    /// driver angles at which contacts come to the ends of flanks; elsewhere they are those of the samples.
+    pub contacts: [Extreme; 2],
+    /// Mean number of pairs of teeth in contact along the pitch curve, found in the same way.
+    pub contact_ratio: f64,
 }
 
 /// A figure of one sample of a contact.
@@ -51,38 +67,62 @@ impl Contact {
         let mut search = Search {
             contact: self,
             pair,
+            base: Base::new(self, pair),
             meshing: None,
         };
         let a = pair.center_distance();
-        let least = |search: &mut Search<'_>, figure: Figure, rounding: f64| {
-            negative(search.greatest(|c, k| -figure(c, k), rounding))
+        let Base { period, half } = search.base;
+        let least = |search: &mut Search<'_>, figure: Figure, among: usize, rounding: f64| {
+            negative(search.greatest(|c, k| -figure(c, k), among, rounding))
         };
         let error: Figure = |c, k| c.transmission_error[k].abs();
         let reverse: Figure = |c, k| c.reverse_transmission_error[k].abs();
         let penetration: Figure = |c, k| c.penetration[k];
         let backlash: Figure = |c, k| c.backlash[k];
         let normal: Figure = |c, k| c.normal_backlash[k];
+        let walk = search.meshing().edge_walk();
+        let edges = search.meshing().edge_contacts(&walk, 1.0);
+        let (counts, gaps) = search.counts(&edges, &walk);
+        let suspects = search.suspects(gaps);
+        let transmission_error = search.greatest(error, period, ROUNDING);
+        let transmission_error = search.worst(error, transmission_error, &suspects);
         ContactExtremes {
-            transmission_error: search.greatest(error, ROUNDING),
-            reverse_transmission_error: search.greatest(reverse, ROUNDING),
-            penetration: search.greatest(penetration, a * ROUNDING),
+            transmission_error,
+            // Pushed back, the pair is the mirror image of itself pushed on.
+            reverse_transmission_error: if search.base.is_mirrored() {
+                Extreme {
+                    input: (-transmission_error.input).rem_euclid(pair.cycle()),
+                    ..transmission_error
+                }
+            } else {
+                let found = search.greatest(reverse, period, ROUNDING);
+                search.worst(reverse, found, &suspects)
+            },
+            penetration: search.greatest(penetration, half, a * ROUNDING),
             backlash: [
-                least(&mut search, backlash, ROUNDING),
-                search.greatest(backlash, ROUNDING),
+                least(&mut search, backlash, half, ROUNDING),
+                search.greatest(backlash, half, ROUNDING),
             ],
             normal_backlash: [
-                least(&mut search, normal, a * ROUNDING),
-                search.greatest(normal, a * ROUNDING),
+                least(&mut search, normal, period, a * ROUNDING),
+                search.greatest(normal, period, a * ROUNDING),
             ],
             clearance: search.least_clearance(|c, k| c.clearance[k]),
             fillet_clearance: search.least_fillet_clearance(),
-            sliding: search.fastest(),
+            sliding: search.fastest(&edges, &walk),
+            contacts: counts.range,
+            contact_ratio: counts.mean,
         }
     }
 
     /// Whether the flanks carry the motion at every sample.
     pub(super) fn carries(&self) -> bool {
-        let sure = |errors: &[f64]| errors.iter().all(|e| e.abs() < CARRIED);
+        self.is_off_by_less_than(CARRIED)
+    }
+
+    /// Whether all transmission errors are below a number, rad.
+    pub(super) fn is_off_by_less_than(&self, most: f64) -> bool {
+        let sure = |errors: &[f64]| errors.iter().all(|e| e.abs() < most);
         sure(&self.transmission_error) && sure(&self.reverse_transmission_error)
     }
 }
@@ -137,6 +177,7 @@ impl Peak {
 struct Search<'a> {
     contact: &'a Contact,
     pair: &'a GearPair,
+    base: Base,
     /// Made when it is first needed.
     meshing: Option<Meshing<'a>>,
 }
@@ -147,28 +188,35 @@ impl<'a> Search<'a> {
         self.meshing.get_or_insert_with(|| Meshing::new(pair))
     }
 
-    /// Greatest value of a figure of the samples, where differences of `rounding` tell nothing.
-    fn greatest(&mut self, figure: impl Fn(&Contact, usize) -> f64, rounding: f64) -> Extreme {
+    /// Greatest value of a figure, whose peaks are sought at the first so many samples, where differences of `rounding` tell
+    /// nothing.
+    fn greatest(
+        &mut self,
+        figure: impl Fn(&Contact, usize) -> f64,
+        among: usize,
+        rounding: f64,
+    ) -> Extreme {
         let contact = self.contact;
         let values: Vec<f64> = (0..contact.input.len())
             .map(|k| figure(contact, k))
             .collect();
         let between = |search: &mut Self, phi: f64| search.value(&figure, phi);
-        self.greatest_among((&contact.input, &values), between, rounding)
+        self.greatest_among((&contact.input, &values), among, between, rounding)
     }
 
     /// Greatest value of a figure over the cycle, from samples of it and from what it is between them.
     fn greatest_among(
         &mut self,
         (inputs, values): (&[f64], &[f64]),
+        among: usize,
         between: impl Fn(&mut Self, f64) -> f64,
         rounding: f64,
     ) -> Extreme {
-        let mut best = highest(inputs, values);
+        let mut best = highest(&inputs[..among], &values[..among]);
         if !best.value.is_finite() {
             return best;
         }
-        let mut peaks: Vec<Peak> = (0..values.len())
+        let mut peaks: Vec<Peak> = (0..among)
             .filter_map(|k| self.peak(inputs, values, k))
             .collect();
         // Higher ones first: they leave the others nothing to reach.
@@ -199,7 +247,8 @@ impl<'a> Search<'a> {
     fn least_clearance(&mut self, figure: Figure) -> Extreme {
         // Nothing farther apart is looked at.
         let near = self.meshing().near;
-        let found = self.greatest(|c, k| -figure(c, k).min(near), near * ROUNDING);
+        let among = self.base.half;
+        let found = self.greatest(|c, k| -figure(c, k).min(near), among, near * ROUNDING);
         told(found, near)
     }
 
@@ -215,7 +264,7 @@ impl<'a> Search<'a> {
         let rounding = self.meshing().near * ROUNDING;
         let sampled = self.contact.fillet_clearance.iter().copied();
         let sampled = sampled.fold(f64::INFINITY, f64::min);
-        let edges = self.meshing().edges_to_fillets(sampled);
+        let edges = self.meshing().edges_to_fillets(Stand::Law, sampled);
         match edges {
             Some(edges) if edges.value <= sampled + rounding => edges,
             _ => self.least_clearance(figure),
@@ -224,29 +273,26 @@ impl<'a> Search<'a> {
 
     /// Greatest sliding speed: flanks slide faster the farther they touch from the pitch point, so fastest where the contact
     /// reaches an edge. Where an edge carries the motion itself, the samples tell.
-    fn fastest(&mut self) -> Extreme {
+    fn fastest(&mut self, edges: &[EdgeContact], walk: &Walk) -> Extreme {
         let sliding = |c: &Contact, k: usize| c.sliding[k];
         let contact = self.contact;
         let mut best = highest(&contact.input, &contact.sliding);
         let pair = self.pair;
         let carries = contact.carries();
-        let meshing = self.meshing();
-        let walk = meshing.edge_walk();
-        let edges = meshing.edge_contacts(&walk);
         // Speed at edges at which the contact was seen to end, just beside which nothing is slower by more than rounding.
         let mut ended: f64 = 0.0;
-        let beside = BESIDE * pair.cycle() / f64::from(pair.driver().tooth_count());
+        let beside = BESIDE * period(pair) / f64::from(pair.period());
         for edge in edges {
             let known = best.value.max(ended) * (1.0 + SAME);
             if edge.fastest <= known {
                 break;
             }
             let meshing = self.meshing();
-            let Some((phi, speed)) = meshing.edge_contact(&edge, &walk) else {
+            let Some((phi, speed)) = meshing.edge_contact(edge, walk) else {
                 continue;
             };
             // Gears off their law may touch anywhere.
-            if speed <= known || (carries && !meshing.has_mate(&edge, phi)) {
+            if speed <= known || (carries && !meshing.has_mate(edge, phi)) {
                 continue;
             }
             for phi in [phi - beside, phi + beside] {
@@ -261,6 +307,73 @@ impl<'a> Search<'a> {
             }
         }
         best
+    }
+
+    /// Stretches of the driver angle, by middle and half length, at which flanks may not carry the motion though they do at all
+    /// samples: where none of them is in contact, and where an edge comes deepest into a fillet.
+    fn suspects(&mut self, mut found: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
+        if !self.contact.carries() {
+            return found;
+        }
+        let reach = REACH * period(self.pair) / f64::from(self.pair.period());
+        let stands: &[Stand] = match self.pair.backlash() > 0.0 {
+            true => &[Stand::Seat(1.0), Stand::Seat(-1.0)],
+            false => &[Stand::Law],
+        };
+        let mirrored = self.base.is_mirrored();
+        // Pushed back it is the mirror image.
+        for &stand in &stands[..if mirrored { 1 } else { stands.len() }] {
+            let deepest = self.meshing().edges_to_fillets(stand, 0.0);
+            found.extend(deepest.map(|found| (found.input, reach)));
+        }
+        found
+    }
+
+    /// The greatest value of a figure, or of those of it in suspect stretches.
+    fn worst(&mut self, figure: Figure, found: Extreme, suspects: &[(f64, f64)]) -> Extreme {
+        let mut worst = found;
+        for &(middle, half) in suspects {
+            let ends = [middle - half, middle, middle + half];
+            let values = ends.map(|phi| (phi, -self.value(&figure, phi)));
+            let [before, (_, value), after] = values;
+            let (input, lowest) = if value <= before.1.min(after.1) {
+                let known = -worst.value - ROUNDING;
+                bracketed_minimum_below(|phi| -self.value(&figure, phi), values, known, ROUNDING)
+            } else {
+                [before, after]
+                    .into_iter()
+                    .min_by(|a, b| a.1.total_cmp(&b.1))
+                    .unwrap_or(before)
+            };
+            if -lowest > worst.value + ROUNDING {
+                worst = Extreme {
+                    input: input.rem_euclid(self.pair.cycle()),
+                    value: -lowest,
+                };
+            }
+        }
+        worst
+    }
+
+    /// Number of pairs of teeth in contact with the driver pushing on, and stretches over which no flanks are whichever way it
+    /// pushes.
+    fn counts(&mut self, edges: &[EdgeContact], walk: &Walk) -> (Counts, Vec<(f64, f64)>) {
+        let (contact, base) = (self.contact, self.base);
+        if !contact.carries() {
+            return (sampled(contact), Vec::new());
+        }
+        let meshing = self.meshing();
+        let on = meshing.counts((&contact.input, &contact.contacts), &base, edges, walk);
+        let counts = on.unwrap_or_else(|| sampled(contact));
+        let mut gaps = counts.gaps.clone();
+        // Pushed back it is the mirror image.
+        if !base.is_mirrored() {
+            let edges = meshing.edge_contacts(walk, -1.0);
+            let counted = (&contact.input[..], &contact.reverse_contacts[..]);
+            let back = meshing.counts(counted, &base, &edges, walk);
+            gaps.extend(back.into_iter().flat_map(|counts| counts.gaps));
+        }
+        (counts, gaps)
     }
 
     /// Sample that is a peak with those beside it.
@@ -278,8 +391,7 @@ impl<'a> Search<'a> {
     /// A figure at a driver angle.
     fn value(&mut self, figure: &impl Fn(&Contact, usize) -> f64, phi: f64) -> f64 {
         let law = self.pair.driven_angle(phi);
-        let mut out = Contact::default();
-        self.meshing().sample(phi, law, &mut out);
-        figure(&out, 0)
+        let sample = self.meshing().sample(phi, law);
+        figure(&Contact::from_iter([sample]), 0)
     }
 }

@@ -8,7 +8,7 @@ use centrode_mechanism::gear::{Member, Role};
 use super::{
     body::{Corner, GearOutline},
     meshing::Meshing,
-    touch::{self, Pose},
+    touch::{self, Pose, Stand},
     walk::Walk,
 };
 
@@ -94,14 +94,14 @@ impl<'a> Fillets<'a> {
 }
 
 impl Meshing<'_> {
-    /// Least clearance of an edge from a fillet over the cycle with the gears at their law, where one of `known` mm is known;
-    /// nothing where no edge comes so near.
+    /// Least clearance of an edge from a fillet over the cycle with the driven gear at some stand, where one of `known` mm is
+    /// known; nothing where no edge comes so near.
     ///
     /// An edge is nearest where its way runs along the fillet, or where the fillet that faces it ends. The latter is the root of
     /// the edge's distance, along the tangent, from that end.
-    pub(super) fn edges_to_fillets(&self, known: f64) -> Option<Extreme> {
+    pub(super) fn edges_to_fillets(&self, stand: Stand, known: f64) -> Option<Extreme> {
         let within = (BEYOND * known).max(LEAST * self.module).min(self.near);
-        let walk = Walk::new(self.pair, STEPS);
+        let walk = Walk::new(self.pair, stand, STEPS);
         let gears = [
             (
                 Member::Driver,
@@ -179,7 +179,8 @@ impl Approach<'_> {
     }
 
     fn pose(&self, phi: f64) -> Pose {
-        Pose::at_law(self.meshing.pair, phi)
+        let pair = self.meshing.pair;
+        Pose::new(phi, self.walk.stand.at(pair, phi), pair.center_distance())
     }
 
     /// Distance from a part that faces the edge.

@@ -4,13 +4,13 @@ use centrode_geometry::{Point, Vector, checkpoint};
 use centrode_mechanism::gear::GearPair;
 
 use super::{
-    Contact,
     body::GearOutline,
     hit::Hit,
     places::{Candidates, Kind, Place, SHALLOW, gaps},
+    sample::{Loaded, Sample},
     seat::Seat,
     stretch::{Divided, Stretch},
-    touch::{self, Pose, Touch},
+    touch::{self, Pose, Stand, Touch},
     tree::Run,
     turning::{Limits, Turning},
     window::{Allowance, Window},
@@ -88,57 +88,58 @@ impl<'a> Meshing<'a> {
         self.memory.clear();
     }
 
-    /// Analyses one pose and adds its figures.
-    pub(super) fn sample(&mut self, phi: f64, law: f64, out: &mut Contact) {
+    /// Analyses one pose.
+    pub(super) fn sample(&mut self, phi: f64, law: f64) -> Sample {
         checkpoint();
         let a = self.pair.center_distance();
         let pose = Pose::new(phi, law, a);
         let mut candidates = self.candidates(&pose);
         let places = self.places(&mut candidates, &pose);
-        let [forward, back] = self.seats(&candidates, phi, law);
-        out.input.push(phi);
-        out.law.push(law);
-        let half = 0.5 * self.pair.backlash();
-        let (Some(forward), Some(back)) = (forward, back) else {
-            // Nothing near enough to drive: the mesh has come apart.
-            for list in [
-                &mut out.driven_angle,
-                &mut out.reverse_driven_angle,
-                &mut out.transmission_error,
-                &mut out.reverse_transmission_error,
-                &mut out.backlash,
-                &mut out.normal_backlash,
-                &mut out.clearance,
-                &mut out.fillet_clearance,
-            ] {
-                list.push(f64::INFINITY);
-            }
-            out.contacts.push(0);
-            out.penetration.push(0.0);
-            out.sliding.push(0.0);
-            return;
-        };
-        out.driven_angle.push(forward.angle);
-        out.reverse_driven_angle.push(back.angle);
-        let error =
-            |seat: &Seat, sign: f64| seat.angle - self.ideal(&places, phi, law, sign * half);
-        out.transmission_error.push(error(&forward, 1.0));
-        out.reverse_transmission_error.push(error(&back, -1.0));
-        let backlash = back.angle - forward.angle;
-        out.backlash.push(backlash);
+        let seats = self.seats(&candidates, phi, law);
         let point = self.pair.pitch_point(phi);
-        out.normal_backlash
-            .push(backlash * point.driven_radius * point.pressure_angle.cos());
-        // Flanks that stand as designed slide on each other where they face each other at the law's angle; where none do, an edge
-        // slides where it touches.
-        let touching: Vec<(Point, Vector)> = self
-            .designed(&places, 1.0)
-            .filter(|place| place.touch.is_on_both())
-            .map(|place| (place.touch.point, place.touch.normal))
-            .collect();
+        let levers = [point.pressure_angle, point.reverse_pressure_angle]
+            .map(|angle| point.driven_radius * angle.cos());
+        let [Some(forward), Some(back)] = &seats else {
+            // Nothing near enough to drive: the mesh has come apart.
+            return Sample {
+                input: phi,
+                law,
+                loaded: levers.map(Loaded::apart),
+                backlash: f64::INFINITY,
+                penetration: 0.0,
+                clearance: f64::INFINITY,
+                fillet_clearance: f64::INFINITY,
+            };
+        };
+        let ratio = self.pair.ratio(phi);
+        let half = 0.5 * self.pair.backlash();
+        let loaded = |seat: &Seat, sign: f64, lever: f64| {
+            let fastest = |touches: &mut dyn Iterator<Item = (Point, Vector)>| {
+                let speeds = touches.map(|(point, normal)| sliding(point, normal, phi, a, ratio));
+                speeds.reduce(f64::max)
+            };
+            // Flanks that stand as designed slide on each other where they face each other at the law's angle; where none do, an
+            // edge slides where it touches.
+            let designed = self.designed(&places, sign);
+            let mut facing = designed.filter(|place| place.touch.is_on_both());
+            let facing = fastest(&mut facing.by_ref().map(|p| (p.touch.point, p.touch.normal)));
+            let touching = || fastest(&mut seat.touches.iter().copied());
+            Loaded {
+                on_flanks: facing.is_some(),
+                angle: seat.angle,
+                error: seat.angle - self.ideal(&places, phi, law, sign * half),
+                contacts: seat.contacts,
+                sliding: facing.or_else(touching).map_or(0.0, |speed| speed.max(0.0)),
+                lever,
+            }
+        };
+        let loaded = [
+            loaded(forward, 1.0, levers[0]),
+            loaded(back, -1.0, levers[1]),
+        ];
+        let backlash = back.angle - forward.angle;
         // Wedged between two sides: half of the missing room.
-        out.penetration
-            .push((-backlash * 0.5 * forward.lever.min(back.lever)).max(0.0));
+        let penetration = (-backlash * 0.5 * forward.lever.min(back.lever)).max(0.0);
         // Where the gears penetrate at the law's angle though there is room for them, they are put in its middle.
         let off = (law - back.angle).max(forward.angle - law);
         let (places, clash) = if backlash > 0.0 && off * a > SEATED * self.module {
@@ -148,20 +149,16 @@ impl<'a> Meshing<'a> {
         } else {
             (places, candidates.clash)
         };
-        let [tip, fillet] = gaps(&places, clash);
-        out.clearance.push(tip);
-        out.fillet_clearance.push(fillet);
-        out.contacts.push(forward.contacts);
-        let touches = if touching.is_empty() {
-            forward.touches
-        } else {
-            touching
-        };
-        let ratio = self.pair.ratio(phi);
-        let sliding = touches
-            .into_iter()
-            .map(|(point, normal)| sliding(point, normal, phi, a, ratio));
-        out.sliding.push(sliding.fold(0.0, f64::max));
+        let [clearance, fillet_clearance] = gaps(&places, clash);
+        Sample {
+            input: phi,
+            law,
+            loaded,
+            backlash,
+            penetration,
+            clearance,
+            fillet_clearance,
+        }
     }
 
     /// Seats of the driven gear pushed on and back, searched for ever farther from the law's angle; none where the mesh has
@@ -238,15 +235,7 @@ impl<'a> Meshing<'a> {
             }
             None
         });
-        touching.unwrap_or_else(|| {
-            let point = self.pair.pitch_point(phi);
-            let angle = if half > 0.0 {
-                point.pressure_angle
-            } else {
-                point.reverse_pressure_angle
-            };
-            law - half / (point.driven_radius * angle.cos())
-        })
+        touching.unwrap_or_else(|| Stand::Seat(half.signum()).at(self.pair, phi))
     }
 
     /// Points where two flanks face each other, sought from where they did: on these parts, on their neighbours of the

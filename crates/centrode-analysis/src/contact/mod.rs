@@ -5,6 +5,8 @@
 //! outlines face each other is measured.
 
 mod body;
+mod count;
+mod cycle;
 mod edges;
 mod extremes;
 mod fillets;
@@ -14,6 +16,7 @@ mod meeting;
 mod meshing;
 mod places;
 mod proof;
+mod sample;
 mod seat;
 mod span;
 mod stretch;
@@ -29,12 +32,14 @@ use std::ops::Range;
 
 use centrode_geometry::Cancel;
 use centrode_mechanism::gear::design::Addendum;
-use centrode_mechanism::gear::{GearPair, Member, Tooth, ToothSide};
+use centrode_mechanism::gear::{GearPair, Tooth, ToothSide};
+use cycle::Cycle;
 pub use extremes::ContactExtremes;
 pub use jumps::SeatJump;
 use meshing::Meshing;
 pub use proof::{Proof, ProofError, ProofMeeting, ProofStretch, prove};
 use rayon::prelude::{IntoParallelIterator, ParallelIterator};
+use sample::Sample;
 
 /// Samples a pitch where no flank is undercut or short.
 const SAMPLES_PER_PITCH: u32 = 4;
@@ -44,6 +49,9 @@ const FINE_SAMPLES_PER_PITCH: u32 = 48;
 
 /// Samples that are analysed one after the other, each from what is known of the one before.
 const RUN: u32 = 512;
+
+/// Transmission error, rad, below which whole teeth at most graze a fillet: what few samples show is followed between them.
+const TOUCHED: f64 = 1e-6;
 
 /// Transmission error, rad, below which flanks carry the motion.
 const CARRIED: f64 = 1e-9;
@@ -70,6 +78,11 @@ pub struct Contact {
     pub normal_backlash: Vec<f64>,
     /// Pairs of teeth in contact when the driver pushes the driven gear on.
     pub contacts: Vec<u32>,
+    /// Pairs of teeth in contact when the driver pushes the driven gear back.
+    pub reverse_contacts: Vec<u32>,
+    /// Whether flanks that face each other as designed are there to carry the load, whichever way the driver pushes; if not, an edge
+    /// carries it.
+    pub on_flanks: Vec<bool>,
     /// Deepest penetration of the two outlines with the driven gear seated, mm.
     pub penetration: Vec<f64>,
     /// Least distance of a tip from a root, mm; infinite where none is near.
@@ -96,99 +109,61 @@ impl Contact {
     pub fn analyse(pair: &GearPair) -> Self {
         if pair.teeth().addendum == Addendum::Full && is_whole(pair) {
             let found = Self::sampled(pair, SAMPLES_PER_PITCH);
-            if found.carries() {
+            if found.is_off_by_less_than(TOUCHED) {
                 return found;
             }
         }
         Self::sampled(pair, FINE_SAMPLES_PER_PITCH)
     }
 
-    /// Analyses one whole cycle at about `per_pitch` inputs a pitch, spaced evenly along the pitch curve
-    /// and never in step with the teeth.
+    /// Analyses one whole cycle at `per_pitch` inputs a pitch or a little more, spaced evenly along the pitch curve and never in
+    /// step with the teeth.
+    ///
+    /// Where law and teeth repeat within the cycle ([`GearPair::period`]) one period is analysed, and half of it where the pair is
+    /// its own mirror image: what is known of one holds for all.
     #[must_use]
     pub fn sampled(pair: &GearPair, per_pitch: u32) -> Self {
-        let (n1, _) = pair.mean_ratio();
-        let teeth = pair.driver().tooth_count() * n1;
-        // One more than a multiple of the teeth: every sample is elsewhere on its tooth.
-        let count = teeth * per_pitch.max(1) + 1;
-        let runs = count.div_ceil(RUN);
+        let cycle = Cycle::new(pair, per_pitch);
+        let runs = cycle.analysed().div_ceil(RUN);
         let cores = (rayon::current_num_threads() as u32).min(runs);
-        if cores < 2 {
-            return Self::stretch(pair, 0..runs, count);
-        }
         let cancel = Cancel::current();
-        let stretches = (0..cores).into_par_iter().panic_fuse().map(|core| {
+        let stretches = (0..cores.max(1)).into_par_iter().panic_fuse();
+        let samples = stretches.flat_map_iter(|core| {
             let _scope = cancel.enter();
             let [from, to] = [core, core + 1].map(|k| k * runs / cores);
-            Self::stretch(pair, from..to, count)
+            run_samples(pair, &cycle, from..to)
         });
-        stretches.reduce(Self::default, Self::followed_by)
-    }
-
-    /// Analyses runs of samples, of so many in the cycle. Every run begins anew, so the figures do not depend on which are done
-    /// together.
-    fn stretch(pair: &GearPair, runs: Range<u32>, count: u32) -> Self {
-        let rolling = pair.rolling();
-        let length = rolling.pitch_length(Member::Driver) * f64::from(pair.mean_ratio().0);
-        let mut meshing = Meshing::new(pair);
-        let mut out = Self::default();
-        for run in runs {
-            meshing.begin();
-            for i in run * RUN..count.min((run + 1) * RUN) {
-                let t = rolling.parameter(length * f64::from(i) / f64::from(count));
-                meshing.sample(rolling.angle(t), rolling.driven_angle_at(t), &mut out);
-            }
-        }
-        out
-    }
-
-    /// Samples followed by others.
-    fn followed_by(mut self, mut next: Self) -> Self {
-        for (list, more) in [
-            (&mut self.input, &mut next.input),
-            (&mut self.law, &mut next.law),
-            (&mut self.driven_angle, &mut next.driven_angle),
-            (
-                &mut self.reverse_driven_angle,
-                &mut next.reverse_driven_angle,
-            ),
-            (&mut self.transmission_error, &mut next.transmission_error),
-            (
-                &mut self.reverse_transmission_error,
-                &mut next.reverse_transmission_error,
-            ),
-            (&mut self.backlash, &mut next.backlash),
-            (&mut self.normal_backlash, &mut next.normal_backlash),
-            (&mut self.penetration, &mut next.penetration),
-            (&mut self.clearance, &mut next.clearance),
-            (&mut self.fillet_clearance, &mut next.fillet_clearance),
-            (&mut self.sliding, &mut next.sliding),
-        ] {
-            list.append(more);
-        }
-        self.contacts.append(&mut next.contacts);
-        self
+        cycle.whole(samples.collect())
     }
 
     /// Analyses given driver angles, rad.
     #[must_use]
     pub fn analyse_at(pair: &GearPair, inputs: &[f64]) -> Self {
         let mut meshing = Meshing::new(pair);
-        let mut out = Self::default();
-        for &phi in inputs {
-            meshing.sample(phi, pair.driven_angle(phi), &mut out);
-        }
-        out
+        let sample = |&phi: &f64| meshing.sample(phi, pair.driven_angle(phi));
+        inputs.iter().map(sample).collect()
     }
 
     /// Analyses poses: driver angle and the driven angle asked for there, rad, whatever their source.
     #[must_use]
     pub fn posed(pair: &GearPair, poses: &[[f64; 2]]) -> Self {
         let mut meshing = Meshing::new(pair);
-        let mut out = Self::default();
-        for &[phi, law] in poses {
-            meshing.sample(phi, law, &mut out);
-        }
-        out
+        let sample = |&[phi, law]: &[f64; 2]| meshing.sample(phi, law);
+        poses.iter().map(sample).collect()
     }
+}
+
+/// Samples of runs of a cycle. Every run begins anew, so the figures do not depend on which are done together.
+fn run_samples(pair: &GearPair, cycle: &Cycle, runs: Range<u32>) -> Vec<Sample> {
+    let rolling = pair.rolling();
+    let mut meshing = Meshing::new(pair);
+    let mut out = Vec::new();
+    for run in runs {
+        meshing.begin();
+        for i in run * RUN..cycle.analysed().min((run + 1) * RUN) {
+            let t = rolling.parameter(cycle.arc(i));
+            out.push(meshing.sample(rolling.angle(t), rolling.driven_angle_at(t)));
+        }
+    }
+    out
 }

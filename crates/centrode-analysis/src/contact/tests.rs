@@ -47,7 +47,7 @@ fn a_long_cycle_has_the_same_figures_on_any_number_of_cores() {
             .install(|| Contact::sampled(&pair, 4))
     };
     let one = on(1);
-    assert_eq!(one.input.len(), 1201);
+    assert_eq!(one.input.len(), 1202);
     assert_eq!(one, on(2));
     assert_eq!(one, on(3));
 }
@@ -225,5 +225,95 @@ fn a_contact_near_a_cusp_is_found_whatever_was_looked_at_before() {
         );
         // The teeth that have just met slide the fastest: two are in contact when the driven gear is seated a little later.
         assert!(one > 1.8 + 40.0 * (0.11 - input), "{one} at {input}");
+    }
+}
+
+/// A pair by its pitch curve and teeth, as written.
+fn pair_of(text: &str) -> GearPair {
+    let design = GearPairDesign::from_toml(&format!("family = \"gear-pair\"\n{text}"));
+    GearPair::resolve(&design.expect("a design")).expect("a pair")
+}
+
+#[test]
+fn what_one_period_or_half_of_it_tells_is_what_the_whole_cycle_tells() {
+    // One curve by its kind, whose symmetry is known, and by a formula, of which nothing is known.
+    let kinds = [
+        "kind = \"limacon\"\nmean_radius = 30\namplitude = 2.5\nlobes = 3\n",
+        "kind = \"polar\"\nexpression = \"30 + 2.5*cos(3*phi)\"\n",
+    ];
+    for teeth in [
+        "phase = 0.0\nbacklash = 0.06\n",
+        "phase = 0.5\nthickness_split = 0.46\n",
+        "phase = 0.2\nbacklash = 0.03\n",
+        "addendum = \"fitted\"\nbacklash = 0.05\n",
+    ] {
+        let both = kinds.map(|kind| {
+            pair_of(&format!(
+                "[pitch]\n{kind}tooth_count = 30\n[teeth]\n{teeth}"
+            ))
+        });
+        let [known, unknown] = &both;
+        assert_eq!((known.period(), unknown.period()), (10, 30));
+        assert_eq!(known.is_mirrored(), !teeth.contains("0.2"));
+        let [one, two] = both.each_ref().map(|pair| {
+            let contact = Contact::sampled(pair, 8);
+            assert!(contact.input.is_sorted());
+            contact
+        });
+        let there = Contact::analyse_at(unknown, &one.input);
+        let off = |a: &[f64], b: &[f64]| {
+            let both = a.iter().zip(b);
+            both.map(|(a, b)| (a - b).abs()).fold(0.0, f64::max)
+        };
+        for (a, b) in [
+            (&one.driven_angle, &there.driven_angle),
+            (&one.reverse_driven_angle, &there.reverse_driven_angle),
+            (&one.backlash, &there.backlash),
+            (&one.normal_backlash, &there.normal_backlash),
+            (&one.transmission_error, &there.transmission_error),
+            (&one.sliding, &there.sliding),
+        ] {
+            assert!(off(a, b) < 1e-8, "{teeth}: {}", off(a, b));
+        }
+        assert_eq!(one.contacts, there.contacts);
+        let [one, two] = [one.extremes(known), two.extremes(unknown)];
+        for (a, b) in [
+            (one.sliding, two.sliding),
+            (one.backlash[0], two.backlash[0]),
+            (one.backlash[1], two.backlash[1]),
+            (one.normal_backlash[0], two.normal_backlash[0]),
+            (one.clearance, two.clearance),
+            (one.fillet_clearance, two.fillet_clearance),
+            (one.contacts[0], two.contacts[0]),
+            (one.contacts[1], two.contacts[1]),
+        ] {
+            let is_same = a.value == b.value || (a.value - b.value).abs() < 1e-8;
+            assert!(is_same, "{teeth}: {a:?} {b:?}");
+        }
+        assert!((one.contact_ratio - two.contact_ratio).abs() < 1e-8);
+    }
+}
+
+#[test]
+fn the_mean_of_contacts_of_a_circle_is_the_contact_ratio_of_the_standard() {
+    // ISO 21771: the length of the path of contact over the base pitch.
+    for (z1, z2, module) in [(23.0, 23.0, 2.0), (40.0, 60.0, 1.5)] {
+        let (driver, ratio) = (z1 as u32, if z1 == z2 { "[1, 1]" } else { "[3, 2]" });
+        let pair = pair_of(&format!(
+            "mean_ratio = {ratio}\n[pitch]\nkind = \"circle\"\nmodule = {module}\ntooth_count = {driver}\n"
+        ));
+        let (sin, cos) = 20.0_f64.to_radians().sin_cos();
+        let path = |z: f64| {
+            let (tip, base) = (0.5 * module * z + module, 0.5 * module * z * cos);
+            (tip * tip - base * base).sqrt() - 0.5 * module * z * sin
+        };
+        let ratio = (path(z1) + path(z2)) / (std::f64::consts::PI * module * cos);
+        let found = Contact::analyse(&pair).extremes(&pair);
+        assert!(
+            (found.contact_ratio - ratio).abs() < 1e-9,
+            "{} {ratio}",
+            found.contact_ratio
+        );
+        assert_eq!(found.contacts.map(|e| e.value), [1.0, 2.0]);
     }
 }

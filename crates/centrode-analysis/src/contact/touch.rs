@@ -69,6 +69,34 @@ impl Pose {
     }
 }
 
+/// Where the driven gear stands within its backlash.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Stand {
+    /// At the law's angle, with half the backlash on either side.
+    Law,
+    /// Pushed on (1) or back (-1), to the first order of the backlash.
+    Seat(f64),
+}
+
+impl Stand {
+    /// Driven angle, rad.
+    pub(super) fn at(self, pair: &GearPair, phi: f64) -> f64 {
+        let law = pair.driven_angle(phi);
+        match self {
+            Self::Law => law,
+            Self::Seat(sign) => {
+                let point = pair.pitch_point(phi);
+                let angle = if sign > 0.0 {
+                    point.pressure_angle
+                } else {
+                    point.reverse_pressure_angle
+                };
+                law - sign * 0.5 * pair.backlash() / (point.driven_radius * angle.cos())
+            }
+        }
+    }
+}
+
 /// Pair of points, one on each gear, that face each other along a common normal.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Touch {
@@ -230,7 +258,7 @@ pub(super) fn driver_corner(corner: &Corner, b: &OutlinePart<'_>, pose: &Pose) -
 }
 
 /// Foot of the normal from a point to a part.
-fn foot(part: &OutlinePart<'_>, point: &Point) -> Option<(f64, SegmentJet)> {
+pub(super) fn foot(part: &OutlinePart<'_>, point: &Point) -> Option<(f64, SegmentJet)> {
     let chord = part.segment.end() - part.segment.start();
     let mut u = 2.0 * (point - part.segment.start()).dot(&chord) / chord.norm_squared() - 1.0;
     u = u.clamp(-1.0, 1.0);

@@ -1,4 +1,4 @@
-//! Steps along a cycle, and those at which a point of a gear passes the line of centres.
+//! Steps along a period, and those at which a point of a gear passes the line of centres.
 
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
@@ -6,14 +6,18 @@ use std::ops::Range;
 use centrode_geometry::{Point, bracketed_root, checkpoint};
 use centrode_mechanism::gear::{GearPair, Member};
 
-use super::touch::Pose;
+use super::{
+    cycle::period,
+    touch::{Pose, Stand},
+};
 
 /// Pitches on either side of its passage within which a point of a tooth is near the mate: for a pressure angle of 14.5 degrees
 /// the edge of a full tooth touches within 1.3 of them.
 const WITHIN: u32 = 2;
 
-/// Poses of a pair at its law, evenly over one cycle and a little more on either side.
+/// Poses of a pair, evenly over one period and a little more on either side.
 pub(super) struct Walk {
+    pub(super) stand: Stand,
     /// Driver angles, rad, ascending.
     pub(super) inputs: Vec<f64>,
     pub(super) poses: Vec<Pose>,
@@ -27,16 +31,16 @@ pub(super) struct Walk {
 const SENSES: [f64; 2] = [1.0, -1.0];
 
 impl Walk {
-    pub(super) fn new(pair: &GearPair, steps_per_pitch: u32) -> Self {
-        let teeth = pair.driver().tooth_count() * pair.mean_ratio().0;
-        let (steps, beside) = (teeth * steps_per_pitch, WITHIN * steps_per_pitch);
-        let step = pair.cycle() / f64::from(steps);
+    pub(super) fn new(pair: &GearPair, stand: Stand, steps_per_pitch: u32) -> Self {
+        let (steps, beside) = (pair.period() * steps_per_pitch, WITHIN * steps_per_pitch);
+        let step = period(pair) / f64::from(steps);
         let inputs = (0..=steps + 2 * beside).map(|k| (f64::from(k) - f64::from(beside)) * step);
         let inputs: Vec<f64> = inputs.collect();
-        let turned: Vec<f64> = inputs.iter().map(|&phi| pair.driven_angle(phi)).collect();
+        let turned: Vec<f64> = inputs.iter().map(|&phi| stand.at(pair, phi)).collect();
         let a = pair.center_distance();
         let both = || inputs.iter().zip(&turned);
         Self {
+            stand,
             poses: both().map(|(&phi, &psi)| Pose::new(phi, psi, a)).collect(),
             directions: [inputs.clone(), turned.iter().map(|psi| PI - psi).collect()],
             beside: beside as usize,

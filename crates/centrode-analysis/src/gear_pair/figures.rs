@@ -27,7 +27,7 @@ pub(crate) const FIGURES: &[FigureGroup] = &[
         ],
     },
     FigureGroup {
-        heading: "Mesh, sampled over the whole cycle",
+        heading: "Mesh, over the whole cycle",
         columns: &["least", "greatest"],
         rows: &[
             row("ratio, driven to driver", &["ratio_min", "ratio_max"], Number),

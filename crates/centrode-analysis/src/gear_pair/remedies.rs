@@ -28,8 +28,8 @@ pub struct PairRemedy {
 /// Finds from which tooth count on full teeth, fitted ones, and fitted ones of chosen phase, thickness and pressure angle carry the
 /// motion of a pair by their flanks alone.
 ///
-/// They do where the transmission error stays below 1e-9 rad, more only by what the play thins them, and nothing penetrates,
-/// over the samples of [`Contact::analyse`]. Counts grow by a quarter till one does and are halved between it and the greatest that does
+/// They do where flanks face each other as designed at all samples of [`Contact::analyse`], nothing penetrates, and the transmission
+/// error stays below 1e-9 rad, more only by what the play thins the flanks, by [`Contact::extremes`]. Counts grow by a quarter till one does and are halved between it and the greatest that does
 /// not: the count found carries the motion and the one below it does not, but a greater one may fail again. A kind of teeth that does not up to [`MOST_TEETH`]
 /// is left out. Each count tried costs a pair and its contact; a choice (`teeth.fit`) is looked for only where as many fitted
 /// teeth as written do not carry, up to the count from which they do and to twice the one written.
@@ -112,17 +112,32 @@ pub(crate) fn is_carried(design: &GearPairDesign) -> bool {
         return false;
     };
     // Most of those that do not show it at the first few inputs.
-    is_exact(&pair, &Contact::sampled(&pair, 1)) && is_exact(&pair, &Contact::analyse(&pair))
+    is_sampled(&pair, &Contact::sampled(&pair, 1)) && {
+        let found = Contact::analyse(&pair);
+        is_sampled(&pair, &found) && is_exact(&pair, &found)
+    }
+}
+
+/// Whether the flanks carry the motion, by the extremes of a contact.
+fn is_exact(pair: &GearPair, found: &Contact) -> bool {
+    let allowed = CARRIED.max(thinned(pair));
+    let found = found.extremes(pair);
+    let deepest = PENETRATION * pair.module();
+    let errors = [found.transmission_error, found.reverse_transmission_error];
+    errors.iter().all(|error| error.value <= allowed)
+        && found.penetration.value <= deepest
+        && found.clearance.value.min(found.fillet_clearance.value) >= -deepest
 }
 
 /// Whether the flanks carry the motion wherever a contact was looked at.
-fn is_exact(pair: &GearPair, found: &Contact) -> bool {
+fn is_sampled(pair: &GearPair, found: &Contact) -> bool {
     let allowed = CARRIED.max(thinned(pair));
     let errors = [&found.transmission_error, &found.reverse_transmission_error];
     let mut errors = errors.into_iter().flatten();
     let deepest = PENETRATION * pair.module();
     let mut clear = found.clearance.iter().chain(&found.fillet_clearance);
-    errors.all(|error| error.abs() <= allowed)
+    found.on_flanks.iter().all(|&on| on)
+        && errors.all(|error| error.abs() <= allowed)
         && found
             .penetration
             .iter()

@@ -3,7 +3,8 @@
 //! Along the pitch curve a flank works from its mate's tip to its own, by the sum of both tips' rolls. Where one flank ends the next
 //! has begun if what is left of the one and what there is of the other are more than a pitch together; over the pitch that is the
 //! contact ratio there. Where the least of them is above one, the flanks alone carry the motion. What is free is chosen for the
-//! greatest least: from a grid of places on, by ever smaller steps along each number.
+//! greatest least: from a grid of places on, by ever smaller steps along each number, first by the layout alone, then by the teeth
+//! that are cut, whose flanks may end before.
 
 use centrode_geometry::checkpoint;
 
@@ -11,7 +12,7 @@ use super::{
     design::{Addendum, Fit, GearPairDesign, Phase},
     flank::Side,
     pair::parameters,
-    profile::{FlankPlan, Top},
+    profile::{FlankPlan, Tooth, ToothPlan, ToothSide, Top},
     rolling::{Member, Rolling},
     teeth::{Counts, Layout, layout},
 };
@@ -55,11 +56,18 @@ const FREE: [Free; 3] = [
     },
 ];
 
-/// Choices of which gears are tried to be cut.
-const TRIED: usize = 12;
+/// Choices by the layout of which gears are cut.
+const CUT: usize = 12;
 
-/// Halvings of the first steps.
+/// Halvings of the first steps, and how many of them are left out where gears are cut.
 const HALVINGS: u32 = 5;
+const LEFT_OUT: u32 = 2;
+
+/// Contact ratio up to which two choices are as good as each other.
+const TIE: f64 = 1e-9;
+
+/// Contact ratio by which a choice must be better than what is written.
+const BETTER: f64 = 1e-6;
 
 impl Free {
     fn rounded(&self, value: f64) -> f64 {
@@ -97,9 +105,14 @@ pub(super) struct Fits<'a> {
 }
 
 impl Fits<'_> {
-    /// The design with what it leaves free chosen and nothing free: the best choices, then what is written. A later one serves where
-    /// no gears can be cut by those before.
-    pub(super) fn settled(&self, design: &GearPairDesign) -> Vec<GearPairDesign> {
+    /// The design with what it leaves free chosen and nothing free. `cut` gives the teeth of both gears, where they can be cut.
+    ///
+    /// Where no choice carries the motion, or none is better, what is written stays.
+    pub(super) fn settled(
+        &self,
+        design: &GearPairDesign,
+        cut: &impl Fn(&GearPairDesign) -> Option<[Vec<Tooth>; 2]>,
+    ) -> GearPairDesign {
         let mut base = design.clone();
         let fits = std::mem::take(&mut base.teeth.fit);
         let free: Vec<&Free> = FREE.iter().filter(|f| fits.contains(&f.fit)).collect();
@@ -108,7 +121,7 @@ impl Fits<'_> {
             base.teeth.addendum = Addendum::Fitted;
         }
         if free.is_empty() {
-            return vec![base];
+            return base;
         }
         let phase = self.layout(&base).map_or(0.0, |layout| layout.phase);
         let start: Vec<f64> = free.iter().map(|f| f.written(&base, phase)).collect();
@@ -119,55 +132,35 @@ impl Fits<'_> {
             }
             design
         };
-        let mut ranked = self.ranked(&free, &start, &with);
-        ranked.retain(|(merit, values)| merit.is_finite() && *values != start);
-        ranked.dedup_by(|a, b| a.1 == b.1);
-        let best = ranked.iter().take(TRIED).map(|(_, values)| with(values));
-        // Where nothing is better what is written stays, to the letter.
-        let written = self.merit(&with(&start));
-        let is_better = ranked.first().is_some_and(|(merit, _)| *merit > written);
-        best.filter(|_| is_better).chain([base.clone()]).collect()
-    }
-
-    /// All choices that were tried, the best first.
-    fn ranked(
-        &self,
-        free: &[&Free],
-        start: &[f64],
-        with: &impl Fn(&[f64]) -> GearPairDesign,
-    ) -> Vec<(f64, Vec<f64>)> {
-        let merit = |values: &[f64]| self.merit(&with(values));
-        let mut tried: Vec<(f64, Vec<f64>)> = grid(free, start)
-            .into_iter()
-            .map(|values| (merit(&values), values))
-            .collect();
-        let first = |tried: &[(f64, Vec<f64>)]| {
-            let best = tried.iter().max_by(|a, b| a.0.total_cmp(&b.0));
-            best.map_or((f64::NEG_INFINITY, start.to_vec()), Clone::clone)
+        let planned = |values: &[f64]| self.merit(&with(values));
+        let tried = grid(&free, &start).into_iter().map(|values| Choice {
+            merit: planned(&values),
+            values,
+        });
+        let mut ranked = climb(&free, tried.collect(), 0, planned);
+        ranked.retain(|choice| choice.merit.is_finite() && choice.values != start);
+        ranked.dedup_by(|a, b| a.values == b.values);
+        ranked.truncate(CUT);
+        let made = |values: &[f64]| {
+            let teeth = cut(&with(values));
+            teeth.map_or(f64::NEG_INFINITY, |teeth| weighed(self.worked(&teeth)))
         };
-        let mut best = first(&tried);
-        for halving in 0..=HALVINGS {
-            loop {
-                let before = best.0;
-                for (k, free) in free.iter().enumerate() {
-                    let step = free.step / f64::from(1 << halving);
-                    for step in [-step, step] {
-                        let mut values = best.1.clone();
-                        values[k] = free.rounded(values[k] + step);
-                        let found = (merit(&values), values);
-                        if found.0 > best.0 {
-                            best = found.clone();
-                        }
-                        tried.push(found);
-                    }
-                }
-                if best.0 <= before {
-                    break;
-                }
-            }
-        }
-        tried.sort_by(|a, b| b.0.total_cmp(&a.0));
-        tried
+        let written = cut(&base).map_or(f64::NEG_INFINITY, |teeth| weighed(self.worked(&teeth)));
+        let first = [Choice {
+            merit: written,
+            values: start,
+        }];
+        let planned = ranked.into_iter().map(|choice| Choice {
+            merit: made(&choice.values),
+            ..choice
+        });
+        let first = first.into_iter().chain(planned);
+        let ranked = climb(&free, first.collect(), LEFT_OUT, made);
+        let best = ranked.first().filter(|best| {
+            let carries = best.merit > 1.0 || written == f64::NEG_INFINITY;
+            best.merit.is_finite() && carries && best.merit > written + BETTER
+        });
+        best.map_or(base.clone(), |best| with(&best.values))
     }
 
     /// Layout of a design's teeth, fitted, if it has one.
@@ -183,26 +176,56 @@ impl Fits<'_> {
         let Some(layout) = is_valid.then(|| self.layout(design)).flatten() else {
             return f64::NEG_INFINITY;
         };
-        let (least, mean) = self.contact_ratios(&layout);
-        least + MEAN * mean
-    }
-
-    /// Least and mean contact ratio from one flank to the next.
-    fn contact_ratios(&self, layout: &Layout) -> (f64, f64) {
-        let Layout { driver, driven, .. } = layout;
-        let pitch = self.rolling.pitch_length(Member::Driver) / f64::from(self.counts.driver);
-        let meshes = driver.len() * self.rolling.mean_ratio().0 as usize;
-        let both = |m: usize, side: Side| {
-            let mate = &driven[m % driven.len()];
-            match side {
-                Side::Trailing => (&driver[m % driver.len()].trailing, &mate.leading),
-                Side::Leading => (&driver[(m + 1) % driver.len()].leading, &mate.trailing),
-            }
-        };
+        let flanks = |tooth: &ToothPlan| [tooth.leading, tooth.trailing];
+        let [driver, driven] = [&layout.driver, &layout.driven]
+            .map(|teeth| teeth.iter().map(flanks).collect::<Vec<_>>());
         // Up to a flank's tip, as far as the mate's flank goes: deeper the tip cuts into the fillet.
-        let above = |flank: &FlankPlan, mate: &FlankPlan| match flank.top {
+        let above = |flank: &FlankPlan, _: Side, mate: &FlankPlan| match flank.top {
             Top::Reach(reach) if reach <= mate.corner.end => reach,
             _ => f64::NEG_INFINITY,
+        };
+        weighed(self.contact_ratios([&driver, &driven], above))
+    }
+
+    /// Least and mean contact ratio, from one flank to the next, of teeth that are cut.
+    fn worked(&self, teeth: &[Vec<Tooth>; 2]) -> (f64, f64) {
+        let flanks = |tooth: &Tooth| [tooth.leading, tooth.trailing];
+        let [driver, driven] = [0, 1].map(|k| teeth[k].iter().map(flanks).collect::<Vec<_>>());
+        // Rolls of what is left of a flank above its crossing of the pitch curve, and below.
+        let rolls = |flank: &ToothSide, side: Side| {
+            let (low, high) = flank.active.unwrap_or((flank.crossing, flank.crossing));
+            let (before, after) = (flank.crossing - low, high - flank.crossing);
+            match side {
+                Side::Leading => (after, before),
+                Side::Trailing => (before, after),
+            }
+        };
+        let above = |flank: &ToothSide, side: Side, mate: &ToothSide| {
+            let other = match side {
+                Side::Leading => Side::Trailing,
+                Side::Trailing => Side::Leading,
+            };
+            rolls(flank, side).0.min(rolls(mate, other).1)
+        };
+        self.contact_ratios([&driver, &driven], above)
+    }
+
+    /// Least and mean contact ratio from one flank to the next, of the leading and trailing flanks of both gears, by the roll above
+    /// the crossing over which a flank of some side works with a mate.
+    fn contact_ratios<F>(
+        &self,
+        [driver, driven]: [&[[F; 2]]; 2],
+        above: impl Fn(&F, Side, &F) -> f64,
+    ) -> (f64, f64) {
+        let pitch = self.rolling.pitch_length(Member::Driver) / f64::from(self.counts.driver);
+        let meshes = driver.len() * self.rolling.mean_ratio().0 as usize;
+        // Driver's flank and the driven gear's.
+        let both = |m: usize, side: Side| {
+            let [leading, trailing] = &driven[m % driven.len()];
+            match side {
+                Side::Trailing => (&driver[m % driver.len()][1], leading),
+                Side::Leading => (&driver[(m + 1) % driver.len()][0], trailing),
+            }
         };
         let mut least = f64::INFINITY;
         let mut sum = 0.0;
@@ -210,10 +233,13 @@ impl Fits<'_> {
             for m in 0..meshes {
                 let ((one, its), (next, mate)) = (both(m, side), both((m + 1) % meshes, side));
                 // A driver's flank works from its tip on, or up to it.
-                let along = if side.sign() > 0.0 {
-                    above(its, one) + above(next, mate)
-                } else {
-                    above(one, its) + above(mate, next)
+                let along = match side {
+                    Side::Trailing => {
+                        above(its, Side::Leading, one) + above(next, Side::Trailing, mate)
+                    }
+                    Side::Leading => {
+                        above(one, Side::Leading, its) + above(mate, Side::Trailing, next)
+                    }
                 };
                 least = least.min(along / pitch);
                 sum += along / pitch;
@@ -223,11 +249,63 @@ impl Fits<'_> {
     }
 }
 
-/// All combinations of the first values and those written.
+/// The least contact ratio, and a little of the mean.
+fn weighed((least, mean): (f64, f64)) -> f64 {
+    least + MEAN * mean
+}
+
+/// Values of what is free.
+#[derive(Clone)]
+struct Choice {
+    merit: f64,
+    values: Vec<f64>,
+}
+
+/// All choices that were tried, the best first: those given and, from the best of them on, by steps along each number that are
+/// halved where none is better, the first of them some halvings smaller.
+fn climb(
+    free: &[&Free],
+    mut tried: Vec<Choice>,
+    halvings: u32,
+    merit: impl Fn(&[f64]) -> f64,
+) -> Vec<Choice> {
+    let better = |a: Choice, b: &Choice| match b.merit > a.merit + TIE {
+        true => b.clone(),
+        false => a,
+    };
+    // Of those that are as good the first.
+    let Some(first) = tried.first().cloned() else {
+        return tried;
+    };
+    let mut best = tried.iter().fold(first, better);
+    for halving in halvings..=HALVINGS {
+        loop {
+            let before = best.merit;
+            for (k, free) in free.iter().enumerate() {
+                let step = free.step / f64::from(1 << halving);
+                for step in [-step, step] {
+                    let mut values = best.values.clone();
+                    values[k] = free.rounded(values[k] + step);
+                    let merit = merit(&values);
+                    let found = Choice { merit, values };
+                    best = better(best, &found);
+                    tried.push(found);
+                }
+            }
+            if best.merit <= before {
+                break;
+            }
+        }
+    }
+    tried.sort_by(|a, b| b.merit.total_cmp(&a.merit));
+    tried
+}
+
+/// All combinations of the first values and those written, these first.
 fn grid(free: &[&Free], start: &[f64]) -> Vec<Vec<f64>> {
     let mut all = vec![Vec::new()];
     for (free, &written) in free.iter().zip(start) {
-        let values = || free.first.iter().copied().chain([written]);
+        let values = || [written].into_iter().chain(free.first.iter().copied());
         all = all
             .iter()
             .flat_map(|known: &Vec<f64>| values().map(move |v| [known.as_slice(), &[v]].concat()))

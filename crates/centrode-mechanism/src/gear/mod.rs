@@ -10,6 +10,7 @@ mod intermittent;
 mod limits;
 mod over_pins;
 mod pair;
+mod pattern;
 pub mod pitch;
 mod profile;
 mod rolling;

@@ -46,6 +46,18 @@ pub enum TeethError {
         /// Greatest radius that fits, mm.
         greatest: f64,
     },
+    /// The tool comes to a point before it is as deep as it must cut.
+    #[error("the tool comes to a point {short:.6} mm above its tip: a space {space:.6} mm wide on the {} is to be cut {depth:.6} mm deep", .member.name())]
+    NoTip {
+        /// Gear of the space.
+        member: Member,
+        /// Width of the space on the pitch curve, mm.
+        space: f64,
+        /// Depth of the space, mm.
+        depth: f64,
+        /// Depth that is missing, mm.
+        short: f64,
+    },
     /// A tooth or a space is left with no width.
     #[error("the {} is left with a tooth {width} mm wide on a pitch of {pitch} mm; the backlash takes {backlash} mm of it", .member.name())]
     NoWidth {
@@ -140,6 +152,16 @@ pub(crate) fn layout(
     let plan = |member: Member| -> Result<Vec<ToothPlan>, TeethError> {
         let depth = tool.dedendum - shift(member);
         let greatest = tool.greatest_tip_radius(depth, space(member));
+        let (sin, cos) = tool.pressure_angle.sin_cos();
+        let short = depth - 0.5 * space(member) * cos / sin;
+        if greatest < 0.0 {
+            return Err(TeethError::NoTip {
+                member,
+                space: space(member),
+                depth,
+                short,
+            });
+        }
         // The two roundings may just touch: leave that to rounding.
         if tool.tip_radius > greatest * (1.0 + 1e-12) {
             return Err(TeethError::TipRadius {

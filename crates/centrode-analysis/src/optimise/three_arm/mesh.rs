@@ -2,7 +2,7 @@ use centrode_mechanism::gear::GearPair;
 use centrode_mechanism::gear::design::{Addendum, GearPairDesign, TeethSpec};
 use centrode_mechanism::three_arm::design::ThreeArmDesign;
 
-use crate::gear_pair::{allowed_error, check};
+use crate::gear_pair::{SLIGHT, check};
 use crate::{Goal, Severity, Unit};
 
 /// Transmission error of half the progress, rad.
@@ -37,7 +37,7 @@ pub(super) fn mesh(design: &ThreeArmDesign) -> Option<[Goal; 2]> {
         Goal::new(
             (0, "transmission-error", "transmission error of full teeth"),
             error.filter(|error| error.is_finite()).or(Some(1.0)),
-            [None, Some(allowed_error(&pair))],
+            [None, Some(SLIGHT)],
             Unit::Angle,
             ERROR,
         ),

@@ -88,6 +88,7 @@ impl GearPairError {
             | Self::MeanRatio { .. } => "mean_ratio".into(),
             Self::Rolling(_) | Self::Corner { .. } => "pitch".into(),
             Self::Teeth(TeethError::TipRadius { .. }) => "tool.tip_radius_coefficient".into(),
+            Self::Teeth(TeethError::NoTip { .. }) => "tool.dedendum_coefficient".into(),
             // Without the backlash there would be a tooth.
             Self::Teeth(TeethError::NoWidth {
                 width, backlash, ..

@@ -1,4 +1,4 @@
-use centrode_geometry::{Outline, PolySegment, Segment, Tolerance};
+use centrode_geometry::{Outline, PolySegment, Segment, Tolerance, bracketed_minimum};
 
 use super::GearPairError;
 use crate::bore;
@@ -120,15 +120,37 @@ impl Gear {
     /// Least and greatest distance of the outline from the axis, mm.
     #[must_use]
     pub fn radii(&self) -> (f64, f64) {
-        let (mut least, mut greatest) = (f64::INFINITY, 0.0_f64);
-        for segment in self.outline.segments() {
-            for i in 0..=8 {
-                let r = segment.at(-1.0 + 0.25 * f64::from(i)).point.coords.norm();
-                least = least.min(r);
-                greatest = greatest.max(r);
+        (self.nearest(1.0), -self.nearest(-1.0))
+    }
+
+    /// Least distance of the outline from the axis times a sign, mm.
+    fn nearest(&self, sign: f64) -> f64 {
+        const STEPS: usize = 8;
+        let at = |i: usize| -1.0 + 2.0 * i as f64 / STEPS as f64;
+        let segments = self.outline.segments();
+        let radius = |segment: &Segment, u: f64| sign * segment.at(u).point.coords.norm();
+        let sampled: Vec<[f64; STEPS + 1]> = segments
+            .iter()
+            .map(|segment| std::array::from_fn(|i| radius(segment, at(i))))
+            .collect();
+        let known = sampled
+            .iter()
+            .flatten()
+            .copied()
+            .fold(f64::INFINITY, f64::min);
+        let mut least = known;
+        for (segment, samples) in segments.iter().zip(&sampled) {
+            for i in 1..STEPS {
+                let (value, beside) = (samples[i], [samples[i - 1], samples[i + 1]]);
+                // A parabola through the three reaches an eighth of this below the middle one.
+                let below = beside[0] + beside[1] - 2.0 * value;
+                if value <= beside[0].min(beside[1]) && value - below < least {
+                    let along = |u: f64| radius(segment, u);
+                    least = least.min(bracketed_minimum(along, at(i - 1), at(i + 1)).1);
+                }
             }
         }
-        (least, greatest)
+        least
     }
 
     /// The bore with its keyway, counter-clockwise; `None` for a gear without one.

@@ -12,6 +12,7 @@ use super::{
     design::{BodySpec, Fit, GearPairDesign, Phase, ToolSpec},
     fit::Fits,
     flank::{Flank, Side},
+    pattern::Patterns,
     profile::Cutter,
     rolling::{Member, Rolling},
     teeth::{Counts, TeethParameters, layout},
@@ -38,6 +39,7 @@ pub struct GearPair {
     phase: f64,
     backlash: f64,
     congruent: bool,
+    pub(super) patterns: Patterns,
     driver: Gear,
     driven: Gear,
 }
@@ -82,6 +84,7 @@ impl GearPair {
         let make = |settled: &GearPairDesign| -> Result<_, GearPairError> {
             let teeth = parameters(settled, module);
             let plan = layout(&rolling, &counts, &teeth)?;
+            let patterns = Patterns::new(rolling.symmetry(), &counts, &plan, PI * module);
             let cut = |member: Member| -> Result<Gear, GearPairError> {
                 let (count, plans, body) = match member {
                     Member::Driver => (counts.driver, &plan.driver, &design.driver),
@@ -91,6 +94,7 @@ impl GearPair {
                     rolling: &rolling,
                     member,
                     tool: &teeth.tool,
+                    pattern: patterns.of(member),
                     tolerance,
                 };
                 Gear::new(
@@ -103,17 +107,14 @@ impl GearPair {
                 )
             };
             let gears = [cut(Member::Driver)?, cut(Member::Driven)?];
-            Ok((teeth, plan, gears))
+            Ok((teeth, plan, patterns, gears))
         };
-        let settled = fits.settled(design);
-        let mut made = make(&settled[0]);
-        for next in &settled[1..] {
-            if made.is_err() {
-                // No contour with these teeth: the next best.
-                made = make(next);
-            }
-        }
-        let (teeth, plan, [driver, driven]) = made?;
+        let cut = |design: &GearPairDesign| {
+            let (.., gears) = make(design).ok()?;
+            Some(gears.map(|gear| gear.teeth().to_vec()))
+        };
+        let settled = fits.settled(design, &cut);
+        let (teeth, plan, patterns, [driver, driven]) = make(&settled)?;
         Ok(Self {
             design: design.clone(),
             definition,
@@ -123,6 +124,7 @@ impl GearPair {
             phase: plan.phase,
             backlash: plan.backlash,
             congruent: plan.congruent,
+            patterns,
             driver,
             driven,
         })
@@ -140,7 +142,7 @@ impl GearPair {
                 implied,
             });
         }
-        let rolling = Rolling::new(pitch.curve, ratio)?;
+        let rolling = Rolling::new(pitch.curve, ratio)?.with_symmetry(pitch.symmetry);
         if let Some((turn, angle)) = rolling.corner() {
             return Err(GearPairError::Corner { turn, angle });
         }

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use super::error::{eccentricity, positive};
 use super::plane::{Derivatives, Direction, PolarCurve, RadiusLaw};
 use super::size::{OwnSize, Size};
-use super::{Draft, PitchError};
+use super::{Draft, PitchError, Symmetry};
 
 /// A circle around the shaft axis: an ordinary gear.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -91,6 +91,10 @@ impl RadiusLaw for Eccentric {
     // An axis inside the circle: eccentricity below 1.
     fn is_positive_by_form(&self) -> bool {
         true
+    }
+
+    fn symmetry(&self) -> Symmetry {
+        Symmetry::of_cosine(1, self.eccentricity)
     }
 
     fn radius(&self, phi: &Direction) -> Derivatives {

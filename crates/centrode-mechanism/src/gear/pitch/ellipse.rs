@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use super::error::{eccentricity, positive};
 use super::plane::{Derivatives, Direction, PolarCurve, RadiusLaw};
 use super::size::{OwnSize, Size};
-use super::{Draft, PitchError};
+use super::{Draft, PitchError, Symmetry};
 
 /// An ellipse turning about one of its foci.
 ///
@@ -109,7 +109,7 @@ fn draft(
 struct Focal {
     parameter: f64,
     eccentricity: f64,
-    lobes: f64,
+    lobes: u32,
 }
 
 impl Focal {
@@ -118,7 +118,7 @@ impl Focal {
         Ok(Self {
             parameter: axis.unwrap_or(1.0) * (1.0 - k * k),
             eccentricity: k,
-            lobes: lobes.into(),
+            lobes,
         })
     }
 }
@@ -129,8 +129,12 @@ impl RadiusLaw for Focal {
         true
     }
 
+    fn symmetry(&self) -> Symmetry {
+        Symmetry::of_cosine(self.lobes, self.eccentricity)
+    }
+
     fn radius(&self, phi: &Direction) -> Derivatives {
-        let n = self.lobes;
+        let n = f64::from(self.lobes);
         let (sin, cos) = phi.times(n);
         let k = self.eccentricity;
         let r = self.parameter / (1.0 - k * cos);

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use super::error::{finite, in_range, positive};
 use super::plane::{Derivatives, Direction, PolarCurve, RadiusLaw};
 use super::size::{OwnSize, Size};
-use super::{Draft, PitchError};
+use super::{Draft, PitchError, Symmetry};
 
 /// A limacon of Pascal, if wanted with several lobes: `r(phi) = b + c cos(N phi)`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -46,7 +46,7 @@ impl Limacon {
         let law = Cosine {
             mean: positive("mean_radius", self.mean_radius)?,
             amplitude: finite("amplitude", self.amplitude)?,
-            lobes: in_range("lobes", self.lobes, 1, 60)?.into(),
+            lobes: in_range("lobes", self.lobes, 1, 60)?,
         };
         let size = Size {
             module: self.module,
@@ -66,14 +66,18 @@ impl Limacon {
 struct Cosine {
     mean: f64,
     amplitude: f64,
-    lobes: f64,
+    lobes: u32,
 }
 
 impl RadiusLaw for Cosine {
     fn radius(&self, phi: &Direction) -> Derivatives {
-        let n = self.lobes;
+        let n = f64::from(self.lobes);
         let (sin, cos) = phi.times(n);
         let (c, s) = (self.amplitude * cos, self.amplitude * sin);
         [self.mean + c, -n * s, -n * n * c, n * n * n * s]
+    }
+
+    fn symmetry(&self) -> Symmetry {
+        Symmetry::of_cosine(self.lobes, self.amplitude)
     }
 }

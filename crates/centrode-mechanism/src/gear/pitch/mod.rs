@@ -26,6 +26,7 @@ mod points;
 pub(crate) mod polar;
 mod proof;
 mod size;
+mod symmetry;
 mod transmission;
 
 pub use bezier::Bezier;
@@ -44,6 +45,7 @@ pub(crate) use bspline::{basis as spline_basis, closed_spline};
 pub(crate) use piecewise::HIGHEST_DEGREE;
 use plane::ScalableCurve;
 use size::Size;
+pub(crate) use symmetry::{Symmetry, gcd};
 
 /// A pitch curve as written: one of the kinds, by the key `kind`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -88,6 +90,7 @@ pub struct Pitch {
     pub definition: String,
     /// Turns of driver and driven gear that the description asks for, in lowest terms.
     pub implied_ratio: Option<(u32, u32)>,
+    pub(crate) symmetry: Symmetry,
 }
 
 impl PitchSpec {
@@ -237,6 +240,7 @@ impl Draft {
             (None, Some(z)) => Some(written / (PI * f64::from(z))),
             (_, None) => None,
         };
+        let symmetry = self.curve.symmetry();
         let shape: Arc<dyn ScalableCurve> = Arc::from(self.curve);
         Ok(Pitch {
             curve: shape,
@@ -244,6 +248,7 @@ impl Draft {
             module,
             definition: self.definition,
             implied_ratio: self.implied_ratio,
+            symmetry,
         })
     }
 }

@@ -5,9 +5,9 @@ use std::f64::consts::TAU;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::PitchError;
 use super::bspline::{basis, controls_through};
 use super::points::{angles_in_order, count};
+use super::{PitchError, Symmetry, gcd};
 use crate::formula::Taylor;
 
 /// Interpolation of a function between its samples.
@@ -85,6 +85,14 @@ impl Periodic {
         }
     }
 
+    /// Symmetry of the function, as far as its coefficients tell.
+    pub(crate) fn symmetry(&self) -> Symmetry {
+        match self {
+            Self::Fourier(series) => series.symmetry(),
+            Self::Spline(_) => Symmetry::NONE,
+        }
+    }
+
     /// Arguments at which a derivative may jump, in `[0, TAU)`, ascending.
     pub(crate) fn breaks(&self) -> Vec<f64> {
         match self {
@@ -144,6 +152,16 @@ impl Fourier {
         Self {
             mean: samples.iter().sum::<f64>() / count as f64,
             harmonics: harmonics.collect(),
+        }
+    }
+
+    /// The harmonics in use have their greatest common divisor as folds; without sines it is even.
+    fn symmetry(&self) -> Symmetry {
+        let used = (1u32..).zip(&self.harmonics);
+        let used = used.filter(|(_, [a, b])| *a != 0.0 || *b != 0.0);
+        Symmetry {
+            folds: used.map(|(n, _)| n).fold(0, gcd),
+            mirrored: self.harmonics.iter().all(|[_, sine]| *sine == 0.0),
         }
     }
 

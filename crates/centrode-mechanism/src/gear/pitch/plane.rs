@@ -1,5 +1,7 @@
 use centrode_geometry::{Curve, Jet, Point, Vector};
 
+use super::Symmetry;
+
 /// A value and its first three derivatives.
 pub(crate) type Derivatives = [f64; 4];
 
@@ -65,6 +67,11 @@ pub(crate) trait ScalableCurve: Curve {
     fn goes_round_by_form(&self) -> bool {
         false
     }
+
+    /// Symmetry of the curve about its axis, as far as its form tells.
+    fn symmetry(&self) -> Symmetry {
+        Symmetry::NONE
+    }
 }
 
 /// A radius as a function of the polar angle, with period one turn.
@@ -75,6 +82,11 @@ pub(crate) trait RadiusLaw: std::fmt::Debug + Send + Sync {
     /// Whether the radius is above zero by the law's own form, for any numbers it was checked for.
     fn is_positive_by_form(&self) -> bool {
         false
+    }
+
+    /// Symmetry of the law, as far as its form tells.
+    fn symmetry(&self) -> Symmetry {
+        Symmetry::NONE
     }
 
     /// Angles in `[0, 2 pi)` where a derivative may jump, ascending.
@@ -123,5 +135,9 @@ impl<L: RadiusLaw> ScalableCurve for PolarCurve<L> {
 
     fn goes_round_by_form(&self) -> bool {
         self.law.is_positive_by_form()
+    }
+
+    fn symmetry(&self) -> Symmetry {
+        self.law.symmetry()
     }
 }

@@ -7,7 +7,7 @@ use super::error::finite;
 use super::periodic::{Fourier, Interpolation, Periodic};
 use super::plane::{Derivatives, Direction, PolarCurve, RadiusLaw};
 use super::size::{OwnSize, Size};
-use super::{Draft, PitchError};
+use super::{Draft, PitchError, Symmetry};
 use crate::degrees;
 use crate::formula::{Formula, FormulaError};
 
@@ -223,5 +223,9 @@ impl RadiusLaw for TableLaw {
 
     fn breaks(&self) -> Vec<f64> {
         self.0.breaks()
+    }
+
+    fn symmetry(&self) -> Symmetry {
+        self.0.symmetry()
     }
 }

@@ -101,7 +101,12 @@ fn sample(curve: &dyn ScalableCurve, key: &'static str, t: f64) -> Result<Sample
     }
     let radius = square.sqrt() * curve.side(t);
     if radius == 0.0 {
-        let angle = degrees(jet.first.y.atan2(jet.first.x));
+        // At the axis the curve goes on as its tangent does; without one its parameter is the polar angle.
+        let tangent = jet.first;
+        let angle = degrees(match tangent.norm() > 0.0 {
+            true => tangent.y.atan2(tangent.x),
+            false => t,
+        });
         return Err(PitchError::RadiusNotPositive { key, angle, radius });
     }
     let outward = p.dot(&jet.first) / square;

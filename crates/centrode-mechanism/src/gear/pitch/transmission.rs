@@ -1,6 +1,6 @@
 use std::f64::consts::TAU;
 
-use centrode_geometry::Antiderivative;
+use centrode_geometry::{Antiderivative, least};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -252,6 +252,14 @@ fn draft(
     ends.retain(|&t| t > 0.0);
     ends.insert(0, 0.0);
     ends.push(TAU);
+    let low = least(|t| law.ratio(t).derivatives()[0], &ends);
+    if low.value <= 0.0 {
+        return Err(PitchError::RatioNotPositive {
+            key,
+            angle: low.input.to_degrees(),
+            ratio: low.value,
+        });
+    }
     let a = center_distance.unwrap_or(1.0);
     let radius = LawRadius { law, a, breaks };
     let curve = PolarCurve::new(radius);

@@ -1,4 +1,4 @@
-use centrode_geometry::{Kept, Outline, PolySegment, Segment, checkpoint};
+use centrode_geometry::{Kept, Outline, PolySegment, Segment, bracketed_minimum, checkpoint};
 
 use super::{Cutter, Member, Profile, ProfileError, Role, Side, Tooth, ToothCurve};
 
@@ -18,6 +18,7 @@ impl Cutter<'_> {
             .iter()
             .map(|k| pieces[k.index].poly.part(k.from, k.to))
             .collect();
+        let pitch = self.rolling.pitch_length(self.member) / teeth.len() as f64;
         let count = polys.len();
         for i in 0..count {
             checkpoint();
@@ -41,18 +42,16 @@ impl Cutter<'_> {
             match piece.role {
                 Role::Flank => {
                     let (t0, t1) = piece.span;
-                    let at = |u: f64| self.rolling.arc_length(t0 + 0.5 * (1.0 + u) * (t1 - t0));
+                    let at = |u: f64| {
+                        let arc = self.rolling.arc_length(t0 + 0.5 * (1.0 + u) * (t1 - t0));
+                        piece.image.map_or(arc, |image| image.arc(arc, pitch))
+                    };
                     let (a, b) = (at(k.from), at(k.to));
                     let (low, high) = side.active.unwrap_or((f64::INFINITY, f64::NEG_INFINITY));
                     side.active = Some((low.min(a).min(b), high.max(a).max(b)));
                 }
                 Role::Fillet => {
-                    for i in 0..=4 {
-                        let jet = poly.at(-1.0 + 0.5 * f64::from(i));
-                        let turn = jet.first.perp(&jet.second).abs();
-                        side.fillet_radius =
-                            side.fillet_radius.min(jet.first.norm().powi(3) / turn);
-                    }
+                    side.fillet_radius = side.fillet_radius.min(least_radius(poly));
                 }
                 Role::Tip => {
                     tooth.cut_through = false;
@@ -106,4 +105,18 @@ impl Cutter<'_> {
             teeth,
         })
     }
+}
+
+/// Least radius of curvature of a segment, mm.
+fn least_radius(poly: &PolySegment) -> f64 {
+    const STEPS: usize = 4;
+    let radius = |u: f64| {
+        let jet = poly.at(u);
+        jet.first.norm().powi(3) / jet.first.perp(&jet.second).abs()
+    };
+    let at = |i: usize| -1.0 + 2.0 * i as f64 / STEPS as f64;
+    let samples: [f64; STEPS + 1] = std::array::from_fn(|i| radius(at(i)));
+    let dips = (1..STEPS).filter(|&i| samples[i] <= samples[i - 1].min(samples[i + 1]));
+    let inside = dips.map(|i| bracketed_minimum(radius, at(i - 1), at(i + 1)).1);
+    inside.chain(samples).fold(f64::INFINITY, f64::min)
 }

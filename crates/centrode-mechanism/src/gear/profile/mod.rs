@@ -1,7 +1,10 @@
+mod copy;
 mod error;
 mod join;
 mod swing;
 mod tooth;
+
+use std::ops::Range;
 
 use centrode_geometry::{
     Kept, LoopError, Outline, Point, PolySegment, Segment, Tolerance, checkpoint, without_loops,
@@ -11,10 +14,12 @@ pub use error::ProfileError;
 pub(crate) use tooth::{FlankPlan, ToothPlan, Top};
 pub use tooth::{Role, Tooth, ToothSide};
 
+use copy::copy;
 use swing::Swing;
 
 use super::{
     flank::{Flank, Side},
+    pattern::{Image, Pattern},
     rolling::{Member, Rolling},
     tool::{Corner, Tool},
 };
@@ -28,6 +33,7 @@ pub(crate) struct Profile {
     pub(crate) teeth: Vec<Tooth>,
 }
 
+#[derive(Clone)]
 struct ToothCurve {
     poly: PolySegment,
     role: Role,
@@ -35,6 +41,8 @@ struct ToothCurve {
     /// Pitch-curve parameters at the ends.
     span: (f64, f64),
     side: Side,
+    /// How it was copied from the piece whose span it has.
+    image: Option<Image>,
 }
 
 /// Share of a straight rack's flank speed at which a flank too short for its height ends: beyond it the
@@ -58,6 +66,8 @@ pub(crate) struct Cutter<'a> {
     pub(crate) rolling: &'a Rolling,
     pub(crate) member: Member,
     pub(crate) tool: &'a Tool,
+    /// Teeth that are copies of others.
+    pub(crate) pattern: Pattern,
     pub(crate) tolerance: Tolerance,
 }
 
@@ -75,7 +85,10 @@ impl Cutter<'_> {
     /// Cuts every tooth and joins them into one contour.
     pub(crate) fn cut(&self, plans: &[ToothPlan]) -> Result<Profile, ProfileError> {
         let mut pieces: Vec<ToothCurve> = Vec::with_capacity(plans.len() * 16);
-        let mut teeth = Vec::with_capacity(plans.len());
+        let mut teeth: Vec<Tooth> = Vec::with_capacity(plans.len());
+        let spaces = self.pattern.of_spaces();
+        // Pieces of each tooth and of the space after it.
+        let mut places: Vec<[Range<usize>; 2]> = Vec::with_capacity(plans.len());
         for (k, plan) in plans.iter().enumerate() {
             checkpoint();
             let next = plans.get(k + 1).map_or_else(
@@ -86,7 +99,26 @@ impl Cutter<'_> {
                 },
                 |p| p.leading,
             );
-            teeth.push(self.tooth(k as u32, plan, &next, &mut pieces));
+            let k = k as u32;
+            let start = pieces.len();
+            let tooth = match self.pattern.image(k) {
+                None => self.tooth(k, plan, &mut pieces),
+                Some(image) => {
+                    let [of, _] = &places[image.of as usize];
+                    copy(of.clone(), &image, k, &mut pieces);
+                    teeth[image.of as usize].image(&image, plan)
+                }
+            };
+            teeth.push(tooth);
+            let end = pieces.len();
+            match spaces.image(k) {
+                None => self.space(k, plan, &next, &mut pieces),
+                Some(image) => {
+                    let [_, of] = &places[image.of as usize];
+                    copy(of.clone(), &image, k, &mut pieces);
+                }
+            }
+            places.push([start..end, end..pieces.len()]);
         }
         let kept = self.without_loops(&pieces)?;
         self.join(&pieces, &kept, teeth)
@@ -176,13 +208,7 @@ impl Cutter<'_> {
         }
     }
 
-    fn tooth(
-        &self,
-        index: u32,
-        plan: &ToothPlan,
-        next: &FlankPlan,
-        pieces: &mut Vec<ToothCurve>,
-    ) -> Tooth {
+    fn tooth(&self, index: u32, plan: &ToothPlan, pieces: &mut Vec<ToothCurve>) -> Tooth {
         let leading = self.flank(&plan.leading, Side::Leading);
         let trailing = self.flank(&plan.trailing, Side::Trailing);
         let (lead, trail) = (
@@ -194,7 +220,6 @@ impl Cutter<'_> {
         let lead_center = parameter(plan.leading.crossing - plan.leading.corner.center);
         let trail_end = parameter(plan.trailing.crossing + plan.trailing.corner.end);
         let trail_center = parameter(plan.trailing.crossing + plan.trailing.corner.center);
-        let next_center = parameter(next.crossing - next.corner.center);
 
         let fillet = |flank: &Flank<'_>, corner: &Corner, pieces: &mut Vec<ToothCurve>| {
             let (center, end, leads) = match flank.side {
@@ -234,6 +259,30 @@ impl Cutter<'_> {
             trailing.point(t)
         });
         fillet(&trailing, &plan.trailing.corner, pieces);
+        let side = |flank: &Flank<'_>, plan: &FlankPlan, ends: &Ends| ToothSide {
+            crossing: plan.crossing,
+            tip_height: ends.height,
+            tip_shortening: ends.tip_shortening,
+            form_depth: -flank.height(plan.crossing + flank.side.sign() * plan.corner.end),
+            active_depth: plan.active_depth,
+            undercut: 0.0,
+            active: None,
+            fillet_radius: f64::INFINITY,
+        };
+        Tooth {
+            leading: side(&leading, &plan.leading, &lead),
+            trailing: side(&trailing, &plan.trailing, &trail),
+            tip_width: 0.0,
+            cut_through: true,
+        }
+    }
+
+    /// Bottom of the space between a tooth and the next.
+    fn space(&self, index: u32, plan: &ToothPlan, next: &FlankPlan, pieces: &mut Vec<ToothCurve>) {
+        let leading = self.flank(&plan.leading, Side::Leading);
+        let parameter = |arc: f64| self.rolling.parameter(arc);
+        let trail_center = parameter(plan.trailing.crossing + plan.trailing.corner.center);
+        let next_center = parameter(next.crossing - next.corner.center);
         let bottom = next_center - trail_center;
         let (deep, next_deep) = (plan.trailing.corner.depth, next.corner.depth);
         if bottom.abs() <= CRUMB * trail_center.abs() {
@@ -250,6 +299,7 @@ impl Cutter<'_> {
                             tooth: index,
                             span: (trail_center, next_center),
                             side: Side::Trailing,
+                            image: None,
                         }),
                 );
             }
@@ -273,22 +323,6 @@ impl Cutter<'_> {
                 frame.point - frame.normal * (deep + smooth * (next_deep - deep))
             },
         );
-        let side = |flank: &Flank<'_>, plan: &FlankPlan, ends: &Ends| ToothSide {
-            crossing: plan.crossing,
-            tip_height: ends.height,
-            tip_shortening: ends.tip_shortening,
-            form_depth: -flank.height(plan.crossing + flank.side.sign() * plan.corner.end),
-            active_depth: plan.active_depth,
-            undercut: 0.0,
-            active: None,
-            fillet_radius: f64::INFINITY,
-        };
-        Tooth {
-            leading: side(&leading, &plan.leading, &lead),
-            trailing: side(&trailing, &plan.trailing, &trail),
-            tip_width: 0.0,
-            cut_through: true,
-        }
     }
 
     /// Fits a curve between two pitch-curve parameters, cut at the pitch curve's breaks; `own` turns
@@ -321,6 +355,7 @@ impl Cutter<'_> {
                     tooth,
                     span: (t0, t1),
                     side,
+                    image: None,
                 });
             }
         }

@@ -9,6 +9,8 @@ use centrode_geometry::{Antiderivative, Curve, Jet, Point, Vector, pieces};
 
 pub use error::RollingError;
 
+use super::pitch::Symmetry;
+
 /// Even parts of a turn in each of which a pitch curve has few extremes.
 const PIECES: u32 = 8;
 
@@ -83,6 +85,7 @@ pub struct Rolling {
     mean_ratio: (u32, u32),
     least: Extreme,
     greatest: Extreme,
+    symmetry: Symmetry,
 }
 
 /// Share of the period within which two parameters are the same but for rounding.
@@ -98,6 +101,16 @@ struct Extreme {
 impl Rolling {
     /// Greatest number in a mean ratio.
     pub const GREATEST_TURNS: u32 = 50;
+
+    /// Pitch curves whose driver is known to have a symmetry about its own angle zero.
+    pub(crate) fn with_symmetry(self, symmetry: Symmetry) -> Self {
+        Self { symmetry, ..self }
+    }
+
+    /// Symmetry of the driver's pitch curve, as far as it is known.
+    pub(crate) fn symmetry(&self) -> Symmetry {
+        self.symmetry
+    }
 
     /// The driver's pitch curve.
     #[must_use]

@@ -4,6 +4,7 @@ use std::sync::Arc;
 use centrode_geometry::{Antiderivative, Curve, Point, bracketed_root};
 
 use super::{Extreme, Rolling, RollingError, SAME};
+use crate::gear::pitch::{Symmetry, gcd};
 
 impl Rolling {
     /// Finds the centre distance at which `curve` drives a closed conjugate curve at `mean_ratio`
@@ -84,6 +85,7 @@ impl Rolling {
             mean_ratio: ratio,
             least,
             greatest,
+            symmetry: Symmetry::NONE,
         };
         rolling.knots = rolling.knots_at(&breaks);
         rolling.check_repeats()?;
@@ -114,10 +116,7 @@ impl Rolling {
 }
 
 fn reduced(ratio: (u32, u32)) -> Result<(u32, u32), RollingError> {
-    let (mut a, mut b) = ratio;
-    while b != 0 {
-        (a, b) = (b, a % b);
-    }
+    let a = gcd(ratio.0, ratio.1);
     let fair = |n: u32| (1..=Rolling::GREATEST_TURNS).contains(&n);
     if a == 0 || !fair(ratio.0 / a) || !fair(ratio.1 / a) {
         return Err(RollingError::MeanRatio { ratio });

@@ -1,0 +1,303 @@
+//! Teeth that are images of others, by the symmetry of the pitch curves.
+
+use std::f64::consts::TAU;
+
+use nalgebra::UnitComplex;
+
+use super::{
+    pair::GearPair,
+    pitch::{Symmetry, gcd},
+    profile::{FlankPlan, ToothPlan, Top},
+    rolling::Member,
+    teeth::{Counts, Layout},
+};
+
+/// Share of the pitch by which the plans of two teeth that are images of each other may differ: far below what contours are
+/// drawn to.
+const SAME: f64 = 1e-12;
+
+/// Places of one gear, its teeth or the spaces after them, that are images of others.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pattern {
+    count: u32,
+    /// Pitches after which the gear is as before; a divisor of the count.
+    period: u32,
+    /// The place `k` is mirrored to the place `mirror - k`.
+    mirror: Option<i64>,
+    /// Sense in which places follow each other: 1 counter-clockwise.
+    sense: f64,
+}
+
+/// Image of a place: mirrored first about the axis through both shafts, then turned.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Image {
+    /// The place it is an image of.
+    pub(crate) of: u32,
+    pub(crate) mirrored: bool,
+    /// Pitches turned by.
+    pub(crate) pitches: i64,
+    /// Turn, counter-clockwise.
+    pub(crate) turn: UnitComplex<f64>,
+}
+
+impl Pattern {
+    /// Image that a place is; none for a place that others are images of.
+    pub(crate) fn image(&self, place: u32) -> Option<Image> {
+        let period = i64::from(self.period);
+        let first = i64::from(place) % period;
+        let other = self
+            .mirror
+            .map(|mirror| (mirror - first).rem_euclid(period));
+        let (of, mirrored) = match other {
+            Some(other) if other < first => (other, true),
+            _ => (first, false),
+        };
+        let before = match (mirrored, self.mirror) {
+            (true, Some(mirror)) => mirror - of,
+            _ => of,
+        };
+        let pitches = i64::from(place) - before;
+        let turn = self.sense * TAU * pitches as f64 / f64::from(self.count);
+        (of != i64::from(place)).then(|| Image {
+            of: of as u32,
+            mirrored,
+            pitches,
+            turn: UnitComplex::new(turn),
+        })
+    }
+
+    /// Pattern of the spaces after teeth of this pattern.
+    pub(crate) fn of_spaces(self) -> Self {
+        Self {
+            mirror: self.mirror.map(|mirror| mirror - 1),
+            ..self
+        }
+    }
+
+    /// Whether the plans of all teeth are those of the teeth they are images of.
+    fn holds(&self, teeth: &[ToothPlan], pitch: f64) -> bool {
+        (0u32..).zip(teeth).all(|(k, tooth)| {
+            self.image(k).is_none_or(|image| {
+                let there = teeth[image.of as usize].image(&image, pitch);
+                tooth.leading.is_like(&there.leading, SAME * pitch)
+                    && tooth.trailing.is_like(&there.trailing, SAME * pitch)
+            })
+        })
+    }
+}
+
+impl ToothPlan {
+    /// Plan of a tooth that is an image of this one.
+    fn image(&self, image: &Image, pitch: f64) -> Self {
+        let moved = |flank: FlankPlan| FlankPlan {
+            crossing: image.arc(flank.crossing, pitch),
+            ..flank
+        };
+        match image.mirrored {
+            true => Self {
+                leading: moved(self.trailing),
+                trailing: moved(self.leading),
+            },
+            false => Self {
+                leading: moved(self.leading),
+                trailing: moved(self.trailing),
+            },
+        }
+    }
+}
+
+impl Image {
+    /// Arc length of a point's image.
+    pub(crate) fn arc(&self, arc: f64, pitch: f64) -> f64 {
+        let sign = if self.mirrored { -1.0 } else { 1.0 };
+        sign * arc + self.pitches as f64 * pitch
+    }
+}
+
+impl FlankPlan {
+    fn is_like(&self, other: &Self, within: f64) -> bool {
+        let top = match (self.top, other.top) {
+            (Top::Height(a), Top::Height(b)) | (Top::Reach(a), Top::Reach(b)) => a - b,
+            _ => f64::INFINITY,
+        };
+        let [one, two] = [&self.corner, &other.corner];
+        [
+            top,
+            self.crossing - other.crossing,
+            self.active_depth - other.active_depth,
+            one.depth - two.depth,
+            one.radius - two.radius,
+            one.center - two.center,
+            one.end - two.end,
+        ]
+        .iter()
+        .all(|off| off.abs() <= within)
+    }
+}
+
+/// Symmetry of a pair of gears with their teeth.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Patterns {
+    pub(crate) driver: Pattern,
+    pub(crate) driven: Pattern,
+}
+
+impl Patterns {
+    /// The greatest symmetry that pitch curves and teeth have.
+    pub(crate) fn new(symmetry: Symmetry, counts: &Counts, plan: &Layout, pitch: f64) -> Self {
+        let folds = gcd(symmetry.folds, counts.driver);
+        let twice = 2.0 * plan.phase;
+        let mirror = (symmetry.mirrored && twice == twice.round()).then_some(-twice as i64);
+        let patterns = |periods: [u32; 2], mirror: Option<i64>| Self {
+            driver: Pattern {
+                count: counts.driver,
+                period: periods[0],
+                mirror,
+                sense: 1.0,
+            },
+            // A driven tooth is half a pitch behind; the gear turns the other way.
+            driven: Pattern {
+                count: counts.driven,
+                period: periods[1],
+                mirror: mirror.map(|mirror| mirror - 1),
+                sense: -1.0,
+            },
+        };
+        let repeating = |folds: u32| {
+            let period = counts.driver / folds;
+            let driven = match counts.driven.is_multiple_of(period) {
+                true => period,
+                false => counts.driven,
+            };
+            [period, driven]
+        };
+        let ways = [
+            patterns(repeating(folds), mirror),
+            patterns(repeating(folds), None),
+            patterns(repeating(1), mirror),
+        ];
+        let holds = |found: &Self| {
+            found.driver.holds(&plan.driver, pitch) && found.driven.holds(&plan.driven, pitch)
+        };
+        ways.into_iter()
+            .find(holds)
+            .unwrap_or(patterns([counts.driver, counts.driven], None))
+    }
+
+    /// Pattern of a member.
+    pub(crate) fn of(&self, member: Member) -> Pattern {
+        match member {
+            Member::Driver => self.driver,
+            Member::Driven => self.driven,
+        }
+    }
+
+    /// Driver pitches after which law and both gears are as before.
+    pub(crate) fn period(&self) -> u32 {
+        let [one, two] = [self.driver.period, self.driven.period];
+        one / gcd(one, two) * two
+    }
+
+    /// Whether the pair run backwards is its mirror image.
+    pub(crate) fn is_mirrored(&self) -> bool {
+        self.driver.mirror.is_some()
+    }
+}
+
+impl GearPair {
+    /// Driver pitches after which both gears and the law are as they were: the whole cycle, unless the form of the pitch curve tells
+    /// that it repeats and the teeth repeat with it.
+    #[must_use]
+    pub fn period(&self) -> u32 {
+        self.patterns.period()
+    }
+
+    /// Whether the pair run backwards from the driver angle 0 is the mirror image of the pair run on, as far as the form of the
+    /// pitch curve tells.
+    #[must_use]
+    pub fn is_mirrored(&self) -> bool {
+        self.patterns.is_mirrored()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::design::DesignSpec as _;
+    use crate::gear::design::GearPairDesign;
+    use crate::gear::{GearPair, Member};
+
+    fn pair(pitch: &str, teeth: &str, ratio: &str) -> GearPair {
+        let text = format!(
+            "family = \"gear-pair\"\nmean_ratio = {ratio}\n[pitch]\n{pitch}\n[teeth]\n{teeth}"
+        );
+        let design = GearPairDesign::from_toml(&text).expect("a design");
+        GearPair::resolve(&design).expect("a pair")
+    }
+
+    #[test]
+    fn teeth_that_are_images_are_those_that_would_be_cut() {
+        // The formula is the same curve, of whose symmetry nothing is known; twelve teeth are undercut.
+        let curves = [
+            (
+                "kind = \"limacon\"\nmean_radius = 30\namplitude = 2\nlobes = 4",
+                "30 + 2*cos(4*phi)",
+            ),
+            (
+                "kind = \"limacon\"\nmean_radius = 30\namplitude = 5",
+                "30 + 5*cos(phi)",
+            ),
+            ("kind = \"circle\"\nradius = 30", "30"),
+            (
+                "kind = \"polar\"\nmean = 30\nsin = [0, 2.0]",
+                "30 + 2*sin(2*phi)",
+            ),
+        ];
+        for (kind, formula) in curves {
+            for (count, ratio) in [(32, "[1, 1]"), (32, "[2, 1]"), (12, "[1, 1]")] {
+                for teeth in [
+                    "phase = 0.0",
+                    "phase = 0.5\nthickness_split = 0.47",
+                    "phase = 0.13",
+                    "addendum = \"fitted\"",
+                ] {
+                    let known = pair(&format!("{kind}\ntooth_count = {count}"), teeth, ratio);
+                    let text = format!(
+                        "kind = \"polar\"\nexpression = \"{formula}\"\ntooth_count = {count}"
+                    );
+                    let cut = pair(&text, teeth, ratio);
+                    for member in [Member::Driver, Member::Driven] {
+                        let (one, two) = (known.gear(member), cut.gear(member));
+                        let context = format!("{kind} {count} {teeth} {ratio}");
+                        assert_eq!(one.roles(), two.roles(), "{context}");
+                        assert_eq!(one.owners(), two.owners(), "{context}");
+                        for (a, b) in one
+                            .outline()
+                            .segments()
+                            .iter()
+                            .zip(two.outline().segments())
+                        {
+                            for u in [-1.0, -0.4, 0.3, 1.0] {
+                                let off = (a.at(u).point - b.at(u).point).norm();
+                                assert!(off < 1e-8, "{context}: {off}");
+                            }
+                        }
+                        for (a, b) in one.teeth().iter().zip(two.teeth()) {
+                            for (a, b) in [(a.leading, b.leading), (a.trailing, b.trailing)] {
+                                assert!((a.crossing - b.crossing).abs() < 1e-10, "{context}");
+                                assert!((a.undercut - b.undercut).abs() < 1e-6, "{context}");
+                                assert!((a.tip_height - b.tip_height).abs() < 1e-9, "{context}");
+                                let ends = a.active.zip(b.active);
+                                assert_eq!(ends.is_some(), a.active.is_some(), "{context}");
+                                for (a, b) in
+                                    ends.into_iter().flat_map(|(a, b)| [(a.0, b.0), (a.1, b.1)])
+                                {
+                                    assert!((a - b).abs() < 1e-6, "{context}: {a} {b}");
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+        }
+    }
+}
