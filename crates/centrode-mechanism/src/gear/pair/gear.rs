@@ -24,7 +24,6 @@ impl Gear {
     pub(super) fn new(
         rolling: &Rolling,
         member: Member,
-        tooth_count: u32,
         profile: Profile,
         body: BodySpec,
         tolerance: Tolerance,
@@ -37,7 +36,7 @@ impl Gear {
         } = profile;
         let gear = Self {
             member,
-            tooth_count,
+            tooth_count: teeth.len() as u32,
             pitch_length: rolling.pitch_length(member),
             outline,
             roles,

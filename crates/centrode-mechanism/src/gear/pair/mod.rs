@@ -12,8 +12,8 @@ use super::{
     design::{BodySpec, Fit, GearPairDesign, Phase, ToolSpec},
     fit::Fits,
     flank::{Flank, Side},
-    pattern::Patterns,
-    profile::Cutter,
+    pattern::{Mating, Patterns},
+    profile::{Cutter, Profile},
     rolling::{Member, Rolling},
     teeth::{Counts, TeethParameters, layout},
     tool::{Tool, ToolKind},
@@ -85,28 +85,25 @@ impl GearPair {
             let teeth = parameters(settled, module);
             let plan = layout(&rolling, &counts, &teeth)?;
             let patterns = Patterns::new(rolling.symmetry(), &counts, &plan, PI * module);
-            let cut = |member: Member| -> Result<Gear, GearPairError> {
-                let (count, plans, body) = match member {
-                    Member::Driver => (counts.driver, &plan.driver, &design.driver),
-                    Member::Driven => (counts.driven, &plan.driven, &design.driven),
-                };
-                let cutter = Cutter {
-                    rolling: &rolling,
-                    member,
-                    tool: &teeth.tool,
-                    pattern: patterns.of(member),
-                    tolerance,
-                };
-                Gear::new(
-                    &rolling,
-                    member,
-                    count,
-                    cutter.cut(plans)?,
-                    body.clone(),
-                    tolerance,
-                )
+            let cutter = |member: Member| Cutter {
+                rolling: &rolling,
+                member,
+                tool: &teeth.tool,
+                pattern: patterns.of(member),
+                tolerance,
             };
-            let gears = [cut(Member::Driver)?, cut(Member::Driven)?];
+            let driver = cutter(Member::Driver).cut(&plan.driver)?;
+            let driven = match Mating::new(&rolling, &plan) {
+                Some(mating) => driver.mated(&mating, &plan.driven)?,
+                None => cutter(Member::Driven).cut(&plan.driven)?,
+            };
+            let gear = |member: Member, profile: Profile, body: &BodySpec| {
+                Gear::new(&rolling, member, profile, body.clone(), tolerance)
+            };
+            let gears = [
+                gear(Member::Driver, driver, &design.driver)?,
+                gear(Member::Driven, driven, &design.driven)?,
+            ];
             Ok((teeth, plan, patterns, gears))
         };
         let cut = |design: &GearPairDesign| {

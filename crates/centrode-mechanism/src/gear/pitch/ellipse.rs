@@ -130,7 +130,11 @@ impl RadiusLaw for Focal {
     }
 
     fn symmetry(&self) -> Symmetry {
-        Symmetry::of_cosine(self.lobes, self.eccentricity)
+        Symmetry {
+            // An ellipse rolls on its like about the foci.
+            mates_itself: self.lobes == 1 || self.eccentricity == 0.0,
+            ..Symmetry::of_cosine(self.lobes, self.eccentricity)
+        }
     }
 
     fn radius(&self, phi: &Direction) -> Derivatives {

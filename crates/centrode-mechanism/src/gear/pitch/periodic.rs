@@ -162,6 +162,7 @@ impl Fourier {
         Symmetry {
             folds: used.map(|(n, _)| n).fold(0, gcd),
             mirrored: self.harmonics.iter().all(|[_, sine]| *sine == 0.0),
+            mates_itself: false,
         }
     }
 

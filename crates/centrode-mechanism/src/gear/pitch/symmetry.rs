@@ -5,6 +5,8 @@ pub(crate) struct Symmetry {
     pub(crate) folds: u32,
     /// Whether `r(-phi) = r(phi)`.
     pub(crate) mirrored: bool,
+    /// Whether the curve that rolls on it one to one is the same curve, its least radius on the other's greatest.
+    pub(crate) mates_itself: bool,
 }
 
 impl Symmetry {
@@ -12,6 +14,7 @@ impl Symmetry {
     pub(crate) const NONE: Self = Self {
         folds: 1,
         mirrored: false,
+        mates_itself: false,
     };
 
     /// A law of `cos(lobes phi)`; of no swing it is a circle's.
@@ -19,6 +22,7 @@ impl Symmetry {
         Self {
             folds: if swing == 0.0 { 0 } else { lobes },
             mirrored: true,
+            mates_itself: swing == 0.0,
         }
     }
 }
