@@ -94,14 +94,23 @@ def exports(tmp_path_factory):
     return export
 
 
+def design_file(name, folder):
+    """File of a shipped design; of a family's template one in a folder, written where it was not yet."""
+    design = ROOT / "tests" / "designs" / f"{name}.toml"
+    if not design.exists():
+        design = folder / "new.toml"
+        design.write_text(centrode("new", name).stdout)
+    return design
+
+
 @pytest.fixture(scope="module")
 def shipped(tmp_path_factory):
-    """Exports a shipped design in some formats where it was not yet."""
+    """Exports a shipped design, or the template of a family, in some formats where it was not yet."""
 
     @cache
     def export(name, formats):
         folder = tmp_path_factory.mktemp(name)
-        design = ROOT / "tests" / "designs" / f"{name}.toml"
+        design = design_file(name, folder)
         # A machine that does not do its job is written all the same.
         centrode("export", design, "--to", folder, "--format", formats, check=False)
         return folder

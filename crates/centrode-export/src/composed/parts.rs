@@ -81,6 +81,7 @@ fn plate(composed: &Composed, machine: &Machine, body: usize, quantity: usize) -
         tables: Vec::new(),
         exactness: None,
         marks: Vec::new(),
+        classes: Default::default(),
     })
 }
 

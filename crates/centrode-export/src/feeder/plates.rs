@@ -1,6 +1,6 @@
 use crate::drawing::{Anchor, CENTER, Color, Drawing, EntityShape, LineType, Text};
 use crate::plate::{self, Hole};
-use crate::sheet::{capital, fit, number};
+use crate::sheet::{capital, number};
 use centrode_geometry::{Bounds, Point, Vector};
 use centrode_mechanism::feeder::{Feeder, FeederPart, Plate};
 
@@ -44,11 +44,12 @@ pub(super) fn made(feeder: &Feeder, plate: &Plate) -> plate::Plate {
     let screws = of_frame.iter().flat_map(Hole::clearance);
     let name = plate.part.name();
     let note = match plate.part {
-        FeederPart::Slider => {
-            let width = fit::keyway(spec.slot_width, &spec.slider_fit);
-            format!("Width {width}, to run in the effector's slot.")
-        }
+        FeederPart::Slider => "Runs in the effector's slot.".to_owned(),
         _ => "x points from the first joint to the second.".to_owned(),
+    };
+    let rim = match plate.part {
+        FeederPart::Slider => spec.slider_fit.clone(),
+        _ => String::new(),
     };
     plate::Plate {
         name: name.into(),
@@ -64,6 +65,7 @@ pub(super) fn made(feeder: &Feeder, plate: &Plate) -> plate::Plate {
         tables: Vec::new(),
         exactness: None,
         marks: Vec::new(),
+        classes: [rim, String::new()],
     }
 }
 

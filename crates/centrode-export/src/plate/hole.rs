@@ -170,7 +170,7 @@ impl Hole {
 }
 
 /// Centre and radius of a contour that is a full circle.
-fn circle(contour: &Outline) -> Option<(Point, f64)> {
+pub(super) fn circle(contour: &Outline) -> Option<(Point, f64)> {
     let mut found: Option<(Point, f64)> = None;
     let mut turned = 0.0;
     for segment in contour.segments() {

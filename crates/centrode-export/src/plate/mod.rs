@@ -1,5 +1,6 @@
 //! Parts of one thickness: cutting drawing, sheets, solid.
 
+mod edges;
 mod geometrical;
 mod hole;
 mod sheet;
@@ -10,6 +11,8 @@ use centrode_geometry::{
 use centrode_mechanism::design::DrawingSpec;
 use centrode_mechanism::gear::design::BodySpec;
 use centrode_mechanism::machine::Fastening;
+
+use nalgebra::Isometry2;
 
 use crate::drawing::{CENTER, Drawing, EntityShape, HOLE, PROFILE};
 use crate::dxf::Curves;
@@ -44,6 +47,9 @@ pub(crate) struct Plate {
     pub(crate) exactness: Option<Exactness>,
     /// Timing marks on its face.
     pub(crate) marks: Vec<Point>,
+    /// Tolerance class of its height, of a round one of its diameter, and of the height of its opening, ISO 286; empty where
+    /// general tolerances hold.
+    pub(crate) classes: [String; 2],
 }
 
 /// Exactness of a contour to the bore.
@@ -80,6 +86,7 @@ impl Plate {
             tables: Vec::new(),
             exactness: None,
             marks: Vec::new(),
+            classes: [String::new(), String::new()],
         }
     }
 
@@ -107,7 +114,18 @@ impl Plate {
             tables: Vec::new(),
             exactness: None,
             marks: Vec::new(),
+            classes: [String::new(), String::new()],
         }
+    }
+
+    /// The plate with its origin elsewhere.
+    pub(crate) fn about(mut self, origin: Point) -> Self {
+        let place = Isometry2::translation(-origin.x, -origin.y);
+        self.outline = self.outline.transformed(&place);
+        for hole in &mut self.holes {
+            hole.outline = hole.outline.transformed(&place);
+        }
+        self
     }
 
     pub(crate) fn noted(mut self, line: &str) -> Self {

@@ -6,12 +6,12 @@ use crate::SheetOptions;
 use crate::drawing::{Anchor, EntityShape};
 use crate::sheet::geometrical::{Characteristic, NoteLine};
 use crate::sheet::{
-    Draft, Pen, Scale, Sheet, SheetBlock, SheetError, Table, TitleBlock, compose, fixed, number,
-    steady, view_letters,
+    Draft, Pen, Scale, Sheet, SheetBlock, SheetError, Table, TitleBlock, compose, fixed, lettering,
+    number, steady, view_letters,
 };
 
 /// Most holes with their size and place beside the view; more have a table.
-const CALLED_OUT: usize = 8;
+const CALLED_OUT: usize = 6;
 /// Most sides of a contour that a sheet is read for; more are in the cutting file alone.
 const SIDES: usize = 40;
 /// Bulge of a half circle beyond one by which an arc is no longer: rounding.
@@ -107,15 +107,15 @@ impl Plate {
             draft.line(Pen::Axis, p(low.x - 3.0, 0.0), p(high.x + 3.0, 0.0));
             draft.line(Pen::Axis, p(0.0, low.y - 3.0), p(0.0, high.y + 3.0));
         }
-        let size = max - min;
-        // Below everything, and left of the notes.
-        let below = p(low.x, low.y - 12.0);
-        draft.dimension(
-            [p(low.x, low.y), p(high.x, low.y)],
-            Vector::x(),
-            below,
-            &number(size.x, PLACES),
-        );
+        // Below everything, and left of the notes. The diameter of a round one stands at its edge.
+        if self.round().is_none() {
+            draft.dimension(
+                [p(low.x, low.y), p(high.x, low.y)],
+                Vector::x(),
+                p(low.x, low.y - 12.0),
+                &number(max.x - min.x, PLACES),
+            );
+        }
         let around = Bounds {
             min: low - Vector::repeat(4.0),
             max: high + Vector::repeat(4.0),
@@ -143,41 +143,8 @@ impl Plate {
             }
         }
         self.edge(&mut draft, k, projection);
+        self.front(&mut draft, k, projection);
         draft
-    }
-
-    /// The edge, beside the face: seen from the left it stands on the right in first angle.
-    fn edge(&self, draft: &mut Draft, k: f64, projection: Projection) {
-        let whole = draft.bounds();
-        let Bounds { min, max } = self.outline.bounds();
-        let (low, high) = (min.y * k, max.y * k);
-        let thick = self.thickness * k;
-        let gap = 14.0;
-        let left = match projection {
-            Projection::FirstAngle => whole.max.x + gap,
-            Projection::ThirdAngle => whole.min.x - gap - thick - 16.0,
-        };
-        let p = Point::new;
-        let edge = Bounds {
-            min: p(left, low),
-            max: p(left + thick, high),
-        };
-        draft.rectangle(Pen::Outline, edge);
-        let heights = [p(left + thick, low), p(left + thick, high)];
-        let beside = p(left + thick + 9.0, low);
-        draft.dimension(heights, Vector::y(), beside, &number(max.y - min.y, PLACES));
-        let across = [p(left, low), p(left + thick, low)];
-        draft.dimension(
-            across,
-            Vector::x(),
-            p(left, low - 12.0),
-            &number(self.thickness, PLACES),
-        );
-        if let Some(frame) = self.face_runout() {
-            let tip = p(left, high - 0.2 * (high - low));
-            let at = p(left - 4.0, (high + 8.0).max(whole.max.y + 4.0));
-            draft.pointed_frame(tip, at, &frame, "both faces");
-        }
     }
 
     /// Label of a hole: its own, or a letter where there are many.
@@ -186,8 +153,9 @@ impl Plate {
         if !own.is_empty() || self.holes.len() <= CALLED_OUT {
             return own.clone();
         }
+        let named = self.holes.iter().any(|hole| !hole.label.is_empty());
         match u8::try_from(index) {
-            Ok(index @ 0..26) => char::from(b'A' + index).to_string(),
+            Ok(index @ 0..26) if !named => char::from(b'A' + index).to_string(),
             _ => (index + 1).to_string(),
         }
     }
@@ -199,10 +167,22 @@ impl Plate {
                 HoleKind::Round(at, radius) | HoleKind::Slot([at, _], radius) => (at, radius),
                 HoleKind::Free => continue,
             };
+            let (letters, label) = (draft.lettering(), self.label(index));
+            let size = Vector::new(lettering::width(&label, letters), letters);
             let beside = 0.72 * reach * k + 0.8;
-            let letters = draft.lettering();
-            let at = at * k + Vector::new(beside, beside);
-            draft.text(at, letters, &self.label(index), Anchor::Left);
+            // Up and to the right of it, or where it touches nothing.
+            let corner = |[x, y]: [f64; 2]| {
+                let middle = Vector::repeat(beside) + 0.5 * size;
+                at * k + Vector::new(x * middle.x, y * middle.y) - 0.5 * size
+            };
+            let ways = [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]];
+            let free = ways.into_iter().map(corner).find(|low| {
+                let air = Vector::repeat(0.5);
+                let (min, max) = (low - air, low + size + air);
+                !draft.touches(Bounds { min, max })
+            });
+            let at = free.unwrap_or(corner(ways[0]));
+            draft.text(at, letters, &label, Anchor::Left);
         }
     }
 

@@ -43,6 +43,14 @@ impl Page {
         page
     }
 
+    /// Area of the rectangles around all pieces placed, mm².
+    pub(crate) fn filled(&self) -> f64 {
+        let areas = self.pieces.iter();
+        areas
+            .map(|(_, Bounds { min, max }, _)| (max - min).product())
+            .sum()
+    }
+
     /// Subtracts a rectangle from all empty ones.
     fn take(&mut self, taken: Bounds) {
         self.taken.push(taken);
@@ -149,14 +157,18 @@ impl Page {
         let fits = |f: &&Bounds| width <= f.max.x - f.min.x + 1e-9;
         let room = |f: &Bounds| f.max.y - f.min.y;
         let rows = |f: &Bounds| table.rows_in(room(f)).min(left);
+        let holds = |f: &Bounds| table.height(left, true) <= room(f) + 1e-9;
         let best = self
             .free
             .iter()
             .filter(fits)
             .filter(|f| rows(f) >= FEWEST.min(left))
-            .max_by(|a, b| rows(a).cmp(&rows(b)).then(b.min.x.total_cmp(&a.min.x)))
+            .max_by(|a, b| {
+                let more = holds(a).cmp(&holds(b)).then(rows(a).cmp(&rows(b)));
+                more.then(b.min.x.total_cmp(&a.min.x))
+            })
             .copied()?;
-        let whole = table.height(left, true) <= room(&best) + 1e-9;
+        let whole = holds(&best);
         // Beside views a table is not broken.
         if !whole && self.pieces.iter().any(|(_, _, floats)| *floats) {
             return None;

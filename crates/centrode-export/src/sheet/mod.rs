@@ -38,6 +38,12 @@ pub use title_block::TitleBlock;
 /// Distance of everything from the frame, mm: room for the centring marks.
 const INSET: f64 = 7.0;
 
+/// Share of the room of a sheet that the pieces of a view at full scale or larger take at least; a sheet that they leave emptier gives
+/// way to a smaller one with a reduced view.
+const FILLED: f64 = 0.5;
+/// Least length on paper of the longest side of a view that is reduced for a smaller sheet, mm.
+const READABLE: f64 = 100.0;
+
 /// One page of a drawing, in millimetres on paper from its lower left corner.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sheet {
@@ -81,7 +87,8 @@ pub enum SheetError {
 /// tables where there is room left, and on further sheets.
 ///
 /// `extent` is the longest side of a view at full scale, mm: no scale is tried at which it alone is too
-/// long. Without a size asked for it is the smallest sheet that takes all pieces at full scale or larger, or A0.
+/// long. Without a size asked for it is the smallest sheet that takes all pieces at full scale or larger, or A0; where the pieces
+/// take less than half of its room, a smaller one that takes them reduced, the longest side still 100 mm on paper.
 ///
 /// # Errors
 /// [`SheetError`] if views or a table do not fit on the sheet asked for.
@@ -101,19 +108,33 @@ pub fn compose(
         .map_or([&Scale::RECOMMENDED[..], &[]], |(full, reduced)| {
             [full, reduced]
         });
-    let complete = |size: SheetSize| {
-        full.iter()
+    let complete = |size: SheetSize, scales: &[Scale]| {
+        scales
+            .iter()
             .filter(|s| possible(size, s))
             .find_map(|&scale| {
                 let (page, rest) = place(size, pieces(scale, size))?;
-                rest.is_empty().then_some((scale, page))
+                rest.iter()
+                    .all(|piece| piece.waits)
+                    .then_some((size, scale, page, rest))
             })
     };
     let sizes = wanted.map_or(SheetSize::ALL.to_vec(), |size| vec![size]);
-    for size in sizes {
-        if let Some((scale, page)) = complete(size) {
-            return pages(size, scale, block, page, Vec::new(), tables);
+    let whole = sizes.iter().find_map(|&size| complete(size, full));
+    let is_empty = |page: &Page, size| page.filled() < FILLED * area(room(size));
+    let smaller = match &whole {
+        Some((size, _, page, _)) if is_empty(page, *size) => {
+            let readable = |s: &&Scale| s.factor() * extent >= READABLE;
+            let reduced: Vec<Scale> = reduced.iter().filter(readable).copied().collect();
+            // The smallest sheet has smaller letters, too.
+            let larger = |own: &&SheetSize| **own > SheetSize::A4 && *own < size;
+            let mut sizes = sizes.iter().filter(larger);
+            sizes.find_map(|&size| complete(size, &reduced))
         }
+        _ => None,
+    };
+    if let Some((size, scale, page, rest)) = smaller.or(whole) {
+        return pages(size, scale, block, page, rest, tables);
     }
     let size = wanted.unwrap_or(SheetSize::A0);
     for &scale in full.iter().chain(reduced).filter(|s| possible(size, s)) {
@@ -146,6 +167,10 @@ fn room(size: SheetSize) -> Bounds {
     }
 }
 
+fn area(Bounds { min, max }: Bounds) -> f64 {
+    (max - min).product()
+}
+
 fn block_place(size: SheetSize) -> Bounds {
     let Bounds { min, max } = frame::space(size);
     let corner = centrode_geometry::Point::new(max.x - title_block::WIDTH, min.y);
@@ -159,8 +184,20 @@ fn blank(size: SheetSize) -> Page {
     Page::new(room(size), block_place(size))
 }
 
-/// A page with all views on it, and the pieces that found no room; `None` if a view did not.
+/// A page with all views on it, and the pieces that found no room, those that wait last; `None` if a view did not.
 fn place(size: SheetSize, pieces: Vec<SheetBlock>) -> Option<(Page, Vec<SheetBlock>)> {
+    let (waiting, pieces): (Vec<SheetBlock>, Vec<SheetBlock>) =
+        pieces.into_iter().partition(|p| p.waits);
+    let (mut page, mut rest) = placed(size, pieces)?;
+    for piece in waiting {
+        if !rest.is_empty() || !page.place(piece.draft.clone(), piece.corner, piece.floats) {
+            rest.push(piece);
+        }
+    }
+    Some((page, rest))
+}
+
+fn placed(size: SheetSize, pieces: Vec<SheetBlock>) -> Option<(Page, Vec<SheetBlock>)> {
     let mut page = blank(size);
     let mut rest = Vec::new();
     let (views, others): (Vec<SheetBlock>, Vec<SheetBlock>) =

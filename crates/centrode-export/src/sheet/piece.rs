@@ -16,6 +16,8 @@ pub struct SheetBlock {
     pub floats: bool,
     /// Whether it must be on the first page; others move on to the next where there is no room.
     pub leads: bool,
+    /// Whether it may go on to a further page rather than make the first larger.
+    pub waits: bool,
 }
 
 impl SheetBlock {
@@ -35,6 +37,16 @@ impl SheetBlock {
             corner,
             floats: true,
             leads: false,
+            waits: false,
+        }
+    }
+
+    /// Section that may stand on a further page.
+    pub(crate) fn further(name: &'static str, draft: Draft) -> Self {
+        Self {
+            floats: false,
+            waits: true,
+            ..Self::detail(name, draft, Corner::UpperLeft)
         }
     }
 

@@ -49,6 +49,7 @@ fn plate(width: f64) -> impl Fn(Scale, SheetSize) -> Vec<SheetBlock> {
             corner: Corner::UpperLeft,
             floats: true,
             leads: true,
+            waits: false,
         }]
     }
 }

@@ -1,11 +1,12 @@
 use centrode_geometry::Point;
 use centrode_mechanism::gear::Member;
-use centrode_mechanism::machine::{self, Axis, Blank, Callout, Datum, Dimension};
+use centrode_mechanism::gear::design::BodySpec;
+use centrode_mechanism::machine::{self, Axis, Blank, Callout, Datum, Dimension, Fit, Supply};
 use centrode_mechanism::three_arm::ThreeArm;
 
 use super::ThreeArmPart;
 use super::machine::Machine;
-use crate::sheet::number;
+use crate::sheet::{fit, number};
 use crate::{gear_pair, turned};
 
 /// Lists the parts and tells the arrangement: the mechanism as its first arm picks.
@@ -20,6 +21,7 @@ pub(super) fn tell(parts: &Machine<'_>, machine: &mut machine::Machine) {
         machine.fit(fit);
     }
     turned::list(&parts.turned(), machine);
+    given(parts, machine);
     let carrier = machine.place_on("carrier", [0.0; 2]);
     let told = &mut machine.arrangement;
     told.seen_through.extend(carrier.map(|place| place.figure));
@@ -36,6 +38,47 @@ pub(super) fn tell(parts: &Machine<'_>, machine: &mut machine::Machine) {
     .map(String::from)
     .into();
     surroundings(mechanism, machine);
+}
+
+/// Lists what holds sun, cams and arms fast and is the customer's: the remark says what it must fit.
+fn given(parts: &Machine<'_>, machine: &mut machine::Machine) {
+    let design = parts.mechanism.design();
+    let on_shaft = |body: &BodySpec| {
+        let fit = Fit::new("", body.bore, [&body.bore_fit, &body.shaft_fit]);
+        (body.bore > 0.0).then(|| fit::shaft(&fit))
+    };
+    let cam = parts.pusher.cam().body();
+    let links = |part| links(part, parts.mechanism.arms(), machine);
+    let base = machine.link_named("base").into_iter().collect();
+    let all = [
+        (
+            "Stand",
+            base,
+            on_shaft(&design.sun).map(|shaft| format!("holds the carrier's shaft, {shaft}")),
+        ),
+        (
+            "Sleeve of a cam",
+            links(ThreeArmPart::Cam),
+            on_shaft(cam).map(|seat| format!("{seat}, on the carrier's front plate")),
+        ),
+        (
+            "Hub of an arm",
+            links(ThreeArmPart::CoverFront),
+            on_shaft(&design.planet)
+                .map(|shaft| format!("front cover on the planet's shaft, {shaft}")),
+        ),
+    ];
+    for (name, links, remark) in all {
+        if let Some(remark) = remark {
+            machine.part(machine::Part {
+                name: name.into(),
+                links,
+                supply: Supply::Given,
+                remark,
+                ..machine::Part::default()
+            });
+        }
+    }
 }
 
 /// Dimensions and words of tray, ground and plants.

@@ -1,4 +1,4 @@
-use centrode_geometry::{Outline, Point};
+use centrode_geometry::{Bounds, Outline, Point};
 use centrode_mechanism::arm::{ArmBody, ArmPart};
 use centrode_mechanism::gear::{GearPair, Member};
 use centrode_mechanism::machine::{Fastening, Fit, TurnedPieces, with_bosses};
@@ -7,6 +7,7 @@ use centrode_mechanism::three_arm::{GearboxBody, Pusher, ThreeArm};
 
 use super::ThreeArmPart;
 use crate::plate::{Hole, Plate};
+use crate::sheet::fit;
 use crate::{ExportError, cam};
 
 /// Material of carrier and housings, with its density in kg/m^3.
@@ -94,17 +95,35 @@ impl<'a> Machine<'a> {
             -self.mechanism.design().arm.pusher_offset,
         );
         let hole = Outline::circle(pin, 0.25 * self.pusher.fork_spec().slot_width);
+        let bar = fit::keyway(self.mechanism.arm_sizes().rod_bore(), SLIDING[1]);
         Some(
             self.plate(ThreeArmPart::PushRod, outline, vec![hole], rod.span, STEEL)
-                .noted("Drawn in the arm's frame, thrown out.")
-                .noted("Hole for the pin that runs in the fork's slot."),
+                .noted("x points from the hole to the pusher.")
+                .noted("Hole for the pin that runs in the fork's slot.")
+                .noted(&format!("Square bar {bar}, to slide in the housing.")),
         )
     }
 
+    /// A part that is a plate, in the frame that its files have: those that lie off the planet's axis in the middle of the hole or
+    /// the root.
+    pub(super) fn made(&self, part: ThreeArmPart) -> Option<Plate> {
+        let plate = self.plate_of(part)?;
+        let Bounds { min, max } = plate.outline.bounds();
+        let middle = 0.5 * (min.y + max.y);
+        Some(match part {
+            ThreeArmPart::PushRod => plate.about(Point::new(0.5 * self.pusher.stroke(), middle)),
+            ThreeArmPart::Clamp => {
+                let root = 0.5 * self.mechanism.arm_sizes().clamp.root_height;
+                plate.about(Point::new(min.x + root, middle))
+            }
+            _ => plate,
+        })
+    }
+
     fn bore_in_words(&self) -> String {
-        let bore = self.mechanism.arm_sizes().rod_bore();
+        let bore = fit::keyway(self.mechanism.arm_sizes().rod_bore(), SLIDING[0]);
         format!(
-            "Square bore {bore:.2} through the front for the push rod, on the pusher's axis and in the middle of the thickness."
+            "Square bore {bore} for the push rod, on the pusher's axis and in the middle of the thickness."
         )
     }
 
@@ -130,6 +149,7 @@ impl<'a> Machine<'a> {
             tables: Vec::new(),
             exactness: None,
             marks: Vec::new(),
+            classes: Default::default(),
         }
     }
 
@@ -251,6 +271,7 @@ impl<'a> Machine<'a> {
             let (outline, holes) = (found.outline.clone(), found.holes.clone());
             let plate = self.plate(part, outline, holes, found.span, LIGHT);
             Some(Plate {
+                classes: [String::new(), SLIDING[0].into()],
                 opening: found.opening.clone(),
                 ..plate
             })
@@ -274,7 +295,9 @@ impl<'a> Machine<'a> {
                 let circle = |radius| Outline::circle(Point::origin(), radius);
                 let holes = vec![circle(0.5 * spec.roller_bore)];
                 let span = self.pusher.cam_span();
-                Some(self.plate(part, circle(spec.roller_radius), holes, span, STEEL))
+                let mut roller = self.plate(part, circle(spec.roller_radius), holes, span, STEEL);
+                roller.classes[0] = making::RIM.into();
+                Some(roller)
             }
             ThreeArmPart::Spacer => {
                 let screws = self.screws[0].as_ref()?;
@@ -303,7 +326,7 @@ impl<'a> Machine<'a> {
                 let found = self.of_arm("flake-left")?;
                 let steel = ("spring steel", STEEL.1);
                 let plate = self.plate(part, found.outline.clone(), Vec::new(), found.span, steel);
-                Some(plate.noted(in_arm).noted(along))
+                Some(plate.noted("x points from the root in the housing to the tip."))
             }
             ThreeArmPart::PushRod => self.push_rod(),
             ThreeArmPart::Cam => Some(self.cam()),

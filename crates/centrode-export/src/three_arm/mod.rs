@@ -80,7 +80,7 @@ pub fn files(
         if let Some((pair, member)) = machine.gear(part) {
             let label = label(part, mechanism.arms(), &design.drawing, package.design());
             gear_pair::add_gear(&mut package, pair, member, label)?;
-        } else if let Some(plate) = machine.plate_of(part) {
+        } else if let Some(plate) = machine.made(part) {
             plate.add(&mut package, &design.drawing)?;
         }
     }

@@ -178,10 +178,10 @@ impl ArmBodySpec {
         Ok(())
     }
 
-    /// Width and height of the bore for the push rod in the housing's front, mm: a tenth more than the rod's.
+    /// Width and height of the bore for the push rod in the housing's front, mm: the rod's, which slides in it.
     #[must_use]
     pub fn rod_bore(&self) -> f64 {
-        1.1 * self.push_rod.diameter
+        self.push_rod.diameter
     }
 
     /// Position of the push rod's rear end along the pusher's axis when it is thrown out, mm: drawn back, it ends

@@ -65,10 +65,26 @@ impl UsualArm {
     }
 }
 
-/// Default sizes enlarged, the bore to a preferred size.
+/// A length rounded to two digits.
+fn of_two_digits(length: f64) -> f64 {
+    let parts = 10_f64.powi(1 - length.log10().floor() as i32);
+    let rounded = (length * parts).round() / parts;
+    if rounded.is_finite() { rounded } else { length }
+}
+
+/// Default sizes enlarged: what other parts fit to preferred sizes, what is cut from plate to two digits.
 fn enlarged(scale: f64) -> ArmBodySpec {
     let mut body = ArmBodySpec::default().scaled(scale);
-    body.housing.bore = preferred_size(body.housing.bore);
+    for size in [&mut body.housing.bore, &mut body.push_rod.diameter] {
+        *size = preferred_size(*size);
+    }
+    for thickness in [
+        &mut body.housing.wall,
+        &mut body.housing.width,
+        &mut body.clamp.thickness,
+    ] {
+        *thickness = of_two_digits(*thickness);
+    }
     body
 }
 
@@ -82,6 +98,7 @@ fn slimmer(mut body: ArmBodySpec, share: f64) -> ArmBodySpec {
     ] {
         *height *= share;
     }
+    body.push_rod.diameter = preferred_size(body.push_rod.diameter);
     body
 }
 

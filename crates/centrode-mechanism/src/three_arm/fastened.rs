@@ -10,6 +10,8 @@ use crate::machine::{Fastening, FasteningError, ScrewRoom};
 const ENTERED: [f64; 2] = [1.0, 1.5];
 /// Least distance of the middle of a screw from the edge of the carrier's plates, in diameters.
 const EDGE: f64 = 1.5;
+/// Least distance of the middle of a screw from the edge of a cover, in diameters of its hole; EN 1993-1-8, 3.5, e1 and e2.
+const COVER_EDGE: f64 = 1.2;
 /// Fewest screws of a plate of the carrier.
 const OF_CARRIER: usize = 3;
 /// Screws of a cover.
@@ -66,7 +68,7 @@ impl ThreeArm {
             let faces = ([-half, half], housing.wall);
             let mut found = Fastening::new(diameter, faces, ENTERED[1])?;
             let room = ScrewRoom {
-                line: arm.within(diameter),
+                line: arm.within(COVER_EDGE * found.screw.clearance_hole()),
                 taken: self.moving_inside(pusher, arm),
                 turns: 1,
             };

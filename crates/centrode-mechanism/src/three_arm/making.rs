@@ -6,6 +6,8 @@ pub const STEEL: (&str, f64) = ("steel", 7850.0);
 pub const PRESSED: [&str; 2] = ["H7", "m6"];
 /// Of what slides in a slot or a square bore.
 pub const SLIDING: [&str; 2] = ["H9", "e9"];
+/// Of the rim of a roller, by which a cam moves it.
+pub const RIM: &str = "h7";
 /// Of the hole of a roller on a pin that is pressed into another part.
 pub const ROLLING: &str = "E9";
 /// Of that of a fork on such a pin.

@@ -84,8 +84,9 @@ impl ThreeArm {
             ["shaft-carrier", "Shaft of the carrier"],
             ([behind, front[1]], [0.0, clearance]),
         );
-        carrier.part.notes =
-            vec!["Free end for its bearing and the drive, to be cut to length.".into()];
+        carrier.part.notes = vec![
+            "Held fast at its free end, to be cut to length; the carrier turns about it.".into(),
+        ];
         let between = shaft(
             &design.intermediate,
             self.on_chains("intermediate", [0.0; 3]),

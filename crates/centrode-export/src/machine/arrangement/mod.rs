@@ -4,6 +4,7 @@ mod axes;
 mod fits;
 mod measure;
 mod scene;
+mod stacks;
 mod view;
 
 use centrode_geometry::Tolerance;
@@ -15,11 +16,12 @@ use super::parts::parts_list;
 use crate::SheetOptions;
 use crate::drawing::Anchor;
 use crate::sheet::{
-    Corner, Scale, Sheet, SheetBlock, SheetError, Table, TitleBlock, broken, compose, fixed, mass,
-    number,
+    Corner, Draft, Scale, Sheet, SheetBlock, SheetError, Table, TitleBlock, broken, compose, fixed,
+    mass, number,
 };
 use axes::Length;
 use scene::Scene;
+use stacks::Stack;
 use view::View;
 
 /// Name of the sheet.
@@ -48,7 +50,10 @@ pub fn arrangement(
 ) -> Result<Vec<Sheet>, SheetError> {
     let told = &machine.arrangement;
     let mut block = TitleBlock::new(&told.drawing, NAME, options);
-    block.title.clone_from(&told.title);
+    block.title = match &*told.title {
+        "" => "Machine".into(),
+        title => title.into(),
+    };
     block.supplement = machine.heading().to_owned();
     block.document = "General arrangement".into();
     let whole = machine.parts.iter().all(|part| part.mass.is_some());
@@ -64,6 +69,8 @@ pub fn arrangement(
         axes,
         scene,
     };
+    let stacks = Stack::all(machine, &view.scene.places, tolerance);
+    let stacks: Vec<Draft> = stacks.iter().map(|stack| stack.draft(tolerance)).collect();
     let (parts, data) = (parts_list(machine), data(machine, options));
     let fits = fits::table(machine);
     let (beside, mut flowing): (Vec<Table>, Vec<Table>) = motion(machine)
@@ -89,6 +96,9 @@ pub fn arrangement(
         if !view.scene.lines.is_empty() {
             pieces.push(SheetBlock::view("machine", view.draft(scale, size)));
         }
+        let sections = stacks.iter().cloned();
+        let section = |draft| SheetBlock::further("section", draft);
+        pieces.extend(sections.map(section));
         pieces.extend(beside.iter().map(|table| SheetBlock {
             corner: Corner::UpperLeft,
             ..SheetBlock::table("motion", table)
