@@ -88,6 +88,15 @@ def drawing(page):
     return page.locator("#stage canvas").evaluate("canvas => canvas.toDataURL()")
 
 
+def curves_of(snapshot):
+    """Curves of a snapshot with their inputs: where one has none, they are those of the curve before."""
+    curves, before = [], None
+    for curve in snapshot["curves"]:
+        before = curve["input"] or before
+        curves.append({**curve, "input": before})
+    return curves
+
+
 def drag(page, handle, right, down):
     """Draws a point of the drawing aside, pixels."""
     box = handle.locator("circle").last.bounding_box()

@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 from conftest import centrode
-from page import ARMS, BOX, CIRCLE, FEEDER, POINTS, field, opened, settled, shown
+from page import ARMS, BOX, CIRCLE, FEEDER, POINTS, curves_of, field, opened, settled, shown
 from playwright.sync_api import expect
 from studio import studio
 
@@ -167,7 +167,7 @@ def curves(design):
     centrode("report", design, "-o", out, check=False)
     text = re.search(r'id="snapshot">(.*?)</script>', out.read_text(), re.DOTALL)[1]
     found = {}
-    for curve in json.loads(text)["curves"]:
+    for curve in curves_of(json.loads(text)):
         found.setdefault(curve["chart"], []).append(curve)
     return found
 

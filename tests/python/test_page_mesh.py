@@ -5,7 +5,7 @@ import math
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from page import ARMS, CIRCLE, FEEDER, POINTS, drawing, field, opened, settled
+from page import ARMS, CIRCLE, FEEDER, POINTS, curves_of, drawing, field, opened, settled
 from PIL import Image
 from playwright.sync_api import expect
 from studio import studio
@@ -146,7 +146,7 @@ def test_as_many_flanks_touch_as_the_contact_analysis_of_the_finished_outlines_c
     (contacts,) = snapshot["picture"]["contacts"]
     cycle = contacts["pitch_point"]["input"][-1]
     ends = [(path["input"][0], path["input"][-1]) for path in contacts["paths"]]
-    counted = next(curve for curve in snapshot["curves"] if curve["chart"] == "Contacts at once")
+    counted = next(curve for curve in curves_of(snapshot) if curve["chart"] == "Contacts at once")
     differ = [
         value
         for phi, value in zip(counted["input"], counted["value"], strict=True)

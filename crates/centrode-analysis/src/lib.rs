@@ -16,12 +16,13 @@ pub mod optimise;
 mod report;
 mod response;
 mod shaft;
+mod side_by_side;
 mod three_arm;
 mod unit;
 
 pub use composed::{
-    NoSoundTeeth, SoundTeeth, check_composed, check_composed_motion, composed_clearance,
-    composed_collisions, composed_figures, with_sound_teeth,
+    NoSoundTeeth, SoundTeeth, check_composed, check_composed_goals, check_composed_motion,
+    composed_clearance, composed_collisions, composed_figures, with_sound_teeth,
 };
 pub use contact::{
     Contact, ContactExtremes, Proof, ProofError, ProofMeeting, ProofStretch, SeatJump, prove,

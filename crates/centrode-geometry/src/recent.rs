@@ -1,9 +1,6 @@
 use std::sync::{Mutex, PoisonError};
 
-/// Results remembered.
-const MOST: usize = 4;
-
-/// The last few results of a long computation, each by what it was made of.
+/// The last few results of a long computation, 4 where nothing else is said, each by what it was made of.
 ///
 /// For what stays as it is while something else of a design is changed many times. Made anew, a result is the same:
 /// remembering it changes nothing but the time. While one thread makes a result, others may make the same one.
@@ -16,9 +13,9 @@ const MOST: usize = 4;
 /// assert_eq!(SQUARES.get(&7, || unreachable!("it is remembered")), 49);
 /// ```
 #[derive(Debug)]
-pub struct Recent<K, V>(Mutex<Vec<(K, V)>>);
+pub struct Recent<K, V, const MOST: usize = 4>(Mutex<Vec<(K, V)>>);
 
-impl<K, V> Recent<K, V> {
+impl<K, V, const MOST: usize> Recent<K, V, MOST> {
     /// Nothing remembered yet.
     #[must_use]
     pub const fn new() -> Self {
@@ -26,13 +23,13 @@ impl<K, V> Recent<K, V> {
     }
 }
 
-impl<K, V> Default for Recent<K, V> {
+impl<K, V, const MOST: usize> Default for Recent<K, V, MOST> {
     fn default() -> Self {
         Self::new()
     }
 }
 
-impl<K: Clone + PartialEq, V: Clone> Recent<K, V> {
+impl<K: Clone + PartialEq, V: Clone, const MOST: usize> Recent<K, V, MOST> {
     /// The remembered result of `key`, or the one made now.
     pub fn get(&self, key: &K, make: impl FnOnce() -> V) -> V {
         let known = |known: &Vec<(K, V)>| known.iter().find(|k| k.0 == *key).map(|k| k.1.clone());
@@ -56,7 +53,7 @@ mod tests {
 
     #[test]
     fn the_oldest_is_forgotten_first() {
-        let recent = Recent::new();
+        let recent: Recent<i32, ()> = Recent::new();
         let mut made = Vec::new();
         for key in [1, 2, 3, 4, 1, 5, 4, 1] {
             recent.get(&key, || made.push(key));

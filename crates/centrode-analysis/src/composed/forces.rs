@@ -1,4 +1,4 @@
-use std::cell::RefCell;
+use std::sync::{Mutex, PoisonError};
 
 use centrode_geometry::{Antiderivative, Extreme, greatest_of, rounding};
 use centrode_mechanism::composed::{Composed, ComposedFigure};
@@ -18,7 +18,7 @@ pub(super) struct Loaded {
     /// Ends of the parts of a cycle between which all forces are smooth.
     ends: Vec<f64>,
     /// First reason why a state has no forces.
-    failed: RefCell<Option<ForcesError>>,
+    failed: Mutex<Option<ForcesError>>,
 }
 
 impl Loaded {
@@ -27,7 +27,7 @@ impl Loaded {
             balance: Balance::new(machine.clone())?,
             period: composed.period(),
             ends: ends(composed),
-            failed: RefCell::new(None),
+            failed: Mutex::new(None),
         })
     }
 
@@ -37,7 +37,9 @@ impl Loaded {
         match self.balance.at(input, speed) {
             Ok(forces) => Some(forces),
             Err(error) => {
-                self.failed.borrow_mut().get_or_insert(error);
+                let failed = self.failed.lock();
+                let mut failed = failed.unwrap_or_else(PoisonError::into_inner);
+                failed.get_or_insert(error);
                 None
             }
         }
@@ -123,7 +125,8 @@ pub(super) fn forces(loaded: &Result<Loaded, ForcesError>, machine: &Machine, re
     let arm = arms.map(|[x, y, _]| x.hypot(y)).fold(0.0, f64::max);
     let size = ROUNDING * high.abs().max(low.abs()).max(force * arm);
     let mean = Antiderivative::of_size(torque, &loaded.ends, size).total() / loaded.period;
-    if let Some(error) = loaded.failed.borrow().as_ref() {
+    let failed = loaded.failed.lock();
+    if let Some(error) = failed.unwrap_or_else(PoisonError::into_inner).as_ref() {
         return undetermined(error, report);
     }
     let values = &mut report.values;

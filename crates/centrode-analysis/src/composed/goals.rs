@@ -6,6 +6,7 @@ use centrode_mechanism::composed::{
 use super::clearance::composed_clearance;
 use super::{Made, ends, forces, within};
 use crate::forces::Forces;
+use crate::side_by_side::each;
 use crate::{Goal, Table, Unit};
 
 /// Accuracy of a clearance, as a share of a plate's width.
@@ -22,29 +23,27 @@ pub(super) fn goals(made: &Made<'_>) -> Vec<Found> {
     let composed = made.composed;
     let ends = ends(composed);
     let specs = composed.design().goals.iter().zip(composed.figures());
-    (1..)
-        .zip(specs)
-        .map(|(number, ((name, spec), figure))| {
-            let unit = unit(made, figure);
-            let (value, input) = value(made, figure, spec, &ends, unit);
-            let title = if spec.title.is_empty() {
-                format!("{name}: {}", spec.words())
-            } else {
-                spec.title.clone()
-            };
-            let kept = |shown: f64| shown / unit.factor();
-            let wanted = spec.wanted().map(|end| end.map(kept));
-            let size = wanted
-                .into_iter()
-                .flatten()
-                .fold(0.0, |size: f64, w| size.max(w.abs()));
-            let usual = if size > 0.0 { size } else { kept(1.0) };
-            let scale = spec.scale.map_or(usual, kept);
-            let about = (number, name.clone(), title);
-            let goal = Goal::new(about, value, wanted, unit, scale);
-            Found { goal, input }
-        })
-        .collect()
+    let specs: Vec<_> = (1..).zip(specs).collect();
+    each(&specs, |(number, ((name, spec), figure))| {
+        let (number, unit) = (*number, unit(made, figure));
+        let (value, input) = value(made, figure, spec, &ends, unit);
+        let title = if spec.title.is_empty() {
+            format!("{name}: {}", spec.words())
+        } else {
+            spec.title.clone()
+        };
+        let kept = |shown: f64| shown / unit.factor();
+        let wanted = spec.wanted().map(|end| end.map(kept));
+        let size = wanted
+            .into_iter()
+            .flatten()
+            .fold(0.0, |size: f64, w| size.max(w.abs()));
+        let usual = if size > 0.0 { size } else { kept(1.0) };
+        let scale = spec.scale.map_or(usual, kept);
+        let about = (number, String::clone(name), title);
+        let goal = Goal::new(about, value, wanted, unit, scale);
+        Found { goal, input }
+    })
 }
 
 /// Unit of a figure.
@@ -200,7 +199,7 @@ fn clearance(
     spec: &ComposedGoalSpec,
 ) -> (Option<f64>, Option<f64>) {
     let width = made.composed.design().plates.width;
-    let (Some(machine), Ok(tolerance)) = (made.machine(), Tolerance::new(ACCURACY * width)) else {
+    let (Some(machine), Ok(tolerance)) = (made.outlined(), Tolerance::new(ACCURACY * width)) else {
         return (None, None);
     };
     let inputs = match spec.within[..] {

@@ -13,10 +13,9 @@ mod sound_teeth;
 #[cfg(test)]
 mod tests;
 
-use std::cell::OnceCell;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
-use centrode_geometry::{Cancel, pieces};
+use centrode_geometry::pieces;
 use centrode_mechanism::composed::Composed;
 use centrode_mechanism::machine::Machine;
 
@@ -29,6 +28,7 @@ use self::motion::Motion;
 pub use self::sound_teeth::{NoSoundTeeth, SoundTeeth, with_sound_teeth};
 use crate::forces::ForcesError;
 use crate::report::Missed;
+use crate::side_by_side::both;
 use crate::{Finding, Goal, Place, Report, Severity, Table, Unit};
 
 /// Parts of a turn of the input in each of which a motion has few extremes.
@@ -41,20 +41,13 @@ const HOLDS_BADLY: f64 = 30.0;
 /// Lengths are mm, angles rad, speeds mm/s. Every extreme is over the whole cycle.
 #[must_use]
 pub fn check_composed(composed: &Composed) -> Report {
-    let under = Cancel::current();
     // Teeth take about as long as the motion, of which they know nothing.
-    let (pairs, motion) = rayon::join(
-        || {
-            let _scope = under.enter();
-            pairs::checked(composed)
-        },
-        || {
-            let _scope = under.enter();
-            Motion::new(composed, &ends(composed))
-        },
+    let (pairs, motion) = both(
+        || pairs::checked(composed),
+        || Motion::new(composed, &ends(composed)),
     );
     let made = Made {
-        pairs: OnceCell::from(pairs),
+        pairs: OnceLock::from(pairs),
         ..Made::new(composed)
     };
     checked(&made, motion, Depth::Whole)
@@ -66,6 +59,14 @@ pub fn check_composed(composed: &Composed) -> Report {
 pub fn check_composed_motion(composed: &Composed) -> Report {
     let motion = Motion::new(composed, &ends(composed));
     checked(&Made::new(composed), motion, Depth::Motion)
+}
+
+/// Checks the goals of a composed machine alone: those of [`check_composed_motion`], without its figures.
+#[must_use]
+pub fn check_composed_goals(composed: &Composed) -> Report {
+    let mut report = Report::default();
+    add_goals(&Made::new(composed), &mut report);
+    report
 }
 
 /// How much is checked.
@@ -103,8 +104,15 @@ fn checked(made: &Made<'_>, motion: Motion, depth: Depth) -> Report {
         pairs::pairs(made, &mut report);
         collisions::collisions(made, &ends(composed), &mut report);
     }
+    add_goals(made, &mut report);
+    report.worst_first();
+    report
+}
+
+/// Adds the goals to a report, and the findings of those that are missed.
+fn add_goals(made: &Made<'_>, report: &mut Report) {
     let found = goals::goals(made);
-    clearance::apart(composed, &found, &mut report);
+    clearance::apart(made.composed, &found, report);
     report.goals = found.iter().map(|found| found.goal.clone()).collect();
     report.blame_goals(|goal| Missed {
         input: found
@@ -113,8 +121,6 @@ fn checked(made: &Made<'_>, motion: Motion, depth: Depth) -> Report {
             .and_then(|f| f.input),
         ..Missed::default()
     });
-    report.worst_first();
-    report
 }
 
 /// The goals of a composed machine with their figures.
@@ -126,18 +132,20 @@ pub(crate) fn goals_of(composed: &Composed) -> Vec<Goal> {
 /// A composed machine with what its checks share, each made when it is first asked for.
 struct Made<'a> {
     composed: &'a Composed,
-    machine: OnceCell<Option<Machine>>,
-    loaded: OnceCell<Option<Result<Loaded, ForcesError>>>,
-    pairs: OnceCell<Vec<Arc<Report>>>,
+    outlined: OnceLock<Option<Machine>>,
+    machine: OnceLock<Option<Machine>>,
+    loaded: OnceLock<Option<Result<Loaded, ForcesError>>>,
+    pairs: OnceLock<Vec<Arc<Report>>>,
 }
 
 impl<'a> Made<'a> {
     fn new(composed: &'a Composed) -> Self {
         Self {
             composed,
-            machine: OnceCell::new(),
-            loaded: OnceCell::new(),
-            pairs: OnceCell::new(),
+            outlined: OnceLock::new(),
+            machine: OnceLock::new(),
+            loaded: OnceLock::new(),
+            pairs: OnceLock::new(),
         }
     }
 
@@ -145,6 +153,17 @@ impl<'a> Made<'a> {
     fn machine(&self) -> Option<&Machine> {
         let made = || self.composed.machine().ok();
         self.machine.get_or_init(made).as_ref()
+    }
+
+    /// Its links with their contours, with whatever else is known of them; none where a plate is no solid.
+    fn outlined(&self) -> Option<&Machine> {
+        match self.machine.get() {
+            Some(made) => made.as_ref(),
+            None => {
+                let made = || self.composed.outlined().ok();
+                self.outlined.get_or_init(made).as_ref()
+            }
+        }
     }
 
     /// Checks of its gear pairs.

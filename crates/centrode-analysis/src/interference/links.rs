@@ -1,6 +1,8 @@
 use centrode_geometry::Tolerance;
 use centrode_mechanism::machine::{FrameJet, Joint, JointKind, Machine, Surface};
 
+use crate::side_by_side::each;
+
 use super::{Body, BodyError, Clearance, InterferenceError, MotionError, Moving, PoseJet, Shares};
 
 /// Range of the input that counts as one place, rad.
@@ -139,11 +141,13 @@ impl LinkPair {
     /// # Errors
     /// [`LinkClearanceError`] where inputs do not ascend or a pose is not finite.
     pub fn over(&self, inputs: [f64; 2]) -> Result<Clearance, LinkClearanceError> {
-        let motions = self.bodies.iter().map(|(link, body)| {
+        let motions = each(&self.bodies, |(link, body)| {
             let chain = &self.chains[*link];
             self.shares.motion(body, inputs, |input| pose(chain, input))
         });
-        let motions = motions.collect::<Result<Vec<_>, MotionError>>()?;
+        let motions = motions
+            .into_iter()
+            .collect::<Result<Vec<_>, MotionError>>()?;
         let moving: Vec<Moving<'_>> = self
             .bodies
             .iter()

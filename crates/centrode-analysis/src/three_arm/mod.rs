@@ -22,6 +22,7 @@ use self::goals::all_goals;
 use self::pusher::check_pusher;
 use self::screws::check_screws;
 use crate::report::Missed;
+use crate::side_by_side::both;
 use crate::{Finding, Goal, Place, Report, Severity, Table, Unit, gear_pair};
 
 pub use arm_clearance::{ArmClearance, ArmClearanceCourse, ArmClearanceError, between_arms};
@@ -61,8 +62,11 @@ pub fn check_arms(mechanism: &ThreeArm) -> Report {
         groups: [gear_pair::FIGURES, FIGURES].concat(),
         ..Report::default()
     };
-    let teeth = mechanism.flank_counts().ok();
-    let arms = match arm_clearance(mechanism) {
+    let (found, teeth) = both(
+        || arm_clearance(mechanism),
+        || mechanism.flank_counts().ok(),
+    );
+    let arms = match found {
         Ok(arms) => arms,
         Err(finding) => {
             report.findings.push(*finding);

@@ -16,43 +16,73 @@ pub fn curves(composed: &Composed) -> Vec<Curve> {
     let samples = MOST.min(SAMPLES * composed.design().input.turns);
     let input = |i: u32| composed.period() * f64::from(i) / f64::from(samples);
     let input: Vec<f64> = (0..=samples).map(input).collect();
-    let shown = |chart: Cow<'static, str>, unit: &'static str, f: &dyn Fn(f64) -> f64| {
-        let value = input.iter().map(|&phi| f(phi));
-        let curve = Curve::new(["", "", unit], &input, value.collect());
-        Curve { chart, ..curve }
-    };
-    let curve = |chart, f: &dyn Fn(f64) -> f64| shown(chart, "°", &|phi| f(phi).to_degrees());
-    let moving = composed.bodies().iter().enumerate().skip(1);
-    let mut all: Vec<Curve> = moving
-        .map(|(body, ComposedBody { name, .. })| {
-            let angle = |phi| composed.angle(body, phi).position;
-            curve(format!("Angle of {name}").into(), &angle)
+    // The picture is made beside them, in ascending order: what laws remember is made once by whoever comes first.
+    let mut rows: Vec<Vec<f64>> = input.iter().rev().map(|&phi| row(composed, phi)).collect();
+    rows.reverse();
+    let names = names(composed).into_iter().enumerate();
+    names
+        .map(|(k, (chart, unit))| {
+            let value = rows.iter().map(|row| row[k]).collect();
+            let curve = Curve::new(["", "", unit], &input, value);
+            Curve { chart, ..curve }
         })
-        .collect();
-    for body in composed.bodies() {
-        let Some(mount) = &body.mount else {
+        .collect()
+}
+
+/// Chart and unit of every curve.
+fn names(composed: &Composed) -> Vec<(Cow<'static, str>, &'static str)> {
+    let moving = composed.bodies().iter().skip(1);
+    let angles = moving.map(|body| (format!("Angle of {}", body.name), "°"));
+    let slides = sliding(composed).flat_map(|(ComposedBody { name, .. }, _)| {
+        [
+            (format!("Place of {name}"), "mm"),
+            (format!("Speed of {name}"), "mm/s"),
+        ]
+    });
+    let cams = composed.cams().iter();
+    let cams = cams.map(|cam| (format!("Pressure angle of {}", cam.name), "°"));
+    let dyads = (!composed.dyads().is_empty()).then(|| ("Least transmission angle".into(), "°"));
+    let all = angles.chain(slides).chain(cams).chain(dyads);
+    all.map(|(chart, unit)| (chart.into(), unit)).collect()
+}
+
+/// Value of every curve at an input, as shown.
+fn row(composed: &Composed, input: f64) -> Vec<f64> {
+    let bodies = composed.bodies();
+    let at = |body: &ComposedBody| body.mount.as_ref().map(|mount| mount.law.at(input));
+    let laws: Vec<_> = bodies.iter().map(at).collect();
+    // A carrier comes before what it carries.
+    let mut angles = vec![0.0; bodies.len()];
+    for (body, law) in laws.iter().enumerate() {
+        let (Some(mount), Some(law)) = (&bodies[body].mount, law) else {
             continue;
         };
-        if let JointKind::Sliding(_) = mount.kind {
-            let (name, speed) = (&body.name, composed.speed());
-            let place = |phi| mount.law.at(phi).position;
-            all.push(shown(format!("Place of {name}").into(), "mm", &place));
-            let rate = |phi| mount.law.at(phi).velocity * speed;
-            all.push(shown(format!("Speed of {name}").into(), "mm/s", &rate));
+        angles[body] = angles[mount.carrier] + mount.angle;
+        if mount.kind == JointKind::Turning {
+            angles[body] += law.position;
         }
     }
-    for cam in composed.cams() {
-        let leans = |phi| cam.disc().contact(cam.turn(phi).position).pressure_angle;
-        all.push(curve(
-            format!("Pressure angle of {}", cam.name).into(),
-            &leans,
-        ));
+    let mut row: Vec<f64> = angles[1..].iter().map(|angle| angle.to_degrees()).collect();
+    for (_, body) in sliding(composed) {
+        let law = laws[body].unwrap_or_default();
+        row.extend([law.position, law.velocity * composed.speed()]);
     }
+    row.extend(composed.cams().iter().map(|cam| {
+        let contact = cam.disc().contact(cam.turn(input).position);
+        contact.pressure_angle.to_degrees()
+    }));
     if !composed.dyads().is_empty() {
-        all.push(curve("Least transmission angle".into(), &|phi| {
-            let angles = composed.transmission_angles(phi).into_iter();
-            angles.fold(f64::INFINITY, f64::min)
-        }));
+        let angles = composed.transmission_angles(input).into_iter();
+        row.push(angles.fold(f64::INFINITY, f64::min).to_degrees());
     }
-    all
+    row
+}
+
+/// Bodies that slide, with their numbers.
+fn sliding(composed: &Composed) -> impl Iterator<Item = (&ComposedBody, usize)> {
+    let bodies = composed.bodies().iter().zip(0..);
+    bodies.filter(|(body, _)| {
+        let mount = body.mount.as_ref();
+        mount.is_some_and(|mount| matches!(mount.kind, JointKind::Sliding(_)))
+    })
 }

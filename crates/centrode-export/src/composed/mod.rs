@@ -31,6 +31,15 @@ pub fn machine(composed: &Composed) -> Result<Machine, ExportError> {
     Ok(made)
 }
 
+/// A composed machine as far as a picture shows it: [`machine`] without masses, pins and a list of parts.
+///
+/// # Errors
+/// [`ExportError`] where a body is no solid.
+pub fn outlined(composed: &Composed) -> Result<Machine, ExportError> {
+    let made = composed.outlined();
+    made.map_err(ExportError::no_solid(&composed.design().name))
+}
+
 /// The files of a composed machine in the formats asked for, not yet on disk.
 ///
 /// Each body is a plate named after it, each gear and cam a part of its name; `assembly` is the machine where its cycle begins, with the ways of its points. MJCF

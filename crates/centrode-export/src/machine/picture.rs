@@ -10,7 +10,7 @@ use nalgebra::{Isometry2, Isometry3, Vector3};
 use super::motion::within;
 use super::rim::rim;
 use super::still::Still;
-use crate::page::{Mark, Motion, Path, Picture, PictureLink, short};
+use crate::page::{Mark, Motion, Path, Picture, PictureLink, Rounding};
 
 /// Fewest steps of a period.
 const FEWEST: f64 = 720.0;
@@ -25,8 +25,9 @@ const BEFORE: f64 = 1e-6;
 const AFTER: f64 = 1e-9;
 /// Change over [`BEFORE`], as a share of the law's speed, above which a law jumps.
 const SUDDEN: f64 = 1e-3;
-/// Angles are rounded by, rad.
+/// Angles and inputs are rounded by, rad.
 const ANGLE: f64 = 1e-6;
+const INPUT: f64 = 1e-7;
 
 /// The machine as a picture that moves; lines are within the tolerance of the exact ones, and so are places at steps of the
 /// input, between them within four times as much.
@@ -41,7 +42,7 @@ pub fn picture(machine: &Machine, tolerance: Tolerance) -> Picture {
         course
     };
     let (course, ()) = together(course, || still.fit());
-    let length = 0.1 * tolerance.mm();
+    let [length, angle, inputs] = [0.1 * tolerance.mm(), ANGLE, INPUT].map(Rounding::to);
     let paths = |(index, figure): (usize, &Figure)| PictureLink {
         name: figure.name.clone(),
         paths: machine.sketches[figure.sketch]
@@ -54,8 +55,7 @@ pub fn picture(machine: &Machine, tolerance: Tolerance) -> Picture {
             .collect(),
     };
     let rounded = |poses: &Vec<[f64; 3]>| {
-        let rounded =
-            |[x, y, turn]: &[f64; 3]| [short(*x, length), short(*y, length), short(*turn, ANGLE)];
+        let rounded = |[x, y, turn]: &[f64; 3]| [length.of(*x), length.of(*y), angle.of(*turn)];
         let all: Vec<[f64; 3]> = poses.iter().map(rounded).collect();
         match all.first() {
             Some(first) if all.iter().all(|pose| pose == first) => first.to_vec(),
@@ -66,11 +66,7 @@ pub fn picture(machine: &Machine, tolerance: Tolerance) -> Picture {
         links: machine.figures.iter().enumerate().map(paths).collect(),
         motion: Motion {
             input_name: machine.input.name.clone(),
-            input: course
-                .input
-                .iter()
-                .map(|&input| short(input, 1e-7))
-                .collect(),
+            input: course.input.iter().map(|&input| inputs.of(input)).collect(),
             poses: course.poses.iter().map(rounded).collect(),
         },
         handles: Vec::new(),

@@ -3,10 +3,17 @@
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use centrode_geometry::{Outline, Point, Tolerance};
+use centrode_geometry::{Outline, Point, Recent, Tolerance};
 use centrode_mechanism::machine::{Line, LinePath, Machine};
 
 use crate::page::Path;
+
+/// Contours remembered, and the most segments of one: a machine has some dozens, of which a change alters a few.
+const KEPT: usize = 32;
+const LONGEST: usize = 2000;
+
+/// Contours as they were fitted last.
+static FITTED: Recent<(Outline, Tolerance), Path, KEPT> = Recent::new();
 
 /// Contours of a machine, those that look alike once, to be fitted by several threads.
 pub(super) struct Still<'a> {
@@ -77,7 +84,12 @@ impl<'a> Still<'a> {
 
 impl Contour<'_> {
     fn path(&self, tolerance: Tolerance) -> &Path {
-        self.fitted
-            .get_or_init(|| Path::closed(self.line.role, self.outline, tolerance))
+        let new = || Path::closed(self.line.role, self.outline, tolerance);
+        self.fitted.get_or_init(|| {
+            if self.outline.segments().len() > LONGEST {
+                return new();
+            }
+            FITTED.get(&(self.outline.clone(), tolerance), new)
+        })
     }
 }

@@ -4,14 +4,16 @@
 //! lines and arcs, the pose of every link along the cycle. The same assets show it in the local program
 //! and in the self-contained report.
 
+mod curves;
 mod hash;
 mod html;
 mod path;
 mod scene;
 
+pub use curves::CurveList;
 pub use html::{Asset, INDEX, PATH, Packed, START, asset, packed, report};
 pub use path::Path;
-pub(crate) use path::short;
+pub(crate) use path::{Rounding, short};
 
 use std::borrow::Cow;
 

@@ -81,13 +81,30 @@ fn unit(tolerance: Tolerance) -> f64 {
 
 /// The number at most half of `unit` away that prints short.
 pub(crate) fn short(value: f64, unit: f64) -> f64 {
-    // Dividing by a whole power of ten gives the nearest float of the short decimal.
-    let power = 10_f64.powi((-unit.log10()).ceil() as i32);
-    let rounded = (value * power).round() / power;
-    if rounded.is_finite() {
-        rounded + 0.0
-    } else {
-        value
+    Rounding::to(unit).of(value)
+}
+
+/// Rounding of many numbers to one unit.
+#[derive(Clone, Copy)]
+pub(crate) struct Rounding {
+    /// Whole power of ten: dividing by it gives the nearest float of the short decimal.
+    power: f64,
+}
+
+impl Rounding {
+    pub(crate) fn to(unit: f64) -> Self {
+        let power = 10_f64.powi((-unit.log10()).ceil() as i32);
+        Self { power }
+    }
+
+    /// The number at most half of the unit away that prints short.
+    pub(crate) fn of(self, value: f64) -> f64 {
+        let rounded = (value * self.power).round() / self.power;
+        if rounded.is_finite() {
+            rounded + 0.0
+        } else {
+            value
+        }
     }
 }
 

@@ -57,6 +57,14 @@ impl Cam {
         })
     }
 
+    /// The same cam by another name.
+    pub(crate) fn renamed(&self, name: &str) -> Self {
+        Self {
+            name: name.to_owned(),
+            ..self.clone()
+        }
+    }
+
     /// Short name, used for file names.
     #[must_use]
     pub fn name(&self) -> &str {

@@ -150,28 +150,34 @@ impl Composed {
     fn check_copies(&self, key: &str, spec: &ComposedCopiesSpec) -> Result<(), ComposedError> {
         let about = self.body_named(&spec.about).unwrap_or(0);
         let spin = self.spin(key, &spec.about)?;
-        let count = LOOKS * self.design.input.turns;
         let size = self.points().map(|(.., at)| at.coords.norm());
         let size = size.fold(1.0, f64::max);
+        let copied = |name: &str, piece: u32| format!("{name}-{}", piece + 1);
+        let is_off = |piece: u32| {
+            let both = spec.bodies.iter().filter_map(|name| {
+                let copy = self.body_named(&copied(name, piece))?;
+                Some((self.body_named(name)?, copy))
+            });
+            let both: Vec<_> = both.collect();
+            self.greatest_off(about, &both, (spin, spec.turn(piece)))
+                .iter()
+                .any(|[length, angle]| *length > ROUNDING * size || *angle > ROUNDING)
+        };
+        if !(1..spec.count).any(is_off) {
+            return Ok(());
+        }
         for (name, piece) in spec
             .bodies
             .iter()
             .flat_map(|name| (1..spec.count).map(move |k| (name, k)))
         {
-            let copied = format!("{name}-{}", piece + 1);
+            let (copied, turn) = (copied(name, piece), spec.turn(piece));
             let (Some(body), Some(copy)) = (self.body_named(name), self.body_named(&copied)) else {
                 continue;
             };
-            let turn = spec.turn(piece);
             let off = |input: f64| self.off(about, (body, copy), (spin, turn), input);
-            let bad = |input: &f64| {
-                let [length, angle] = off(*input);
-                length > ROUNDING * size || angle > ROUNDING
-            };
-            let looks = (0..count).map(|i| self.period() * f64::from(i) / f64::from(count));
-            if looks.into_iter().any(|input| bad(&input)) {
-                let ends = self.parts();
-                let [length, angle] = [0, 1].map(|i| greatest(|input| off(input)[i], &ends));
+            let [length, angle] = [0, 1].map(|i| greatest(|input| off(input)[i], &self.parts()));
+            if length.value > ROUNDING * size || angle.value > ROUNDING {
                 return Err(ComposedError::NoCopies {
                     key: key.into(),
                     why: repeats([name, &copied, &spec.about], turn, [length, angle]),
@@ -179,6 +185,38 @@ impl Composed {
             }
         }
         Ok(())
+    }
+
+    /// Greatest distance and angle by which each of several copies is off at the inputs that are looked at.
+    fn greatest_off(
+        &self,
+        about: usize,
+        both: &[(usize, usize)],
+        (spin, turn): (Spin, f64),
+    ) -> Vec<[f64; 2]> {
+        let count = LOOKS * self.design.input.turns;
+        let inputs = (0..count).map(|i| self.period() * f64::from(i) / f64::from(count));
+        let inputs: Vec<f64> = inputs.collect();
+        let later = |input: &f64| self.later(about, (spin, turn), *input);
+        let later: Vec<f64> = inputs.iter().map(later).collect();
+        let origins = |bodies: Vec<usize>, inputs: &[f64]| {
+            let points: Vec<_> = bodies.into_iter().map(|b| (b, Point::origin())).collect();
+            self.places_each(&points, inputs)
+        };
+        let (bodies, copies) = both.iter().copied().unzip();
+        let (from, found) = (origins(bodies, &later), origins(copies, &inputs));
+        let mut greatest = vec![[0.0_f64; 2]; both.len()];
+        for (k, (from, found)) in from.into_iter().zip(found).enumerate() {
+            let (number, look) = (k % both.len(), k / both.len());
+            let (body, copy) = both[number];
+            let from = (from.into(), self.angle(body, later[look]).position);
+            let found = (found.into(), self.angle(copy, inputs[look]).position);
+            let off = self.apart(about, (spin, turn), inputs[look], [from, found]);
+            for (most, off) in greatest[number].iter_mut().zip(off) {
+                *most = most.max(off);
+            }
+        }
+        greatest
     }
 
     /// Distance and angle by which a copy is off where its original stands when the body in the middle has turned on.
@@ -189,21 +227,27 @@ impl Composed {
         (spin, turn): (Spin, f64),
         input: f64,
     ) -> [f64; 2] {
-        let origin = Point::origin();
         let pose = |body: usize, input: f64| {
-            let at = self.place(body, origin, input);
+            let at = self.place(body, Point::origin(), input);
             (at, self.angle(body, input).position)
         };
-        let (mut at, mut angle) = match spin {
-            Spin::Still => pose(body, input),
-            _ => pose(body, self.later(about, (spin, turn), input)),
-        };
+        let from = pose(body, self.later(about, (spin, turn), input));
+        self.apart(about, (spin, turn), input, [from, pose(copy, input)])
+    }
+
+    /// Distance and angle between where an original is to stand and where its copy stands: place and angle of both.
+    fn apart(
+        &self,
+        about: usize,
+        (spin, turn): (Spin, f64),
+        input: f64,
+        [(mut at, mut angle), (found, turned)]: [(Point, f64); 2],
+    ) -> [f64; 2] {
         if spin == Spin::Still {
-            let middle = self.place(about, origin, input);
+            let middle = self.place(about, Point::origin(), input);
             at = middle + Rotation2::new(turn) * (at - middle);
             angle += turn;
         }
-        let (found, turned) = pose(copy, input);
         let off = turned - angle;
         [(found - at).norm(), (off - TAU * (off / TAU).round()).abs()]
     }

@@ -89,9 +89,9 @@ impl Builder<'_> {
                 ComposedError::Cam { cam, error }
             }
         };
-        let (disc, at) = match self.cut_before(cam, (name, point)) {
-            Some(cut) => cut,
-            None => {
+        let (part, at) = match self.cut_before(cam, (name, point)) {
+            Some((cut, at)) if *cut.body() == spec.body => (cut.renamed(cam), at),
+            _ => {
                 let sense = spec.follower.sense();
                 let moved = self.moved(&key, (cam, name), &mount, (&turn, sense))?;
                 let carrier = &self.bodies[seat.carrier].name;
@@ -101,10 +101,10 @@ impl Builder<'_> {
                 let disc = disc.map_err(blame)?;
                 let turned = turn.at(moved.low.input).position;
                 let at = touching(&disc, &seat, &mount, &moved, turned);
-                (disc, at)
+                let part = Cam::new(disc, cam, spec.body.clone()).map_err(blame)?;
+                (part, at)
             }
         };
-        let part = Cam::new(disc, cam, spec.body.clone()).map_err(blame)?;
         let points = self.points.entry(name.into()).or_default();
         let made = LocalPoint { at, own: true };
         if points.insert(point.into(), made).is_some() {
@@ -116,12 +116,12 @@ impl Builder<'_> {
     }
 
     /// The cam of which one is a copy, as it was cut, and the point of its follower.
-    fn cut_before(&self, cam: &str, (body, point): (&str, &str)) -> Option<(DiscCam, Point)> {
+    fn cut_before(&self, cam: &str, (body, point): (&str, &str)) -> Option<(Arc<Cam>, Point)> {
         let (bare, _) = self.original(body)?;
         let [cam, body] = [cam, body].map(|name| self.expansion.original(name));
         let cut = bare.cams().iter().find(|cut| cut.name == cam)?;
         let at = bare.points.get(body)?.get(point)?.at;
-        Some((cut.part.disc().clone(), at))
+        Some((Arc::clone(&cut.part), at))
     }
 
     /// Motion of a body on its carrier, which must come back and not jump.

@@ -16,6 +16,35 @@ impl Composed {
     /// # Errors
     /// [`SolidError`] where a plate is no solid.
     pub fn machine(&self) -> Result<Machine, SolidError> {
+        let pieces = self.all_pieces()?;
+        let mut machine = self.linked(&pieces);
+        for (link, pieces) in machine.links.iter_mut().zip(&pieces) {
+            link.mass = pieces.together();
+        }
+        self.list(&mut machine, &pieces);
+        self.tell_fits(&mut machine);
+        for pins in self.pins_in_plates() {
+            machine.add_turned(&pins, String::new());
+        }
+        machine.arrangement.drawing = self.design.drawing.clone();
+        Ok(machine)
+    }
+
+    /// The machine as links and joints as far as pictures and clearances ask: without masses, pins and a list of parts.
+    ///
+    /// # Errors
+    /// [`SolidError`] where a plate is no solid.
+    pub fn outlined(&self) -> Result<Machine, SolidError> {
+        Ok(self.linked(&self.all_pieces()?))
+    }
+
+    fn all_pieces(&self) -> Result<Vec<Pieces<'_>>, SolidError> {
+        let pieces = (0..self.bodies.len()).map(|body| self.pieces(body));
+        pieces.collect()
+    }
+
+    /// Links and joints with what is drawn of them.
+    fn linked(&self, pieces: &[Pieces<'_>]) -> Machine {
         let mut machine = Machine {
             name: self.design.name.clone(),
             title: self.design.title.clone(),
@@ -35,8 +64,6 @@ impl Composed {
         machine.column("input_angle_rad", "rad", meaning, Quantity::Input(1.0));
         let time = Quantity::Input(1.0 / self.speed());
         machine.column("time_s", "s", "time at the design's speed", time);
-        let pieces = (0..self.bodies.len()).map(|body| self.pieces(body));
-        let pieces = pieces.collect::<Result<Vec<_>, SolidError>>()?;
         for (index, body) in self.bodies.iter().enumerate() {
             self.add_link(&mut machine, index, &pieces[index]);
             if let Some(mount) = &body.mount {
@@ -74,14 +101,8 @@ impl Composed {
         }
         machine.contacts = self.contacts();
         self.add_points(&mut machine);
-        self.draw(&mut machine, &pieces);
-        self.list(&mut machine, &pieces);
-        self.tell_fits(&mut machine);
-        for pins in self.pins_in_plates() {
-            machine.add_turned(&pins, String::new());
-        }
-        machine.arrangement.drawing = self.design.drawing.clone();
-        Ok(machine)
+        self.draw(&mut machine, pieces);
+        machine
     }
 
     /// Lists the plates, the bodies of given masses, the gears and the cams as parts, each with the files of its name; copies
@@ -89,7 +110,7 @@ impl Composed {
     fn list(&self, machine: &mut Machine, pieces: &[Pieces<'_>]) {
         for (index, (body, made)) in self.bodies.iter().zip(pieces).enumerate() {
             let outline = made.plate.as_ref().map(|plate| plate.outline());
-            if outline.is_none() && made.mass.is_none() {
+            if outline.is_none() && made.mass().is_none() {
                 continue;
             }
             let material = outline.map_or("", |_| &self.design.plates.material);
@@ -97,7 +118,7 @@ impl Composed {
                 name: body.name.clone(),
                 material: material.to_owned(),
                 blank: outline.and_then(|outline| Blank::plate(outline, self.thickness(index))),
-                mass: made.mass.map(|own| own.mass),
+                mass: made.mass().map(|own| own.mass),
                 ..Part::default()
             };
             self.add_part(machine, part, &body.name, outline);
@@ -110,7 +131,7 @@ impl Composed {
                 name: piece.of.name.clone(),
                 material: gear.body().material.clone(),
                 blank: Blank::round(gear.outline(), gear.body().width),
-                mass: Some(piece.mass.mass),
+                mass: Some(piece.mass().mass),
                 remark: format!("{} teeth", gear.tooth_count()),
                 ..Part::default()
             };
@@ -128,7 +149,7 @@ impl Composed {
                 name: piece.of.name.clone(),
                 material: piece.of.part.body().material.clone(),
                 blank: Blank::plate(piece.solid.outline(), piece.of.part.body().width),
-                mass: Some(piece.mass.mass),
+                mass: Some(piece.mass().mass),
                 remark: format!("moves {}", piece.of.followers.join(", ")),
                 ..Part::default()
             };
@@ -172,7 +193,6 @@ impl Composed {
         let name = &self.bodies[body].name;
         let mut link = Link {
             name: name.clone(),
-            mass: pieces.together(),
             ..Link::default()
         };
         if let Some(solid) = &pieces.plate {

@@ -1,3 +1,5 @@
+use std::cell::OnceCell;
+
 use centrode_geometry::{MassProperties, Solid, SolidError};
 
 use super::{Composed, ComposedCam, ComposedGear};
@@ -5,8 +7,9 @@ use super::{Composed, ComposedCam, ComposedGear};
 /// Pieces of which a body is made.
 pub(super) struct Pieces<'a> {
     pub(super) plate: Option<Solid>,
-    /// Mass of the plate, or the one given in its place.
-    pub(super) mass: Option<MassProperties>,
+    composed: &'a Composed,
+    body: usize,
+    mass: OnceCell<Option<MassProperties>>,
     pub(super) gears: Vec<BodyPiece<'a, ComposedGear>>,
     pub(super) cams: Vec<BodyPiece<'a, ComposedCam>>,
 }
@@ -15,15 +18,48 @@ pub(super) struct Pieces<'a> {
 pub(super) struct BodyPiece<'a, T> {
     pub(super) of: &'a T,
     pub(super) solid: Solid,
-    pub(super) mass: MassProperties,
+    density: f64,
+    mass: OnceCell<MassProperties>,
+}
+
+impl<'a, T> BodyPiece<'a, T> {
+    fn new(of: &'a T, solid: Solid, density: f64) -> Self {
+        Self {
+            of,
+            solid,
+            density,
+            mass: OnceCell::new(),
+        }
+    }
+
+    /// Its mass, found when it is first asked for.
+    pub(super) fn mass(&self) -> MassProperties {
+        let weighed = || self.solid.mass_properties(self.density);
+        *self.mass.get_or_init(weighed)
+    }
 }
 
 impl Pieces<'_> {
+    /// Mass of the plate, or the one given in its place, found when it is first asked for.
+    pub(super) fn mass(&self) -> Option<MassProperties> {
+        let weighed = || {
+            let design = &self.composed.design;
+            let plate = self.plate.as_ref();
+            let own = plate.map(|plate| plate.mass_properties(design.plates.density));
+            let height = self.composed.bottom(self.body) + 0.5 * self.composed.thickness(self.body);
+            match design.bodies.get(&self.composed.bodies[self.body].name) {
+                Some(spec) => spec.given_mass().of(own, height),
+                None => own,
+            }
+        };
+        *self.mass.get_or_init(weighed)
+    }
+
     /// Mass of all of them; none without any.
     pub(super) fn together(&self) -> Option<MassProperties> {
-        let gears = self.gears.iter().map(|gear| gear.mass);
-        let cams = self.cams.iter().map(|cam| cam.mass);
-        let all = self.mass.into_iter().chain(gears).chain(cams);
+        let gears = self.gears.iter().map(BodyPiece::mass);
+        let cams = self.cams.iter().map(BodyPiece::mass);
+        let all = self.mass().into_iter().chain(gears).chain(cams);
         MassProperties::together(&all.collect::<Vec<_>>())
     }
 
@@ -45,36 +81,21 @@ impl Composed {
     pub(super) fn pieces(&self, body: usize) -> Result<Pieces<'_>, SolidError> {
         let name = &self.bodies[body].name;
         let plate = self.plate(body)?;
-        let density = self.design.plates.density;
-        let own = plate.as_ref().map(|plate| plate.mass_properties(density));
-        let height = self.bottom(body) + 0.5 * self.thickness(body);
-        let mass = match self.design.bodies.get(name) {
-            Some(spec) => spec.given_mass().of(own, height),
-            None => own,
-        };
         let gears = self.gears.iter().filter(|gear| gear.body_name == *name);
         let gears = gears.map(|gear| {
             let solid = gear.solid(self.gear_bottom(gear))?;
-            let mass = solid.mass_properties(gear.gear().body().density);
-            Ok(BodyPiece {
-                of: gear,
-                solid,
-                mass,
-            })
+            Ok(BodyPiece::new(gear, solid, gear.gear().body().density))
         });
         let cams = self.cams.iter().filter(|cam| cam.body_name == *name);
         let cams = cams.map(|cam| {
             let solid = cam.solid(self.cam_bottom(cam))?;
-            let mass = solid.mass_properties(cam.part.body().density);
-            Ok(BodyPiece {
-                of: cam,
-                solid,
-                mass,
-            })
+            Ok(BodyPiece::new(cam, solid, cam.part.body().density))
         });
         Ok(Pieces {
             plate,
-            mass,
+            composed: self,
+            body,
+            mass: OnceCell::new(),
             gears: gears.collect::<Result<_, SolidError>>()?,
             cams: cams.collect::<Result<_, SolidError>>()?,
         })

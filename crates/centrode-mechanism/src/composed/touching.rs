@@ -43,7 +43,7 @@ impl Composed {
         let near =
             move |angle: f64| first + (angle - first) - TAU * ((angle - first) / TAU).round();
         // Both laws of a line are asked for at the same inputs.
-        let last = Arc::new(Recent::new());
+        let last: Arc<Recent<u64, (f64, f64)>> = Arc::new(Recent::new());
         let law = |of: fn((f64, f64)) -> f64| -> Arc<dyn Transmission> {
             let (own, last) = (Arc::clone(own), Arc::clone(&last));
             let at = move |input: f64| {

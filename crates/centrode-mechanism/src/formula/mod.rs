@@ -3,6 +3,7 @@
 mod lanes;
 mod number;
 mod parser;
+mod shortened;
 mod taylor;
 
 pub(crate) use lanes::{LANES, Lanes, groups};
@@ -34,6 +35,15 @@ enum Step {
     PowerConstant(f64),
     Negate,
     Apply(Function),
+    /// The variable times a number.
+    Multiple(f64),
+    /// What is there times a number.
+    Scale(f64),
+    /// Sine, or else cosine, of the variable times a number.
+    Wave {
+        slope: f64,
+        is_sine: bool,
+    },
 }
 
 /// A function a formula may use: analytic wherever it has a value.
@@ -56,13 +66,18 @@ enum Function {
 impl Formula {
     /// Reads a formula: numbers, `phi`, `pi`, `+ - * / ^`, parentheses and the analytic functions.
     pub(crate) fn read(text: &str) -> Result<Self, FormulaError> {
-        parser::read(text).map(|program| Self { program })
+        let program = parser::read(text)?;
+        Ok(Self {
+            program: shortened::shortened(program),
+        })
     }
 
     /// Taylor coefficients of the formula around `phi`; not finite where it has no value.
     pub(crate) fn at(&self, phi: f64) -> Taylor {
         let mut stack = [Taylor::constant(0.0); DEEPEST];
         let mut top = 0;
+        // Terms of a Fourier sum come in pairs.
+        let mut wave = (f64::NAN, stack[0], stack[0]);
         for step in &self.program {
             match step {
                 Step::Constant(c) => {
@@ -73,6 +88,19 @@ impl Formula {
                     stack[top] = Taylor::variable(phi);
                     top += 1;
                 }
+                Step::Multiple(slope) => {
+                    stack[top] = Taylor::variable(phi) * *slope;
+                    top += 1;
+                }
+                Step::Wave { slope, is_sine } => {
+                    if wave.0 != *slope {
+                        let (sin, cos) = Taylor::wave(*slope, (slope * phi).sin_cos());
+                        wave = (*slope, sin, cos);
+                    }
+                    stack[top] = if *is_sine { wave.1 } else { wave.2 };
+                    top += 1;
+                }
+                Step::Scale(c) => stack[top - 1] = stack[top - 1] * *c,
                 Step::Negate => stack[top - 1] = -stack[top - 1],
                 Step::PowerConstant(p) => stack[top - 1] = stack[top - 1].power(*p),
                 Step::Apply(f) => stack[top - 1] = f.of(stack[top - 1]),

@@ -132,6 +132,18 @@ impl<const ORDERS: usize> Taylor<ORDERS> {
         }))
     }
 
+    /// Sine and cosine of the variable times a number, from their values.
+    pub(crate) fn wave(slope: f64, (sin, cos): (f64, f64)) -> (Self, Self) {
+        let (mut s, mut c) = ([0.0; ORDERS], [0.0; ORDERS]);
+        (s[0], c[0]) = (sin, cos);
+        for k in 1..ORDERS {
+            let step = slope * (1.0 / k as f64);
+            s[k] = step * c[k - 1];
+            c[k] = -(step * s[k - 1]);
+        }
+        (Self(s), Self(c))
+    }
+
     /// The series of `y` with the value `value` and `y' g = a'`, where `a` is this series.
     fn integral_over(self, value: f64, g: Self) -> Self {
         let mut y = [0.0; ORDERS];

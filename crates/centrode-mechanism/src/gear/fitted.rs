@@ -1,6 +1,6 @@
 //! Addenda trimmed flank by flank to what the pitch curves let mesh.
 
-use centrode_geometry::{bracketed_root, checkpoint};
+use centrode_geometry::{bracketed_root, checkpoint, shared_out};
 
 use super::{
     flank::{Flank, Side},
@@ -26,6 +26,34 @@ pub(crate) struct Fitting<'a> {
     pub(crate) rolling: &'a Rolling,
     pub(crate) tool: &'a Tool,
     pub(crate) least_tip_width: f64,
+}
+
+/// Teeth whose passages are held against each other at a time.
+const BLOCK: usize = 32;
+
+/// Passage of a driver tooth and a driven tooth, by their numbers, with the crossings of their flanks.
+struct Meeting<'a> {
+    passage: ToothPassage<'a>,
+    teeth: [usize; 2],
+    crossings: [[f64; 2]; 2],
+}
+
+impl Meeting<'_> {
+    /// Reaches at which the teeth penetrate nowhere.
+    fn clear(&self, (driver, driven): (Reaches, Reaches)) -> (Reaches, Reaches) {
+        // A flank is needed as far down as any mate reaches; the mates' own reach bounds it.
+        let candidate = |member, crossings, reaches, mates: Reaches| Candidate {
+            member,
+            crossings,
+            reaches,
+            depths: [mates[1], mates[0]],
+        };
+        let [one, two] = self.crossings;
+        self.passage.clear(
+            &candidate(Member::Driver, one, driver, driven),
+            &candidate(Member::Driven, two, driven, driver),
+        )
+    }
 }
 
 /// Roll length to a tip corner, and its normal height.
@@ -68,37 +96,37 @@ impl Fitting<'_> {
         };
         let middle = 0.5 * (driver[0].leading.crossing + driver[0].trailing.crossing);
         let mut poses = Poses::new(self.rolling, middle + 0.25 * pitch, pitch);
-        for k in 0..meshes as usize {
-            checkpoint();
-            let i = k % first;
-            let one = crossings(&driver[i], (k / first) as f64 * lengths[0]);
-            // The two driven teeth beside it mesh with it; those beyond can still be met where the
-            // pitch curve is concave.
-            for beside in [-2, -1, 0, 1_isize] {
-                let index = k as isize + beside;
-                let j = index.rem_euclid(last as isize) as usize;
-                let two = crossings(
-                    &driven[j],
-                    index.div_euclid(last as isize) as f64 * lengths[1],
-                );
-                let middle = 0.25 * (one[0] + one[1] + two[0] + two[1]);
-                let Some(passage) = ToothPassage::about(&mut poses, self.tool, middle, pitch)
-                else {
-                    continue;
-                };
-                // A flank is needed as far down as any mate reaches; the mates' own reach bounds it.
-                let candidate = |member, crossings, reaches, mates: &Reaches| Candidate {
-                    member,
-                    crossings,
-                    reaches,
-                    depths: [mates[1], mates[0]],
-                };
-                let (a, b) = (reach_1[i], reach_2[j]);
-                let cleared = passage.clear(
-                    &candidate(Member::Driver, one, a, &b),
-                    &candidate(Member::Driven, two, b, &a),
-                );
-                (reach_1[i], reach_2[j]) = cleared;
+        for from in (0..meshes as usize).step_by(BLOCK) {
+            let mut met = Vec::new();
+            for k in from..(meshes as usize).min(from + BLOCK) {
+                checkpoint();
+                let i = k % first;
+                let one = crossings(&driver[i], (k / first) as f64 * lengths[0]);
+                // The two driven teeth beside it mesh with it; those beyond can still be met where the
+                // pitch curve is concave.
+                for beside in [-2, -1, 0, 1_isize] {
+                    let index = k as isize + beside;
+                    let j = index.rem_euclid(last as isize) as usize;
+                    let turns = index.div_euclid(last as isize) as f64;
+                    let two = crossings(&driven[j], turns * lengths[1]);
+                    let middle = 0.25 * (one[0] + one[1] + two[0] + two[1]);
+                    let passage = ToothPassage::about(&mut poses, self.tool, middle, pitch);
+                    met.extend(passage.map(|passage| Meeting {
+                        passage,
+                        teeth: [i, j],
+                        crossings: [one, two],
+                    }));
+                }
+            }
+            // Few teeth are shortened: most of what is found side by side holds when its turn comes.
+            let before = (reach_1.clone(), reach_2.clone());
+            let known = |[i, j]: [usize; 2]| (before.0[i], before.1[j]);
+            let cleared = shared_out(&met, |meeting| meeting.clear(known(meeting.teeth)));
+            for (meeting, cleared) in met.iter().zip(cleared) {
+                let [i, j] = meeting.teeth;
+                let now = (reach_1[i], reach_2[j]);
+                let holds = now == known(meeting.teeth);
+                (reach_1[i], reach_2[j]) = if holds { cleared } else { meeting.clear(now) };
             }
         }
         let tips_1: Vec<[Tip; 2]> = self.tops(Member::Driver, driver, &reach_1);

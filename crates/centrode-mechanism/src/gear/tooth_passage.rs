@@ -92,8 +92,6 @@ pub(crate) struct ToothPassage<'a> {
     tool: &'a Tool,
     pitch: f64,
     poses: Vec<(Frame, Frame)>,
-    /// The pose at which teeth penetrated last: others most often do there too.
-    foul: Cell<usize>,
 }
 
 /// A tooth of which a share of the reaches is kept, with its shapes as far as they have been asked for.
@@ -159,16 +157,18 @@ impl<'a> ToothPassage<'a> {
             tool,
             pitch,
             poses,
-            foul: Cell::new(0),
         })
     }
 
     /// Shortens one tooth or the other, whichever costs less, or both, until they penetrate nowhere.
     pub(crate) fn clear(&self, driver: &Candidate, driven: &Candidate) -> (Reaches, Reaches) {
         let (driver, driven) = (Trimmed::new(driver), Trimmed::new(driven));
+        // The pose at which teeth penetrated last: others most often do there too.
+        let foul = Cell::new(0);
         let penetrate = |[first, second]: [f64; 2]| {
             checkpoint();
-            self.penetrate(&driver.shape(self, first), &driven.shape(self, second))
+            let shapes = [driver.shape(self, first), driven.shape(self, second)];
+            self.penetrate(shapes.each_ref().map(|shape| &**shape), &foul)
         };
         if !penetrate([1.0, 1.0]) {
             return (driver.candidate.reaches, driven.candidate.reaches);
@@ -192,7 +192,7 @@ impl<'a> ToothPassage<'a> {
         )
     }
 
-    fn penetrate(&self, one: &ToothChords, two: &ToothChords) -> bool {
+    fn penetrate(&self, [one, two]: [&ToothChords; 2], foul: &Cell<usize>) -> bool {
         let deep = |tooth: &ToothChords, carried: &dyn Fn(&Point) -> Point, shape: &ToothChords| {
             let is_deep = |p: &Point| {
                 let there = carried(p);
@@ -217,12 +217,12 @@ impl<'a> ToothPassage<'a> {
             }
             deep(one, &forth, two) || deep(two, &back, one)
         };
-        let last = self.foul.get();
+        let last = foul.get();
         if at(last) {
             return true;
         }
         let found = (0..self.poses.len()).find(|&number| number != last && at(number));
-        found.inspect(|&number| self.foul.set(number)).is_some()
+        found.inspect(|&number| foul.set(number)).is_some()
     }
 }
 

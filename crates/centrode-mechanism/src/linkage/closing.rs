@@ -112,7 +112,7 @@ impl Linkage {
             }
             link += step.makes()[0];
         }
-        self.needed(std::iter::empty(), std::iter::once(link))
+        self.needed_among(&[link])
     }
 
     /// First input above zero at which the linkage does not close, and the dyad at fault.

@@ -46,7 +46,7 @@ impl Linkage {
         };
         self.know_link(link)?;
         let found = LinkTransmission {
-            needed: self.needed(std::iter::empty(), of.links().into_iter()),
+            needed: self.needed_among(&of.links()),
             linkage: self.clone(),
             of,
             knots: Vec::new(),

@@ -60,6 +60,8 @@ enum Source {
 pub(super) struct Needed {
     steps: Vec<bool>,
     frames: Vec<bool>,
+    /// Link in whose axes all is told, on which the parts depend alone; the frame where there is no nearer one.
+    base: usize,
 }
 
 impl Needed {
@@ -69,6 +71,7 @@ impl Needed {
         match part {
             SeriesItem::Step(number) => self.steps[number],
             SeriesItem::Frame(link) => self.frames[link],
+            SeriesItem::Base(link) => self.base == link,
         }
     }
 }
@@ -186,6 +189,41 @@ impl Linkage {
         joints: impl Iterator<Item = usize>,
         links: impl Iterator<Item = usize>,
     ) -> Needed {
+        self.needed_above(0, joints, links)
+    }
+
+    /// Steps on which links depend against each other, told in the axes of the last link on which all of them stand: how that one
+    /// moves is not asked for.
+    pub(super) fn needed_among(&self, links: &[usize]) -> Needed {
+        let of = |base: usize| self.needed_above(base, std::iter::empty(), links.iter().copied());
+        let bases = 1..links.iter().copied().max().unwrap_or(0);
+        let bases = bases.rev().map(of);
+        let mut alone = bases.filter(|needed| self.is_alone(needed));
+        alone.next().unwrap_or_else(|| of(0))
+    }
+
+    /// Whether nothing that is needed depends on how its base is placed.
+    fn is_alone(&self, needed: &Needed) -> bool {
+        let mut first = 1;
+        let makes_base = |first: usize, step: &Step| {
+            let links = first..first + step.makes()[0];
+            links.contains(&needed.base)
+        };
+        let free = self.steps.iter().zip(&needed.steps).all(|(step, taken)| {
+            let is_free =
+                !taken || !(matches!(step, Step::Crank { .. }) || makes_base(first, step));
+            first += step.makes()[0];
+            is_free
+        });
+        free && !needed.frames[0]
+    }
+
+    fn needed_above(
+        &self,
+        base: usize,
+        joints: impl Iterator<Item = usize>,
+        links: impl Iterator<Item = usize>,
+    ) -> Needed {
         let mut frames = vec![false; self.links];
         let mut joint_is = vec![false; self.owners.len()];
         links.for_each(|link| frames[link] = true);
@@ -196,7 +234,8 @@ impl Linkage {
             let [links, joints] = step.makes();
             first_link -= links;
             first_joint -= joints;
-            steps[number] = frames[first_link..first_link + links].contains(&true)
+            let mut made = first_link..first_link + links;
+            steps[number] = made.any(|link| frames[link] && link != base)
                 || joint_is[first_joint..first_joint + joints].contains(&true);
             if steps[number] {
                 let takes = step.takes(&self.owners);
@@ -207,6 +246,10 @@ impl Linkage {
                     .for_each(|joint| joint_is[joint] = true);
             }
         }
-        Needed { steps, frames }
+        Needed {
+            steps,
+            frames,
+            base,
+        }
     }
 }

@@ -26,6 +26,8 @@ pub(super) enum SeriesItem {
     Step(usize),
     /// A link's origin and axis, by its number.
     Frame(usize),
+    /// A link, by its number, in whose axes all is told.
+    Base(usize),
 }
 
 impl<const N: usize, T> Default for Series<N, T> {
@@ -177,12 +179,18 @@ impl Linkage {
         s.joints.restart();
         s.frames.restart();
         s.room.restart();
-        s.frames
-            .push((still, PointSeries::fixed(Point::new(1.0, 0.0))));
+        let along = PointSeries::fixed(Point::new(1.0, 0.0));
+        s.frames.push((still, along));
         for (number, step) in self.steps.iter().enumerate() {
             if !needed(SeriesItem::Step(number)) {
                 let [links, joints] = step.makes();
-                (0..links).for_each(|_| s.frames.leave((still, still)));
+                for _ in 0..links {
+                    if needed(SeriesItem::Base(s.frames.next())) {
+                        s.frames.push((still, along));
+                    } else {
+                        s.frames.leave((still, still));
+                    }
+                }
                 (0..joints).for_each(|_| s.joints.leave(still));
                 continue;
             }

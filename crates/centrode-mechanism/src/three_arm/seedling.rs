@@ -33,8 +33,9 @@ impl ThreeArm {
         let release = self.planting(0);
         let half_turn = 0.5 * TAU;
         let from = |start: f64| pieces(start, release + half_turn, PARTS, &[]);
-        let own = least(|input| self.behind(input, release), &from(release));
-        let front = |input| self.in_front(input, release);
+        let planted = self.over_ground(&self.tip(release, 0), release).position;
+        let own = least(|input| self.behind(input, planted), &from(release));
+        let front = |input| self.in_front(input, planted);
         let before = least(front, &from(release - half_turn));
         let (seedling, Extreme { input, value }) = if before.value < own.value {
             (1, before)
@@ -73,12 +74,12 @@ impl ThreeArm {
     }
 
     /// Ends of the part of the clamp below the stems' top, along the travel over ground from the stem, mm.
-    fn low_part(&self, input: f64, release: f64) -> Option<[f64; 2]> {
+    fn low_part(&self, input: f64, planted: Point) -> Option<[f64; 2]> {
         let forward = -self.train().sign();
         let design = self.design();
-        let tip = self.over_ground(&self.tip(input, 0), input).position;
-        let planted = self.over_ground(&self.tip(release, 0), release).position;
-        let (sin, cos) = self.clamp(input, 0).position.sin_cos();
+        let arm = self.chain(0, input);
+        let tip = self.over_ground(&arm.tip(), input).position;
+        let (sin, cos) = arm.clamp().position.sin_cos();
         let length = design.arm.clamp_length;
         let top = self.ground() + design.seedling.height;
         let place = |back: f64| forward * (tip.x - back * cos - planted.x);
@@ -93,16 +94,16 @@ impl ThreeArm {
         Some([place(from), place(to)])
     }
 
-    fn behind(&self, input: f64, release: f64) -> f64 {
+    fn behind(&self, input: f64, planted: Point) -> f64 {
         let half = 0.5 * self.design().seedling.width;
-        self.low_part(input, release)
+        self.low_part(input, planted)
             .map_or(f64::INFINITY, |[a, b]| half - a.max(b))
     }
 
-    fn in_front(&self, input: f64, release: f64) -> f64 {
+    fn in_front(&self, input: f64, planted: Point) -> f64 {
         let half = 0.5 * self.design().seedling.width;
         let spacing = self.design().work.plant_spacing;
-        self.low_part(input, release)
+        self.low_part(input, planted)
             .map_or(f64::INFINITY, |[a, b]| a.min(b) + spacing - half)
     }
 }

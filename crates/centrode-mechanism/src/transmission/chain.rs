@@ -1,4 +1,4 @@
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use super::{MotionJet, Transmission, TransmissionError, crossings, repeated, sorted};
 
@@ -14,6 +14,8 @@ pub struct Chain {
     outer: Arc<dyn Transmission>,
     /// Cycles of the driving motion in one of the chain, and of the driven one, below zero where it runs backwards.
     cycles: (f64, f64),
+    /// Inputs at which a derivative may jump, once they have been asked for.
+    breaks: OnceLock<Vec<f64>>,
 }
 
 impl Chain {
@@ -44,6 +46,7 @@ impl Chain {
             inner,
             outer,
             cycles,
+            breaks: OnceLock::new(),
         })
     }
 
@@ -78,12 +81,15 @@ impl Transmission for Chain {
     }
 
     fn breaks(&self) -> Vec<f64> {
-        let period = self.period();
-        let own = repeated(&*self.inner, period);
-        let of_outer = (&self.outer.breaks()[..], self.outer.period());
-        let place = |input: f64| self.inner.at(input).position;
-        let met = crossings(place, of_outer, period, &own);
-        sorted(own.into_iter().chain(met), period)
+        let found = || {
+            let period = self.period();
+            let own = repeated(&*self.inner, period);
+            let of_outer = (&self.outer.breaks()[..], self.outer.period());
+            let place = |input: f64| self.inner.at(input).position;
+            let met = crossings(place, of_outer, period, &own);
+            sorted(own.into_iter().chain(met), period)
+        };
+        self.breaks.get_or_init(found).clone()
     }
 }
 

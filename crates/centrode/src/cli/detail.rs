@@ -147,7 +147,7 @@ mod tests {
                 "three-arm-2021.toml",
                 "bore = 10",
                 "bore = -1",
-                &["sun.bore"],
+                &["sun.bore", "sun.keyway"],
             ),
             (
                 "spiral-shaft-2018.toml",

@@ -3,7 +3,8 @@ use std::sync::Arc;
 use centrode_analysis::optimise::composed::ComposedProblem;
 use centrode_analysis::optimise::{DesignProblem, NotSearched};
 use centrode_analysis::{
-    Report, Table, Unit, check_composed, check_composed_motion, composed_figures,
+    Report, Table, Unit, check_composed, check_composed_goals, check_composed_motion,
+    composed_figures,
 };
 use centrode_export::page::{Curve, Handle, HandlePlane, Picture};
 use centrode_export::{Bundle, ExportError, Format, Options};
@@ -46,6 +47,10 @@ impl Mechanism for Composed {
         check_composed_motion(self)
     }
 
+    fn check_goals(&self) -> Report {
+        check_composed_goals(self)
+    }
+
     fn goals_come_first(&self) -> bool {
         !self.design().goals.is_empty()
     }
@@ -86,7 +91,7 @@ impl Mechanism for Composed {
 
     fn picture(&self) -> Picture {
         let tolerance = Tolerance::new(DRAWN * self.design().plates.width);
-        let (Ok(tolerance), Ok(made)) = (tolerance, composed::machine(self)) else {
+        let (Ok(tolerance), Ok(made)) = (tolerance, composed::outlined(self)) else {
             return Picture::default();
         };
         let mut picture = machine::picture(&made, tolerance);

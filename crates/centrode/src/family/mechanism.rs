@@ -31,7 +31,12 @@ pub trait Mechanism: Any + Debug + Send + Sync {
         self.check()
     }
 
-    /// Whether it has goals that [`Mechanism::check_motion`] tells much sooner than [`Mechanism::check`].
+    /// Checks the goals alone: those of [`Mechanism::check_motion`], whose report may hold more.
+    fn check_goals(&self) -> Report {
+        self.check_motion()
+    }
+
+    /// Whether it has goals that [`Mechanism::check_goals`] tells much sooner than [`Mechanism::check`].
     fn goals_come_first(&self) -> bool {
         false
     }

@@ -9,7 +9,7 @@ use centrode_analysis::{
 use centrode_export::page::{Curve, Picture};
 use centrode_export::{Bundle, ExportError, Format, Options};
 use centrode_export::{machine, three_arm};
-use centrode_geometry::Tolerance;
+use centrode_geometry::{Tolerance, together};
 use centrode_mechanism::design::{Design, MechanismError};
 use centrode_mechanism::gear::{GearPair, GearPairError, Member};
 use centrode_mechanism::machine::Machine;
@@ -187,8 +187,11 @@ fn drawn(mechanism: &ThreeArm, teeth: Option<&GearPair>) -> Picture {
     let Ok(machine) = three_arm::drawn(mechanism, teeth) else {
         return Picture::default();
     };
-    let mut picture = machine::picture(&machine, tolerance);
-    picture.contacts = three_arm::contacts(mechanism, teeth);
+    let (mut picture, contacts) = together(
+        || machine::picture(&machine, tolerance),
+        || three_arm::contacts(mechanism, teeth),
+    );
+    picture.contacts = contacts;
     if let Some(sun) = picture.links.iter().position(|link| link.name == "sun") {
         let length = mechanism.rolling().pitch_length(Member::Driver);
         picture.handles = handles(&mechanism.design().pitch, length, sun);

@@ -8,6 +8,7 @@ use nalgebra::{Isometry2, Rotation2};
 use crate::interference::{
     BodyError, Clearance, InterferenceError, Later, Motion, Moving, PoseJet, Rest, Shares, Uniform,
 };
+use crate::side_by_side::both;
 
 /// Clearances of the arms of a planetary transplanting mechanism, proven over a whole cycle.
 ///
@@ -55,11 +56,21 @@ impl ArmClearance {
         arm: &ArmBody,
         tolerance: Tolerance,
     ) -> Result<Self, ArmClearanceError> {
+        let (arms, [tray, unpicked, seedlings]) = both(
+            || between_arms(mechanism, arm, tolerance),
+            || {
+                [
+                    from_tray(mechanism, arm, tolerance),
+                    from_unpicked(mechanism, arm, tolerance),
+                    from_seedlings(mechanism, arm, tolerance),
+                ]
+            },
+        );
         Ok(Self {
-            arms: between_arms(mechanism, arm, tolerance)?,
-            tray: from_tray(mechanism, arm, tolerance)?,
-            unpicked: from_unpicked(mechanism, arm, tolerance)?,
-            seedlings: from_seedlings(mechanism, arm, tolerance)?,
+            arms: arms?,
+            tray: tray?,
+            unpicked: unpicked?,
+            seedlings: seedlings?,
         })
     }
 }

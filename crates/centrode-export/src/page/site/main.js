@@ -254,7 +254,7 @@ async function start() {
   listen();
   if (embedded) {
     document.body.classList.add("report");
-    const snapshot = JSON.parse(embedded.textContent);
+    const snapshot = server.whole(JSON.parse(embedded.textContent));
     byId("imprint").textContent = `${snapshot.name}: ${snapshot.definition}`;
     show(snapshot);
     return;

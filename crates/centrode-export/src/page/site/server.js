@@ -99,7 +99,14 @@ export const stopSearch = () => json(ask("search", "DELETE"));
 export const response = (options, signal) => json(ask("response", "POST", options, signal));
 export const files = async (options, signal) => (await ask("export", "POST", options, signal)).blob();
 export const meshes = async (text, signal) => (await ask("meshes", "POST", { text }, signal)).arrayBuffer();
-export const solve = (request, signal) => json(ask("solve", "POST", { page, turn: (turn += 1), ...request }, signal));
+export const solve = async (request, signal) => whole(await json(ask("solve", "POST", { page, turn: (turn += 1), ...request }, signal)));
+
+/** A snapshot with the inputs of every curve: where a curve has none, they are those of the one before. */
+export function whole(snapshot) {
+  let before;
+  for (const curve of snapshot.curves ?? []) before = curve.input ??= before;
+  return snapshot;
+}
 
 /** Calls `disk` with the file's text, or with what is missing, whenever that changes; `lost` and `found` as the program goes and comes. */
 export function watch({ disk, lost, found }) {

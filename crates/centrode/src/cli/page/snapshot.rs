@@ -1,7 +1,7 @@
 use std::sync::{Arc, OnceLock};
 
 use crate::analysis::Report;
-use crate::export::page::{Curve, Picture};
+use crate::export::page::{Curve, CurveList, Picture};
 use crate::family::{FAMILIES, Limit, Mechanism};
 use crate::geometry::together;
 use crate::mechanism::design::DesignError;
@@ -21,6 +21,7 @@ pub(crate) struct Snapshot {
     /// Definition of the mechanism, in a line.
     definition: String,
     /// The numbers of the design, table by table.
+    #[serde(skip)]
     tables: Vec<Table>,
     /// Reason why there is no mechanism.
     error: Option<Fault>,
@@ -28,11 +29,13 @@ pub(crate) struct Snapshot {
     detail: Option<Fault>,
     #[serde(skip)]
     left_out: Option<Arc<LeftOut>>,
+    #[serde(skip)]
     picture: Option<Picture>,
     /// Whether the picture lacks details that take longer to make.
     coarse: bool,
     /// Whether its goals are told before the rest of the checks.
     goals_first: bool,
+    #[serde(skip)]
     curves: Vec<Curve>,
     /// Speed of the input, rad/s, where the design has one.
     speed: Option<f64>,
@@ -122,13 +125,15 @@ pub(crate) struct Subject {
 }
 
 impl Snapshot {
-    /// Snapshot of the design alone: its text and numbers.
-    pub(crate) fn of_text(text: String) -> Self {
-        Self {
-            tables: tables(&text),
+    /// Snapshot of the design alone: its text and numbers; and what is made of the text meanwhile.
+    fn beside<T>(text: String, make: impl FnOnce(&str) -> T) -> (Self, T) {
+        let (made, tables) = together(|| make(&text), || tables(&text));
+        let snapshot = Self {
+            tables,
             text,
             ..Self::default()
-        }
+        };
+        (snapshot, made)
     }
 
     /// Snapshot with the reason why there is no mechanism.
@@ -147,7 +152,9 @@ impl Snapshot {
                 message: "cancelled; the next change solves it anew".into(),
                 rule: String::new(),
             }),
-            ..Self::of_text(text)
+            tables: tables(&text),
+            text,
+            ..Self::default()
         }
     }
 
@@ -167,15 +174,28 @@ impl Snapshot {
 
     /// Snapshot as JSON; numbers that are not finite are null.
     pub(crate) fn json(&self) -> serde_json::Result<String> {
-        serde_json::to_string(self)
+        // What is long is written by two threads.
+        let (picture, others) = together(
+            || serde_json::to_string(&self.picture),
+            || {
+                let curves = serde_json::to_string(&CurveList(&self.curves))?;
+                Ok((serde_json::to_string(&self.tables)?, curves))
+            },
+        );
+        let (picture, (tables, curves)) = (picture?, others?);
+        let rest = serde_json::to_string(self)?;
+        let rest = rest.trim_start_matches('{');
+        Ok(format!(
+            "{{\"picture\":{picture},\"tables\":{tables},\"curves\":{curves},{rest}"
+        ))
     }
 }
 
 impl Subject {
     /// Resolves a design file and draws it; without a mechanism, the snapshot says why.
     pub(crate) fn from_text(text: String) -> Result<Self, Box<Snapshot>> {
-        let snapshot = Snapshot::of_text(text);
-        match resolved(&snapshot.text) {
+        let (snapshot, mechanism) = Snapshot::beside(text, resolved);
+        match mechanism {
             Ok(mechanism) => Ok(Self::new(snapshot, mechanism)),
             Err(error) => Err(Box::new(snapshot.with_error(&error))),
         }
@@ -183,8 +203,8 @@ impl Subject {
 
     /// Resolves and draws a design that is worked on: a detail of a body that cannot be is a finding, and the rest is drawn without it.
     pub(crate) fn without_faulty_details(text: String) -> Result<Self, Box<Snapshot>> {
-        let mut snapshot = Snapshot::of_text(text);
-        match Made::new(&snapshot.text) {
+        let (mut snapshot, made) = Snapshot::beside(text, Made::new);
+        match made {
             Ok(made) => {
                 snapshot.detail = made.left_out.as_ref().map(|left_out| Fault {
                     message: left_out.message(),
@@ -220,8 +240,8 @@ impl Subject {
     }
 
     /// Snapshot with the picture but without the results of the checks.
-    pub(crate) fn drawn(&self) -> Snapshot {
-        self.snapshot.clone()
+    pub(crate) fn drawn(&self) -> &Snapshot {
+        &self.snapshot
     }
 
     /// Snapshot with the picture in detail.
@@ -237,7 +257,7 @@ impl Subject {
 
     /// Goals, checked as far as the motion tells.
     pub(crate) fn goals(&self) -> Goals {
-        Goals::new(&*self.mechanism, &self.mechanism.check_motion())
+        Goals::new(&*self.mechanism, &self.mechanism.check_goals())
     }
 
     /// Snapshot with the results of the checks.

@@ -173,7 +173,7 @@ fn goals(text: &str) -> Vec<GoalWords> {
         |_| Vec::new(),
         |mechanism| {
             mechanism
-                .check_motion()
+                .check_goals()
                 .goals
                 .iter()
                 .map(goal_words)

@@ -5,6 +5,7 @@ use centrode_mechanism::three_arm::design::ThreeArmDesign;
 use super::*;
 
 mod disc;
+mod quick;
 mod response;
 mod rooms;
 
