@@ -183,7 +183,7 @@ EXEMPT = {
     },
     "docs/theory/contact.md": {
         FORMULA: (r"rate 1 \+",),
-        LIMIT: (r"and 48 where",),
+        LIMIT: (r"and 48 where", r"at 25 angles or more"),
     },
     "docs/theory/feeder.md": {
         FORMULA: (r"</sub>, 0\)", r"from 0 to"),
@@ -214,7 +214,7 @@ EXEMPT = {
     "docs/theory/teeth.md": {
         FORMULA: (r"&plusmn;1", r"m z/2", r", 2 h<sub>"),
         LIMIT: (r"from 0\.35 to 0\.65", r"from 14\.5 to 30 degrees", r"0\.002 pitches, 0\.001, and 0\.05 degrees"),
-        INPUT: (r"as 14 teeth do not for the ratio 1 \+ 0\.4 cos 2 phi",),
+        INPUT: (r"with 14 teeth for the ratio 1 \+ 0\.4 cos 2 phi", r"\(23 degrees for a radius of 0\.38 modules\)"),
     },
     "docs/theory/three-arm.md": {
         FORMULA: (r"ratios 1\.", r"&lambda; = 0", r"goals 2 to\n4\.", r"1 when it is reached and\n1/\(1 \+"),

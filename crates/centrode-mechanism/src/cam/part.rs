@@ -57,7 +57,7 @@ impl Cam {
         })
     }
 
-    /// The same cam by another name.
+    /// This cam by another name.
     pub(crate) fn renamed(&self, name: &str) -> Self {
         Self {
             name: name.to_owned(),

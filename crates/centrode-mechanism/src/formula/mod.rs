@@ -37,7 +37,7 @@ enum Step {
     Apply(Function),
     /// The variable times a number.
     Multiple(f64),
-    /// What is there times a number.
+    /// Product of what is there with a number.
     Scale(f64),
     /// Sine, or else cosine, of the variable times a number.
     Wave {

@@ -43,7 +43,7 @@ mod tests {
     #[test]
     fn a_shortened_program_has_the_same_values_bit_by_bit() {
         for (text, count) in [
-            ("phi - 0.45*cos(phi) + 0.09*sin(phi) + 6e-4*cos(2*phi)", 11),
+            ("phi - 0.45*cos(phi) + 0.09*sin(phi) + 6e-4*cos(2*phi)", 10),
             ("30 + sin(phi*3)*2 - cos(3*phi)/7", 8),
             ("2*(phi + 1)*sin(phi)^2 - 3*exp(cos(2*phi))", 13),
             ("sin(2*phi + 1) + phi*phi", 7),

@@ -1,4 +1,4 @@
-//! What the design page asks for while a hand moves is what it shows at rest.
+//! Answers to the design page while a hand moves are those at rest.
 
 use centrode_export::{composed, machine};
 use centrode_geometry::Tolerance;
