@@ -46,7 +46,7 @@ mod tests {
             ("phi - 0.45*cos(phi) + 0.09*sin(phi) + 6e-4*cos(2*phi)", 10),
             ("30 + sin(phi*3)*2 - cos(3*phi)/7", 8),
             ("2*(phi + 1)*sin(phi)^2 - 3*exp(cos(2*phi))", 13),
-            ("sin(2*phi + 1) + phi*phi", 7),
+            ("sin(2*phi + 1) + phi*phi", 8),
             ("(2 - phi)*3*phi", 6),
         ] {
             let program = parser::read(text).expect("a formula");
