@@ -40,6 +40,8 @@ DRILLS = {1.6: 1.25, 2: 1.6, 2.5: 2.05, 3: 2.5, 4: 3.3, 5: 4.2, 6: 5, 8: 6.8, 10
 PLACE = re.compile(rf"^at ({NUMBER}), ({NUMBER})")
 KEYWAY = re.compile(rf"^keyway ({NUMBER})")
 KEYED = re.compile(rf"^Ø \+ depth ({NUMBER}) \(\+0\.100 / 0\), at {NUMBER}°$")
+# A length, or a diameter of a round plate with the class of a shaft.
+SIZE = re.compile(rf"^Ø?({NUMBER})(?: [a-z]+\d+ \(.*\))?$")
 ENDS = re.compile(rf"^R({NUMBER}) about ({NUMBER}), ({NUMBER}) and ({NUMBER}), ({NUMBER})$")
 
 
@@ -275,7 +277,7 @@ def plates_made_from_their_sheets(folder):
         # Neither the letters of the frame nor the cells of tables are dimensions.
         (first,) = [i for i, text in enumerate(texts) if text.endswith(" of these a machine.")]
         views = texts[first : texts.index("Contour")]
-        numbers = [float(text) for text in views if re.fullmatch(r"\d+(\.\d+)?", text)]
+        numbers = [float(found[1]) for text in views if (found := SIZE.match(text))]
         for side in (high.X() - low.X(), high.Y() - low.Y(), high.Z() - low.Z()):
             assert min(abs(side - x) for x in numbers) < 6e-4, (part, side)
         thick = high.Z() - low.Z()

@@ -85,9 +85,10 @@ pub struct Contact {
     pub on_flanks: Vec<bool>,
     /// Deepest penetration of the two outlines with the driven gear seated, mm.
     pub penetration: Vec<f64>,
-    /// Least distance of a tip from a root, mm; infinite where none is near.
+    /// Least distance of a tip from a root with the driven gear at the law's angle, in the middle of its play, mm; infinite where none
+    /// is near. Pushed to a side it is less, by up to the play.
     pub clearance: Vec<f64>,
-    /// Least clearance from a fillet, mm; infinite where nothing is near.
+    /// Least clearance from a fillet there, mm; infinite where nothing is near.
     pub fillet_clearance: Vec<f64>,
     /// Greatest sliding speed in the contact per driver speed, mm/rad.
     pub sliding: Vec<f64>,
