@@ -134,10 +134,10 @@ def test_a_change_keeps_the_view_at_the_mesh_of_three_arms(browser, tmp_path):
 
 
 @pytest.mark.parametrize(
-    ("name", "share"), [("elliptic-pair-2018", 0.022), ("lobed-pair-5-2", 0.01), ("transplanter-pair-2021", 0.04)]
+    ("name", "share"), [("elliptic-pair-2018", 0.0), ("lobed-pair-5-2", 0.0), ("transplanter-pair-2021", 0.04)]
 )
 def test_as_many_flanks_touch_as_the_contact_analysis_of_the_finished_outlines_counts(tmp_path, name, share):
-    """The paths come from the law of gearing alone; a sample at the end of one, or its image, may count otherwise."""
+    """The paths come from the law of gearing alone; a sample beside the end of one may count otherwise."""
     copy = tmp_path / f"{name}.toml"
     copy.write_text(POINTS.with_name(copy.name).read_text())
     with studio(copy) as served:
@@ -147,10 +147,13 @@ def test_as_many_flanks_touch_as_the_contact_analysis_of_the_finished_outlines_c
     cycle = contacts["pitch_point"]["input"][-1]
     ends = [(path["input"][0], path["input"][-1]) for path in contacts["paths"]]
     counted = next(curve for curve in curves_of(snapshot) if curve["chart"] == "Contacts at once")
+    # Within a fiftieth of a pitch of an end an edge is still as near as what counts as touching.
+    beside = 0.02 * cycle / len(ends)
     differ = [
         value
         for phi, value in zip(counted["input"], counted["value"], strict=True)
         if value != sum(any(first <= phi + turn <= last for turn in (-cycle, 0, cycle)) for first, last in ends)
+        and min(abs(phi + turn - end) for turn in (-cycle, 0, cycle) for path in ends for end in path) > beside
     ]
     assert len(counted["value"]) > 50
     assert len(differ) <= share * len(counted["value"])
