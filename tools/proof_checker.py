@@ -46,6 +46,8 @@ from proof.meeting import ends
 
 #: Stretches checked in one go.
 RUN = 16
+#: Half length of the shortest piece over which a polynomial is looked at, of a stretch from -1 to 1.
+FINEST = 2.0**-12
 
 
 class Pair:
@@ -134,9 +136,19 @@ def check(number):
 
 
 def spread(poly):
-    """All values of a polynomial from -1 to 1."""
-    parts = [sweep(poly(arb_poly([arb(k) / 16, arb(1) / 16]))) for k in range(-15, 16, 2)]
-    return interval(min(low(p) for p in parts), max(high(p) for p in parts))
+    """All values of a polynomial from -1 to 1, hardly more than it takes."""
+    ends = [poly(arb(x)) for x in (-1, 0, 1)]
+    least, most = min(low(y) for y in ends), max(high(y) for y in ends)
+    few = PAIR.width / 16
+    found, pieces = interval(least, most), [(arb(0), arb(1))]
+    while pieces:
+        middle, half = pieces.pop()
+        values = sweep(poly(arb_poly([middle, half])))
+        if half > FINEST and not (values > least - few and values < most + few):
+            pieces += [(middle - half / 2, half / 2), (middle + half / 2, half / 2)]
+        else:
+            found = found.union(values)
+    return found
 
 
 PAIR = None

@@ -6,13 +6,18 @@ import math
 import re
 import subprocess
 import sys
+from types import SimpleNamespace
 
 import centrode as ct
+import flint
 import jsonschema
 import pytest
 import shapely
 from conftest import ROOT
 from shapely import affinity
+
+sys.path.insert(0, str(ROOT / "tools"))
+import proof_checker
 
 DESIGNS = ROOT / "tests" / "designs"
 CHECKER = ROOT / "tools" / "proof_checker.py"
@@ -99,6 +104,15 @@ def test_a_defect_in_another_sector_is_found(round_file, tmp_path):
     status, answer = checked(path)
     assert status == 1
     assert "from sector to sector" in answer
+
+
+def test_seats_that_touch_at_a_turning_place_are_not_taken_to_cross(monkeypatch):
+    width = flint.arb(4e-10)
+    monkeypatch.setattr(proof_checker, "PAIR", SimpleNamespace(width=width))
+    # From 0, where it turns, to 4e-6.
+    values = proof_checker.spread(flint.arb_poly([1e-6, 2e-6, 1e-6]))
+    assert -width / 8 < values.lower() <= 0
+    assert 4e-6 <= values.upper() < 4e-6 + width / 8
 
 
 def test_a_proof_is_of_one_design(file, design):

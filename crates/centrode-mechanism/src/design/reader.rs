@@ -189,6 +189,14 @@ impl<'a> Reader<'a> {
 /// A message of serde on a value of another type, without the names of types.
 fn plain(message: &str) -> String {
     let after = |start: &str| message.strip_prefix(start)?.split_once(", expected ");
+    if let Some((given, expected)) = after("invalid length ")
+        && let Some(count) = expected.strip_prefix("an array of length ")
+    {
+        return format!("must have {count} values, not {given}");
+    }
+    if message == "wanted string or table" {
+        return "must be a word in quotes or a table".into();
+    }
     let Some((given, expected)) = after("invalid type: ").or_else(|| after("invalid value: "))
     else {
         return message.into();
@@ -196,7 +204,8 @@ fn plain(message: &str) -> String {
     let given = match given.split_once(' ') {
         // The value itself stands behind the name of its type, numbers in backticks.
         Some((_, value)) if value.starts_with(['"', '`']) || value.starts_with("point `") => {
-            value.trim_start_matches("point ").trim_matches('`')
+            let value = value.trim_start_matches("point ");
+            value.trim_end_matches(" as i128").trim_matches('`')
         }
         _ => match given {
             "sequence" => "a list",
@@ -208,8 +217,12 @@ fn plain(message: &str) -> String {
         "f64" => "a number",
         "u32" | "u64" | "usize" => "a whole number, 0 or greater",
         "i32" | "i64" => "a whole number",
+        "a sequence" => "a list",
         other if other.starts_with("struct ") => "a table",
-        other => other,
+        other => match other.strip_prefix("an array of length ") {
+            Some(count) => &format!("a list of {count} values"),
+            None => other,
+        },
     };
     format!("must be {expected}, not {given}")
 }

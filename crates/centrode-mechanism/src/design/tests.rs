@@ -227,7 +227,27 @@ fn every_bad_line_is_named_with_key_and_place() {
         (
             "mean_ratio = [1, 1]",
             "mean_ratio = [1]",
-            "line 3, column 14: mean_ratio: invalid length 1",
+            "line 3, column 14: mean_ratio: must have 2 values, not 1",
+        ),
+        (
+            "mean_ratio = [1, 1]",
+            "mean_ratio = 3",
+            "line 3, column 14: mean_ratio: must be a list of 2 values, not 3",
+        ),
+        (
+            "tooth_count = 23",
+            "tooth_count = 9223372036854775808",
+            "line 9, column 15: pitch.tooth_count: must be a whole number, 0 or greater, not 9223372036854775808",
+        ),
+        (
+            "backlash = 0.05",
+            "fit = \"phase\"",
+            "line 16, column 7: teeth.fit: must be a list, not \"phase\"",
+        ),
+        (
+            "backlash = 0.05",
+            "addendum = true",
+            "line 16, column 12: teeth.addendum: must be a word in quotes or a table",
         ),
         (
             "mean_ratio = [1, 1]",

@@ -15,13 +15,13 @@ mod track;
 
 use std::f64::consts::TAU;
 
-use centrode_geometry::{Extreme, chebyshev_series, checkpoint};
+use centrode_geometry::{chebyshev_series, checkpoint};
 use centrode_mechanism::design::Design;
 use centrode_mechanism::gear::{GearPair, Member};
 use centrode_mechanism::machine::Piecewise;
 use centrode_mechanism::transmission::Transmission;
 
-use super::{Contact, meshing::Meshing, touch::Pose};
+use super::{meshing::Meshing, touch::Pose};
 pub use file::{Proof, ProofError, ProofMeeting, ProofStretch};
 use file::{contour, rounding};
 pub(super) use meeting::{Feature, Meeting};
@@ -125,7 +125,6 @@ impl Prover<'_> {
             .filter(|&cut| !is_at_end(cut))
             .chain(law_ends.iter().copied())
             .collect();
-        cuts.extend(self.off_the_law().map(|phi| phi.rem_euclid(end)));
         cuts.retain(|c| *c > SHORTEST && *c < end - SHORTEST);
         cuts.sort_by(f64::total_cmp);
         cuts.dedup_by(|b, a| *b - *a < SHORTEST);
@@ -137,16 +136,6 @@ impl Prover<'_> {
             before = after;
         }
         Ok(())
-    }
-
-    /// Driver angles at which the driven gear is farthest off its law, if it is: an edge may hold it there over a stretch too short
-    /// for any other cut to show.
-    fn off_the_law(&self) -> impl Iterator<Item = f64> {
-        let pair = self.meshing.pair;
-        let found = Contact::analyse(pair).extremes(pair);
-        let found = [found.transmission_error, found.reverse_transmission_error];
-        let off = |error: &Extreme| error.value.is_finite() && error.value > HALF_WIDTH;
-        found.into_iter().filter(off).map(|error| error.input)
     }
 
     /// Covers a stretch, in as many parts as it takes.
