@@ -6,7 +6,7 @@ use centrode_mechanism::gear::GearPair;
 use super::{
     body::GearOutline,
     hit::Hit,
-    places::{Candidates, Kind, Place, SHALLOW, gaps},
+    places::{Candidates, Kind, Place, gaps},
     sample::{Loaded, Sample},
     seat::Seat,
     stretch::{Divided, Stretch},
@@ -30,6 +30,9 @@ const FARTHEST: f64 = 2.0;
 
 /// Greatest depth, in modules, of penetrations that are examined: more than the height of a tooth.
 const DEEPEST: f64 = 4.0;
+
+/// Depth, in modules, from which gears are taken to penetrate each other's bodies, not to touch.
+const SHALLOW: f64 = 1e-3;
 
 /// Greatest distance, in modules, of flanks that are examined unless nothing nearer is found.
 const CLOSE: f64 = 0.05;

@@ -10,8 +10,9 @@ use super::{
     touch::{self, Pose, Touch},
 };
 
-/// Depth, in modules, up to which a penetration is accepted without a second test.
-pub(super) const SHALLOW: f64 = 1e-3;
+/// Depth, in modules, up to which a penetration is accepted without a second test: too little to tell on which side of a
+/// contour a point lies.
+const ROUNDED: f64 = 1e-9;
 
 /// Greatest curvature, by the module, beyond which a part is a sharp bend at an end: that of a flank that ends near a cusp.
 const SHARP: f64 = 50.0;
@@ -180,10 +181,10 @@ impl Meshing<'_> {
         touch.gap < limit && touch.gap > deepest && self.real(touch, pose)
     }
 
-    /// Whether a deep penetration is real: the far sides of two neighbouring teeth face each other too, but neither
+    /// Whether a penetration is real: the far sides of two neighbouring teeth face each other too, but neither
     /// lies in the other.
     fn real(&self, touch: &Touch, pose: &Pose) -> bool {
-        touch.gap > -SHALLOW * self.module || {
+        touch.gap > -ROUNDED * self.module || {
             let inside = touch.point + touch.normal * (0.5 * touch.gap);
             self.driver.contains(inside) && self.driven.contains(pose.back(&inside))
         }

@@ -188,7 +188,6 @@ fn gears_that_cannot_be_followed_have_no_certificate_and_it_says_where() {
     let text = r#"
         family = "gear-pair"
         pitch = { kind = "polar", expression = "(1 + 0.45*cos(5*phi))/(2 + 0.45*cos(5*phi))", module = 1, tooth_count = 50 }
-        teeth = { addendum = "fitted" }
     "#;
     let design = GearPairDesign::from_toml(text).expect("a design");
     let pair = GearPair::resolve(&design).expect("a pair");
@@ -201,6 +200,22 @@ fn gears_that_cannot_be_followed_have_no_certificate_and_it_says_where() {
         (contact.backlash[0] + overlap).abs() < 1e-9 && overlap > 1e-6,
         "{phi} {overlap}"
     );
+}
+
+/// Polygons of these gears, turned by the law, have no area in common anywhere.
+#[test]
+fn sides_of_neighbouring_teeth_that_face_each_other_do_not_penetrate() {
+    let text = r#"
+        family = "gear-pair"
+        pitch = { kind = "ratio", expression = "1 + 0.334*cos(2*phi)", module = 1, tooth_count = 16 }
+        teeth = { addendum = "fitted" }
+    "#;
+    let design = GearPairDesign::from_toml(text).expect("a design");
+    let pair = GearPair::resolve(&design).expect("a pair");
+    let extremes = Contact::analyse(&pair).extremes(&pair);
+    for clearance in [extremes.clearance, extremes.fillet_clearance] {
+        assert!(clearance.value > -1e-8, "{clearance:?}");
+    }
 }
 
 /// Flanks of this driver end beside a cusp, where they bend by 25,000/mm.

@@ -14,6 +14,9 @@ use super::{
 
 /// Poses a pitch at which two teeth are held against each other.
 const POSES: u32 = 20;
+/// Pitches on either side of the middle of a passage, doubled, within which teeth are held against each other: on pitch curves that
+/// are concave in turn they still meet three pitches before they mesh.
+const PITCHES: u32 = 7;
 /// Penetration that may be the approximation's own, as a share of the pitch.
 const PENETRATION: f64 = 3e-5;
 /// Safety factor on a limiting reach; covers what lies between sampled poses.
@@ -60,9 +63,9 @@ impl<'a> Poses<'a> {
         }
     }
 
-    /// The poses within a pitch and a half of an arc length.
+    /// The poses within three pitches and a half of an arc length.
     fn about(&mut self, middle: f64) -> Vec<(Frame, Frame)> {
-        let count = 3 * i64::from(POSES) + 1;
+        let count = i64::from(PITCHES * POSES) + 1;
         let from = ((middle - self.origin) / self.step).round() as i64 - count / 2;
         let end = self.first + self.kept.len() as i64;
         if from < self.first || from > end {
@@ -143,7 +146,7 @@ impl<'a> Trimmed<'a> {
 
 impl<'a> ToothPassage<'a> {
     /// Sets up the passage of two teeth about the arc length `middle`, or nothing where both pitch curves are
-    /// convex for a pitch and a half around: the rack's straight flank then keeps the teeth apart.
+    /// convex for three pitches and a half around: the rack's straight flank then keeps the teeth apart.
     pub(crate) fn about(
         poses: &mut Poses<'a>,
         tool: &'a Tool,
