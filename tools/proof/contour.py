@@ -155,8 +155,8 @@ class Contour:
         return self.places[key]
 
     def joint(self, piece, following, way):
-        """Point beyond a joint, how far it is from that before it, bound for the cross product of the derivatives there,
-        and each with its error, kept."""
+        """Point beyond a joint, how far it is from that before it, bound for the cross product of the derivatives,
+        and each of them with its error, kept."""
         key = piece, way
         if key not in self.joints:
             (point, first), (next_point, next_first) = self.place(piece, way), self.place(following, -way)
