@@ -42,7 +42,6 @@ from proof.balls import UNIT, Motion, RejectedError, high, interval, low, magnit
 from proof.box import Box, settle
 from proof.contour import Contour
 from proof.law import Law
-from proof.meeting import ends
 
 #: Stretches checked in one go.
 RUN = 16
@@ -111,8 +110,7 @@ class Pair:
 
 def check(number):
     """Checks a stretch; gives the parts it took and the ranges of both seats, less the law, and of the backlash."""
-    stretch = dict(PAIR.stretches[number])
-    stretch["ends"] = ends(stretch)
+    stretch = PAIR.stretches[number]
     whole = Box(PAIR, stretch)
     where = f"from {stretch['from']} to {stretch['to']} rad of the driver"
     boxes = 0
@@ -167,7 +165,19 @@ def load(path):
     return proof
 
 
-def run(path, design, workers):
+def told(found, stretches):
+    """Passes what was found on, and tells the share of the cycle that is done."""
+    last = None
+    for stretch, one in zip(stretches, found, strict=True):
+        share = int(100 * stretch["to"] / stretches[-1]["to"])
+        if share != last:
+            print(f"\r{share} % of the cycle", end="", file=sys.stderr, flush=True)
+            last = share
+        yield one
+    print(file=sys.stderr)
+
+
+def run(path, design, workers, tells):
     """Checks a whole file and prints what it shows."""
     proof = load(path)
     if design is not None:
@@ -176,7 +186,8 @@ def run(path, design, workers):
                 raise RejectedError("the proof is of another design")
     with ProcessPoolExecutor(workers, initializer=load, initargs=(path,)) as pool:
         count = len(PAIR.stretches)
-        found = list(pool.map(check, range(count), chunksize=RUN))
+        found = pool.map(check, range(count), chunksize=RUN)
+        found = list(told(found, PAIR.stretches) if tells else found)
     ranges = [(min(r[i][0] for _, r in found), max(r[i][1] for _, r in found)) for i in range(3)]
     turns, width = round(PAIR.cycle / tau), 2 * proof["half_width"]
     cycle = "one turn" if turns == 1 else f"{turns} turns"
@@ -193,9 +204,10 @@ def main():
     parser.add_argument("proof", help="file of centrode prove")
     parser.add_argument("design", nargs="?", help="design file that it must be the proof of")
     parser.add_argument("--workers", type=int, help="processes to use, as many as there are cores unless told")
+    parser.add_argument("--progress", action="store_true", help="tell the share that is done, as on a terminal")
     args = parser.parse_args()
     try:
-        run(args.proof, args.design, args.workers)
+        run(args.proof, args.design, args.workers, args.progress or sys.stderr.isatty())
     except RejectedError as reason:
         print(f"rejected: {reason}")
         return 1

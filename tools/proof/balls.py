@@ -5,6 +5,8 @@ from flint import acb, acb_poly, acb_series, arb, arb_poly, ctx
 ctx.prec = 64
 TERMS = 16
 ctx.cap = TERMS + 1
+#: Terms that will do where the next one is so small all over the box.
+FEW, SMALL = 8, 1e-11
 #: Weights of the terms of one over a square root.
 WEIGHTS = [[arb(-k - 2 * (n - k)) / (2 * n) if n else arb(0) for k in range(n + 1)] for n in range(TERMS + 1)]
 
@@ -83,11 +85,15 @@ def sweep(series):
     return sum((c * UNIT for c in terms[1:]), terms[0]) if terms else ZERO
 
 
-def expand(functions, terms=TERMS):
-    """Taylor coefficients of analytic functions of t, the last one a ball over the box."""
-    ctx.cap = terms + 1
+def expand(functions):
+    """Taylor coefficients of analytic functions of t, the last one a ball over the box; few where few will do."""
     try:
-        near, far = functions(ZERO), functions(UNIT)
+        for terms in FEW, TERMS:
+            ctx.cap = terms + 1
+            far = functions(UNIT)
+            if all(magnitude(f[terms]) < SMALL for f in far):
+                break
+        near = functions(ZERO)
     finally:
         ctx.cap = TERMS + 1
     return [[f[k] for k in range(terms)] + [g[terms]] for f, g in zip(near, far, strict=True)]

@@ -4,7 +4,7 @@ from flint import acb, acb_poly, acb_series, arb, arb_poly
 from proof import floats
 from proof.balls import TERMS, UNIT, ZERO, UndecidedError, chebyshev, magnitude, shifted, sweep
 from proof.law import OVERLAP
-from proof.meeting import AROUND, Meeting
+from proof.meeting import AROUND, Meeting, ends
 
 #: Greatest number of halvings: of a box, of a piece of a contour.
 DEEP, FINEST = 18, 14
@@ -53,7 +53,7 @@ class Box:
         """Two parts, cut where features come to an end of their pieces if they do so inside, or in the middle."""
         middle = (self.start + self.stop) / 2
         margin = 1e-6 * (self.stop - self.start)
-        inside = [c for c in self.stretch["ends"] if self.start + margin < c < self.stop - margin]
+        inside = [c for c in ends(self.stretch) if self.start + margin < c < self.stop - margin]
         cut = min(inside, key=lambda c: abs(c - middle), default=middle)
         return [Box(self.pair, self.stretch, *ends, self.suspects) for ends in ((self.start, cut), (cut, self.stop))]
 

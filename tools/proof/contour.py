@@ -67,7 +67,7 @@ class Contour:
             raise RejectedError(f"the {name}'s contour has {len(pieces)} pieces")
         if not all(2 <= len(piece) <= 40 for piece in pieces):
             raise RejectedError(f"the {name}'s contour has a piece of degree 0 or above 39")
-        self.name, self.count, self.hulls, self.places = name, len(pieces), {}, {}
+        self.name, self.count, self.hulls, self.places, self.joints = name, len(pieces), {}, {}, {}
         self.floats = [[complex(x, y) for x, y in piece] + [0j] * (5 - len(piece)) for piece in pieces]
         # A Taylor coefficient around a place is a sum in at most 40 steps: Horner's scheme, run again and again.
         self.errors = [
@@ -153,6 +153,18 @@ class Contour:
             out = self.taylor(piece, at)
             self.places[key] = out[0], out[1]
         return self.places[key]
+
+    def joint(self, piece, following, way):
+        """Point beyond a joint, how far it is from that before it, bound for the cross product of the derivatives,
+        and each of them with its error, kept."""
+        key = piece, way
+        if key not in self.joints:
+            (point, first), (next_point, next_first) = self.place(piece, way), self.place(following, -way)
+            e, f = self.errors[piece][1], self.errors[following][1]
+            bent = abs((first.conjugate() * next_first).imag) + SHARE * abs(first) * abs(next_first)
+            bent += 2 * e * (abs(next_first) + e) + 2 * f * (abs(first) + f)
+            self.joints[key] = next_point, abs(next_point - point) + 2 * self.off, bent, ((first, e), (next_first, f))
+        return self.joints[key]
 
     def hull(self, piece, start, stop):
         """Bounds on a part of a piece, or a little more than it."""

@@ -105,6 +105,13 @@ class Motion:
             abs(first.imag) + abs(second.imag) + rest + up,
         )
 
+    def across(self, x, error):
+        """Middle of the real part of a turned vector, which may be off by an error either way, and its reach."""
+        (b1, b2), middle = self.along_b, self.b * x
+        # A turn keeps lengths: the error's is below one and a half of it.
+        rest = (self.turn_rest + SHARE) * abs(x) + 2 * error
+        return middle.real, abs((b1 * x).real) + abs((b2 * x).real) + rest
+
     def run(self, tangents):
         """Bounds on the real part of turned unit vectors within a disc; none where it may be zero."""
         middle, radius = tangents

@@ -102,9 +102,9 @@ class Walk:
 
     def walked(self, start, stop, way):
         """Least and greatest distance in x between two points, on with the walk."""
-        middle, reach, _ = self.motion.turn(stop - start, 2 * self.contour.off)
+        middle, reach = self.motion.across(stop - start, 2 * self.contour.off)
         middle *= self.sign * way
-        return below(middle.real, -reach), above(middle.real, reach)
+        return below(middle, -reach), above(middle, reach)
 
     def from_touch(self, place, x, height, slope, way):
         """Last place of the walk from near the parabola's point: there are least and greatest numbers of each."""
@@ -152,6 +152,8 @@ class Walk:
         """Last place of a walk, in pieces from the first one's number on."""
         count = self.contour.count
         turned = piece - self.piece if abs(piece - self.piece) < 2 else way
+        # Height and slope have come from part to part; where they do not do, those of the place itself may.
+        fresh = None
         for _ in range(len(self.near) + 2):
             length = 2.0
             while start != way:
@@ -162,6 +164,10 @@ class Walk:
                 if reached is not None:
                     start, (point, height, slope) = start + way * length, reached
                     length = 2 * length
+                elif fresh != (piece, start):
+                    fresh = piece, start
+                    _, level, rate = self.at(piece, start, way)
+                    height, slope = max(height, level), better(slope, rate)
                 elif length > SHORTEST or (length > NEXT and self.is_sharp(piece, start, start + way * length, way)):
                     length /= 2
                 else:
@@ -188,7 +194,7 @@ class Walk:
         if not self.stays(piece, *ends):
             return None
         curve = self.curve(piece, *ends) if slope is not None else None
-        there, level, rate = self.at(piece, end, way)
+        there = self.contour.place(piece, end)[0]
         after = gain = least = None
         if curve is not None:
             # Of the way itself, for both ends move alike.
@@ -205,28 +211,26 @@ class Walk:
                     least = min(height, after)
         if least is not None and self.slack:
             least = below(least, -self.room(self.reach(point, there)))
-        if not ((least is not None and least > 0) or self.height(piece, *ends) > 0):
+        held = least is not None and least > 0
+        if held and after > 0 and gain > 0:
+            return there, after, gain
+        if not held and not self.height(piece, *ends) > 0:
             return None
+        _, level, rate = self.at(piece, end, way)
         return there, better(after, level), better(gain, rate)
 
     def join(self, piece, following, height, slope, way):
         """Point, height and slope beyond a joint, whose ends miss each other by rounding."""
-        contour, motion = self.contour, self.motion
-        (point, first), (next_point, next_first) = contour.place(piece, way), contour.place(following, -way)
-        there, level, rate = self.at(following, -way, way)
-        off = abs(next_point - point) + 2 * contour.off
-        y, reach, _ = motion.place(next_point)
-        height = below(height, -off * (1 + 2 * abs(self.k) * (abs(y) + 2 * reach + off)))
+        contour, k = self.contour, 2 * abs(self.k)
+        there, off, bent, vectors = contour.joint(piece, following, way)
+        y, reach, _ = self.motion.place(there)
+        height = below(height, -off * (1 + k * (abs(y) + 2 * reach + off)))
         if slope is not None:
-            runs, bent = [], abs((first.conjugate() * next_first).imag) + SHARE * abs(first) * abs(next_first)
-            for number, vector, other in ((piece, first, next_first), (following, next_first, first)):
-                error = contour.errors[number][1]
-                bent += 2 * error * (abs(other) + error)
-                middle, across, _ = motion.turn(vector, error)
-                runs.append(below(self.sign * middle.real, -across))
             # Slopes Im/Re of two vectors differ by their cross product over both real parts.
-            if runs[0] > 0 and runs[1] > 0:
-                slope = below(slope, -bent / (runs[0] * runs[1]), -2 * abs(self.k) * off)
-            else:
-                slope = None
-        return there, better(height, level), better(slope, rate)
+            runs = [self.motion.across(*vector) for vector in vectors]
+            runs = [below(self.sign * middle, -reach) for middle, reach in runs]
+            slope = below(slope, -bent / (runs[0] * runs[1]), -k * off) if min(runs) > 0 else None
+        if slope is None or not slope > 0:
+            _, level, rate = self.at(following, -way, way)
+            height, slope = max(height, level), better(slope, rate)
+        return there, height, slope
