@@ -189,6 +189,10 @@ impl<'a> Reader<'a> {
 /// A message of serde on a value of another type, without the names of types.
 fn plain(message: &str) -> String {
     let after = |start: &str| message.strip_prefix(start)?.split_once(", expected ");
+    if let Some((given, expected)) = after("invalid length ") {
+        let wanted = expected.rsplit(' ').next().unwrap_or(expected);
+        return format!("must have {wanted} values, not {given}");
+    }
     let Some((given, expected)) = after("invalid type: ").or_else(|| after("invalid value: "))
     else {
         return message.into();

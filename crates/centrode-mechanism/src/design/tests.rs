@@ -227,7 +227,7 @@ fn every_bad_line_is_named_with_key_and_place() {
         (
             "mean_ratio = [1, 1]",
             "mean_ratio = [1]",
-            "line 3, column 14: mean_ratio: invalid length 1",
+            "line 3, column 14: mean_ratio: must have 2 values, not 1",
         ),
         (
             "mean_ratio = [1, 1]",
