@@ -361,7 +361,7 @@ def test_parts_are_chosen_as_on_the_command_line(browser, tmp_path):
         page.locator("#dialog summary", has_text="Parts").click()
         page.get_by_role("button", name="None").click()
         page.locator("#export-part-driven").check()
-        for kind in ["urdf", "mjcf", "3mf", "pdf", "stl"]:
+        for kind in ["urdf", "mjcf", "3mf", "pdf", "stl", "report"]:
             page.locator(f'#dialog input[value="{kind}"]').uncheck()
         with page.expect_download(timeout=60_000) as download:
             page.get_by_role("button", name="Export zip").click()
