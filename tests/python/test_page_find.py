@@ -1,5 +1,6 @@
 """Numbers of the design page's form found by words and explained; goals numbered; lines of the source."""
 
+import pytest
 from axe_playwright_python.sync_playwright import Axe
 from page import ARMS, FEEDER, field, opened, settled
 from playwright.sync_api import expect
@@ -84,6 +85,10 @@ def test_the_source_has_the_numbers_of_its_lines(browser, tmp_path):
         page.get_by_role("button", name="Source").click()
         numbers, area = page.locator(".line-numbers"), page.get_by_role("textbox", name="Design file")
         lines = len(copy.read_text().split("\n"))
+        # From the top, with a number in sight beside every line that is.
+        assert area.evaluate("box => [box.scrollTop, box.selectionStart, box.selectionEnd]") == [0, 0, 0]
+        high = "box => box.clientHeight"
+        assert numbers.evaluate(high) == pytest.approx(area.evaluate(high), abs=4)
         assert numbers.text_content().split("\n") == [str(i + 1) for i in range(lines)]
         area.press("Control+End")
         area.press_sequentially("\n\n")

@@ -164,3 +164,46 @@ def test_a_drag_is_followed_whatever_its_speed(browser, tmp_path):
         drag(page, page.get_by_role("button", name="point 2 of the pitch curve"), 3, 4)
         settled(page)
         assert exact(page) != before
+
+
+# Tells after each drawing whether the report says that it is of the design before.
+MARKED = """
+addEventListener("DOMContentLoaded", () => {
+  const clear = CanvasRenderingContext2D.prototype.clearRect;
+  window.marked = [];
+  CanvasRenderingContext2D.prototype.clearRect = function (...box) {
+    if (this.canvas.parentElement?.id === "stage") queueMicrotask(() => {
+      window.marked.push(document.getElementById("verdict").classList.contains("stale"));
+    });
+    return clear.apply(this, box);
+  };
+});
+"""
+
+
+def test_no_picture_stands_beside_the_report_of_another_design(browser, tmp_path):
+    with opened(browser, tmp_path, ARMS, script=MARKED) as (page, _):
+        page.evaluate("window.marked.length = 0")
+        field(page, "arm.tip_distance").press("ArrowUp")
+        settled(page)
+        marked = page.evaluate("window.marked")
+        # With the first drawing of the new design, and until it is checked.
+        assert marked[0]
+        assert not marked[-1]
+        assert marked == sorted(marked, reverse=True)
+
+
+def test_a_goal_tells_its_margin(browser, tmp_path):
+    with opened(browser, tmp_path, ARMS) as (page, _):
+        told = 0
+        for goal in page.locator(".goal").all():
+            value = float(goal.locator(".head b").inner_text().split()[1])
+            words = goal.locator(".detail").inner_text()
+            ends = [float(word) for word in re.findall(r"-?\d+\.?\d*", words.split(";")[0])]
+            above, below = value - ends[0], ends[-1] - value
+            margin = min(above, below) if len(ends) == 2 else above if "at least" in words else below
+            spare = re.search(r"; met, (\S+) .*to spare", words) or re.search(r"; missed by (\S+)", words)
+            assert float(spare[1]) == pytest.approx(abs(margin), abs=2e-4)
+            assert ("met," in words) == (margin >= 0)
+            told += 1
+        assert told == 9

@@ -7,7 +7,8 @@ import zlib
 
 import pytest
 from axe_playwright_python.sync_playwright import Axe
-from page import ARMS, POINTS, SHIPPED, field, opened, settled, shown
+from conftest import centrode
+from page import ARMS, CIRCLE, POINTS, SHIPPED, field, figures, opened, settled, shown
 from playwright.sync_api import expect
 from studio import studio
 
@@ -156,3 +157,47 @@ def test_the_start_page_makes_a_file_of_a_link(browser, tmp_path):
         page.locator("#start").click()
         follow(page, fragment(ARMS.read_text()))
         expect(page.locator("#dialog")).to_contain_text("New design file")
+
+
+@pytest.fixture(scope="module")
+def report(tmp_path_factory):
+    out = tmp_path_factory.mktemp("report") / "pair.html"
+    centrode("report", POINTS, "-o", out, check=False)
+    return out.as_uri()
+
+
+def test_a_report_offers_the_file_of_a_link_and_has_a_link_of_its_own(browser, report, tmp_path):
+    with shown(browser, report + fragment(CIRCLE.read_text()), offline=True) as page:
+        notice = page.locator(".notice")
+        expect(notice).to_contain_text("The link holds Circular pair")
+        expect(notice).to_contain_text("centrode studio circular-pair.toml")
+        with page.expect_download() as download:
+            notice.get_by_role("button", name="Save the file").click()
+        assert download.value.suggested_filename == "circular-pair.toml"
+        download.value.save_as(tmp_path / "saved.toml")
+        assert (tmp_path / "saved.toml").read_text() == CIRCLE.read_text()
+        # The report is what it was.
+        assert figures(page)["center_distance"].startswith("82.0463")
+        follow(page, fragment(CIRCLE.read_text()))
+        page.get_by_role("button", name="Show its text").click()
+        expect(page.get_by_role("textbox", name="Design file")).to_have_value(CIRCLE.read_text())
+        assert Axe().run(page).response["violations"] == []
+        page.keyboard.press("Escape")
+        own = """() => new Promise((resolve) => {
+          navigator.clipboard.writeText = async (text) => resolve(text);
+          document.getElementById("link").click();
+        })"""
+        link = page.evaluate(own)
+        assert unpacked(link) == POINTS.read_text()
+        follow(page, link)
+        expect(notice).to_have_text(re.compile("is the one that is shown"))
+
+
+@pytest.mark.parametrize(
+    ("link", "words"),
+    [("#design=1.abcd", "damaged"), ("#design=9.abcd", "another kind"), (fragment("a = 1"), "holds no design")],
+)
+def test_a_hostile_link_to_a_report_is_told(browser, report, link, words):
+    with shown(browser, report + link, offline=True) as page:
+        expect(page.locator(".notice.error")).to_contain_text(words)
+        expect(page.locator(".notice button")).to_have_count(1)

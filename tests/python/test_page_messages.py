@@ -4,7 +4,7 @@ import re
 
 import pytest
 from conftest import ROOT, centrode
-from page import ARMS, CIRCLE, POINTS, drawing, field, opened, settled
+from page import ARMS, BOX, CIRCLE, FEEDER, POINTS, drawing, field, opened, settled
 from playwright.sync_api import expect
 
 # More digits than a reader has use for.
@@ -50,6 +50,30 @@ def test_a_message_speaks_of_the_form_at_the_number_at_fault_alone(browser, tmp_
         said = page.locator("#findings li")
         expect(said).to_have_text(f"✕ error Pitch · {place}: {words}")
         assert not re.search(r"line \d|column|f64|u32|invalid type", page.locator("body").inner_text())
+
+
+@pytest.mark.parametrize(
+    ("design", "key", "value", "words"),
+    [
+        # Serde tells of lists in its own words, and of the tables below a kind without their keys.
+        (ARMS, "teeth.thickness_deviations", "-0.02", "must have 2 values, not 1"),
+        (BOX, "shaft.law.harmonic", "often", 'must be a whole number, 0 or greater, not "often"'),
+        (BOX, "gears.tool.pressure_angle_deg", "steep", 'must be a number, not "steep"'),
+        (FEEDER, "plates.slider_length", "1.5", "must be at least 16 mm, not 1.5 mm"),
+        # Solving it would be an index out of bounds.
+        (BOX, "shaft.pick_deg", "1e9", "must be -360 to 360 deg, not 1000000000 deg"),
+    ],
+)
+def test_a_message_has_no_word_of_the_program_and_stands_at_its_number(browser, tmp_path, design, key, value, words):
+    with opened(browser, tmp_path, design) as (page, _):
+        give(page, key, value)
+        expect(page.locator(f'[id="remark-{key}"]')).to_have_text(f"error {words}")
+        assert page.locator(".remark .error").count() == 1
+        assert page.locator('[aria-invalid="true"]').count() == 1
+        expect(page.locator(".notice")).to_have_count(0)
+        page.locator("#undo").click()
+        settled(page)
+        expect(page.locator(".remark .error")).to_have_count(0)
 
 
 def test_a_bore_that_does_not_fit_is_a_finding_and_the_motion_goes_on(browser, tmp_path):

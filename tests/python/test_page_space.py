@@ -1,6 +1,7 @@
 """The 3D view of the design page: its meshes are those that are exported, and it is worked by mouse and keys."""
 
 import hashlib
+import io
 import json
 import math
 import re
@@ -10,6 +11,7 @@ import pytest
 from axe_playwright_python.sync_playwright import Axe
 from conftest import centrode
 from page import ARMS, CHROMIUM, CIRCLE, FEEDER, FLAGS, SHAFT, field, opened
+from PIL import Image, ImageChops
 from playwright.sync_api import expect
 
 DRAWS = re.compile(r"bodies, [\d,]+ triangles")
@@ -198,6 +200,56 @@ def test_the_view_passes_axe(drawer, tmp_path, scheme, width):
         space(page)
         found = Axe().run(page).response["violations"]
         assert not found, [(one["id"], [node["html"] for node in one["nodes"]]) for one in found]
+
+
+def turned(page):
+    """Share of the canvas' pixels that differ once the machine has turned."""
+
+    def seen():
+        page.evaluate("() => new Promise((resume) => requestAnimationFrame(() => requestAnimationFrame(resume)))")
+        box = page.locator(".space-scene").bounding_box()
+        clip = {"x": box["x"], "y": box["y"] + 50, "width": box["width"], "height": box["height"] - 90}
+        return Image.open(io.BytesIO(page.screenshot(clip=clip))).convert("RGB")
+
+    scrub = "(scrub, share) => { scrub.value = share; scrub.dispatchEvent(new Event('input')); }"
+    images = []
+    for share in (0, 0.15):
+        page.locator("#scrub").evaluate(scrub, share)
+        images.append(seen())
+    differing = ImageChops.difference(*images).convert("L").point(lambda value: 255 if value > 24 else 0)
+    return differing.histogram()[255] / (differing.width * differing.height)
+
+
+@pytest.mark.parametrize("design", [ARMS, FEEDER], ids=lambda design: design.stem)
+def test_what_stands_still_does_not_hide_what_moves(drawer, tmp_path, design):
+    with opened(drawer, tmp_path, design) as (page, _):
+        space(page)
+        shares = {}
+        for how in ("thin", "solid", "hidden"):
+            page.get_by_role("combobox", name="What stands still").select_option(how)
+            shares[how] = turned(page)
+        # The plates, or ground and tray, lie before the machine.
+        assert shares["thin"] > 1.3 * shares["solid"]
+        assert shares["hidden"] > shares["solid"]
+
+
+def test_the_machine_fills_the_view(drawer, tmp_path):
+    with opened(drawer, tmp_path, CIRCLE) as (page, _):
+        space(page)
+        expect(page.get_by_role("combobox", name="What stands still")).to_be_hidden()
+        box = page.locator(".space-scene").bounding_box()
+        image = Image.open(io.BytesIO(page.screenshot(clip=box))).convert("RGB")
+        sheet = image.getpixel((image.width // 2, image.height - 60))
+        differing = ImageChops.difference(image, Image.new("RGB", image.size, sheet)).convert("L")
+        # Without the bar and the words.
+        left, top, right, bottom = (
+            differing.crop((10, 60, image.width - 10, image.height - 40))
+            .point(lambda v: 255 if v > 40 else 0)
+            .getbbox()
+        )
+        assert max((right - left) / box["width"], (bottom - top) / box["height"]) > 0.5
+        assert min(left, top) > 0
+        assert right < image.width - 20
 
 
 def test_without_webgl_the_view_says_so(browser, tmp_path):

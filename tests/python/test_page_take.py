@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 import pytest
 from axe_playwright_python.sync_playwright import Axe
 from conftest import centrode
-from page import ARMS, CIRCLE, FEEDER, field, opened, settled, shown
+from page import ARMS, CIRCLE, FEEDER, POINTS, field, figures, opened, settled, shown
 from PIL import Image, ImageChops, ImageColor, ImageFilter, ImageStat
 from playwright.sync_api import expect
 
@@ -285,8 +285,9 @@ def test_poses_and_distances_lie_over_the_picture(browser, tmp_path):
           CanvasRenderingContext2D.prototype.fillText = paint;
           return told;
         }"""
-        # Module 2, 24 and 36 teeth.
-        assert "60 mm" in page.evaluate(words)
+        # Module 2, 24 and 36 teeth: tips a module above the pitch circles, roots 1.25 below.
+        told = page.evaluate(words)
+        assert {"60 mm", "R 26", "R 38", "R 21.5", "R 33.5", "⌀ 14"} <= set(told)
         strokes = """() => {
           let count = 0;
           const stroke = CanvasRenderingContext2D.prototype.stroke;
@@ -303,6 +304,50 @@ def test_poses_and_distances_lie_over_the_picture(browser, tmp_path):
         assert more - fewer >= 24
 
 
+def labels(page):
+    """The picture's SVG, and the words in it."""
+    root = ElementTree.fromstring(taken(page, "svg")[1])
+    return root, [text.text for text in root.iter(f"{SVG}text")]
+
+
+@pytest.mark.parametrize("design", [POINTS, CIRCLE], ids=lambda path: path.stem)
+def test_dimensions_of_the_teeth_are_those_of_the_figures_and_in_the_file(browser, tmp_path, design):
+    with opened(browser, tmp_path, design) as (page, _):
+        page.locator("#show-distances").check()
+        page.locator("#show-poses").check()
+        root, told = labels(page)
+        known = figures(page)
+        radii = sorted(float(word.removeprefix("R ")) for word in told if word.startswith("R "))
+        names = ["tip_radius_max", "root_radius_min"]
+        wanted = sorted(float(known[f"{gear}_{name}"]) for gear in ("driver", "driven") for name in names)
+        assert radii == pytest.approx(wanted, abs=0.02)
+        assert f"{float(known['center_distance']):.4g} mm" in told
+        over = [node for node in root.iter() if node.get("data-over") == "poses"]
+        # Both gears at twelve places, the pitch curves left out.
+        assert [len(group) for group in over] == [24]
+
+
+def test_poses_show_bodies_and_bars_without_the_ways_of_points(browser, tmp_path):
+    with opened(browser, tmp_path, ARMS) as (page, copy):
+        page.locator("#show-poses").check()
+        root, _ = labels(page)
+        group = next(node for node in root.iter() if node.get("data-over") == "poses")
+        answer = page.request.post(
+            page.url + "solve",
+            data={"text": copy.read_text(), "edits": [], "depth": "detail"},
+            headers={"Origin": re.match("http://[^/]+", page.url)[0]},
+        )
+        picture = answer.json()["picture"]
+        moving = [
+            link for link, poses in zip(picture["links"], picture["motion"]["poses"], strict=True) if len(poses) > 3
+        ]
+        assert len(group) == 12 * len(moving)
+        drawn = sum(1 for path in group if path.get("d"))
+        solid = ("body", "hole", "bar", "clamp")
+        matter = [link for link in moving if any(line["role"] in solid for line in picture["shapes"][link["shape"]])]
+        assert drawn == 12 * len(matter) < len(group)
+
+
 def test_parts_are_chosen_as_on_the_command_line(browser, tmp_path):
     with opened(browser, tmp_path, CIRCLE) as (page, copy):
         page.get_by_role("button", name="Export…").click()
@@ -316,7 +361,7 @@ def test_parts_are_chosen_as_on_the_command_line(browser, tmp_path):
         page.locator("#dialog summary", has_text="Parts").click()
         page.get_by_role("button", name="None").click()
         page.locator("#export-part-driven").check()
-        for kind in ["urdf", "mjcf", "3mf", "pdf", "stl"]:
+        for kind in ["urdf", "mjcf", "3mf", "pdf", "stl", "report"]:
             page.locator(f'#dialog input[value="{kind}"]').uncheck()
         with page.expect_download(timeout=60_000) as download:
             page.get_by_role("button", name="Export zip").click()
@@ -341,3 +386,20 @@ def test_parts_of_a_machine_are_those_that_its_design_names(browser, tmp_path):
         unknown = centrode("export", copy, "--to", tmp_path / "none", "--part", "nothing", check=False)
         assert names
         assert all(name in unknown.stderr for name in names)
+
+
+@pytest.mark.parametrize("others", [[], ["json"]], ids=["alone", "beside"])
+def test_the_report_is_among_the_files_of_the_export(browser, tmp_path, others):
+    with opened(browser, tmp_path, CIRCLE) as (page, copy):
+        page.locator("#export").click()
+        expect(page.locator("#export-tolerance")).to_be_visible()
+        for box in page.locator("fieldset").first.locator("input").all():
+            box.set_checked(box.get_attribute("value") in ["report", *others])
+        with page.expect_download() as download:
+            page.get_by_role("button", name="Export zip").click()
+        with zipfile.ZipFile(download.value.path()) as files:
+            assert sorted(files.namelist()) == sorted(["report.html", *(f"report.{kind}" for kind in others)])
+            html = files.read("report.html")
+    out = tmp_path / "report.html"
+    centrode("report", copy, "-o", out)
+    assert html == out.read_bytes()

@@ -65,7 +65,7 @@ const STYLES: [Asset; 4] = assets!(
 );
 
 /// The scripts; `main.js` is the one to start.
-const SCRIPTS: [Asset; 40] = assets!(
+const SCRIPTS: [Asset; 42] = assets!(
     "text/javascript; charset=utf-8":
     "uplot.js",
     "axes.js",
@@ -85,6 +85,7 @@ const SCRIPTS: [Asset; 40] = assets!(
     "history.js",
     "layout.js",
     "link.js",
+    "look.js",
     "main.js",
     "mesh.js",
     "motion.js",
@@ -93,6 +94,7 @@ const SCRIPTS: [Asset; 40] = assets!(
     "overlays.js",
     "picture-files.js",
     "points.js",
+    "reach.js",
     "response.js",
     "search.js",
     "server.js",

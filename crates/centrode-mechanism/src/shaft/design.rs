@@ -140,7 +140,7 @@ impl SpiralShaftDesign {
             [1e-6, 360.0],
             " deg",
         )?;
-        finite("pick_deg", self.pick.to_degrees())?;
+        in_range("pick_deg", self.pick.to_degrees(), [-360.0, 360.0], " deg")?;
         positive("pot_width", self.pot_width)?;
         finite("return_offset", self.return_offset)?;
         positive("groove.width", self.groove.width)?;

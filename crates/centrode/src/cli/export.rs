@@ -12,6 +12,7 @@ use crate::cli::input::Source;
 use crate::cli::output;
 use crate::cli::progress::Progress;
 use crate::cli::report;
+use crate::cli::sheet;
 
 /// Resolves a design, checks it and writes its files.
 pub(crate) fn run(command: &Export, out: &mut impl Write) -> Result<Status, Failure> {
@@ -36,14 +37,22 @@ pub(crate) fn run(command: &Export, out: &mut impl Write) -> Result<Status, Fail
     Ok(Status::new(found.ok()))
 }
 
-/// The files of a design text in one archive.
-pub(crate) fn zip(text: &str, command: &Export) -> Result<Vec<u8>, Failure> {
-    refuse_useless(command)?;
+/// The files of a design text in one archive: those of a command, and the page as one file.
+pub(crate) fn zip(text: &str, command: Option<&Export>, page: bool) -> Result<Vec<u8>, Failure> {
     let source = Source::of_text(text);
     let design = source.design()?;
-    let mechanism = design.mechanism().map_err(|error| source.blame(error))?;
-    let found = mechanism.check();
-    Ok(bundle(design.family(), mechanism.as_ref(), &found, command)?.zip()?)
+    let mut files = Bundle::default();
+    if let Some(command) = command {
+        refuse_useless(command)?;
+        let mechanism = design.mechanism().map_err(|error| source.blame(error))?;
+        let found = mechanism.check();
+        files = bundle(design.family(), mechanism.as_ref(), &found, command)?;
+    }
+    if page {
+        let (html, _) = sheet::page(&source, &design)?;
+        files.add("report.html", html.into_bytes())?;
+    }
+    Ok(files.zip()?)
 }
 
 /// Parts of a design whose files can be asked for alone: the name of each, and what it is.

@@ -1,6 +1,7 @@
 use std::io::Write;
 
 use crate::export::page;
+use crate::family::OpenDesign;
 
 use crate::cli::Status;
 use crate::cli::args::Report;
@@ -15,10 +16,17 @@ pub(crate) fn run(command: &Report, out: &mut impl Write) -> Result<Status, Fail
     let source = Source::open(&command.design)?;
     source.keep_from(&command.output)?;
     let design = source.design()?;
-    let progress = Progress::new(2);
-    progress.step("resolving the design");
-    let text = source.text()?;
-    let subject = match Subject::from_text(text) {
+    let progress = Progress::new(1);
+    progress.step("checking");
+    let (html, ok) = page(&source, &design)?;
+    drop(progress);
+    output::write_one(&command.output, html.into_bytes(), out)?;
+    Ok(Status::new(ok))
+}
+
+/// The page of a design as one file, and whether the mechanism does its job.
+pub(crate) fn page(source: &Source, design: &OpenDesign) -> Result<(String, bool), Failure> {
+    let subject = match Subject::from_text(source.text()?) {
         Ok(subject) => subject,
         // Resolving once more gives the error with its line.
         Err(_) => {
@@ -26,13 +34,7 @@ pub(crate) fn run(command: &Report, out: &mut impl Write) -> Result<Status, Fail
             return Err(Failure::Usage("not a design".into()));
         }
     };
-    progress.step("checking");
     let snapshot = subject.checked();
-    drop(progress);
-    let html = page::report(
-        snapshot.heading(),
-        &snapshot.json().map_err(std::io::Error::from)?,
-    );
-    output::write_one(&command.output, html.into_bytes(), out)?;
-    Ok(Status::new(snapshot.ok()))
+    let json = snapshot.json().map_err(std::io::Error::from)?;
+    Ok((page::report(snapshot.heading(), &json), snapshot.ok()))
 }

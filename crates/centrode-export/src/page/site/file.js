@@ -110,24 +110,7 @@ export class DesignFile {
   /** Copies a link that holds the design. */
   async copy() {
     await this.page.settled();
-    try {
-      const fragment = await link.written(this.history.text);
-      const words = `${fragment.length} characters that hold the whole design. Put behind the address of any page of centrode studio, they offer it there.`;
-      try {
-        await navigator.clipboard.writeText(fragment);
-        dialogs.notice("link", `Copied: ${words}`);
-      } catch {
-        // The browser does not let a page copy.
-        const area = element("textarea", { "aria-label": "Link", readonly: true, rows: 6, cols: 60 });
-        area.value = fragment;
-        const answer = dialogs.ask("Link", [element("p", {}, words), area], [["", "Close"]]);
-        area.select();
-        area.scrollTop = 0;
-        await answer;
-      }
-    } catch (error) {
-      this.page.complain("link", error);
-    }
+    await link.copy(this.history.text).catch((error) => this.page.complain("link", error));
   }
 
   /** Exports the files of the design, as a zip with a name; sheets may differ from what the design says of them. */

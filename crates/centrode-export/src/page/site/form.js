@@ -33,8 +33,9 @@ export class Form {
     this.folded = new Set(["drawing"]);
     /** Tables without a value that were opened all the same. */
     this.unfolded = new Set();
-    /** Whether the last design was none. */
+    /** Whether the last design was none, and the values of the last that was one. */
     this.failed = false;
+    this.good = new Map();
     /** Grows with every change of an input, which keeps the number it was changed at. */
     this.clock = 0;
     this.changed = new WeakMap();
@@ -316,6 +317,13 @@ export class Form {
     select.dataset.value = select.value;
   }
 
+  /** The key at fault: where only its table is known, that of the one number in it that has changed since the last good design. */
+  blamed(key, { tables }) {
+    if (this.near(key)?.field !== null) return key;
+    const changed = tables.flatMap(({ fields }) => fields).filter((field) => field.key.startsWith(`${key}.`) && this.good.get(field.key) !== JSON.stringify(field.value));
+    return changed.length === 1 ? changed[0].key : key;
+  }
+
   /** Errors and findings beside what causes them. */
   remark(snapshot) {
     const remarks = new Map();
@@ -324,7 +332,8 @@ export class Form {
       if (control) remarks.set(control, [...(remarks.get(control) ?? []), { severity, message }]);
     };
     const wrong = snapshot.error ?? snapshot.detail;
-    if (wrong) put(wrong.key, "error", brief(fault(wrong)));
+    if (wrong) put(this.blamed(wrong.key, snapshot), "error", brief(fault(wrong)));
+    else this.good = new Map(snapshot.tables.flatMap(({ fields }) => fields).map(({ key, value }) => [key, JSON.stringify(value)]));
     for (const finding of snapshot.error ? [] : snapshot.verdict?.findings ?? []) {
       const cause = finding.causes.find((key) => {
         const control = this.controls.get(key);

@@ -13,6 +13,7 @@ const KEYS = [
     ["F1, or a tap on its name", "what it is, and its range"],
   ]],
   ["The drawing", [
+    ["All, and a gear's name", "look at that gear from nearby"],
     ["← → ↑ ↓, or drag", "move the view"], ["+ −, wheel, or two fingers", "zoom"], ["0, or double-click", "show everything"], ["Space", "play or pause"],
   ]],
   ["A point of the drawing", [

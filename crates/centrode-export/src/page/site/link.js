@@ -1,5 +1,9 @@
 // A design in the fragment of an address: it travels with the link, and no request ever holds it.
 
+import { handOver } from "./chart-files.js";
+import * as dialogs from "./dialogs.js";
+import { element } from "./elements.js";
+
 const MARK = "#design=1.";
 /** Longest fragment, characters: chats and older browsers cut what is longer. */
 const LONGEST = 30_000;
@@ -73,4 +77,41 @@ export function listen(offer, complain) {
   };
   addEventListener("hashchange", look);
   return look();
+}
+
+/** Copies the fragment of a design; where the browser does not let a page copy, it is shown. */
+export async function copy(text) {
+  const fragment = await written(text);
+  const words = `${fragment.length} characters that hold the whole design. Put behind the address of any page of centrode studio, or of a report, they offer it there.`;
+  try {
+    await navigator.clipboard.writeText(fragment);
+    dialogs.notice("link", `Copied: ${words}`);
+  } catch {
+    const area = element("textarea", { "aria-label": "Link", readonly: true, rows: 6, cols: 60 });
+    area.value = fragment;
+    const answer = dialogs.ask("Link", [element("p", {}, words), area], [["", "Close"]]);
+    area.select();
+    area.scrollTop = 0;
+    await answer;
+  }
+}
+
+/** Offers a design that has come with the address of a report, which shows its own and solves no other. */
+export function offer(text, own) {
+  if (!/^family *=/m.test(text)) throw new Error("The link holds no design: its text has no family.");
+  if (text === own) {
+    dialogs.notice("link", "The design of the link is the one that is shown.");
+    return;
+  }
+  const name = /^name *= *"([\w.-]+)"/m.exec(text)?.[1] ?? "design";
+  dialogs.notice("link", `The link holds ${named(text)}. A report shows the one design that it was made of: save the file of the link, and open it by centrode studio ${name}.toml.`,
+    [["Save the file", () => handOver(new Blob([text], { type: "application/toml" }), name, "toml")], ["Show its text", () => show(text, name)]], "warning");
+}
+
+/** The text of a design, to be read and copied. */
+function show(text, name) {
+  const area = element("textarea", { "aria-label": "Design file", readonly: true, spellcheck: "false", wrap: "off", rows: 28, cols: 92 });
+  area.value = text;
+  area.setSelectionRange(0, 0);
+  return dialogs.ask(`${name}.toml`, [area], [["", "Close"]]);
 }

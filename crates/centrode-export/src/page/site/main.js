@@ -57,7 +57,11 @@ function show(snapshot, asked = snapshot.asked) {
   if (snapshot.verdict && !snapshot.error && !search?.showing) state.checked = snapshot;
   if (!snapshot.picture && before?.picture) {
     // No mechanism: the last one stays in sight, faded.
-    snapshot = { ...before, asked, text: snapshot.text, tables: snapshot.tables, error: snapshot.error, goals: undefined };
+    snapshot = { ...before, asked, text: snapshot.text, tables: snapshot.tables, error: snapshot.error, goals: undefined, rest: undefined };
+  } else if (snapshot.rest) {
+    // Its numbers and curves come while it is painted.
+    const { tables = [], curves = [] } = before ?? {};
+    snapshot = { ...snapshot, tables, curves, stale: true };
   } else if (!snapshot.verdict && before) {
     snapshot = { ...snapshot, curves: merged(snapshot.curves, before.curves), stale: true };
   }
@@ -71,7 +75,7 @@ function show(snapshot, asked = snapshot.asked) {
   verdict.mark(snapshot);
   // Panels cost the browser more than the picture does: the eye has that first.
   if (embedded) panels();
-  else state.shown ??= painted().then(panels);
+  else state.shown ??= painted().then(completed).then(panels);
 }
 
 /** Resolves when the next frame is on the screen; at once where there are no frames, in a hidden window. */
@@ -82,6 +86,20 @@ function painted() {
     // A window hidden in between has no frame to come.
     setTimeout(resolve, 100);
   });
+}
+
+/** Waits for what comes after the picture of the snapshot that is shown. */
+async function completed() {
+  while (state.snapshot.rest) {
+    const { snapshot } = state;
+    try {
+      const { tables, curves } = await snapshot.rest();
+      Object.assign(snapshot, { tables, curves: merged(curves, snapshot.curves) });
+    } catch (error) {
+      complain("server", error);
+    }
+    delete snapshot.rest;
+  }
 }
 
 /** Everything of the snapshot but its picture. */
@@ -187,6 +205,7 @@ function found() {
 /** Shows how goals and ways answer a number: that of a field, or one to be chosen. */
 async function respond(key) {
   await settled();
+  await state.shown;
   const take = (name, value) => edit([{ key: name, value }], true);
   if (state.snapshot.tables) await response.ask(state.snapshot, state.history.text, take, key);
 }
@@ -257,6 +276,9 @@ async function start() {
     const snapshot = server.whole(JSON.parse(embedded.textContent));
     byId("imprint").textContent = `${snapshot.name}: ${snapshot.definition}`;
     show(snapshot);
+    const wrong = (error) => complain("link", error);
+    byId("link").addEventListener("click", () => link.copy(snapshot.text).catch(wrong));
+    link.listen((text) => link.offer(text, snapshot.text), wrong);
     return;
   }
   const { file: name, text, recovered, formats, methods, unsearched, started } = await server.design();

@@ -125,6 +125,7 @@ export class MeshView {
       return;
     }
     const { stage } = this;
+    stage.look.leave();
     // From one to the next the scale stays as it is.
     if (!this.on) stage.view.scale = Math.min(stage.width, stage.height) / this.width();
     this.press(next);
@@ -147,12 +148,6 @@ export class MeshView {
   /** Where the pitch point is that is followed; null where none is. */
   middle(input) {
     return this.following ? place(this.contacts[this.index].pitch_point, input, this.cycle) : null;
-  }
-
-  /** Moves the view with the pitch point, which stays in its middle. */
-  follow(input) {
-    const at = this.middle(input);
-    if (at) [this.stage.view.x, this.stage.view.y] = at;
   }
 
   draw(input) {

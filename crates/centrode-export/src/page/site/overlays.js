@@ -1,23 +1,26 @@
-// What can be laid over the picture: the machine at other places of its cycle, and the distances of its axes.
+// What can be laid over the picture: the machine at other places of its cycle, and dimensions.
 
+import { bore, reach } from "./reach.js";
 import { color } from "./theme.js";
 
-/** Places of the cycle that are drawn over each other. */
+/** Places of the cycle that are drawn over each other, and how faintly. */
 const POSES = 12;
+export const FAINT = 0.35;
 /** Axes nearer to each other than this share of the picture are one. */
 const ONE = 1e-4;
 
-/** Draws what moves at places evenly spread over the cycle, each by its outline. */
+/** Where what moves stands at places evenly spread over the cycle: index of the link and pose, each once. */
+export function spread({ motion, picture, links }) {
+  const moving = links.map((_, i) => i).filter((i) => picture.motion.poses[i].length > 3);
+  return Array.from({ length: POSES }, (_, k) => motion.at((k / POSES) * motion.cycle)).flatMap((places) => moving.map((i) => [i, places[i]]));
+}
+
+/** Draws what moves at these places, by its outlines. */
 export function poses(painter) {
   const { scene, context } = painter;
   const alpha = context.globalAlpha;
-  context.globalAlpha = 0.35 * alpha;
-  for (let k = 0; k < POSES; k += 1) {
-    const places = scene.motion.at((k / POSES) * scene.motion.cycle);
-    scene.links.forEach((link, i) => {
-      if (scene.picture.motion.poses[i].length > 3) painter.ghost(link, places[i], "accent");
-    });
-  }
+  context.globalAlpha = FAINT * alpha;
+  for (const [i, pose] of spread(scene)) painter.ghost(scene.links[i], pose, "accent", false);
   context.globalAlpha = alpha;
 }
 
@@ -53,30 +56,54 @@ function joined(points) {
   return pairs;
 }
 
-/** Draws the distances of axes that are next to each other. */
-export function distances(painter, places) {
-  const { context, scene, density } = painter;
+const short = (value) => Number(value.toPrecision(4));
+
+/**
+ * Dimensions in pixels of a painter: ends of their lines, and words. Distances of axes that are next to each other; of each
+ * form of gear its greatest and its least radius, and its bore.
+ */
+export function dimensions(painter, places) {
+  const { scene } = painter;
+  const line = (a, b, words) => ({ from: painter.toBox(...a), to: painter.toBox(...b), words });
+  const found = joined(axes(scene, places)).map(({ a, b, length }) => line(a, b, `${short(length)} mm`));
+  const seen = new Set();
+  scene.picture.links.forEach(({ shape: number }, i) => {
+    const shape = scene.picture.shapes[number];
+    if (seen.has(number) || !shape.some(({ role }) => role === "pitch") || !reach(shape)) return;
+    seen.add(number);
+    const [x, y, angle] = places[i];
+    const on = ([u, v]) => [x + Math.cos(angle) * u - Math.sin(angle) * v, y + Math.sin(angle) * u + Math.cos(angle) * v];
+    const { least, greatest } = reach(shape);
+    found.push(line([x, y], on(greatest.at), `R ${short(greatest.radius)}`), line([x, y], on(least.at), `R ${short(least.radius)}`));
+    const hole = bore(shape);
+    if (hole) found.push(line(on([-hole, 0]), on([hole, 0]), `⌀ ${short(2 * hole)}`));
+  });
+  return found;
+}
+
+/** Draws dimensions over the picture. */
+export function measured(painter, places) {
+  const { context, density } = painter;
   context.setTransform(density, 0, 0, density, 0, 0);
-  context.strokeStyle = context.fillStyle = color("pinned");
+  context.strokeStyle = color("pinned");
   context.lineWidth = 1;
   context.setLineDash([]);
   context.font = "12px system-ui, sans-serif";
   context.textAlign = "center";
-  const line = (a, b, length) => {
-    const [[px, py], [qx, qy]] = [painter.toBox(...a), painter.toBox(...b)];
+  for (const { from, to, words } of dimensions(painter, places)) {
     context.beginPath();
-    context.moveTo(px, py);
-    context.lineTo(qx, qy);
+    context.moveTo(...from);
+    context.lineTo(...to);
     context.stroke();
-    label(`${Number(length.toPrecision(4))} mm`, (px + qx) / 2, (py + qy) / 2);
-  };
-  const label = (words, x, y) => {
+    const [x, y] = middle(from, to);
     const wide = context.measureText(words).width + 8;
     context.fillStyle = color("sheet");
     context.fillRect(x - wide / 2, y - 9, wide, 18);
     context.fillStyle = color("pinned");
     context.fillText(words, x, y + 4);
-  };
-  for (const { a, b, length } of joined(axes(scene, places))) line(a, b, length);
+  }
   context.textAlign = "start";
 }
+
+/** Where the words of a dimension stand: two thirds on its way, clear of others from the same axis. */
+export const middle = (from, to) => [0, 1].map((k) => from[k] + (to[k] - from[k]) * 0.62);

@@ -63,6 +63,10 @@ const LINES = {
   window: ["pinned", 1.2, [6, 4]],
 };
 
+/** Lines that a ghost leaves out, and those that are material. */
+const FIXED = ["pitch", "ground"];
+export const MATTER = ["bar", "clamp"];
+
 /** How a line of a role is drawn at a scale: strokes over each other, each a colour, a width and dashes in pixels. */
 export function strokes(role, scale) {
   if (role !== "bar" && role !== "clamp") return [LINES[role]];
@@ -208,14 +212,15 @@ export class Painter {
     context.fillText(name, px + 8, py - 6);
   }
 
-  ghost(link, pose, tint) {
+  /** The outlines of a link, with the ways of its points or without. */
+  ghost(link, pose, tint, ways = true) {
     if (!pose) return;
     const width = this.enter(pose);
     this.context.strokeStyle = color(tint);
     this.context.lineWidth = width(1.2);
     this.context.setLineDash([width(4), width(3)]);
     this.context.stroke(link.body);
-    for (const { role, path } of link.lines) if (role !== "pitch" && role !== "ground") this.context.stroke(path);
+    for (const { role, path } of link.lines) if (ways ? !FIXED.includes(role) : MATTER.includes(role)) this.context.stroke(path);
     this.context.setLineDash([]);
   }
 

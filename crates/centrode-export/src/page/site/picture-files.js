@@ -5,7 +5,8 @@ import { handOver, image } from "./chart-files.js";
 import { byId, drawn, element } from "./elements.js";
 import { gif } from "./gif.js";
 import * as mesh from "./mesh.js";
-import { Painter, strokes } from "./painter.js";
+import * as overlays from "./overlays.js";
+import { MATTER, Painter, strokes } from "./painter.js";
 import { color, paper } from "./theme.js";
 
 /** Points of a picture for one pixel of the page. */
@@ -79,7 +80,7 @@ function svg(stage, title) {
       }
     }
   });
-  root.append(...layers);
+  root.append(...layers, ...laidOver(stage));
   for (const { name: words, link, at } of scene.picture.marks) {
     const [x, y, angle] = poses[link];
     const [px, py] = stage.toBox(x + Math.cos(angle) * at[0] - Math.sin(angle) * at[1], y + Math.sin(angle) * at[0] + Math.cos(angle) * at[1]);
@@ -89,6 +90,33 @@ function svg(stage, title) {
   }
   if (stage.mesh.on) root.append(...meshes(stage));
   return `${new XMLSerializer().serializeToString(root)}\n`;
+}
+
+/** What is laid over the picture: the machine at other places of its cycle, and dimensions. */
+function laidOver(stage) {
+  const { scene, view } = stage;
+  const wide = (pixels) => pixels / view.scale;
+  const made = [];
+  if (byId("show-poses").checked) {
+    const group = drawn("g", { opacity: overlays.FAINT, fill: "none", stroke: color("accent"), "data-over": "poses" });
+    for (const [i, [x, y, angle]] of overlays.spread(scene)) {
+      const lines = scene.picture.shapes[scene.picture.links[i].shape].filter(({ role }) => ["body", "hole", ...MATTER].includes(role));
+      const [px, py] = stage.toBox(x, y);
+      group.append(drawn("path", { d: lines.map(path).join(""), transform: `translate(${px} ${py}) scale(${view.scale} ${-view.scale}) rotate(${(angle * 180) / Math.PI})`,
+        "stroke-width": wide(1.2), "stroke-dasharray": [4, 3].map(wide).join(" ") }));
+    }
+    made.push(group);
+  }
+  if (byId("show-distances").checked) {
+    const ink = color("pinned");
+    for (const { from, to, words } of overlays.dimensions(stage, scene.motion.at(stage.input))) {
+      const [x, y] = overlays.middle(from, to);
+      const label = drawn("text", { x, y: y + 4, fill: ink, "text-anchor": "middle", stroke: color("sheet"), "stroke-width": 4, "paint-order": "stroke" });
+      label.textContent = words;
+      made.push(drawn("path", { d: `M${from.join(" ")}L${to.join(" ")}`, stroke: ink, "data-over": "dimension" }), label);
+    }
+  }
+  return made;
 }
 
 /** What touches in the meshes that are shown. */
@@ -135,8 +163,8 @@ class Film extends Painter {
     Object.assign(this.canvas, { width, height: this.height });
     this.stage = stage;
     this.frame(ROOM);
-    // Close to a mesh it shows as much as the page does, and follows as the page does.
-    if (stage.mesh.on) this.view = { ...stage.view, scale: (stage.view.scale * width) / stage.width };
+    // Close to a mesh or a gear it shows as much as the page does, and follows as the page does.
+    if (stage.close) this.view = { ...stage.view, scale: (stage.view.scale * width) / stage.width };
   }
 
   get pitched() {
@@ -148,7 +176,7 @@ class Film extends Painter {
     this.context.fillStyle = "#ffffff";
     this.context.fillRect(0, 0, this.width, this.height);
     const input = share * this.scene.motion.cycle;
-    const middle = this.stage.mesh.middle(input);
+    const middle = this.stage.middle(input);
     if (middle) [this.view.x, this.view.y] = middle;
     const poses = this.parts(input);
     this.axes(poses);

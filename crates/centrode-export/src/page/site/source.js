@@ -51,6 +51,9 @@ export async function edit(file, text, error) {
     }
     return false;
   };
+  // From the top, or from the line at fault: a browser would begin at the end.
+  const [start, end] = kept === null && error?.line ? reach(area.value, error.line) : [0, 0];
+  area.setSelectionRange(start, end);
   const answer = await ask(file, [remark, element("div", { class: "numbered" }, numbers, area)], [["cancel", "Cancel"], ["apply", "Apply", "main"]], sound);
   if (answer) kept = null;
   return answer === "apply" ? area.value : null;

@@ -6,9 +6,16 @@ const COLORS = [0x8c959f, 0x4e79a7, 0xf28e2b, 0x59a14f, 0xe15759, 0x76b7b2, 0xed
 /** Half the angle that is seen, and the steepest view. */
 const HALF = 17.5 * DEG;
 const STEEPEST = 89.9 * DEG;
+/** Room round the machine, as a share of its size. */
+const ROOM = 1.12;
 /** Where the camera stands at first: round the z axis, and above the plane of the gears. */
 const TURN = -60 * DEG;
 const TILT = 35 * DEG;
+
+/** How much of what stands still is seen where it is to be looked through. */
+const THIN = 0.22;
+/** Size of a body beside the machine from which on it hides the rest. */
+const LARGE = 0.6;
 
 /** Reads what the program answers: head, places and STL files. */
 export function parse(buffer) {
@@ -56,7 +63,7 @@ export class View {
     this.scene.add(new three.HemisphereLight(0xffffff, 0x8a8a94, 1.6), this.light);
     this.plane = new three.Plane();
     this.target = new three.Vector3();
-    Object.assign(this, { bodies: [], geometries: [], apart: 0, section: null, now: 0, turn: TURN, tilt: TILT, frame: 0 });
+    Object.assign(this, { bodies: [], geometries: [], apart: 0, section: null, standing: "thin", now: 0, turn: TURN, tilt: TILT, frame: 0 });
   }
 
   /** Takes another machine; the camera stays where it is unless it is to be fitted. */
@@ -80,8 +87,26 @@ export class View {
       return body;
     });
     this.measure();
+    const keeps = ({ userData: { places } }, first) => places.every((value, i) => i % 7 < first || Math.abs(value - places[i % 7]) < 1e-6);
+    // What stands still, and ground that slides below the machine.
+    const still = (body) => keeps(body, 0) || (keeps(body, 3) && body.geometry.boundingSphere.radius > LARGE * this.radius);
+    this.still = this.bodies.filter(still);
+    // Where nothing moves there is nothing behind it.
+    if (this.still.length === this.bodies.length) this.still = [];
+    this.stand(this.standing);
     if (fit) this.fit();
     this.at(this.now);
+  }
+
+  /** How what stands still is drawn: "solid", "thin", to be looked through, or "hidden". */
+  stand(how) {
+    this.standing = how;
+    for (const body of this.still ?? []) {
+      body.visible = how !== "hidden";
+      Object.assign(body.material, { transparent: how === "thin", opacity: how === "thin" ? THIN : 1, depthWrite: how !== "thin", needsUpdate: true });
+      body.renderOrder = how === "thin" ? 1 : 0;
+    }
+    this.draw();
   }
 
   clear() {
@@ -101,6 +126,7 @@ export class View {
       box.expandByObject(body);
     }
     const sphere = box.getBoundingSphere(new this.three.Sphere());
+    this.corners = [0, 1, 2, 3, 4, 5, 6, 7].map((k) => new this.three.Vector3(...["x", "y", "z"].map((axis, i) => (k >> i & 1 ? box.max : box.min)[axis])));
     this.middle = sphere.center;
     this.radius = sphere.radius || 1;
     const high = this.bodies.map((body) => [body, body.geometry.boundingSphere.center.clone().applyMatrix4(body.matrixWorld)]);
@@ -156,8 +182,19 @@ export class View {
 
   fit() {
     this.target.copy(this.middle);
-    this.distance = (1.1 * this.radius) / Math.sin(HALF) / Math.min(1, this.camera.aspect);
     Object.assign(this, { turn: TURN, tilt: TILT });
+    // So near that every corner of the machine is just in sight.
+    const [flat, up] = [Math.cos(TILT), Math.sin(TILT)];
+    const { three } = this;
+    const back = new three.Vector3(Math.cos(TURN) * flat, Math.sin(TURN) * flat, up);
+    const right = new three.Vector3(-Math.sin(TURN), Math.cos(TURN), 0);
+    const above = back.clone().cross(right);
+    const away = this.corners.map((corner) => {
+      const from = corner.clone().sub(this.middle);
+      const aside = Math.max(Math.abs(from.dot(right)) / this.camera.aspect, Math.abs(from.dot(above)));
+      return from.dot(back) + (ROOM * aside) / Math.tan(HALF);
+    });
+    this.distance = Math.max(...away, 0.1 * this.radius);
     this.draw();
   }
 

@@ -25,7 +25,10 @@ export class Space {
     const section = element("select", { "aria-label": "Section plane" },
       ...[["", "no section"], ["0", "section x"], ["1", "section y"], ["2", "section z"]].map(([value, words]) => element("option", { value }, words)));
     const where = element("input", { type: "range", min: "0", max: "1", step: "0.01", value: "0.5", "aria-label": "Place of the section", disabled: true });
+    const standing = element("select", { "aria-label": "What stands still", onchange: () => this.view?.stand(standing.value) },
+      ...[["thin", "frame see-through"], ["solid", "frame solid"], ["hidden", "frame hidden"]].map(([value, words]) => element("option", { value }, words)));
     const apart = element("input", { type: "range", min: "0", max: "1", step: "0.01", value: "0" });
+    this.standing = standing;
     const cut = () => {
       where.disabled = section.value === "";
       this.view?.cut(section.value === "" ? null : Number(section.value), Number(where.value));
@@ -41,7 +44,7 @@ export class Space {
       this.scene,
       element("div", { class: "space-bar" },
         element("button", { type: "button", onclick: () => this.view?.fit() }, "Fit 3D"),
-        section, where,
+        standing, section, where,
         element("label", {}, "Explode ", apart),
         element("button", { type: "button", onclick: () => this.close() }, "Close 3D")),
       this.words);
@@ -91,6 +94,7 @@ export class Space {
         return;
       }
       this.view.show(machine, fit || !this.view.distance);
+      this.standing.hidden = this.view.still.length === 0;
       this.view.at(this.stage.input);
       const count = machine.links.reduce((sum, { shape }) => sum + machine.shapes[shape].count, 0);
       this.say(`${machine.links.length} bodies, ${count.toLocaleString("en")} triangles: the meshes of the exported models.`);

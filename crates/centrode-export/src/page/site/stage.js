@@ -1,6 +1,7 @@
 // The drawing: links to scale where the motion has them, with zoom and pan.
 
 import { byId } from "./elements.js";
+import { LookView } from "./look.js";
 import { MeshView } from "./mesh.js";
 import * as overlays from "./overlays.js";
 import { Painter, Scene } from "./painter.js";
@@ -21,6 +22,7 @@ export class Stage extends Painter {
     /** Picture from before a drag, which is drawn below it. */
     this.before = null;
     this.mesh = new MeshView(this);
+    this.look = new LookView(this);
     this.resize();
     new ResizeObserver(() => this.resize()).observe(this.box);
     this.listen();
@@ -32,6 +34,7 @@ export class Stage extends Painter {
     const pitch = this.scene?.links.some((link) => link.lines.some(({ role }) => role === "pitch"));
     byId("show-pitch").parentElement.hidden = !pitch;
     this.mesh.show(this.scene);
+    this.look.show(this.scene);
     if (this.fitted && !this.held) this.frame();
   }
 
@@ -65,6 +68,7 @@ export class Stage extends Painter {
 
   fit() {
     this.mesh.press(null);
+    this.look.leave();
     this.fitted = true;
     this.frame();
     this.draw();
@@ -82,17 +86,33 @@ export class Stage extends Painter {
   }
 
   pan(dx, dy) {
-    this.mesh.following = false;
+    this.mesh.following = this.look.following = false;
     this.view.x -= dx / this.view.scale;
     this.view.y += dy / this.view.scale;
     this.fitted = false;
     this.draw();
   }
 
+  /** Whether the view is close to a mesh or a gear. */
+  get close() {
+    return this.mesh.on || this.look.on;
+  }
+
+  /** What the view follows at an input; null where it stands still. */
+  middle(input) {
+    return this.mesh.middle(input) ?? this.look.middle(input);
+  }
+
+  /** Moves the view with what it follows, which stays in its middle. */
+  follow(input) {
+    const at = this.middle(input);
+    if (at) [this.view.x, this.view.y] = at;
+  }
+
   draw() {
     this.clear();
     if (!this.scene) return;
-    this.mesh.follow(this.input);
+    this.follow(this.input);
     this.context.globalAlpha = this.stale ? 0.45 : 1;
     const poses = this.parts(this.input);
     for (const [scene, tint] of [[this.before, "muted"], [this.pinned, "pinned"]]) {
@@ -103,7 +123,7 @@ export class Stage extends Painter {
     if (byId("show-poses").checked) overlays.poses(this);
     this.axes(poses);
     this.marks(poses);
-    if (byId("show-distances").checked) overlays.distances(this, poses);
+    if (byId("show-distances").checked) overlays.measured(this, poses);
     this.mesh.draw(this.input);
     this.context.globalAlpha = 1;
     this.measure();

@@ -22,9 +22,10 @@ export function unchecked(again) {
     element("p", {}, "The checks were cancelled. ", element("button", { type: "button", class: "link", onclick: again }, "Check")));
 }
 
-/** Marks goals that are still those of the design before. */
-export function mark({ verdict, goals: told }) {
+/** Marks what is still that of the design before. */
+export function mark({ verdict, goals: told, error }) {
   byId("goals").setAttribute("aria-busy", String(!verdict && !told));
+  byId("verdict").classList.toggle("stale", !verdict || Boolean(error));
 }
 
 /** Shows what the checks say, or what is known before; `go` leads to an input angle. */
@@ -32,7 +33,6 @@ export function show(snapshot, pinned, go) {
   const place = byId("findings");
   const { verdict, error } = snapshot;
   const told = verdict?.goals ?? snapshot.goals;
-  byId("verdict").classList.toggle("stale", !verdict || Boolean(error));
   mark(snapshot);
   if (error) {
     const { key, line, column } = error;
@@ -101,7 +101,7 @@ function bar(goal, before) {
       element("b", { title: goal.exact }, `${sign} ${goal.value}${goal.unit && ` ${goal.unit}`}${was}`)),
     element("div", { class: "track", role: "progressbar", "aria-label": goal.title, "aria-valuemin": 0, "aria-valuemax": 1,
       "aria-valuenow": goal.progress ?? undefined, "aria-valuetext": `${goal.value} ${goal.unit}, wanted ${goal.wanted}, ${goal.verdict}` }, fill),
-    element("div", { class: "detail" }, `${goal.wanted}${goal.unit && ` ${goal.unit}`}; ${goal.verdict}`));
+    element("div", { class: "detail" }, `${goal.wanted}${goal.unit && ` ${goal.unit}`}; ${goal.verdict}${goal.spare ? `, ${goal.spare} to spare` : ""}`));
 }
 
 function title(words, kind, summary) {

@@ -4,6 +4,7 @@ mod edit;
 mod family;
 mod field;
 mod kind;
+mod plane;
 mod schema;
 mod snapshot;
 mod start;

@@ -49,6 +49,8 @@ pub(crate) struct GoalWords {
     wanted: String,
     /// Met, missed by how much, or not checked.
     verdict: String,
+    /// By how much it is met, with its unit.
+    spare: Option<String>,
     met: Option<bool>,
     progress: Option<f64>,
 }
@@ -93,7 +95,9 @@ pub(crate) fn goal_words(goal: &Goal) -> GoalWords {
         }
         _ => "not checked".into(),
     };
+    let spare = goal.margin.filter(|_| goal.met() == Some(true));
     GoalWords {
+        spare: spare.map(|margin| goal.unit.tell(margin)),
         number: goal.number,
         paper: goal.paper,
         name: goal.name.clone().into_owned(),

@@ -146,6 +146,9 @@ fn unsearchable(text: &str) -> Option<String> {
     }
 }
 
+/// Word for the page as one file among the kinds of file.
+const PAGE: &str = "report";
+
 /// Kinds of file that can be exported: the word for each, and its description.
 fn formats() -> Vec<[String; 2]> {
     let values = File::value_variants()
@@ -156,6 +159,7 @@ fn formats() -> Vec<[String; 2]> {
             let help = value.get_help().map(ToString::to_string);
             [value.get_name().to_owned(), help.unwrap_or_default()]
         })
+        .chain([[PAGE, "This page as one file, to be read and sent"].map(str::to_owned)])
         .collect()
 }
 
@@ -171,6 +175,9 @@ struct Solve {
     #[serde(default)]
     edits: Vec<Edit>,
     depth: Depth,
+    /// Whether a picture may come in a line of its own, before numbers and curves.
+    #[serde(default)]
+    lines: bool,
 }
 
 async fn solve(State(state): Shared, Json(ask): Json<Solve>) -> Result<Response, Refused> {
@@ -181,11 +188,11 @@ async fn solve(State(state): Shared, Json(ask): Json<Solve>) -> Result<Response,
         let made = apart(move || edited(&ask.text, &ask.edits)).await?;
         made.map_err(|error| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, error))?
     };
-    match state
-        .solver
-        .solve(&ask.page, ask.turn, text, ask.depth)
-        .await
-    {
+    let depth = match ask.depth {
+        Depth::Picture if ask.lines => Depth::Lines,
+        depth => depth,
+    };
+    match state.solver.solve(&ask.page, ask.turn, text, depth).await {
         Ok(snapshot) => Ok(as_json(snapshot)),
         // Being overtaken is no failure: browsers would log it as one.
         Err(Unsolved::Overtaken) => Ok(Json(json!({ "overtaken": true })).into_response()),
@@ -329,7 +336,7 @@ async fn respond(Json(ask): Json<response::Ask>) -> Result<Response, Refused> {
 #[derive(Deserialize)]
 struct Files {
     text: String,
-    /// Kinds of file as on the command line; none for all.
+    /// Kinds of file as on the command line, and [`PAGE`]; none for all of the command line.
     formats: Vec<String>,
     tolerance: String,
     dxf: String,
@@ -339,16 +346,26 @@ struct Files {
 }
 
 impl Files {
-    /// Export command with these options; the folder is not used.
-    fn command(&self) -> Result<Export, String> {
+    /// Whether the page is asked for, too.
+    fn page(&self) -> bool {
+        self.formats.iter().any(|word| word == PAGE)
+    }
+
+    /// Export command with these options, if more than the page is asked for; the folder is not used.
+    fn command(&self) -> Result<Option<Export>, String> {
+        let words: Vec<&str> = self.formats.iter().map(String::as_str).collect();
+        let kinds: Vec<&str> = words.into_iter().filter(|word| *word != PAGE).collect();
+        if kinds.is_empty() && self.page() {
+            return Ok(None);
+        }
         let (formats, tolerance, dxf) = (
-            format!("--format={}", self.formats.join(",")),
+            format!("--format={}", kinds.join(",")),
             format!("--tolerance={}", self.tolerance),
             format!("--dxf={}", self.dxf),
         );
         let words = ["centrode", "export", "-", "--to=."];
         let mut words: Vec<&str> = words.into_iter().chain([&*tolerance, &*dxf]).collect();
-        if !self.formats.is_empty() {
+        if !kinds.is_empty() {
             words.push(&formats);
         }
         let parts: Vec<String> = self
@@ -358,7 +375,7 @@ impl Files {
             .collect();
         words.extend(parts.iter().map(String::as_str));
         match Arguments::try_parse_from(words).map(|arguments| arguments.command) {
-            Ok(Command::Export(command)) => Ok(command),
+            Ok(Command::Export(command)) => Ok(Some(command)),
             Ok(_) => Err("not an export".into()),
             Err(error) => {
                 let message = error.to_string();
@@ -387,7 +404,7 @@ async fn choices(Json(ask): Json<Text>) -> Result<Response, Refused> {
 async fn bundle(Json(ask): Json<Files>) -> Result<Response, Refused> {
     let unusable = |reason: String| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, reason);
     let command = ask.command().map_err(unusable)?;
-    let zip = computed(move || export::zip(&ask.text, &command)).await?;
+    let zip = computed(move || export::zip(&ask.text, command.as_ref(), ask.page())).await?;
     let zip = zip.map_err(|failure| unusable(failure.to_string()))?;
     Ok((
         [(header::CONTENT_TYPE, "application/zip")],

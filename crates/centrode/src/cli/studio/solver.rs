@@ -25,6 +25,9 @@ pub(crate) enum Depth {
     Numbers,
     /// Picture that is available at once.
     Picture,
+    /// The same in two lines, of which the first has the picture.
+    #[serde(skip)]
+    Lines,
     /// Goals alone, by the checks of the motion: soon enough to follow a hand.
     Goals,
     /// Picture with details that take longer to make.
@@ -116,6 +119,7 @@ impl Solver {
         *held(&self.last) = Some(Arc::clone(&subject));
         match depth {
             Depth::Numbers | Depth::Picture => subject.drawn().json(),
+            Depth::Lines => subject.drawn().lines(),
             // The page has the rest.
             Depth::Goals => serde_json::to_string(&subject.goals()),
             Depth::Detail => subject.detailed().json(),

@@ -5,6 +5,7 @@ use toml_edit::{Array, DocumentMut, InlineTable, Item, Table, Value};
 use super::family::turned;
 use super::field::{list, required};
 use super::kind::switched;
+use super::plane::moved;
 
 /// A new value for a key of the design file.
 #[derive(Clone, Debug, Deserialize, PartialEq)]
@@ -89,8 +90,8 @@ impl Step {
 
 /// Text with the edits made; comments, order and all other values stay as they are.
 ///
-/// A new `kind` changes its table, and a new `family` the whole design, so that it stays a mechanism; a table that is new gets its required keys,
-/// with the values that hold while the table is left out.
+/// A new `kind` changes its table, and a new `family` the whole design, so that it stays a mechanism; a new `plane` leaves points where they
+/// are. A table that is new gets its required keys, with the values that hold while the table is left out.
 pub(crate) fn edited(text: &str, edits: &[Edit]) -> Result<String, EditError> {
     let mut document: DocumentMut = text.parse()?;
     for edit in edits {
@@ -106,6 +107,7 @@ pub(crate) fn edited(text: &str, edits: &[Edit]) -> Result<String, EditError> {
             && let Some(made) = match name {
                 "kind" => switched(&document, &steps, word),
                 "family" if steps.is_empty() => turned(&document, word),
+                "plane" => moved(&document, &steps, word),
                 _ => None,
             }
         {
