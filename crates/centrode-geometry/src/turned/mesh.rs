@@ -1,6 +1,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use super::{Turned, TurnedSection};
+use crate::bezier_fit::BezierFit;
 use crate::solid::triangulate;
 use crate::{Mesh, Point, ShellCurve, ShellFace, ShellSurface, SolidError, Tolerance};
 
@@ -28,10 +29,23 @@ pub(super) fn mesh(body: &Turned, tolerance: Tolerance) -> Result<Mesh, SolidErr
         .iter()
         .map(|edge| {
             let ends = edge.ends.map(|end| end as u32);
-            let ShellCurve::Circle { radius } = edge.curve else {
-                return ends.to_vec();
-            };
             let [from, to] = edge.ends.map(|end| shell.vertices[end]);
+            let radius = match &edge.curve {
+                ShellCurve::Circle { radius } => *radius,
+                // A quarter of a half round end: edges of walls beside the axis are straight.
+                ShellCurve::Bezier(points) if from[1] != to[1] => {
+                    let between = (1..chords).map(|i| {
+                        let x = f64::from(i) / f64::from(chords);
+                        mesh.vertices.push(BezierFit::at(points, x));
+                        mesh.vertices.len() as u32 - 1
+                    });
+                    let mut along = vec![ends[0]];
+                    along.extend(between);
+                    along.push(ends[1]);
+                    return along;
+                }
+                _ => return ends.to_vec(),
+            };
             let start = from[1].atan2(from[0]);
             let sweep = (to[1].atan2(to[0]) - start).rem_euclid(std::f64::consts::TAU);
             let between = (1..chords).map(|i| {
@@ -54,6 +68,19 @@ pub(super) fn mesh(body: &Turned, tolerance: Tolerance) -> Result<Mesh, SolidErr
         }
     };
     for ShellFace { surface, bounds } in &shell.faces {
+        if !matches!(surface, ShellSurface::Plane { .. })
+            && (bounds[0].len() > 4 || matches!(surface, ShellSurface::Ruled { .. }))
+        {
+            let sides: Vec<Vec<u32>> = bounds[0].iter().map(walked).collect();
+            let (ring, contour) = match surface {
+                ShellSurface::Ruled { .. } => unrolled_wall(&mesh.vertices, &sides),
+                _ => unrolled_cylinder(&mesh.vertices, &sides),
+            };
+            let triangles = triangulate(&[contour], tolerance)?;
+            let faces = triangles.iter().map(|face| face.map(|i| ring[i as usize]));
+            mesh.faces.extend(faces);
+            continue;
+        }
         let ShellSurface::Plane { normal, .. } = surface else {
             // Bottom, right, top and left of a round face.
             let (bottom, mut top) = (walked(&bounds[0][0]), walked(&bounds[0][2]));
@@ -87,6 +114,54 @@ pub(super) fn mesh(body: &Turned, tolerance: Tolerance) -> Result<Mesh, SolidErr
         mesh.faces.extend(faces);
     }
     Ok(mesh)
+}
+
+/// Vertices around a face of a cylinder over the end of the slot, and their places on its surface unrolled.
+fn unrolled_cylinder(vertices: &[[f64; 3]], sides: &[Vec<u32>]) -> (Vec<u32>, Vec<Point>) {
+    let ring: Vec<u32> = sides
+        .iter()
+        .flat_map(|side| &side[..side.len() - 1])
+        .copied()
+        .collect();
+    let place = |&vertex: &u32| {
+        let [x, y, z] = vertices[vertex as usize];
+        Point::new(x.hypot(y) * y.atan2(x), z)
+    };
+    let contour = ring.iter().map(place).collect();
+    (ring, contour)
+}
+
+/// Vertices around a quarter of the wall of a half round end, and their places on it unrolled: its long sides are as many chords
+/// each, the others straight along x.
+fn unrolled_wall(vertices: &[[f64; 3]], sides: &[Vec<u32>]) -> (Vec<u32>, Vec<Point>) {
+    let mut ring = Vec::new();
+    let mut contour = Vec::new();
+    let (mut at, mut is_back) = (0.0, false);
+    for side in sides {
+        let is_curve = side.len() > 2;
+        for &vertex in &side[..side.len() - 1] {
+            ring.push(vertex);
+            contour.push(Point::new(vertices[vertex as usize][0], at));
+            if is_curve {
+                at += if is_back { -1.0 } else { 1.0 };
+            }
+        }
+        is_back |= is_curve;
+    }
+    // Seen from outside, where it lies to the left of its bound.
+    let turns: f64 = (0..contour.len())
+        .map(|i| {
+            contour[i]
+                .coords
+                .perp(&contour[(i + 1) % contour.len()].coords)
+        })
+        .sum();
+    if turns < 0.0 {
+        for at in &mut contour {
+            at.x = -at.x;
+        }
+    }
+    (ring, contour)
 }
 
 /// A point of a plane along an axis, as seen against its normal.
