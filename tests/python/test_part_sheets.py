@@ -225,13 +225,26 @@ def test_a_plate_with_concave_arcs_made_from_its_sheet_alone_is_its_solid(tmp_pa
     assert plates_made_from_their_sheets(tmp_path)
 
 
+def drawn_area(entity):
+    """Area within a closed contour of lines and arcs, or a circle."""
+    if entity.dxftype() == "CIRCLE":
+        return math.pi * entity.dxf.radius**2
+    corners = list(entity.get_points("xyb"))
+    area = 0.0
+    for (x0, y0, bulge), (x1, y1, _) in zip(corners, corners[1:] + corners[:1], strict=True):
+        angle, chord = 4 * math.atan(bulge), math.hypot(x1 - x0, y1 - y0)
+        radius = chord / (2 * math.sin(angle / 2)) if bulge else 0.0
+        area += (x0 * y1 - x1 * y0) / 2 + radius**2 * (angle - math.sin(angle)) / 2 * (1 if bulge else 0)
+    return abs(area)
+
+
 def cut_area(file):
     """Area within the contour of a cutting file less its holes."""
-    (flat,) = reading.contours(file)
-    layers = {entity.dxf.layer.lower() for entity in ezdxf.readfile(file).modelspace()}
-    for hole in reading.contours(file, "hole") if "hole" in layers else []:
-        flat = flat.difference(hole)
-    return flat.area
+    areas = {"PROFILE": 0.0, "HOLE": 0.0}
+    for entity in ezdxf.readfile(file).modelspace():
+        if entity.dxf.layer in areas:
+            areas[entity.dxf.layer] += drawn_area(entity)
+    return areas["PROFILE"] - areas["HOLE"]
 
 
 def plates_made_from_their_sheets(folder):
