@@ -7,7 +7,7 @@ use centrode_mechanism::machine::Machine;
 use super::plates;
 use crate::gear_pair::{self, Label};
 use crate::plate::{Hole, Plate};
-use crate::sheet::capital;
+use crate::sheet::{capital, fit};
 use crate::{ExportError, Package, cam, turned};
 
 /// Offers plates, gears and cams; copies have the files of their originals.
@@ -67,6 +67,13 @@ fn plate(composed: &Composed, machine: &Machine, body: usize, quantity: usize) -
         ..Hole::from(outline.clone())
     };
     let name = &composed.bodies()[body].name;
+    let [guide, block] = Composed::GUIDE_FIT;
+    let guided = composed.guided(body);
+    let axes = "x and y are the body's axes in the design.".to_owned();
+    let slides = guided.map(|height| {
+        let guide = fit::keyway(height, guide);
+        format!("Slides along x in a guide of {guide}, which is the customer's.")
+    });
     Some(Plate {
         name: name.clone(),
         title: capital(name),
@@ -77,11 +84,11 @@ fn plate(composed: &Composed, machine: &Machine, body: usize, quantity: usize) -
         thickness: composed.thickness(body),
         material: spec.material.clone(),
         density: spec.density,
-        notes: vec!["x and y are the body's axes in the design.".into()],
+        notes: std::iter::once(axes).chain(slides).collect(),
         tables: Vec::new(),
         exactness: None,
         marks: Vec::new(),
-        classes: Default::default(),
+        classes: [guided.map_or("", |_| block).into(), String::new()],
     })
 }
 

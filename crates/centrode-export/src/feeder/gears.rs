@@ -92,6 +92,7 @@ fn data(feeder: &Feeder, gears: &IntermittentPair, member: Member, teeth: &str) 
         Datum::new("Module", "m", number(pair.module(), 4)),
         Datum::new("Pressure angle", "α", angle),
         Datum::new("Pitch diameter", "d", number(pitch, 4)),
+        Datum::new("Tip diameter", "da", number(2.0 * tip(gears, member), 3)),
         Datum::new("Normal backlash", "jn", number(spec.backlash, 4)),
         Datum::new("Radius of locking arc", "", number(gears.lock_radius(), 4)),
         Datum::new("Play of lock", "", number(spec.lock_clearance, 4)),
@@ -108,6 +109,16 @@ fn data(feeder: &Feeder, gears: &IntermittentPair, member: Member, teeth: &str) 
         rows: rows.collect(),
         ..Table::default()
     }
+}
+
+/// Radius of the tips of a gear's teeth, mm: of the corner of its contour farthest from its axis.
+fn tip(gears: &IntermittentPair, member: Member) -> f64 {
+    let outline = match member {
+        Member::Driver => gears.driver(),
+        Member::Driven => gears.driven(),
+    };
+    let corners = outline.segments().iter().map(Segment::start);
+    corners.map(|at| at.coords.norm()).fold(0.0, f64::max)
 }
 
 /// Corners of a part's contour, in order, and how the side that begins there is bent: the tangent of a quarter of its angle.

@@ -41,7 +41,12 @@ impl Plate {
         if let Some(second) = second.filter(|_| is_used) {
             frames[second].push(Frame::datum(two));
         }
-        frames[first].push(Frame::datum(one));
+        let is_used = self.face_runout().is_some()
+            || self.contour_frame().is_some()
+            || others.iter().any(|&(index, _)| !frames[index].is_empty());
+        if is_used {
+            frames[first].push(Frame::datum(one));
+        }
         frames
     }
 

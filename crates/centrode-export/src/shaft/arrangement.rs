@@ -9,7 +9,7 @@ use super::links::{BOX, GEARS};
 use super::machine::Machine;
 use super::sheets::data;
 use crate::ExportError;
-use crate::sheet::number;
+use crate::sheet::{fit, number};
 use crate::{gear_pair, turned};
 
 /// Lists shaft, slider, box and gears with their masses, and tells the arrangement: the groove unrolled, the slider in it.
@@ -100,6 +100,11 @@ fn list(parts: &Machine<'_>, machine: &mut Linked) -> Result<(), ExportError> {
     });
     let pin = shaft.pin(BOX);
     let of_pin = pin.part.mass().unwrap_or_default();
+    let in_box = format!(
+        "all that is moved but slider and pin, takes the pin, {}, over {}",
+        fit::shaft(&pin.fit),
+        number(pin.part.length() - slider.reach, 3)
+    );
     turned::list(std::slice::from_ref(&pin), machine);
     machine.fit(pin.fit);
     machine.part(Part {
@@ -107,7 +112,7 @@ fn list(parts: &Machine<'_>, machine: &mut Linked) -> Result<(), ExportError> {
         supply: Supply::Given,
         links: vec![carriage],
         mass: weight(machine, carriage).map(|mass| mass - of_pin),
-        remark: "all that is moved but the slider and its pin".into(),
+        remark: in_box,
         place: machine.place_on("box", figures::corner(shaft).coords.into()),
         ..Part::default()
     });

@@ -1,4 +1,4 @@
-use crate::drawing::{Anchor, Color, Drawing, EntityShape, LineType, Text};
+use crate::drawing::{Anchor, CENTER, Color, Drawing, EntityShape, HOLE, LineType, PROFILE, Text};
 use centrode_geometry::{Outline, Point, Tolerance};
 use centrode_mechanism::shaft::{ShaftError, ShaftSolid, SpiralShaft};
 use std::f64::consts::TAU;
@@ -234,17 +234,15 @@ fn passed(edges: &[Vec<Point>], x: f64) -> Vec<f64> {
 #[must_use]
 pub fn slider(shaft: &SpiralShaft) -> Drawing {
     let slider = shaft.slider();
-    let mut drawing = Drawing::default()
-        .layer("PROFILE", Color::Foreground, LineType::Continuous, 0.5)
-        .layer("AXES", Color::Red, LineType::Center, 0.18)
-        .layer("TEXT", Color::Foreground, LineType::Continuous, 0.25);
+    let mut drawing =
+        Drawing::cutting().layer("TEXT", Color::Foreground, LineType::Continuous, 0.25);
     let width = slider.width(shaft.groove().width());
     drawing.draw(
-        "PROFILE",
+        PROFILE,
         EntityShape::Contour(slider.outline(shaft.groove().width())),
     );
     drawing.draw(
-        "PROFILE",
+        HOLE,
         EntityShape::Circle {
             center: Point::origin(),
             radius: 0.5 * slider.pin_diameter,
@@ -252,8 +250,8 @@ pub fn slider(shaft: &SpiralShaft) -> Drawing {
     );
     let (x, y) = (0.5 * slider.length + 3.0, 0.5 * width + 3.0);
     let p = Point::new;
-    drawing.draw("AXES", EntityShape::Line(p(-x, 0.0), p(x, 0.0)));
-    drawing.draw("AXES", EntityShape::Line(p(0.0, -y), p(0.0, y)));
+    drawing.draw(CENTER, EntityShape::Line(p(-x, 0.0), p(x, 0.0)));
+    drawing.draw(CENTER, EntityShape::Line(p(0.0, -y), p(0.0, y)));
     let words = format!(
         "slider {} x {width:.3} x {} mm, bore {} mm",
         slider.length, slider.reach, slider.pin_diameter

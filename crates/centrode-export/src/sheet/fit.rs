@@ -30,6 +30,11 @@ pub(crate) fn shaft_depth(diameter: f64, key: Keyway) -> String {
     limited(&number(diameter - key.depth, 3), deeper)
 }
 
+/// A length with its deviations as written on a drawing.
+pub(crate) fn length(mm: f64, deviations: [f64; 2]) -> String {
+    limited(&number(mm, 3), Some(deviations))
+}
+
 /// Size of what is in a hole or slot as written on a drawing.
 pub(crate) fn shaft(fit: &Fit) -> String {
     fitted(&size(fit), fit.size, &fit.shaft)
@@ -84,6 +89,7 @@ mod tests {
         assert_eq!(keyway(12.0, "N9"), "12 N9 (0 / -0.043)");
         assert_eq!(keyway(12.0, "JS9"), "12 JS9 (+0.0215 / -0.0215)");
         assert_eq!(keyway(4.5, ""), "4.5");
+        assert_eq!(length(15.0, [0.05, 0.15]), "15 (+0.150 / +0.050)");
         let fit = Fit {
             size: 16.0,
             shaft: "h6".into(),

@@ -5,7 +5,7 @@ use centrode_mechanism::machine::{self, Axis, Blank, Callout, Datum, Dimension, 
 use centrode_mechanism::three_arm::ThreeArm;
 
 use super::ThreeArmPart;
-use super::machine::Machine;
+use super::machine::{Machine, PASSING};
 use crate::sheet::{fit, number};
 use crate::{gear_pair, turned};
 
@@ -48,24 +48,49 @@ fn given(parts: &Machine<'_>, machine: &mut machine::Machine) {
         (body.bore > 0.0).then(|| fit::shaft(&fit))
     };
     let cam = parts.pusher.cam().body();
+    // Heights above the outer face of the carrier's front plate.
+    let [[rear, _], [_, front]] = parts.gearbox.spans;
+    let level = parts.mechanism.arm_level() - front;
+    let [_, cam_end] = parts.pusher.cam_span();
+    let cover = parts
+        .of_arm("cover-front")
+        .map_or(0.0, |cover| cover.span[1]);
+    let [of_sleeve, of_hub] = [cam_end, cover].map(|z| number(level + z, 3));
+    let behind = parts
+        .turned()
+        .into_iter()
+        .find(|pieces| pieces.part.name == "shaft-carrier");
+    let behind = behind.and_then(|shaft| Some(rear - shaft.pieces.first()?.at[2]));
+    let behind = number(behind.unwrap_or_default(), 3);
+    let bore = Fit::new("", parts.mechanism.arm_sizes().housing.bore, PASSING);
+    let in_cover = match bore.size > 0.0 {
+        true => format!(", in the front cover {}", fit::shaft(&bore)),
+        false => String::new(),
+    };
+    let inside = number(design.planet.bore, 4);
     let links = |part| links(part, parts.mechanism.arms(), machine);
     let base = machine.link_named("base").into_iter().collect();
     let all = [
         (
             "Stand",
             base,
-            on_shaft(&design.sun).map(|shaft| format!("holds the carrier's shaft, {shaft}")),
+            on_shaft(&design.sun).map(|shaft| {
+                format!("holds the carrier's shaft, {shaft}, {behind} long, up to the rear plate")
+            }),
         ),
         (
             "Sleeve of a cam",
             links(ThreeArmPart::Cam),
-            on_shaft(cam).map(|seat| format!("{seat}, on the carrier's front plate")),
+            on_shaft(cam).map(|seat| {
+                format!("{seat}, clear of Ø{inside} inside, {of_sleeve} long from the front plate, fixed to it and to the cam")
+            }),
         ),
         (
             "Hub of an arm",
             links(ThreeArmPart::CoverFront),
-            on_shaft(&design.planet)
-                .map(|shaft| format!("front cover on the planet's shaft, {shaft}")),
+            on_shaft(&design.planet).map(|shaft| {
+                format!("on the planet's shaft, {shaft}, {of_hub} long from the front plate{in_cover}, fixed to both")
+            }),
         ),
     ];
     for (name, links, remark) in all {

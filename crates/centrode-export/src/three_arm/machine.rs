@@ -16,7 +16,7 @@ const LIGHT: (&str, f64) = ("aluminium alloy", 2700.0);
 /// Tolerance class, ISO 286, of the holes in which the shafts of the gears turn, which are made to fit the gears.
 const BEARING: &str = "F7";
 /// Of openings that only leave room.
-const PASSING: [&str; 2] = ["H11", "h11"];
+pub(super) const PASSING: [&str; 2] = ["H11", "h11"];
 
 /// A mechanism with every part resolved.
 #[derive(Clone, Debug)]
@@ -359,12 +359,17 @@ impl<'a> Machine<'a> {
         let names = [ThreeArmPart::Cam.name(), ThreeArmPart::Cam.title()];
         let quantity = ThreeArmPart::Cam.quantity(self.mechanism.arms()) as usize;
         let spec = self.pusher.fork_spec();
-        cam::plate(self.pusher.cam(), names, quantity)
-            .noted("x points to the fork's pivot at the carrier's start.")
-            .noted(&format!(
-                "The roller's arm is {:.3} mm long, its pivot {:.3} mm from the cam's axis.",
-                spec.arm_length, spec.pivot_distance
-            ))
+        let cam = self.pusher.cam();
+        let mut plate = cam::plate(cam, names, quantity)
+            .noted("x points to the fork's pivot at the carrier's start:")
+            .noted("timing by the mark on it.");
+        // Half way from the bore to the least radius.
+        let mark = 0.5 * (0.5 * cam.body().bore + cam.radii().0);
+        plate.marks.push(Point::new(mark, 0.0));
+        plate.noted(&format!(
+            "The roller's arm is {:.3} mm long, its pivot {:.3} mm from the cam's axis.",
+            spec.arm_length, spec.pivot_distance
+        ))
     }
 }
 

@@ -1,5 +1,6 @@
-use centrode_geometry::{Point, Tolerance, Vector};
+use centrode_geometry::{Arc, Point, Tolerance, Vector};
 use centrode_mechanism::design::{DrawingSpec, SheetSize};
+use centrode_mechanism::machine::HeldLength;
 
 use super::{Drawn, across, centre, centre_mark, cutting_plane};
 use crate::SheetOptions;
@@ -16,6 +17,8 @@ const SECTION: char = 'C';
 const GROOVE: &str = "H13";
 /// Places of lengths.
 const PLACES: usize = 3;
+/// Distance of heights that are one, mm: rounding.
+const ROUNDING: f64 = 1e-6;
 /// Diameters of its own from which on a part is turned between centres.
 const SLENDER: f64 = 3.0;
 /// Distance of dimension lines, mm, beyond the height of their letters.
@@ -106,7 +109,7 @@ impl Drawn<'_> {
             Point::new(-4.0, 0.0),
             Point::new(k * whole + 4.0, 0.0),
         );
-        self.keyways(&mut draft, k);
+        self.draw_keyways(&mut draft, k);
         self.lengths(&mut draft, k);
         self.diameters(&mut draft, k);
         if self.centre().is_some() {
@@ -128,35 +131,33 @@ impl Drawn<'_> {
         steps.collect()
     }
 
-    /// Stretches with the keyway, steps and grooves that it runs through together.
-    fn keyed(&self) -> Vec<[f64; 2]> {
-        let mut found: Vec<[f64; 2]> = Vec::new();
-        for (step, [from, to]) in self.steps.iter().zip(self.ends()) {
-            if !step.is_keyed {
-                continue;
-            }
-            match found.last_mut().filter(|last| last[1] == from) {
-                Some(last) => last[1] = to,
-                None => found.push([from, to]),
-            }
-        }
-        found
-    }
-
-    fn keyways(&self, draft: &mut Draft, k: f64) {
+    fn draw_keyways(&self, draft: &mut Draft, k: f64) {
         let Some(key) = self.keyway else {
             return;
         };
         let half = 0.5 * key.width * k;
-        for (index, [from, to]) in self.keyed().into_iter().enumerate() {
+        for (index, ([from, to], round)) in self.keyways().into_iter().enumerate() {
+            // Walls as far as the ends begin.
+            let inset = round.map(|is_round| if is_round { half } else { 0.0 });
+            let ends = [k * from + inset[0], k * to - inset[1]];
             for y in [-half, half] {
-                draft.line(Pen::Outline, Point::new(k * from, y), Point::new(k * to, y));
+                let [start, end] = ends.map(|x| Point::new(x, y));
+                draft.line(Pen::Outline, start, end);
             }
-            for x in [from, to] {
-                draft.line(
+            for (end, is_round) in round.into_iter().enumerate() {
+                let [low, high] = [-half, half].map(|y| Point::new(ends[end], y));
+                // Counter-clockwise about its middle.
+                let (start, end) = if end == 0 { (high, low) } else { (low, high) };
+                draft.draw(
                     Pen::Outline,
-                    Point::new(k * x, -half),
-                    Point::new(k * x, half),
+                    match is_round {
+                        true => EntityShape::Arc(Arc {
+                            start,
+                            end,
+                            bulge: 1.0,
+                        }),
+                        false => EntityShape::Line(start, end),
+                    },
                 );
             }
             if index == 0 {
@@ -166,22 +167,42 @@ impl Drawn<'_> {
         }
     }
 
-    /// Lengths below the view: of every step but grooves and the last, and over all.
+    /// Lengths that are dimensioned, with their words: of every step but grooves and the last one, and over all. Where deviations hold for
+    /// several steps between two grooves, their sum has them in the place of the last of these.
+    fn dimensioned(&self) -> Vec<([f64; 2], String)> {
+        let last = self.steps.len() - 1;
+        let inside = |held: &&HeldLength, [from, to]: [f64; 2]| {
+            held.span[0] <= from + ROUNDING && held.span[1] >= to - ROUNDING
+        };
+        let steps = self.steps.iter().zip(self.ends()).enumerate();
+        let plain = steps.filter(|(index, (step, _))| step.ring.is_none() && *index < last);
+        let mut all: Vec<([f64; 2], String)> = plain
+            .map(|(_, (_, ends))| {
+                let held = self.held.iter().find(|held| inside(held, ends));
+                match held.filter(|held| ends[1] >= held.span[1] - ROUNDING) {
+                    Some(held) => {
+                        let long = held.span[1] - held.span[0];
+                        (held.span, fit::length(long, held.deviations))
+                    }
+                    None => (ends, number(ends[1] - ends[0], PLACES)),
+                }
+            })
+            .collect();
+        all.push(([0.0, self.length()], number(self.length(), PLACES)));
+        all
+    }
+
+    /// Lengths below the view.
     fn lengths(&self, draft: &mut Draft, k: f64) {
         let radius = 0.5 * k * self.diameter();
         let row = draft.lettering() + ROW;
         let keyed = if self.keyway.is_some() { 9.0 } else { 0.0 };
         let p = |x: f64| Point::new(k * x, -radius);
-        let last = self.steps.len() - 1;
         let mut lower = radius + keyed;
         // Extension lines of the dimensions below run through the words of those above.
         let crossing: Vec<f64> = self.ends().into_iter().flatten().map(|x| k * x).collect();
-        let steps = self.steps.iter().zip(self.ends()).enumerate();
-        let dimensioned = steps.filter(|(index, (step, _))| step.ring.is_none() && *index < last);
-        let all = dimensioned.map(|(_, (_, ends))| ends);
-        for [from, to] in all.chain([[0.0, self.length()]]) {
+        for ([from, to], words) in self.dimensioned() {
             lower += row;
-            let words = number(to - from, PLACES);
             let at = Point::new(0.0, -lower);
             draft.dimension_clear_of([p(from), p(to)], Vector::x(), at, &words, &crossing);
         }

@@ -12,6 +12,7 @@ fn a_silhouette_has_the_area_of_its_steps() {
             .map(|(diameter, length)| TurnedStep::plain(diameter, length, "f7"))
             .into(),
         keyway: None,
+        held: Vec::new(),
         chamfer: 0.3,
         material: "steel".into(),
         density: 7850.0,

@@ -1,4 +1,5 @@
 use super::ring::{Ring, flat, seen, surface};
+use super::round_end::Part;
 use super::{Turned, TurnedSection, TurnedSlot};
 use crate::bezier_fit::BezierFit;
 use crate::shell_builder::ShellSide;
@@ -21,9 +22,15 @@ pub enum TurnedEnd<'a> {
 }
 
 /// A section with its rings.
-struct Walled<'a> {
-    section: &'a TurnedSection,
-    rings: [Ring; 2],
+pub(super) struct Walled<'a> {
+    part: &'a Part,
+    pub(super) rings: [Ring; 2],
+}
+
+impl Walled<'_> {
+    fn section(&self) -> &TurnedSection {
+        &self.part.section
+    }
 }
 
 /// One side of a plane across the axis between sections.
@@ -35,18 +42,22 @@ struct Side<'a> {
 impl Turned {
     /// Adds the faces of the body to a shell, its ends flat or joined to a body that is there already.
     pub fn close(&self, builder: &mut ShellBuilder, ends: [TurnedEnd<'_>; 2]) {
-        let mut levels = self.levels();
-        let last = self.sections.len() - 1;
+        let parts = self.parts();
+        let mut levels = vec![self.bottom];
+        for part in &parts {
+            levels.push(levels[levels.len() - 1] + part.section.length);
+        }
+        let last = parts.len() - 1;
         for (end, level) in [(0, 0), (1, last + 1)] {
             if let TurnedEnd::Joined { height, .. } = ends[end] {
                 levels[level] = height;
             }
         }
-        let walled: Vec<Walled<'_>> = self
-            .sections
+        let walled: Vec<Walled<'_>> = parts
             .iter()
             .enumerate()
-            .map(|(index, section)| {
+            .map(|(index, part)| {
+                let section = part.section;
                 let joined =
                     [(0, 0), (last, 1)]
                         .into_iter()
@@ -65,7 +76,7 @@ impl Turned {
                     let angles = joined.clone().unwrap_or_else(|| self.angles(own));
                     Ring::new(builder, &angles, radius, levels[index + end])
                 });
-                Walled { section, rings }
+                Walled { part, rings }
             })
             .collect();
         for (index, part) in walled.iter().enumerate() {
@@ -78,7 +89,7 @@ impl Turned {
         for pair in walled.windows(2) {
             let [low, high] = [(&pair[0], 1), (&pair[1], 0)].map(|(part, end)| Side {
                 ring: &part.rings[end],
-                slotted: part.section.slotted,
+                slotted: part.part.is_slotted(end),
             });
             self.shoulder(builder, &low, &high);
         }
@@ -88,7 +99,7 @@ impl Turned {
         {
             let own = Side {
                 ring: &part.rings[end],
-                slotted: part.section.slotted,
+                slotted: part.part.is_slotted(end),
             };
             match ends[end] {
                 TurnedEnd::Flat => {
@@ -118,7 +129,16 @@ impl Turned {
         beside: [Option<&Walled<'_>>; 2],
     ) {
         let [low, high] = &part.rings;
-        let slotted = self.slot.filter(|_| part.section.slotted);
+        if let (Some(slot), Some(from_below)) = (self.slot, part.part.end) {
+            let end = usize::from(!from_below);
+            let open = [0, 1].map(|side| {
+                let feet = slot.feet(builder, part.rings[end].height);
+                self.across(part, end, beside[end], (side, feet[side]))
+            });
+            self.round_end(builder, part, slot, (from_below, open));
+            return;
+        }
+        let slotted = self.slot.filter(|_| part.section().slotted);
         let count = if slotted.is_some() {
             low.last()
         } else {
@@ -140,7 +160,7 @@ impl Turned {
         for i in 0..count {
             let (bottom, top) = (low.arc(builder, i), high.arc(builder, i));
             let [top, left] = [top, up[i]].map(ShellBuilder::back);
-            let round = surface(part.section, low.height);
+            let round = surface(part.section(), low.height);
             builder.face(round, vec![vec![bottom, up[i + 1], top, left]]);
         }
         let Some(slot) = slotted else {
@@ -148,16 +168,8 @@ impl Turned {
         };
         let feet = [low, high].map(|ring| slot.feet(builder, ring.height));
         for (side, edge) in [(0, 0), (1, count)] {
-            // Along x at both ends, from the floor to the edge, through the corners of the neighbours.
-            let ends = [0, 1].map(|end| {
-                let own = &part.rings[end];
-                let next = beside[end].map(|other| &other.rings[1 - end]);
-                let narrow = next
-                    .filter(|ring| ring.radius < own.radius && self.edge(ring.radius).is_some());
-                let narrow = narrow.map(|ring| ring.at(if side == 0 { 0 } else { ring.last() }));
-                let through = [Some(feet[end][side]), narrow, Some(own.at(edge))];
-                through.into_iter().flatten().collect::<Vec<usize>>()
-            });
+            let ends =
+                [0, 1].map(|end| self.across(part, end, beside[end], (side, feet[end][side])));
             let mut bound = builder.lines(&ends[0]);
             bound.push(up[edge]);
             let inwards: Vec<usize> = ends[1].iter().rev().copied().collect();
@@ -177,6 +189,24 @@ impl Turned {
         let [[left, right], [above, beyond]] = [0, 1].map(|end| [feet[end][1], feet[end][0]]);
         let bound = builder.lines(&[left, right, beyond, above, left]);
         builder.face(floor, vec![bound]);
+    }
+
+    /// Vertices along x at an end of a slotted section, from the foot of a wall of the slot to its edge, through the corner of the
+    /// neighbour.
+    fn across(
+        &self,
+        part: &Walled<'_>,
+        end: usize,
+        beside: Option<&Walled<'_>>,
+        (side, foot): (usize, usize),
+    ) -> Vec<usize> {
+        let corner = |ring: &Ring| ring.at(if side == 0 { 0 } else { ring.last() });
+        let own = &part.rings[end];
+        let next = beside.map(|other| &other.rings[1 - end]);
+        let narrow =
+            next.filter(|ring| ring.radius < own.radius && self.edge(ring.radius).is_some());
+        let through = [Some(foot), narrow.map(corner), Some(corner(own))];
+        through.into_iter().flatten().collect()
     }
 
     /// Faces across the axis where two sections meet.

@@ -1,6 +1,7 @@
 mod boundary;
 mod mesh;
 mod ring;
+mod round_end;
 
 use std::f64::consts::PI;
 
@@ -8,6 +9,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::{Mesh, Shell, ShellBuilder, SolidError, Tolerance, VolumeMoments, gauss_legendre};
 pub use boundary::TurnedEnd;
+use round_end::Part;
 
 /// Share of a length by which a cone may be off 45°: rounding.
 const ROUNDING: f64 = 1e-9;
@@ -38,6 +40,8 @@ pub struct TurnedSlot {
     pub width: f64,
     /// Distance of the floor from the axis, mm.
     pub foot: f64,
+    /// Whether it ends half round, as an end mill leaves it, where a cylinder goes on without it; else its end is a plane.
+    pub rounded: bool,
 }
 
 impl TurnedSection {
@@ -142,15 +146,19 @@ impl Turned {
     /// Volume, mm³, exact to rounding.
     #[must_use]
     pub fn volume(&self) -> f64 {
-        self.sections
+        self.parts()
             .iter()
-            .map(|section| {
+            .map(|Part { section, end }| {
                 let [low, high] = section.radii;
                 let round = PI * section.length * (low * low + low * high + high * high) / 3.0;
-                let Some(slot) = self.slot.filter(|_| section.slotted) else {
+                let Some(slot) = self.slot.filter(|_| section.slotted || end.is_some()) else {
                     return round;
                 };
                 let mut cut = 0.0;
+                if end.is_some() {
+                    slot.along_end(|_, weight, slot| cut += weight * slot.area(low));
+                    return round - cut;
+                }
                 gauss_legendre(0.0, 1.0, |x, weight| {
                     cut += weight * slot.area(low + (high - low) * x);
                 });
@@ -163,8 +171,22 @@ impl Turned {
     #[must_use]
     pub fn moments(&self) -> VolumeMoments {
         let mut sum = VolumeMoments::default();
-        for (section, bottom) in self.sections.iter().zip(self.levels()) {
+        let mut bottom = self.bottom;
+        for Part { section, end } in self.parts() {
             let [low, high] = section.radii;
+            if let (Some(slot), Some(from_below)) = (self.slot, end) {
+                slot.along_end(|along, weight, slot| {
+                    let z = match from_below {
+                        true => bottom + along,
+                        false => bottom + section.length - along,
+                    };
+                    let [area, first, xx, yy] = slot.moments(low).map(|cut| -weight * cut);
+                    sum.volume += area;
+                    sum.first += Vector3::new(first, 0.0, area * z);
+                    let [xz, zz] = [first * z, area * z * z];
+                    sum.second += Matrix3::new(xx, 0.0, xz, 0.0, yy, 0.0, xz, 0.0, zz);
+                });
+            }
             let slot = self.slot.filter(|_| section.slotted);
             gauss_legendre(0.0, 1.0, |x, weight| {
                 let (radius, z) = (low + (high - low) * x, bottom + section.length * x);
@@ -180,6 +202,7 @@ impl Turned {
                 let [xz, zz] = [first * z, area * z * z];
                 sum.second += Matrix3::new(xx, 0.0, xz, 0.0, yy, 0.0, xz, 0.0, zz) * high;
             });
+            bottom += section.length;
         }
         sum
     }

@@ -5,6 +5,7 @@ use super::*;
 const SLOT: TurnedSlot = TurnedSlot {
     width: 5.0,
     foot: 5.0,
+    rounded: false,
 };
 
 fn cylinder(length: f64, diameter: f64) -> TurnedSection {
@@ -46,8 +47,54 @@ fn shafts() -> Vec<Turned> {
             cylinder(4.0, 15.0).slotted(),
         ],
     ];
-    all.map(|sections| Turned::new(-3.0, sections, Some(SLOT)).expect("a shaft"))
-        .into()
+    let rounded = TurnedSlot {
+        rounded: true,
+        ..SLOT
+    };
+    let both = [SLOT, rounded].into_iter().flat_map(|slot| {
+        let shaft = move |sections: Vec<TurnedSection>| {
+            Turned::new(-3.0, sections, Some(slot)).expect("a shaft")
+        };
+        all.clone().map(shaft)
+    });
+    // Half round ends towards each other, one at a groove, and one that takes all of its cylinder.
+    let more = [
+        vec![
+            cylinder(6.0, 16.0).slotted(),
+            cylinder(3.0, 16.0),
+            cylinder(8.0, 16.0).slotted(),
+            cylinder(2.0, 16.0),
+        ],
+        vec![
+            cylinder(8.0, 16.0),
+            cylinder(2.5, 16.0).slotted(),
+            cylinder(1.1, 15.2).slotted(),
+            cylinder(9.0, 16.0).slotted(),
+        ],
+    ];
+    let more = more.map(|sections| Turned::new(1.0, sections, Some(rounded)).expect("a shaft"));
+    both.chain(more).collect()
+}
+
+#[test]
+fn a_half_round_end_takes_less_than_a_plane_one_by_the_corners() {
+    let shaft = |rounded: bool| {
+        let slot = TurnedSlot { rounded, ..SLOT };
+        let sections = vec![cylinder(10.0, 16.0).slotted(), cylinder(10.0, 16.0)];
+        Turned::new(0.0, sections, Some(slot)).expect("a shaft")
+    };
+    // Between a half disc and the half square around it, by the midpoints of fine strips.
+    let count = 200_000;
+    let corners: f64 = (0..count)
+        .map(|i| {
+            let y: f64 = 2.5 * (f64::from(i) + 0.5) / f64::from(count);
+            let beyond = 2.5 - (6.25 - y * y).sqrt();
+            2.0 * beyond * ((64.0 - y * y).sqrt() - 5.0) * 2.5 / f64::from(count)
+        })
+        .sum();
+    let more = shaft(true).volume() - shaft(false).volume();
+    assert!((more - corners).abs() < 1e-7, "{more} {corners}");
+    assert_eq!(shaft(true).levels(), [0.0, 10.0, 20.0]);
 }
 
 #[test]

@@ -132,7 +132,7 @@ impl Composed {
                 material: gear.body().material.clone(),
                 blank: Blank::round(gear.outline(), gear.body().width),
                 mass: Some(piece.mass().mass),
-                remark: format!("{} teeth", gear.tooth_count()),
+                remark: format!("{} teeth, on {}", gear.tooth_count(), piece.of.body_name),
                 ..Part::default()
             };
             self.add_part(
@@ -150,7 +150,11 @@ impl Composed {
                 material: piece.of.part.body().material.clone(),
                 blank: Blank::plate(piece.solid.outline(), piece.of.part.body().width),
                 mass: Some(piece.mass().mass),
-                remark: format!("moves {}", piece.of.followers.join(", ")),
+                remark: format!(
+                    "moves {}, on {}",
+                    piece.of.followers.join(", "),
+                    piece.of.body_name
+                ),
                 ..Part::default()
             };
             self.add_part(
@@ -169,6 +173,15 @@ impl Composed {
         if bodies.any(|body| self.pin_holes(body).is_some_and(|holes| !holes.is_empty())) {
             let classes = [&*spec.hole_fit, &spec.pin_fit];
             machine.fit(Fit::new("pins in plates", spec.pin_diameter, classes));
+        }
+        for (index, body) in self.bodies.iter().enumerate() {
+            let height = self
+                .guided(index)
+                .filter(|_| self.original(&body.name) == body.name);
+            if let Some(height) = height.filter(|_| self.pin_holes(index).is_some()) {
+                let name = format!("{} in its guide", body.name);
+                machine.fit(Fit::of_width(&name, height, Self::GUIDE_FIT));
+            }
         }
     }
 

@@ -11,16 +11,27 @@ const SHARES: [f64; 4] = [0.0, 0.137, 0.411, 0.732];
 /// Distance, as a share of the pin's diameter, within which axes are one.
 const ONE: f64 = 1e-6;
 
+/// How a pin is held where there is no room for rings.
+const BONDED: &str = "No room for rings: bonded into one of its plates with a retaining compound.";
+
 /// Holes on one axis.
 struct Axis {
     places: Vec<Point>,
     /// The bodies with a hole there, and its place in their axes.
     holes: Vec<(usize, Point)>,
+    /// Lower and upper faces of the plates with these holes, mm.
+    plates: Vec<[f64; 2]>,
     /// From the lowest face to the highest, mm.
     span: [f64; 2],
 }
 
 impl Axis {
+    /// Heights of the plates with a hole on it, from the lowest, above the lowest face.
+    fn parts(&self) -> Vec<[f64; 2]> {
+        let raised = |span: &[f64; 2]| span.map(|z| z - self.span[0]);
+        self.plates.iter().map(raised).collect()
+    }
+
     fn length(&self) -> f64 {
         self.span[1] - self.span[0]
     }
@@ -32,13 +43,14 @@ impl Composed {
     pub fn pins_in_plates(&self) -> Vec<TurnedPieces> {
         let spec = &self.design.plates;
         let fit = Fit::new("", spec.pin_diameter, [&spec.hole_fit, &spec.pin_fit]);
+        let general = &self.design.drawing.general_tolerance;
         let mut found: Vec<(f64, TurnedPieces)> = Vec::new();
         let mut axes = self.axes();
         axes.sort_by(|a, b| a.length().total_cmp(&b.length()));
         // A single plate turns on a pin of what is around the machine.
         for axis in axes.into_iter().filter(|axis| axis.holes.len() > 1) {
             let bar = Bar::new(spec.pin_diameter, &spec.pin_fit, [0.0, axis.length()]);
-            let bar = bar.held([spec.gap; 2]);
+            let bar = bar.held([spec.gap; 2]).through(&axis.parts());
             let bottom = axis.span[0] + bar.bottom();
             let own = axis.holes.iter().min_by_key(|(body, _)| *body);
             let piece = own.map(|&(body, at)| {
@@ -54,8 +66,12 @@ impl Composed {
                 Some((_, pins)) => pins.pieces.extend(piece),
                 None => {
                     let title = format!("Pin through {} mm", thousandths(axis.length()));
-                    let part = bar.part(["pin", &title], (&spec.material, spec.density));
+                    let material = (&*spec.material, spec.density);
+                    let mut part = bar.part(["pin", &title], material, general);
+                    let role = if bar.is_held() { "" } else { "without rings" };
+                    part.notes.extend((!bar.is_held()).then(|| BONDED.into()));
                     let pins = TurnedPieces {
+                        role: role.into(),
                         pieces: piece.into_iter().collect(),
                         ..TurnedPieces::new(part, fit.clone())
                     };
@@ -90,10 +106,12 @@ impl Composed {
                     Some(axis) => {
                         axis.span = [axis.span[0].min(bottom), axis.span[1].max(top)];
                         axis.holes.push((body, hole.at));
+                        axis.plates.push([bottom, top]);
                     }
                     None => axes.push(Axis {
                         places,
                         holes: vec![(body, hole.at)],
+                        plates: vec![[bottom, top]],
                         span: [bottom, top],
                     }),
                 }

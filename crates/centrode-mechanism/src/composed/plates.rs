@@ -108,6 +108,9 @@ pub(super) fn drawn(design: &ComposedDesign) -> Result<BTreeMap<String, Outline>
 }
 
 impl Composed {
+    /// Tolerance classes, ISO 286, of guides and of the blocks that slide in them.
+    pub const GUIDE_FIT: [&str; 2] = ["H9", "e9"];
+
     /// Contour of a body's plate, as drawn or round all its points, and the holes in it, where other bodies are pinned, in
     /// the body's axes; none for a body without a plate.
     #[must_use]
@@ -179,6 +182,20 @@ impl Composed {
             circles.push((Point::origin(), 0.5 * width));
         }
         circles
+    }
+
+    /// Height of the block of a body that slides, mm, which a guide holds on both sides; none for a body that does not slide or is drawn
+    /// by hand.
+    #[must_use]
+    pub fn guided(&self, body: usize) -> Option<f64> {
+        let own = self.bodies.get(body)?;
+        let spec = self.design.bodies.get(&own.name);
+        let width = spec
+            .and_then(|body| body.width)
+            .unwrap_or(self.design.plates.width);
+        let slides = matches!(own.mount.as_ref()?.kind, JointKind::Sliding(_));
+        let is_block = slides && !self.drawn.contains_key(&own.name);
+        is_block.then_some(2.0 * BLOCK[1] * width)
     }
 
     /// Checks that the bodies drawn by hand hold the holes of their pins.

@@ -15,6 +15,8 @@ const EDGE: f64 = 1.5;
 const SCREWS: usize = 4;
 /// Places of the crank at which the links are looked at.
 const PLACES: u32 = 180;
+/// Step of the places of screws, mm.
+const GRID: f64 = 1.0;
 /// Steps by which the frame grows, as a share of the plates' width, and their number.
 const STEP: f64 = 0.125;
 const STEPS: u32 = 80;
@@ -84,6 +86,7 @@ impl Feeder {
                 line: Outline::hull(&circles),
                 taken: taken.to_vec(),
                 turns: 1,
+                grid: GRID,
             };
             match room.places((diameter, diameter), SCREWS) {
                 Ok(places) if is_within(Point::from(middle), &places) => return Ok(places),

@@ -39,7 +39,8 @@ impl Feeder {
         // Without gears none has a place.
         let at = at.chain(std::iter::repeat([0.0; 3]));
         let pieces = at.take(2 * stops as usize);
-        let made = bar.part(["pin-cam", "Pin of a cam"], (&body.material, body.density));
+        let material = (&*body.material, body.density);
+        let made = bar.part(["pin-cam", "Pin of a cam"], material, "");
         self.has_cams().then(|| TurnedPieces {
             role: standard
                 .map_or("", |_| "pressed into the driven gear")
@@ -64,6 +65,13 @@ impl Feeder {
         // The second frame plate stands above all others.
         let front = level(FeederPart::Effector)[1] + spec.gap + spec.thickness;
         let (gap, free) = (spec.gap, f64::INFINITY);
+        let general = &self.design().drawing.general_tolerance;
+        // The plates of the frame are held apart.
+        let frame = [
+            [rear, rear + spec.thickness],
+            [rear + spec.thickness, front - spec.thickness],
+            [front - spec.thickness, front],
+        ];
         let [b, c, _] = self.six_bar().joints(self.start());
         let d = Point::new(self.six_bar().four_bar().lengths()[3], 0.0);
         let fit = Fit::new("", spec.pin_diameter, [&spec.hole_fit, &spec.pin_fit]);
@@ -74,6 +82,7 @@ impl Feeder {
                 b,
                 [level(FeederPart::Crank)[0], level(FeederPart::Coupler)[1]],
                 [gap, gap],
+                vec![level(FeederPart::Crank), level(FeederPart::Coupler)],
             ),
             (
                 ["pin-c", "Pin C"],
@@ -81,6 +90,9 @@ impl Feeder {
                 c,
                 [level(FeederPart::Coupler)[0], level(FeederPart::Slider)[1]],
                 [gap, gap],
+                [FeederPart::Coupler, FeederPart::Rocker, FeederPart::Slider]
+                    .map(level)
+                    .into(),
             ),
             (
                 ["pin-d", "Pin D"],
@@ -88,6 +100,7 @@ impl Feeder {
                 d,
                 [rear, front],
                 [free, free],
+                frame.into(),
             ),
             (
                 ["pin-f", "Pin F"],
@@ -95,13 +108,15 @@ impl Feeder {
                 self.six_bar().pivot(),
                 [level(FeederPart::Effector)[0], front],
                 [gap, free],
+                vec![level(FeederPart::Effector), frame[2]],
             ),
         ]
-        .map(|(names, link, axis, span, room)| {
+        .map(|(names, link, axis, span, room, parts)| {
             let bar = Bar::new(spec.pin_diameter, &spec.pin_fit, span).held(room);
+            let bar = bar.through(&parts);
             let at = axis - self.place(link, self.start()).translation.vector;
             let at = [at.x, at.y, bar.bottom()];
-            let part = bar.part(names, (&spec.material, spec.density));
+            let part = bar.part(names, (&spec.material, spec.density), general);
             TurnedPieces {
                 pieces: vec![TurnedPiece::upright(link.name(), at)],
                 axis: Some(axis.coords.into()),
@@ -118,14 +133,23 @@ impl Feeder {
         let [rear, front] = [-gap - plates.thickness, -gap];
         let hub = |bottom: f64| [bottom, bottom + body.width];
         let material = (&*body.material, body.density);
+        let general = &self.design().drawing.general_tolerance;
         let fit = Fit::new("", body.bore, [&body.bore_fit, &body.shaft_fit]);
         let keyed = |bar: Bar, ends: [f64; 2]| bar.keyed(body.keyway, ends);
         let held = |bar: Bar| bar.ring(rear, false, gap).ring(front, true, gap);
         let crank = Bar::new(body.bore, &body.shaft_fit, [middle, plates.thickness]);
         let crank = crank.ring(middle, false, free);
-        let crank = keyed(crank, [f64::NEG_INFINITY, hub(middle)[1]]);
-        let crank = keyed(held(crank.ring(hub(middle)[1], true, gap)), [0.0, free]);
+        // Half round ends of keyways end with the keys, which stand in the middle of their hubs.
+        let round = |keyway| Key::round(keyway, body.width);
+        let round = body.keyway.and_then(round);
+        let beyond = round.map_or(0.0, |key| 0.5 * (body.width - key.length));
+        let crank = keyed(crank, [f64::NEG_INFINITY, hub(middle)[1] - beyond]);
+        // A key with square ends leaves its whole seat to the straight part of the keyway.
+        let before = 0.5 * body.keyway.map_or(0.0, |keyway| keyway.width);
+        let crank = crank.ring(hub(middle)[1], true, gap);
+        let crank = keyed(held(crank), [front - before, free]);
         let crank = crank.seat([0.0, free], Self::CRANK_FIT[1]);
+        let crank = crank.through(&[hub(middle), [rear, front]]);
         let hubs = match self.has_cams() {
             true => vec![entry, middle, exit],
             false => vec![middle],
@@ -145,8 +169,10 @@ impl Feeder {
         let last = hubs
             .iter()
             .fold(f64::NEG_INFINITY, |top, &bottom| top.max(hub(bottom)[1]));
-        let own = keyed(own, [f64::NEG_INFINITY, last]).ring(front, true, before);
-        let mut of_crank = crank.part(["shaft-a", "Shaft A"], material);
+        let own = keyed(own, [f64::NEG_INFINITY, last - beyond]).ring(front, true, before);
+        let on_it = hubs.iter().map(|&bottom| hub(bottom));
+        let own = own.through(&on_it.chain([[rear, front]]).collect::<Vec<_>>());
+        let mut of_crank = crank.part(["shaft-a", "Shaft A"], material, general);
         of_crank.notes =
             vec!["The crank is pressed on its seat and key, flush with the end.".into()];
         let on_shaft = |part: TurnedPart, bar: &Bar, link: &str| TurnedPieces {
@@ -182,7 +208,7 @@ impl Feeder {
                 keys: hubs.iter().filter_map(|&low| key(low, &own)).collect(),
                 axis: Some([-distance, 0.0]),
                 ..on_shaft(
-                    own.part(["shaft-g", "Shaft G"], material),
+                    own.part(["shaft-g", "Shaft G"], material, general),
                     &own,
                     GearBody::NAMES[0],
                 )

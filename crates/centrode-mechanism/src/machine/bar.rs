@@ -1,10 +1,14 @@
-use super::{Circlip, TurnedPart, TurnedStep, preferred_size};
+use super::{Circlip, HeldLength, TurnedPart, TurnedStep, general_deviation, preferred_size};
 use crate::gear::design::Keyway;
 
 /// Share of a diameter that a chamfer at an end takes at most.
 const CHAMFER: f64 = 1.0 / 16.0;
 /// Lengths below which steps are none, mm: rounding.
 const ROUNDING: f64 = 1e-9;
+/// Least play along the axis of what lies between two rings, mm.
+const PLAY: f64 = 0.05;
+/// Steps of deviations of a length between grooves, and the width of its tolerance, mm.
+const DEVIATION: [f64; 2] = [0.05, 0.1];
 
 /// A bar of one diameter through the parts that it joins, at heights in its machine.
 #[derive(Clone, Debug)]
@@ -14,11 +18,13 @@ pub(crate) struct Bar {
     /// Lower and upper end, mm.
     span: [f64; 2],
     keyed: Vec<[f64; 2]>,
-    /// Heights of the loaded walls of grooves, and whether the groove lies above it.
+    /// Heights of the walls of grooves towards what the ring holds, and whether the groove lies above it.
     grooves: Vec<(f64, bool)>,
     keyway: Option<Keyway>,
     /// Stretches of a class of their own.
     seats: Vec<([f64; 2], String)>,
+    /// Extents of the parts on it.
+    parts: Vec<[f64; 2]>,
 }
 
 impl Bar {
@@ -32,7 +38,14 @@ impl Bar {
             grooves: Vec::new(),
             keyway: None,
             seats: Vec::new(),
+            parts: Vec::new(),
         }
+    }
+
+    /// The parts on it, by their lower and upper faces, mm: rings leave them play.
+    pub(crate) fn through(mut self, parts: &[[f64; 2]]) -> Self {
+        self.parts.extend_from_slice(parts);
+        self
     }
 
     /// Retaining rings at both ends where there is a ring of this size and room beyond them for its groove and land.
@@ -77,26 +90,69 @@ impl Bar {
         self
     }
 
+    /// Whether a ring is at either end.
+    pub(crate) fn is_held(&self) -> bool {
+        let [low, high] =
+            [false, true].map(|way| self.grooves.iter().any(|(_, above)| *above == way));
+        low && high
+    }
+
     /// Height of its lower end, mm.
     pub(crate) fn bottom(&self) -> f64 {
         self.span[0]
     }
 
+    /// Lower and upper walls of its grooves, from the lowest on, and whether the ring in each holds what is below it.
+    fn walls(&self) -> Vec<([f64; 2], bool)> {
+        let width = Circlip::of_shaft(self.diameter).map_or(0.0, |ring| ring.width);
+        let walls = self.grooves.iter().map(|&(wall, above)| match above {
+            true => ([wall, wall + width], above),
+            false => ([wall - width, wall], above),
+        });
+        let mut walls: Vec<_> = walls.collect();
+        walls.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]));
+        walls
+    }
+
+    /// Lengths between grooves that leave what the rings hold no play within general tolerances, with deviations that do.
+    ///
+    /// A ring gives way to the far wall of its groove. The play is then least where the length and the grooves are shortest and the
+    /// parts and rings thickest: l + (m - s) for each ring that is pushed away from the parts, less the thicknesses, each with
+    /// its deviation.
+    fn held_lengths(&self, general: &str) -> Vec<HeldLength> {
+        let slack =
+            Circlip::of_shaft(self.diameter).map_or(0.0, |ring| ring.width - ring.thickness);
+        let between = |pair: &[([f64; 2], bool)]| {
+            let ([_, low], lower_holds_below) = pair[0];
+            let ([high, _], upper_holds_below) = pair[1];
+            let inside = |part: &&[f64; 2]| part[0] > low - 1e-6 && part[1] < high + 1e-6;
+            let parts: Vec<f64> = self
+                .parts
+                .iter()
+                .filter(inside)
+                .map(|p| p[1] - p[0])
+                .collect();
+            let thickest = parts.iter().map(|t| t + general_deviation(general, *t));
+            let slacks = f64::from(!lower_holds_below) + f64::from(upper_holds_below);
+            let length = high - low;
+            let play = length + slack * slacks - thickest.sum::<f64>();
+            if parts.is_empty() || play - general_deviation(general, length) >= PLAY {
+                return None;
+            }
+            let [step, width] = DEVIATION;
+            // A whole number of steps, but for rounding.
+            let least = ((PLAY - play) / step - 1e-6).ceil() * step;
+            let deviations = [least, least + width].map(|mm| (mm * 1e3).round() / 1e3);
+            let span = [low, high].map(|z| z - self.span[0]);
+            Some(HeldLength { span, deviations })
+        };
+        self.walls().windows(2).filter_map(between).collect()
+    }
+
     /// Cylinders one after another from the lower end.
     fn steps(&self) -> Vec<TurnedStep> {
         let ring = Circlip::of_shaft(self.diameter);
-        let grooves: Vec<[f64; 2]> = self
-            .grooves
-            .iter()
-            .map(|&(wall, above)| {
-                let width = ring.map_or(0.0, |ring| ring.width);
-                if above {
-                    [wall, wall + width]
-                } else {
-                    [wall - width, wall]
-                }
-            })
-            .collect();
+        let grooves: Vec<[f64; 2]> = self.walls().into_iter().map(|(walls, _)| walls).collect();
         let mut ends: Vec<f64> = self.span.to_vec();
         let seats: Vec<[f64; 2]> = self.seats.iter().map(|(span, _)| *span).collect();
         ends.extend(grooves.iter().chain(&self.keyed).chain(&seats).flatten());
@@ -126,11 +182,12 @@ impl Bar {
         ends.windows(2).map(step).collect()
     }
 
-    /// The part that it is: names of its files and in words.
+    /// The part that it is: names of its files and in words, material and density, and the general tolerances.
     pub(crate) fn part(
         &self,
         [name, title]: [&str; 2],
         (material, density): (&str, f64),
+        general: &str,
     ) -> TurnedPart {
         let steps = self.steps();
         let lands = [steps.first(), steps.last()].into_iter().flatten();
@@ -141,6 +198,7 @@ impl Bar {
             title: title.into(),
             steps,
             keyway: self.keyway,
+            held: self.held_lengths(general),
             chamfer: preferred_size(chamfer.min(1.0)),
             material: material.into(),
             density,

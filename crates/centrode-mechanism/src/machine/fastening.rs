@@ -187,6 +187,8 @@ pub(crate) struct ScrewRoom {
     pub(crate) taken: Vec<([Point; 2], f64)>,
     /// Every place is there as often, turned about the origin.
     pub(crate) turns: u32,
+    /// Step of the coordinates of the places, mm, which are then beside the line by less than that; zero for none.
+    pub(crate) grid: f64,
 }
 
 impl ScrewRoom {
@@ -206,7 +208,7 @@ impl ScrewRoom {
             let long = 2.0 * segment.at(-1.0).first.norm();
             let parts = (long / step).ceil().clamp(1.0, 1e4);
             for i in 0..parts as usize {
-                let at = segment.at(2.0 * i as f64 / parts - 1.0).point;
+                let at = self.stepped(segment.at(2.0 * i as f64 / parts - 1.0).point);
                 let room = self.room(at);
                 if room >= radius {
                     // Alike places differ by rounding: the first of them is taken.
@@ -242,6 +244,15 @@ impl ScrewRoom {
             });
         }
         Ok(found)
+    }
+
+    /// The place nearest to another with coordinates in whole steps.
+    fn stepped(&self, at: Point) -> Point {
+        if self.grid > 0.0 {
+            at.map(|x| (x / self.grid).round() * self.grid)
+        } else {
+            at
+        }
     }
 
     /// Radius of the free circle about a place, mm.
@@ -291,12 +302,19 @@ mod tests {
             line: Some(square(40.0)),
             taken: vec![([middle, middle], 10.0)],
             turns: 1,
+            grid: 0.0,
         };
         let found = room.places((4.0, 4.0), 4).expect("room");
         assert_eq!(found.len(), 4);
         for (i, at) in found.iter().enumerate() {
             assert!((at - middle).norm() >= 14.0, "{at}");
             assert!(found[..i].iter().all(|other| (at - other).norm() >= 16.0));
+        }
+        room.grid = 0.8;
+        for at in room.places((4.0, 4.0), 4).expect("room") {
+            assert!((at - middle).norm() >= 14.0, "{at}");
+            let off = at.coords.map(|x| x / 0.8 - (x / 0.8).round()).norm();
+            assert!(off < 1e-9, "{at}");
         }
         let across = [Point::new(-50.0, 20.0), Point::new(90.0, 20.0)];
         room.taken.push((across, 19.0));

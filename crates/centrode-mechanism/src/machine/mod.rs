@@ -11,6 +11,7 @@ mod contact;
 mod fastening;
 mod figure;
 mod fit;
+mod general;
 mod jet;
 mod joint;
 mod law;
@@ -42,6 +43,7 @@ pub(crate) use fastening::ScrewRoom;
 pub use fastening::{Fastening, FasteningError};
 pub use figure::{Figure, Line, LinePath, LineRole, Mark, Seat, Sketch};
 pub use fit::{Fit, PinFit, limits_of_size, preferred_size};
+pub use general::general_deviation;
 pub use jet::{FrameJet, PointJet};
 pub use joint::{Joint, JointKind};
 pub use law::{Constant, Linear, Piecewise};
@@ -49,7 +51,7 @@ pub use load::{Axes, Load, STANDARD_GRAVITY};
 pub use part::{Part, Supply};
 pub use sound::{MachineError, loose_link};
 pub use standard::{Bearing, Circlip, Dowel, Key, Screw, allowed_pressure};
-pub use turned::{SeatedKey, TurnedPart, TurnedPiece, TurnedPieces, TurnedStep};
+pub use turned::{HeldLength, SeatedKey, TurnedPart, TurnedPiece, TurnedPieces, TurnedStep};
 
 /// Rigid links, and how each of them moves with the one input.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]

@@ -18,6 +18,9 @@ pub struct TurnedPart {
     /// Keyway of the steps that have one, along x.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub keyway: Option<Keyway>,
+    /// Lengths between grooves whose deviations leave what the rings hold some play.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub held: Vec<HeldLength>,
     /// Chamfer of 45° at both ends, mm; 0 for none.
     pub chamfer: f64,
     /// Material.
@@ -44,6 +47,16 @@ pub struct TurnedStep {
     /// Ring whose groove it is.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ring: Option<Circlip>,
+}
+
+/// Length between two grooves of a turned part that holds other parts between their rings.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct HeldLength {
+    /// Walls of the grooves above the lower end, mm.
+    pub span: [f64; 2],
+    /// Lower and upper deviation of the length, mm.
+    pub deviations: [f64; 2],
 }
 
 /// A turned part and its pieces in a machine.
@@ -116,11 +129,51 @@ impl TurnedPart {
         diameters.fold(0.0, f64::max)
     }
 
+    /// Stretches of the keyway above the lower end, mm, and whether their lower and upper ends are half round, as an end mill leaves them:
+    /// where the part goes on as thick without it.
+    #[must_use]
+    pub fn keyways(&self) -> Vec<([f64; 2], [bool; 2])> {
+        let half = 0.5 * self.keyway.map_or(0.0, |key| key.width);
+        // Lower end, upper end, and the steps between.
+        let mut found: Vec<([f64; 2], [usize; 2])> = Vec::new();
+        let mut at = 0.0;
+        for (index, step) in self.steps.iter().enumerate() {
+            let from = at;
+            at += step.length;
+            if !step.is_keyed {
+                continue;
+            }
+            match found.last_mut().filter(|(_, steps)| steps[1] + 1 == index) {
+                Some((span, steps)) => (span[1], steps[1]) = (at, index),
+                None => found.push(([from, at], [index; 2])),
+            }
+        }
+        let ends_in = |own: usize, other: Option<usize>| {
+            let other = other.and_then(|other| self.steps.get(other));
+            other.is_some_and(|step| step.diameter == self.steps[own].diameter)
+        };
+        let rounded = |(span, [first, last]): ([f64; 2], [usize; 2])| {
+            let ends = [
+                ends_in(first, first.checked_sub(1)),
+                ends_in(last, Some(last + 1)),
+            ];
+            let both = if first == last && ends == [true; 2] {
+                2.0
+            } else {
+                1.0
+            };
+            let room = |step: usize| self.steps[step].length >= both * half * (1.0 - 1e-9);
+            (span, [ends[0] && room(first), ends[1] && room(last)])
+        };
+        found.into_iter().map(rounded).collect()
+    }
+
     /// Its keyway as the body has it.
     fn slot(&self) -> Option<TurnedSlot> {
         self.keyway.map(|key| TurnedSlot {
             width: key.width,
             foot: 0.5 * self.diameter() - key.depth,
+            rounded: true,
         })
     }
 
@@ -230,7 +283,7 @@ mod tests {
     fn a_pin_is_held_by_rings_where_there_is_room_for_them() {
         let pin = |room: [f64; 2]| {
             let bar = Bar::new(10.0, "f7", [0.0, 18.0]).held(room);
-            bar.part(["pin", "Pin"], ("steel", 7850.0))
+            bar.part(["pin", "Pin"], ("steel", 7850.0), "ISO 2768-mK")
         };
         // DIN 471 for 10 mm: groove 9.6 mm in diameter and 1.1 mm wide, a land of 0.6 mm beyond.
         let both = pin([2.0, 2.0]);
@@ -244,10 +297,31 @@ mod tests {
     }
 
     #[test]
+    fn a_length_between_rings_has_deviations_where_general_tolerances_leave_no_play() {
+        let held = |parts: &[[f64; 2]], general: &str| {
+            let bar = Bar::new(16.0, "h6", [0.0, 60.0]).ring(0.0, false, 9.0);
+            let bar = bar.ring(15.0, true, 2.0).through(parts);
+            let shaft = bar.part(["shaft", "Shaft"], ("steel", 7850.0), general);
+            shaft
+                .held
+                .iter()
+                .map(|held| held.deviations)
+                .collect::<Vec<_>>()
+        };
+        // 15 +- 0.2 in 15, two rings of 1 mm in grooves of 1.1 mm: 0.05 are left of 15.05 + 0.2 - 15.2.
+        assert_eq!(held(&[[0.0, 15.0]], "ISO 2768-mK"), [[0.05, 0.15]]);
+        // +- 0.1 of class f: 0.05 are left of 14.95 + 0.2 - 15.1.
+        assert_eq!(held(&[[0.0, 15.0]], "ISO 2768-fH"), [[-0.05, 0.05]]);
+        // 14.5 in 15 have play whatever the length is, and what is elsewhere is not held.
+        assert_eq!(held(&[[0.5, 14.5]], "ISO 2768-mK"), [[0.0; 2]; 0]);
+        assert_eq!(held(&[[20.0, 35.0]], "ISO 2768-mK"), [[0.0; 2]; 0]);
+    }
+
+    #[test]
     fn a_keyway_of_a_shaft_goes_through_the_grooves_in_it() {
         let bar = Bar::new(16.0, "h6", [0.0, 60.0]).ring(0.0, false, 9.0);
         let bar = bar.ring(15.0, true, 2.0).keyed(Some(HUB), [-9.0, 20.0]);
-        let shaft = bar.part(["shaft", "Shaft"], ("steel", 7850.0));
+        let shaft = bar.part(["shaft", "Shaft"], ("steel", 7850.0), "ISO 2768-mK");
         let steps = [
             (16.0, 1.2, true),
             (15.2, 1.1, true),
@@ -259,6 +333,12 @@ mod tests {
         assert_eq!(lengths(&shaft), steps);
         // DIN 6885-1: 3 mm deep in a shaft of 12 to 17 mm.
         assert!((shaft.keyway.expect("a keyway").depth - 3.0).abs() < 1e-12);
+        // From the lower end on, and half round towards the rest of the shaft.
+        let [([from, to], ends)] = shaft.keyways()[..] else {
+            panic!("{:?}", shaft.keyways());
+        };
+        assert_eq!((from, ends), (0.0, [false, true]));
+        assert!((to - 22.3).abs() < 1e-9);
         let body = shaft.solid().expect("a body");
         assert!(body.shell().is_closed());
         let round = std::f64::consts::PI * 64.0 * 62.3;

@@ -48,6 +48,7 @@ impl ThreeArm {
                 line: belt,
                 taken: gears.chain(arms).collect(),
                 turns: self.arms(),
+                grid: 0.0,
             };
             found.at = room.places((diameter, diameter), OF_CARRIER)?;
             Ok(found)
@@ -71,6 +72,7 @@ impl ThreeArm {
                 line: arm.within(COVER_EDGE * found.screw.clearance_hole()),
                 taken: self.moving_inside(pusher, arm),
                 turns: 1,
+                grid: 0.0,
             };
             let radius = diameter + 0.5 * housing.wall;
             found.at = room.places((diameter, radius), OF_COVER)?;

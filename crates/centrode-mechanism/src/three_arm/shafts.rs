@@ -44,10 +44,16 @@ impl ThreeArm {
         };
         let (design, [rear, front]) = (self.design(), gearbox.spans);
         let (clearance, free) = (design.gearbox.clearance, f64::INFINITY);
+        let general = &design.drawing.general_tolerance;
         let beyond = self.arm_level() + span(arm, "cover-front").map_or(0.0, |[_, top]| top);
         let shaft = |body: &BodySpec, links: Vec<TurnedPiece>, names, (span, room)| {
+            let [_, end] = span;
             let bar = Bar::new(body.bore, &body.shaft_fit, span).held(room);
-            let mut bar = bar.keyed(body.keyway, [0.0, body.width]);
+            // Plates of the carrier, what holds them apart and, where the shaft goes on, what holds the arm.
+            let arm = (end > front[1]).then_some([front[1], end]);
+            let between = [rear, [rear[1], front[0]], front];
+            let on_it: Vec<[f64; 2]> = between.into_iter().chain(arm).collect();
+            let mut bar = bar.through(&on_it).keyed(body.keyway, [0.0, body.width]);
             // At the outer faces of the plates, against the rings.
             let bearings = self.bearing(body.bore).map(|bearing| {
                 let wide = bearing.width;
@@ -57,7 +63,7 @@ impl ThreeArm {
                 bar = bar.seat([low, low + bearing.width], BEARING[1]);
             }
             let above = |(bearing, low): (Bearing, f64)| (bearing, low - bar.bottom());
-            let part = bar.part(names, (&body.material, body.density));
+            let part = bar.part(names, (&body.material, body.density), general);
             let fit = Fit::new("", body.bore, [&body.bore_fit, &body.shaft_fit]);
             let key = body.keyway.and_then(|hub| Key::round(hub, body.width));
             let key = key.map(|key| SeatedKey {
@@ -116,7 +122,7 @@ impl ThreeArm {
         let standard = standard.filter(|pin| cover - pin.length < fork[0] + SHORT * spec.width);
         let low = standard.map_or(fork[0], |pin| cover - pin.length);
         let bar = Bar::new(seat.size, seat.pin, [low, cover]);
-        let mut pivot = bar.part(["pin-fork", "Pin of the fork"], STEEL);
+        let mut pivot = bar.part(["pin-fork", "Pin of the fork"], STEEL, "");
         pivot.notes = vec!["Pressed into the front cover, flush with its outside.".into()];
         let at = pusher.pivot();
         let [pressed, _] = seat.fits([""; 2]);
@@ -142,7 +148,7 @@ impl ThreeArm {
                 .into(),
             standard: standard.map(Dowel::name),
             ..TurnedPieces::new(
-                bar.part(["pin-roller", "Pin of the roller"], STEEL),
+                bar.part(["pin-roller", "Pin of the roller"], STEEL, ""),
                 pressed,
             )
         };
@@ -157,6 +163,7 @@ impl ThreeArm {
                 TurnedStep::plain(spec.slot_width, under - fork[0], SLIDING[1]),
             ],
             keyway: None,
+            held: Vec::new(),
             chamfer: 0.0,
             material: material.into(),
             density,

@@ -4,6 +4,8 @@ use std::sync::LazyLock;
 use centrode_geometry::{Point, Tolerance, Vector};
 use nalgebra::Isometry2;
 
+/// Distance of places from a chord, as a share of the tolerance, within which they are as far off: rounding.
+const ALIKE: f64 = 1e-6;
 /// Directions in which a contour's radius is kept.
 const DIRECTIONS: usize = 32_768;
 
@@ -216,15 +218,9 @@ impl Radial {
         let start = (0..DIRECTIONS)
             .max_by(|&a, &b| self.radius[a].total_cmp(&self.radius[b]))
             .unwrap_or(0);
-        let mut kept = Vec::new();
-        let mut open = vec![
-            (start, start + DIRECTIONS / 2),
-            (start + DIRECTIONS / 2, start + DIRECTIONS),
-        ];
-        open.reverse();
-        while let Some((from, to)) = open.pop() {
-            let (a, b) = (place(from), place(to));
-            let chord = b - a;
+        // Farthest place between two from their chord, the first of those that are as far off, and how far that is.
+        let farthest = |from: usize, to: usize| {
+            let (a, chord) = (place(from), place(to) - place(from));
             let length = chord.norm();
             let off = |index: usize| {
                 let way = place(index) - a;
@@ -234,16 +230,44 @@ impl Radial {
                     way.norm()
                 }
             };
-            let worst = (from + 1..to).max_by(|&i, &j| off(i).total_cmp(&off(j)));
-            match worst {
-                Some(middle) if off(middle) > tolerance.mm() => {
+            (from + 1..to).fold((from, 0.0), |worst, index| {
+                let off = off(index);
+                match off > worst.1 + ALIKE * tolerance.mm() {
+                    true => (index, off),
+                    false => worst,
+                }
+            })
+        };
+        let mut kept = Vec::new();
+        let mut open = vec![
+            (start, start + DIRECTIONS / 2),
+            (start + DIRECTIONS / 2, start + DIRECTIONS),
+        ];
+        open.reverse();
+        while let Some((from, to)) = open.pop() {
+            match farthest(from, to) {
+                (middle, off) if off > tolerance.mm() => {
                     open.push((middle, to));
                     open.push((from, middle));
                 }
-                _ => kept.push(a),
+                _ => kept.push(from),
             }
         }
-        kept
+        kept.push(start + DIRECTIONS);
+        // A corner between two others that do without it is none.
+        let mut corners: Vec<usize> = Vec::new();
+        for (index, &corner) in kept.iter().enumerate() {
+            let next = kept.get(index + 1);
+            let needed = match (corners.last(), next) {
+                (Some(&before), Some(&next)) => farthest(before, next).1 > tolerance.mm(),
+                _ => true,
+            };
+            if needed {
+                corners.push(corner);
+            }
+        }
+        corners.pop();
+        corners.into_iter().map(place).collect()
     }
 }
 

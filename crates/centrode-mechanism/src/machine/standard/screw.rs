@@ -107,6 +107,7 @@ impl Screw {
                 TurnedStep::plain(self.head(), self.head_height(), ""),
             ],
             keyway: None,
+            held: Vec::new(),
             chamfer: 0.0,
             material: "steel 8.8".into(),
             density: 7850.0,
