@@ -61,7 +61,7 @@ def test_a_message_speaks_of_the_form_at_the_number_at_fault_alone(browser, tmp_
         (BOX, "gears.tool.pressure_angle_deg", "steep", 'must be a number, not "steep"'),
         (FEEDER, "plates.slider_length", "1.5", "must be at least 16 mm, not 1.5 mm"),
         # Solving it would be an index out of bounds.
-        (BOX, "shaft.pick_deg", "1e9", "must be -360 to 360 deg, not 1000000000 deg"),
+        (BOX, "shaft.pick_deg", "1e9", "must be -36000 to 36000 deg, not 1000000000 deg"),
     ],
 )
 def test_a_message_has_no_word_of_the_program_and_stands_at_its_number(browser, tmp_path, design, key, value, words):

@@ -4,8 +4,8 @@ use centrode_mechanism::machine::{Blank, Callout, Datum, Fit, Key, Machine, Part
 
 use crate::sheet::{fit, number, range};
 
-/// Material of keys, with its density in kg/m^3.
-const KEY: (&str, f64) = ("steel", 7850.0);
+/// Material of keys; their mass is that of the shaft's link, which is the customer's.
+const KEY: &str = "steel";
 
 /// Findings of an analysis of the contact, for the tables of sheets: least and greatest number of pairs of teeth in contact,
 /// least and greatest backlash along the common normal, mm.
@@ -98,10 +98,8 @@ pub(crate) fn list(
 fn list_keys(machine: &mut Machine, body: &BodySpec, links: Vec<usize>) {
     let key = body.keyway.and_then(|hub| Key::round(hub, body.width));
     if let Some(key) = key {
-        let mass = key.solid().map(|solid| solid.volume() * KEY.1 * 1e-9);
         machine.part(Part {
-            material: KEY.0.into(),
-            mass,
+            material: KEY.into(),
             ..Part::bought(key.name(), links)
         });
     }
@@ -117,24 +115,11 @@ fn list_shafts(machine: &mut Machine, gear: &Gear, name: &str, links: Vec<usize>
             name: name.into(),
             links: links.clone(),
             supply: Supply::Given,
-            remark: shaft_remark(body, &fit),
+            remark: fit::shaft(&fit),
             ..Part::default()
         });
         machine.fit(fit);
         list_keys(machine, body, links);
-    }
-}
-
-/// What the shaft in a gear must be: its size, its length there, and whether the gear's sheet tells its keyway.
-fn shaft_remark(body: &BodySpec, fit: &Fit) -> String {
-    let size = format!(
-        "{}, {} long in the gear",
-        fit::shaft(fit),
-        number(body.width, 3)
-    );
-    match body.keyway {
-        Some(_) => format!("{size}, keyway on its sheet"),
-        None => size,
     }
 }
 

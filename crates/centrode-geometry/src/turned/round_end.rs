@@ -183,8 +183,8 @@ impl Turned {
 }
 
 impl TurnedSlot {
-    /// What the slot's half round end takes of a cylinder: calls with the distance along the axis from its straight part, a weight, and
-    /// the slot as wide as it is there.
+    /// Integral over the half round end of the slot in a cylinder: calls with the distance along the axis from the straight part, a
+    /// weight, and the slot as wide as it is there.
     pub(super) fn along_end(self, mut cut: impl FnMut(f64, f64, Self)) {
         let half = 0.5 * self.width;
         gauss_legendre(0.0, FRAC_PI_2, |angle, weight| {

@@ -140,7 +140,8 @@ impl SpiralShaftDesign {
             [1e-6, 360.0],
             " deg",
         )?;
-        in_range("pick_deg", self.pick.to_degrees(), [-360.0, 360.0], " deg")?;
+        // A hundred turns either way; of many millions nothing is left of an angle within one.
+        in_range("pick_deg", self.pick.to_degrees(), [-36e3, 36e3], " deg")?;
         positive("pot_width", self.pot_width)?;
         finite("return_offset", self.return_offset)?;
         positive("groove.width", self.groove.width)?;

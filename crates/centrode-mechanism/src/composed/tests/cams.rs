@@ -199,7 +199,7 @@ fn a_cam_is_a_part_with_its_mass_on_its_body_and_a_roller_in_the_picture() {
     let shaft = machine.body_named("shaft").expect("there");
     assert_eq!(
         (part.links[0], part.remark.as_str()),
-        (shaft, "moves lever")
+        (shaft, "moves lever, on shaft")
     );
     let outline = machine.cams()[0].part.profile().outline();
     let area = outline.area() - 9.0 * std::f64::consts::PI;

@@ -25,7 +25,7 @@ pub(crate) enum Depth {
     Numbers,
     /// Picture that is available at once.
     Picture,
-    /// The same in two lines, of which the first has the picture.
+    /// Answer in two lines, of which the first has the picture.
     #[serde(skip)]
     Lines,
     /// Goals alone, by the checks of the motion: soon enough to follow a hand.
