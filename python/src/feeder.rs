@@ -103,7 +103,7 @@ impl Feeder {
     /// >>> import centrode as ct
     /// >>> feeder = ct.Feeder.from_toml(ct.template("feeder"))
     /// >>> feeder.crank_torque([0.0, 1.0], moving=False).round(1)
-    /// array([93.8, 79.8])
+    /// array([93.7, 79.8])
     #[pyo3(signature = (phi, *, moving=true, carried=None))]
     fn crank_torque(&self, phi: Values, moving: bool, carried: Option<f64>) -> Course {
         let feeder = Arc::clone(&self.0);

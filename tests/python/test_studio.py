@@ -150,21 +150,6 @@ def test_an_edit_keeps_comments_and_order(served):
     assert snapshot["verdict"] is None
 
 
-def test_a_picture_comes_before_numbers_and_curves(served):
-    ask = {"text": DESIGN, "edits": [], "depth": "picture"}
-    status, text = served.ask("POST", "solve", {**ask, "lines": True})
-    assert status == 200
-    first, second = map(json.loads, text.split(b"\n"))
-    assert first["picture"]["links"]
-    assert not {"tables", "curves"} & set(first)
-    assert set(second) == {"tables", "curves"}
-    assert second["curves"]
-    assert served.json("POST", "solve", ask) == (200, {**first, **second})
-    # What is no mechanism has no picture to wait for.
-    wrong = {**ask, "edits": [{"key": "pitch.module", "value": -1}], "lines": True}
-    assert served.json("POST", "solve", wrong)[1]["error"]["key"] == "pitch.module"
-
-
 def test_an_error_stands_at_its_key_in_the_words_of_check(served, tmp_path):
     edits = [{"key": "teeth.backlash", "value": -1}]
     _, snapshot = served.json("POST", "solve", {"text": DESIGN, "edits": edits, "depth": "checks"})

@@ -181,7 +181,7 @@ impl Mechanism {
     /// >>> import centrode as ct
     /// >>> forces = ct.Feeder.from_toml(ct.template("feeder")).forces([0.0, 1.0], speed=0)
     /// >>> forces.drives["crank_joint"].round(1)
-    /// array([93.8, 79.8])
+    /// array([93.7, 79.8])
     /// >>> forces.joints["coupler_joint"].shape
     /// (2, 2)
     #[pyo3(signature = (phi, *, speed=None))]

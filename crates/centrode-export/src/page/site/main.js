@@ -57,11 +57,7 @@ function show(snapshot, asked = snapshot.asked) {
   if (snapshot.verdict && !snapshot.error && !search?.showing) state.checked = snapshot;
   if (!snapshot.picture && before?.picture) {
     // No mechanism: the last one stays in sight, faded.
-    snapshot = { ...before, asked, text: snapshot.text, tables: snapshot.tables, error: snapshot.error, goals: undefined, rest: undefined };
-  } else if (snapshot.rest) {
-    // Its numbers and curves come while it is painted.
-    const { tables = [], curves = [] } = before ?? {};
-    snapshot = { ...snapshot, tables, curves, stale: true };
+    snapshot = { ...before, asked, text: snapshot.text, tables: snapshot.tables, error: snapshot.error, goals: undefined };
   } else if (!snapshot.verdict && before) {
     snapshot = { ...snapshot, curves: merged(snapshot.curves, before.curves), stale: true };
   }
@@ -75,7 +71,7 @@ function show(snapshot, asked = snapshot.asked) {
   verdict.mark(snapshot);
   // Panels cost the browser more than the picture does: the eye has that first.
   if (embedded) panels();
-  else state.shown ??= painted().then(completed).then(panels);
+  else state.shown ??= painted().then(panels);
 }
 
 /** Resolves when the next frame is on the screen; at once where there are no frames, in a hidden window. */
@@ -86,20 +82,6 @@ function painted() {
     // A window hidden in between has no frame to come.
     setTimeout(resolve, 100);
   });
-}
-
-/** Waits for what comes after the picture of the snapshot that is shown. */
-async function completed() {
-  while (state.snapshot.rest) {
-    const { snapshot } = state;
-    try {
-      const { tables, curves } = await snapshot.rest();
-      Object.assign(snapshot, { tables, curves: merged(curves, snapshot.curves) });
-    } catch (error) {
-      complain("server", error);
-    }
-    delete snapshot.rest;
-  }
 }
 
 /** Everything of the snapshot but its picture. */
@@ -205,7 +187,6 @@ function found() {
 /** Shows how goals and ways answer a number: that of a field, or one to be chosen. */
 async function respond(key) {
   await settled();
-  await state.shown;
   const take = (name, value) => edit([{ key: name, value }], true);
   if (state.snapshot.tables) await response.ask(state.snapshot, state.history.text, take, key);
 }

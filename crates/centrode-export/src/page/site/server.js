@@ -73,42 +73,6 @@ async function streamed(path, body, signal, heed) {
 
 const json = async (answer) => (await answer).json();
 
-/** The first line of an answer as JSON, as soon as it is there, and a function that waits for the second and reads it: null where there is none. */
-async function lines(answer) {
-  const reader = answer.body.getReader();
-  const decoder = new TextDecoder();
-  let text = "";
-  const read = async (until) => {
-    let end = -1;
-    while (end < 0) {
-      let part;
-      try {
-        part = await reader.read();
-      } catch {
-        throw new Away();
-      }
-      if (part.done) return null;
-      const words = decoder.decode(part.value, { stream: true });
-      end = until ? words.indexOf(until) : -1;
-      if (end >= 0) end += text.length;
-      text += words;
-    }
-    return end;
-  };
-  const end = await read("\n");
-  if (end === null) return [JSON.parse(text), null];
-  const first = JSON.parse(text.slice(0, end));
-  text = text.slice(end + 1);
-  // It is read at once, so that the connection is free, but understood when it is asked for.
-  const all = read();
-  // Whoever asks is told what is wrong with it.
-  all.catch(() => {});
-  return [first, async () => {
-    await all;
-    return JSON.parse(text);
-  }];
-}
-
 export const offer = () => json(ask("start", "GET"));
 export const picture = (kind, name) => json(ask(`pictures/${kind}/${encodeURIComponent(name)}`, "GET"));
 export const open = (path) => json(ask("open", "POST", { path }));
@@ -135,14 +99,7 @@ export const stopSearch = () => json(ask("search", "DELETE"));
 export const response = (options, signal) => json(ask("response", "POST", options, signal));
 export const files = async (options, signal) => (await ask("export", "POST", options, signal)).blob();
 export const meshes = async (text, signal) => (await ask("meshes", "POST", { text }, signal)).arrayBuffer();
-const asked = (request) => ({ page, turn: (turn += 1), ...request });
-export const solve = async (request, signal) => whole(await json(ask("solve", "POST", asked(request), signal)));
-
-/** A snapshot as soon as its picture is there; `rest()` resolves to its numbers and curves, where they come after it. */
-export async function drawn(request, signal) {
-  const [snapshot, rest] = await lines(await ask("solve", "POST", asked({ ...request, lines: request.depth === "picture" }), signal));
-  return rest ? { ...snapshot, rest: async () => whole(await rest()) } : whole(snapshot);
-}
+export const solve = async (request, signal) => whole(await json(ask("solve", "POST", { page, turn: (turn += 1), ...request }, signal)));
 
 /** A snapshot with the inputs of every curve: where a curve has none, they are those of the one before. */
 export function whole(snapshot) {

@@ -68,7 +68,7 @@ async function solve() {
     try {
       const start = performance.now();
       const depth = job.sent ? "numbers" : slow ? "picture" : "checks";
-      const snapshot = await work((signal) => server.drawn({ text, edits, depth }, signal), job.sent ? undefined : stop);
+      const snapshot = await work((signal) => server.solve({ text, edits, depth }, signal), job.sent ? undefined : stop);
       if (job.wanted && !job.wanted()) continue;
       if (job.final) settle(snapshot.text, sent, edits.length > 0 || job.fresh);
       if (job.sent && state.pending) continue;

@@ -174,18 +174,6 @@ impl Snapshot {
 
     /// Snapshot as JSON; numbers that are not finite are null.
     pub(crate) fn json(&self) -> serde_json::Result<String> {
-        let [first, second] = self.parts()?;
-        let [first, second] = [first.strip_suffix('}'), second.strip_prefix('{')];
-        Ok([first, second].map(Option::unwrap_or_default).join(","))
-    }
-
-    /// Snapshot as two lines of JSON: its picture with all that is short, then its numbers and curves.
-    pub(crate) fn lines(&self) -> serde_json::Result<String> {
-        Ok(self.parts()?.join("\n"))
-    }
-
-    /// Picture and all that is short; numbers and curves.
-    fn parts(&self) -> serde_json::Result<[String; 2]> {
         // What is long is written by two threads.
         let (picture, others) = together(
             || serde_json::to_string(&self.picture),
@@ -197,10 +185,9 @@ impl Snapshot {
         let (picture, (tables, curves)) = (picture?, others?);
         let rest = serde_json::to_string(self)?;
         let rest = rest.trim_start_matches('{');
-        Ok([
-            format!("{{\"picture\":{picture},{rest}"),
-            format!("{{\"tables\":{tables},\"curves\":{curves}}}"),
-        ])
+        Ok(format!(
+            "{{\"picture\":{picture},\"tables\":{tables},\"curves\":{curves},{rest}"
+        ))
     }
 }
 

@@ -175,9 +175,6 @@ struct Solve {
     #[serde(default)]
     edits: Vec<Edit>,
     depth: Depth,
-    /// Whether a picture may come in a line of its own, before numbers and curves.
-    #[serde(default)]
-    lines: bool,
 }
 
 async fn solve(State(state): Shared, Json(ask): Json<Solve>) -> Result<Response, Refused> {
@@ -188,11 +185,11 @@ async fn solve(State(state): Shared, Json(ask): Json<Solve>) -> Result<Response,
         let made = apart(move || edited(&ask.text, &ask.edits)).await?;
         made.map_err(|error| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, error))?
     };
-    let depth = match ask.depth {
-        Depth::Picture if ask.lines => Depth::Lines,
-        depth => depth,
-    };
-    match state.solver.solve(&ask.page, ask.turn, text, depth).await {
+    match state
+        .solver
+        .solve(&ask.page, ask.turn, text, ask.depth)
+        .await
+    {
         Ok(snapshot) => Ok(as_json(snapshot)),
         // Being overtaken is no failure: browsers would log it as one.
         Err(Unsolved::Overtaken) => Ok(Json(json!({ "overtaken": true })).into_response()),

@@ -25,9 +25,6 @@ pub(crate) enum Depth {
     Numbers,
     /// Picture that is available at once.
     Picture,
-    /// Answer in two lines, of which the first has the picture.
-    #[serde(skip)]
-    Lines,
     /// Goals alone, by the checks of the motion: soon enough to follow a hand.
     Goals,
     /// Picture with details that take longer to make.
@@ -119,7 +116,6 @@ impl Solver {
         *held(&self.last) = Some(Arc::clone(&subject));
         match depth {
             Depth::Numbers | Depth::Picture => subject.drawn().json(),
-            Depth::Lines => subject.drawn().lines(),
             // The page has the rest.
             Depth::Goals => serde_json::to_string(&subject.goals()),
             Depth::Detail => subject.detailed().json(),
