@@ -70,17 +70,19 @@ pub(super) fn mesh(body: &Turned, tolerance: Tolerance) -> Result<Mesh, SolidErr
         }
     };
     for ShellFace { surface, bounds } in &shell.faces {
-        if !matches!(surface, ShellSurface::Plane { .. })
-            && (bounds[0].len() > 4 || matches!(surface, ShellSurface::Ruled { .. }))
-        {
-            let sides: Vec<Vec<u32>> = bounds[0].iter().map(walked).collect();
-            if matches!(surface, ShellSurface::Ruled { .. }) {
-                mesh.faces.extend(wall(&sides));
+        let sides = || -> Vec<Vec<u32>> { bounds[0].iter().map(walked).collect() };
+        match surface {
+            ShellSurface::Ruled { .. } => {
+                mesh.faces.extend(wall(&sides()));
                 continue;
             }
-            let faces = over_end(&mesh.vertices, &sides);
-            mesh.faces.extend(faces);
-            continue;
+            ShellSurface::Plane { .. } => {}
+            _ if bounds[0].len() > 4 => {
+                let faces = over_end(&mesh.vertices, &sides());
+                mesh.faces.extend(faces);
+                continue;
+            }
+            _ => {}
         }
         let ShellSurface::Plane { normal, .. } = surface else {
             // Bottom, right, top and left of a round face.

@@ -90,11 +90,10 @@ impl PlatesSpec {
             [1.1 * self.pin_diameter, 0.9 * self.width],
             " mm",
         )?;
-        let longest = f64::MAX;
         in_range(
             "slider_length",
             self.slider_length,
-            [self.slot_width, longest],
+            [self.slot_width, f64::INFINITY],
             " mm",
         )?;
         not_negative("gap", self.gap)?;

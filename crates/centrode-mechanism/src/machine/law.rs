@@ -1,4 +1,4 @@
-use centrode_geometry::{chebyshev_roots, chebyshev_series, checkpoint, shared_out};
+use centrode_geometry::{chebyshev_roots, chebyshev_series};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -49,9 +49,6 @@ const NOISE: f64 = 1e-9;
 /// Shortest piece, as a share of the period: below it a jump lies inside.
 const SHORTEST: f64 = 1e-9;
 
-/// So many pieces at once are worth a second thread.
-const MANY: usize = 8;
-
 /// A transmission as a straight line and Chebyshev pieces of what is left of it, within rounding of what it stands for.
 ///
 /// Source: Trefethen, Approximation Theory and Approximation Practice, 2013, chapters 3 and 4.
@@ -89,38 +86,23 @@ impl Piecewise {
         let rounding = 4.0 * f64::EPSILON * places.fold(0.0, f64::max);
         // Ends of what is still to be fitted, and the tail of the series over twice as much.
         let whole = |w: &[f64]| (w[0], w[1], f64::INFINITY);
-        let mut open: Vec<(f64, f64, f64)> = cuts.windows(2).map(whole).collect();
-        let mut fitted: Vec<(f64, Vec<f64>)> = Vec::new();
-        while !open.is_empty() {
-            let series = |&(from, to, _): &(f64, f64, f64)| {
-                checkpoint();
-                chebyshev_series(&chebyshev_roots(from, to).map(rest))
-            };
-            let series: Vec<_> = match open.len() {
-                ..MANY => open.iter().map(series).collect(),
-                _ => shared_out(&open, series),
-            };
-            let mut halves = Vec::new();
-            for ((from, to, before), piece) in open.into_iter().zip(series) {
-                let scale = piece.iter().fold(size, |m, c| m.max(c.abs()));
-                let tail: f64 = piece[COUNT - 3..].iter().map(|c| c.abs()).sum();
-                let decays = tail < 0.5 * before || tail > NOISE * scale;
-                let within = tail <= (ROUNDING * scale).max(rounding);
-                if !within && decays && to - from > SHORTEST * period {
-                    let middle = 0.5 * (from + to);
-                    halves.extend([(from, middle, tail), (middle, to, tail)]);
-                    continue;
-                }
-                let kept = piece.iter().rposition(|&c| c != 0.0).map_or(1, |i| i + 1);
-                fitted.push((to, piece[..kept].to_vec()));
-            }
-            open = halves;
-        }
-        fitted.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut open: Vec<(f64, f64, f64)> = cuts.windows(2).rev().map(whole).collect();
         let (mut ends, mut pieces) = (vec![0.0], Vec::new());
-        for (end, piece) in fitted {
-            ends.push(end);
-            pieces.push(piece);
+        while let Some((from, to, before)) = open.pop() {
+            centrode_geometry::checkpoint();
+            let piece = chebyshev_series(&chebyshev_roots(from, to).map(rest));
+            let scale = piece.iter().fold(size, |m, c| m.max(c.abs()));
+            let tail: f64 = piece[COUNT - 3..].iter().map(|c| c.abs()).sum();
+            let decays = tail < 0.5 * before || tail > NOISE * scale;
+            let within = tail <= (ROUNDING * scale).max(rounding);
+            if !within && decays && to - from > SHORTEST * period {
+                let middle = 0.5 * (from + to);
+                open.extend([(middle, to, tail), (from, middle, tail)]);
+                continue;
+            }
+            let kept = piece.iter().rposition(|&c| c != 0.0).map_or(1, |i| i + 1);
+            pieces.push(piece[..kept].to_vec());
+            ends.push(to);
         }
         Self {
             period,

@@ -26,8 +26,8 @@ export const stepped = (value, count, step) => Number((value + count * step).toF
 /** More digits of a number in a message mean nothing to its reader. */
 const TOLD = 6;
 
-/** A message with its numbers as short as they can be read, and a range without an end as one. */
-export const brief = (text) => text.replace(/\b(-?[\d.]+) to inf\b/g, "at least $1").replace(/\d+\.\d+(e[-+]?\d+)?/gi, (number) => {
+/** A message with its numbers as short as they can be read. */
+export const brief = (text) => text.replace(/\d+\.\d+(e[-+]?\d+)?/gi, (number) => {
   const digits = number.split(/e/i)[0].replace(".", "").replace(/^0+/, "").length;
   return digits > TOLD ? String(Number(Number(number).toPrecision(TOLD))) : number;
 });

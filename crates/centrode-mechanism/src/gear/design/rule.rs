@@ -27,7 +27,7 @@ pub enum Rule {
     #[error("must not be negative, but is {}", told(*.0))]
     Negative(f64),
     /// Outside a range.
-    #[error("must be {} to {}{unit}, not {}{unit}", told(*least), told(*greatest), told(*value))]
+    #[error("must be {}{unit}, not {}{unit}", range(*least, *greatest), told(*value))]
     OutOfRange {
         /// Value given.
         value: f64,
@@ -102,6 +102,14 @@ pub enum Rule {
         /// Greatest that fits.
         greatest: f64,
     },
+}
+
+/// A range in words, one without an end by where it begins.
+fn range(least: f64, greatest: f64) -> String {
+    match greatest.is_finite() {
+        true => format!("{} to {}", told(least), told(greatest)),
+        false => format!("at least {}", told(least)),
+    }
 }
 
 impl SpecError {
