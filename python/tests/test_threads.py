@@ -63,7 +63,7 @@ FITTED = 'pair = ct.GearPair(ct.pitch.circle(module=1, tooth_count=150), addendu
 PAIR = "pair = ct.GearPair(ct.pitch.ellipse(eccentricity=0.2, module=2, tooth_count=40))"
 ARMS = 'arms = ct.ThreeArm.from_toml(ct.template("three-arm"))'
 LONG = {
-    "pair": ("", "ct.GearPair(ct.pitch.circle(module=1, tooth_count=10_000))"),
+    "pair": ("", "while True: ct.GearPair(ct.pitch.circle(module=1, tooth_count=10_000))"),
     "contact": (PAIR, "pair.contact(10_000)"),
     "check": (FITTED, "while True: pair.check()"),
     "export": (PAIR, "while True: pair.export('{folder}', formats=['dxf', 'step', 'csv'], tolerance=1e-6)"),

@@ -89,6 +89,11 @@ fn the_table_of_strong_laws_in_the_docs_is_what_the_teeth_do() {
                 ];
                 assert_eq!(found.map(str::to_owned).as_slice(), row);
                 assert!(!law.passes || fitted == "carries", "{}", law.name);
+                // Teeth are held against each other at twenty poses a pitch.
+                let report = check(&GearPair::resolve(&design).expect("a pair"));
+                let interference = report.findings.iter().find(|f| f.rule == "interference");
+                let depth = interference.and_then(|f| f.measured).unwrap_or(0.0);
+                assert!(depth < 1e-3, "{}: {depth} mm", law.name);
             });
         }
     });

@@ -227,21 +227,33 @@ impl<'a> Chain<'a> {
             let Some(part) = self.between(passages, k).max_by(longer) else {
                 continue;
             };
-            let own = self.winding_beside(part.index, 0.5 * (part.from + part.to)) - left[k];
-            if *base.get_or_insert(own) != own {
+            let at = 0.5 * (part.from + part.to);
+            let own = self.winding_beside(part.index, at, 1.0) - left[k];
+            if base == Some(own) {
+                continue;
+            }
+            // Beside strands that lie on each other, as at the tip of a pointed tooth, the place tells nothing.
+            if self.winding_beside(part.index, at, -1.0) != own + left[k] - 1 {
+                continue;
+            }
+            if base.is_some() {
                 return Err(doubt(k));
             }
+            base = Some(own);
         }
-        let base = base.unwrap_or(0);
+        let base = match (base, longest.first()) {
+            (None, Some(&(_, k))) => return Err(doubt(k)),
+            (base, _) => base.unwrap_or(0),
+        };
         left.iter_mut().for_each(|w| *w += base);
         Ok(left)
     }
 
-    /// Winding number of the chain about a point a little to the left of one of its own.
-    fn winding_beside(&self, index: usize, u: f64) -> i32 {
+    /// Winding number of the chain about a point a little to the left of one of its own, or to the right (side -1).
+    fn winding_beside(&self, index: usize, u: f64, side: f64) -> i32 {
         let segment = &self.segments[index];
         let tangent = segment.tangent(u);
-        let aside = Vector::new(-tangent.y, tangent.x) * self.aside();
+        let aside = Vector::new(-tangent.y, tangent.x) * (side * self.aside());
         let point = segment.at(u).point + aside;
         let level = |b: &Bounds| b.min.y <= point.y && b.max.y >= point.y && b.max.x >= point.x;
         let places = self.segments.iter().zip(&self.boxes);

@@ -256,6 +256,23 @@ mod tests {
     }
 
     #[test]
+    fn a_loop_thinner_than_the_distance_at_which_windings_are_counted_is_cut_off() {
+        let folded = polygon(&[
+            (0.0, 0.0),
+            (10.0, 0.0),
+            (10.0, 5.0),
+            (2.0, 5.0),
+            (8.0, 5.0 - 3e-9),
+            (0.0, 5.0 + 3e-9),
+        ]);
+        let kept = without_loops(&folded, true, fine()).expect("sound");
+        let indices: Vec<usize> = kept.iter().map(|k| k.index).collect();
+        assert_eq!(indices, [0, 1, 2, 4, 5]);
+        let x = folded[2].at(kept[2].to).point.x;
+        assert!((x - 4.0).abs() < 1e-5, "{x}");
+    }
+
+    #[test]
     fn a_piece_behind_a_neck_whose_walls_cross_is_dropped_however_long() {
         let pinched = polygon(&[
             (0.0, -5.0),

@@ -14,10 +14,16 @@ use super::{
 
 /// Poses a pitch at which two teeth are held against each other.
 const POSES: u32 = 20;
+/// Pitches on either side of the middle of a passage, doubled, within which teeth are held against each other: on pitch curves that
+/// are concave in turn they still meet three pitches before they mesh.
+const PITCHES: u32 = 7;
 /// Penetration that may be the approximation's own, as a share of the pitch.
 const PENETRATION: f64 = 3e-5;
 /// Safety factor on a limiting reach; covers what lies between sampled poses.
 const KEPT: f64 = 0.95;
+
+/// Parts of which a number of a tooth's reach is kept.
+const PARTS: u32 = 1024;
 
 /// Roll lengths to the tip of the leading and the trailing flank of a tooth.
 pub(crate) type Reaches = [f64; 2];
@@ -57,9 +63,9 @@ impl<'a> Poses<'a> {
         }
     }
 
-    /// The poses within a pitch and a half of an arc length.
+    /// The poses within three pitches and a half of an arc length.
     fn about(&mut self, middle: f64) -> Vec<(Frame, Frame)> {
-        let count = 3 * i64::from(POSES) + 1;
+        let count = i64::from(PITCHES * POSES) + 1;
         let from = ((middle - self.origin) / self.step).round() as i64 - count / 2;
         let end = self.first + self.kept.len() as i64;
         if from < self.first || from > end {
@@ -140,7 +146,7 @@ impl<'a> Trimmed<'a> {
 
 impl<'a> ToothPassage<'a> {
     /// Sets up the passage of two teeth about the arc length `middle`, or nothing where both pitch curves are
-    /// convex for a pitch and a half around: the rack's straight flank then keeps the teeth apart.
+    /// convex for three pitches and a half around: the rack's straight flank then keeps the teeth apart.
     pub(crate) fn about(
         poses: &mut Poses<'a>,
         tool: &'a Tool,
@@ -163,81 +169,99 @@ impl<'a> ToothPassage<'a> {
     /// Shortens one tooth or the other, whichever costs less, or both, until they penetrate nowhere.
     pub(crate) fn clear(&self, driver: &Candidate, driven: &Candidate) -> (Reaches, Reaches) {
         let (driver, driven) = (Trimmed::new(driver), Trimmed::new(driven));
-        // The pose at which teeth penetrated last: others most often do there too.
-        let foul = Cell::new(0);
-        let penetrate = |[first, second]: [f64; 2]| {
+        let shapes = |[first, second]: [f64; 2]| {
             checkpoint();
-            let shapes = [driver.shape(self, first), driven.shape(self, second)];
-            self.penetrate(shapes.each_ref().map(|shape| &**shape), &foul)
+            [driver.shape(self, first), driven.shape(self, second)]
         };
-        if !penetrate([1.0, 1.0]) {
+        let whole = shapes([1.0, 1.0]);
+        let poses = self
+            .poses
+            .iter()
+            .filter(|pose| penetrate(pose, &whole, self.pitch));
+        // A shorter tooth lies within a longer one: where these are clear, all are.
+        let foul: Vec<&(Frame, Frame)> = poses.collect();
+        if foul.is_empty() {
             return (driver.candidate.reaches, driven.candidate.reaches);
         }
-        let ways = [(true, false), (false, true), (true, true)];
-        let settled = ways.map(|(first, second)| {
-            let shares = |share: f64| [first, second].map(|cut| if cut { share } else { 1.0 });
-            let share = longest(|share| penetrate(shares(share)));
-            let foul = share == 0.0 && penetrate(shares(share));
-            let (a, b) = (
-                driver.reaches(shares(share)[0]),
-                driven.reaches(shares(share)[1]),
-            );
-            let kept: f64 = a.iter().chain(&b).sum();
-            (if foul { -1.0 } else { kept }, a, b)
-        });
-        let best = settled.into_iter().max_by(|a, b| a.0.total_cmp(&b.0));
-        best.map_or(
-            (driver.candidate.reaches, driven.candidate.reaches),
-            |(_, a, b)| (a, b),
-        )
-    }
-
-    fn penetrate(&self, [one, two]: [&ToothChords; 2], foul: &Cell<usize>) -> bool {
-        let deep = |tooth: &ToothChords, carried: &dyn Fn(&Point) -> Point, shape: &ToothChords| {
-            let is_deep = |p: &Point| {
-                let there = carried(p);
-                !shape.is_beyond(&there, 0.0)
-                    && shape
-                        .depth(&there)
-                        .is_some_and(|d| d > PENETRATION * self.pitch && d < 0.5 * self.pitch)
-            };
-            let mut near = tooth.runs().filter(|(center, radius, _)| {
-                // Rounding may put a place out of its circle.
-                !shape.is_beyond(&carried(center), radius * (1.0 + 1e-9))
-            });
-            near.any(|(_, _, places)| places.iter().any(is_deep))
+        // The pose at which teeth penetrated last: others most often do there too.
+        let last = Cell::new(foul.len() / 2);
+        let penetrate = |shares: [f64; 2]| {
+            let shapes = shapes(shares);
+            let at = |&number: &usize| penetrate(foul[number], &shapes, self.pitch);
+            let mut numbers = std::iter::once(last.get()).chain(0..foul.len());
+            let found = numbers.find(at);
+            found.inspect(|&number| last.set(number)).is_some()
         };
-        let at = |number: usize| {
-            let (a, b) = &self.poses[number];
-            let forth = |p: &Point| carry(a, b, p);
-            let back = |p: &Point| carry(b, a, p);
-            let reach = one.radius + two.radius;
-            if (forth(&one.middle) - two.middle).norm_squared() > reach * reach {
-                return false;
+        let mut best = (f64::NEG_INFINITY, [1.0, 1.0]);
+        for cut in [[true, false], [false, true], [true, true]] {
+            let shares = |share: f64| cut.map(|cut| if cut { share } else { 1.0 });
+            let left = |[first, second]: [f64; 2]| [driver.reaches(first), driven.reaches(second)];
+            let kept = |part: u32| -> f64 { left(shares(margined(part))).iter().flatten().sum() };
+            // What keeps less than another way does is not looked for.
+            let least = first_part(|part| kept(part) >= best.0);
+            if least == PARTS || (least > 0 && penetrate(shares(share(least)))) {
+                continue;
             }
-            deep(one, &forth, two) || deep(two, &back, one)
-        };
-        let last = foul.get();
-        if at(last) {
-            return true;
+            let part = first_part(|part| part > least && penetrate(shares(share(part)))) - 1;
+            let foul = part == 0 && penetrate(shares(0.0));
+            let worth = if foul { -1.0 } else { kept(part) };
+            if worth >= best.0 {
+                best = (worth, shares(margined(part)));
+            }
         }
-        let found = (0..self.poses.len()).find(|&number| number != last && at(number));
-        found.inspect(|&number| foul.set(number)).is_some()
+        let [first, second] = best.1;
+        (driver.reaches(first), driven.reaches(second))
     }
 }
 
-/// Greatest share, found by bisection, at which nothing penetrates, less a margin; zero if none.
-fn longest(penetrates: impl Fn(f64) -> bool) -> f64 {
-    let (mut clear, mut foul) = (0.0, 1.0);
-    for _ in 0..10 {
-        let middle = 0.5 * (clear + foul);
-        if penetrates(middle) {
-            foul = middle;
+/// Whether two teeth penetrate each other at a pose.
+fn penetrate((a, b): &(Frame, Frame), teeth: &[Rc<ToothChords>; 2], pitch: f64) -> bool {
+    let [one, two] = teeth;
+    let forth = |p: &Point| carry(a, b, p);
+    let back = |p: &Point| carry(b, a, p);
+    let reach = one.radius + two.radius;
+    if (forth(&one.middle) - two.middle).norm_squared() > reach * reach {
+        return false;
+    }
+    let deep = |tooth: &ToothChords, carried: &dyn Fn(&Point) -> Point, shape: &ToothChords| {
+        let is_deep = |p: &Point| {
+            let there = carried(p);
+            !shape.is_beyond(&there, 0.0)
+                && shape
+                    .depth(&there)
+                    .is_some_and(|d| d > PENETRATION * pitch && d < 0.5 * pitch)
+        };
+        let mut near = tooth.runs().filter(|(center, radius, _)| {
+            // Rounding may put a place out of its circle.
+            !shape.is_beyond(&carried(center), radius * (1.0 + 1e-9))
+        });
+        near.any(|(_, _, places)| places.iter().any(is_deep))
+    };
+    deep(one, &forth, two) || deep(two, &back, one)
+}
+
+/// Share of a number of parts.
+fn share(part: u32) -> f64 {
+    f64::from(part) / f64::from(PARTS)
+}
+
+/// Share that is kept of a number of parts at which nothing penetrates.
+fn margined(part: u32) -> f64 {
+    KEPT * share(part)
+}
+
+/// First number of parts of which something holds that holds of all from some one on; found by bisection.
+fn first_part(holds: impl Fn(u32) -> bool) -> u32 {
+    let (mut from, mut to) = (0, PARTS);
+    while from < to {
+        let middle = u32::midpoint(from, to);
+        if holds(middle) {
+            to = middle;
         } else {
-            clear = middle;
+            from = middle + 1;
         }
     }
-    KEPT * clear
+    from
 }
 
 /// The motion from one gear's frame to the other's at one pose: the rolling frames coincide, their
