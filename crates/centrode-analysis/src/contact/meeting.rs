@@ -14,11 +14,16 @@ pub(super) struct Meeting {
 impl Meeting {
     /// Turn of the driven gear that brings the points together, rad.
     pub(super) fn angle(&self) -> f64 {
-        let ((a, _), (b, tangent)) = (self.driver, self.driven);
+        let ((a, first), (b, tangent)) = (self.driver, self.driven);
         let turned = b.perp(&a).atan2(b.dot(&a));
-        // Remaining difference of the distances, along the driven contour.
-        let over = 0.5 * (a.norm_squared() - b.norm_squared()) / b.dot(&tangent);
-        let rest = b.perp(&tangent) / b.norm_squared() * over;
+        // Remaining difference of the distances, along the contour whose distance changes faster: a tip stays about as far.
+        let apart = 0.5 * (a.norm_squared() - b.norm_squared());
+        let (rate, mate) = (a.dot(&first), b.dot(&tangent));
+        let rest = if rate.abs() * tangent.norm() > mate.abs() * first.norm() {
+            a.perp(&first) / a.norm_squared() * (apart / rate)
+        } else {
+            b.perp(&tangent) / b.norm_squared() * (apart / mate)
+        };
         if rest.is_finite() {
             turned - rest
         } else {

@@ -332,3 +332,21 @@ fn the_mean_of_contacts_of_a_circle_is_the_contact_ratio_of_the_standard() {
         assert_eq!(found.contacts.map(|e| e.value), [1.0, 2.0]);
     }
 }
+
+#[test]
+fn an_edge_that_comes_to_its_flank_holds_no_gear_early() {
+    // The way of an edge only touches the mate's flank, where the contact begins: the tip beside it must not be taken to lie before it.
+    for pair in [design("elliptic-pair-2018"), many(30)] {
+        let pitch = pair.cycle() / 30.0;
+        let inputs: Vec<f64> = (0..60_000)
+            .map(|k| 1.0 + 2.0 * pitch * f64::from(k) / 60_000.0)
+            .collect();
+        let found = Contact::analyse_at(&pair, &inputs);
+        let errors = found
+            .transmission_error
+            .iter()
+            .chain(&found.reverse_transmission_error);
+        let most = errors.fold(0.0_f64, |most, e| most.max(e.abs()));
+        assert!(most < 1e-12, "{most:e}");
+    }
+}
