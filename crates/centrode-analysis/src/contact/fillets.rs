@@ -183,9 +183,17 @@ impl Approach<'_> {
         Pose::new(phi, self.walk.stand.at(pair, phi), pair.center_distance())
     }
 
-    /// Distance from a part that faces the edge.
+    /// Distance from a part that faces the edge, and that the edge faces.
     fn gap(&self, part: usize, pose: &Pose) -> Option<f64> {
         let part = &self.mate().parts[part];
+        let own = &self.corner.normals;
+        let turned = match self.member {
+            Member::Driver => pose.turn_back(&own.direction),
+            Member::Driven => pose.turn(&own.direction),
+        };
+        if !own.turned(turned).opposes(&part.normals) {
+            return None;
+        }
         let touch = match self.member {
             Member::Driver => touch::driver_corner(self.corner, part, pose),
             Member::Driven => touch::driven_corner(part, self.corner, pose),
