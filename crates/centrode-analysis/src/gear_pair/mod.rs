@@ -129,6 +129,20 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
             });
         }
     }
+    if let Some(Extreme { input, value }) = rolling.overlap() {
+        report.findings.push(Finding {
+            rule: "pitch-curves-overlap",
+            remedy: remedy("pitch-curves-overlap"),
+            severity: Severity::Error,
+            message: format!(
+                "away from the point at which they roll the pitch curves overlap by up to {value:.4} mm: teeth of any size meet there"
+            ),
+            measured: Some(value),
+            required: Some(0.0),
+            unit: Unit::Millimetre,
+            place: Place { input: Some(input), ..Place::default() },
+        });
+    }
     let Extreme {
         input,
         value: steepest,

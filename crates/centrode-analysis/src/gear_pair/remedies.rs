@@ -11,6 +11,9 @@ const CARRIED: f64 = 1e-9;
 /// Greatest tooth count of a driver that [`remedies`] tries.
 pub const MOST_TEETH: u32 = 600;
 
+/// Overlap of the pitch curves, modules, above which no teeth are looked for.
+const OVERLAP: f64 = 0.5;
+
 /// Tooth count at which teeth of a kind begin to carry the motion of a pair by their flanks alone, and the pair changed to it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PairRemedy {
@@ -35,6 +38,11 @@ pub struct PairRemedy {
 /// teeth as written do not carry, up to the count from which they do and to twice the one written.
 #[must_use]
 pub fn remedies(pair: &GearPair) -> Vec<PairRemedy> {
+    // Where pitch curves lie in each other by half a tooth or more, no teeth of that size or smaller ones roll.
+    let overlap = pair.rolling().overlap();
+    if overlap.is_some_and(|overlap| overlap.value > OVERLAP * pair.module()) {
+        return Vec::new();
+    }
     let written = pair.driver().tooth_count();
     let mut design = pair.settled_design();
     let changed = |design: &GearPairDesign, least: u32| match least > written {

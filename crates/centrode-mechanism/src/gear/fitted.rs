@@ -104,7 +104,7 @@ impl Fitting<'_> {
                 let one = crossings(&driver[i], (k / first) as f64 * lengths[0]);
                 // The two driven teeth beside it mesh with it; those beyond can still be met where the
                 // pitch curve is concave.
-                for beside in [-2, -1, 0, 1_isize] {
+                for beside in [-4, -3, -2, -1, 0, 1, 2, 3_isize] {
                     let index = k as isize + beside;
                     let j = index.rem_euclid(last as isize) as usize;
                     let turns = index.div_euclid(last as isize) as f64;

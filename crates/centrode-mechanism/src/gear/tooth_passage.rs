@@ -16,7 +16,7 @@ use super::{
 const POSES: u32 = 20;
 /// Pitches on either side of the middle of a passage, doubled, within which teeth are held against each other: on pitch curves that
 /// are concave in turn they still meet three pitches before they mesh.
-const PITCHES: u32 = 7;
+const PITCHES: u32 = 16;
 /// Penetration that may be the approximation's own, as a share of the pitch.
 const PENETRATION: f64 = 3e-5;
 /// Safety factor on a limiting reach; covers what lies between sampled poses.

@@ -1,5 +1,6 @@
 mod error;
 mod knots;
+mod overlap;
 mod resolve;
 
 use std::f64::consts::{PI, TAU};

@@ -1,0 +1,150 @@
+//! Overlap of rolling pitch curves away from the point at which they roll.
+
+use std::f64::consts::{PI, TAU};
+
+use centrode_geometry::{Extreme, Point, bracketed_minimum, checkpoint};
+
+use super::{Member, Rolling};
+
+/// Places on a turn of the driver among which an overlap is sought.
+const PLACES: usize = 360;
+
+/// Share of the centre distance by which no overlap is told from a touch.
+const ROUNDING: f64 = 1e-9;
+
+/// A place of the driver's pitch curve, with what the driven gear's has there.
+struct Place {
+    parameter: f64,
+    angle: f64,
+    radius: f64,
+    driven: f64,
+}
+
+impl Rolling {
+    /// Greatest overlap of the two pitch curves away from the point at which they roll, over all driver angles, rad: how far one
+    /// reaches into the other, mm, towards the driver's shaft; nothing where they only roll.
+    ///
+    /// With the driver at phi, the point of the driven gear's curve that is to come to the pitch point after a turn beta of that
+    /// gear is at (a - r2 cos beta, r2 sin beta); with rho and gamma its distance and angle from the driver's shaft, the overlap is
+    /// r1(phi + gamma) - rho. Convex curves have none. Sought among 360 places of either curve and found between them.
+    #[must_use]
+    pub fn overlap(&self) -> Option<Extreme> {
+        let places: Vec<Place> = (0..=PLACES)
+            .map(|k| self.place(self.arc.total() * k as f64 / PLACES as f64))
+            .collect();
+        let is_concave = places.iter().any(|place| {
+            let curvature = |member| self.frame(member, place.parameter).curvature;
+            curvature(Member::Driver).min(curvature(Member::Driven)) < 0.0
+        });
+        if !is_concave {
+            return None;
+        }
+        // Deepest first.
+        let mut found = self.suspects(&places);
+        found.sort_by(|p, q| q.0.total_cmp(&p.0));
+        let step = self.arc.total() / PLACES as f64;
+        let mut best: Option<Extreme> = None;
+        for (rough, [pose, place]) in found {
+            checkpoint();
+            // What is so far off comes no nearer between the places than the steps are long.
+            if rough < -step || best.is_some_and(|best| rough < best.value - step) {
+                break;
+            }
+            let [pose, place] = [pose, place].map(|k| step * k as f64);
+            let deepest = |s: f64| {
+                let depth = |t: f64| -self.depth(&self.place(s), &self.place(t));
+                bracketed_minimum(depth, place - step, place + step).1
+            };
+            let (at, depth) = bracketed_minimum(deepest, pose - step, pose + step);
+            let one = Extreme {
+                input: self.place(at).angle.rem_euclid(TAU),
+                value: -depth,
+            };
+            if best.is_none_or(|best| one.value > best.value) {
+                best = Some(one);
+            }
+        }
+        best.filter(|best| best.value > ROUNDING * self.center_distance)
+    }
+
+    /// Place at an arc length.
+    fn place(&self, arc: f64) -> Place {
+        let parameter = self.parameter(arc);
+        Place {
+            parameter,
+            angle: self.angle(parameter),
+            radius: self.frame(Member::Driver, parameter).point.coords.norm(),
+            driven: self.driven_angle_at(parameter),
+        }
+    }
+
+    /// A place of the driven gear's curve with the gears at a pose.
+    fn beside(&self, pose: &Place, place: &Place) -> Point {
+        let (sin, cos) = (place.driven - pose.driven).sin_cos();
+        let radius = self.center_distance - place.radius;
+        Point::new(self.center_distance - radius * cos, radius * sin)
+    }
+
+    /// Depth of that place within the driver's curve; negative outside.
+    fn depth(&self, pose: &Place, place: &Place) -> f64 {
+        let point = self.beside(pose, place);
+        let radius = self.radius(pose.angle + point.y.atan2(point.x));
+        radius - point.coords.norm()
+    }
+
+    /// Poses and places, by their numbers, at which a place is deeper than those beside it at that pose, and than at the poses
+    /// beside it; each with its depth, by chords.
+    fn suspects(&self, places: &[Place]) -> Vec<(f64, [i64; 2])> {
+        let count = PLACES as i64;
+        let angle_of_turn = self.driven.total();
+        let at = |number: i64| {
+            let place = &places[number.rem_euclid(count) as usize];
+            let turns = number.div_euclid(count) as f64;
+            Place {
+                driven: place.driven + turns * angle_of_turn,
+                angle: place.angle + turns * TAU,
+                ..*place
+            }
+        };
+        // Radii at even angles.
+        let radii: Vec<f64> = (0..count)
+            .map(|k| self.radius(TAU * k as f64 / count as f64))
+            .collect();
+        let radius = |angle: f64| {
+            let along = (angle / TAU).rem_euclid(1.0) * count as f64;
+            let (k, rest) = (along as usize, along.fract());
+            let pair = [radii[k % PLACES], radii[(k + 1) % PLACES]];
+            pair[0] + rest * (pair[1] - pair[0])
+        };
+        // Deepest place of a pose on either side of the pitch point, beyond where the curves part from there.
+        let deepest = |pose: i64, way: i64| {
+            let here = at(pose);
+            let depth = |steps: i64| {
+                let place = at(pose + way * steps);
+                let point = self.beside(&here, &place);
+                let within = (place.driven - here.driven).abs() < PI;
+                within.then(|| radius(here.angle + point.y.atan2(point.x)) - point.coords.norm())
+            };
+            let depths: Vec<f64> = (1..count).map_while(depth).collect();
+            let parted = (1..depths.len()).find(|&k| depths[k] > depths[k - 1])?;
+            let deepest =
+                (parted..depths.len()).max_by(|&p, &q| depths[p].total_cmp(&depths[q]))?;
+            Some((depths[deepest], [pose, pose + way * (deepest as i64 + 1)]))
+        };
+        [1, -1]
+            .into_iter()
+            .flat_map(|way| {
+                let all: Vec<_> = (0..count).map(|pose| deepest(pose, way)).collect();
+                let value = |k: i64| {
+                    all[k.rem_euclid(count) as usize].map_or(f64::NEG_INFINITY, |one| one.0)
+                };
+                let is_peak = |k: &i64| value(*k) >= value(*k - 1).max(value(*k + 1));
+                let peaks: Vec<_> = (0..count).filter(is_peak).collect();
+                peaks
+                    .into_iter()
+                    .filter_map(|k| all[k as usize])
+                    .collect::<Vec<_>>()
+            })
+            .collect()
+    }
+}
