@@ -99,6 +99,12 @@ impl ToothChords {
         }
     }
 
+    /// Corners of the tip.
+    pub(super) fn corners(&self) -> [Point; 2] {
+        let first = FLANK_CHORDS as usize;
+        [self.places[first], self.places[first + TIP_CHORDS as usize]]
+    }
+
     /// Runs of neighbouring places, each place in one of them, with the circle around it.
     pub(super) fn runs(&self) -> impl Iterator<Item = (&Point, f64, &[Point])> {
         let last = self.groups.len() - 1;

@@ -15,12 +15,16 @@ use super::{
 /// Poses a pitch at which two teeth are held against each other.
 const POSES: u32 = 20;
 /// Pitches on either side of the middle of a passage, doubled, within which teeth are held against each other: on pitch curves that
-/// are concave in turn they still meet three pitches before they mesh.
+/// are concave in turn they still meet some pitches before they mesh.
 const PITCHES: u32 = 16;
+/// Greatest way of a corner in its mate's axes, pitches, from one pose to the next where teeth are trimmed.
+const WAY: f64 = 0.02;
 /// Penetration that may be the approximation's own, as a share of the pitch.
 const PENETRATION: f64 = 3e-5;
 /// Safety factor on a limiting reach; covers what lies between sampled poses.
 const KEPT: f64 = 0.95;
+/// Least share of a whole reach that is taken off a limiting one.
+const SPARE: f64 = 0.02;
 
 /// Parts of which a number of a tooth's reach is kept.
 const PARTS: u32 = 1024;
@@ -63,7 +67,7 @@ impl<'a> Poses<'a> {
         }
     }
 
-    /// The poses within three pitches and a half of an arc length.
+    /// The poses within eight pitches of an arc length.
     fn about(&mut self, middle: f64) -> Vec<(Frame, Frame)> {
         let count = i64::from(PITCHES * POSES) + 1;
         let from = ((middle - self.origin) / self.step).round() as i64 - count / 2;
@@ -146,7 +150,7 @@ impl<'a> Trimmed<'a> {
 
 impl<'a> ToothPassage<'a> {
     /// Sets up the passage of two teeth about the arc length `middle`, or nothing where both pitch curves are
-    /// convex for three pitches and a half around: the rack's straight flank then keeps the teeth apart.
+    /// convex for eight pitches around: the rack's straight flank then keeps the teeth apart.
     pub(crate) fn about(
         poses: &mut Poses<'a>,
         tool: &'a Tool,
@@ -174,12 +178,8 @@ impl<'a> ToothPassage<'a> {
             [driver.shape(self, first), driven.shape(self, second)]
         };
         let whole = shapes([1.0, 1.0]);
-        let poses = self
-            .poses
-            .iter()
-            .filter(|pose| penetrate(pose, &whole, self.pitch));
         // A shorter tooth lies within a longer one: where these are clear, all are.
-        let foul: Vec<&(Frame, Frame)> = poses.collect();
+        let foul = self.foul(&whole);
         if foul.is_empty() {
             return (driver.candidate.reaches, driven.candidate.reaches);
         }
@@ -187,7 +187,7 @@ impl<'a> ToothPassage<'a> {
         let last = Cell::new(foul.len() / 2);
         let penetrate = |shares: [f64; 2]| {
             let shapes = shapes(shares);
-            let at = |&number: &usize| penetrate(foul[number], &shapes, self.pitch);
+            let at = |&number: &usize| penetrate(&foul[number], &shapes, self.pitch);
             let mut numbers = std::iter::once(last.get()).chain(0..foul.len());
             let found = numbers.find(at);
             found.inspect(|&number| last.set(number)).is_some()
@@ -203,7 +203,7 @@ impl<'a> ToothPassage<'a> {
                 continue;
             }
             let part = first_part(|part| part > least && penetrate(shares(share(part)))) - 1;
-            let foul = part == 0 && penetrate(shares(0.0));
+            let foul = share(part) < SPARE;
             let worth = if foul { -1.0 } else { kept(part) };
             if worth >= best.0 {
                 best = (worth, shares(margined(part)));
@@ -211,6 +211,49 @@ impl<'a> ToothPassage<'a> {
         }
         let [first, second] = best.1;
         (driver.reaches(first), driven.reaches(second))
+    }
+}
+
+impl ToothPassage<'_> {
+    /// Poses at which two teeth penetrate each other, and more between them and beside them where corners move far from one to the
+    /// next.
+    fn foul(&self, teeth: &[Rc<ToothChords>; 2]) -> Vec<(Frame, Frame)> {
+        let is_foul: Vec<bool> = (self.poses.iter())
+            .map(|pose| penetrate(pose, teeth, self.pitch))
+            .collect();
+        let mut foul = Vec::new();
+        for (k, pose) in self.poses.iter().enumerate() {
+            if is_foul[k] {
+                foul.push(*pose);
+            }
+            let Some(next) = self
+                .poses
+                .get(k + 1)
+                .filter(|_| is_foul[k] || is_foul[k + 1])
+            else {
+                continue;
+            };
+            let [one, two] = teeth;
+            let way = |tooth: &ToothChords, at: &dyn Fn(&(Frame, Frame), &Point) -> Point| {
+                let ways = tooth
+                    .corners()
+                    .map(|p| (at(next, &p) - at(pose, &p)).norm());
+                ways[0].max(ways[1])
+            };
+            let longest =
+                way(one, &|(a, b), p| carry(a, b, p)).max(way(two, &|(a, b), p| carry(b, a, p)));
+            let steps = (longest / (WAY * self.pitch)).ceil();
+            let (from, to) = (pose.0.arc, next.0.arc);
+            let between = (1..steps as u32).map(|i| {
+                let t = self
+                    .rolling
+                    .parameter(from + (to - from) * f64::from(i) / steps);
+                let [a, b] = [Member::Driver, Member::Driven].map(|m| self.rolling.frame(m, t));
+                (a, b)
+            });
+            foul.extend(between);
+        }
+        foul
     }
 }
 
@@ -247,7 +290,8 @@ fn share(part: u32) -> f64 {
 
 /// Share that is kept of a number of parts at which nothing penetrates.
 fn margined(part: u32) -> f64 {
-    KEPT * share(part)
+    let share = share(part);
+    (KEPT * share).min(share - SPARE).max(0.0)
 }
 
 /// First number of parts of which something holds that holds of all from some one on; found by bisection.

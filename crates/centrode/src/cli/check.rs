@@ -76,6 +76,13 @@ fn remedies(
     out: &mut impl Write,
 ) -> Result<Status, Failure> {
     if found.is_empty() {
+        let mut findings = mechanism.check().findings.into_iter();
+        if let Some(overlap) = findings.find(|finding| finding.rule == "pitch-curves-overlap") {
+            return Err(Failure::Usage(format!(
+                "no teeth carry the motion: {}",
+                overlap.message
+            )));
+        }
         let family = mechanism.design().family().word;
         return Err(Failure::Usage(format!(
             "no remedy is known for this design of family {family:?}: only those of gear-pair whose flanks carry the motion with {MOST_TEETH} teeth or fewer have one"

@@ -148,6 +148,13 @@ fn causes(rule: &str) -> &'static [&'static str] {
         "interference" => &["tool.dedendum_coefficient", "teeth.backlash"],
         "pressure-angle" => &["pitch.eccentricity", "tool.pressure_angle_deg"],
         "shaper-radius" => &["tool.tooth_count"],
+        "pitch-curves-overlap" => &[
+            "pitch.expression",
+            "pitch.eccentricity",
+            "pitch.amplitude",
+            "pitch.lobes",
+            "mean_ratio",
+        ],
         _ => &[],
     }
 }
