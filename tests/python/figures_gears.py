@@ -125,7 +125,6 @@ PAGES = {
         Said("at most {<} rad in the shipped pairs", lambda: max(proof(name)[1] for name in PROVED)),
         Said("Of the {} laws", laws),
         Said("five deep lobes penetrate each other at {} rad", lambda: lost("limit_five_lobe_deep")),
-        Said("mixed harmonics at {} rad", lambda: lost("limit_mixed_harmonics")),
     ],
     "docs/strong-laws.md": [
         Said("cos 2 phi: fitted teeth with {}, full ones at none of the counts; with {}, where", remedy),

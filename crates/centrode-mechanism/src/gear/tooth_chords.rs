@@ -32,6 +32,31 @@ pub(super) struct ToothChords {
     last: Cell<usize>,
 }
 
+/// Multiple of the distance of a tooth's ends and corners from its middle within which all of it lies.
+const ROUND: f64 = 1.25;
+
+/// A circle around the working part of a tooth.
+pub(super) fn circle((rolling, tool): (&Rolling, &Tool), candidate: &Candidate) -> (Point, f64) {
+    let [leading, trailing] = [Side::Leading, Side::Trailing].map(|side| {
+        let flank = Flank {
+            rolling,
+            member: candidate.member,
+            tool,
+            side,
+            crossing: candidate.crossings[side as usize],
+        };
+        let (up, down) = (
+            candidate.reaches[side as usize],
+            candidate.depths[side as usize],
+        );
+        [-down, 0.5 * (up - down), up]
+            .map(|roll| flank.point(rolling.parameter(flank.crossing - side.sign() * roll)))
+    });
+    let middle = nalgebra::center(&leading[1], &trailing[1]);
+    let away = leading.iter().chain(&trailing).map(|p| (p - middle).norm());
+    (middle, ROUND * away.fold(0.0, f64::max))
+}
+
 impl ToothChords {
     pub(super) fn new((rolling, tool): (&Rolling, &Tool), candidate: &Candidate) -> Self {
         let flank = |side: Side| Flank {

@@ -9,7 +9,7 @@ use centrode_geometry::{Point, checkpoint};
 use super::{
     rolling::{Frame, Member, Rolling},
     tool::Tool,
-    tooth_chords::ToothChords,
+    tooth_chords::{ToothChords, circle},
 };
 
 /// Poses a pitch at which two teeth are held against each other.
@@ -172,6 +172,10 @@ impl<'a> ToothPassage<'a> {
 
     /// Shortens one tooth or the other, whichever costs less, or both, until they penetrate nowhere.
     pub(crate) fn clear(&self, driver: &Candidate, driven: &Candidate) -> (Reaches, Reaches) {
+        let near = self.near(driver, driven);
+        if near.is_empty() {
+            return (driver.reaches, driven.reaches);
+        }
         let (driver, driven) = (Trimmed::new(driver), Trimmed::new(driven));
         let shapes = |[first, second]: [f64; 2]| {
             checkpoint();
@@ -179,7 +183,7 @@ impl<'a> ToothPassage<'a> {
         };
         let whole = shapes([1.0, 1.0]);
         // A shorter tooth lies within a longer one: where these are clear, all are.
-        let foul = self.foul(&whole);
+        let foul = self.foul(&near, &whole);
         if foul.is_empty() {
             return (driver.candidate.reaches, driven.candidate.reaches);
         }
@@ -215,24 +219,33 @@ impl<'a> ToothPassage<'a> {
 }
 
 impl ToothPassage<'_> {
+    /// Poses at which two teeth may meet.
+    fn near(&self, driver: &Candidate, driven: &Candidate) -> Vec<&(Frame, Frame)> {
+        let around = |candidate| circle((self.rolling, self.tool), candidate);
+        let [(one, first), (two, second)] = [driver, driven].map(around);
+        let reach = (first + second).powi(2);
+        let meets = |(a, b): &&(Frame, Frame)| (carry(a, b, &one) - two).norm_squared() < reach;
+        self.poses.iter().filter(meets).collect()
+    }
+
     /// Poses at which two teeth penetrate each other, and more between them and beside them where corners move far from one to the
     /// next.
-    fn foul(&self, teeth: &[Rc<ToothChords>; 2]) -> Vec<(Frame, Frame)> {
-        let is_foul: Vec<bool> = (self.poses.iter())
+    fn foul(&self, near: &[&(Frame, Frame)], teeth: &[Rc<ToothChords>; 2]) -> Vec<(Frame, Frame)> {
+        let is_foul: Vec<bool> = (near.iter())
             .map(|pose| penetrate(pose, teeth, self.pitch))
             .collect();
         let mut foul = Vec::new();
-        for (k, pose) in self.poses.iter().enumerate() {
+        for (k, pose) in near.iter().enumerate() {
             if is_foul[k] {
-                foul.push(*pose);
+                foul.push(**pose);
             }
-            let Some(next) = self
-                .poses
-                .get(k + 1)
-                .filter(|_| is_foul[k] || is_foul[k + 1])
-            else {
+            let Some(next) = near.get(k + 1) else {
                 continue;
             };
+            let follows = next.0.arc - pose.0.arc < 1.5 * self.pitch / f64::from(POSES);
+            if !(follows && (is_foul[k] || is_foul[k + 1])) {
+                continue;
+            }
             let [one, two] = teeth;
             let way = |tooth: &ToothChords, at: &dyn Fn(&(Frame, Frame), &Point) -> Point| {
                 let ways = tooth
