@@ -131,10 +131,34 @@ impl Fitting<'_> {
         }
         let tips_1: Vec<[Tip; 2]> = self.tops(Member::Driver, driver, &reach_1);
         let tips_2: Vec<[Tip; 2]> = self.tops(Member::Driven, driven, &reach_2);
+        self.level(&tips_1, &mut reach_1, space(Member::Driven));
+        self.level(&tips_2, &mut reach_2, space(Member::Driver));
+        let tips_1: Vec<[Tip; 2]> = self.tops(Member::Driver, driver, &reach_1);
+        let tips_2: Vec<[Tip; 2]> = self.tops(Member::Driven, driven, &reach_2);
         // Driven tooth k works in the driver's space after tooth k, driver tooth k + 1 in the driven
         // gear's.
         self.serve(driver, &tips_2, 0, meshes as usize, space(Member::Driver));
         self.serve(driven, &tips_1, 1, meshes as usize, space(Member::Driven));
+    }
+
+    /// Shortens the higher flank of teeth whose tip leans so far that no root of one depth has room for both sides.
+    ///
+    /// Where that depth would cut into the flank that the lower side works on, the root has a step; the tip goes to and fro above it,
+    /// and is clear of it wherever it stands if its higher side would be clear of the lower root.
+    fn level(&self, tips: &[[Tip; 2]], reaches: &mut [Reaches], space: f64) {
+        let clearance = self.tool.dedendum - self.tool.addendum;
+        for (tip, reach) in tips.iter().zip(reaches) {
+            for (low, high) in [(0, 1), (1, 0)] {
+                let most = tip[low].1 + clearance;
+                let end = SPARE * tip[low].0;
+                let is_cut = || {
+                    corner(self.tool, tip[high].1 + clearance, end, space).end > end * (1.0 + 1e-9)
+                };
+                if tip[high].1 > most && is_cut() {
+                    reach[high] = tip[high].0 * (most / tip[high].1);
+                }
+            }
+        }
     }
 
     /// Fits every space of a gear to the tips that enter it: the mates' tooth k + `ahead` enters the
