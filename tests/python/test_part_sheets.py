@@ -683,6 +683,32 @@ def test_a_turned_part_made_from_its_sheet_alone_is_its_solid(name, exported):
             assert abs(reached - at) < 5e-3, (part, diameter, low, at, spans)
 
 
+KEYED_TRAINS = ("press", "composed-box", "index-table", "two-arm", "two-stage", "composed-three-arm")
+
+
+@pytest.mark.parametrize("name", KEYED_TRAINS)
+def test_gears_of_a_machine_are_keyed_on_shafts_of_their_bore_as_both_sheets_tell(name, exported):
+    folder = exported(name)
+    listed = parts(folder)
+    gears = [row for row in listed if re.match(r"^\d+ teeth", row["remark"])]
+    shafts = [row for row in listed if row["part"].startswith("Shaft of ")]
+    assert gears
+    for gear in gears:
+        assert "not" not in gear["remark"], gear
+        # On the shaft that belongs to the same bodies.
+        (shaft,) = (row for row in shafts if set(gear["links"].split()) <= set(row["links"].split()))
+        told = words(folder, gear["files"])
+        bore = next(float(match[1]) for text in told if (match := re.match(rf"^Ø({NUMBER}) H7 \(", text)))
+        key = next(float(match[1]) for text in told if (match := re.match(rf"^({NUMBER}) JS9 \(", text)))
+        texts = words(folder, shaft["files"])
+        steps, _ = turned_steps(texts)
+        assert {step["diameter"] for step in steps if "groove" not in step} == {bore}, gear
+        assert key == next(float(match[1]) for text in texts if (match := SLOT.match(text)))
+        wide = thickness(solid(folder / f"{gear['files']}.step"))
+        keyed = [step["length"] for step in steps if step["keyed"] and "groove" not in step]
+        assert any(abs(length - wide) < 1e-3 for length in keyed), (gear, keyed)
+
+
 def general(length):
     """Deviation either way that ISO 2768-m allows a length."""
     return next(off for most, off in ((3, 0.1), (6, 0.1), (30, 0.2), (120, 0.3), (400, 0.5)) if length <= most)
