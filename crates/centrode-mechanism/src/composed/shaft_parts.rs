@@ -129,7 +129,7 @@ impl Composed {
         told.then(|| format!("fixed to {} by the customer", self.bodies[to.carrier].name))
     }
 
-    /// Lists the brackets that hold gears or cams through which the shaft of another body goes: they are the customer's.
+    /// Lists the brackets, which are the customer's, of gears or cams through which the shaft of another body goes.
     pub(super) fn list_brackets(&self, machine: &mut Machine) {
         let parts = self
             .shafts()

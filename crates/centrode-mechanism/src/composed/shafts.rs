@@ -1,4 +1,4 @@
-//! Shafts of a composed machine: each through the plates, gears and cams on one axis, and turning with one of the bodies.
+//! Shafts of a composed machine, each through the plates, gears and cams on one axis, turning with one of the bodies.
 
 use std::f64::consts::TAU;
 
@@ -86,8 +86,8 @@ struct Wheel {
 impl Composed {
     /// Shafts of its gears and cams, and those by which bodies are driven from outside.
     ///
-    /// Each belongs to the body of the gear next to the plates. What is on this body, or on others fixed to it, sits on the shaft,
-    /// keyed where the gear has a keyway; what is on other bodies turns on it.
+    /// Each belongs to the body of the gear next to the plates. What is on this body, or on others fixed to it, sits on the
+    /// shaft, keyed where the gear has a keyway; what is on other bodies turns on it.
     #[must_use]
     pub fn shafts(&self) -> &[ComposedShaft] {
         self.shafts.get_or_init(|| self.found_shafts())
