@@ -163,24 +163,22 @@ impl TitleBlock {
         let at = Point::new(61.2, 18.0 - CAPTION - 1.0);
         draft.text(at, CAPTION, "Title, supplementary title", Anchor::Left);
         let line = |y: f64| Point::new(62.0, y);
-        draft.text_within(line(8.3), &[5.0, 3.5], &self.title, Anchor::Left, TITLES);
         // Long words below the title take two lines.
         let fits = |words: &str| lettering::width(words, SMALL) <= TITLES;
         let breaks = self.supplement.match_indices(' ').map(|(at, _)| at);
         let last = breaks.filter(|&at| fits(&self.supplement[..at])).last();
         match last.filter(|_| !fits(&self.supplement)) {
             Some(at) => {
+                draft.text_within(line(9.2), &[3.5], &self.title, Anchor::Left, TITLES);
                 let (first, second) = self.supplement.split_at(at);
                 draft.text_within(line(4.9), &[SMALL], first, Anchor::Left, TITLES);
                 draft.text_within(line(1.2), &[SMALL], second.trim(), Anchor::Left, TITLES);
             }
-            None => draft.text_within(
-                line(2.6),
-                &[3.5, SMALL],
-                &self.supplement,
-                Anchor::Left,
-                TITLES,
-            ),
+            None => {
+                let (title, words) = (&self.title, &self.supplement);
+                draft.text_within(line(8.3), &[5.0, 3.5], title, Anchor::Left, TITLES);
+                draft.text_within(line(2.6), &[3.5, SMALL], words, Anchor::Left, TITLES);
+            }
         }
     }
 }

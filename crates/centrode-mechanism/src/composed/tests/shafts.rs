@@ -179,7 +179,7 @@ fn without_keyways_parts_are_bonded_and_other_bores_are_told() {
             .iter()
             .all(|all| all.keys.is_empty() && all.part.keyway.is_none())
     );
-    let note = "bonded on it with a retaining compound: ";
+    let note = "onded on it with a retaining compound: ";
     assert!(
         shafts
             .iter()
