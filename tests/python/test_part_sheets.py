@@ -552,10 +552,17 @@ def ring_of(lines):
 
 def turned_steps(texts):
     """Steps of a turned part from the left by its sheet: diameter, length, whether the keyway is in it; its chamfer."""
-    start = next(i for i, text in enumerate(texts) if text.endswith(" of these a machine."))
-    # The section across the keyway, and the title block, come after the view.
-    end = next(i for i, text in enumerate(texts) if i > start and (REST.match(text) or text == "Material"))
-    view = texts[start:end]
+    sized = [i for i, text in enumerate(texts) if HOLE.match(text)]
+    # The view has the chamfers; the section across the keyway, notes and title block come before or after it.
+    first = next((i for i, text in enumerate(texts) if CHAMFER.match(text)), sized[0])
+
+    def ends(text):
+        others = text == "Material" or text.endswith(" of these a machine.") or text.startswith("C-C ")
+        return others or REST.match(text)
+
+    before = next((i for i in range(first, -1, -1) if ends(texts[i])), 0)
+    end = next(i for i, text in enumerate(texts) if i > first and ends(text))
+    view = texts[before:end]
     notes = [i for i, text in enumerate(view) if HOLE.match(text)]
     chamfers = [(i, float(match[1])) for i, text in enumerate(view) if (match := CHAMFER.match(text))]
     steps = []
@@ -681,6 +688,33 @@ def test_a_turned_part_made_from_its_sheet_alone_is_its_solid(name, exported):
                 assert bottom < reached + 5e-3, (part, diameter, spans)
                 reached = max(reached, top)
             assert abs(reached - at) < 5e-3, (part, diameter, low, at, spans)
+
+
+KEYED_TRAINS = ("press", "composed-box", "index-table", "two-arm", "two-stage", "composed-three-arm")
+
+
+@pytest.mark.parametrize("name", KEYED_TRAINS)
+def test_gears_of_a_machine_are_keyed_on_shafts_of_their_bore_as_both_sheets_tell(name, exported):
+    folder = exported(name)
+    listed = parts(folder)
+    gears = [row for row in listed if re.match(r"^\d+ teeth", row["remark"])]
+    shafts = [row for row in listed if row["part"].startswith("Shaft of ")]
+    assert gears
+    for gear in gears:
+        assert "not" not in gear["remark"], gear
+        # On the shaft that belongs to the same bodies.
+        (shaft,) = (row for row in shafts if set(gear["links"].split()) <= set(row["links"].split()))
+        told = words(folder, gear["files"])
+        bore = next(float(match[1]) for text in told if (match := re.match(rf"^Ø({NUMBER}) H7 \(", text)))
+        key = next(float(match[1]) for text in told if (match := re.match(rf"^({NUMBER}) JS9 \(", text)))
+        texts = words(folder, shaft["files"])
+        steps, _ = turned_steps(texts)
+        assert {step["diameter"] for step in steps if "groove" not in step} == {bore}, gear
+        slot = next(float(match[1]) for text in texts if (match := SLOT.match(text)))
+        assert key == slot, gear
+        wide = thickness(solid(folder / f"{gear['files']}.step"))
+        keyed = [step["length"] for step in steps if step["keyed"] and "groove" not in step]
+        assert any(abs(length - wide) < 1e-3 for length in keyed), (gear, keyed)
 
 
 def general(length):

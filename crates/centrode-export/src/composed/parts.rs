@@ -7,7 +7,7 @@ use centrode_mechanism::machine::Machine;
 use super::plates;
 use crate::gear_pair::{self, Label};
 use crate::plate::{Hole, Plate};
-use crate::sheet::{capital, fit};
+use crate::sheet::{capital, fit, number};
 use crate::{ExportError, Package, cam, turned};
 
 /// Offers plates, gears and cams; copies have the files of their originals.
@@ -30,7 +30,7 @@ pub(super) fn add(
             plate.add(package, drawing)?;
         }
     }
-    turned::add(&composed.pins_in_plates(), package, drawing)?;
+    turned::add(&composed.turned(), package, drawing)?;
     for gear in composed.gears().iter().filter(|gear| !is_copy(&gear.name)) {
         let label = Label {
             name: &gear.name,
@@ -61,10 +61,18 @@ fn plate(composed: &Composed, machine: &Machine, body: usize, quantity: usize) -
     // A link's plate is the first of its solids.
     let solid = plates(machine, body).first()?;
     let pins = composed.pin_holes(body)?;
-    let hole = |(outline, pin): (&Outline, PinHole)| Hole {
-        label: pin.name,
-        fit: spec.hole_fit.clone(),
-        ..Hole::from(outline.clone())
+    let hole = |(outline, pin): (&Outline, PinHole)| {
+        let mut bored = Hole::bore(outline.clone(), &pin.hub);
+        if !bored.notes.is_empty() {
+            // Its contour is no circle, whose place the sheet would tell.
+            let [x, y] = [pin.at.x, pin.at.y].map(|mm| number(mm, 4));
+            bored.notes.insert(1, format!("at {x}, {y}"));
+        }
+        Hole {
+            label: pin.name,
+            is_seat: !bored.notes.is_empty(),
+            ..bored
+        }
     };
     let name = &composed.bodies()[body].name;
     let [guide, block] = Composed::GUIDE_FIT;

@@ -91,6 +91,12 @@ impl Draft {
         self.gather(first, Pen::Dimension, Object::Dimension(dimension));
     }
 
+    /// Whether the words of a dimension of a length, mm, go between its arrows, which are between its ends.
+    pub(crate) fn holds(&self, length: f64, words: &str) -> bool {
+        let (inside, between, _) = fitting(length, lettering::width(words, self.letters));
+        inside && between
+    }
+
     /// Draws a note with an arrow: a line from `tip` to `elbow`, then level under the words; a second line of
     /// words is put below.
     pub fn leader(&mut self, tip: Point, elbow: Point, words: &[String]) {

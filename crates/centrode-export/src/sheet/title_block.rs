@@ -1,4 +1,4 @@
-use super::{Draft, Pen, projection};
+use super::{Draft, Pen, lettering, projection};
 use crate::SheetOptions;
 use crate::drawing::Anchor;
 use centrode_geometry::{Bounds, Point};
@@ -14,6 +14,9 @@ const SURFACE: [f64; 4] = [145.0, 180.0, 36.0, 45.0];
 
 /// Height of the names of the fields, mm.
 const CAPTION: f64 = 1.8;
+/// Width of the field of the titles, and the least height of letters there, mm.
+const TITLES: f64 = 71.0;
+const SMALL: f64 = 2.5;
 
 /// Entries of the title block of a sheet, ISO 7200; unknown ones stay empty.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -160,8 +163,23 @@ impl TitleBlock {
         let at = Point::new(61.2, 18.0 - CAPTION - 1.0);
         draft.text(at, CAPTION, "Title, supplementary title", Anchor::Left);
         let line = |y: f64| Point::new(62.0, y);
-        draft.text_within(line(8.3), &[5.0, 3.5], &self.title, Anchor::Left, 71.0);
-        draft.text_within(line(2.6), &[3.5, 2.5], &self.supplement, Anchor::Left, 71.0);
+        // Long words below the title take two lines.
+        let fits = |words: &str| lettering::width(words, SMALL) <= TITLES;
+        let breaks = self.supplement.match_indices(' ').map(|(at, _)| at);
+        let last = breaks.filter(|&at| fits(&self.supplement[..at])).last();
+        match last.filter(|_| !fits(&self.supplement)) {
+            Some(at) => {
+                draft.text_within(line(9.2), &[3.5], &self.title, Anchor::Left, TITLES);
+                let (first, second) = self.supplement.split_at(at);
+                draft.text_within(line(4.9), &[SMALL], first, Anchor::Left, TITLES);
+                draft.text_within(line(1.2), &[SMALL], second.trim(), Anchor::Left, TITLES);
+            }
+            None => {
+                let (title, words) = (&self.title, &self.supplement);
+                draft.text_within(line(8.3), &[5.0, 3.5], title, Anchor::Left, TITLES);
+                draft.text_within(line(2.6), &[3.5, SMALL], words, Anchor::Left, TITLES);
+            }
+        }
     }
 }
 

@@ -56,11 +56,8 @@ fn given(parts: &Machine<'_>, machine: &mut machine::Machine) {
         .of_arm("cover-front")
         .map_or(0.0, |cover| cover.span[1]);
     let [of_sleeve, of_hub] = [cam_end, cover].map(|z| number(level + z, 3));
-    let behind = parts
-        .turned()
-        .into_iter()
-        .find(|pieces| pieces.part.name == "shaft-carrier");
-    let behind = behind.and_then(|shaft| Some(rear - shaft.pieces.first()?.at[2]));
+    let shaft = parts.mechanism.carrier_shaft();
+    let behind = shaft.and_then(|shaft| Some(rear - shaft.pieces.first()?.at[2]));
     let behind = number(behind.unwrap_or_default(), 3);
     let bore = Fit::new("", parts.mechanism.arm_sizes().housing.bore, PASSING);
     let in_cover = match bore.size > 0.0 {

@@ -23,6 +23,8 @@ const ROUNDING: f64 = 1e-6;
 const SLENDER: f64 = 3.0;
 /// Distance of dimension lines, mm, beyond the height of their letters.
 const ROW: f64 = 4.5;
+/// Most notes of diameters that are all on the right.
+const LADDER: usize = 4;
 
 impl Drawn<'_> {
     /// The drawing sheets: the part from the side, a section across its keyway.
@@ -201,8 +203,14 @@ impl Drawn<'_> {
         let mut lower = radius + keyed;
         // Extension lines of the dimensions below run through the words of those above.
         let crossing: Vec<f64> = self.ends().into_iter().flatten().map(|x| k * x).collect();
+        // Where the last line ends, if words beyond it leave room for another.
+        let mut free = f64::INFINITY;
         for ([from, to], words) in self.dimensioned() {
-            lower += row;
+            let is_held = draft.holds(k * (to - from), &words);
+            if !is_held || from < free - ROUNDING {
+                lower += row;
+            }
+            free = if is_held { to } else { f64::INFINITY };
             let at = Point::new(0.0, -lower);
             draft.dimension_clear_of([p(from), p(to)], Vector::x(), at, &words, &crossing);
         }
@@ -218,7 +226,7 @@ impl Drawn<'_> {
             .filter(|_| self.steps.len() > 1)
     }
 
-    /// Diameters above the view, from left to right from above downwards, and the chamfers.
+    /// Diameters above the view, lower towards the end on whose side they are, and the chamfers.
     fn diameters(&self, draft: &mut Draft, k: f64) {
         let datum = self.datum();
         let notes = self.steps.iter().zip(self.ends()).enumerate();
@@ -252,13 +260,27 @@ impl Drawn<'_> {
         }
         let row = draft.lettering() + 2.0;
         let keyed = if self.keyway.is_some() { 9.0 } else { 0.0 };
-        let mut height = 0.5 * k * self.diameter() + keyed + 6.0;
-        // A leader from farther left rises beside no words.
-        for (tip, lines) in notes.iter().rev() {
-            height += row * (lines.len() as f64 - 1.0).max(0.0);
-            let elbow = Point::new(tip.x + 4.0, height);
-            draft.note(*tip, elbow, lines);
-            height += row + 2.0;
+        let lowest = 0.5 * k * self.diameter() + keyed + 6.0;
+        // Many of them on both sides: a leader from farther in rises beside no words.
+        let left = if notes.len() > LADDER {
+            notes.len() / 2
+        } else {
+            0
+        };
+        let mut heights = vec![lowest; notes.len()];
+        let mut climb = |all: &mut dyn Iterator<Item = usize>| {
+            let mut height = lowest;
+            for index in all {
+                height += row * (notes[index].1.len() as f64 - 1.0).max(0.0);
+                heights[index] = height;
+                height += row + 2.0;
+            }
+        };
+        climb(&mut (0..left));
+        climb(&mut (left..notes.len()).rev());
+        for (index, (tip, lines)) in notes.iter().enumerate().rev() {
+            let aside = if index < left { -4.0 } else { 4.0 };
+            draft.note(*tip, Point::new(tip.x + aside, heights[index]), lines);
         }
     }
 }

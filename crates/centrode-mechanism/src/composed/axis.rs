@@ -10,7 +10,7 @@ use crate::machine::JointKind;
 
 impl Mount {
     /// Place of the joint's axes in the carrier's.
-    fn seat(&self) -> Isometry2<f64> {
+    pub(super) fn seat(&self) -> Isometry2<f64> {
         Isometry2::new(self.at.coords, self.angle)
     }
 }

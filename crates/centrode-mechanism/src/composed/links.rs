@@ -4,7 +4,7 @@ use centrode_geometry::{Outline, Point, SolidError};
 
 use super::load::ComposedLoad;
 use super::pieces::Pieces;
-use super::{Composed, ComposedBody};
+use super::{Composed, ComposedBody, Hold};
 use crate::machine::{
     Blank, Closure, Fit, Form, GearMesh, Input, Joint, JointKind, Line, LineRole, Link, LinkPoint,
     Machine, Mark, Part, PitchCurves, Quantity, Shape, Surface,
@@ -23,9 +23,10 @@ impl Composed {
         }
         self.list(&mut machine, &pieces);
         self.tell_fits(&mut machine);
-        for pins in self.pins_in_plates() {
-            machine.add_turned(&pins, String::new());
+        for pieces in self.turned() {
+            machine.add_turned(&pieces, String::new());
         }
+        self.list_brackets(&mut machine);
         machine.arrangement.drawing = self.design.drawing.clone();
         Ok(machine)
     }
@@ -119,6 +120,9 @@ impl Composed {
                 material: material.to_owned(),
                 blank: outline.and_then(|outline| Blank::plate(outline, self.thickness(index))),
                 mass: made.mass().map(|own| own.mass),
+                remark: outline
+                    .and_then(|_| self.told_fixed(index))
+                    .unwrap_or_default(),
                 ..Part::default()
             };
             self.add_part(machine, part, &body.name, outline);
@@ -132,7 +136,10 @@ impl Composed {
                 material: gear.body().material.clone(),
                 blank: Blank::round(gear.outline(), gear.body().width),
                 mass: Some(piece.mass().mass),
-                remark: format!("{} teeth, on {}", gear.tooth_count(), piece.of.body_name),
+                remark: told(
+                    format!("{} teeth, on {}", gear.tooth_count(), piece.of.body_name),
+                    self.told_hold(&piece.of.name),
+                ),
                 ..Part::default()
             };
             self.add_part(
@@ -150,10 +157,13 @@ impl Composed {
                 material: piece.of.part.body().material.clone(),
                 blank: Blank::plate(piece.solid.outline(), piece.of.part.body().width),
                 mass: Some(piece.mass().mass),
-                remark: format!(
-                    "moves {}, on {}",
-                    piece.of.followers.join(", "),
-                    piece.of.body_name
+                remark: told(
+                    format!(
+                        "moves {}, on {}",
+                        piece.of.followers.join(", "),
+                        piece.of.body_name
+                    ),
+                    self.told_hold(&piece.of.name),
                 ),
                 ..Part::default()
             };
@@ -169,8 +179,30 @@ impl Composed {
     /// Tells the fit of the pins in the plates, where there are any.
     fn tell_fits(&self, machine: &mut Machine) {
         let spec = &self.design.plates;
-        let mut bodies = 0..self.bodies.len();
-        if bodies.any(|body| self.pin_holes(body).is_some_and(|holes| !holes.is_empty())) {
+        for shaft in self.shafts() {
+            let hub = &shaft.hub;
+            let seats = ("seats on shafts", [&*hub.bore_fit, &hub.shaft_fit]);
+            let plates = (
+                "plates that turn on shafts",
+                [&*spec.hole_fit, &spec.pin_fit],
+            );
+            let holds = || shaft.parts.iter().map(|part| part.hold);
+            let found = [
+                (holds().any(Hold::is_fixed), seats),
+                (holds().any(|hold| hold == Hold::Turning), plates),
+            ];
+            for (_, (name, classes)) in found.into_iter().filter(|(is_found, _)| *is_found) {
+                machine.fit(Fit::new(name, hub.bore, classes));
+            }
+        }
+        // Holes without a pin are those of what is around the machine.
+        let of_shafts: usize = self
+            .shafts()
+            .iter()
+            .map(|shaft| shaft.parts.iter().filter(|part| part.is_plate).count())
+            .sum();
+        let holes = (0..self.bodies.len()).filter_map(|body| self.hole_places(body));
+        if holes.map(|holes| holes.len()).sum::<usize>() > of_shafts {
             let classes = [&*spec.hole_fit, &spec.pin_fit];
             machine.fit(Fit::new("pins in plates", spec.pin_diameter, classes));
         }
@@ -315,5 +347,13 @@ impl Composed {
             });
         machine.marks.extend(marks);
         self.draw_obstacles(machine);
+    }
+}
+
+/// A remark, and what is said of how the part is held.
+fn told(remark: String, hold: Option<&str>) -> String {
+    match hold {
+        Some(hold) => format!("{remark}; {hold}"),
+        None => remark,
     }
 }

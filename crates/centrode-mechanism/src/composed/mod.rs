@@ -40,12 +40,14 @@ mod points;
 mod resolve;
 mod reversed;
 mod seating;
+mod shaft_parts;
+mod shafts;
 #[cfg(test)]
 mod tests;
 mod touching;
 
 use std::collections::BTreeMap;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use centrode_geometry::{Jet, Outline, Point, Vector};
 
@@ -75,6 +77,7 @@ pub use pair_figure::PAIR_FIGURES;
 pub use plates::{ComposedPlatesSpec, PinHole};
 pub use reversed::{MachineError, ReversedMachine};
 pub(crate) use reversed::{free_backlash, free_body};
+pub use shafts::{ComposedShaft, Hold, ShaftPart};
 
 use self::expansion::Expansion;
 use self::gearing::Meshing;
@@ -104,6 +107,7 @@ pub struct Composed {
     cams: Vec<ComposedCam>,
     loads: Vec<ComposedLoad>,
     obstacles: Vec<ComposedObstacle>,
+    shafts: OnceLock<Vec<ComposedShaft>>,
 }
 
 /// A body of a composed machine.

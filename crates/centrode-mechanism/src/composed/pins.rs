@@ -2,7 +2,7 @@
 
 use centrode_geometry::Point;
 
-use super::Composed;
+use super::{Composed, ShaftPart};
 use crate::digits::thousandths;
 use crate::machine::{Bar, Fit, TurnedPiece, TurnedPieces};
 
@@ -15,17 +15,26 @@ const ONE: f64 = 1e-6;
 const BONDED: &str = "No room for rings: bonded into one of its plates with a retaining compound.";
 
 /// Holes on one axis.
-struct Axis {
+pub(super) struct Axis {
     places: Vec<Point>,
     /// The bodies with a hole there, and its place in their axes.
-    holes: Vec<(usize, Point)>,
+    pub(super) holes: Vec<(usize, Point)>,
     /// Lower and upper faces of the plates with these holes, mm.
-    plates: Vec<[f64; 2]>,
+    pub(super) plates: Vec<[f64; 2]>,
     /// From the lowest face to the highest, mm.
     span: [f64; 2],
+    /// Diameter of its pin, mm.
+    size: f64,
 }
 
 impl Axis {
+    /// Whether places over the period, as [`Composed::places_of`] tells them, are on it.
+    pub(super) fn is_one(&self, places: &[Point]) -> bool {
+        let near = ONE * self.size;
+        let mut both = self.places.iter().zip(places);
+        both.all(|(a, b)| (a - b).norm() < near)
+    }
+
     /// Heights of the plates with a hole on it, from the lowest, above the lowest face.
     fn parts(&self) -> Vec<[f64; 2]> {
         let raised = |span: &[f64; 2]| span.map(|z| z - self.span[0]);
@@ -38,6 +47,14 @@ impl Axis {
 }
 
 impl Composed {
+    /// Shafts, and the pins in the plates that have none.
+    #[must_use]
+    pub fn turned(&self) -> Vec<TurnedPieces> {
+        let mut all = self.turned_shafts();
+        all.extend(self.pins_in_plates());
+        all
+    }
+
     /// The pins in the plates, those of one length together, the shortest first; each belongs to the body nearest to the frame.
     #[must_use]
     pub fn pins_in_plates(&self) -> Vec<TurnedPieces> {
@@ -48,7 +65,8 @@ impl Composed {
         let mut axes = self.axes();
         axes.sort_by(|a, b| a.length().total_cmp(&b.length()));
         // A single plate turns on a pin of what is around the machine.
-        for axis in axes.into_iter().filter(|axis| axis.holes.len() > 1) {
+        let is_pin = |axis: &Axis| axis.holes.len() > 1 && !self.has_shaft(axis);
+        for axis in axes.into_iter().filter(is_pin) {
             let bar = Bar::new(spec.pin_diameter, &spec.pin_fit, [0.0, axis.length()]);
             let bar = bar.held([spec.gap; 2]).through(&axis.parts());
             let bottom = axis.span[0] + bar.bottom();
@@ -87,32 +105,42 @@ impl Composed {
         found
     }
 
-    fn axes(&self) -> Vec<Axis> {
-        let near = ONE * self.design.plates.pin_diameter;
+    /// Whether a shaft is on an axis.
+    fn has_shaft(&self, axis: &Axis) -> bool {
+        let &(body, at) = &axis.holes[0];
+        let is_here = |part: &ShaftPart| {
+            part.is_plate && part.body == body && (part.at - at).norm() < ONE * axis.size
+        };
+        let shafts = self.shafts().iter();
+        shafts.flat_map(|shaft| &shaft.parts).any(is_here)
+    }
+
+    /// Places of a point of a body over the period, mm.
+    pub(super) fn places_of(&self, body: usize, at: Point) -> Vec<Point> {
+        let place = |share: f64| self.place(body, at, share * self.period());
+        SHARES.into_iter().map(place).collect()
+    }
+
+    /// Axes of the holes in the plates.
+    pub(super) fn axes(&self) -> Vec<Axis> {
         let mut axes: Vec<Axis> = Vec::new();
         for body in 0..self.bodies.len() {
-            let Ok(Some(plate)) = self.plate(body) else {
-                continue;
-            };
-            for hole in self.pin_holes(body).into_iter().flatten() {
-                let place = |share: f64| self.place(body, hole.at, share * self.period());
-                let places: Vec<Point> = SHARES.into_iter().map(place).collect();
-                let is_one = |axis: &&mut Axis| {
-                    let mut both = axis.places.iter().zip(&places);
-                    both.all(|(a, b)| (a - b).norm() < near)
-                };
-                let [bottom, top] = [plate.bottom(), plate.top()];
-                match axes.iter_mut().find(is_one) {
+            let bottom = self.bottom(body);
+            let top = bottom + self.thickness(body);
+            for (_, at) in self.hole_places(body).into_iter().flatten() {
+                let places = self.places_of(body, at);
+                match axes.iter_mut().find(|axis| axis.is_one(&places)) {
                     Some(axis) => {
                         axis.span = [axis.span[0].min(bottom), axis.span[1].max(top)];
-                        axis.holes.push((body, hole.at));
+                        axis.holes.push((body, at));
                         axis.plates.push([bottom, top]);
                     }
                     None => axes.push(Axis {
                         places,
-                        holes: vec![(body, hole.at)],
+                        holes: vec![(body, at)],
                         plates: vec![[bottom, top]],
                         span: [bottom, top],
+                        size: self.design.plates.pin_diameter,
                     }),
                 }
             }

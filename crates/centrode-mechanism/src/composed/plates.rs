@@ -1,12 +1,15 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use centrode_geometry::{Outline, Point, Solid, SolidError, Tolerance};
+use nalgebra::Isometry2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::design::FRAME;
 use super::points::ROLLER;
-use super::{Composed, ComposedBody, ComposedDesign, ComposedError};
+use super::{Composed, ComposedDesign, ComposedError};
+use crate::bore;
+use crate::gear::design::BodySpec;
 use crate::gear::design::SpecError;
 use crate::gear::design::rule::{in_range, not_negative, positive, single_line};
 use crate::machine::JointKind;
@@ -87,13 +90,27 @@ impl ComposedPlatesSpec {
     }
 }
 
-/// Hole of a plate for a pin.
+/// Hole of a plate for a pin or a shaft.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PinHole {
     /// Name of the point.
     pub name: String,
     /// Place in the body's axes, mm.
     pub at: Point,
+    /// Diameter, keyway with its direction in the body's axes, and classes.
+    pub hub: BodySpec,
+}
+
+impl PinHole {
+    /// Its contour in the body's axes.
+    #[must_use]
+    pub fn outline(&self) -> Outline {
+        let keyed = self.hub.keyway.and_then(|_| bore::outline(&self.hub));
+        match keyed {
+            Some(keyed) => keyed.transformed(&Isometry2::translation(self.at.x, self.at.y)),
+            None => Outline::circle(self.at, 0.5 * self.hub.bore),
+        }
+    }
 }
 
 /// Contours of the bodies that are drawn by hand, by name.
@@ -115,20 +132,39 @@ impl Composed {
     /// the body's axes; none for a body without a plate.
     #[must_use]
     pub fn contours(&self, body: usize) -> Option<(Outline, Vec<Outline>)> {
-        let pin = self.design.plates.pin_diameter;
         let holes = self.pin_holes(body)?.into_iter();
-        let holes = holes.map(|hole| Outline::circle(hole.at, 0.5 * pin));
+        let holes = holes.map(|hole| hole.outline());
         let own = self.bodies.get(body)?;
         let outline = match self.drawn.get(&own.name) {
             Some(outline) => outline.clone(),
-            None => Outline::hull(&self.circles(own))?,
+            None => Outline::hull(&self.circles(body))?,
         };
         Some((outline, holes.collect()))
     }
 
-    /// Holes for pins in a body's plate; none for a body without a plate.
+    /// Holes for pins and shafts in a body's plate; none for a body without a plate.
     #[must_use]
     pub fn pin_holes(&self, body: usize) -> Option<Vec<PinHole>> {
+        let holes = self.hole_places(body)?.into_iter();
+        Some(holes.map(|place| self.hole(body, place)).collect())
+    }
+
+    /// Whether a body is fixed to another at the pin on which that one turns, so that its plate is on the shaft there.
+    fn is_fixed_on_axis(&self, body: usize) -> bool {
+        let own = &self.bodies[body];
+        let (root, place) = self.rigid(body);
+        let turns = self.bodies[root].mount.as_ref();
+        let turns = turns.is_some_and(|mount| mount.kind == JointKind::Turning);
+        let near = ONE * self.design.plates.pin_diameter;
+        let drawn = self.drawn.get(&own.name);
+        root != body
+            && turns
+            && place.translation.vector.norm() <= near
+            && drawn.is_none_or(|outline| outline.contains(Point::origin()))
+    }
+
+    /// Names and places of the holes in a body's plate, in its axes.
+    pub(super) fn hole_places(&self, body: usize) -> Option<Vec<(String, Point)>> {
         let own = self.bodies.get(body)?;
         let name = &own.name;
         let points = self.points.get(name)?;
@@ -142,19 +178,14 @@ impl Composed {
             .iter()
             .filter(|(point, at)| !at.own || pinned.contains(&format!("{name}.{point}")));
         // A mesh places the axis of its body at the body's origin, which need not be a point.
-        let axis = meshed.then(|| PinHole {
-            name: "axis".into(),
-            at: Point::origin(),
-        });
-        let pins = pins.map(|(point, local)| PinHole {
-            name: point.clone(),
-            at: local.at,
-        });
+        let axis = meshed || self.is_fixed_on_axis(body);
+        let axis = axis.then(|| ("axis".to_owned(), Point::origin()));
+        let pins = pins.map(|(point, local)| (point.clone(), local.at));
         let pin = self.design.plates.pin_diameter;
         // Shafts on one axis, as of a carrier and of a gear in its middle, share a hole.
-        let mut holes: Vec<PinHole> = Vec::new();
+        let mut holes: Vec<(String, Point)> = Vec::new();
         for hole in pins.chain(axis) {
-            let apart = |known: &PinHole| (hole.at - known.at).norm() > ONE * pin;
+            let apart = |known: &(String, Point)| (hole.1 - known.1).norm() > ONE * pin;
             if holes.iter().all(apart) {
                 holes.push(hole);
             }
@@ -163,12 +194,14 @@ impl Composed {
     }
 
     /// Circles round which a plate is drawn: about its points, and the corners of a block about the origin of one that slides.
-    fn circles(&self, body: &ComposedBody) -> Vec<(Point, f64)> {
+    fn circles(&self, index: usize) -> Vec<(Point, f64)> {
+        let body = &self.bodies[index];
         let spec = self.design.bodies.get(&body.name);
         let own = spec.and_then(|body| body.width);
         let width = own.unwrap_or(self.design.plates.width);
         let points = self.points.get(&body.name).into_iter().flatten();
-        let mut circles: Vec<(Point, f64)> = points.map(|(_, p)| (p.at, 0.5 * width)).collect();
+        let around = |at: Point| (at, self.boss(index, at).max(0.5 * width));
+        let mut circles: Vec<(Point, f64)> = points.map(|(_, p)| around(p.at)).collect();
         let kind = body.mount.as_ref().map(|mount| mount.kind);
         if let Some(JointKind::Sliding(_)) = kind {
             let radius = BLOCK_ROUNDING * width;
@@ -179,7 +212,7 @@ impl Composed {
         }
         let at_origin = spec.is_some_and(|body| body.fixed_to.is_some() || body.mesh.is_some());
         if circles.is_empty() || at_origin {
-            circles.push((Point::origin(), 0.5 * width));
+            circles.push(around(Point::origin()));
         }
         circles
     }
@@ -214,15 +247,15 @@ impl Composed {
             };
             let fine = Tolerance::new(CHECKED * outline.length().max(f64::MIN_POSITIVE));
             let fine = fine.map_err(|error| wrong(error.to_string()))?;
-            for hole in holes {
-                let at = hole.centroid();
+            let pins = self.pin_holes(index).into_iter().flatten();
+            for (hole, PinHole { at, hub, .. }) in holes.into_iter().zip(pins) {
                 let plate = Solid::new(outline.clone(), vec![hole], 0.0, 1.0);
                 if plate.and_then(|plate| plate.mesh(fine)).is_err() {
                     // Adding zero makes a negative zero positive.
                     let [x, y] = [at.x, at.y].map(|x| (x * 1e6).round() / 1e6 + 0.0);
                     return Err(wrong(format!(
                         "the hole of {} mm for the pin at {x}, {y} mm does not lie within the outline",
-                        self.design.plates.pin_diameter
+                        hub.bore
                     )));
                 }
             }

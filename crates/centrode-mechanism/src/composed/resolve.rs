@@ -1,5 +1,5 @@
 use std::collections::BTreeMap;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use centrode_geometry::Point;
 
@@ -108,6 +108,7 @@ impl Composed {
             expansion,
             loads,
             obstacles: Vec::new(),
+            shafts: OnceLock::new(),
         };
         made.check_names()?;
         made.check_drawn()?;

@@ -10,6 +10,7 @@ mod drawn;
 mod gears;
 mod limits;
 mod random;
+mod shafts;
 mod trains;
 
 fn read(text: &str) -> ComposedDesign {

@@ -44,69 +44,85 @@ impl ThreeArm {
         };
         let (design, [rear, front]) = (self.design(), gearbox.spans);
         let (clearance, free) = (design.gearbox.clearance, f64::INFINITY);
-        let general = &design.drawing.general_tolerance;
         let beyond = self.arm_level() + span(arm, "cover-front").map_or(0.0, |[_, top]| top);
-        let shaft = |body: &BodySpec, links: Vec<TurnedPiece>, names, (span, room)| {
-            let [_, end] = span;
-            let bar = Bar::new(body.bore, &body.shaft_fit, span).held(room);
-            // Plates of the carrier, what holds them apart and, where the shaft goes on, what holds the arm.
-            let arm = (end > front[1]).then_some([front[1], end]);
-            let between = [rear, [rear[1], front[0]], front];
-            let on_it: Vec<[f64; 2]> = between.into_iter().chain(arm).collect();
-            let mut bar = bar.through(&on_it).keyed(body.keyway, [0.0, body.width]);
-            // At the outer faces of the plates, against the rings.
-            let bearings = self.bearing(body.bore).map(|bearing| {
-                let wide = bearing.width;
-                [(bearing, rear[0]), (bearing, front[1] - wide)]
-            });
-            for (bearing, low) in bearings.into_iter().flatten() {
-                bar = bar.seat([low, low + bearing.width], BEARING[1]);
-            }
-            let above = |(bearing, low): (Bearing, f64)| (bearing, low - bar.bottom());
-            let part = bar.part(names, (&body.material, body.density), general);
-            let fit = Fit::new("", body.bore, [&body.bore_fit, &body.shaft_fit]);
-            let key = body.keyway.and_then(|hub| Key::round(hub, body.width));
-            let key = key.map(|key| SeatedKey {
-                key,
-                at: 0.5 * (body.width - key.length) - bar.bottom(),
-            });
-            // Keyways of shaft and gear are on one line.
-            let seat = |piece: TurnedPiece| TurnedPiece {
-                at: [0.0, 0.0, bar.bottom()],
-                turn: [0.0, 0.0, body.keyway_angle],
-                ..piece
-            };
-            TurnedPieces {
-                keys: key.into_iter().collect(),
-                bearings: bearings.into_iter().flatten().map(above).collect(),
-                pieces: links.into_iter().map(seat).collect(),
-                ..TurnedPieces::new(part, fit)
-            }
-        };
-        let behind = rear[0] - DRIVEN_END * design.sun.bore;
-        let mut carrier = shaft(
-            &design.sun,
-            vec![TurnedPiece::upright("sun", [0.0; 3])],
-            ["shaft-carrier", "Shaft of the carrier"],
-            ([behind, front[1]], [0.0, clearance]),
-        );
-        carrier.part.notes = vec![
-            "Held fast at its free end, to be cut to length; the carrier turns about it.".into(),
-        ];
-        let between = shaft(
+        let between = self.shaft(
             &design.intermediate,
             self.on_chains("intermediate", [0.0; 3]),
             ["shaft-intermediate", "Shaft of an intermediate gear"],
             ([rear[0], front[1]], [free, clearance]),
         );
-        let planet = shaft(
+        let planet = self.shaft(
             &design.planet,
             self.on_chains("planet", [0.0; 3]),
             ["shaft-planet", "Shaft of a planet gear"],
             ([rear[0], beyond], [free, free]),
         );
-        let all = [carrier, between, planet].into_iter();
-        all.filter(|shaft| shaft.fit.size > 0.0).collect()
+        let all = [self.carrier_shaft(), between, planet];
+        all.into_iter().flatten().collect()
+    }
+
+    /// Shaft of the sun, which stands still and about which the carrier turns; none without a gearbox, or a bore of the sun.
+    #[must_use]
+    pub fn carrier_shaft(&self) -> Option<TurnedPieces> {
+        let (design, [rear, front]) = (self.design(), self.gearbox()?.spans);
+        let behind = rear[0] - DRIVEN_END * design.sun.bore;
+        let mut made = self.shaft(
+            &design.sun,
+            vec![TurnedPiece::upright("sun", [0.0; 3])],
+            ["shaft-carrier", "Shaft of the carrier"],
+            ([behind, front[1]], [0.0, design.gearbox.clearance]),
+        )?;
+        made.part.notes = vec![
+            "Held fast at its free end, to be cut to length; the carrier turns about it.".into(),
+        ];
+        Some(made)
+    }
+
+    /// A shaft in the bore of a gear, on links, with its names, between two heights with room for rings beyond them.
+    fn shaft(
+        &self,
+        body: &BodySpec,
+        links: Vec<TurnedPiece>,
+        names: [&str; 2],
+        (span, room): ([f64; 2], [f64; 2]),
+    ) -> Option<TurnedPieces> {
+        let [rear, front] = self.gearbox().filter(|_| body.bore > 0.0)?.spans;
+        let general = &self.design().drawing.general_tolerance;
+        let [_, end] = span;
+        let bar = Bar::new(body.bore, &body.shaft_fit, span).held(room);
+        // Plates of the carrier, what holds them apart and, where the shaft goes on, what holds the arm.
+        let arm = (end > front[1]).then_some([front[1], end]);
+        let between = [rear, [rear[1], front[0]], front];
+        let on_it: Vec<[f64; 2]> = between.into_iter().chain(arm).collect();
+        let mut bar = bar.through(&on_it).keyed(body.keyway, [0.0, body.width]);
+        // At the outer faces of the plates, against the rings.
+        let bearings = self.bearing(body.bore).map(|bearing| {
+            let wide = bearing.width;
+            [(bearing, rear[0]), (bearing, front[1] - wide)]
+        });
+        for (bearing, low) in bearings.into_iter().flatten() {
+            bar = bar.seat([low, low + bearing.width], BEARING[1]);
+        }
+        let above = |(bearing, low): (Bearing, f64)| (bearing, low - bar.bottom());
+        let part = bar.part(names, (&body.material, body.density), general);
+        let fit = Fit::new("", body.bore, [&body.bore_fit, &body.shaft_fit]);
+        let key = body.keyway.and_then(|hub| Key::round(hub, body.width));
+        let key = key.map(|key| SeatedKey {
+            key,
+            at: 0.5 * (body.width - key.length) - bar.bottom(),
+        });
+        // Keyways of shaft and gear are on one line.
+        let seat = |piece: TurnedPiece| TurnedPiece {
+            at: [0.0, 0.0, bar.bottom()],
+            turn: [0.0, 0.0, body.keyway_angle],
+            ..piece
+        };
+        Some(TurnedPieces {
+            keys: key.into_iter().collect(),
+            bearings: bearings.into_iter().flatten().map(above).collect(),
+            pieces: links.into_iter().map(seat).collect(),
+            ..TurnedPieces::new(part, fit)
+        })
     }
 
     /// Pins of fork, roller and push rod.

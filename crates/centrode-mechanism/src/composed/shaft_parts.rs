@@ -1,0 +1,219 @@
+//! Shafts of a composed machine as turned parts, and what the parts list says of them.
+
+use super::shafts::ROUNDING;
+use super::{Composed, ComposedShaft, Hold, ShaftPart};
+use crate::digits::thousandths;
+use crate::gear::design::BodySpec;
+use crate::machine::{
+    Bar, Fit, JointKind, Machine, Part, SeatedKey, Supply, TurnedPiece, TurnedPieces,
+};
+
+/// Diameters of its own that a shaft goes on to what drives it.
+const DRIVEN_END: f64 = 3.0;
+
+impl Composed {
+    /// The shafts as turned parts, those of copies as pieces of one.
+    #[must_use]
+    pub fn turned_shafts(&self) -> Vec<TurnedPieces> {
+        let mut found: Vec<(&str, TurnedPieces)> = Vec::new();
+        for shaft in self.shafts() {
+            let name = self.original(&shaft.name);
+            let made = self.turned_shaft(shaft);
+            match found.iter_mut().find(|(known, _)| *known == name) {
+                Some((_, known)) => known.pieces.extend(made.pieces),
+                None => found.push((name, made)),
+            }
+        }
+        found.into_iter().map(|(_, made)| made).collect()
+    }
+
+    fn turned_shaft(&self, shaft: &ComposedShaft) -> TurnedPieces {
+        let (hub, spec) = (&shaft.hub, &self.design.plates);
+        let on_it = shaft.parts.iter();
+        let on_it = on_it.filter(|part| part.hold.is_fixed() || part.hold == Hold::Turning);
+        let on_it: Vec<&ShaftPart> = on_it.collect();
+        let low = on_it
+            .iter()
+            .map(|part| part.span[0])
+            .fold(f64::INFINITY, f64::min);
+        let high = on_it
+            .iter()
+            .map(|part| part.span[1])
+            .fold(f64::NEG_INFINITY, f64::max);
+        let [deepest, highest] = self.extent();
+        let beyond = |is_last: bool| if is_last { f64::INFINITY } else { spec.gap };
+        let (is_lowest, is_highest) = (low <= deepest + ROUNDING, high >= highest - ROUNDING);
+        let end = match shaft.is_driven && is_lowest {
+            true => DRIVEN_END * hub.bore,
+            false => 0.0,
+        };
+        let turning = on_it.iter().any(|part| part.hold == Hold::Turning);
+        let class = if turning {
+            &spec.pin_fit
+        } else {
+            &hub.shaft_fit
+        };
+        let mut bar = Bar::new(hub.bore, class, [low - end, high])
+            .ring(low, false, beyond(is_lowest))
+            .ring(high, true, beyond(is_highest));
+        let spans: Vec<[f64; 2]> = on_it.iter().map(|part| part.span).collect();
+        bar = bar.through(&spans);
+        if end > 0.0 && *class != hub.shaft_fit {
+            bar = bar.seat([low - end, low], &hub.shaft_fit);
+        }
+        let mut keys = Vec::new();
+        for part in on_it.iter().filter(|part| part.hold.is_fixed()) {
+            let mut span = part.span;
+            if let Hold::Keyed(key) = part.hold {
+                let half = 0.5 * key.length.max(span[1] - span[0]);
+                let middle = 0.5 * (span[0] + span[1]);
+                span = [middle - half, middle + half];
+                bar = bar.keyed(hub.keyway, span);
+                keys.push((key, middle - 0.5 * key.length));
+            }
+            if *class != hub.shaft_fit {
+                bar = bar.seat(span, &hub.shaft_fit);
+            }
+        }
+        let title = format!("Shaft of {}", self.original(&shaft.name));
+        let name = format!("shaft-{}", self.original(&shaft.name));
+        let general = &self.design.drawing.general_tolerance;
+        let mut part = bar.part([&name, &title], (&hub.material, hub.density), general);
+        part.notes.extend(notes(&on_it, (end > 0.0, bar.is_held())));
+        let owner = &self.bodies[shaft.body].name;
+        let given = self.design.bodies.get(owner).map(|body| body.given_mass());
+        let piece = TurnedPiece {
+            turn: [0.0, 0.0, hub.keyway.map_or(0.0, |_| hub.keyway_angle)],
+            is_counted: given.is_some_and(|given| given.mass.is_some()),
+            ..TurnedPiece::upright(owner, [shaft.at.x, shaft.at.y, bar.bottom()])
+        };
+        let seat = |(key, at)| SeatedKey {
+            key,
+            at: at - bar.bottom(),
+        };
+        TurnedPieces {
+            role: match (shaft.body, end > 0.0) {
+                (0, _) => "stands still".into(),
+                (_, true) => "driven at its free end".into(),
+                (_, false) => String::new(),
+            },
+            keys: keys.into_iter().map(seat).collect(),
+            pieces: vec![piece],
+            ..TurnedPieces::new(
+                part,
+                Fit::new("", hub.bore, [&hub.bore_fit, &hub.shaft_fit]),
+            )
+        }
+    }
+
+    /// What the parts list says of how a gear or cam is held, where that is not by its shaft alone.
+    pub(super) fn told_hold(&self, name: &str) -> Option<&'static str> {
+        let mut parts = self.shafts().iter().flat_map(|shaft| &shaft.parts);
+        let own = parts.find(|part| !part.is_plate && part.name == name);
+        match own.map(|part| part.hold) {
+            None => Some("no bore, or none on an axis: not joined"),
+            Some(Hold::Loose) => Some("bore or keyway is not its shaft's"),
+            Some(_) => None,
+        }
+    }
+
+    /// What the parts list says of a plate that is fixed to another body away from any shaft of both.
+    pub(super) fn told_fixed(&self, body: usize) -> Option<String> {
+        let to = self.bodies[body].mount.as_ref()?;
+        let mut shafts = self.shafts().iter();
+        let is_joined = shafts.any(|shaft| {
+            let own = |part: &ShaftPart| part.is_plate && part.body == body && part.hold.is_fixed();
+            shaft.parts.iter().any(own)
+        });
+        let told = to.kind == JointKind::Fixed && !is_joined;
+        told.then(|| format!("fixed to {} by the customer", self.bodies[to.carrier].name))
+    }
+
+    /// Lists the brackets, which are the customer's, of gears or cams through which the shaft of another body goes.
+    pub(super) fn list_brackets(&self, machine: &mut Machine) {
+        let parts = self
+            .shafts()
+            .iter()
+            .flat_map(|shaft| shaft.parts.iter().map(move |part| (shaft, part)));
+        for (shaft, part) in parts.filter(|(_, part)| part.hold == Hold::Bracket) {
+            let original = self.original(&part.name);
+            let (name, body) = (
+                format!("Bracket of {original}"),
+                &self.bodies[part.body].name,
+            );
+            let link = machine.link_named(body);
+            if let Some(known) = machine.parts.iter_mut().find(|part| part.name == name) {
+                known.links.extend(link);
+                continue;
+            }
+            let own = |(name, hub): (&String, &BodySpec)| (*name == part.name).then(|| hub.clone());
+            let gears = self
+                .gears
+                .iter()
+                .map(|gear| (&gear.name, gear.gear().body()));
+            let cams = self.cams.iter().map(|cam| (&cam.name, cam.part.body()));
+            let Some(hub) = gears.chain(cams).find_map(own) else {
+                continue;
+            };
+            let inside = thousandths(shaft.hub.bore);
+            let bore = thousandths(hub.bore);
+            machine.part(Part {
+                name,
+                links: link.into_iter().collect(),
+                supply: Supply::Given,
+                remark: format!(
+                    "holds it on {}: Ø{bore} {} in its bore, clear of Ø{inside} inside",
+                    self.original(body),
+                    hub.shaft_fit
+                ),
+                ..Part::default()
+            });
+        }
+    }
+
+    /// Lowest and highest face of all plates, gears and cams, mm.
+    fn extent(&self) -> [f64; 2] {
+        let plates = (0..self.bodies.len()).filter(|&body| self.hole_places(body).is_some());
+        let plates = plates.map(|body| {
+            let bottom = self.bottom(body);
+            [bottom, bottom + self.thickness(body)]
+        });
+        let gears = self.gears.iter().map(|gear| [self.gear_bottom(gear); 2]);
+        let cams = self.cams.iter().map(|cam| [self.cam_bottom(cam); 2]);
+        let all = plates.chain(gears).chain(cams);
+        all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], [a, b]| {
+            [low.min(a), high.max(b)]
+        })
+    }
+}
+
+/// Notes of a shaft's sheet: what drives it, and what is bonded on it.
+fn notes(on_it: &[&ShaftPart], (driven, held): (bool, bool)) -> Vec<String> {
+    let mut notes = Vec::new();
+    if driven {
+        notes.push("Driven at its free end, to be cut to length.".into());
+    }
+    let bonded = on_it.iter().filter(|part| match part.hold {
+        Hold::Bonded => true,
+        Hold::Keyed(_) => !held,
+        _ => false,
+    });
+    let bonded: Vec<&str> = bonded.map(|part| &*part.name).collect();
+    if !bonded.is_empty() {
+        let why = if held { "" } else { "No room for two rings: " };
+        let what = bonded.join(", ");
+        let line = format!("{why}bonded on it with a retaining compound: {what}.");
+        let mut letters = line.chars();
+        let first = letters.next().map(|c| c.to_uppercase().collect::<String>());
+        notes.push(first.unwrap_or_default() + letters.as_str());
+    }
+    let keyed = on_it
+        .iter()
+        .filter(|part| matches!(part.hold, Hold::Keyed(_)));
+    let keyed: Vec<&str> = keyed.map(|part| &*part.name).collect();
+    if keyed.len() > 1 {
+        let what = keyed.join(", ");
+        notes.push(format!("Keyways on one line set the angles of {what}."));
+    }
+    notes
+}

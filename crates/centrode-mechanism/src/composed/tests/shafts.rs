@@ -1,0 +1,252 @@
+use std::f64::consts::{PI, TAU};
+
+use centrode_geometry::{Outline, Point, Solid, Vector};
+
+use super::made;
+use crate::composed::{Composed, Hold};
+use crate::machine::{Form, Machine, Supply};
+
+/// A crank with an arm fixed to it, driven by two circular gears.
+const TRAIN: &str = r#"
+family = "machine"
+[frame.points]
+O = [0, 0]
+[bodies.shaft]
+on = "frame.O"
+law = { ratio = -1 }
+[bodies.crank]
+on = "frame"
+mesh = { gear = "wheel", with = "pinion", direction_deg = 0 }
+points = { A = [0, 30] }
+[bodies.arm]
+fixed_to = "crank"
+turned_deg = -29
+points = { tip = [60, 0] }
+[pairs.drive]
+pitch = { kind = "circle", module = 2, tooth_count = 24 }
+driver = { width = 12, bore = 10KEY }
+driven = { width = 12, bore = 10KEY }
+[gears.pinion]
+pair = "drive"
+role = "driver"
+on = "shaft"
+[gears.wheel]
+pair = "drive"
+role = "driven"
+on = "crank"
+mount_deg = 17
+[plates]
+thickness = 6
+gap = 1
+width = 16
+pin_diameter = 6
+"#;
+
+const KEY: &str = ", keyway = { width = 3, depth = 1.4 }";
+
+fn train(key: &str) -> Composed {
+    made(&TRAIN.replace("KEY", key))
+}
+
+/// Solids of a link, its plate first.
+fn solids<'a>(machine: &'a Machine, name: &str) -> &'a [Solid] {
+    let link = machine.link_named(name).expect("a link");
+    let shape = machine.links[link].shape.expect("a shape");
+    match &machine.shapes[shape].form {
+        Form::Solids(solids) => solids,
+        _ => panic!("{name}"),
+    }
+}
+
+/// Direction in which a hole about a point reaches farthest, by the corners of its keyway, rad.
+fn keyway(hole: &Outline, about: Point) -> f64 {
+    let ways: Vec<Vector> = hole
+        .segments()
+        .iter()
+        .map(|s| s.at(-1.0).point - about)
+        .collect();
+    let most = ways.iter().map(|way| way.norm()).fold(0.0, f64::max);
+    let corners = ways.iter().filter(|way| way.norm() > most - 1e-9);
+    let sum: Vector = corners.sum();
+    sum.y.atan2(sum.x)
+}
+
+fn is_whole(turns: f64) -> bool {
+    (turns - turns.round()).abs() < 1e-9
+}
+
+#[test]
+fn plate_gear_and_shaft_of_a_body_have_their_keyways_on_one_line() {
+    let composed = train(KEY);
+    let machine = composed.machine().expect("a machine");
+    let [crank, arm] = ["crank", "arm"].map(|name| solids(&machine, name));
+    // The crank's hole on its axis, its wheel's bore, the arm's hole.
+    let origin = Point::origin();
+    let about = |solid: &Solid| {
+        let holes = solid.holes().iter();
+        let near = holes.min_by(|a, b| {
+            a.centroid()
+                .coords
+                .norm()
+                .total_cmp(&b.centroid().coords.norm())
+        });
+        keyway(near.expect("a hole"), origin)
+    };
+    let [plate, wheel, arm] = [&crank[0], &crank[1], &arm[0]].map(about);
+    assert!((plate - 17_f64.to_radians()).abs() < 1e-9, "{plate}");
+    assert!((wheel - plate).abs() < 1e-9);
+    // Turned with the arm by -29 degrees.
+    assert!((arm - 46_f64.to_radians()).abs() < 1e-9, "{arm}");
+    let turned = composed.turned_shafts();
+    let shaft = turned
+        .iter()
+        .find(|all| all.part.name == "shaft-wheel")
+        .expect("a shaft");
+    let piece = &shaft.pieces[0];
+    assert_eq!(piece.link, "crank");
+    assert!(is_whole((piece.turn[2] - plate) / TAU));
+    // A key for the wheel, one for each plate: 12 in 12 mm, 6 in 6 mm.
+    let mut long: Vec<f64> = shaft.keys.iter().map(|seated| seated.key.length).collect();
+    long.sort_by(f64::total_cmp);
+    assert_eq!(long, [6.0, 6.0, 12.0]);
+    let axis = composed.body_named("crank").expect("a crank");
+    let fits = composed
+        .shafts()
+        .iter()
+        .find(|shaft| shaft.body == axis)
+        .expect("a shaft");
+    let holds = |name: &str| {
+        fits.parts
+            .iter()
+            .find(|part| part.name == name)
+            .expect(name)
+            .hold
+    };
+    assert_eq!(holds("frame"), Hold::Turning);
+    assert!(
+        ["crank", "arm", "wheel"]
+            .into_iter()
+            .all(|name| matches!(holds(name), Hold::Keyed(_)))
+    );
+}
+
+#[test]
+fn a_plate_that_turns_on_a_shaft_has_a_round_hole_of_its_size_in_the_class_of_pins() {
+    let composed = train(KEY);
+    let holes = composed.pin_holes(0).expect("a frame");
+    assert_eq!(holes.len(), 2);
+    for hole in holes {
+        assert_eq!(
+            (hole.hub.bore, hole.hub.keyway, &*hole.hub.bore_fit),
+            (10.0, None, "H8")
+        );
+        assert!((hole.outline().area() - 25.0 * PI).abs() < 1e-9);
+    }
+    let shafts = composed.turned_shafts();
+    assert!(composed.pins_in_plates().is_empty());
+    // Seats of what turns with it h6, the rest f7; the input's goes on by three diameters.
+    let [pinion, wheel] = ["pinion", "wheel"].map(|name| {
+        let name = format!("shaft-{name}");
+        shafts
+            .iter()
+            .find(|all| all.part.name == name)
+            .expect("a shaft")
+    });
+    let classes = |all: &crate::machine::TurnedPieces, keyed: bool| {
+        let steps = all.part.steps.iter();
+        let plain = steps.filter(|step| step.ring.is_none() && step.is_keyed == keyed);
+        plain.map(|step| step.class.clone()).collect::<Vec<_>>()
+    };
+    assert_eq!(classes(pinion, true), ["h6", "h6"]);
+    assert_eq!(classes(pinion, false), ["h6", "f7"]);
+    assert!(classes(wheel, false).iter().all(|class| class == "f7"));
+    // 12 + 1 + 6 + 1 + 6 of gear, frame and plate, and the end.
+    assert!((pinion.part.length() - 26.0 - 30.0).abs() < 1e-9);
+}
+
+#[test]
+fn without_keyways_parts_are_bonded_and_other_bores_are_told() {
+    let plain = train("");
+    let machine = plain.machine().expect("a machine");
+    let remarks: Vec<&str> = machine.parts.iter().map(|part| &*part.remark).collect();
+    assert!(
+        remarks.iter().all(|remark| !remark.contains(';')),
+        "{remarks:?}"
+    );
+    let shafts = plain.turned_shafts();
+    assert!(
+        shafts
+            .iter()
+            .all(|all| all.keys.is_empty() && all.part.keyway.is_none())
+    );
+    let note = "onded on it with a retaining compound: ";
+    assert!(
+        shafts
+            .iter()
+            .all(|all| all.part.notes.iter().any(|line| line.contains(note)))
+    );
+    // A gear without a bore is told, and leaves the pins as they are.
+    let solid = made(&TRAIN.replace("bore = 10KEY", "bore = 0"));
+    let parts = solid.machine().expect("a machine").parts;
+    let wheel = parts
+        .iter()
+        .find(|part| part.name == "wheel")
+        .expect("a wheel");
+    assert!(wheel.remark.ends_with("not joined"), "{}", wheel.remark);
+}
+
+#[test]
+fn a_cam_through_which_the_shaft_of_another_body_goes_has_a_bracket() {
+    let path = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../tests/designs/index-table.toml"
+    );
+    let text = std::fs::read_to_string(path).expect("a shipped design");
+    let table = made(&text);
+    let machine = table.machine().expect("a machine");
+    let bracket = machine
+        .parts
+        .iter()
+        .find(|part| part.name == "Bracket of still");
+    let bracket = bracket.expect("a bracket");
+    assert_eq!(
+        (bracket.supply, bracket.links.clone()),
+        (Supply::Given, vec![0])
+    );
+    let around = table
+        .shafts()
+        .iter()
+        .find(|shaft| shaft.name == "hub-wheel")
+        .expect("a shaft");
+    let cam = around
+        .parts
+        .iter()
+        .find(|part| part.name == "still")
+        .expect("a cam");
+    assert_eq!(cam.hold, Hold::Bracket);
+    // Every other gear turns with a shaft; keyways at right angles would not be one line.
+    let keyed = |name: &str| {
+        let mut parts = table.shafts().iter().flat_map(|shaft| &shaft.parts);
+        parts.any(|part| part.name == name && matches!(part.hold, Hold::Keyed(_)))
+    };
+    assert!(
+        ["hub-wheel", "hub-pinion", "lever-gear", "table-wheel"]
+            .into_iter()
+            .all(keyed)
+    );
+    let turned = text.replace(
+        "hub-pinion = { pair = \"step\", role = \"driver\", on = \"hub\" }",
+        "hub-pinion = { pair = \"step\", role = \"driver\", on = \"hub\", mount_deg = 90 }",
+    );
+    let table = made(&turned);
+    let parts = table.machine().expect("a machine").parts;
+    let pinion = parts
+        .iter()
+        .find(|part| part.name == "hub-pinion")
+        .expect("a pinion");
+    assert!(
+        pinion.remark.ends_with("is not its shaft's"),
+        "{}",
+        pinion.remark
+    );
+}
