@@ -84,7 +84,7 @@ def test_goals_move_with_a_point_that_is_held(browser, tmp_path, design, name):
 
 
 def test_a_key_that_is_held_is_followed_by_the_goals(browser, tmp_path):
-    with opened(browser, tmp_path, FEEDER, script=SLOW_CHECKS) as (page, _):
+    with opened(browser, tmp_path, FEEDER) as (page, _), withheld(page, "detail", "checks"):
         page.evaluate(
             """() => {
               window.told = new Set();
@@ -93,11 +93,10 @@ def test_a_key_that_is_held_is_followed_by_the_goals(browser, tmp_path):
             }"""
         )
         field(page, "linkage.crank").focus()
-        # The picture of a step, and its goals, need some time on a busy computer.
-        for _ in range(12):
+        # However long the picture of a step and its goals take: they wait for no checks.
+        for steps in range(1, 5):
             page.keyboard.press("ArrowUp")
-            page.wait_for_timeout(250)
-        assert page.evaluate("window.told.size") > 3
+            page.wait_for_function("steps => window.told.size >= steps", arg=steps, timeout=60_000)
 
 
 def test_goals_of_another_state_are_told_to_be_that(browser, tmp_path):
@@ -126,6 +125,25 @@ def test_goals_are_there_before_the_checks_of_a_page_just_opened(browser, tmp_pa
         settled(page)
         assert exact(page) == first
         expect(page.locator("#figures tbody tr").first).to_be_visible()
+
+
+def test_the_share_of_long_checks_that_is_done_stands_beside_the_seconds(browser, tmp_path):
+    with opened(browser, tmp_path, ARMS) as (page, _):
+        told = {"share": 0}
+        page.route("**/progress/*", lambda route: route.fulfill(json=told))
+        with withheld(page, "detail", "checks"):
+            tip = field(page, "arm.tip_distance")
+            tip.fill("146")
+            tip.press("Enter")
+            # Nothing is said of a share before there is any.
+            expect(page.locator("#working")).to_be_visible()
+            expect(page.locator("#working-time")).to_have_text(re.compile(r"^\d+ s$"))
+            for share, words in [(0.129, "12 %"), (0.789, "78 %")]:
+                told["share"] = share
+                expect(page.locator("#working-time")).to_have_text(re.compile(rf"^{words} done, \d+ s$"))
+        settled(page)
+        expect(page.locator("#working")).to_be_hidden()
+        expect(page.locator("#working-time")).not_to_contain_text("done")
 
 
 def test_an_error_leaves_nothing_of_the_design_before(browser, tmp_path):

@@ -22,8 +22,9 @@ def rows(page):
 
 
 def counted(page, count):
-    expect(page.locator(".points tbody tr")).to_have_count(count)
-    expect(page.locator(".handle .number")).to_have_text([str(i + 1) for i in range(count)])
+    expect(page.locator(".points tbody tr")).to_have_count(count, timeout=30_000)
+    # Fitted teeth are cut anew for every change: on a busy computer that takes seconds.
+    expect(page.locator(".handle .number")).to_have_text([str(i + 1) for i in range(count)], timeout=30_000)
 
 
 def saved(page, design):

@@ -8,6 +8,7 @@ import socket
 import tempfile
 import time
 import zipfile
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -451,6 +452,51 @@ def test_a_slow_solve_of_one_page_does_not_hold_up_another(served):
     assert answer["verdict"]["ok"]
     slow.close()
     assert is_idle(served.process)
+
+
+def test_the_share_of_the_checks_that_is_done_is_told(tmp_path):
+    path = tmp_path / "arms.toml"
+    path.write_text(ARMS)
+    with studio(path) as running:
+        assert running.json("GET", "progress/one") == (200, {"share": None})
+        ask = {"text": ARMS, "depth": "checks", "page": "one", "turn": 1}
+        with ThreadPoolExecutor() as pool:
+            checks = pool.submit(running.json, "POST", "solve", ask)
+            told = []
+            while not checks.done():
+                told.append(running.json("GET", "progress/one")[1]["share"])
+                time.sleep(0.01)
+            status, answer = checks.result()
+        assert status == 200
+        assert answer["verdict"]
+        shares = [share for share in told if share is not None]
+        assert shares == sorted(shares)
+        assert len({share for share in shares if 0 < share < 1}) > 3
+        # Nothing is solved any more, for this page or another.
+        assert running.json("GET", "progress/one") == (200, {"share": None})
+        assert running.json("GET", "progress/two") == (200, {"share": None})
+
+
+@pytest.mark.parametrize(
+    ("name", "key", "value"),
+    [
+        ("moving-box-2018", "gears.module", 1e9),
+        ("moving-box-2018", "shaft.radius", 1e9),
+        ("spiral-shaft-2018", "radius", 1e9),
+        ("spiral-shaft-2018", "groove.width", 1e-9),
+        ("composed-three-arm", "plates.width", 1e-6),
+    ],
+)
+def test_a_number_out_of_all_proportion_is_drawn_in_bounds(tmp_path, name, key, value):
+    path = tmp_path / "design.toml"
+    path.write_text((ROOT / "tests" / "designs" / f"{name}.toml").read_text())
+    with studio(path) as running:
+        ask = {"text": path.read_text(), "edits": [{"key": key, "value": value}], "depth": "picture"}
+        # It has twenty seconds.
+        status, answer = running.ask("POST", "solve", ask)
+        assert status == 200
+        assert len(answer) < 8_000_000
+        assert json.loads(answer)["picture"] or json.loads(answer)["error"]
 
 
 def test_ctrl_c_ends_the_program_in_the_middle_of_a_slow_solve(design):

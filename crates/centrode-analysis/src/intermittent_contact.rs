@@ -5,6 +5,8 @@ use centrode_mechanism::gear::IntermittentPair;
 use centrode_mechanism::transmission::Transmission;
 use nalgebra::Isometry2;
 
+use crate::progress::Steps;
+
 /// Greatest turn of the driven gear searched, rad.
 const FREE: f64 = 0.5;
 /// Share of a squared distance that rounding may be off.
@@ -46,8 +48,10 @@ impl IntermittentContact {
             layers.push((Wheel::star(&cam.outline, tolerance), pins.collect()));
         }
         let mut out = Self::default();
+        let steps = Steps::new(count as usize);
         for i in 0..count {
             checkpoint();
+            steps.step();
             let input = TAU * (f64::from(i) + 0.37) / f64::from(count);
             let turned = pair.law().at(input).position;
             // The driver's axes seen from the driven gear's.

@@ -82,9 +82,6 @@ impl Solid {
         bottom: f64,
         top: f64,
     ) -> Result<Self, SolidError> {
-        if !(bottom < top && bottom.is_finite() && top.is_finite()) {
-            return Err(SolidError::NoHeight { bottom, top });
-        }
         let forward = |o: Outline| {
             if o.is_counter_clockwise() {
                 o
@@ -92,9 +89,29 @@ impl Solid {
                 o.reversed()
             }
         };
+        let holes = holes.into_iter().map(forward).collect();
+        Self::counter_clockwise(forward(outline), holes, bottom, top)
+    }
+
+    /// A solid between the heights `bottom` and `top` of contours that are all counter-clockwise: [`new`](Self::new) without
+    /// looking which way they are walked, which for teeth of many curves takes some tenths of a millisecond.
+    ///
+    /// # Errors
+    /// [`SolidError::NoHeight`] unless `bottom < top`.
+    pub fn counter_clockwise(
+        outline: Outline,
+        holes: Vec<Outline>,
+        bottom: f64,
+        top: f64,
+    ) -> Result<Self, SolidError> {
+        if !(bottom < top && bottom.is_finite() && top.is_finite()) {
+            return Err(SolidError::NoHeight { bottom, top });
+        }
+        debug_assert!(outline.is_counter_clockwise());
+        debug_assert!(holes.iter().all(Outline::is_counter_clockwise));
         Ok(Self {
-            outline: forward(outline),
-            holes: holes.into_iter().map(forward).collect(),
+            outline,
+            holes,
             bottom,
             top,
             opening: None,

@@ -27,6 +27,7 @@ pub use self::goals::composed_figures;
 use self::motion::Motion;
 pub use self::sound_teeth::{NoSoundTeeth, SoundTeeth, with_sound_teeth};
 use crate::forces::ForcesError;
+use crate::progress::filling;
 use crate::report::Missed;
 use crate::side_by_side::both;
 use crate::{Finding, Goal, Place, Report, Severity, Table, Unit};
@@ -43,7 +44,7 @@ const HOLDS_BADLY: f64 = 30.0;
 pub fn check_composed(composed: &Composed) -> Report {
     // Teeth take about as long as the motion, of which they know nothing.
     let (pairs, motion) = both(
-        || pairs::checked(composed),
+        || filling([0.0, 0.7], || pairs::checked(composed)),
         || Motion::new(composed, &ends(composed)),
     );
     let made = Made {

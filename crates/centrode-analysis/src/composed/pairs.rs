@@ -7,15 +7,23 @@ use centrode_mechanism::composed::Composed;
 use centrode_mechanism::gear::design::GearPairDesign;
 
 use super::Made;
+use crate::progress::filling;
 use crate::{Report, Table, Unit};
 
 /// Checks of the pairs of a machine, in their order there.
 pub(super) fn checked(composed: &Composed) -> Vec<Arc<Report>> {
     static CHECKED: Recent<GearPairDesign, Arc<Report>> = Recent::new();
-    let pairs = composed.pairs().into_iter();
+    let pairs = composed.pairs();
+    let count = pairs.len() as f64;
+    let pairs = (0_u32..).zip(pairs);
     // Teeth take long; those of a design in which other things change are checked once.
     pairs
-        .map(|pair| CHECKED.get(pair.design(), || Arc::new(crate::check(pair))))
+        .map(|(number, pair)| {
+            let [from, to] = [number, number + 1].map(|done| f64::from(done) / count);
+            filling([from, to], || {
+                CHECKED.get(pair.design(), || Arc::new(crate::check(pair)))
+            })
+        })
         .collect()
 }
 

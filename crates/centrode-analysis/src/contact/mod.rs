@@ -41,6 +41,8 @@ pub use proof::{Proof, ProofError, ProofMeeting, ProofStretch, prove};
 use rayon::prelude::{IntoParallelIterator, ParallelIterator};
 use sample::Sample;
 
+use crate::progress::{Steps, filling};
+
 /// Samples a pitch where no flank is undercut or short.
 const SAMPLES_PER_PITCH: u32 = 4;
 
@@ -109,12 +111,12 @@ impl Contact {
     #[must_use]
     pub fn analyse(pair: &GearPair) -> Self {
         if pair.teeth().addendum == Addendum::Full && is_whole(pair) {
-            let found = Self::sampled(pair, SAMPLES_PER_PITCH);
+            let found = filling([0.0, 0.1], || Self::sampled(pair, SAMPLES_PER_PITCH));
             if found.is_off_by_less_than(TOUCHED) {
                 return found;
             }
         }
-        Self::sampled(pair, FINE_SAMPLES_PER_PITCH)
+        filling([0.1, 1.0], || Self::sampled(pair, FINE_SAMPLES_PER_PITCH))
     }
 
     /// Analyses one whole cycle at `per_pitch` inputs a pitch or a little more, spaced evenly along the pitch curve and never in
@@ -128,11 +130,12 @@ impl Contact {
         let runs = cycle.analysed().div_ceil(RUN);
         let cores = (rayon::current_num_threads() as u32).min(runs);
         let cancel = Cancel::current();
+        let steps = Steps::new(cycle.analysed() as usize);
         let stretches = (0..cores.max(1)).into_par_iter().panic_fuse();
         let samples = stretches.flat_map_iter(|core| {
             let _scope = cancel.enter();
             let [from, to] = [core, core + 1].map(|k| k * runs / cores);
-            run_samples(pair, &cycle, from..to)
+            run_samples(pair, &cycle, from..to, &steps)
         });
         cycle.whole(samples.collect())
     }
@@ -155,7 +158,7 @@ impl Contact {
 }
 
 /// Samples of runs of a cycle. Every run begins anew, so the figures do not depend on which are done together.
-fn run_samples(pair: &GearPair, cycle: &Cycle, runs: Range<u32>) -> Vec<Sample> {
+fn run_samples(pair: &GearPair, cycle: &Cycle, runs: Range<u32>, steps: &Steps) -> Vec<Sample> {
     let rolling = pair.rolling();
     let mut meshing = Meshing::new(pair);
     let mut out = Vec::new();
@@ -164,6 +167,7 @@ fn run_samples(pair: &GearPair, cycle: &Cycle, runs: Range<u32>) -> Vec<Sample> 
         for i in run * RUN..cycle.analysed().min((run + 1) * RUN) {
             let t = rolling.parameter(cycle.arc(i));
             out.push(meshing.sample(rolling.angle(t), rolling.driven_angle_at(t)));
+            steps.step();
         }
     }
     out

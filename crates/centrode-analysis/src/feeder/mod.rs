@@ -22,6 +22,7 @@ pub use swing_spread::{SixBarTolerances, SwingSpread};
 
 use self::figures::FIGURES;
 use crate::no_screws::no_screws;
+use crate::progress::filling;
 use crate::{Finding, Place, Report, Severity, Table, Unit};
 
 /// Number of random six-bars, Monte Carlo samples within the tolerances.
@@ -34,8 +35,8 @@ const ON_CHORD: f64 = 1e-3;
 /// Lengths are mm, angles rad, times s; speeds of the tip are mm/s, angular accelerations rad/s², torques N mm, forces N.
 #[must_use]
 pub fn check_feeder(feeder: &Feeder) -> Report {
-    let mut report = check_strokes(feeder);
-    gears::gears(feeder, &mut report);
+    let mut report = filling([0.0, 0.2], || check_strokes(feeder));
+    filling([0.2, 0.9], || gears::gears(feeder, &mut report));
     screws(feeder, &mut report);
     report.worst_first();
     report

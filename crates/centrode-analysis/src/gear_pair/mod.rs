@@ -13,6 +13,7 @@ use centrode_mechanism::gear::{GearPair, Limits, Member, ToolKind};
 
 use self::remedy::remedy;
 use self::teeth::teeth;
+use crate::progress::filling;
 use crate::{Contact, Finding, Place, Report, Severity, Unit};
 
 pub(crate) use figures::FIGURES;
@@ -32,7 +33,8 @@ pub(crate) const SLIGHT: f64 = 2e-5;
 /// over the whole cycle.
 #[must_use]
 pub fn check(pair: &GearPair) -> Report {
-    check_contact(pair, &Contact::analyse(pair))
+    let contact = filling([0.0, 0.6], || Contact::analyse(pair));
+    filling([0.6, 1.0], || check_contact(pair, &contact))
 }
 
 /// Checks a gear pair like [`check`], with a contact analysis made before.

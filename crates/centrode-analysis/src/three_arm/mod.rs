@@ -21,6 +21,7 @@ use self::gear_train::check_gear_train;
 use self::goals::all_goals;
 use self::pusher::check_pusher;
 use self::screws::check_screws;
+use crate::progress::filling;
 use crate::report::Missed;
 use crate::side_by_side::both;
 use crate::{Finding, Goal, Place, Report, Severity, Table, Unit, gear_pair};
@@ -36,7 +37,8 @@ const ARM_TOLERANCE: f64 = 1e-4;
 /// Checks a three-arm mechanism: its goals, its working points, and the teeth its curves can bear.
 #[must_use]
 pub fn check_three_arm(mechanism: &ThreeArm) -> Report {
-    check_three_arm_teeth(mechanism, &TrainTeeth::analyse(mechanism))
+    let teeth = filling([0.0, 0.7], || TrainTeeth::analyse(mechanism));
+    filling([0.7, 1.0], || check_three_arm_teeth(mechanism, &teeth))
 }
 
 /// Checks a three-arm mechanism like [`check_three_arm`], with teeth that have been run together already.

@@ -12,12 +12,12 @@ use super::rim::rim;
 use super::still::Still;
 use crate::page::{Mark, Motion, Path, Picture, PictureLink, Rounding};
 
-/// Fewest steps of a period.
-const FEWEST: f64 = 720.0;
+/// Fewest steps of a period: half of the samples of its curves, so that what laws remember serves both.
+const FEWEST: f64 = 360.0;
 /// Fewest steps of a turn of the input: no link may turn by half a turn in one.
 const PER_TURN: f64 = 60.0;
 /// Times the tolerance by which figures may be off between two steps: nobody measures what moves.
-const BETWEEN: f64 = 4.0;
+const BETWEEN: f64 = 10.0;
 /// Most steps of a period.
 const MOST: f64 = 2e4;
 /// How long before a jump the picture still stands where it jumps from, and how long after it stands where it jumps to, rad.
@@ -25,15 +25,20 @@ const BEFORE: f64 = 1e-6;
 const AFTER: f64 = 1e-9;
 /// Change over [`BEFORE`], as a share of the law's speed, above which a law jumps.
 const SUDDEN: f64 = 1e-3;
+/// Finest tolerance, as a share of how far the material of a figure reaches: what is finer is seen by no eye, and a figure out of all
+/// proportion to the others would take without end.
+const FINEST: f64 = 1e-7;
 /// Angles and inputs are rounded by, rad.
 const ANGLE: f64 = 1e-6;
 const INPUT: f64 = 1e-7;
 
 /// The machine as a picture that moves; lines are within the tolerance of the exact ones, and so are places at steps of the
-/// input, between them within four times as much.
+/// input, between them within ten times as much. A tolerance below 1e-7 of how far the largest figure reaches is that.
 #[must_use]
 pub fn picture(machine: &Machine, tolerance: Tolerance) -> Picture {
     let rims: Vec<Vec<Point>> = machine.sketches.iter().map(rim).collect();
+    let finest = Tolerance::new(FINEST * rims.iter().map(|rim| reach(rim)).fold(0.0, f64::max));
+    let tolerance = finest.map_or(tolerance, |finest| tolerance.max(finest));
     let still = Still::new(machine, tolerance);
     // Contours take longer than the course: whoever is first goes on with what is left of them.
     let course = || {
@@ -151,8 +156,7 @@ impl Course {
         };
         let smooth: Vec<usize> = (1..self.input.len() - 1).filter(smooth).collect();
         let of = |(figure, poses): (&Figure, &Vec<[f64; 3]>)| {
-            let reach = rims[figure.sketch].iter().map(|p| p.coords.norm());
-            let reach = reach.fold(0.0, f64::max);
+            let reach = reach(&rims[figure.sketch]);
             let off = |&i: &usize| {
                 let (from, now, to) = (self.input[i - 1], self.input[i], self.input[i + 1]);
                 let share = (now - from) / (to - from);
@@ -186,27 +190,39 @@ impl Course {
             f64::NEG_INFINITY,
             f64::NEG_INFINITY,
         ];
-        let mut cover = |x: f64, y: f64| {
-            let [left, low, right, high] = extent;
-            extent = [left.min(x), low.min(y), right.max(x), high.max(y)];
+        let cover = |[left, low, right, high]: [f64; 4], x: f64, y: f64| {
+            [left.min(x), low.min(y), right.max(x), high.max(y)]
         };
         for (figure, poses) in machine.figures.iter().zip(&self.poses) {
             let still = poses.iter().all(|pose| *pose == poses[0]);
             let count = if still { 1 } else { poses.len() };
+            let reach = reach(&rims[figure.sketch]);
             for [x, y, turn] in &poses[..count] {
+                let [left, low, right, high] = extent;
+                if x - reach >= left && x + reach <= right && y - reach >= low && y + reach <= high
+                {
+                    continue;
+                }
                 let (sin, cos) = turn.sin_cos();
                 for p in &rims[figure.sketch] {
-                    cover(x + cos * p.x - sin * p.y, y + sin * p.x + cos * p.y);
+                    let at = [x + cos * p.x - sin * p.y, y + sin * p.x + cos * p.y];
+                    extent = cover(extent, at[0], at[1]);
                 }
             }
             for line in &machine.sketches[figure.sketch].lines {
                 if let (LineRole::Trace, LinePath::Trace(point)) = (line.role, &line.path) {
-                    self.points[*point].iter().for_each(|p| cover(p.x, p.y));
+                    let places = self.points[*point].iter();
+                    extent = places.fold(extent, |extent, p| cover(extent, p.x, p.y));
                 }
             }
         }
         extent
     }
+}
+
+/// Greatest distance from the origin of a figure's axes.
+fn reach(rim: &[Point]) -> f64 {
+    rim.iter().map(|p| p.coords.norm()).fold(0.0, f64::max)
 }
 
 pub(super) fn placed([x, y, turn]: &[f64; 3]) -> Isometry2<f64> {

@@ -1,3 +1,5 @@
+use std::f64::consts::FRAC_PI_2;
+
 use centrode_geometry::{Outline, Point, Segment, Tolerance};
 use centrode_mechanism::machine::LineRole;
 use serde::ser::SerializeSeq as _;
@@ -46,11 +48,12 @@ impl Path {
         }
     }
 
-    /// The way of a point, its places within the tolerance of those given; closed where it ends as it begins.
+    /// The way of a point, within the tolerance of the straight lines between the places given; closed where it ends as it begins.
     pub(crate) fn way(role: LineRole, places: &[Point], tolerance: Tolerance) -> Self {
         let unit = unit(tolerance);
         let place = |p: &Point| [short(p.x, unit), short(p.y, unit), 0.0];
-        let mut places: Vec<[f64; 3]> = places.iter().map(place).collect();
+        let kept = fewest(places, 0.9 * tolerance.mm()).into_iter();
+        let mut places: Vec<[f64; 3]> = kept.map(|i| place(&places[i])).collect();
         let closed = places.len() > 1 && places.first() == places.last();
         if closed {
             places.pop();
@@ -71,6 +74,46 @@ impl Path {
             closed: false,
         }
     }
+}
+
+/// Places, by their numbers, between which straight lines leave none of the others farther away than a distance: each line reaches as
+/// far as it can.
+fn fewest(places: &[Point], off: f64) -> Vec<usize> {
+    let last = places.len().saturating_sub(1);
+    let mut kept: Vec<usize> = (0..places.len().min(1)).collect();
+    while let Some(&from) = kept.last()
+        && from < last
+    {
+        kept.push(from + farthest(&places[from..], off));
+    }
+    kept
+}
+
+/// Number of the last place to which a straight line from the first leaves none between them farther away than a distance, as far as
+/// the next one does not turn back; 1 at least.
+///
+/// The directions in which the line passes a place near enough are a range, which narrows from place to place.
+fn farthest(places: &[Point], off: f64) -> usize {
+    let from = places[0];
+    let (mut middle, mut range) = (None, [-FRAC_PI_2, FRAC_PI_2]);
+    let mut before = 0.0;
+    for (number, place) in places.iter().enumerate().skip(1) {
+        let way = place - from;
+        let distance = way.norm();
+        if distance <= off && middle.is_none() {
+            continue;
+        }
+        let along = *middle.get_or_insert(way.y.atan2(way.x));
+        let (sin, cos) = f64::sin_cos(along);
+        let angle = (cos * way.y - sin * way.x).atan2(cos * way.x + sin * way.y);
+        if distance < before || !(range[0]..=range[1]).contains(&angle) {
+            return (number - 1).max(1);
+        }
+        before = distance;
+        let width = (off / distance.max(off)).asin();
+        range = [range[0].max(angle - width), range[1].min(angle + width)];
+    }
+    places.len() - 1
 }
 
 /// Rounding of numbers, which takes a tenth of the tolerance.
@@ -129,6 +172,8 @@ pub(crate) fn drawn<S: Serializer>(values: &[f64], serializer: S) -> Result<S::O
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::TAU;
+
     use super::*;
     use centrode_geometry::{Arc, Point};
 
@@ -151,6 +196,42 @@ mod tests {
                     let off = (p - Point::new(1.234_567_8, -7.0)).norm() - 31.415_926;
                     assert!(off.abs() <= mm, "{off} at {mm}");
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn a_way_has_few_places_and_stays_near_all_that_it_leaves_out() {
+        let curve = |i: u32| {
+            let t = f64::from(i) * TAU / 720.0;
+            Point::new(90.0 * t.cos() + 20.0 * (3.0 * t).sin(), 60.0 * t.sin())
+        };
+        let places: Vec<Point> = (0..=720).map(curve).collect();
+        // There and back on one line, with a stop.
+        let back = [0.0, 1.0, 2.0, 2.0, 2.0, 3.0, 1.5, 0.0].map(|x| Point::new(x, 0.0));
+        for (places, most) in [
+            (&places[..], 160),
+            (&back, 4),
+            (&back[..1], 1),
+            (&back[..0], 0),
+        ] {
+            let tolerance = Tolerance::new(0.03).expect("positive");
+            let path = Path::way(LineRole::Trace, places, tolerance);
+            let corners: Vec<Point> = path
+                .vertices
+                .chunks(3)
+                .map(|v| Point::new(v[0], v[1]))
+                .collect();
+            assert!(corners.len() <= most, "{}", corners.len());
+            for p in places {
+                let away = |(a, b): (&Point, &Point)| {
+                    let (along, way) = (b - a, p - a);
+                    let share = (along.dot(&way) / along.norm_squared().max(1e-12)).clamp(0.0, 1.0);
+                    (way - along * share).norm()
+                };
+                let sides = corners.iter().zip(corners.iter().cycle().skip(1));
+                let off = sides.map(away).fold(f64::INFINITY, f64::min);
+                assert!(off <= 0.03, "{p} is {off} mm off");
             }
         }
     }

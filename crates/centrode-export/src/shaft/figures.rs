@@ -10,8 +10,10 @@ use super::links::MEMBERS;
 use super::machine::{Gears, Machine};
 use crate::{ExportError, gear_pair};
 
-/// How exactly the edges of the groove are drawn, as a share of its width.
+/// How exactly the edges of the groove are drawn, as a share of its width, and no finer than this share of the shaft's radius, at which
+/// a turn has some 700 strips.
 const DRAWN: f64 = 5e-3;
+const FINEST: f64 = 1e-5;
 /// Share of a turn within which the slider has left one edge of the development for the other.
 const ROUNDING: f64 = 1e-12;
 
@@ -76,7 +78,8 @@ fn surface(parts: &Machine<'_>) -> Result<Vec<Line>, ExportError> {
     let [low, high] = ShaftSolid::new(groove, shaft.body())?.ends();
     let blank = rectangle(Point::new(low, -around), Point::new(high, 0.0));
     let mut lines = vec![Line::contour(LineRole::Body, &blank)];
-    if let Ok(tolerance) = Tolerance::new(DRAWN * groove.width()) {
+    let seen = (DRAWN * groove.width()).max(FINEST * groove.radius());
+    if let Ok(tolerance) = Tolerance::new(seen) {
         for edge in shaft.wall_edges(tolerance)? {
             let edge: Vec<Point> = edge.into_iter().map(drawn).collect();
             lines.push(Line::chain(LineRole::Trace, &edge));

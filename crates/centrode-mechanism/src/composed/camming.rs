@@ -6,7 +6,6 @@ use std::sync::Arc;
 use centrode_geometry::{Outline, Point, Solid, SolidError, Tolerance};
 use nalgebra::Isometry2;
 
-use super::gearing::placed;
 use super::points::{ROLLER, Reference};
 use super::resolve::Builder;
 use super::seating::{ROUNDING, Seat, Turned, wrong};
@@ -71,9 +70,14 @@ impl ComposedCam {
 
     /// The cam in its body's axes, from a height on.
     pub(super) fn solid(&self, bottom: f64) -> Result<Solid, SolidError> {
-        let contours = (self.part.profile().outline(), self.part.bore());
-        let top = bottom + self.part.body().width;
-        placed(contours, &self.place(), [bottom, top])
+        let place = self.place();
+        let bore = self.part.bore().map(|bore| bore.transformed(&place));
+        Solid::new(
+            self.part.profile().outline().transformed(&place),
+            bore.into_iter().collect(),
+            bottom,
+            bottom + self.part.body().width,
+        )
     }
 
     /// Its contour to touch with.

@@ -4,11 +4,12 @@ use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use centrode_geometry::{Extreme, Point, bracketed_root, greatest, pieces};
+use centrode_geometry::{Extreme, Point, bracketed_root, greatest, pieces, together};
 use nalgebra::Rotation2;
 
 use super::copies::{self, ComposedCopiesSpec, Spin};
 use super::expansion::Expansion;
+use super::resolve::Builder;
 use super::{Composed, ComposedDesign, ComposedError};
 use crate::transmission::{FromFn, Transmission, sorted};
 
@@ -43,23 +44,39 @@ impl Composed {
             vary: BTreeMap::new(),
             ..design.clone()
         };
-        let one = Self::built(&bare, &bare, Expansion::default(), None)?;
+        let none = Expansion::default();
+        let mut first = Builder::assembled(&bare, &none, None)?;
+        // Loads of copies may stand on the followers of cams that are cut.
+        let cut_before = !design.loads.is_empty();
+        if cut_before {
+            first.cut_cams()?;
+        }
+        let one = first.clone().so_far(&bare);
         let (mut whole, mut expansion) = (design.clone(), Expansion::default());
-        for (name, spec) in &design.copies {
+        let add = |(name, spec): (&String, &ComposedCopiesSpec)| {
             let key = format!("copies.{name}");
             one.can_copy(design, &key, spec)?;
             let spin = one.spin(&key, &spec.about)?;
-            copies::add(&mut whole, &mut expansion, &one.points, (name, spin))?;
-        }
-        let originals = expansion.clone();
-        let made = Self::built(design, &whole, expansion, Some(&one));
-        let made = made.map_err(|error| match originals.written(&error.key()) {
-            key if key == error.key() => error,
-            key => ComposedError::Copy {
-                key,
-                error: Box::new(error),
-            },
-        })?;
+            copies::add(&mut whole, &mut expansion, &one.points, (name, spin))
+        };
+        let added = design.copies.iter().try_for_each(add);
+        let cut = || {
+            if !cut_before {
+                first.cut_cams()?;
+            }
+            first.finished(&bare)
+        };
+        let copied = || {
+            added?;
+            let made = Builder::assembled(&whole, &expansion, Some(&one));
+            made.map_err(|error| of_copy(error, &expansion))
+        };
+        // A cam takes as long to cut as the copies to assemble, which know nothing of it.
+        let (one, made) = together(cut, copied);
+        let (one, mut made) = (one?, made?);
+        made.bare = Some(&one);
+        let made = made.cut_cams().and_then(|()| made.finished(design));
+        let made = made.map_err(|error| of_copy(error, &expansion))?;
         for (name, spec) in &design.copies {
             made.check_copies(&format!("copies.{name}"), spec)?;
         }
@@ -263,6 +280,17 @@ impl Composed {
         let end = input + self.period();
         let off = |input: f64| angle(input) - wanted;
         bracketed_root(off, input, end, off(input), off(end))
+    }
+}
+
+/// An error of the design written out, told of what is copied.
+fn of_copy(error: ComposedError, expansion: &Expansion) -> ComposedError {
+    match expansion.written(&error.key()) {
+        key if key == error.key() => error,
+        key => ComposedError::Copy {
+            key,
+            error: Box::new(error),
+        },
     }
 }
 

@@ -64,12 +64,14 @@ impl ComposedGear {
 
     /// The gear in its body's axes, from a height on.
     pub(super) fn solid(&self, bottom: f64) -> Result<Solid, SolidError> {
-        let gear = self.gear();
-        let contours = (gear.outline(), gear.bore());
-        placed(
-            contours,
-            &self.place(),
-            [bottom, bottom + gear.body().width],
+        let (gear, place) = (self.gear(), self.place());
+        let bore = gear.bore().map(|bore| bore.transformed(&place));
+        let top = bottom + gear.body().width;
+        Solid::counter_clockwise(
+            gear.outline().transformed(&place),
+            bore.into_iter().collect(),
+            bottom,
+            top,
         )
     }
 
@@ -97,16 +99,6 @@ impl ComposedGear {
         lines.push(line(LineRole::Pitch, gear.pitch_curve()));
         lines
     }
-}
-
-/// A part with its bore in the axes of its body, between two heights.
-pub(super) fn placed(
-    (outline, bore): (&Outline, Option<Outline>),
-    place: &Isometry2<f64>,
-    [bottom, top]: [f64; 2],
-) -> Result<Solid, SolidError> {
-    let bore = bore.iter().map(|bore| bore.transformed(place)).collect();
-    Solid::new(outline.transformed(place), bore, bottom, top)
 }
 
 impl Composed {

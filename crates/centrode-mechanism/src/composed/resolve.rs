@@ -26,6 +26,7 @@ enum Node<'a> {
 }
 
 /// A composed machine under construction.
+#[derive(Clone)]
 pub(super) struct Builder<'a> {
     pub(super) design: &'a ComposedDesign,
     /// Words of what is copied, among them the inputs by which laws run ahead.
@@ -53,78 +54,13 @@ impl Composed {
     /// [`ComposedError`] naming the key at fault.
     pub fn resolve(design: &ComposedDesign) -> Result<Self, ComposedError> {
         design.validate()?;
-        match design.copies.is_empty() {
-            true => Self::built(design, design, Expansion::default(), None),
-            false => Self::with_copies(design),
+        if !design.copies.is_empty() {
+            return Self::with_copies(design);
         }
-    }
-
-    /// Builds a design whose copies are written out, `bare` being the machine without them.
-    pub(super) fn built(
-        written: &ComposedDesign,
-        design: &ComposedDesign,
-        expansion: Expansion,
-        bare: Option<&Self>,
-    ) -> Result<Self, ComposedError> {
-        holders(design)?;
-        let points = points_of(design, &expansion)?;
-        let mut builder = Builder {
-            gears: gears_of(design, &points)?,
-            meshes: Vec::new(),
-            cams: BTreeMap::new(),
-            points,
-            linkage: Linkage::with_turns(design.input.turns),
-            bodies: vec![ComposedBody {
-                name: FRAME.into(),
-                link: LinkId::FRAME,
-                mount: None,
-            }],
-            dyads: Vec::new(),
-            pins: Vec::new(),
-            followed: Vec::new(),
-            expansion: &expansion,
-            bare,
-            design,
-        };
-        builder.build()?;
-        builder.follow()?;
+        let none = Expansion::default();
+        let mut builder = Builder::assembled(design, &none, None)?;
         builder.cut_cams()?;
-        builder.check_loops()?;
-        builder.check_cams()?;
-        let loads = builder.loads()?;
-        let mut made = Self {
-            written: written.clone(),
-            design: design.clone(),
-            linkage: builder.linkage,
-            bodies: builder.bodies,
-            dyads: builder.dyads,
-            pins: builder.pins,
-            points: builder.points,
-            drawn: drawn(design)?,
-            figures: Vec::new(),
-            gears: builder.gears,
-            meshes: builder.meshes,
-            cams: builder.cams.into_values().collect(),
-            expansion,
-            loads,
-            obstacles: Vec::new(),
-            shafts: OnceLock::new(),
-        };
-        made.check_names()?;
-        made.check_drawn()?;
-        made.obstacles = made.obstacles_of_design()?;
-        let goals = design.goals.iter();
-        let figures = goals.map(|(name, goal)| {
-            let figure = made.figure(&format!("goals.{name}.figure"), &goal.figure)?;
-            if matches!(figure, ComposedFigure::Clearance(_)) && goal.over != Some(Over::Least) {
-                let key = format!("goals.{name}.over");
-                let rule = Rule::Needed("as least for a clearance");
-                return Err(SpecError { key, rule }.into());
-            }
-            Ok(figure)
-        });
-        made.figures = figures.collect::<Result<_, ComposedError>>()?;
-        Ok(made)
+        builder.finished(design)
     }
 }
 
@@ -165,6 +101,87 @@ impl Node<'_> {
 }
 
 impl<'a> Builder<'a> {
+    /// Bodies and dyads of a design, with their motion, without the cams that are cut to it; `bare` is the machine without copies
+    /// of a design whose copies are written out.
+    pub(super) fn assembled(
+        design: &'a ComposedDesign,
+        expansion: &'a Expansion,
+        bare: Option<&'a Composed>,
+    ) -> Result<Self, ComposedError> {
+        holders(design)?;
+        let points = points_of(design, expansion)?;
+        let mut builder = Self {
+            gears: gears_of(design, &points)?,
+            meshes: Vec::new(),
+            cams: BTreeMap::new(),
+            points,
+            linkage: Linkage::with_turns(design.input.turns),
+            bodies: vec![ComposedBody {
+                name: FRAME.into(),
+                link: LinkId::FRAME,
+                mount: None,
+            }],
+            dyads: Vec::new(),
+            pins: Vec::new(),
+            followed: Vec::new(),
+            expansion,
+            bare,
+            design,
+        };
+        builder.build()?;
+        builder.follow()?;
+        Ok(builder)
+    }
+
+    /// The machine as far as it is assembled, unchecked.
+    pub(super) fn so_far(self, written: &ComposedDesign) -> Composed {
+        Composed {
+            written: written.clone(),
+            design: self.design.clone(),
+            linkage: self.linkage,
+            bodies: self.bodies,
+            dyads: self.dyads,
+            pins: self.pins,
+            points: self.points,
+            drawn: BTreeMap::new(),
+            figures: Vec::new(),
+            gears: self.gears,
+            meshes: self.meshes,
+            cams: self.cams.into_values().collect(),
+            expansion: self.expansion.clone(),
+            loads: Vec::new(),
+            obstacles: Vec::new(),
+            shafts: OnceLock::new(),
+        }
+    }
+
+    /// The machine with all that stands on it, checked.
+    pub(super) fn finished(self, written: &ComposedDesign) -> Result<Composed, ComposedError> {
+        self.check_loops()?;
+        self.check_cams()?;
+        let (design, loads) = (self.design, self.loads()?);
+        let mut made = Composed {
+            drawn: drawn(design)?,
+            loads,
+            ..self.so_far(written)
+        };
+        made.check_names()?;
+        made.check_drawn()?;
+        made.obstacles = made.obstacles_of_design()?;
+        let goals = design.goals.iter();
+        let figures = goals.map(|(name, goal)| {
+            let figure = made.figure(&format!("goals.{name}.figure"), &goal.figure)?;
+            if matches!(figure, ComposedFigure::Clearance(_)) && goal.over != Some(Over::Least) {
+                let key = format!("goals.{name}.over");
+                let rule = Rule::Needed("as least for a clearance");
+                return Err(SpecError { key, rule }.into());
+            }
+            Ok(figure)
+        });
+        made.figures = figures.collect::<Result<_, ComposedError>>()?;
+        Ok(made)
+    }
+
     /// Builds everything, each as soon as what it needs is there.
     fn build(&mut self) -> Result<(), ComposedError> {
         let design = self.design;

@@ -1,3 +1,4 @@
+use std::cell::Cell;
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use super::assembly::Linkage;
@@ -55,7 +56,8 @@ impl Linkage {
         if matches!(of, Coordinate::Along { .. }) {
             return Ok(found);
         }
-        let angle = |input: f64| found.coordinate::<2>(input).0;
+        let mut series = Series::<2>::default();
+        let mut angle = |input: f64| found.coordinate(input, &mut series).0;
         let [start, _] = angle(0.0);
         let mut knots = vec![(0.0, start)];
         let count = STEPS * (self.period / TAU).round().max(1.0) as u32;
@@ -153,13 +155,26 @@ pub struct LinkTransmission {
     advance: f64,
 }
 
+thread_local! {
+    /// Room of the last series, to be used again: a coordinate is asked for thousands of times.
+    static ROOM: Cell<Option<Box<Series<4>>>> = const { Cell::new(None) };
+}
+
 impl LinkTransmission {
-    /// The coordinate as a series; an angle as its principal value.
-    fn coordinate<const N: usize>(&self, input: f64) -> Taylor<N> {
-        let mut series = Series::default();
+    /// The coordinate as a series in the room of another; an angle as its principal value.
+    fn coordinate<const N: usize>(&self, input: f64, series: &mut Series<N>) -> Taylor<N> {
         self.linkage
-            .find(input, |part| self.needed.has(part), &mut series);
+            .find(input, |part| self.needed.has(part), series);
         series.coordinate(&self.of)
+    }
+
+    /// The coordinate up to the jerk; an angle as its principal value.
+    fn jet(&self, input: f64) -> MotionJet {
+        // A law on the way may be a coordinate itself, which then finds no room and makes its own.
+        let mut series = ROOM.take().unwrap_or_default();
+        let found = MotionJet::from_series(&self.coordinate(input, &mut series));
+        ROOM.set(Some(series));
+        found
     }
 }
 
@@ -168,7 +183,7 @@ impl Transmission for LinkTransmission {
         let period = self.linkage.period;
         let turns = (input / period).floor();
         let within = (input - turns * period).clamp(0.0, period);
-        let mut jet = MotionJet::from_series(&self.coordinate::<4>(within));
+        let mut jet = self.jet(within);
         let knot = self.knots.partition_point(|k| k.0 <= within);
         if let Some(&(_, near)) = self.knots.get(knot.wrapping_sub(1)) {
             jet.position = near + wrapped(jet.position - near) + turns * self.advance;

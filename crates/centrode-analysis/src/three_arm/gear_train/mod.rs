@@ -9,6 +9,7 @@ use centrode_mechanism::gear::{GearPair, GearPairError, Member};
 use centrode_mechanism::three_arm::{ThreeArm, ThreeArmLink};
 
 use crate::interference::{Clearance, Motion, Moving, PoseJet, Shares};
+use crate::progress::filling;
 use crate::{ArmClearanceError, Contact, Unit};
 use crate::{Finding, Place, Report, Severity, check_contact};
 
@@ -52,8 +53,8 @@ impl TrainTeeth {
 
     /// Runs cut teeth together.
     fn run(pair: GearPair) -> Self {
-        let contact = Contact::analyse(&pair);
-        let checked = check_contact(&pair, &contact);
+        let contact = filling([0.0, 0.6], || Contact::analyse(&pair));
+        let checked = filling([0.6, 1.0], || check_contact(&pair, &contact));
         Self {
             pair,
             contact,

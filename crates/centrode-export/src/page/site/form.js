@@ -33,9 +33,9 @@ export class Form {
     this.folded = new Set(["drawing"]);
     /** Tables without a value that were opened all the same. */
     this.unfolded = new Set();
-    /** Whether the last design was none, and the values of the last that was one. */
+    /** Whether the last design was none, and the tables of the last that was one. */
     this.failed = false;
-    this.good = new Map();
+    this.good = [];
     /** Grows with every change of an input, which keeps the number it was changed at. */
     this.clock = 0;
     this.changed = new WeakMap();
@@ -320,7 +320,9 @@ export class Form {
   /** The key at fault: where only its table is known, that of the one number in it that has changed since the last good design. */
   blamed(key, { tables }) {
     if (this.near(key)?.field !== null) return key;
-    const changed = tables.flatMap(({ fields }) => fields).filter((field) => field.key.startsWith(`${key}.`) && this.good.get(field.key) !== JSON.stringify(field.value));
+    const within = (tables) => tables.flatMap(({ fields }) => fields).filter((field) => field.key.startsWith(`${key}.`));
+    const good = new Map(within(this.good).map((field) => [field.key, JSON.stringify(field.value)]));
+    const changed = within(tables).filter((field) => good.get(field.key) !== JSON.stringify(field.value));
     return changed.length === 1 ? changed[0].key : key;
   }
 
@@ -333,7 +335,7 @@ export class Form {
     };
     const wrong = snapshot.error ?? snapshot.detail;
     if (wrong) put(this.blamed(wrong.key, snapshot), "error", brief(fault(wrong)));
-    else this.good = new Map(snapshot.tables.flatMap(({ fields }) => fields).map(({ key, value }) => [key, JSON.stringify(value)]));
+    else this.good = snapshot.tables;
     for (const finding of snapshot.error ? [] : snapshot.verdict?.findings ?? []) {
       const cause = finding.causes.find((key) => {
         const control = this.controls.get(key);

@@ -101,6 +101,9 @@ export const files = async (options, signal) => (await ask("export", "POST", opt
 export const meshes = async (text, signal) => (await ask("meshes", "POST", { text }, signal)).arrayBuffer();
 export const solve = async (request, signal) => whole(await json(ask("solve", "POST", { page, turn: (turn += 1), ...request }, signal)));
 
+/** What share of the checks that are under way is done; null while nothing is solved. */
+export const progress = async () => (await json(ask(`progress/${page}`, "GET"))).share;
+
 /** A snapshot with the inputs of every curve: where a curve has none, they are those of the one before. */
 export function whole(snapshot) {
   let before;

@@ -5,7 +5,7 @@ import * as server from "./server.js";
 import { state } from "./state.js";
 import * as verdict from "./verdict.js";
 import { byId } from "./elements.js";
-import { work } from "./work.js";
+import { progress, work } from "./work.js";
 
 /** Checks slower than this come after the picture, ms. */
 export const SLOW = 20;
@@ -17,6 +17,8 @@ const STALE = 2000;
 const LATE = 100;
 /** Goals that take longer do not follow a drag, ms. */
 const LIVE = 250;
+/** While checks last, how much of them is done is asked for so often, ms. */
+const ASKED = 500;
 
 /** The page: its `form`, `file()`, and what is told of answers: `show`, `judge`, `complain`. */
 const page = {};
@@ -142,6 +144,7 @@ async function check({ text, coarse }) {
   const wanted = () => state.checking === stop && !state.solving && state.snapshot.text === text;
   // The screen first: the checks take the computer's time.
   await state.shown;
+  const followed = setInterval(() => follow(stop), ASKED);
   try {
     for (const depth of coarse ? ["detail", "checks"] : ["checks"]) {
       if (!wanted()) return;
@@ -155,6 +158,19 @@ async function check({ text, coarse }) {
   } catch (error) {
     if (!stop.signal.aborted) page.complain("server", error);
     else if (wanted()) rest();
+  } finally {
+    clearInterval(followed);
+    progress("");
+  }
+}
+
+/** Says how much of the checks is done. */
+async function follow(stop) {
+  try {
+    const share = await server.progress();
+    if (share > 0 && share < 1 && state.checking === stop) progress(`${Math.floor(100 * share)} % done`);
+  } catch {
+    // Who waits for the checks is told why there are none.
   }
 }
 

@@ -7,6 +7,8 @@ import * as overlays from "./overlays.js";
 import { Painter, Scene } from "./painter.js";
 
 const CLOSEST = 1e5;
+/** Room above and below what is drawn, pixels. */
+const SPARE = 44;
 
 export class Stage extends Painter {
   constructor(moved) {
@@ -36,6 +38,14 @@ export class Stage extends Painter {
     this.mesh.show(this.scene);
     this.look.show(this.scene);
     if (this.fitted && !this.held) this.frame();
+  }
+
+  /** Room is left for the buttons above, however many lines they take. */
+  frame() {
+    const bar = this.box.querySelector(".view");
+    const above = Math.min(Math.max(SPARE, bar.offsetTop + bar.offsetHeight + 4), 0.3 * this.height);
+    super.frame([48, above + SPARE]);
+    if (this.scene) this.view.y += (above - SPARE) / 2 / this.view.scale;
   }
 
   pin(picture) {

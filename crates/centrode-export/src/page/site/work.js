@@ -33,10 +33,10 @@ export function progress(words) {
 
 function show() {
   const longest = jobs.size ? performance.now() - Math.min(...jobs.values()) : 0;
+  if (!jobs.size) progress("");
   byId("working").hidden = longest < PATIENCE;
   byId("working-time").textContent = `${far && `${far}, `}${Math.floor(longest / 1000)} s`;
   if (jobs.size) return;
-  progress("");
   clearInterval(ticking);
   ticking = 0;
 }

@@ -8,7 +8,7 @@ use super::field::{Field, keys_beside, tables};
 use super::start::{Measures, starts};
 
 /// Greatest number of keys of other tables that give way to a new kind.
-const MOST: usize = 3;
+pub(super) const MOST: usize = 3;
 
 /// Changes the kind of the table at a path; none where the table has no kinds, or not this one.
 ///
@@ -128,7 +128,11 @@ pub(super) fn fresh(value: &Json) -> Option<Value> {
 }
 
 /// Returns the design if it is a mechanism, at the price of so many optional keys outside a table that contradict it.
-fn sound(mut document: DocumentMut, table: &str, sacrifice: usize) -> Option<DocumentMut> {
+pub(super) fn sound(
+    mut document: DocumentMut,
+    table: &str,
+    sacrifice: usize,
+) -> Option<DocumentMut> {
     for left in (0..=sacrifice).rev() {
         let text = document.to_string();
         let error = match mechanism(&text) {

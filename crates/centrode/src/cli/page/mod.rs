@@ -1,8 +1,10 @@
 //! Snapshot of a design for the page: its numbers, picture, curves, figures and findings, as one JSON value.
 
+mod dyad;
 mod edit;
 mod family;
 mod field;
+mod follower;
 mod kind;
 mod plane;
 mod schema;

@@ -44,6 +44,7 @@ pub(crate) fn design_page(state: Arc<StudioState>) -> Router {
             get(async |State(state): Shared| state.watch.events()),
         )
         .route("/solve", post(solve))
+        .route("/progress/{page}", get(progress))
         .route("/fault", post(fault))
         .route("/save", post(save))
         .route("/keep", post(keep).delete(forget))
@@ -195,6 +196,11 @@ async fn solve(State(state): Shared, Json(ask): Json<Solve>) -> Result<Response,
         Err(Unsolved::Overtaken) => Ok(Json(json!({ "overtaken": true })).into_response()),
         Err(fault) => Err(Refused::because(StatusCode::INTERNAL_SERVER_ERROR, fault)),
     }
+}
+
+/// Share of the checks of a page that is done; null while nothing is solved for it.
+async fn progress(State(state): Shared, Path(page): Path<String>) -> Response {
+    Json(json!({ "share": state.solver.share(&page) })).into_response()
 }
 
 #[derive(Deserialize)]

@@ -1,6 +1,7 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use crate::analysis::Progress;
 use crate::geometry::Cancel;
 use serde::Deserialize;
 
@@ -11,10 +12,18 @@ use crate::cli::page::{Snapshot, Subject};
 /// A solve ends early once its page asks for another, or nobody waits for its answer any more.
 #[derive(Default)]
 pub(crate) struct Solver {
-    /// Request being solved for each page: its turn, and what ends it.
-    under_way: Mutex<HashMap<String, (u64, Cancel)>>,
+    /// Request being solved for each page.
+    under_way: Mutex<HashMap<String, UnderWay>>,
     /// Last design solved: after its picture its checks are asked for.
     last: Mutex<Option<Arc<Subject>>>,
+}
+
+/// A request that is being solved: its turn, what ends it, and how much of it is done.
+#[derive(Debug)]
+struct UnderWay {
+    turn: u64,
+    cancel: Cancel,
+    progress: Progress,
 }
 
 /// Depth to which a design is solved.
@@ -47,24 +56,30 @@ struct Wait<'a> {
     solver: &'a Solver,
     page: &'a str,
     cancel: Cancel,
+    progress: Progress,
 }
 
 impl<'a> Wait<'a> {
     /// Takes the place of the request being solved for the page; none for one that comes after a later one.
     fn begin(solver: &'a Solver, page: &'a str, turn: u64) -> Option<Self> {
-        let cancel = Cancel::default();
+        let (cancel, progress) = (Cancel::default(), Progress::default());
         let mut under_way = held(&solver.under_way);
-        if under_way.get(page).is_some_and(|(later, _)| *later > turn) {
+        if under_way.get(page).is_some_and(|later| later.turn > turn) {
             return None;
         }
-        let before = under_way.insert(page.to_owned(), (turn, cancel.clone()));
-        if let Some((_, before)) = before {
-            before.cancel();
+        let now = UnderWay {
+            turn,
+            cancel: cancel.clone(),
+            progress: progress.clone(),
+        };
+        if let Some(before) = under_way.insert(page.to_owned(), now) {
+            before.cancel.cancel();
         }
         Some(Self {
             solver,
             page,
             cancel,
+            progress,
         })
     }
 }
@@ -93,12 +108,19 @@ impl Solver {
     ) -> Result<String, Unsolved> {
         let wait = Wait::begin(self, page, turn).ok_or(Unsolved::Overtaken)?;
         let (solver, cancel) = (Arc::clone(self), wait.cancel.clone());
-        let job = move || cancel.run(|| solver.snapshot(text, depth));
+        let progress = wait.progress.clone();
+        let job = move || progress.during(|| cancel.run(|| solver.snapshot(text, depth)));
         match tokio::task::spawn_blocking(job).await {
             Ok(Ok(json)) => json.map_err(|error| Unsolved::Fault(error.to_string())),
             Ok(Err(_)) => Err(Unsolved::Overtaken),
             Err(fault) => Err(Unsolved::Fault(fault.to_string())),
         }
+    }
+
+    /// Share of the checks that are under way for a page; none while nothing is solved for it.
+    pub(crate) fn share(&self, page: &str) -> Option<f64> {
+        let under_way = held(&self.under_way);
+        Some(under_way.get(page)?.progress.share())
     }
 
     fn snapshot(&self, text: String, depth: Depth) -> serde_json::Result<String> {

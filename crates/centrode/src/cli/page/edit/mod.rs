@@ -2,8 +2,10 @@ use serde::Deserialize;
 use serde_json::Value as Json;
 use toml_edit::{Array, DocumentMut, InlineTable, Item, Table, Value};
 
+use super::dyad::retyped;
 use super::family::turned;
 use super::field::{list, required};
+use super::follower::refollowed;
 use super::kind::switched;
 use super::plane::moved;
 
@@ -90,7 +92,7 @@ impl Step {
 
 /// Text with the edits made; comments, order and all other values stay as they are.
 ///
-/// A new `kind` changes its table, and a new `family` the whole design, so that it stays a mechanism; a new `plane` leaves points where they
+/// A new `kind` changes its table, a new `type` its dyad, and a new `family` the whole design, so that it stays a mechanism; a new `plane` leaves points where they
 /// are. A table that is new gets its required keys, with the values that hold while the table is left out.
 pub(crate) fn edited(text: &str, edits: &[Edit]) -> Result<String, EditError> {
     let mut document: DocumentMut = text.parse()?;
@@ -105,7 +107,9 @@ pub(crate) fn edited(text: &str, edits: &[Edit]) -> Result<String, EditError> {
         }
         if let (Some(name), Json::String(word)) = (last.name(), &edit.value)
             && let Some(made) = match name {
-                "kind" => switched(&document, &steps, word),
+                "kind" => refollowed(&document, &steps, word)
+                    .or_else(|| switched(&document, &steps, word)),
+                "type" => retyped(&document, &steps, word),
                 "family" if steps.is_empty() => turned(&document, word),
                 "plane" => moved(&document, &steps, word),
                 _ => None,
