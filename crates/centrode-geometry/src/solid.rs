@@ -107,8 +107,6 @@ impl Solid {
         if !(bottom < top && bottom.is_finite() && top.is_finite()) {
             return Err(SolidError::NoHeight { bottom, top });
         }
-        debug_assert!(outline.is_counter_clockwise());
-        debug_assert!(holes.iter().all(Outline::is_counter_clockwise));
         Ok(Self {
             outline,
             holes,

@@ -106,7 +106,7 @@ impl Composed {
         }
     }
 
-    /// What the parts list says of how a gear or cam is held, where that is not by its shaft alone.
+    /// Note of the parts list on how a gear or cam is held, where that is not by its shaft alone.
     pub(super) fn told_hold(&self, name: &str) -> Option<&'static str> {
         let mut parts = self.shafts().iter().flat_map(|shaft| &shaft.parts);
         let own = parts.find(|part| !part.is_plate && part.name == name);
@@ -117,7 +117,7 @@ impl Composed {
         }
     }
 
-    /// What the parts list says of a plate that is fixed to another body away from any shaft of both.
+    /// Note of the parts list on a plate that is fixed to another body away from any shaft of both.
     pub(super) fn told_fixed(&self, body: usize) -> Option<String> {
         let to = self.bodies[body].mount.as_ref()?;
         let mut shafts = self.shafts().iter();

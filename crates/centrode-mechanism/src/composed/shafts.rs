@@ -29,7 +29,7 @@ pub struct ComposedShaft {
     pub hub: BodySpec,
     /// Whether it is driven from outside.
     pub is_driven: bool,
-    /// What is on it.
+    /// Parts that it carries.
     pub parts: Vec<ShaftPart>,
 }
 

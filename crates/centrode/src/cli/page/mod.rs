@@ -1,6 +1,6 @@
 //! Snapshot of a design for the page: its numbers, picture, curves, figures and findings, as one JSON value.
 
-mod dyad;
+mod composed;
 mod edit;
 mod family;
 mod field;

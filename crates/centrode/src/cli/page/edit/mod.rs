@@ -2,7 +2,7 @@ use serde::Deserialize;
 use serde_json::Value as Json;
 use toml_edit::{Array, DocumentMut, InlineTable, Item, Table, Value};
 
-use super::dyad::retyped;
+use super::composed::retyped;
 use super::family::turned;
 use super::field::{list, required};
 use super::follower::refollowed;
