@@ -26,7 +26,7 @@ LAWS = {
 
 
 def overlaps(pair):
-    """Shared areas of the pitch curves at driver angles, and the radial depth of each driven curve's points in the driver's."""
+    """Greatest area that the pitch curves share, and radial depth of a driven curve's point in the driver's."""
     a, cycle = pair.center_distance, np.linspace(0, 2 * np.pi, 2000, endpoint=False)
     ratio = np.asarray(pair.ratio(cycle))
     radius, driven = a * ratio / (1 + ratio), np.asarray(pair.driven_angle(cycle))

@@ -166,7 +166,8 @@ impl TitleBlock {
         // Long words below the title take two lines.
         let fits = |words: &str| lettering::width(words, SMALL) <= TITLES;
         let breaks = self.supplement.match_indices(' ').map(|(at, _)| at);
-        let last = breaks.filter(|&at| fits(&self.supplement[..at])).last();
+        let mut breaks = breaks.rev();
+        let last = breaks.find(|&at| fits(&self.supplement[..at]));
         match last.filter(|_| !fits(&self.supplement)) {
             Some(at) => {
                 draft.text_within(line(9.2), &[3.5], &self.title, Anchor::Left, TITLES);
