@@ -48,6 +48,8 @@ EXEMPT = {
             r"30,000 characters",
             r"narrower than 1060 pixels",
             r"1,048,576 bytes",
+            r"no finer than 1e-7",
+            r"no more than 20,000 inputs",
         ),
         INPUT: (r"Firefox \(153 ESR",),
         "time, measured by benches/browser/edits.py": (r"^\| `[\w-]+`.* \| \d+ \| \d+ \| \d+ \|",),

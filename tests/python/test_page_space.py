@@ -93,7 +93,7 @@ def test_links_in_space_stand_where_the_picture_has_them(drawer, tmp_path):
         poses = known.get(link["name"])
         if poses is None:
             continue
-        for index in range(0, len(head["input"]), 50):
+        for index in range(0, len(head["input"]), 25):
             x, y, turn = poses if len(poses) == 3 else poses[3 * index : 3 * index + 3]
             at = own[7 * index : 7 * index + 7]
             assert at[:3] == pytest.approx((x, y, at[2]), abs=1e-2)
