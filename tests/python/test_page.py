@@ -251,7 +251,7 @@ def searched(page):
     expect(status).to_contain_text(re.compile("goals (missed by|reached)"))
     expect(page.locator("#form")).to_have_attribute("inert", "")
     page.locator("#search-stop").click()
-    expect(status).to_contain_text("stopped")
+    expect(status).to_contain_text("stopped", timeout=20_000)
 
 
 def test_a_search_is_watched_stopped_dropped_and_taken(arms):
