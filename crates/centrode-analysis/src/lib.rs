@@ -33,7 +33,7 @@ pub use feeder::{
     check_strokes,
 };
 pub use figure::{FigureGroup, FigureRow, JsonNumber};
-pub use gear_pair::{MOST_TEETH, PairRemedy, check, check_contact, remedies};
+pub use gear_pair::{MOST_TEETH, PairRemedy, check, check_contact, pitch_overlap, remedies};
 pub use goal::Goal;
 pub use intermittent_contact::IntermittentContact;
 pub use progress::Progress;

@@ -131,20 +131,7 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
             });
         }
     }
-    if let Some(Extreme { input, value }) = rolling.overlap() {
-        report.findings.push(Finding {
-            rule: "pitch-curves-overlap",
-            remedy: remedy("pitch-curves-overlap"),
-            severity: Severity::Error,
-            message: format!(
-                "away from the point at which they roll the pitch curves overlap by up to {value:.4} mm: teeth of any size meet there"
-            ),
-            measured: Some(value),
-            required: Some(0.0),
-            unit: Unit::Millimetre,
-            place: Place { input: Some(input), ..Place::default() },
-        });
-    }
+    report.findings.extend(pitch_overlap(pair));
     let Extreme {
         input,
         value: steepest,
@@ -174,6 +161,27 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
     report
         .values
         .insert("largest_addendum", limits.largest_addendum);
+}
+
+/// The overlap of the pitch curves away from the point at which they roll, as a finding; none where they only roll.
+#[must_use]
+pub fn pitch_overlap(pair: &GearPair) -> Option<Finding> {
+    let Extreme { input, value } = pair.rolling().overlap()?;
+    Some(Finding {
+        rule: "pitch-curves-overlap",
+        remedy: remedy("pitch-curves-overlap"),
+        severity: Severity::Error,
+        message: format!(
+            "away from the point at which they roll the pitch curves overlap by up to {value:.4} mm: teeth of any size meet there"
+        ),
+        measured: Some(value),
+        required: Some(0.0),
+        unit: Unit::Millimetre,
+        place: Place {
+            input: Some(input),
+            ..Place::default()
+        },
+    })
 }
 
 /// Pressure angle above which friction is commonly considered a danger, rad.

@@ -253,6 +253,17 @@ impl Composed {
         })
     }
 
+    /// The shaft through a body's plate at a place, and how the plate is joined with it.
+    fn shaft_at(&self, body: usize, at: Point) -> Option<(&ComposedShaft, Hold)> {
+        let near = ROUNDING * self.design.plates.width;
+        let is_here =
+            |part: &&ShaftPart| part.is_plate && part.body == body && (part.at - at).norm() <= near;
+        self.shafts().iter().find_map(|shaft| {
+            let part = shaft.parts.iter().find(is_here)?;
+            Some((shaft, part.hold))
+        })
+    }
+
     /// A hole in a body's plate as a shaft or a pin asks for it.
     pub(super) fn hole(&self, body: usize, (name, at): (String, Point)) -> PinHole {
         let spec = &self.design.plates;
@@ -262,43 +273,32 @@ impl Composed {
             shaft_fit: spec.pin_fit.clone(),
             ..BodySpec::default()
         };
-        let here = |part: &&ShaftPart| {
-            part.is_plate && part.body == body && (part.at - at).norm() <= ROUNDING * spec.width
-        };
-        let found = self.shafts().iter().find_map(|shaft| {
-            let part = shaft.parts.iter().find(here)?;
-            Some((shaft, part.hold))
-        });
-        let hub = found.map_or(pin.clone(), |(shaft, hold)| {
-            let own = self.rigid(shaft.body).1.rotation.angle();
-            let turn = own - self.rigid(body).1.rotation.angle();
-            match hold {
-                Hold::Keyed(_) => BodySpec {
-                    keyway_angle: shaft.hub.keyway_angle + turn,
-                    ..shaft.hub.clone()
-                },
-                Hold::Bonded => BodySpec {
-                    keyway: None,
-                    ..shaft.hub.clone()
-                },
-                _ => BodySpec {
-                    bore: shaft.hub.bore,
-                    ..pin
-                },
-            }
-        });
+        let hub = self
+            .shaft_at(body, at)
+            .map_or(pin.clone(), |(shaft, hold)| {
+                let own = self.rigid(shaft.body).1.rotation.angle();
+                let turn = own - self.rigid(body).1.rotation.angle();
+                match hold {
+                    Hold::Keyed(_) => BodySpec {
+                        keyway_angle: shaft.hub.keyway_angle + turn,
+                        ..shaft.hub.clone()
+                    },
+                    Hold::Bonded => BodySpec {
+                        keyway: None,
+                        ..shaft.hub.clone()
+                    },
+                    _ => BodySpec {
+                        bore: shaft.hub.bore,
+                        ..pin
+                    },
+                }
+            });
         PinHole { name, at, hub }
     }
 
     /// Radius of a plate about the hole of a shaft, mm, that leaves a wall; zero where there is none.
     pub(super) fn boss(&self, body: usize, at: Point) -> f64 {
-        let near = ROUNDING * self.design.plates.width;
-        let is_here =
-            |part: &ShaftPart| part.is_plate && part.body == body && (part.at - at).norm() <= near;
-        let shaft = self
-            .shafts()
-            .iter()
-            .find(|shaft| shaft.parts.iter().any(is_here));
+        let shaft = self.shaft_at(body, at).map(|(shaft, _)| shaft);
         // Holes of pins, whatever goes through them, are narrower than the plates.
         let shaft = shaft.filter(|shaft| shaft.hub.bore != self.design.plates.pin_diameter);
         shaft.map_or(0.0, |shaft| bore::reach(&shaft.hub) + WALL * shaft.hub.bore)

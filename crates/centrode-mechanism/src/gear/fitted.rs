@@ -129,36 +129,47 @@ impl Fitting<'_> {
                 (reach_1[i], reach_2[j]) = if holds { cleared } else { meeting.clear(now) };
             }
         }
-        let tips_1: Vec<[Tip; 2]> = self.tops(Member::Driver, driver, &reach_1);
-        let tips_2: Vec<[Tip; 2]> = self.tops(Member::Driven, driven, &reach_2);
-        self.level(&tips_1, &mut reach_1, space(Member::Driven));
-        self.level(&tips_2, &mut reach_2, space(Member::Driver));
-        let tips_1: Vec<[Tip; 2]> = self.tops(Member::Driver, driver, &reach_1);
-        let tips_2: Vec<[Tip; 2]> = self.tops(Member::Driven, driven, &reach_2);
+        let settled = |member: Member, teeth: &mut [ToothPlan], mut reaches: Vec<Reaches>| {
+            let tips = self.tops(member, teeth, &reaches);
+            match self.level(&tips, &mut reaches, space(member.mate())) {
+                true => self.tops(member, teeth, &reaches),
+                false => tips,
+            }
+        };
+        let tips_1 = settled(Member::Driver, driver, reach_1);
+        let tips_2 = settled(Member::Driven, driven, reach_2);
         // Driven tooth k works in the driver's space after tooth k, driver tooth k + 1 in the driven
         // gear's.
         self.serve(driver, &tips_2, 0, meshes as usize, space(Member::Driver));
         self.serve(driven, &tips_1, 1, meshes as usize, space(Member::Driven));
     }
 
-    /// Shortens the higher flank of teeth whose tip leans so far that no root of one depth has room for both sides.
+    /// Shortens the higher flank of teeth whose tip leans so far that no root of one depth has room for both sides; says whether
+    /// there are any.
     ///
     /// Where that depth would cut into the flank that the lower side works on, the root has a step; the tip goes to and fro above it,
     /// and is clear of it wherever it stands if its higher side would be clear of the lower root.
-    fn level(&self, tips: &[[Tip; 2]], reaches: &mut [Reaches], space: f64) {
+    fn level(&self, tips: &[[Tip; 2]], reaches: &mut [Reaches], space: f64) -> bool {
         let clearance = self.tool.dedendum - self.tool.addendum;
+        let mut any = false;
         for (tip, reach) in tips.iter().zip(reaches) {
             for (low, high) in [(0, 1), (1, 0)] {
                 let most = tip[low].1 + clearance;
-                let end = SPARE * tip[low].0;
-                let is_cut = || {
-                    corner(self.tool, tip[high].1 + clearance, end, space).end > end * (1.0 + 1e-9)
-                };
-                if tip[high].1 > most && is_cut() {
+                let shared = || self.corner_below(tip[high].1 + clearance, tip[low], space);
+                if tip[high].1 > most && shared().is_none() {
                     reach[high] = tip[high].0 * (most / tip[high].1);
+                    any = true;
                 }
             }
         }
+        any
+    }
+
+    /// The corner of a space of some depth beside a flank that a tip works on; none where it would cut into that flank.
+    fn corner_below(&self, depth: f64, tip: Tip, space: f64) -> Option<Corner> {
+        let end = SPARE * tip.0;
+        let found = corner(self.tool, depth, end, space);
+        (found.end <= end * (1.0 + 1e-9)).then_some(found)
     }
 
     /// Fits every space of a gear to the tips that enter it: the mates' tooth k + `ahead` enters the
@@ -186,13 +197,10 @@ impl Fitting<'_> {
                 });
             let depth = before.1.max(after.1) + clearance;
             let settle = |flank: &mut FlankPlan, tip: Tip| {
-                let shared = corner(self.tool, depth, SPARE * tip.0, space);
                 // Where the shared depth would undercut the flank, the root rises to its own.
-                flank.corner = if shared.end > SPARE * tip.0 * (1.0 + 1e-9) {
-                    corner(self.tool, tip.1 + clearance, SPARE * tip.0, space)
-                } else {
-                    shared
-                };
+                let shared = self.corner_below(depth, tip, space);
+                flank.corner = shared
+                    .unwrap_or_else(|| corner(self.tool, tip.1 + clearance, SPARE * tip.0, space));
                 flank.active_depth = tip.0;
             };
             settle(&mut teeth[k].trailing, before);

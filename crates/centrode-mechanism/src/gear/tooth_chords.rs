@@ -38,49 +38,48 @@ const ROUND: f64 = 1.25;
 /// A circle around the working part of a tooth.
 pub(super) fn circle((rolling, tool): (&Rolling, &Tool), candidate: &Candidate) -> (Point, f64) {
     let [leading, trailing] = [Side::Leading, Side::Trailing].map(|side| {
-        let flank = Flank {
-            rolling,
-            member: candidate.member,
-            tool,
-            side,
-            crossing: candidate.crossings[side as usize],
-        };
-        let (up, down) = (
-            candidate.reaches[side as usize],
-            candidate.depths[side as usize],
-        );
-        [-down, 0.5 * (up - down), up]
-            .map(|roll| flank.point(rolling.parameter(flank.crossing - side.sign() * roll)))
+        let flank = candidate.flank(rolling, tool, side);
+        [0.0, 0.5, 1.0].map(|share| candidate.along(&flank, share))
     });
     let middle = nalgebra::center(&leading[1], &trailing[1]);
     let away = leading.iter().chain(&trailing).map(|p| (p - middle).norm());
     (middle, ROUND * away.fold(0.0, f64::max))
 }
 
-impl ToothChords {
-    pub(super) fn new((rolling, tool): (&Rolling, &Tool), candidate: &Candidate) -> Self {
-        let flank = |side: Side| Flank {
+impl Candidate {
+    fn flank<'a>(&self, rolling: &'a Rolling, tool: &'a Tool, side: Side) -> Flank<'a> {
+        Flank {
             rolling,
-            member: candidate.member,
+            member: self.member,
             tool,
             side,
-            crossing: candidate.crossings[side as usize],
-        };
-        let (leading, trailing) = (flank(Side::Leading), flank(Side::Trailing));
+            crossing: self.crossings[side as usize],
+        }
+    }
+
+    /// Point along a flank, from its lowest needed place (share 0) up to its tip.
+    fn along(&self, flank: &Flank<'_>, share: f64) -> Point {
+        let side = flank.side as usize;
+        let (up, down) = (self.reaches[side], self.depths[side]);
+        let roll = share * (up + down) - down;
+        flank.point(
+            flank
+                .rolling
+                .parameter(flank.crossing - flank.side.sign() * roll),
+        )
+    }
+}
+
+impl ToothChords {
+    pub(super) fn new((rolling, tool): (&Rolling, &Tool), candidate: &Candidate) -> Self {
+        let [leading, trailing] =
+            [Side::Leading, Side::Trailing].map(|side| candidate.flank(rolling, tool, side));
         let top = |flank: &Flank<'_>| {
             let arc = flank.crossing - flank.side.sign() * candidate.reaches[flank.side as usize];
             flank.foot(rolling.parameter(arc))
         };
         let ((foot_a, high_a), (foot_b, high_b)) = (top(&leading), top(&trailing));
-        // Along a flank, from its lowest needed place up.
-        let along = |flank: &Flank<'_>, share: f64| {
-            let (up, down) = (
-                candidate.reaches[flank.side as usize],
-                candidate.depths[flank.side as usize],
-            );
-            let roll = share * (up + down) - down;
-            flank.point(rolling.parameter(flank.crossing - flank.side.sign() * roll))
-        };
+        let along = |flank: &Flank<'_>, share: f64| candidate.along(flank, share);
         let over = |share: f64| {
             let frame = leading.frame(foot_a + share * (foot_b - foot_a));
             frame.point + frame.normal * (high_a + share * (high_b - high_a))

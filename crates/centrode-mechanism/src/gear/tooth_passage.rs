@@ -14,7 +14,7 @@ use super::{
 
 /// Poses a pitch at which two teeth are held against each other.
 const POSES: u32 = 20;
-/// Pitches on either side of the middle of a passage, doubled, within which teeth are held against each other: on pitch curves that
+/// Pitches, half of them on either side of the middle of a passage, within which teeth are held against each other: on pitch curves that
 /// are concave in turn they still meet some pitches before they mesh.
 const PITCHES: u32 = 16;
 /// Greatest way of a corner in its mate's axes, pitches, from one pose to the next where teeth are trimmed.
@@ -78,11 +78,9 @@ impl<'a> Poses<'a> {
         }
         for number in self.first + self.kept.len() as i64..from + count {
             let arc = self.origin + self.step * number as f64;
-            let t = self.rolling.parameter(arc);
-            let pose = [Member::Driver, Member::Driven].map(|m| self.rolling.frame(m, t));
-            self.kept.push_back((pose[0], pose[1]));
+            self.kept.push_back(pose_at(self.rolling, arc));
         }
-        // The passages of a tooth come in order, those of the next begin three half pitches back at most.
+        // The passages of a tooth come in order, those of the next begin seven half pitches back at most.
         while from - self.first > count {
             self.kept.pop_front();
             self.first += 1;
@@ -216,9 +214,7 @@ impl<'a> ToothPassage<'a> {
         let [first, second] = best.1;
         (driver.reaches(first), driven.reaches(second))
     }
-}
 
-impl ToothPassage<'_> {
     /// Poses at which two teeth may meet.
     fn near(&self, driver: &Candidate, driven: &Candidate) -> Vec<&(Frame, Frame)> {
         let around = |candidate| circle((self.rolling, self.tool), candidate);
@@ -257,17 +253,19 @@ impl ToothPassage<'_> {
                 way(one, &|(a, b), p| carry(a, b, p)).max(way(two, &|(a, b), p| carry(b, a, p)));
             let steps = (longest / (WAY * self.pitch)).ceil();
             let (from, to) = (pose.0.arc, next.0.arc);
-            let between = (1..steps as u32).map(|i| {
-                let t = self
-                    .rolling
-                    .parameter(from + (to - from) * f64::from(i) / steps);
-                let [a, b] = [Member::Driver, Member::Driven].map(|m| self.rolling.frame(m, t));
-                (a, b)
-            });
+            let between = (1..steps as u32)
+                .map(|i| pose_at(self.rolling, from + (to - from) * f64::from(i) / steps));
             foul.extend(between);
         }
         foul
     }
+}
+
+/// Rolling frames of both gears at an arc length.
+fn pose_at(rolling: &Rolling, arc: f64) -> (Frame, Frame) {
+    let t = rolling.parameter(arc);
+    let frame = |member| rolling.frame(member, t);
+    (frame(Member::Driver), frame(Member::Driven))
 }
 
 /// Whether two teeth penetrate each other at a pose.

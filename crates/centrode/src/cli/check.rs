@@ -76,12 +76,8 @@ fn remedies(
     out: &mut impl Write,
 ) -> Result<Status, Failure> {
     if found.is_empty() {
-        let mut findings = mechanism.check().findings.into_iter();
-        if let Some(overlap) = findings.find(|finding| finding.rule == "pitch-curves-overlap") {
-            return Err(Failure::Usage(format!(
-                "no teeth carry the motion: {}",
-                overlap.message
-            )));
+        if let Some(why) = mechanism.no_remedy() {
+            return Err(Failure::Usage(format!("no teeth carry the motion: {why}")));
         }
         let family = mechanism.design().family().word;
         return Err(Failure::Usage(format!(

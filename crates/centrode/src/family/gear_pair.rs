@@ -1,6 +1,8 @@
 use std::sync::Arc;
 
-use centrode_analysis::{Contact, PairRemedy, Report, check, check_contact, remedies};
+use centrode_analysis::{
+    Contact, PairRemedy, Report, check, check_contact, pitch_overlap, remedies,
+};
 use centrode_export::page::{Curve, Picture};
 use centrode_export::{Bundle, ExportError, Format, Options};
 use centrode_export::{gear_pair, machine};
@@ -85,6 +87,10 @@ impl Mechanism for GearPair {
                 (words(self, &remedy), Box::new(remedy.design))
             })
             .collect()
+    }
+
+    fn no_remedy(&self) -> Option<String> {
+        pitch_overlap(self).map(|finding| finding.message)
     }
 
     fn pairs(&self) -> Result<Vec<(String, Arc<GearPair>)>, GearPairError> {

@@ -56,6 +56,11 @@ pub trait Mechanism: Any + Debug + Send + Sync {
         Vec::new()
     }
 
+    /// Why no change of its teeth mends it; `None` where that is not known.
+    fn no_remedy(&self) -> Option<String> {
+        None
+    }
+
     /// Pairs of gears that mesh all along the cycle, each once with its name; empty in a family without.
     ///
     /// # Errors

@@ -139,11 +139,8 @@ impl Rolling {
                     all[k.rem_euclid(count) as usize].map_or(f64::NEG_INFINITY, |one| one.0)
                 };
                 let is_peak = |k: &i64| value(*k) >= value(*k - 1).max(value(*k + 1));
-                let peaks: Vec<_> = (0..count).filter(is_peak).collect();
-                peaks
-                    .into_iter()
-                    .filter_map(|k| all[k as usize])
-                    .collect::<Vec<_>>()
+                let peaks = (0..count).filter(is_peak).filter_map(|k| all[k as usize]);
+                peaks.collect::<Vec<_>>()
             })
             .collect()
     }

@@ -16,6 +16,7 @@ use serde_json::{Map, Value as Json, json};
 use toml_edit::DocumentMut;
 
 use self::course::{Course, Frame, ends, unit, written};
+pub(super) use self::writing::put_point;
 use super::edit::{Step, container};
 use super::kind::{MOST, mechanism, sound};
 

@@ -131,7 +131,12 @@ impl Retype<'_> {
 }
 
 /// Gives a body a point.
-fn put_point(made: &mut DocumentMut, body: &str, name: &str, at: [f64; 2]) -> Option<()> {
+pub(in crate::cli::page) fn put_point(
+    made: &mut DocumentMut,
+    body: &str,
+    name: &str,
+    at: [f64; 2],
+) -> Option<()> {
     let steps: Vec<Step> = match body {
         "frame" => vec![Step::named("frame"), Step::named("points")],
         body => ["bodies", body, "points"].map(Step::named).into(),

@@ -6,6 +6,7 @@ mod tests;
 use serde_json::{Map, Value as Json};
 use toml_edit::{DocumentMut, Item, TableLike, Value};
 
+use super::composed::put_point;
 use super::edit::{Step, container, replace, set, written};
 use super::field::keys_beside;
 use super::kind::mechanism;
@@ -286,13 +287,7 @@ impl Change<'_> {
             };
             let pin = format!("{body}-pin");
             table.insert("on", Item::Value(format!("{holder}.{pin}").into()));
-            let steps: Vec<Step> = match holder {
-                "frame" => vec![Step::named("frame"), Step::named("points")],
-                holder => ["bodies", holder, "points"].map(Step::named).into(),
-            };
-            let at = written(&serde_json::json!([short(PIN * self.base), 0.0]))?;
-            let points = container(made.as_item_mut(), &steps, false)?;
-            points.as_table_like_mut()?.insert(&pin, Item::Value(at));
+            put_point(made, holder, &pin, [short(PIN * self.base), 0.0])?;
         }
         Some(())
     }
