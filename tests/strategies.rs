@@ -37,7 +37,8 @@ pub fn sound_pair() -> impl Strategy<Value = GearPairDesign> {
                     ..Rack::default()
                 });
                 design.mean_ratio = ratio;
-                let pair = GearPair::resolve(&design).expect("the generator makes valid pairs");
+                let pair = GearPair::resolve(&design)
+                    .unwrap_or_else(|error| panic!("no pair: {error} {design:?}"));
                 let limits = pair.limits();
                 if limits.concave_curvature > 0.0 {
                     // Full-depth teeth may run into each other there, however small.
@@ -240,17 +241,10 @@ fn polar_spline() -> impl Strategy<Value = PitchSpec> {
     })
 }
 
-/// Where a contour of a pair crosses itself; a loop at a joint, smaller than `speck` modules, is let pass.
+/// Where a contour of a pair crosses itself; a loop at a joint or a cusp, smaller than `speck` modules, is let pass.
 pub fn crossing(pair: &GearPair, speck: f64) -> Option<(Member, Crossing)> {
     [pair.driver(), pair.driven()].into_iter().find_map(|gear| {
-        let (outline, least) = (gear.outline(), speck * pair.module());
-        let found = outline.crossing()?;
-        let [one, other] = found.segments;
-        let off = (outline.segments()[one].end() - found.point).norm();
-        let found = match one + 1 == other && off < least {
-            true => outline.crossing_beyond(least)?,
-            false => found,
-        };
+        let found = gear.outline().crossing_beyond(speck * pair.module())?;
         Some((gear.member(), found))
     })
 }

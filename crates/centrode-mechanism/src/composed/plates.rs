@@ -11,7 +11,9 @@ use super::{Composed, ComposedDesign, ComposedError};
 use crate::bore;
 use crate::gear::design::BodySpec;
 use crate::gear::design::SpecError;
-use crate::gear::design::rule::{in_range, not_negative, positive, single_line};
+use crate::gear::design::rule::{
+    hole_class, in_range, not_negative, positive, shaft_class, single_line,
+};
 use crate::machine::JointKind;
 
 /// Greatest diameter of a pin as a share of its plate's width.
@@ -73,13 +75,9 @@ impl ComposedPlatesSpec {
             positive(key, value)?;
         }
         not_negative("gap", self.gap)?;
-        for (key, value) in [
-            ("hole_fit", &self.hole_fit),
-            ("pin_fit", &self.pin_fit),
-            ("material", &self.material),
-        ] {
-            single_line(key, value)?;
-        }
+        hole_class("hole_fit", &self.hole_fit)?;
+        shaft_class("pin_fit", &self.pin_fit)?;
+        single_line("material", &self.material)?;
         let most = PIN * self.width;
         in_range("pin_diameter", self.pin_diameter, [0.0, most], " mm")
     }

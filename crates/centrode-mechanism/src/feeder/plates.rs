@@ -2,7 +2,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::gear::design::SpecError;
-use crate::gear::design::rule::{in_range, not_negative, positive, screw_size, single_line};
+use crate::gear::design::rule::{
+    hole_class, in_range, not_negative, positive, screw_size, shaft_class, single_line,
+};
 
 /// The links as plates, stacked along the shafts: crank, coupler, rocker, effector.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -99,16 +101,12 @@ impl PlatesSpec {
         not_negative("gap", self.gap)?;
         not_negative("slot_clearance", self.slot_clearance)?;
         screw_size("screw", self.screw)?;
-        for (key, value) in [
-            ("hole_fit", &self.hole_fit),
-            ("bearing_fit", &self.bearing_fit),
-            ("pin_fit", &self.pin_fit),
-            ("slot_fit", &self.slot_fit),
-            ("slider_fit", &self.slider_fit),
-            ("material", &self.material),
-        ] {
-            single_line(key, value)?;
-        }
+        hole_class("hole_fit", &self.hole_fit)?;
+        hole_class("bearing_fit", &self.bearing_fit)?;
+        hole_class("slot_fit", &self.slot_fit)?;
+        shaft_class("pin_fit", &self.pin_fit)?;
+        shaft_class("slider_fit", &self.slider_fit)?;
+        single_line("material", &self.material)?;
         Ok(())
     }
 }

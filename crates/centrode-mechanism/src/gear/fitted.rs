@@ -1,12 +1,13 @@
 //! Addenda trimmed flank by flank to what the pitch curves let mesh.
 
-use centrode_geometry::{bracketed_root, checkpoint, shared_out};
+use centrode_geometry::{Point, bracketed_root, checkpoint, shared_out};
 
 use super::{
     flank::{Flank, Side},
     profile::{FlankPlan, ToothPlan, Top},
     rolling::{Member, Rolling},
     tool::{Corner, Tool},
+    tooth_chords::circle,
     tooth_passage::{Candidate, Poses, Reaches, ToothPassage},
 };
 
@@ -94,6 +95,7 @@ impl Fitting<'_> {
                 tooth.trailing.crossing + turns,
             ]
         };
+        let circles = self.circles([(driver, &reach_1), (driven, &reach_2)]);
         let middle = 0.5 * (driver[0].leading.crossing + driver[0].trailing.crossing);
         let mut poses = Poses::new(self.rolling, middle + 0.25 * pitch, pitch);
         for from in (0..meshes as usize).step_by(BLOCK) {
@@ -110,7 +112,13 @@ impl Fitting<'_> {
                     let turns = index.div_euclid(last as isize) as f64;
                     let two = crossings(&driven[j], turns * lengths[1]);
                     let middle = 0.25 * (one[0] + one[1] + two[0] + two[1]);
-                    let passage = ToothPassage::about(&mut poses, self.tool, middle, pitch);
+                    let passage = ToothPassage::about(
+                        &mut poses,
+                        self.tool,
+                        middle,
+                        pitch,
+                        [&circles[0][i], &circles[1][j]],
+                    );
                     met.extend(passage.map(|passage| Meeting {
                         passage,
                         teeth: [i, j],
@@ -142,6 +150,25 @@ impl Fitting<'_> {
         // gear's.
         self.serve(driver, &tips_2, 0, meshes as usize, space(Member::Driver));
         self.serve(driven, &tips_1, 1, meshes as usize, space(Member::Driven));
+    }
+
+    /// Circles around the teeth of both gears before any is trimmed, as deep as any mate reaches.
+    fn circles(&self, gears: [(&[ToothPlan], &[Reaches]); 2]) -> [Vec<(Point, f64)>; 2] {
+        [Member::Driver, Member::Driven].map(|member| {
+            let (teeth, reaches) = gears[member as usize];
+            let mates = gears[member.mate() as usize].1.iter().flatten();
+            let depth = mates.copied().fold(0.0, f64::max);
+            let around = |(tooth, &reaches): (&ToothPlan, &Reaches)| {
+                let candidate = Candidate {
+                    member,
+                    crossings: [tooth.leading.crossing, tooth.trailing.crossing],
+                    reaches,
+                    depths: [depth; 2],
+                };
+                circle((self.rolling, self.tool), &candidate)
+            };
+            teeth.iter().zip(reaches).map(around).collect()
+        })
     }
 
     /// Shortens the higher flank of teeth whose tip leans so far that no root of one depth has room for both sides; says whether

@@ -1,6 +1,6 @@
 //! Interference of teeth away from their contact, where a pitch curve is concave.
 
-use std::cell::{Cell, OnceCell, RefCell};
+use std::cell::{OnceCell, RefCell};
 use std::collections::VecDeque;
 use std::rc::Rc;
 
@@ -9,7 +9,7 @@ use centrode_geometry::{Point, checkpoint};
 use super::{
     rolling::{Frame, Member, Rolling},
     tool::Tool,
-    tooth_chords::{ToothChords, circle},
+    tooth_chords::ToothChords,
 };
 
 /// Poses a pitch at which two teeth are held against each other.
@@ -68,7 +68,7 @@ impl<'a> Poses<'a> {
     }
 
     /// The poses within eight pitches of an arc length.
-    fn about(&mut self, middle: f64) -> Vec<(Frame, Frame)> {
+    fn about(&mut self, middle: f64) -> impl Iterator<Item = &(Frame, Frame)> + Clone {
         let count = i64::from(PITCHES * POSES) + 1;
         let from = ((middle - self.origin) / self.step).round() as i64 - count / 2;
         let end = self.first + self.kept.len() as i64;
@@ -86,10 +86,7 @@ impl<'a> Poses<'a> {
             self.first += 1;
         }
         let skipped = (from - self.first) as usize;
-        self.kept
-            .range(skipped..skipped + count as usize)
-            .copied()
-            .collect()
+        self.kept.range(skipped..skipped + count as usize)
     }
 }
 
@@ -99,7 +96,8 @@ pub(crate) struct ToothPassage<'a> {
     rolling: &'a Rolling,
     tool: &'a Tool,
     pitch: f64,
-    poses: Vec<(Frame, Frame)>,
+    /// Poses at which the teeth may meet.
+    near: Vec<(Frame, Frame)>,
 }
 
 /// A tooth of which a share of the reaches is kept, with its shapes as far as they have been asked for.
@@ -147,33 +145,35 @@ impl<'a> Trimmed<'a> {
 }
 
 impl<'a> ToothPassage<'a> {
-    /// Sets up the passage of two teeth about the arc length `middle`, or nothing where both pitch curves are
-    /// convex for eight pitches around: the rack's straight flank then keeps the teeth apart.
+    /// Sets up the passage of two teeth about the arc length `middle`, each within a circle; nothing where both
+    /// pitch curves are convex for eight pitches around, for the rack's straight flank then keeps the teeth apart, or where the
+    /// circles do not meet.
     pub(crate) fn about(
         poses: &mut Poses<'a>,
         tool: &'a Tool,
         middle: f64,
         pitch: f64,
+        [(one, first), (two, second)]: [&(Point, f64); 2],
     ) -> Option<Self> {
         let rolling = poses.rolling;
         let poses = poses.about(middle);
-        let concave = poses
-            .iter()
-            .any(|(a, b)| a.curvature < 0.0 || b.curvature < 0.0);
-        concave.then_some(Self {
+        let concave = |(a, b): &(Frame, Frame)| a.curvature < 0.0 || b.curvature < 0.0;
+        if !poses.clone().any(concave) {
+            return None;
+        }
+        let reach = (first + second).powi(2);
+        let meets = |(a, b): &&(Frame, Frame)| (carry(a, b, one) - two).norm_squared() < reach;
+        let near: Vec<_> = poses.filter(meets).copied().collect();
+        (!near.is_empty()).then_some(Self {
             rolling,
             tool,
             pitch,
-            poses,
+            near,
         })
     }
 
     /// Shortens one tooth or the other, whichever costs less, or both, until they penetrate nowhere.
     pub(crate) fn clear(&self, driver: &Candidate, driven: &Candidate) -> (Reaches, Reaches) {
-        let near = self.near(driver, driven);
-        if near.is_empty() {
-            return (driver.reaches, driven.reaches);
-        }
         let (driver, driven) = (Trimmed::new(driver), Trimmed::new(driven));
         let shapes = |[first, second]: [f64; 2]| {
             checkpoint();
@@ -181,19 +181,10 @@ impl<'a> ToothPassage<'a> {
         };
         let whole = shapes([1.0, 1.0]);
         // A shorter tooth lies within a longer one: where these are clear, all are.
-        let foul = self.foul(&near, &whole);
+        let foul = self.foul(&whole);
         if foul.is_empty() {
             return (driver.candidate.reaches, driven.candidate.reaches);
         }
-        // The pose at which teeth penetrated last: others most often do there too.
-        let last = Cell::new(foul.len() / 2);
-        let penetrate = |shares: [f64; 2]| {
-            let shapes = shapes(shares);
-            let at = |&number: &usize| penetrate(&foul[number], &shapes, self.pitch);
-            let mut numbers = std::iter::once(last.get()).chain(0..foul.len());
-            let found = numbers.find(at);
-            found.inspect(|&number| last.set(number)).is_some()
-        };
         let mut best = (f64::NEG_INFINITY, [1.0, 1.0]);
         for cut in [[true, false], [false, true], [true, true]] {
             let shares = |share: f64| cut.map(|cut| if cut { share } else { 1.0 });
@@ -201,12 +192,18 @@ impl<'a> ToothPassage<'a> {
             let kept = |part: u32| -> f64 { left(shares(margined(part))).iter().flatten().sum() };
             // What keeps less than another way does is not looked for.
             let least = first_part(|part| kept(part) >= best.0);
-            if least == PARTS || (least > 0 && penetrate(shares(share(least)))) {
+            if least == PARTS {
                 continue;
             }
-            let part = first_part(|part| part > least && penetrate(shares(share(part)))) - 1;
-            let foul = share(part) < SPARE;
-            let worth = if foul { -1.0 } else { kept(part) };
+            let clear = |pose: &(Frame, Frame), part: u32| {
+                let shapes = shapes(shares(share(part)));
+                !penetrate(pose, &shapes, self.pitch)
+            };
+            let Some(part) = clear_part(&foul, least, clear) else {
+                continue;
+            };
+            let nothing = share(part) < SPARE;
+            let worth = if nothing { -1.0 } else { kept(part) };
             if worth >= best.0 {
                 best = (worth, shares(margined(part)));
             }
@@ -215,25 +212,17 @@ impl<'a> ToothPassage<'a> {
         (driver.reaches(first), driven.reaches(second))
     }
 
-    /// Poses at which two teeth may meet.
-    fn near(&self, driver: &Candidate, driven: &Candidate) -> Vec<&(Frame, Frame)> {
-        let around = |candidate| circle((self.rolling, self.tool), candidate);
-        let [(one, first), (two, second)] = [driver, driven].map(around);
-        let reach = (first + second).powi(2);
-        let meets = |(a, b): &&(Frame, Frame)| (carry(a, b, &one) - two).norm_squared() < reach;
-        self.poses.iter().filter(meets).collect()
-    }
-
     /// Poses at which two teeth penetrate each other, and more between them and beside them where corners move far from one to the
     /// next.
-    fn foul(&self, near: &[&(Frame, Frame)], teeth: &[Rc<ToothChords>; 2]) -> Vec<(Frame, Frame)> {
+    fn foul(&self, teeth: &[Rc<ToothChords>; 2]) -> Vec<(Frame, Frame)> {
+        let near = &self.near;
         let is_foul: Vec<bool> = (near.iter())
             .map(|pose| penetrate(pose, teeth, self.pitch))
             .collect();
         let mut foul = Vec::new();
         for (k, pose) in near.iter().enumerate() {
             if is_foul[k] {
-                foul.push(**pose);
+                foul.push(*pose);
             }
             let Some(next) = near.get(k + 1) else {
                 continue;
@@ -317,6 +306,35 @@ fn first_part(holds: impl Fn(u32) -> bool) -> u32 {
         }
     }
     from
+}
+
+/// Greatest number of parts that is clear at every one of some poses, if it is one of `least` parts at least. Fewer parts are clear wherever
+/// more are.
+fn clear_part<P>(poses: &[P], least: u32, clear: impl Fn(&P, u32) -> bool) -> Option<u32> {
+    let mut part = PARTS;
+    for number in scattered(poses.len()) {
+        let clear = |part| clear(&poses[number], part);
+        if !clear(part) {
+            part = first_part(|less| less > 0 && (less >= part || !clear(less))) - 1;
+        }
+        if part < least {
+            return None;
+        }
+    }
+    Some(part)
+}
+
+/// All numbers below a count, far ones first: what holds of the first of them holds most often of those between.
+fn scattered(count: usize) -> impl Iterator<Item = usize> {
+    let bits = count.next_power_of_two().trailing_zeros();
+    let mirrored = move |i: usize| {
+        i.reverse_bits()
+            .checked_shr(usize::BITS - bits)
+            .unwrap_or(0)
+    };
+    (0..1_usize << bits)
+        .map(mirrored)
+        .filter(move |&i| i < count)
 }
 
 /// The motion from one gear's frame to the other's at one pose: the rolling frames coincide, their

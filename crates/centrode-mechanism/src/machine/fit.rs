@@ -88,6 +88,29 @@ pub fn limits_of_size(size: f64, class: &str) -> Option<[f64; 2]> {
     Some([lower / 1000.0, (lower + width) / 1000.0])
 }
 
+/// Letters of the fundamental deviations of holes; those of shafts are the same, small.
+#[rustfmt::skip]
+const LETTERS: [&str; 28] = [
+    "A", "B", "C", "CD", "D", "E", "EF", "F", "FG", "G", "H", "JS", "J", "K", "M", "N", "P", "R", "S", "T", "U", "V", "X", "Y", "Z",
+    "ZA", "ZB", "ZC",
+];
+
+/// Whether a word is a tolerance class of holes, or of shafts: letters of a fundamental deviation and a grade from 01 to 18.
+///
+/// Source: ISO 286-1:2010.
+pub(crate) fn is_class(word: &str, of_hole: bool) -> bool {
+    let letters = word.trim_end_matches(|c: char| c.is_ascii_digit());
+    let grade = &word[letters.len()..];
+    let known = |letter: &&str| match of_hole {
+        true => *letter == letters,
+        false => letter.to_lowercase() == letters,
+    };
+    let number: Option<u32> = grade.parse().ok();
+    let graded = grade == "01"
+        || (number.is_some_and(|n| n <= 18) && (grade == "0" || !grade.starts_with('0')));
+    graded && LETTERS.iter().any(|letter| known(&letter))
+}
+
 /// Rounded preferred numbers from one to ten, series R''20.
 const PREFERRED: [f64; 21] = [
     1.0, 1.1, 1.2, 1.4, 1.6, 1.8, 2.0, 2.2, 2.5, 2.8, 3.0, 3.5, 4.0, 4.5, 5.0, 5.5, 6.0, 7.0, 8.0,
@@ -209,6 +232,31 @@ impl Machine {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn classes_are_letters_and_a_grade() {
+        for (word, hole, shaft) in [
+            ("H7", true, false),
+            ("js6", false, true),
+            ("ZC11", true, false),
+            ("cd01", false, true),
+            ("h0", false, true),
+            ("ZZ99", false, false),
+            ("H19", false, false),
+            ("H07", false, false),
+            ("Js6", false, false),
+            ("H", false, false),
+            ("7", false, false),
+            ("H7²", false, false),
+            ("", false, false),
+        ] {
+            assert_eq!(
+                [is_class(word, true), is_class(word, false)],
+                [hole, shaft],
+                "{word}"
+            );
+        }
+    }
 
     #[test]
     fn limits_are_those_of_the_standard() {

@@ -42,6 +42,7 @@ pub use contact::{Closure, Contact, ContactLine, GearMesh, Guide, GuideForce, Pi
 pub(crate) use fastening::ScrewRoom;
 pub use fastening::{Fastening, FasteningError};
 pub use figure::{Figure, Line, LinePath, LineRole, Mark, Seat, Sketch};
+pub(crate) use fit::is_class;
 pub use fit::{Fit, PinFit, limits_of_size, preferred_size};
 pub use general::general_deviation;
 pub use jet::{FrameJet, PointJet};

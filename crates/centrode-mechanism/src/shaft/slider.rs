@@ -4,7 +4,9 @@ use serde::{Deserialize, Serialize};
 
 use super::Groove;
 use crate::gear::design::SpecError;
-use crate::gear::design::rule::{Rule, broken, not_negative, positive, single_line};
+use crate::gear::design::rule::{
+    Rule, broken, hole_class, not_negative, positive, shaft_class, single_line,
+};
 
 /// The slider: an oblong follower with round ends that turns in its sleeve to lie along the groove.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -60,15 +62,11 @@ impl SliderSpec {
         positive("reach", self.reach)?;
         positive("pin_diameter", self.pin_diameter)?;
         positive("density", self.density)?;
-        for (key, value) in [
-            ("groove_fit", &self.groove_fit),
-            ("slider_fit", &self.slider_fit),
-            ("hole_fit", &self.hole_fit),
-            ("pin_fit", &self.pin_fit),
-            ("material", &self.material),
-        ] {
-            single_line(key, value)?;
-        }
+        hole_class("groove_fit", &self.groove_fit)?;
+        hole_class("hole_fit", &self.hole_fit)?;
+        shaft_class("slider_fit", &self.slider_fit)?;
+        shaft_class("pin_fit", &self.pin_fit)?;
+        single_line("material", &self.material)?;
         let least = width - self.clearance;
         let range = |value, least, greatest| Rule::OutOfRange {
             value,

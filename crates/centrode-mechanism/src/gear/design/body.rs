@@ -1,7 +1,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::rule::{Rule, SpecError, broken, in_range, not_negative, positive, single_line};
+use super::rule::{
+    Rule, SpecError, broken, hole_class, in_range, not_negative, positive, shaft_class, single_line,
+};
 use crate::degrees;
 
 /// Body of a gear: all but its teeth.
@@ -219,11 +221,11 @@ impl BodySpec {
         positive("density", self.density)?;
         let angle = self.keyway_angle.to_degrees();
         in_range("keyway_angle_deg", angle, [-360.0, 360.0], " deg")?;
+        hole_class("bore_fit", &self.bore_fit)?;
+        hole_class("keyway_fit", &self.keyway_fit)?;
+        shaft_class("shaft_fit", &self.shaft_fit)?;
         let words = [
             ("material", &self.material),
-            ("bore_fit", &self.bore_fit),
-            ("shaft_fit", &self.shaft_fit),
-            ("keyway_fit", &self.keyway_fit),
             ("heat_treatment", &self.heat_treatment),
             ("accuracy", &self.accuracy),
         ];

@@ -1,7 +1,7 @@
 use thiserror::Error;
 
 use crate::digits::told;
-use crate::machine::Screw;
+use crate::machine::{Screw, is_class};
 
 /// A value of a description that breaks a rule.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -76,6 +76,18 @@ pub enum Rule {
         controls: usize,
         /// Most characters allowed.
         most: usize,
+    },
+    /// Words that are no tolerance class.
+    #[error(
+        "must be empty or a tolerance class of ISO 286 for a {of}, like {like:?}, not {word:?}"
+    )]
+    NoClass {
+        /// Word given.
+        word: String,
+        /// Side of the fit it stands for.
+        of: &'static str,
+        /// A class of that side.
+        like: &'static str,
     },
     /// A mean ratio with a common factor.
     #[error("must be in lowest terms: write {1:?} for {0:?}")]
@@ -154,7 +166,6 @@ pub(crate) fn not_negative(key: &str, value: f64) -> Result<(), SpecError> {
     }
 }
 
-/// Checks a name that can name a file.
 /// Checks the nominal diameter of screws, mm: none, or one that there is.
 pub(crate) fn screw_size(key: &str, diameter: Option<f64>) -> Result<(), SpecError> {
     let Some(diameter) = diameter else {
@@ -167,6 +178,7 @@ pub(crate) fn screw_size(key: &str, diameter: Option<f64>) -> Result<(), SpecErr
     }
 }
 
+/// Checks a name that can name a file.
 pub(crate) fn file_name(key: &str, name: &str) -> Result<(), SpecError> {
     let safe = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
     if name.is_empty() || name.len() > 64 || !name.chars().all(safe) {
@@ -189,6 +201,29 @@ pub(crate) fn single_line(key: &str, words: &str) -> Result<(), SpecError> {
         most: MOST,
     };
     broken(key, rule)
+}
+
+/// Checks a tolerance class of holes and slots.
+pub(crate) fn hole_class(key: &str, word: &str) -> Result<(), SpecError> {
+    class(key, word, true)
+}
+
+/// Checks a tolerance class of shafts, pins and keys.
+pub(crate) fn shaft_class(key: &str, word: &str) -> Result<(), SpecError> {
+    class(key, word, false)
+}
+
+fn class(key: &str, word: &str, of_hole: bool) -> Result<(), SpecError> {
+    if word.is_empty() || is_class(word, of_hole) {
+        return Ok(());
+    }
+    let (of, like) = if of_hole {
+        ("hole", "H7")
+    } else {
+        ("shaft", "h6")
+    };
+    let word = word.chars().take(80).collect();
+    broken(key, Rule::NoClass { word, of, like })
 }
 
 pub(crate) fn count_in_range(

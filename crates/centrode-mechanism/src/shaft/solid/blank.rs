@@ -5,7 +5,9 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::plan::columns;
-use crate::gear::design::rule::{Rule, broken, not_negative, positive, single_line};
+use crate::gear::design::rule::{
+    Rule, broken, hole_class, not_negative, positive, shaft_class, single_line,
+};
 use crate::gear::design::{Keyway, SpecError};
 use crate::shaft::{Groove, ShaftError};
 
@@ -76,13 +78,9 @@ impl ShaftBody {
         positive("journal_length", self.journal_length)?;
         not_negative("chamfer", self.chamfer)?;
         positive("density", self.density)?;
-        for (key, value) in [
-            ("journal_fit", &self.journal_fit),
-            ("keyway_fit", &self.keyway_fit),
-            ("material", &self.material),
-        ] {
-            single_line(key, value)?;
-        }
+        hole_class("keyway_fit", &self.keyway_fit)?;
+        shaft_class("journal_fit", &self.journal_fit)?;
+        single_line("material", &self.material)?;
         let below = |key: &str, value: f64, limit: f64| {
             if value < limit {
                 return Ok(());
