@@ -90,11 +90,23 @@ impl PolySegment {
     /// Splits `[t0, t1]` like [`fit`](Self::fit), each segment with its interval of the curve's parameter.
     #[must_use]
     pub fn fit_spans(
-        mut curve: impl FnMut(f64) -> Point,
+        curve: impl FnMut(f64) -> Point,
         t0: f64,
         t1: f64,
         tolerance: Tolerance,
     ) -> Vec<(Self, f64, f64)> {
+        // Sixteen halvings end it.
+        Self::fit_spans_up_to(usize::MAX, curve, [t0, t1], tolerance).unwrap_or_default()
+    }
+
+    /// Splits an interval like [`fit_spans`](Self::fit_spans); `None` where more than `most` segments would be needed.
+    #[must_use]
+    pub fn fit_spans_up_to(
+        most: usize,
+        mut curve: impl FnMut(f64) -> Point,
+        [t0, t1]: [f64; 2],
+        tolerance: Tolerance,
+    ) -> Option<Vec<(Self, f64, f64)>> {
         let mut out: Vec<(Self, f64, f64)> = Vec::new();
         let mut stack = vec![(t0, t1, 0_u32)];
         while let Some((a, b, depth)) = stack.pop() {
@@ -112,9 +124,12 @@ impl PolySegment {
                 let middle = 0.5 * (a + b);
                 stack.push((middle, b, depth + 1));
                 stack.push((a, middle, depth + 1));
+                if out.len() + stack.len() > most {
+                    return None;
+                }
             }
         }
-        out
+        Some(out)
     }
 
     /// Length of the polygon of `count` chords of equal parameter.

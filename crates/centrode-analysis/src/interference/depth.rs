@@ -92,13 +92,19 @@ impl PartialEq for BoundaryPiece {
 
 impl Eq for BoundaryPiece {}
 
+/// Parts of boundaries looked at before the tolerance is doubled.
+const PATIENCE: u32 = 200_000;
+
 /// Deepest point of either boundary in the other body while the input runs, within `tolerance`, searched only deeper
 /// than `beat`.
+///
+/// Bodies that stay in each other as they run are equally deep everywhere: where that would take too long, the bound keeps farther
+/// from the depth.
 pub(super) fn deepest(
     pair: [&Moving<'_>; 2],
     [from, to]: [f64; 2],
     beat: f64,
-    tolerance: f64,
+    mut tolerance: f64,
 ) -> Result<Deepest, InterferenceError> {
     let whole = |of: usize| BoundaryPiece {
         of,
@@ -113,8 +119,13 @@ pub(super) fn deepest(
         bound: f64::NEG_INFINITY,
         place: None,
     };
+    let mut looked_at = 0_u32;
     while let Some(piece) = open.pop() {
         checkpoint();
+        looked_at += 1;
+        if looked_at.is_multiple_of(PATIENCE) {
+            tolerance *= 2.0;
+        }
         if piece.bound <= best.depth + tolerance {
             best.bound = best.bound.max(piece.bound);
             break;

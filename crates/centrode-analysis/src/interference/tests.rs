@@ -174,6 +174,32 @@ fn a_thin_bar_that_swings_past_within_a_thousandth_of_a_radian_is_caught() {
 }
 
 #[test]
+fn bodies_that_stay_in_each_other_are_as_deep_as_they_are_to_a_told_bound() {
+    // A small square in a large one, both carried round together: 7 mm deep at every input.
+    let bodies = [rectangle(10.0, 10.0), rectangle(3.0, 3.0)].map(body);
+    let carried = |t: f64| PoseJet {
+        position: Point::new(90.0 * t.cos(), 90.0 * t.sin()),
+        angle: 2.0 * t,
+        velocity: Vector::new(-90.0 * t.sin(), 90.0 * t.cos()),
+        turning: 2.0,
+    };
+    let motions = [&bodies[0], &bodies[1]].map(|body| {
+        let within = Tabulated::within([0.0, TAU], body.reach(), carried, tolerance(1e-6));
+        within.expect("a motion")
+    });
+    let (a, b) = (
+        moving(&bodies[0], &motions[0]),
+        moving(&bodies[1], &motions[1]),
+    );
+    let found = clearance(&a, &b, [0.0, TAU], tolerance(1e-6)).expect("finite");
+    assert!((found.least + 7.0).abs() < 1e-5, "{found:?}");
+    assert!(
+        (found.lower_bound..=found.lower_bound + 0.1).contains(&found.least),
+        "{found:?}"
+    );
+}
+
+#[test]
 fn inside_is_overlap_and_pulled_apart_is_not() {
     let (large, small) = (body(rectangle(10.0, 10.0)), body(rectangle(1.0, 1.0)));
     let home = Rest(Isometry2::identity());

@@ -42,6 +42,16 @@ pub enum CamError {
     /// Transmissions that do not go together.
     #[error(transparent)]
     Transmission(#[from] TransmissionError),
+    /// A motion that changes so fast that the contour takes too many segments.
+    #[error(
+        "from {degrees:.3} deg on the cam's contour takes more than {most} segments up to the next break: its follower's motion changes too fast"
+    )]
+    Wild {
+        /// Cam angle from which on.
+        degrees: f64,
+        /// Most segments allowed there.
+        most: usize,
+    },
     /// A motion that does not come back after one turn of the cam.
     #[error(
         "the follower must come back after one turn of the cam, but its motion repeats after {period} rad and advances by {advance}"
@@ -160,7 +170,8 @@ impl CamError {
             | Self::ThroughAxis { .. }
             | Self::Retraction { .. }
             | Self::NotFinite { .. }
-            | Self::Transmission(_) => "motion".into(),
+            | Self::Transmission(_)
+            | Self::Wild { .. } => "motion".into(),
         }
     }
 }

@@ -8,6 +8,9 @@ use centrode_geometry::{
 
 use super::disc::{CamError, DiscCam};
 
+/// Most segments of a contour between two breaks of its motion: a cam that runs has some tens.
+const MOST: usize = 1024;
+
 /// The contour of a cam, counter-clockwise.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Profile {
@@ -91,9 +94,10 @@ impl DiscCam {
     ///
     /// # Errors
     /// [`CamError::Looped`] where nothing is left, [`CamError::Unresolved`] where the crossings of the contour
-    /// with itself cannot be determined, [`CamError::AxisOutside`] where it leaves the axis out.
+    /// with itself cannot be determined, [`CamError::AxisOutside`] where it leaves the axis out, [`CamError::Wild`] where it
+    /// takes too many segments.
     pub fn profile(&self, tolerance: Tolerance) -> Result<Profile, CamError> {
-        let whole = self.envelope(&|input| self.contact(input).point, &self.turns(), tolerance);
+        let whole = self.envelope(&|input| self.contact(input).point, &self.turns(), tolerance)?;
         let kept = sound(&whole, self.sense() > 0.0, tolerance)?;
         let ends = self.ends();
         let (first, last) = (ends[0], ends[ends.len() - 1]);
@@ -119,7 +123,7 @@ impl DiscCam {
     /// The path of the roller's centre within a tolerance, counter-clockwise; `None` for a flat face.
     ///
     /// # Errors
-    /// [`CamError::Open`] where a point of it is not a number.
+    /// [`CamError::Open`] where a point of it is not a number, [`CamError::Wild`] where it takes too many segments.
     pub fn pitch_curve(&self, tolerance: Tolerance) -> Result<Option<Outline>, CamError> {
         if self.follower().roller_radius().is_none() {
             return Ok(None);
@@ -128,7 +132,7 @@ impl DiscCam {
             let nowhere = Point::new(f64::NAN, f64::NAN);
             self.roller_center(input).map_or(nowhere, |jet| jet.point)
         };
-        let parts = self.envelope(&center, &self.ends(), tolerance);
+        let parts = self.envelope(&center, &self.ends(), tolerance)?;
         self.closed(parts).map(|(outline, _)| Some(outline))
     }
 
@@ -154,14 +158,18 @@ impl DiscCam {
         curve: &dyn Fn(f64) -> Point,
         ends: &[f64],
         tolerance: Tolerance,
-    ) -> Vec<ContourSpan> {
+    ) -> Result<Vec<ContourSpan>, CamError> {
         let mut parts: Vec<ContourSpan> = Vec::new();
         for pair in ends.windows(2) {
             let (from, to) = (pair[0], pair[1]);
             if self.rests(from, to) {
                 parts.extend(self.dwell(curve, from, to));
             } else {
-                let fitted = PolySegment::fit_spans(curve, from, to, tolerance);
+                let fitted = PolySegment::fit_spans_up_to(MOST, curve, [from, to], tolerance);
+                let fitted = fitted.ok_or(CamError::Wild {
+                    degrees: from.to_degrees(),
+                    most: MOST,
+                })?;
                 parts.extend(fitted.into_iter().map(|(poly, from, to)| ContourSpan {
                     segment: Segment::Poly(poly),
                     from,
@@ -169,7 +177,7 @@ impl DiscCam {
                 }));
             }
         }
-        parts
+        Ok(parts)
     }
 
     /// Whether the follower rests all the way between two breaks: between them the motion is analytic, so a few

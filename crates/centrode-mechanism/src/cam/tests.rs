@@ -456,6 +456,28 @@ fn the_least_base_circle_is_where_the_limit_is_met() {
 }
 
 #[test]
+fn a_motion_too_fast_for_a_contour_is_refused() {
+    // 20,000 swings a turn: each takes segments of its own.
+    let swings = 2e4;
+    let motion = FromFn::new(TAU, 0.0, vec![], move |input: f64| {
+        let (sin, cos) = (swings * input).sin_cos();
+        MotionJet {
+            position: 1e-6 * (1.0 - cos),
+            velocity: 1e-6 * swings * sin,
+            acceleration: 1e-6 * swings * swings * cos,
+            jerk: -1e-6 * swings * swings * swings * sin,
+        }
+    });
+    let follower = Follower::TranslatingRoller(TranslatingRoller::default());
+    let cam = DiscCam::new(Arc::new(motion), follower, 30.0, Turn::Clockwise).expect("a cam");
+    let found = cam.profile(fine());
+    assert!(
+        matches!(found, Err(CamError::Wild { degrees: 0.0, .. })),
+        "{found:?}"
+    );
+}
+
+#[test]
 fn followers_that_cannot_follow_are_refused() {
     let sliding = |follower, base, stroke, drop| {
         DiscCam::resolve(&CamSpec::new(base, follower, motion(stroke, false, drop))).map(|_| ())
