@@ -27,7 +27,7 @@ from OCP.TopoDS import TopoDS
 from reading import texts
 from shapely import STRtree
 from shapely.affinity import rotate
-from shapely.geometry import Point, Polygon, box
+from shapely.geometry import LineString, Point, Polygon, box
 
 TEMPLATES = ("gear-pair", "three-arm", "spiral-shaft", "moving-box", "feeder", "machine")
 DESIGNS = sorted(path.stem for path in (ROOT / "tests" / "designs").glob("*.toml"))
@@ -91,6 +91,45 @@ def test_every_made_part_has_a_drawing_a_solid_a_sheet_a_material_and_a_mass(nam
             assert re.search(r"\b(ISO|DIN) \d+", row["part"]), row
         if row["supply"] != "made":
             assert row["files"] == "", row
+
+
+# All that has no sheet and no standard, with the reason: the design does not settle more of it than the remark says.
+GIVEN = {
+    "Shaft of the (driver|driven) gear": "its length is that of bearings of which the design says nothing",
+    "Box with its rail": "the design gives its mass alone",
+    "Stand": "it stands on what is around the machine",
+    "Sleeve of a cam": "how it is fixed to the front plate is open",
+    "Hub of an arm": "how it is fixed to the front cover is open",
+    "Bracket of .+": "it stands on what is around the shaft that goes through",
+}
+# What each must fit: a shaft or a bore by size and class.
+FITTED = re.compile(r"Ø[\d.]+ [a-zA-Z]+\d+")
+
+
+@pytest.mark.parametrize("name", [*DESIGNS, *TEMPLATES])
+def test_parts_that_are_neither_made_nor_bought_are_few_and_tell_what_they_must_fit(name, exported):
+    with (exported(name) / "parts.csv").open(newline="") as lines:
+        given = [row for row in csv.DictReader(lines) if row["supply"] == "given"]
+    for row in given:
+        assert [part for part in GIVEN if re.fullmatch(part, row["part"])], row
+        assert FITTED.search(row["remark"]), row
+        assert row["blank"] == "", row
+        assert (row["mass_kg"] == "") == (row["part"] != "Box with its rail"), row
+
+
+@pytest.mark.parametrize("name", [name for name in [*DESIGNS, *TEMPLATES] if family(name) == "gear-pair"])
+def test_a_gear_on_a_given_shaft_tells_its_size_class_and_keyway(name, exported):
+    folder = exported(name)
+    with (folder / "parts.csv").open(newline="") as lines:
+        listed = list(csv.DictReader(lines))
+    gears = [row for row in listed if row["files"]]
+    assert len(gears) == 2
+    for gear in gears:
+        (shaft,) = [row for row in listed if row["part"] == f"Shaft of the {gear['links']} gear"]
+        size = FITTED.search(shaft["remark"])[0]
+        text = " ".join(words(folder, gear["files"]))
+        assert f"To sit on a shaft {size} " in text
+        assert re.search(r"with a keyway \d+ N9 \(", text)
 
 
 @pytest.mark.parametrize("name", [name for name in [*DESIGNS, *TEMPLATES] if family(name) in FLAT])
@@ -370,6 +409,34 @@ def test_no_words_overlap_others_and_nothing_leaves_the_frame(name, drawn):
             for x, y in corners(page):
                 assert -1e-3 < x < width + 1e-3, where
                 assert -1e-3 < y < height + 1e-3, where
+
+
+def strokes(page):
+    """Straight lines, and chords of curves, on a page, mm."""
+    for path in page.get_objects(filter=[pypdfium2.raw.FPDF_PAGEOBJ_PATH]):
+        matrix, last = path.get_matrix(), None
+        x, y = ctypes.c_float(), ctypes.c_float()
+        for index in range(pypdfium2.raw.FPDFPath_CountSegments(path.raw)):
+            segment = pypdfium2.raw.FPDFPath_GetPathSegment(path.raw, index)
+            assert pypdfium2.raw.FPDFPathSegment_GetPoint(segment, x, y)
+            at = tuple(side * 25.4 / 72 for side in matrix.on_point(x.value, y.value))
+            moves = pypdfium2.raw.FPDFPathSegment_GetType(segment) == pypdfium2.raw.FPDF_SEGMENT_MOVETO
+            if not moves and last != at:
+                yield LineString([last, at])
+            last = at
+
+
+@pytest.mark.parametrize("name", [*DESIGNS, *TEMPLATES])
+def test_no_line_runs_through_words(name, drawn):
+    for sheet in sorted(drawn(name).glob("*.pdf")):
+        for number, page in enumerate(pypdfium2.PdfDocument(sheet)):
+            lines = list(strokes(page))
+            assert lines, sheet
+            # Within the ink by more than a thin line is wide.
+            words = [shape.buffer(-0.12) for shape in inked(page)]
+            words = [shape for shape in words if not shape.is_empty]
+            struck, _ = STRtree(lines).query(words, predicate="intersects")
+            assert [words[i].bounds for i in sorted(set(struck))] == [], (sheet.name, number + 1)
 
 
 KEY_WIDTH = re.compile(rf"^({NUMBER}) (?:JS|N|P|D)\d+ \(")

@@ -95,7 +95,7 @@ pub(crate) fn list(
 }
 
 /// Lists the keys of a body, one for each of the links, where a standard one fits its keyway.
-fn list_keys(machine: &mut Machine, body: &BodySpec, links: Vec<usize>) {
+pub(crate) fn list_keys(machine: &mut Machine, body: &BodySpec, links: Vec<usize>) {
     let key = body.keyway.and_then(|hub| Key::round(hub, body.width));
     if let Some(key) = key {
         machine.part(Part {

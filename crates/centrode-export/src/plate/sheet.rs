@@ -18,6 +18,8 @@ const SIDES: usize = 40;
 const ROUNDING: f64 = 1e-9;
 /// Radius of a timing mark on a sheet, mm.
 const MARK: f64 = 0.6;
+/// How much farther from a hole than next to it its label may stand, mm.
+const FARTHER: [f64; 4] = [0.0, 2.0, 5.0, 9.0];
 /// Places of lengths.
 const PLACES: usize = 3;
 
@@ -170,18 +172,19 @@ impl Plate {
             let (letters, label) = (draft.lettering(), self.label(index));
             let size = Vector::new(lettering::width(&label, letters), letters);
             let beside = 0.72 * reach * k + 0.8;
-            // Up and to the right of it, or where it touches nothing.
-            let corner = |[x, y]: [f64; 2]| {
-                let middle = Vector::repeat(beside) + 0.5 * size;
+            // Up and to the right of it, or where it touches nothing, the nearer the better.
+            let corner = |([x, y], farther): ([f64; 2], f64)| {
+                let middle = Vector::repeat(beside + farther) + 0.5 * size;
                 at * k + Vector::new(x * middle.x, y * middle.y) - 0.5 * size
             };
             let ways = [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]];
-            let free = ways.into_iter().map(corner).find(|low| {
+            let places = FARTHER.into_iter().flat_map(|mm| ways.map(|way| (way, mm)));
+            let free = places.map(corner).find(|low| {
                 let air = Vector::repeat(0.5);
                 let (min, max) = (low - air, low + size + air);
                 !draft.touches(Bounds { min, max })
             });
-            let at = free.unwrap_or(corner(ways[0]));
+            let at = free.unwrap_or(corner((ways[0], 0.0)));
             draft.text(at, letters, &label, Anchor::Left);
         }
     }

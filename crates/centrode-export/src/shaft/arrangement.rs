@@ -119,6 +119,8 @@ fn list(parts: &Machine<'_>, machine: &mut Linked) -> Result<(), ExportError> {
     if let Some(gears) = &parts.gears {
         // The driven gear sits on the grooved shaft.
         gear_pair::list_pair(&gears.pair, GEARS, &[Member::Driver], machine);
+        let body = gears.pair.gear(Member::Driven).body();
+        gear_pair::list_keys(machine, body, vec![turned]);
     }
     Ok(())
 }

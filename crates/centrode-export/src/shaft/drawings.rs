@@ -1,5 +1,5 @@
 use crate::drawing::{Anchor, CENTER, Color, Drawing, EntityShape, HOLE, LineType, PROFILE, Text};
-use centrode_geometry::{Outline, Point, Tolerance};
+use centrode_geometry::{Arc, Outline, Point, Tolerance};
 use centrode_mechanism::shaft::{ShaftError, ShaftSolid, SpiralShaft};
 use std::f64::consts::TAU;
 
@@ -181,7 +181,23 @@ pub fn side_view(shaft: &SpiralShaft, tolerance: Tolerance) -> Result<Drawing, S
     if let Some(keyway) = body.keyway {
         let (from, to) = (start, start + body.keyway_length);
         let half = 0.5 * keyway.width;
-        drawing.draw("EDGE", rectangle(p(from, -half), p(to, half)));
+        let straight = to - body.keyway_rounding();
+        for y in [-half, half] {
+            drawing.draw("EDGE", EntityShape::Line(p(from, y), p(straight, y)));
+        }
+        let [start, end] = [-half, half].map(|y| p(straight, y));
+        drawing.draw("EDGE", EntityShape::Line(p(from, -half), p(from, half)));
+        drawing.draw(
+            "EDGE",
+            match straight < to {
+                true => EntityShape::Arc(Arc {
+                    start,
+                    end,
+                    bulge: 1.0,
+                }),
+                false => EntityShape::Line(start, end),
+            },
+        );
     }
     drawing.draw(
         "AXES",

@@ -33,7 +33,9 @@ pub(crate) fn mass(grams: f64) -> String {
     if grams >= 1000.0 {
         format!("{} kg", number(grams / 1000.0, 3))
     } else {
-        format!("{} g", number(grams, 1))
+        // Of a circlip of 3 mm a tenth of a gram would be none.
+        let places = if grams < 0.1 { 3 } else { 1 };
+        format!("{} g", number(grams, places))
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use centrode_geometry::{Arc, Outline, Point, Segment, Tolerance, Vector};
+use centrode_geometry::{Arc, Bounds, Outline, Point, Segment, Tolerance, Vector};
 use centrode_mechanism::gear::design::Keyway;
 
 use crate::drawing::{Anchor, EntityShape};
@@ -89,16 +89,32 @@ fn slotted(radius: f64, key: Keyway, k: f64) -> Option<Outline> {
     Outline::new(segments).ok()
 }
 
+/// Height of the letters of a cutting plane, and the distance of their middle from the tip of the arrow, mm.
+const LETTER: f64 = 3.5;
+const BEFORE: f64 = 3.2;
+/// From the outer end of the plane to the tip of its arrow, and how far it stands out, mm.
+const ARROW: f64 = 7.0;
+const OUT: f64 = 6.0;
+
 /// The ends of the plane of a section across a shaft, seen towards the left end.
 pub(crate) fn cutting_plane(draft: &mut Draft, x: f64, height: f64, letter: char) {
     for side in [-1.0, 1.0] {
         let inner = Point::new(x, side * height);
-        let outer = Point::new(x, side * (height + 6.0));
+        let outer = Point::new(x, side * (height + OUT));
         draft.line(Pen::Outline, inner, outer);
-        let tip = outer - Vector::new(7.0, 0.0);
+        let tip = outer - Vector::new(ARROW, 0.0);
         draft.line(Pen::Dimension, outer, tip);
         draft.arrow(tip, -Vector::x());
-        let at = tip + Vector::new(-3.2, -1.75);
-        draft.text(at, 3.5, &letter.to_string(), Anchor::Middle);
+        let at = tip - Vector::new(BEFORE, 0.5 * LETTER);
+        draft.text(at, LETTER, &letter.to_string(), Anchor::Middle);
     }
+}
+
+/// Room that the letters of such a plane take, with some air about them.
+pub(super) fn plane_letters(x: f64, height: f64) -> [Bounds; 2] {
+    [-1.0, 1.0].map(|side| {
+        let middle = Point::new(x - ARROW - BEFORE, side * (height + OUT));
+        let half = Vector::new(0.45, 0.65) * LETTER;
+        [middle - half, middle + half].into_iter().collect()
+    })
 }

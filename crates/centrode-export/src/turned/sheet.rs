@@ -2,6 +2,7 @@ use centrode_geometry::{Arc, Point, Tolerance, Vector};
 use centrode_mechanism::design::{DrawingSpec, SheetSize};
 use centrode_mechanism::machine::HeldLength;
 
+use super::across::plane_letters;
 use super::{Drawn, across, centre, centre_mark, cutting_plane};
 use crate::SheetOptions;
 use crate::drawing::EntityShape;
@@ -15,6 +16,8 @@ use crate::sheet::{
 const SECTION: char = 'C';
 /// Tolerance class of the width of a ring's groove, ISO 286.
 const GROOVE: &str = "H13";
+/// Places of the section along its keyway, as shares of its length, in the order in which they are tried.
+const PLANES: [f64; 7] = [0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8];
 /// Places of lengths.
 const PLACES: usize = 3;
 /// Distance of heights that are one, mm: rounding.
@@ -114,6 +117,7 @@ impl Drawn<'_> {
         self.draw_keyways(&mut draft, k);
         self.lengths(&mut draft, k);
         self.diameters(&mut draft, k);
+        self.draw_plane(&mut draft, k);
         if self.centre().is_some() {
             for (end, way) in [(0.0, -1.0), (whole, 1.0)] {
                 centre_mark(&mut draft, p(end, 0.0), way);
@@ -138,7 +142,7 @@ impl Drawn<'_> {
             return;
         };
         let half = 0.5 * key.width * k;
-        for (index, ([from, to], round)) in self.keyways().into_iter().enumerate() {
+        for ([from, to], round) in self.keyways() {
             // Walls as far as the ends begin.
             let inset = round.map(|is_round| if is_round { half } else { 0.0 });
             let ends = [k * from + inset[0], k * to - inset[1]];
@@ -162,11 +166,21 @@ impl Drawn<'_> {
                     },
                 );
             }
-            if index == 0 {
-                let height = 0.5 * k * self.diameter() + 2.0;
-                cutting_plane(draft, 0.5 * k * (from + to), height, SECTION);
-            }
         }
+    }
+
+    /// The plane of the section across the first keyway, in its middle or near it, where its letters miss all that is drawn.
+    fn draw_plane(&self, draft: &mut Draft, k: f64) {
+        let Some(&([from, to], _)) = self.keyways().first() else {
+            return;
+        };
+        let height = 0.5 * k * self.diameter() + 2.0;
+        let places = PLANES.map(|share| k * (from + share * (to - from)));
+        let free = places.into_iter().find(|x| {
+            let mut letters = plane_letters(*x, height).into_iter();
+            letters.all(|at| !draft.touches(at))
+        });
+        cutting_plane(draft, free.unwrap_or(places[0]), height, SECTION);
     }
 
     /// Lengths that are dimensioned, with their words: of every step but grooves and the last one, and over all. Where deviations hold for

@@ -236,9 +236,8 @@ pub(super) fn table_pair(table: Vec<f64>, distance: f64) -> GearPairDesign {
     let mut pair = GearPairDesign::new(PitchSpec::Transmission(law));
     pair.teeth.addendum = Addendum::Fitted;
     pair.teeth.backlash = free_backlash(distance);
-    let body = free_body(distance);
-    pair.driver = body.clone();
-    pair.driven = body;
+    pair.driver = free_body(distance).keyed(0.0);
+    pair.driven = pair.driver.clone();
     pair
 }
 
@@ -262,7 +261,7 @@ const FIRST_COUNT: u32 = 60;
 fn design(
     chain: &TwoBar,
     split: &Split,
-    pairs: Vec<(&'static str, GearPairDesign)>,
+    mut pairs: Vec<(&'static str, GearPairDesign)>,
     arms: u32,
 ) -> ComposedDesign {
     let leg = chain.center_distance(split.bend());
@@ -340,6 +339,7 @@ fn design(
     .into();
     if !is_one {
         let mount = idler_mount(split);
+        pairs[1].1.driven = free_body(leg).keyed(mount);
         let second = gear(second, GearRole::Driven, "idler", mount);
         design.gears.insert(named(second_idler), second);
     }

@@ -71,7 +71,8 @@ impl ThreeArmDesign {
         design.teeth.addendum = Addendum::Full;
         design.teeth.backlash = free_backlash(distance);
         let body = free_body(distance);
-        (design.sun, design.intermediate, design.planet) = (body.clone(), body.clone(), body);
+        (design.sun, design.intermediate, design.planet) =
+            (body.clone().keyed(0.0), body.clone(), body.keyed(0.0));
         Ok(design)
     }
 }

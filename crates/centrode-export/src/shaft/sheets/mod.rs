@@ -17,7 +17,7 @@ use crate::{
         Corner, Draft, Scale, Sheet, SheetBlock, Table, TitleBlock, compose, mass, view_letters,
     },
 };
-use centrode_geometry::Point;
+use centrode_geometry::{Arc, Point};
 use centrode_mechanism::design::SheetSize;
 use centrode_mechanism::shaft::{ShaftSolid, SpiralShaft};
 
@@ -111,6 +111,11 @@ fn scaled(shape: &EntityShape, k: f64, place: impl Fn(Point) -> Point) -> Option
             center: at(center),
             radius: k * radius,
         },
+        EntityShape::Arc(arc) => EntityShape::Arc(Arc {
+            start: at(&arc.start),
+            end: at(&arc.end),
+            bulge: arc.bulge,
+        }),
         _ => return None,
     })
 }

@@ -84,19 +84,20 @@ impl<'a> Views<'a> {
         span(2.0, [near, far]);
         span(2.0, [far, (end, j - c)]);
         span(3.0, [(start, j - c), (end, j - c)]);
-        let beside = |column: f64| Point::new(k * end + 9.0 + 9.0 * column, 0.0);
+        let beside = |column: f64| Point::new(k * end + 12.0 + 9.0 * column, 0.0);
         let upright = Vector::y();
         let diameter = |d: f64| format!("Ø{}", number(d, 3));
+        // The words of the thin one reach beyond it, where a line to the farther dimension would run through them.
         draft.dimension(
             [p(end, -j), p(end, j)],
             upright,
-            beside(0.0),
+            beside(1.0),
             &fit::bore(2.0 * j, &body.journal_fit),
         );
         draft.dimension(
             [p(high, -r), p(high, r)],
             upright,
-            beside(1.0),
+            beside(0.0),
             &diameter(2.0 * r),
         );
         if body.keyway.is_some() {

@@ -176,15 +176,16 @@ impl<'a> Crank<'a> {
             on: on.into(),
             mount,
         };
-        let start = self.start + self.sense * timing.at(0.0).position;
+        let mount = back - (self.start + self.sense * timing.at(0.0).position);
         let gears = [
             (PINION, gear(GearRole::Driver, SHAFT, 0.0)),
-            (WHEEL, gear(GearRole::Driven, &self.spec.body, back - start)),
+            (WHEEL, gear(GearRole::Driven, &self.spec.body, mount)),
         ];
         design
             .gears
             .extend(gears.map(|(name, gear)| (name.into(), gear)));
-        let pair = table_pair(table, distance);
+        let mut pair = table_pair(table, distance);
+        pair.driven = pair.driven.keyed(mount);
         design.pairs.insert(DRIVE.into(), pair);
         // Its law is gone.
         let law = format!("bodies.{}.law", self.spec.body);

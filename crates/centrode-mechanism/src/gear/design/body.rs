@@ -1,3 +1,5 @@
+use std::f64::consts::TAU;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -211,6 +213,18 @@ impl Default for BodySpec {
 }
 
 impl BodySpec {
+    /// The body with the keyway that DIN 6885-1 has for its bore, none where there is no such, along the x axis of what carries the body
+    /// at an angle, rad.
+    pub(crate) fn keyed(self, mount: f64) -> Self {
+        let keyway = Keyway::of_bore(self.bore);
+        let turned = TAU * (mount / TAU).round() - mount;
+        Self {
+            keyway,
+            keyway_angle: keyway.map_or(0.0, |_| turned),
+            ..self
+        }
+    }
+
     /// Checks the ranges, and that the keyway fits the bore.
     ///
     /// # Errors

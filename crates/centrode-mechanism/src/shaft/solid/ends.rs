@@ -23,7 +23,7 @@ pub(super) fn close(
     let slot = body.keyway.map(|key| TurnedSlot {
         width: key.width,
         foot: 0.5 * body.journal_diameter - key.depth,
-        rounded: false,
+        rounded: body.keyway_rounding() > 0.0,
     });
     let journal = Turned::new(thick[0] - below, sections, slot).ok()?;
     journal.close(builder, [TurnedEnd::Flat, near]);

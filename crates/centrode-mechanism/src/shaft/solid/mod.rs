@@ -5,6 +5,7 @@ mod boundary;
 mod ends;
 mod moments;
 mod plan;
+mod rings;
 mod surface;
 
 use centrode_geometry::{MassProperties, Mesh, Point, Shell, Tolerance};
@@ -12,8 +13,8 @@ use centrode_geometry::{MassProperties, Mesh, Point, Shell, Tolerance};
 pub use blank::ShaftBody;
 
 use super::{Groove, ShaftError};
-use blank::Rings;
 use plan::Plan;
+use rings::Rings;
 
 /// The shaft with its groove: a cylinder, the groove's radial walls and its floor, journals and a keyway.
 ///

@@ -7,7 +7,6 @@ use nalgebra::Vector3;
 
 use super::ShaftBody;
 use super::plan::{Level, Plan};
-use crate::gear::design::Keyway;
 use crate::shaft::Groove;
 
 /// Nodes and weights of the Gauss rule on `[-1, 1]` that is exact up to degree 5: along the radius and the axis the
@@ -48,9 +47,35 @@ pub(super) fn moments(groove: &Groove, body: &ShaftBody, thick: [f64; 2]) -> Vol
         revolved(&mut sum, [edge, edge + way * c], [j, j - c]);
         if let (Some(keyway), true) = (body.keyway, way < 0.0) {
             let tip = edge + way * c;
-            let inner = tip - way * body.keyway_length;
-            slot(&mut sum, keyway, j - keyway.depth, [inner, edge], [j, j]);
-            slot(&mut sum, keyway, j - keyway.depth, [edge, tip], [j, j - c]);
+            let half = body.keyway_rounding();
+            let inner = tip - way * (body.keyway_length - half);
+            let (foot, width) = (j - keyway.depth, keyway.width);
+            let straight = |ends: [f64; 2], radii: [f64; 2]| {
+                let length = (ends[1] - ends[0]).abs();
+                let parts = if radii[0] == radii[1] { 1 } else { PARTS };
+                nodes([0.0, 1.0], parts).map(move |(share, along)| {
+                    let [z, radius] = [ends, radii].map(|[a, b]| a + (b - a) * share);
+                    Cut {
+                        z,
+                        length: length * along,
+                        radius,
+                        width,
+                    }
+                })
+            };
+            // Beyond the walls by the sine of an angle, where it is as wide as by its cosine.
+            let round = nodes([0.0, FRAC_PI_2], PARTS).map(|(angle, turned)| {
+                let (sin, cos) = angle.sin_cos();
+                Cut {
+                    z: inner - way * half * sin,
+                    length: half * cos * turned,
+                    radius: j,
+                    width: width * cos,
+                }
+            });
+            slot(&mut sum, foot, straight([inner, edge], [j, j]));
+            slot(&mut sum, foot, straight([edge, tip], [j, j - c]));
+            slot(&mut sum, foot, round);
         }
     }
     grooved(&mut sum, groove, body.fillet);
@@ -73,21 +98,28 @@ fn revolved(sum: &mut VolumeMoments, ends: [f64; 2], radii: [f64; 2]) {
     }
 }
 
-/// Subtracts a keyway along x between two heights, given the radius of the surface at both.
-fn slot(sum: &mut VolumeMoments, key: Keyway, foot: f64, ends: [f64; 2], radii: [f64; 2]) {
-    let length = (ends[1] - ends[0]).abs();
-    let parts = if radii[0] == radii[1] { 1 } else { PARTS };
-    for (share, along) in nodes([0.0, 1.0], parts) {
-        let z = ends[0] + (ends[1] - ends[0]) * share;
-        let radius = radii[0] + (radii[1] - radii[0]) * share;
-        let edge = (0.5 * key.width / radius).asin();
+/// A thin slice of a keyway across the axis.
+struct Cut {
+    /// Height, and length along the axis, mm.
+    z: f64,
+    length: f64,
+    /// Radius of the surface that it is cut into, mm.
+    radius: f64,
+    /// Distance of its walls, mm.
+    width: f64,
+}
+
+/// Subtracts a keyway along x, its floor so far from the axis, slice by slice.
+fn slot(sum: &mut VolumeMoments, foot: f64, cuts: impl Iterator<Item = Cut>) {
+    for cut in cuts {
+        let edge = (0.5 * cut.width / cut.radius).asin();
         for (angle, turned) in nodes([-edge, edge], PARTS) {
             let (sin, cos) = angle.sin_cos();
-            for (x, out) in nodes([foot, radius * cos], 1) {
-                let across = turned * radius * cos;
+            for (x, out) in nodes([foot, cut.radius * cos], 1) {
+                let across = turned * cut.radius * cos;
                 sum.add(
-                    Vector3::new(x, radius * sin, z),
-                    -length * along * across * out,
+                    Vector3::new(x, cut.radius * sin, cut.z),
+                    -cut.length * across * out,
                 );
             }
         }

@@ -88,6 +88,12 @@ fn the_volume_is_that_of_the_developed_area() {
 #[test]
 fn every_kind_of_shaft_is_watertight() {
     let keyed = ShaftBody::default();
+    // No room for a half round end beyond the chamfer.
+    let short = ShaftBody {
+        keyway_length: 3.0,
+        ..ShaftBody::default()
+    };
+    assert_eq!([&keyed, &short].map(ShaftBody::keyway_rounding), [2.5, 0.0]);
     for (holes, offset, phase, width) in [
         (2, 0.0, 0.0, 10.0),
         (3, 0.0, 0.0, 3.0),
@@ -97,7 +103,7 @@ fn every_kind_of_shaft_is_watertight() {
         (14, 0.0, 0.0, 10.0),
     ] {
         let groove = groove(holes, offset, phase, width);
-        for body in [sharp(), keyed.clone()] {
+        for body in [sharp(), keyed.clone(), short.clone()] {
             for tol in [0.2, 0.02] {
                 let solid = ShaftSolid::new(&groove, &body).expect("fits");
                 let mesh = solid.mesh(tolerance(tol));
@@ -167,6 +173,40 @@ fn the_wall_is_an_exact_offset_and_unwraps_unchanged() {
     assert!(groove.wall_deviation() > 0.01 && groove.wall_deviation() < 0.2);
 }
 
+fn bezier(points: &[[f64; 3]], x: f64) -> [f64; 3] {
+    let mut row = points.to_vec();
+    while row.len() > 1 {
+        row = row
+            .windows(2)
+            .map(|w| [0, 1, 2].map(|i| w[0][i] + (w[1][i] - w[0][i]) * x))
+            .collect();
+    }
+    row[0]
+}
+
+/// Flux of (x, y, 0) / 2 through a surface of straight lines between two curves, by small flat cells: none through the groove's
+/// walls, which point to the axis.
+fn through(points: &[Vec<[f64; 3]>; 2]) -> f64 {
+    let (along, across) = (64, 4);
+    let at = |i: u32, j: u32| {
+        let (x, y) = (
+            f64::from(i) / f64::from(along),
+            f64::from(j) / f64::from(across),
+        );
+        let [a, b] = points.each_ref().map(|curve| bezier(curve, x));
+        nalgebra::Vector3::from([0, 1, 2].map(|k| a[k] + (b[k] - a[k]) * y))
+    };
+    let cells = (0..along).flat_map(|i| (0..across).map(move |j| (i, j)));
+    cells
+        .map(|(i, j)| {
+            let [a, b, c, d] = [at(i, j), at(i + 1, j), at(i, j + 1), at(i + 1, j + 1)];
+            let normal = (b + d - a - c).cross(&(c + d - a - b)) * 0.25;
+            let middle = (a + b + c + d) * 0.25;
+            0.5 * (middle.x * normal.x + middle.y * normal.y)
+        })
+        .sum()
+}
+
 /// Enclosed volume of a shell, mm³, by Gauss points over fine pieces of every surface: the flux of (0, 0, z)
 /// through walls and planes, and through cylinders and cones none.
 fn enclosed(shell: &centrode_geometry::Shell) -> f64 {
@@ -184,19 +224,15 @@ fn enclosed(shell: &centrode_geometry::Shell) -> f64 {
                 let angle = from + span * x;
                 [radius * angle.cos(), radius * angle.sin(), a[2]]
             }
-            ShellCurve::Bezier(points) => {
-                let mut row = points.clone();
-                while row.len() > 1 {
-                    row = row
-                        .windows(2)
-                        .map(|w| [0, 1, 2].map(|i| w[0][i] + (w[1][i] - w[0][i]) * x))
-                        .collect();
-                }
-                row[0]
-            }
+            ShellCurve::Bezier(points) => bezier(points, x),
         }
     };
     for face in &shell.faces {
+        if let ShellSurface::Ruled { points, outward } = &face.surface {
+            let way = if *outward { 1.0 } else { -1.0 };
+            volume += way * through(points);
+            continue;
+        }
         let mut rings: Vec<Vec<[f64; 3]>> = Vec::new();
         for bound in &face.bounds {
             let mut ring = Vec::new();
@@ -235,8 +271,7 @@ fn enclosed(shell: &centrode_geometry::Shell) -> f64 {
                         let across = normal[1] * point[1] * (middle[2] * (q[0] - p[0]));
                         volume += 0.5 * (normal[0] * along + normal[1] * across);
                     }
-                    // The walls point to the axis: nothing flows through them.
-                    ShellSurface::Ruled { .. } => {}
+                    ShellSurface::Ruled { .. } => unreachable!("told before"),
                 }
             }
         }
@@ -421,4 +456,26 @@ fn mass_and_inertia_are_those_of_ever_finer_meshes() {
             }
         }
     }
+}
+
+#[test]
+fn the_keyway_ends_half_round() {
+    let groove = groove(3, 0.0, 0.0, 8.0);
+    let keyed = ShaftBody::default();
+    let plain = ShaftBody {
+        keyway: None,
+        ..keyed.clone()
+    };
+    let bodies = [&plain, &keyed].map(|body| ShaftSolid::new(&groove, body).expect("fits"));
+    let [whole, cut] = bodies.each_ref().map(|solid| {
+        let exact = solid.mass_properties().mass * 1e9 / keyed.density;
+        [exact, solid.mesh(tolerance(1e-3)).volume()]
+    });
+    let [exact, meshed] = [0, 1].map(|i| whole[i] - cut[i]);
+    assert!((exact - meshed).abs() < 1.0, "{exact} {meshed}");
+    // 5 wide, 3 deep in the middle and 18 long to the crest; less at the sides, at the chamfer and by the corners of its end.
+    let corners = (25.0 / 2.0 - 25.0 * PI / 8.0) * 3.0;
+    let square = 5.0 * 3.0 * 18.0;
+    assert!(exact < square - corners, "{exact}");
+    assert!(exact > square - corners - 0.5 * 18.0 * 5.0, "{exact}");
 }
