@@ -2,8 +2,8 @@ use std::sync::{Mutex, PoisonError};
 
 /// The last few results of a long computation, 4 where nothing else is said, each by what it was made of.
 ///
-/// For what stays as it is while something else of a design is changed many times. Made anew, a result is the same:
-/// remembering it changes nothing but the time. While one thread makes a result, others may make the same one.
+/// For what stays as it is while something else of a design is changed many times: the result that nobody has asked for
+/// longest is forgotten first. Made anew, a result is the same: remembering it changes nothing but the time. While one thread makes a result, others may make the same one.
 ///
 /// ```
 /// use centrode_geometry::Recent;
@@ -32,14 +32,19 @@ impl<K, V, const MOST: usize> Default for Recent<K, V, MOST> {
 impl<K: Clone + PartialEq, V: Clone, const MOST: usize> Recent<K, V, MOST> {
     /// The remembered result of `key`, or the one made now.
     pub fn get(&self, key: &K, make: impl FnOnce() -> V) -> V {
-        let known = |known: &Vec<(K, V)>| known.iter().find(|k| k.0 == *key).map(|k| k.1.clone());
-        if let Some(value) = known(&self.0.lock().unwrap_or_else(PoisonError::into_inner)) {
+        // The last one asked for stands first.
+        let known = |all: &mut Vec<(K, V)>| {
+            let at = all.iter().position(|known| known.0 == *key)?;
+            all[..=at].rotate_right(1);
+            Some(all[0].1.clone())
+        };
+        if let Some(value) = known(&mut self.0.lock().unwrap_or_else(PoisonError::into_inner)) {
             return value;
         }
         // Not under the lock: it takes long, and may be cancelled.
         let value = make();
         let mut all = self.0.lock().unwrap_or_else(PoisonError::into_inner);
-        if known(&all).is_none() {
+        if known(&mut all).is_none() {
             all.truncate(MOST - 1);
             all.insert(0, (key.clone(), value.clone()));
         }
@@ -52,12 +57,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_oldest_is_forgotten_first() {
+    fn what_nobody_has_asked_for_longest_is_forgotten_first() {
         let recent: Recent<i32, ()> = Recent::new();
         let mut made = Vec::new();
-        for key in [1, 2, 3, 4, 1, 5, 4, 1] {
+        for key in [1, 2, 3, 4, 1, 5, 1, 3, 2] {
             recent.get(&key, || made.push(key));
         }
-        assert_eq!(made, [1, 2, 3, 4, 5, 1]);
+        assert_eq!(made, [1, 2, 3, 4, 5, 2]);
     }
 }

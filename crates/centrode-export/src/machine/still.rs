@@ -9,7 +9,7 @@ use centrode_mechanism::machine::{Line, LinePath, Machine};
 use crate::page::Path;
 
 /// Contours remembered, and the most segments of one: a machine has some dozens, of which a change alters a few.
-const KEPT: usize = 32;
+const KEPT: usize = 64;
 const LONGEST: usize = 2000;
 
 /// Contours as they were fitted last.

@@ -65,7 +65,7 @@ const STYLES: [Asset; 4] = assets!(
 );
 
 /// The scripts; `main.js` is the one to start.
-const SCRIPTS: [Asset; 42] = assets!(
+const SCRIPTS: [Asset; 43] = assets!(
     "text/javascript; charset=utf-8":
     "uplot.js",
     "axes.js",
@@ -98,6 +98,7 @@ const SCRIPTS: [Asset; 42] = assets!(
     "response.js",
     "search.js",
     "server.js",
+    "sight.js",
     "solving.js",
     "source.js",
     "space.js",

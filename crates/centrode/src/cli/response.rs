@@ -110,7 +110,7 @@ fn write_table(response: &Found, answers: &[&Answer], out: &mut impl Write) -> R
     }
     writeln!(out)?;
     for (at, value) in response.values.iter().enumerate() {
-        write!(out, "{:>width$}", (value * 1e6).round() / 1e6)?;
+        write!(out, "{:>width$}", (value * 1e6).round() / 1e6 + 0.0)?;
         for (answer, head) in answers.iter().zip(&heads) {
             let column = head.len().max(12);
             write!(out, "  {:>column$}", shown(answer, at))?;

@@ -40,3 +40,22 @@ export const STEPS = Array.from({ length: 12 }, (_, power) => [1, 2, 5].map((ste
 
 /** A line of a chart: not on whole pixels, which would make stairs of it. */
 export const line = (name, own = {}) => ({ stroke: () => color(name), width: 1.5, pxAlign: 0, points: { show: false }, spanGaps: false, ...own });
+
+/** What is smaller is a rounding error, whatever its unit: a figure of a machine is not. */
+export const NOISE = 1e-9;
+
+/** Range of the vertical axis: what is nearly constant is shown as constant, not as its rounding errors. A limit near by is in it. */
+export function span(least, greatest, limits) {
+  if (least === null || !Number.isFinite(least)) return [0, 1];
+  const room = greatest - least;
+  for (const { value } of limits) {
+    if (Math.max(least - value, value - greatest) <= room) [least, greatest] = [Math.min(least, value), Math.max(greatest, value)];
+  }
+  return spread(least, greatest);
+}
+
+function spread(least, greatest) {
+  const size = Math.max(Math.abs(least), Math.abs(greatest));
+  const room = greatest - least < 1e-6 * size ? Math.max(0.1 * size, Number.MIN_VALUE) : 0.08 * (greatest - least);
+  return size < NOISE ? [-1, 1] : [least - room, greatest + room];
+}

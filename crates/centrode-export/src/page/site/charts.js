@@ -1,10 +1,11 @@
 // Curves along the cycle as small multiples, all at the input of the scrubber.
 
 import uPlot from "./uplot.js";
-import { STEPS, WHOLE, axes, labels, line } from "./axes.js";
+import { NOISE, STEPS, WHOLE, axes, labels, line, span } from "./axes.js";
 import * as files from "./chart-files.js";
 import { byId, element } from "./elements.js";
 import { read } from "./motion.js";
+import { Sight } from "./sight.js";
 import { color } from "./theme.js";
 
 const DEG = 180 / Math.PI;
@@ -13,8 +14,6 @@ const HEIGHT = 128;
 const LARGE = 380;
 const DASH = [[], [6, 3]];
 const LIMIT = [8, 4];
-/** What is smaller is a rounding error, whatever its unit: a figure of a machine is not. */
-const NOISE = 1e-9;
 
 /** Units of the axis: name, what one of them is in degrees, steps between its ticks, and how an input is written. */
 const UNITS = {
@@ -51,6 +50,7 @@ export class Charts {
     this.input = 0;
     this.reach = [0, 360];
     this.place = byId("charts");
+    this.sight = new Sight();
     byId("axis").addEventListener("change", (event) => {
       this.unit = event.target.value;
       this.refresh();
@@ -123,7 +123,7 @@ export class Charts {
     const same = this.charts.length === groups.size &&
       [...groups].every(([name, list], i) => this.charts[i].name === name && this.charts[i].fits(list, before));
     if (!same) {
-      for (const chart of this.charts) chart.plot.destroy();
+      for (const chart of this.charts) chart.leave();
       this.place.replaceChildren();
       this.charts = [...groups].map(([name, list]) => new Chart(this, name, list, before));
     } else {
@@ -141,6 +141,7 @@ export class Charts {
     this.hovered = input;
     this.place.classList.toggle("hovered", input !== null);
     this.at(this.input);
+    this.sight.all();
   }
 
   resize() {
@@ -160,6 +161,8 @@ export class Charts {
   }
 
   recolor() {
+    // What is printed is all in sight.
+    this.sight.all();
     for (const chart of this.charts) chart.plot.redraw(false);
   }
 }
@@ -179,9 +182,10 @@ class Chart {
     this.figure = element("figure", { class: "chart" },
       element("figcaption", {}, element("b", {}, name), unit ? element("span", { class: "quiet" }, ` ${unit}`) : null, ...legend, this.bounds,
         element("span", { class: "take" }, this.larger, ...["CSV", "SVG", "PNG"].map((kind) =>
-          element("button", { type: "button", class: "link", "aria-label": `${name} as ${kind}`, onclick: () => files.take(this, kind, charts.name()) }, kind)))),
+          element("button", { type: "button", class: "link", "aria-label": `${name} as ${kind}`, onclick: () => this.take(kind) }, kind)))),
       this.box);
     charts.place.append(this.figure);
+    charts.sight.watch(this.figure);
     this.grow();
     this.compared = curves.map((curve) => before.has(`${name} ${curve.name}`));
     const series = [{}];
@@ -209,6 +213,7 @@ class Chart {
     this.pointed = element("div", { class: "pointed" }, this.degrees);
     this.plot.over.append(this.line, this.pointed);
     this.curves = curves;
+    this.now = [charts.input, charts.hovered];
     this.bound();
     this.stretch();
     const pick = (event) => {
@@ -315,7 +320,27 @@ class Chart {
 
   set(curves, before) {
     this.curves = curves;
-    this.plot.setData(this.data(curves, before));
+    this.before = before;
+    this.due = true;
+    this.charts.sight.draw(this.figure, () => this.renew());
+  }
+
+  /** Draws what has been given meanwhile. */
+  renew() {
+    if (this.due) this.plot.setData(this.data(this.curves, this.before));
+    this.due = false;
+    this.point();
+  }
+
+  /** Hands itself over as a file. */
+  take(kind) {
+    this.renew();
+    return files.take(this, kind, this.charts.name());
+  }
+
+  leave() {
+    this.charts.sight.forget(this.figure);
+    this.plot.destroy();
   }
 
   data(curves, before) {
@@ -330,6 +355,13 @@ class Chart {
   }
 
   at(input, hovered) {
+    this.now = [input, hovered];
+    this.charts.sight.draw(this.figure, () => this.renew());
+  }
+
+  /** Shows where it is read, and what it says there. */
+  point() {
+    const [input, hovered] = this.now;
     // Nothing is measured here: a browser would lay out the page anew for every chart.
     const left = (at) => this.plot.valToPos(at * DEG, "x");
     const [first, last] = this.charts.range;
@@ -352,22 +384,6 @@ class Chart {
       return this.compared[i] ? [own, { ...own, name: `pinned ${own.name}`, ink: "pinned", dash: [3, 3] }] : [own];
     });
   }
-}
-
-/** Range of the vertical axis: what is nearly constant is shown as constant, not as its rounding errors. A limit near by is in it. */
-function span(least, greatest, limits) {
-  if (least === null || !Number.isFinite(least)) return [0, 1];
-  const room = greatest - least;
-  for (const { value } of limits) {
-    if (Math.max(least - value, value - greatest) <= room) [least, greatest] = [Math.min(least, value), Math.max(greatest, value)];
-  }
-  return spread(least, greatest);
-}
-
-function spread(least, greatest) {
-  const size = Math.max(Math.abs(least), Math.abs(greatest));
-  const room = greatest - least < 1e-6 * size ? Math.max(0.1 * size, Number.MIN_VALUE) : 0.08 * (greatest - least);
-  return size < NOISE ? [-1, 1] : [least - room, greatest + room];
 }
 
 /** A cycle ends at a whole degree, which its last digit may fall short of. */

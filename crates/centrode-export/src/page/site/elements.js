@@ -44,6 +44,6 @@ export function fault({ key, rule, message }) {
 
 /** A key of the design file as a person reads it. */
 export function words(key) {
-  const last = key.split(".").pop().replace(/_deg$/, "").replaceAll("_", " ");
+  const last = key.split(".").pop().replace(/_(deg|kg|kg_mm2)$/, "").replaceAll("_", " ");
   return last.charAt(0).toUpperCase() + last.slice(1);
 }

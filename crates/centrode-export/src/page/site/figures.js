@@ -2,6 +2,9 @@
 
 import { byId, element } from "./elements.js";
 
+/** So many columns of figures are many. */
+const MANY = 4;
+
 let exact = false;
 
 /** Shows the groups; figures of `pinned`, by key, beside those that differ. */
@@ -36,7 +39,9 @@ function table(group, before) {
     element("th", { scope: "row" }, row.name),
     ...Array.from({ length: columns }, (_, i) => figure(row.cells[i], before)),
     element("td", { class: "unit" }, row.unit)));
-  return element("table", { class: exact ? "figures exact" : "figures" },
+  // Many columns have to be narrow to have room.
+  const kinds = ["figures", exact && "exact", columns >= MANY && "many"].filter(Boolean);
+  return element("table", { class: kinds.join(" ") },
     element("thead", {}, head), element("tbody", {}, ...rows));
 }
 

@@ -51,6 +51,10 @@ export class Scene {
   }
 }
 
+/** How names of places look, and the height of a line of them, pixels. */
+const NAMES = "12px system-ui, sans-serif";
+const HIGH = 13;
+
 /** How lines look: colour, width in pixels, dashes in pixels. */
 const LINES = {
   pitch: ["accent", 1, [9, 3, 2, 3]],
@@ -154,7 +158,27 @@ export class Painter {
 
   /** Dots and names of the places that have one. */
   marks(poses) {
-    this.scene.picture.marks.forEach((mark) => this.mark(mark, poses[mark.link]));
+    this.named(poses).forEach((mark) => this.mark(mark));
+  }
+
+  /** Places worth a name, in pixels, with where the name begins: beside its place where no other name is, once where two of one name meet. */
+  named(poses) {
+    this.context.font = NAMES;
+    const taken = [];
+    const found = [];
+    for (const { name, link, at: [u, v] } of this.scene.picture.marks) {
+      const [x, y, angle] = poses[link];
+      const [c, s] = [Math.cos(angle), Math.sin(angle)];
+      const [px, py] = this.toBox(x + c * u - s * v, y + s * u + c * v);
+      if (found.some((other) => other.name === name && Math.hypot(other.at[0] - px, other.at[1] - py) < 1)) continue;
+      const { width } = this.context.measureText(name);
+      const free = ([left, base]) => taken.every(([l, b, w]) => Math.abs(b - base) >= HIGH || left >= l + w || l >= left + width);
+      const places = [8, -8 - width].flatMap((across) => [[px + across, py - 6], [px + across, py + 16]]);
+      const words = places.find(free) ?? places[0];
+      taken.push([...words, width]);
+      found.push({ name, at: [px, py], words });
+    }
+    return found;
   }
 
   /** Into the frame of a link; the returned function makes a width in pixels one of the frame. */
@@ -197,19 +221,17 @@ export class Painter {
     context.setLineDash([]);
   }
 
-  /** A dot with its name beside it. */
-  mark({ name, at }, [x, y, angle]) {
+  /** A dot with its name. */
+  mark({ name, at: [px, py], words }) {
     const { context } = this;
-    const [c, s] = [Math.cos(angle), Math.sin(angle)];
-    const [px, py] = this.toBox(x + c * at[0] - s * at[1], y + s * at[0] + c * at[1]);
     context.setTransform(this.density, 0, 0, this.density, 0, 0);
     context.fillStyle = color("pinned");
     context.beginPath();
     context.arc(px, py, 4, 0, 2 * Math.PI);
     context.fill();
     context.fillStyle = color("ink");
-    context.font = "12px system-ui, sans-serif";
-    context.fillText(name, px + 8, py - 6);
+    context.font = NAMES;
+    context.fillText(name, ...words);
   }
 
   /** The outlines of a link, with the ways of its points or without. */

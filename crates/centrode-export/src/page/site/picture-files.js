@@ -81,12 +81,10 @@ function svg(stage, title) {
     }
   });
   root.append(...layers, ...laidOver(stage));
-  for (const { name: words, link, at } of scene.picture.marks) {
-    const [x, y, angle] = poses[link];
-    const [px, py] = stage.toBox(x + Math.cos(angle) * at[0] - Math.sin(angle) * at[1], y + Math.sin(angle) * at[0] + Math.cos(angle) * at[1]);
-    const label = drawn("text", { x: px + 8, y: py - 6, fill: color("ink") });
-    label.textContent = words;
-    root.append(drawn("circle", { cx: px, cy: py, r: 4, fill: color("pinned") }), label);
+  for (const { name, at: [cx, cy], words: [x, y] } of stage.named(poses)) {
+    const label = drawn("text", { x, y, fill: color("ink") });
+    label.textContent = name;
+    root.append(drawn("circle", { cx, cy, r: 4, fill: color("pinned") }), label);
   }
   if (stage.mesh.on) root.append(...meshes(stage));
   return `${new XMLSerializer().serializeToString(root)}\n`;

@@ -295,9 +295,9 @@ fn unit(name: &str, doc: &str) -> &'static str {
         return "°";
     }
     // Longer names first: one may begin another.
-    const UNITS: [&str; 14] = [
-        "kg/m^3", "N/mm", "N mm", "mm/s", "mm/rad", "rad/s", "1/min", "r/min", "1/mm", "kg", "mm",
-        "s", "N", "rad",
+    const UNITS: [&str; 15] = [
+        "kg/m^3", "kg mm²", "N/mm", "N mm", "mm/s", "mm/rad", "rad/s", "1/min", "r/min", "1/mm",
+        "kg", "mm", "s", "N", "rad",
     ];
     let ends =
         |rest: &str| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '/' || c == '^');

@@ -78,10 +78,7 @@ impl GoalWords {
 
 /// The words for a goal.
 pub(crate) fn goal_words(goal: &Goal) -> GoalWords {
-    let short = |value: f64| {
-        let value = value * goal.unit.factor();
-        format!("{}", (value * 1e6).round() / 1e6)
-    };
+    let short = |value: f64| end(value * goal.unit.factor());
     let wanted = match goal.wanted {
         [Some(least), Some(greatest)] => format!("{} to {}", short(least), short(greatest)),
         [Some(least), None] => format!("at least {}", short(least)),
@@ -109,6 +106,19 @@ pub(crate) fn goal_words(goal: &Goal) -> GoalWords {
         verdict,
         met: goal.met(),
         progress: goal.progress,
+    }
+}
+
+/// End of a range, to a millionth; a smaller one keeps its leading digits.
+fn end(value: f64) -> String {
+    let rounded = (value * 1e6).round() / 1e6;
+    if rounded == 0.0 && value != 0.0 {
+        // Of six digits those that are not trailing zeros.
+        let short = format!("{value:.5e}").parse().unwrap_or(value);
+        format!("{short:e}")
+    } else {
+        // No zero below zero.
+        format!("{}", rounded + 0.0)
     }
 }
 
@@ -154,6 +164,24 @@ mod tests {
         assert_eq!(bar(0.999), "###########-");
         assert_eq!(bar(0.5), "######------");
         assert_eq!(bar(0.0), "------------");
+    }
+
+    #[test]
+    fn ends_of_ranges_are_short_and_never_hidden() {
+        let ends = [
+            -0.0,
+            0.0,
+            -1e-9,
+            1e-9,
+            1.234_567_89e-8,
+            -15.0,
+            0.123_456_789,
+        ]
+        .map(end);
+        assert_eq!(
+            ends,
+            ["0", "0", "-1e-9", "1e-9", "1.23457e-8", "-15", "0.123457"]
+        );
     }
 
     #[test]

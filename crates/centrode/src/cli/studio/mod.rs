@@ -1,6 +1,7 @@
 //! `centrode studio`: the design page, served to the browser of this computer.
 
 mod document;
+mod files;
 mod guard;
 mod listener;
 mod meshes;

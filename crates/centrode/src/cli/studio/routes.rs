@@ -5,13 +5,11 @@ use crate::FAMILIES;
 use crate::analysis::optimise::{NotSearched, Strategy};
 use crate::export::page;
 use crate::geometry::Cancel;
-use axum::body::Bytes;
 use axum::extract::{Path, State};
 use axum::http::{StatusCode, header};
 use axum::response::{Html, IntoResponse, Response};
 use axum::routing::{delete, get, post};
 use axum::{Json, Router};
-use clap::{Parser as _, ValueEnum as _};
 use serde::Deserialize;
 use serde_json::json;
 use tower_http::limit::RequestBodyLimitLayer;
@@ -21,8 +19,7 @@ use super::StudioState;
 use super::document::SaveError;
 use super::guard::{self, Guard};
 use super::solver::{Depth, Unsolved};
-use super::{meshes, response, search};
-use crate::cli::args::{Arguments, Command, Export, File};
+use super::{files, meshes, response, search};
 use crate::cli::export;
 use crate::cli::page::{Edit, Fault, edited};
 
@@ -49,7 +46,7 @@ pub(crate) fn design_page(state: Arc<StudioState>) -> Router {
         .route("/save", post(save))
         .route("/keep", post(keep).delete(forget))
         .route("/reread", post(reread))
-        .route("/export", post(bundle))
+        .route("/export", post(files::answer))
         .route("/choices", post(choices))
         .route("/meshes", post(meshes::answer))
         .route("/search", get(searched).post(searching).delete(unsearched))
@@ -130,7 +127,7 @@ async fn design(State(state): Shared) -> Response {
         "file": document.name(),
         "text": document.text(),
         "recovered": document.recovered(),
-        "formats": formats(),
+        "formats": files::formats(),
         "methods": Strategy::NAMES.map(|(name, _)| name),
         "unsearched": unsearchable(&document.text()),
         "started": state.started,
@@ -145,23 +142,6 @@ fn unsearchable(text: &str) -> Option<String> {
         Err(reason @ NotSearched::Family) => Some(reason.to_string()),
         _ => None,
     }
-}
-
-/// Word for the page as one file among the kinds of file.
-const PAGE: &str = "report";
-
-/// Kinds of file that can be exported: the word for each, and its description.
-fn formats() -> Vec<[String; 2]> {
-    let values = File::value_variants()
-        .iter()
-        .filter_map(File::to_possible_value);
-    values
-        .map(|value| {
-            let help = value.get_help().map(ToString::to_string);
-            [value.get_name().to_owned(), help.unwrap_or_default()]
-        })
-        .chain([[PAGE, "This page as one file, to be read and sent"].map(str::to_owned)])
-        .collect()
 }
 
 #[derive(Deserialize)]
@@ -336,59 +316,6 @@ async fn respond(Json(ask): Json<response::Ask>) -> Result<Response, Refused> {
     Ok(Json(answers).into_response())
 }
 
-#[derive(Deserialize)]
-struct Files {
-    text: String,
-    /// Kinds of file as on the command line, and [`PAGE`]; none for all of the command line.
-    formats: Vec<String>,
-    tolerance: String,
-    dxf: String,
-    /// Names of parts; none for all.
-    #[serde(default)]
-    parts: Vec<String>,
-}
-
-impl Files {
-    /// Whether the page is asked for, too.
-    fn page(&self) -> bool {
-        self.formats.iter().any(|word| word == PAGE)
-    }
-
-    /// Export command with these options, if more than the page is asked for; the folder is not used.
-    fn command(&self) -> Result<Option<Export>, String> {
-        let words: Vec<&str> = self.formats.iter().map(String::as_str).collect();
-        let kinds: Vec<&str> = words.into_iter().filter(|word| *word != PAGE).collect();
-        if kinds.is_empty() && self.page() {
-            return Ok(None);
-        }
-        let (formats, tolerance, dxf) = (
-            format!("--format={}", kinds.join(",")),
-            format!("--tolerance={}", self.tolerance),
-            format!("--dxf={}", self.dxf),
-        );
-        let words = ["centrode", "export", "-", "--to=."];
-        let mut words: Vec<&str> = words.into_iter().chain([&*tolerance, &*dxf]).collect();
-        if !kinds.is_empty() {
-            words.push(&formats);
-        }
-        let parts: Vec<String> = self
-            .parts
-            .iter()
-            .map(|part| format!("--part={part}"))
-            .collect();
-        words.extend(parts.iter().map(String::as_str));
-        match Arguments::try_parse_from(words).map(|arguments| arguments.command) {
-            Ok(Command::Export(command)) => Ok(Some(command)),
-            Ok(_) => Err("not an export".into()),
-            Err(error) => {
-                let message = error.to_string();
-                let first = message.lines().next().unwrap_or_default();
-                Err(first.trim_start_matches("error: ").to_owned())
-            }
-        }
-    }
-}
-
 /// Choices that depend on the design: parts that can be exported alone, and why there is no search.
 async fn choices(Json(ask): Json<Text>) -> Result<Response, Refused> {
     let found = computed(move || {
@@ -402,16 +329,4 @@ async fn choices(Json(ask): Json<Text>) -> Result<Response, Refused> {
         })
     });
     Ok(Json(found.await?).into_response())
-}
-
-async fn bundle(Json(ask): Json<Files>) -> Result<Response, Refused> {
-    let unusable = |reason: String| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, reason);
-    let command = ask.command().map_err(unusable)?;
-    let zip = computed(move || export::zip(&ask.text, command.as_ref(), ask.page())).await?;
-    let zip = zip.map_err(|failure| unusable(failure.to_string()))?;
-    Ok((
-        [(header::CONTENT_TYPE, "application/zip")],
-        Bytes::from(zip),
-    )
-        .into_response())
 }

@@ -1,0 +1,94 @@
+//! Files of a design for the page, packed as one.
+
+use axum::Json;
+use axum::body::Bytes;
+use axum::http::{StatusCode, header};
+use axum::response::{IntoResponse as _, Response};
+use clap::{Parser as _, ValueEnum as _};
+use serde::Deserialize;
+
+use super::routes::{Refused, computed};
+use crate::cli::args::{Arguments, Command, Export, File};
+use crate::cli::export;
+
+/// Word for the page as one file among the kinds of file.
+const PAGE: &str = "report";
+
+/// Kinds of file that can be exported: the word for each, and its description.
+pub(super) fn formats() -> Vec<[String; 2]> {
+    let values = File::value_variants()
+        .iter()
+        .filter_map(File::to_possible_value);
+    values
+        .map(|value| {
+            let help = value.get_help().map(ToString::to_string);
+            [value.get_name().to_owned(), help.unwrap_or_default()]
+        })
+        .chain([[PAGE, "This page as one file, to be read and sent"].map(str::to_owned)])
+        .collect()
+}
+
+#[derive(Deserialize)]
+pub(super) struct Files {
+    text: String,
+    /// Kinds of file as on the command line, and [`PAGE`]; none for all of the command line.
+    formats: Vec<String>,
+    tolerance: String,
+    dxf: String,
+    /// Names of parts; none for all.
+    #[serde(default)]
+    parts: Vec<String>,
+}
+
+impl Files {
+    /// Whether the page is asked for, too.
+    fn page(&self) -> bool {
+        self.formats.iter().any(|word| word == PAGE)
+    }
+
+    /// Export command with these options, if more than the page is asked for; the folder is not used.
+    fn command(&self) -> Result<Option<Export>, String> {
+        let words: Vec<&str> = self.formats.iter().map(String::as_str).collect();
+        let kinds: Vec<&str> = words.into_iter().filter(|word| *word != PAGE).collect();
+        if kinds.is_empty() && self.page() {
+            return Ok(None);
+        }
+        let (formats, tolerance, dxf) = (
+            format!("--format={}", kinds.join(",")),
+            format!("--tolerance={}", self.tolerance),
+            format!("--dxf={}", self.dxf),
+        );
+        let words = ["centrode", "export", "-", "--to=."];
+        let mut words: Vec<&str> = words.into_iter().chain([&*tolerance, &*dxf]).collect();
+        if !kinds.is_empty() {
+            words.push(&formats);
+        }
+        let parts: Vec<String> = self
+            .parts
+            .iter()
+            .map(|part| format!("--part={part}"))
+            .collect();
+        words.extend(parts.iter().map(String::as_str));
+        match Arguments::try_parse_from(words).map(|arguments| arguments.command) {
+            Ok(Command::Export(command)) => Ok(Some(command)),
+            Ok(_) => Err("not an export".into()),
+            Err(error) => {
+                let message = error.to_string();
+                let first = message.lines().next().unwrap_or_default();
+                Err(first.trim_start_matches("error: ").to_owned())
+            }
+        }
+    }
+}
+
+pub(super) async fn answer(Json(ask): Json<Files>) -> Result<Response, Refused> {
+    let unusable = |reason: String| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, reason);
+    let command = ask.command().map_err(unusable)?;
+    let zip = computed(move || export::zip(&ask.text, command.as_ref(), ask.page())).await?;
+    let zip = zip.map_err(|failure| unusable(failure.to_string()))?;
+    Ok((
+        [(header::CONTENT_TYPE, "application/zip")],
+        Bytes::from(zip),
+    )
+        .into_response())
+}
