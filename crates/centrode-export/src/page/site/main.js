@@ -89,7 +89,7 @@ function panels() {
   state.shown = null;
   const { snapshot } = state;
   byId("heading").textContent = snapshot.title || snapshot.name || file?.name || "";
-  byId("definition").textContent = snapshot.definition;
+  Object.assign(byId("definition"), { textContent: snapshot.definition, title: snapshot.definition });
   form.show(snapshot, snapshot.asked);
   charts.show(snapshot.curves, state.pinned?.curves);
   charts.place.classList.toggle("stale", Boolean(snapshot.error));
