@@ -156,6 +156,7 @@ EXEMPT = {
             r"^\| (?:`two-stage`|`three-arm-all-goals`|`three-arm-from-poses`|the press of).*",
             r"\| \d+ \| [\d.]+ s \|$",
             r"Of 1,000 defects",
+            r"in 10 to 106 s of",
         ),
         "polygons of the outlines in shapely, by hand": (r"^Polygons of the outlines say the same.*",),
     },

@@ -108,7 +108,7 @@ pub(crate) fn is_class(word: &str, of_hole: bool) -> bool {
     let number: Option<u32> = grade.parse().ok();
     let graded = grade == "01"
         || (number.is_some_and(|n| n <= 18) && (grade == "0" || !grade.starts_with('0')));
-    graded && LETTERS.iter().any(|letter| known(&letter))
+    graded && LETTERS.iter().any(known)
 }
 
 /// Rounded preferred numbers from one to ten, series R''20.
