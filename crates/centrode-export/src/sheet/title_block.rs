@@ -163,12 +163,16 @@ impl TitleBlock {
         let at = Point::new(61.2, 18.0 - CAPTION - 1.0);
         draft.text(at, CAPTION, "Title, supplementary title", Anchor::Left);
         let line = |y: f64| Point::new(62.0, y);
-        // Long words below the title take two lines.
+        // Long words below the title take two lines, the second after a comma if there is one.
         let fits = |words: &str| lettering::width(words, SMALL) <= TITLES;
         let breaks = self.supplement.match_indices(' ').map(|(at, _)| at);
-        let mut breaks = breaks.rev();
-        let last = breaks.find(|&at| fits(&self.supplement[..at]));
-        match last.filter(|_| !fits(&self.supplement)) {
+        let breaks = breaks.rev().filter(|&at| fits(&self.supplement[..at]));
+        let is_good = |at: &usize| {
+            let (first, second) = self.supplement.split_at(*at);
+            first.ends_with(',') && fits(second)
+        };
+        let found = breaks.clone().find(is_good).or(breaks.clone().next());
+        match found.filter(|_| !fits(&self.supplement)) {
             Some(at) => {
                 draft.text_within(line(9.2), &[3.5], &self.title, Anchor::Left, TITLES);
                 let (first, second) = self.supplement.split_at(at);

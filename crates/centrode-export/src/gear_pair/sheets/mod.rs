@@ -205,11 +205,13 @@ fn notes(part: &SheetGear<'_>) -> Vec<String> {
     if part.label.is_none() && body.bore > 0.0 {
         // Of a pair alone the shaft belongs to the machine around it: its sheet is not here.
         let shaft = Fit::new("", body.bore, [&body.bore_fit, &body.shaft_fit]);
-        lines.push(format!("To sit on a shaft {}", fit::shaft(&shaft)));
+        let seat = format!("To sit on a shaft {}", fit::shaft(&shaft));
         if let Some(key) = body.keyway.map(Keyway::of_shaft) {
             let width = fit::keyway(key.width, fit::SHAFT_KEYWAY);
             let rest = fit::shaft_depth(body.bore, key);
-            lines.push(format!("with a keyway {width}, Ø - depth {rest}."));
+            lines.extend([seat, format!("with a keyway {width}, Ø - depth {rest}.")]);
+        } else {
+            lines.push(format!("{seat}."));
         }
     }
     if let Some(label) = part.label {
