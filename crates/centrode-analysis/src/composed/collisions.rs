@@ -15,6 +15,9 @@ const ACCURACY: f64 = 1e-3;
 /// Accuracy to which it is found how near the circles around two parts come, as a share of their distance.
 const SLACK: f64 = 0.05;
 
+/// Most pairs of parts of a kind that collide and are told of.
+const MOST: usize = 30;
+
 /// Surfaces of a link that belong to one part, and a circle around them.
 struct PartSurfaces<'a> {
     name: &'a str,
@@ -79,8 +82,8 @@ pub(super) fn collisions(made: &Made<'_>, ends: &[f64], report: &mut Report) {
     let may_collide = |pair: [&PartSurfaces<'_>; 2]| !held(machine, pair.map(|piece| piece.link));
     let found = overlaps(composed, machine, (&plates, may_collide), (ends, tolerance));
     let remedy = "another layer for one of them, or a narrower plate";
-    let told = |overlap| collision(("plates-collide", remedy), "the plates of", overlap);
-    report.findings.extend(found.into_iter().map(told));
+    let told = ("plates-collide", "the plates of", remedy);
+    report.findings.extend(findings(told, &found));
     let gears = composed.gears().iter().filter_map(|gear| {
         let (link, name) = (composed.body_named(gear.body_name())?, gear.surface_name());
         let own = surfaces(machine, link).filter(|surface| surface.name == name);
@@ -91,14 +94,20 @@ pub(super) fn collisions(made: &Made<'_>, ends: &[f64], report: &mut Report) {
     let found = overlaps(composed, machine, (&gears, may_collide), (ends, tolerance));
     let remedy =
         "fewer copies, smaller gears, or gears of another pair, which lies at another height";
-    let told = |overlap| collision(("gears-collide", remedy), "gears", overlap);
-    report.findings.extend(found.into_iter().map(told));
+    let told = ("gears-collide", "gears", remedy);
+    report.findings.extend(findings(told, &found));
+}
+
+/// Parts of a kind that overlap, and how many pairs are not looked at since so many do.
+struct Overlaps<'a> {
+    found: Vec<Overlap<'a>>,
+    left: usize,
 }
 
 /// Two parts that overlap, with their least clearance (mm, below zero) and the input there.
 type Overlap<'a> = ([&'a PartSurfaces<'a>; 2], [f64; 2]);
 
-/// Pairs of parts that overlap within the cycle, among those that may collide.
+/// Pairs of parts that overlap within the cycle, among those that may collide, until so many do as are told of.
 ///
 /// What touches, as plates side by side on one line do, does not overlap; parts whose circles keep apart, and parts at other
 /// heights, cost no more than that look.
@@ -110,7 +119,7 @@ fn overlaps<'a>(
         impl Fn([&PartSurfaces<'a>; 2]) -> bool,
     ),
     (ends, tolerance): (&[f64], Tolerance),
-) -> Vec<Overlap<'a>> {
+) -> Overlaps<'a> {
     let numbers = 0..pieces.len();
     let pairs = numbers.flat_map(|i| (i + 1..pieces.len()).map(move |k| [i, k]));
     let pairs: Vec<[usize; 2]> = pairs
@@ -133,21 +142,51 @@ fn overlaps<'a>(
         let reach = pair[0].radius + pair[1].radius;
         (-nearest.value - slack(nearest.value) <= reach).then_some(pair)
     });
-    near.filter_map(|pair| {
+    let overlap = |pair: [&'a PartSurfaces<'a>; 2]| -> Option<Overlap<'a>> {
         let surfaces = pair.map(|piece| piece.surfaces.clone());
         let links = pair.map(|piece| piece.link);
         let ready = LinkPair::new(machine, links, surfaces, tolerance).ok()??;
         let found = ready.over([0.0, machine.input.period]).ok()?;
         (found.least < -tolerance.mm()).then_some((pair, [found.least, found.input]))
-    })
-    .collect()
+    };
+    let near: Vec<_> = near.collect();
+    let mut rest = near.iter();
+    let found = rest.by_ref().filter_map(|pair| overlap(*pair));
+    Overlaps {
+        found: found.take(MOST).collect(),
+        left: rest.len(),
+    }
+}
+
+/// Findings of parts of a kind that overlap: rule, words for them, and remedy.
+fn findings<'a>(
+    told: (&'static str, &'static str, &'static str),
+    overlaps: &'a Overlaps<'a>,
+) -> impl Iterator<Item = Finding> + 'a {
+    let (rule, _, remedy) = told;
+    let left = (overlaps.left > 0).then(|| Finding {
+        rule,
+        severity: Severity::Error,
+        message: format!(
+            "{} more of such pairs come near each other; they are not looked at, since {MOST} collide already",
+            overlaps.left
+        ),
+        measured: None,
+        required: None,
+        unit: Unit::Count,
+        remedy: Some(remedy),
+        place: Place::default(),
+    });
+    let found = overlaps.found.iter();
+    found
+        .map(move |overlap| collision(told, overlap))
+        .chain(left)
 }
 
 /// Two parts of a kind that overlap, by the rule that they break.
 fn collision(
-    (rule, remedy): (&'static str, &'static str),
-    kind: &str,
-    ([one, other], [least, input]): Overlap<'_>,
+    (rule, kind, remedy): (&'static str, &'static str, &'static str),
+    ([one, other], [least, input]): &Overlap<'_>,
 ) -> Finding {
     Finding {
         rule,
@@ -156,16 +195,16 @@ fn collision(
             "{kind} {} and {} share a height and overlap by {} at an input of {}",
             one.name,
             other.name,
-            Unit::Millimetre.tell(-least),
-            Unit::Angle.tell(input)
+            Unit::Millimetre.tell(-*least),
+            Unit::Angle.tell(*input)
         ),
-        measured: Some(least),
+        measured: Some(*least),
         required: Some(0.0),
         unit: Unit::Millimetre,
         remedy: Some(remedy),
         place: Place {
             part: Some(one.name.to_owned()),
-            input: Some(input),
+            input: Some(*input),
             ..Place::default()
         },
     }

@@ -61,13 +61,14 @@ impl Contact {
     /// Extremes over one whole cycle: the peaks among samples of it are followed between these.
     ///
     /// The samples ascend in driver angle, as those of [`Contact::analyse`] do. A figure that has no number somewhere has there
-    /// its extreme.
+    /// its extreme. Of gears that jam ([`Self::is_jammed`]) they are those of the samples: there is no motion to follow.
     #[must_use]
     pub fn extremes(&self, pair: &GearPair) -> ContactExtremes {
         let mut search = Search {
             contact: self,
             pair,
             base: Base::new(self, pair),
+            is_jammed: self.is_jammed(pair),
             meshing: None,
         };
         let a = pair.center_distance();
@@ -81,7 +82,10 @@ impl Contact {
         let backlash: Figure = |c, k| c.backlash[k];
         let normal: Figure = |c, k| c.normal_backlash[k];
         let walk = search.meshing().edge_walk();
-        let edges = search.meshing().edge_contacts(&walk, 1.0);
+        let edges = match search.is_jammed {
+            true => Vec::new(),
+            false => search.meshing().edge_contacts(&walk, 1.0),
+        };
         let (counts, gaps) = search.counts(&edges, &walk);
         let suspects = search.suspects(gaps);
         let transmission_error = search.greatest(error, period, ROUNDING);
@@ -178,6 +182,8 @@ struct Search<'a> {
     contact: &'a Contact,
     pair: &'a GearPair,
     base: Base,
+    /// Whether the gears have no room for each other: nothing is sought between the samples.
+    is_jammed: bool,
     /// Made when it is first needed.
     meshing: Option<Meshing<'a>>,
 }
@@ -213,7 +219,7 @@ impl<'a> Search<'a> {
         rounding: f64,
     ) -> Extreme {
         let mut best = highest(&inputs[..among], &values[..among]);
-        if !best.value.is_finite() {
+        if self.is_jammed || !best.value.is_finite() {
             return best;
         }
         let mut peaks: Vec<Peak> = (0..among)

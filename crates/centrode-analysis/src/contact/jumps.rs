@@ -30,10 +30,10 @@ impl Contact {
     /// Places at which the driven angle jumps, greatest first, with the driver pushing on or back.
     ///
     /// From there on the driven gear has two ranges to stand in, one on either side of a tooth. Sought between those samples
-    /// whose difference stands out, so a jump beside an equally great one may be missed.
+    /// whose difference stands out, so a jump beside an equally great one may be missed. None where there is no play.
     #[must_use]
     pub fn seat_jumps(&self, pair: &GearPair) -> Vec<SeatJump> {
-        if self.carries() {
+        if self.carries() || self.is_jammed(pair) {
             return Vec::new();
         }
         let mut meshing = Meshing::new(pair);
@@ -55,7 +55,8 @@ impl Contact {
             for k in 0..count {
                 let beside = differences[(k + count - 1) % count].max(differences[(k + 1) % count]);
                 let stands_out = differences[k] > LEAST.max(OUTSTANDING * beside);
-                if !(stands_out && differences[k].is_finite()) {
+                let in_play = self.backlash[k].max(self.backlash[(k + 1) % count]) > 0.0;
+                if !(stands_out && in_play && differences[k].is_finite()) {
                     continue;
                 }
                 let end = match k + 1 {

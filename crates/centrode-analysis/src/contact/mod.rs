@@ -58,6 +58,12 @@ const TOUCHED: f64 = 1e-6;
 /// Transmission error, rad, below which flanks carry the motion.
 const CARRIED: f64 = 1e-9;
 
+/// Penetration, in modules, beyond which gears have no room for each other.
+const JAMMED: f64 = 0.05;
+
+/// Share of the samples at which gears that jam have no room.
+const JAMMED_SHARE: f64 = 0.02;
+
 /// The contact of a pair along one whole cycle, one value an input.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Contact {
@@ -107,16 +113,27 @@ fn is_whole(pair: &GearPair) -> bool {
 
 impl Contact {
     /// Analyses one whole cycle at four inputs a pitch, or at 48 where a tooth is not as the tool would make it or a
-    /// pitch curve is concave: contact can then be lost over a small part of a pitch.
+    /// pitch curve is concave: contact can then be lost over a small part of a pitch. Gears that jam are looked at at four.
     #[must_use]
     pub fn analyse(pair: &GearPair) -> Self {
         if pair.teeth().addendum == Addendum::Full && is_whole(pair) {
             let found = filling([0.0, 0.1], || Self::sampled(pair, SAMPLES_PER_PITCH));
-            if found.is_off_by_less_than(TOUCHED) {
+            if found.is_off_by_less_than(TOUCHED) || found.is_jammed(pair) {
                 return found;
             }
+        } else if Self::sampled(pair, 1).is_jammed(pair) {
+            return filling([0.0, 1.0], || Self::sampled(pair, SAMPLES_PER_PITCH));
         }
         filling([0.1, 1.0], || Self::sampled(pair, FINE_SAMPLES_PER_PITCH))
+    }
+
+    /// Whether the gears cannot turn: over a fiftieth of the samples or more they penetrate each other by more than a twentieth of
+    /// the module, wherever the driven gear is put.
+    #[must_use]
+    pub fn is_jammed(&self, pair: &GearPair) -> bool {
+        let most = JAMMED * pair.module();
+        let jammed = self.penetration.iter().filter(|p| **p > most).count();
+        jammed as f64 > JAMMED_SHARE * self.input.len() as f64
     }
 
     /// Analyses one whole cycle at `per_pitch` inputs a pitch or a little more, spaced evenly along the pitch curve and never in

@@ -170,6 +170,25 @@ fn a_tooth_that_comes_into_the_backlash_makes_a_seat_jump() {
 }
 
 #[test]
+fn gears_that_jam_are_told_by_few_samples() {
+    // Roots too shallow for the tips by a quarter of the module.
+    let text = "family = \"gear-pair\"\n[pitch]\nkind = \"ellipse\"\nmodule = 2\neccentricity = 0.2\ntooth_count = 41\n[tool]\nkind = \"rack\"\ndedendum_coefficient = 0.75\ntip_radius_coefficient = 0.1\n";
+    let jammed = GearPairDesign::from_toml(text).expect("a design");
+    let jammed = GearPair::resolve(&jammed).expect("a pair");
+    let contact = Contact::analyse(&jammed);
+    assert!(contact.is_jammed(&jammed));
+    assert!(contact.input.len() <= 4 * 41 + 2, "{}", contact.input.len());
+    assert!(contact.seat_jumps(&jammed).is_empty());
+    let deepest = contact.penetration.iter().copied().fold(0.0, f64::max);
+    let found = contact.extremes(&jammed).penetration;
+    assert!(deepest > 0.1 && found.value.to_bits() == deepest.to_bits());
+    for runs in ["law-pair", "transplanter-pair-2021"] {
+        let pair = design(runs);
+        assert!(!Contact::analyse(&pair).is_jammed(&pair), "{runs}");
+    }
+}
+
+#[test]
 fn a_corner_beside_a_sharp_bend_has_its_foot_there() {
     // Of the sun of this mechanism a flank bends by 4.8/mm where it meets its fillet.
     let text = include_str!("../../../../tests/designs/three-arm-all-goals.toml");

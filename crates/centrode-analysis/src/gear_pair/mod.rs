@@ -245,6 +245,7 @@ fn mesh(pair: &GearPair, contact: &Contact, report: &mut Report) {
             place: place(input),
         });
     }
+    let is_jammed = contact.is_jammed(pair);
     // Clearance below zero is a penetration that no turning of the driven gear removes.
     let deepest = [
         (penetration.0, penetration.1),
@@ -259,10 +260,16 @@ fn mesh(pair: &GearPair, contact: &Contact, report: &mut Report) {
             rule: "interference",
             remedy: remedy("interference"),
             severity: Severity::Error,
-            message: format!(
-                "the gears penetrate each other by up to {:.3e} mm",
-                deepest.0
-            ),
+            message: match is_jammed {
+                true => format!(
+                    "the gears jam: they penetrate each other by {:.3e} mm or more",
+                    deepest.0
+                ),
+                false => format!(
+                    "the gears penetrate each other by up to {:.3e} mm",
+                    deepest.0
+                ),
+            },
             measured: Some(deepest.0),
             required: Some(0.0),
             unit: Unit::Millimetre,
@@ -277,7 +284,8 @@ fn mesh(pair: &GearPair, contact: &Contact, report: &mut Report) {
     } else {
         LOST
     };
-    if worst.0.is_finite() && worst.0 > allowed {
+    // Gears that jam carry no motion at all.
+    if worst.0.is_finite() && worst.0 > allowed && !is_jammed {
         let share = off as f64 / contact.input.len() as f64;
         report.findings.push(Finding {
             rule: "contact-lost",

@@ -16,6 +16,9 @@ pub struct Body {
     boundary: Boundary,
 }
 
+/// Share of a circle's size by which its rounded figures may be off.
+const ROUNDING: f64 = 1e-14;
+
 /// A circle around some edges; the first node is around all.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
@@ -37,8 +40,10 @@ pub enum BodyError {
     /// No outline to keep clear of.
     #[error("a body needs at least one outline with a segment")]
     Empty,
-    /// A point of an outline is not a finite number.
-    #[error("outline {outline} has a point that is not finite")]
+    /// A point of an outline is no number, or one whose square is not finite.
+    #[error(
+        "outline {outline} has a point that is not finite, or farther away than can be squared"
+    )]
     NotFinite {
         /// Index of the outline.
         outline: usize,
@@ -57,7 +62,8 @@ impl Body {
         let (mut edges, mut corners) = (Vec::new(), Vec::new());
         let mut straight = true;
         for (index, outline) in outlines.iter().enumerate() {
-            let finite = |p: Point| p.x.is_finite() && p.y.is_finite();
+            // Lengths are worked out from squares.
+            let finite = |p: Point| p.coords.norm_squared().is_finite();
             let segments = outline.segments();
             let ends = segments.iter().all(|s| {
                 let middle = s.at(0.0).point;
@@ -124,12 +130,32 @@ impl Body {
         &self.boundary
     }
 
-    /// Whether a point of the body's frame lies in the material.
+    /// Whether a point of the body's frame lies in the material: a ray from it along x crosses an odd number of edges.
     pub(super) fn contains(&self, p: Point) -> bool {
-        let crossed = |[a, b]: &&[Point; 2]| {
-            (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)
-        };
-        self.edges.iter().filter(crossed).count() % 2 == 1
+        self.crossings(0, p) % 2 == 1
+    }
+
+    /// Edges of a node that a ray from a point along x crosses.
+    fn crossings(&self, node: u32, p: Point) -> usize {
+        let Node {
+            center,
+            radius,
+            part,
+        } = self.node(node);
+        // A little more, since the circle is rounded.
+        let reach = radius + ROUNDING * (radius + center.x.abs() + center.y.abs());
+        if (p.y - center.y).abs() > reach || p.x > center.x + reach {
+            return 0;
+        }
+        match *part {
+            NodeKind::Edge(e) => {
+                let [a, b] = self.edge(e);
+                let crosses = (a.y > p.y) != (b.y > p.y)
+                    && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x);
+                usize::from(crosses)
+            }
+            NodeKind::Halves(halves) => halves.map(|half| self.crossings(half, p)).iter().sum(),
+        }
     }
 }
 

@@ -6,7 +6,7 @@ use std::collections::BinaryHeap;
 use centrode_geometry::{Point, checkpoint};
 
 use super::body::{Body, NodeKind};
-use super::{InterferenceError, Moving};
+use super::{InterferenceError, Moving, Patience};
 
 /// Deepest point found.
 #[derive(Clone, Copy, Debug)]
@@ -93,7 +93,7 @@ impl PartialEq for BoundaryPiece {
 impl Eq for BoundaryPiece {}
 
 /// Parts of boundaries looked at before the tolerance is doubled.
-const PATIENCE: u32 = 200_000;
+const MOST_STEPS: u32 = 200_000;
 
 /// Deepest point of either boundary in the other body while the input runs, within `tolerance`, searched only deeper
 /// than `beat`.
@@ -104,7 +104,7 @@ pub(super) fn deepest(
     pair: [&Moving<'_>; 2],
     [from, to]: [f64; 2],
     beat: f64,
-    mut tolerance: f64,
+    tolerance: f64,
 ) -> Result<Deepest, InterferenceError> {
     let whole = |of: usize| BoundaryPiece {
         of,
@@ -119,13 +119,10 @@ pub(super) fn deepest(
         bound: f64::NEG_INFINITY,
         place: None,
     };
-    let mut looked_at = 0_u32;
+    let mut patience = Patience::new(tolerance, MOST_STEPS);
     while let Some(piece) = open.pop() {
         checkpoint();
-        looked_at += 1;
-        if looked_at.is_multiple_of(PATIENCE) {
-            tolerance *= 2.0;
-        }
+        let tolerance = patience.after_one_more();
         if piece.bound <= best.depth + tolerance {
             best.bound = best.bound.max(piece.bound);
             break;

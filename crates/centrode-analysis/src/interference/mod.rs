@@ -117,8 +117,9 @@ pub enum InterferenceError {
 /// the carrier's frame. Arms that follow one another in equal phases make one curve: one pair is enough.
 ///
 /// A body inside another, or one that runs through it between two samples, overlaps it. Cost: a few
-/// hundred evaluations of the few edges that come close; bodies that overlap cost more. Where they stay in each other all
-/// along, each 200,000 evaluations double the tolerance of the depth: `lower_bound` tells what is left.
+/// hundred evaluations of the few edges that come close; bodies that overlap cost more. Where they stay as near or in each
+/// other all along, each 50,000,000 looks at near parts, or 200,000 at parts inside, double the tolerance: `lower_bound` tells
+/// what is left.
 ///
 /// # Errors
 /// [`InterferenceError::Motion`] where `inputs` do not ascend or a pose is not finite.
@@ -165,6 +166,33 @@ pub fn least_clearance(
     Ok(least)
 }
 
+/// Tolerance of a search, mm, which doubles after so many steps as would take too long.
+#[derive(Debug)]
+struct Patience {
+    tolerance: f64,
+    steps: u32,
+    most: u32,
+}
+
+impl Patience {
+    fn new(tolerance: f64, most: u32) -> Self {
+        Self {
+            tolerance,
+            steps: 0,
+            most,
+        }
+    }
+
+    /// Tolerance of one more step.
+    fn after_one_more(&mut self) -> f64 {
+        self.steps += 1;
+        if self.steps == self.most {
+            (self.tolerance, self.steps) = (2.0 * self.tolerance, 0);
+        }
+        self.tolerance
+    }
+}
+
 /// Result of the search of a pair.
 struct Search {
     /// Clearance, if the pair comes closer than the one to beat.
@@ -181,7 +209,7 @@ fn below(
 ) -> Result<Search, InterferenceError> {
     ascending(inputs)?;
     // Nothing finer than rounding can be decided.
-    let size = both[0].extent(inputs[0])? + both[1].extent(inputs[0])?;
+    let size = both[0].extent(inputs)? + both[1].extent(inputs)?;
     let decided = tolerance.mm().max(1e-13 * size);
     let unsure = both.iter().map(|m| m.unsure()).sum::<f64>() + 1e-14 * size;
     if !inside_one_another(both, inputs[0])? && beat > 0.0 {
@@ -249,9 +277,13 @@ impl Moving<'_> {
         self.body.flattening() + far + turned * self.body.reach()
     }
 
-    /// Size of its coordinates.
-    fn extent(&self, input: f64) -> Result<f64, MotionError> {
-        Ok(self.frame(input)?.jet.position.coords.norm() + self.body.reach())
+    /// Size of its coordinates at either end.
+    fn extent(&self, inputs: [f64; 2]) -> Result<f64, MotionError> {
+        let mut far: f64 = 0.0;
+        for input in inputs {
+            far = far.max(self.frame(input)?.jet.position.coords.norm());
+        }
+        Ok(far + self.body.reach())
     }
 }
 

@@ -21,13 +21,14 @@ impl PoseJet {
         Isometry2::new(self.position.coords, self.angle)
     }
 
+    /// Whether lengths can be worked out from it.
     pub(super) fn is_finite(&self) -> bool {
         let values = [
             self.position.coords,
             self.velocity,
             Vector::new(self.angle, self.turning),
         ];
-        values.iter().all(|v| v.iter().all(|x| x.is_finite()))
+        values.iter().all(|v| v.norm_squared().is_finite())
     }
 }
 

@@ -12,7 +12,10 @@ use centrode_geometry::{Point, Vector, checkpoint};
 
 use super::body::{Body, NodeKind};
 use super::motion::{Bend, Frame};
-use super::{InterferenceError, Moving};
+use super::{InterferenceError, Moving, Patience};
+
+/// Pairs of circles or edges looked at before the tolerance is doubled.
+const MOST_STEPS: u32 = 50_000_000;
 
 /// Result of the search of one pair.
 #[derive(Clone, Copy, Debug)]
@@ -54,6 +57,9 @@ impl PartialEq for Span {
 impl Eq for Span {}
 
 /// Least distance of two boundaries while the input runs, to within `tolerance`, searched only below `beat`.
+///
+/// Bodies that run beside each other are equally near everywhere: where that would take too long, the bound keeps farther from
+/// the distance.
 pub(super) fn approach(
     [a, b]: [&Moving<'_>; 2],
     [from, to]: [f64; 2],
@@ -71,15 +77,16 @@ pub(super) fn approach(
         input: None,
         bound: f64::INFINITY,
     };
+    let mut patience = Patience::new(tolerance, MOST_STEPS);
     while let Some(span) = open.pop() {
         checkpoint();
-        if span.bound >= found.least - tolerance {
+        if span.bound >= found.least - patience.tolerance {
             found.bound = found.bound.min(span.bound);
             break;
         }
         let middle = 0.5 * (span.from + span.to);
         let state = PairState::new(a, b, middle, 0.5 * (span.to - span.from))?;
-        let rest = state.at_pairs(&span.pairs, &mut found, tolerance);
+        let rest = state.at_pairs(&span.pairs, &mut found, &mut patience);
         if rest.pairs.is_empty() {
             continue;
         }
@@ -136,7 +143,7 @@ impl<'a> PairState<'a> {
         })
     }
 
-    fn at_pairs(&self, pairs: &[[u32; 2]], found: &mut Approach, tolerance: f64) -> Rest {
+    fn at_pairs(&self, pairs: &[[u32; 2]], found: &mut Approach, patience: &mut Patience) -> Rest {
         let mut rest = Rest {
             pairs: Vec::new(),
             bound: f64::INFINITY,
@@ -144,6 +151,7 @@ impl<'a> PairState<'a> {
         let mut open: Vec<[u32; 2]> = pairs.to_vec();
         while let Some(pair) = open.pop() {
             checkpoint();
+            let tolerance = patience.after_one_more();
             let [p, q] = [0, 1].map(|i| self.bodies[i].node(pair[i]));
             let (bound, blur) = self.circles(pair);
             if bound >= found.least - tolerance {

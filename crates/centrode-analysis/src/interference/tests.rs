@@ -451,3 +451,41 @@ fn bad_input_is_an_error() {
     assert!(Tabulated::new([0.0, f64::INFINITY], 3, still).is_err());
     assert!(Tabulated::new([0.0, 1.0], 3, |_| lost.at(0.0)).is_err());
 }
+
+#[test]
+fn bodies_that_stay_as_near_all_along_have_an_answer_and_sizes_without_a_square_have_none() {
+    // A disc of 720 corners that turns on a crank about another: 10 mm apart at every input, to within a corner's height.
+    let disc = |radius: f64| {
+        let corner = |k: usize| {
+            let (sin, cos) = (TAU * k as f64 / 720.0).sin_cos();
+            [radius * cos, radius * sin]
+        };
+        body(polygon(&(0..720).map(corner).collect::<Vec<_>>()))
+    };
+    let (own, middle) = (disc(5.0), disc(15.0));
+    let pose = |phi: f64| PoseJet {
+        position: Point::new(30.0 * phi.cos(), 30.0 * phi.sin()),
+        angle: phi,
+        velocity: Vector::new(-30.0 * phi.sin(), 30.0 * phi.cos()),
+        turning: 1.0,
+    };
+    let crank = Tabulated::within([0.0, TAU], own.reach(), pose, tolerance(1e-9)).expect("finite");
+    let rest = Rest(Isometry2::identity());
+    let still = moving(&middle, &rest);
+    let found = clearance(&moving(&own, &crank), &still, [0.0, TAU], tolerance(1e-9));
+    let found = found.expect("finite");
+    assert!((found.least - 10.0).abs() < 1e-3, "{found:?}");
+    assert!(
+        found.lower_bound <= found.least && found.lower_bound > 9.99,
+        "{found:?}"
+    );
+    let far = Uniform {
+        start: Isometry2::identity(),
+        velocity: Vector::new(1e300, 0.0),
+        turning: 0.0,
+    };
+    let refused = clearance(&moving(&own, &far), &still, [0.0, TAU], tolerance(1e-9));
+    assert!(refused.is_err(), "{refused:?}");
+    let huge = Body::new(&[rectangle(1e300, 1.0)], tolerance(1e-3));
+    assert_eq!(huge.err(), Some(BodyError::NotFinite { outline: 0 }));
+}
