@@ -1,4 +1,7 @@
-use super::{Pen, lettering, overlap};
+use std::cell::RefCell;
+
+use super::overlap::Covered;
+use super::{Pen, lettering};
 use crate::drawing::{Anchor, Entity, EntityShape, Group, Object, Text};
 use centrode_geometry::{Bounds, Outline, Point, Vector};
 
@@ -12,10 +15,22 @@ const SQUEEZE: f64 = 0.7;
 #[derive(Clone, Debug, PartialEq)]
 pub struct Draft {
     entities: Vec<Entity>,
+    known: Known,
     /// Height of the letters of dimensions and notes, mm.
     pub(super) letters: f64,
     /// Millimetres on paper for one of the part.
     pub(super) scale: f64,
+}
+
+/// What the first entities cover, found when it is first asked for.
+#[derive(Clone, Debug, Default)]
+struct Known(RefCell<Vec<Covered>>);
+
+impl PartialEq for Known {
+    /// It follows from the entities.
+    fn eq(&self, _: &Self) -> bool {
+        true
+    }
 }
 
 impl Default for Draft {
@@ -31,6 +46,7 @@ impl Draft {
     pub fn lettered(letters: f64) -> Self {
         Self {
             entities: Vec::new(),
+            known: Known::default(),
             letters,
             scale: 1.0,
         }
@@ -143,17 +159,23 @@ impl Draft {
     /// Whether a line or words enter a rectangle.
     #[must_use]
     pub fn touches(&self, rectangle: Bounds) -> bool {
-        overlap::enters(self.plain(), rectangle)
+        self.any(|covered| covered.enters(rectangle))
     }
 
     /// Whether a straight line runs through words.
     pub(crate) fn strikes(&self, line: [Point; 2]) -> bool {
-        overlap::strikes(self.plain(), line)
+        self.any(|covered| covered.is_struck(line))
     }
 
-    fn plain(&self) -> impl Iterator<Item = &EntityShape> {
-        let entities = self.entities.iter().flat_map(Entity::plain);
-        entities.map(|entity| &entity.shape)
+    /// Whether what an entity covers is such.
+    fn any(&self, is: impl Fn(&Covered) -> bool) -> bool {
+        let mut known = self.known.0.borrow_mut();
+        let new = &self.entities[known.len()..];
+        known.extend(new.iter().map(|entity| {
+            let plain = entity.plain();
+            Covered::new(plain.map(|plain| &plain.shape))
+        }));
+        known.iter().any(is)
     }
 
     /// Number of entities so far.
@@ -164,6 +186,7 @@ impl Draft {
     /// Makes one object of all entities from a number on, on the layer of a pen.
     pub(super) fn gather(&mut self, from: usize, pen: Pen, object: Object) {
         let drawn = self.entities.split_off(from);
+        self.known.0.get_mut().truncate(from);
         if !drawn.is_empty() {
             self.draw(pen, EntityShape::Group(Group { object, drawn }));
         }

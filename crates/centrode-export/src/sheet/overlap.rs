@@ -64,35 +64,54 @@ pub fn overlaps(sheet: &Sheet) -> Vec<Overlap> {
     found
 }
 
-/// Whether a shape enters an axis-aligned rectangle.
-pub(super) fn enters<'a>(shapes: impl Iterator<Item = &'a EntityShape>, rectangle: Bounds) -> bool {
-    let ink = Ink {
-        origin: Point::origin(),
-        turn: Rotation2::identity(),
-        bounds: rectangle,
-        around: rectangle,
-    };
-    let mut found = false;
-    for shape in shapes {
-        if let EntityShape::Text(text) = shape {
-            found |= ink.meets(&Ink::new(text));
-        } else {
-            lines(shape, &mut |a, b| found |= ink.is_met_by([a, b], 0.0));
-        }
-    }
-    found
+/// An entity as what it covers: the ink of its words, and its lines.
+#[derive(Clone, Debug)]
+pub(super) struct Covered {
+    inks: Vec<Ink>,
+    lines: Vec<[Point; 2]>,
+    /// Rectangle around the lines.
+    around: Bounds,
 }
 
-/// Whether a straight line of a thin pen runs through words among some shapes.
-pub(super) fn strikes<'a>(shapes: impl Iterator<Item = &'a EntityShape>, line: [Point; 2]) -> bool {
-    let mut texts = shapes.filter_map(|shape| match shape {
-        EntityShape::Text(text) => Some(Ink::new(text)),
-        _ => None,
-    });
-    texts.any(|ink| ink.is_met_by(line, HALF))
+impl Covered {
+    pub(super) fn new<'a>(shapes: impl Iterator<Item = &'a EntityShape>) -> Self {
+        let mut covered = Self {
+            inks: Vec::new(),
+            lines: Vec::new(),
+            around: Bounds::EMPTY,
+        };
+        for shape in shapes {
+            if let EntityShape::Text(text) = shape {
+                covered.inks.push(Ink::new(text));
+            } else {
+                lines(shape, &mut |a, b| covered.lines.push([a, b]));
+            }
+        }
+        covered.around = covered.lines.iter().flatten().copied().collect();
+        covered
+    }
+
+    /// Whether it enters an axis-aligned rectangle.
+    pub(super) fn enters(&self, rectangle: Bounds) -> bool {
+        let ink = Ink {
+            origin: Point::origin(),
+            turn: Rotation2::identity(),
+            bounds: rectangle,
+            around: rectangle,
+        };
+        self.inks.iter().any(|own| ink.meets(own))
+            || (near(&rectangle, &self.around, 0.0)
+                && self.lines.iter().any(|line| ink.is_met_by(*line, 0.0)))
+    }
+
+    /// Whether a straight line of a thin pen runs through its words.
+    pub(super) fn is_struck(&self, line: [Point; 2]) -> bool {
+        self.inks.iter().any(|ink| ink.is_met_by(line, HALF))
+    }
 }
 
 /// The rectangle of a text's ink, in the frame of its baseline.
+#[derive(Clone, Debug)]
 struct Ink {
     origin: Point,
     turn: Rotation2<f64>,
