@@ -49,9 +49,12 @@ pub fn check_three_arm_teeth(
 ) -> Report {
     let mut report = check_arms(mechanism);
     check_teeth(mechanism, teeth, &mut report);
-    check_pusher(mechanism, &mut report);
+    let pusher = mechanism.pusher();
+    check_pusher(&pusher, &mut report);
     check_bearings(mechanism, &mut report);
-    check_screws(mechanism, &mut report);
+    if let Ok(pusher) = &pusher {
+        check_screws(mechanism, pusher, &mut report);
+    }
     report.worst_first();
     report
 }

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use centrode_mechanism::three_arm::ThreeArm;
+use centrode_mechanism::three_arm::{Pusher, PusherError};
 
 use crate::cam::CheckedCam;
 use crate::{Finding, Place, Report, Severity, Unit};
@@ -11,8 +11,8 @@ use crate::{Finding, Place, Report, Severity, Unit};
 const PRESSURE_ANGLE: f64 = PI / 4.0;
 
 /// Checks cam and fork; the return is left to the spring, which no pressure angle hinders.
-pub(crate) fn check_pusher(mechanism: &ThreeArm, report: &mut Report) {
-    let pusher = match mechanism.pusher() {
+pub(super) fn check_pusher(pusher: &Result<Pusher, PusherError>, report: &mut Report) {
+    let pusher = match pusher {
         Ok(pusher) => pusher,
         Err(error) => {
             report.findings.push(Finding {
@@ -59,6 +59,7 @@ pub(crate) fn check_pusher(mechanism: &ThreeArm, report: &mut Report) {
 mod tests {
     use super::*;
     use centrode_mechanism::design::DesignSpec as _;
+    use centrode_mechanism::three_arm::ThreeArm;
     use centrode_mechanism::three_arm::design::{PusherCamSpec, ThreeArmDesign};
 
     fn checked(change: impl Fn(&mut ThreeArmDesign)) -> Report {
@@ -66,7 +67,7 @@ mod tests {
         change(&mut design);
         let mechanism = ThreeArm::resolve(&design).expect("a mechanism");
         let mut report = Report::default();
-        check_pusher(&mechanism, &mut report);
+        check_pusher(&mechanism.pusher(), &mut report);
         report
     }
 

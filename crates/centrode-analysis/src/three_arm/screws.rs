@@ -1,11 +1,11 @@
-use centrode_mechanism::three_arm::ThreeArm;
+use centrode_mechanism::three_arm::{Pusher, ThreeArm};
 
 use crate::Report;
 use crate::no_screws::no_screws;
 
 /// Tells of carrier plates and covers of the arms for which no screws are found.
-pub(super) fn check_screws(mechanism: &ThreeArm, report: &mut Report) {
-    let (Ok(pusher), Ok(arm)) = (mechanism.pusher(), mechanism.arm_body()) else {
+pub(super) fn check_screws(mechanism: &ThreeArm, pusher: &Pusher, report: &mut Report) {
+    let Ok(arm) = mechanism.arm_body() else {
         return;
     };
     let plates = [
@@ -18,7 +18,7 @@ pub(super) fn check_screws(mechanism: &ThreeArm, report: &mut Report) {
         (
             "housing",
             "the covers of the arms",
-            mechanism.cover_screws(&pusher, &arm),
+            mechanism.cover_screws(pusher, &arm),
             "a larger housing.drum_radius or housing.tube_radius, thicker covers (housing.wall), or a smaller housing.screw",
         ),
     ];
@@ -40,7 +40,8 @@ mod tests {
         change(&mut design);
         let mechanism = ThreeArm::resolve(&design).expect("a mechanism");
         let mut report = Report::default();
-        check_screws(&mechanism, &mut report);
+        let pusher = mechanism.pusher().expect("a cam");
+        check_screws(&mechanism, &pusher, &mut report);
         report.findings
     }
 
