@@ -10,6 +10,8 @@ use super::{Fit, Screw, TurnedPiece, TurnedPieces};
 const ENTERED: f64 = 2.0;
 /// Length of thread beyond the end of the screw, in its diameters.
 const BEYOND: f64 = 0.5;
+/// Most places looked at along a segment of a line.
+const MOST_PLACES: f64 = 500.0;
 /// Fewest screws that hold a plate.
 const FEWEST: usize = 3;
 
@@ -206,7 +208,7 @@ impl ScrewRoom {
         let mut free: Vec<(Point, f64)> = Vec::new();
         for segment in self.line.iter().flat_map(Outline::segments) {
             let long = 2.0 * segment.at(-1.0).first.norm();
-            let parts = (long / step).ceil().clamp(1.0, 1e4);
+            let parts = (long / step).ceil().clamp(1.0, MOST_PLACES);
             for i in 0..parts as usize {
                 let at = self.stepped(segment.at(2.0 * i as f64 / parts - 1.0).point);
                 let room = self.room(at);
