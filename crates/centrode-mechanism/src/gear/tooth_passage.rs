@@ -362,7 +362,7 @@ fn carry(from: &Frame, to: &Frame, p: &Point) -> Point {
     to.point + to.tangent * v.dot(&from.tangent) - to.normal * v.dot(&from.normal)
 }
 
-/// The same motion for many points.
+/// Motion of [`carry`] for many points.
 fn carried(from: &Frame, to: &Frame) -> impl Fn(&Point) -> Point {
     let turn = to.tangent * from.tangent.transpose() - to.normal * from.normal.transpose();
     let shift = to.point - turn * from.point;

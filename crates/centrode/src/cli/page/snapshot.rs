@@ -39,7 +39,7 @@ pub(crate) struct Snapshot {
     verdict: Option<Verdict>,
 }
 
-/// What the eye has after the picture.
+/// Numbers and curves, which the eye has after the picture.
 #[derive(Clone, Debug, Default)]
 struct Beside {
     /// The numbers of the design, table by table.
