@@ -1,6 +1,6 @@
 """Looks at the design page of every shipped design, wide, middling and narrow, light and dark, and has axe look, too.
 
-    python tests/campaigns/page_looks.py --to looks [design.toml ...]
+    python tests/campaigns/page_looks.py --to looks [--width 390] [--scheme dark] [design.toml ...]
 
 Writes one contact sheet (PNG) a width and scheme and prints what axe finds and what is wider than the window; ends with
 status 1 if there is any. Needs the program (target/debug/centrode, or CENTRODE_BIN) and Chromium.
@@ -26,6 +26,8 @@ SCHEMES = ["light", "dark"]
 TABS = ["Design", "Goals", "Curves"]
 PIXELS = 600
 """Width of a picture on the sheet."""
+PATIENCE = 300_000
+"""How long the checks of a design may take where much else is going on, ms."""
 
 
 def faults(page, width):
@@ -67,9 +69,12 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("designs", nargs="*", type=Path, help="design files (every shipped one)")
     parser.add_argument("--to", type=Path, required=True, metavar="DIR", help="folder of the sheets")
+    parser.add_argument("--width", type=int, choices=[width for width, _ in SIZES], help="this width alone")
+    parser.add_argument("--scheme", choices=SCHEMES, help="this scheme alone")
     options = parser.parse_args()
     options.to.mkdir(parents=True, exist_ok=True)
-    kinds = [(size, scheme) for size in SIZES for scheme in SCHEMES]
+    sizes = [size for size in SIZES if options.width in (None, size[0])]
+    kinds = [(size, scheme) for size in sizes for scheme in SCHEMES if options.scheme in (None, scheme)]
     sheets = {kind: [] for kind in kinds}
     wrong = 0
     with sync_playwright() as playwright:
@@ -80,7 +85,8 @@ def main():
                 copy.write_text(design.read_text())
                 with studio(copy) as running:
                     for size, scheme in kinds:
-                        with shown(browser, running.url, size=size, color_scheme=scheme, ready=settled) as page:
+                        look = {"size": size, "color_scheme": scheme}
+                        with shown(browser, running.url, ready=lambda page: settled(page, PATIENCE), **look) as page:
                             pictures, found = looked_at(page, size[0])
                         sheets[size, scheme] += [(design.stem, picture) for picture in pictures]
                         for fault in found:

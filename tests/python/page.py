@@ -29,11 +29,11 @@ INDEX = ROOT / "tests" / "designs" / "index-table.toml"
 CIRCLE = ROOT / "tests" / "designs" / "circular-pair.toml"
 
 
-def settled(page):
-    """Waits until every change has been drawn, and its checks have been heard."""
-    expect(page.locator("#findings h2")).to_be_attached(timeout=30_000)
+def settled(page, patience=30_000):
+    """Waits until every change has been drawn, and its checks have been heard; `patience` (ms) is for each."""
+    expect(page.locator("#findings h2")).to_be_attached(timeout=patience)
     # A change just made has marked nothing stale: it is on its way.
-    expect(page.locator("#verdict:not(.stale, [aria-busy=true])")).to_be_attached(timeout=30_000)
+    expect(page.locator("#verdict:not(.stale, [aria-busy=true])")).to_be_attached(timeout=patience)
 
 
 @contextmanager

@@ -383,3 +383,55 @@ def test_a_page_whose_file_is_slow_can_be_worked_on(browser, tmp_path):
         settled(page)
         expect(page.locator("#findings")).not_to_contain_text("cancelled")
         context.close()
+
+
+# While `window.hold` is set, an answer of the solver stops after its picture: until `window.release(true)`, or for good
+# by `window.release(false)`.
+HALVED = """
+const ask = window.fetch;
+window.fetch = async (path, ...rest) => {
+  const answer = await ask(path, ...rest);
+  if (!window.hold || !String(path).endsWith("solve")) return answer;
+  const text = await answer.text();
+  const end = text.indexOf("\\n") + 1;
+  if (!end) return new Response(text);
+  const [first, second] = [text.slice(0, end), text.slice(end)].map((part) => new TextEncoder().encode(part));
+  return new Response(new ReadableStream({
+    async start(stream) {
+      stream.enqueue(first);
+      const whole = await new Promise((resume) => { window.release = resume; });
+      if (whole) stream.enqueue(second);
+      stream.close();
+    },
+  }));
+};
+"""
+
+
+def test_a_picture_is_drawn_before_its_numbers_and_curves_are_there(browser, tmp_path):
+    with opened(browser, tmp_path, ARMS, script=HALVED) as (page, _):
+        before, read = drawing(page), page.locator("#readout").inner_text()
+        page.evaluate("window.hold = true")
+        field(page, "arm.tip_distance").press("ArrowUp")
+        page.wait_for_function("Boolean(window.release)")
+        page.wait_for_function("before => document.querySelector('#stage canvas').toDataURL() !== before", arg=before)
+        # What is not of this picture is marked; a change is one to take back once all of it is there.
+        expect(page.locator("#verdict")).to_have_class(re.compile("stale"))
+        expect(page.locator("#undo")).to_be_disabled()
+        assert page.locator("#readout").inner_text() == read
+        page.evaluate("window.hold = false; window.release(true)")
+        settled(page)
+        assert page.locator("#readout").inner_text() != read
+        page.locator("#undo").click()
+        settled(page)
+        assert drawing(page) == before
+        # An answer that breaks off is told, and the next one is as good as any.
+        page.evaluate("window.hold = true; window.release = null")
+        number = field(page, "arm.tip_distance")
+        number.press("ArrowUp")
+        page.wait_for_function("Boolean(window.release)")
+        page.evaluate("window.hold = false; window.release(false)")
+        expect(page.locator("#notices")).to_contain_text("solving this design has failed")
+        number.press("ArrowUp")
+        settled(page)
+        assert page.locator("#readout").inner_text() != read

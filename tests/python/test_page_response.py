@@ -49,6 +49,18 @@ def test_a_field_opens_it_and_a_value_is_taken_as_one_step(browser, tmp_path, de
         assert copy.read_text() == design.read_text()
 
 
+def test_a_count_answers_in_whole_numbers(browser, tmp_path):
+    with opened(browser, tmp_path, CIRCLE) as (page, _):
+        field(page, "pitch.tooth_count").focus()
+        page.keyboard.press("F4")
+        ends = page.locator("#response-from, #response-to").evaluate_all("ends => ends.map(({ value }) => value)")
+        assert ends == ["22", "26"]
+        page.locator("#response-from").press("Enter")
+        # At this ratio the driven gear has no whole number of teeth beside an odd one: that is told.
+        names = [re.match(r"\s*(\d+)", row.inner_text())[1] for row in answered(page, 5).all()]
+        assert names == ["24", "22", "23", "25", "26"]
+
+
 def test_a_way_that_is_pointed_at_lies_in_front(browser, tmp_path):
     with opened(browser, tmp_path, FEEDER) as (page, _):
         # A pointer finds the button beside the field.

@@ -5,6 +5,9 @@ use std::fmt;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Serialize, Serializer};
 
+/// Figures below it, in the unit shown, are rounding of larger ones: those of a machine are not so small.
+const ROUNDING: f64 = 1e-9;
+
 /// Unit of a figure, which settles how the figure is shown.
 ///
 /// Figures are kept in mm, rad, s and N; [`Unit::symbol`] names that unit, and JSON has it. A person reads angles in
@@ -89,9 +92,18 @@ impl Unit {
         }
     }
 
-    /// The figure in the unit shown, in few enough digits to read; a small one keeps its leading digits.
+    /// The figure in the unit shown, in few enough digits to read; a small one keeps its leading digits, and one below 1e-9 is 0.
+    /// Errors in rad keep theirs, however small.
     #[must_use]
     pub fn show(self, value: f64) -> String {
+        if self != Self::Radian && (value * self.factor()).abs() < ROUNDING {
+            return "0".into();
+        }
+        self.digits(value)
+    }
+
+    /// The figure in the unit shown, however small.
+    fn digits(self, value: f64) -> String {
         let decimals = match self {
             Self::Count => return format!("{value:.0}"),
             Self::Number | Self::PerMillimetre => 6,
@@ -105,10 +117,10 @@ impl Unit {
         decimal(value * self.factor(), decimals)
     }
 
-    /// The figure as [`Unit::show`] has it, with its unit.
+    /// The figure as [`Unit::show`] has it, with its unit; one below 1e-9 keeps its leading digits, for nothing is missed by 0.
     #[must_use]
     pub fn tell(self, value: f64) -> String {
-        format!("{} {}", self.show(value), self.shown())
+        format!("{} {}", self.digits(value), self.shown())
             .trim_end()
             .to_owned()
     }
@@ -173,6 +185,9 @@ mod tests {
     fn figures_keep_what_matters() {
         assert_eq!(Unit::Millimetre.show(52.709_221), "52.7092");
         assert_eq!(Unit::Millimetre.show(-3.2e-7), "-3.2e-7");
+        assert_eq!(Unit::Millimetre.show(-3.2e-12), "0");
+        assert_eq!(Unit::NewtonMillimetre.show(3.5e-12), "0");
+        assert_eq!(Unit::Radian.show(1.6e-15), "1.6e-15");
         assert_eq!(Unit::Angle.show(PI), "180.0000");
         assert_eq!(Unit::Count.show(23.0), "23");
         assert_eq!(Unit::Radian.show(f64::INFINITY), "infinite");
@@ -180,5 +195,6 @@ mod tests {
         assert_eq!(Unit::Radian.show(2.489e-7), "2.5e-7");
         assert_eq!(Unit::Angle.tell(PI), "180.0000 deg");
         assert_eq!(Unit::Count.tell(3.0), "3");
+        assert_eq!(Unit::Millimetre.tell(3.5e-12), "3.5e-12 mm");
     }
 }

@@ -75,15 +75,12 @@ impl Fitting<'_> {
     ) {
         let reaches = |member: Member, teeth: &[ToothPlan]| -> Vec<Reaches> {
             let reach = |plan: &FlankPlan, side| self.regular(member, side, plan);
-            teeth
-                .iter()
-                .map(|t| {
-                    [
-                        reach(&t.leading, Side::Leading),
-                        reach(&t.trailing, Side::Trailing),
-                    ]
-                })
-                .collect()
+            shared_out(teeth, |t| {
+                [
+                    reach(&t.leading, Side::Leading),
+                    reach(&t.trailing, Side::Trailing),
+                ]
+            })
         };
         let mut reach_1 = reaches(Member::Driver, driver);
         let mut reach_2 = reaches(Member::Driven, driven);
@@ -98,33 +95,40 @@ impl Fitting<'_> {
         let circles = self.circles([(driver, &reach_1), (driven, &reach_2)]);
         let middle = 0.5 * (driver[0].leading.crossing + driver[0].trailing.crossing);
         let mut poses = Poses::new(self.rolling, middle + 0.25 * pitch, pitch);
+        // Crossings of driver tooth k, and of a driven tooth beside it, with the numbers of both.
+        let pair = |k: usize, beside: isize| {
+            let i = k % first;
+            let one = crossings(&driver[i], (k / first) as f64 * lengths[0]);
+            let index = k as isize + beside;
+            let j = index.rem_euclid(last as isize) as usize;
+            let turns = index.div_euclid(last as isize) as f64;
+            ([i, j], [one, crossings(&driven[j], turns * lengths[1])])
+        };
+        let middle = |[one, two]: [[f64; 2]; 2]| 0.25 * (one[0] + one[1] + two[0] + two[1]);
+        // The two driven teeth beside it mesh with it; those beyond can still be met where the
+        // pitch curve is concave.
+        const BESIDE: [isize; 8] = [-4, -3, -2, -1, 0, 1, 2, 3];
         for from in (0..meshes as usize).step_by(BLOCK) {
             let mut met = Vec::new();
-            for k in from..(meshes as usize).min(from + BLOCK) {
+            let to = (meshes as usize).min(from + BLOCK);
+            poses.find(
+                [(from, BESIDE[0]), (to - 1, BESIDE[7])].map(|(k, by)| middle(pair(k, by).1)),
+            );
+            for (k, by) in (from..to).flat_map(|k| BESIDE.map(|by| (k, by))) {
                 checkpoint();
-                let i = k % first;
-                let one = crossings(&driver[i], (k / first) as f64 * lengths[0]);
-                // The two driven teeth beside it mesh with it; those beyond can still be met where the
-                // pitch curve is concave.
-                for beside in [-4, -3, -2, -1, 0, 1, 2, 3_isize] {
-                    let index = k as isize + beside;
-                    let j = index.rem_euclid(last as isize) as usize;
-                    let turns = index.div_euclid(last as isize) as f64;
-                    let two = crossings(&driven[j], turns * lengths[1]);
-                    let middle = 0.25 * (one[0] + one[1] + two[0] + two[1]);
-                    let passage = ToothPassage::about(
-                        &mut poses,
-                        self.tool,
-                        middle,
-                        pitch,
-                        [&circles[0][i], &circles[1][j]],
-                    );
-                    met.extend(passage.map(|passage| Meeting {
-                        passage,
-                        teeth: [i, j],
-                        crossings: [one, two],
-                    }));
-                }
+                let ([i, j], crossings) = pair(k, by);
+                let passage = ToothPassage::about(
+                    &mut poses,
+                    self.tool,
+                    middle(crossings),
+                    pitch,
+                    [&circles[0][i], &circles[1][j]],
+                );
+                met.extend(passage.map(|passage| Meeting {
+                    passage,
+                    teeth: [i, j],
+                    crossings,
+                }));
             }
             // Few teeth are shortened: most of what is found side by side holds when its turn comes.
             let before = (reach_1.clone(), reach_2.clone());
@@ -262,22 +266,29 @@ impl Fitting<'_> {
 
     /// Settles every tip of a gear, wide enough at the top.
     fn tops(&self, member: Member, teeth: &mut [ToothPlan], reaches: &[Reaches]) -> Vec<[Tip; 2]> {
-        let settle = |(tooth, &[lead, trail]): (&mut ToothPlan, &[f64; 2])| {
-            let leading = self.flank(member, Side::Leading, tooth.leading.crossing);
-            let trailing = self.flank(member, Side::Trailing, tooth.trailing.crossing);
-            let share = share_for_width((&leading, lead), (&trailing, trail), self.least_tip_width);
-            let (lead, trail) = (share * lead, share * trail);
-            tooth.leading.top = Top::Reach(lead);
-            tooth.trailing.top = Top::Reach(trail);
-            let tip = |flank: &Flank<'_>, reach: f64| {
-                let t = self
-                    .rolling
-                    .parameter(flank.crossing - flank.side.sign() * reach);
-                (reach, flank.foot(t).1)
-            };
-            [tip(&leading, lead), tip(&trailing, trail)]
-        };
-        teeth.iter_mut().zip(reaches).map(settle).collect()
+        let known: Vec<_> = teeth.iter().zip(reaches).collect();
+        let found = shared_out(
+            &known,
+            |&(tooth, &[lead, trail]): &(&ToothPlan, &[f64; 2])| {
+                let leading = self.flank(member, Side::Leading, tooth.leading.crossing);
+                let trailing = self.flank(member, Side::Trailing, tooth.trailing.crossing);
+                let share =
+                    share_for_width((&leading, lead), (&trailing, trail), self.least_tip_width);
+                let (lead, trail) = (share * lead, share * trail);
+                let tip = |flank: &Flank<'_>, reach: f64| {
+                    let t = self
+                        .rolling
+                        .parameter(flank.crossing - flank.side.sign() * reach);
+                    (reach, flank.foot(t).1)
+                };
+                [tip(&leading, lead), tip(&trailing, trail)]
+            },
+        );
+        for (tooth, tips) in teeth.iter_mut().zip(&found) {
+            tooth.leading.top = Top::Reach(tips[0].0);
+            tooth.trailing.top = Top::Reach(tips[1].0);
+        }
+        found
     }
 }
 

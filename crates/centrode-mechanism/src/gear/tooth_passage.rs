@@ -4,7 +4,7 @@ use std::cell::{OnceCell, RefCell};
 use std::collections::VecDeque;
 use std::rc::Rc;
 
-use centrode_geometry::{Point, checkpoint};
+use centrode_geometry::{Point, checkpoint, shared_out};
 
 use super::{
     rolling::{Frame, Member, Rolling},
@@ -67,19 +67,32 @@ impl<'a> Poses<'a> {
         }
     }
 
-    /// The poses within eight pitches of an arc length.
-    fn about(&mut self, middle: f64) -> impl Iterator<Item = &(Frame, Frame)> + Clone {
-        let count = i64::from(PITCHES * POSES) + 1;
-        let from = ((middle - self.origin) / self.step).round() as i64 - count / 2;
+    /// Number of poses about a passage.
+    const COUNT: i64 = (PITCHES * POSES) as i64 + 1;
+
+    /// Number of the first pose about an arc length.
+    fn from(&self, middle: f64) -> i64 {
+        ((middle - self.origin) / self.step).round() as i64 - Self::COUNT / 2
+    }
+
+    /// Finds the poses about all arc lengths from one to another, and keeps those that are known.
+    pub(crate) fn find(&mut self, [first, last]: [f64; 2]) {
+        let (from, to) = (self.from(first), self.from(last) + Self::COUNT);
         let end = self.first + self.kept.len() as i64;
         if from < self.first || from > end {
             self.kept.clear();
             self.first = from;
         }
-        for number in self.first + self.kept.len() as i64..from + count {
-            let arc = self.origin + self.step * number as f64;
-            self.kept.push_back(pose_at(self.rolling, arc));
-        }
+        let missing: Vec<i64> = (self.first + self.kept.len() as i64..to).collect();
+        let pose = |number: &i64| pose_at(self.rolling, self.origin + self.step * *number as f64);
+        let found = shared_out(&missing, pose);
+        self.kept.extend(found);
+    }
+
+    /// The poses within eight pitches of an arc length.
+    fn about(&mut self, middle: f64) -> impl Iterator<Item = &(Frame, Frame)> + Clone {
+        let (from, count) = (self.from(middle), Self::COUNT);
+        self.find([middle; 2]);
         // The passages of a tooth come in order, those of the next begin seven half pitches back at most.
         while from - self.first > count {
             self.kept.pop_front();
@@ -260,27 +273,32 @@ fn pose_at(rolling: &Rolling, arc: f64) -> (Frame, Frame) {
 /// Whether two teeth penetrate each other at a pose.
 fn penetrate((a, b): &(Frame, Frame), teeth: &[Rc<ToothChords>; 2], pitch: f64) -> bool {
     let [one, two] = teeth;
-    let forth = |p: &Point| carry(a, b, p);
-    let back = |p: &Point| carry(b, a, p);
     let reach = one.radius + two.radius;
-    if (forth(&one.middle) - two.middle).norm_squared() > reach * reach {
+    if (carry(a, b, &one.middle) - two.middle).norm_squared() > reach * reach {
         return false;
     }
-    let deep = |tooth: &ToothChords, carried: &dyn Fn(&Point) -> Point, shape: &ToothChords| {
-        let is_deep = |p: &Point| {
-            let there = carried(p);
-            !shape.is_beyond(&there, 0.0)
-                && shape
-                    .depth(&there)
-                    .is_some_and(|d| d > PENETRATION * pitch && d < 0.5 * pitch)
-        };
-        let mut near = tooth.runs().filter(|(center, radius, _)| {
-            // Rounding may put a place out of its circle.
-            !shape.is_beyond(&carried(center), radius * (1.0 + 1e-9))
-        });
-        near.any(|(_, _, places)| places.iter().any(is_deep))
+    is_deep(one, carried(a, b), two, pitch) || is_deep(two, carried(b, a), one, pitch)
+}
+
+/// Whether a place of a tooth, carried to where its mate is, lies deep in the mate.
+fn is_deep(
+    tooth: &ToothChords,
+    carried: impl Fn(&Point) -> Point,
+    mate: &ToothChords,
+    pitch: f64,
+) -> bool {
+    let is_deep = |p: &Point| {
+        let there = carried(p);
+        !mate.is_beyond(&there, 0.0)
+            && mate
+                .depth(&there)
+                .is_some_and(|d| d > PENETRATION * pitch && d < 0.5 * pitch)
     };
-    deep(one, &forth, two) || deep(two, &back, one)
+    let mut near = tooth.runs().filter(|(center, radius, _)| {
+        // Rounding may put a place out of its circle.
+        !mate.is_beyond(&carried(center), radius * (1.0 + 1e-9))
+    });
+    near.any(|(_, _, places)| places.iter().any(is_deep))
 }
 
 /// Share of a number of parts.
@@ -342,4 +360,11 @@ fn scattered(count: usize) -> impl Iterator<Item = usize> {
 fn carry(from: &Frame, to: &Frame, p: &Point) -> Point {
     let v = p - from.point;
     to.point + to.tangent * v.dot(&from.tangent) - to.normal * v.dot(&from.normal)
+}
+
+/// Motion of [`carry`] for many points.
+fn carried(from: &Frame, to: &Frame) -> impl Fn(&Point) -> Point {
+    let turn = to.tangent * from.tangent.transpose() - to.normal * from.normal.transpose();
+    let shift = to.point - turn * from.point;
+    move |p| turn * p + shift
 }

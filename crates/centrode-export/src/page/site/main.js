@@ -45,9 +45,22 @@ let family;
 /** Says why there is no search, or with no reason that there is one. */
 let searchable;
 
-connect({ form, file: () => file, show, judge, complain });
+connect({ form, file: () => file, draw, show, judge, complain });
 
 // What is shown
+
+/** Resolves when the picture that was drawn last is on the screen. */
+let seen = Promise.resolve();
+
+/** Draws the picture of a snapshot, whatever else is known of it, and marks what is still of the design before. */
+function draw(snapshot) {
+  stage.stale = Boolean(snapshot.error);
+  stage.show(snapshot.picture);
+  handles?.show(snapshot.picture?.handles ?? []);
+  transport.draw();
+  verdict.mark(snapshot);
+  if (!embedded) seen = painted();
+}
 
 /** Shows what the program answers; `asked` is the form's clock when it was asked. */
 function show(snapshot, asked = snapshot.asked) {
@@ -64,14 +77,12 @@ function show(snapshot, asked = snapshot.asked) {
   state.snapshot = snapshot;
   // Pinned before its checks were done.
   if (state.pinned && !state.pinned.verdict && snapshot.verdict && snapshot.text === state.pinned.text) state.pinned = snapshot;
-  stage.stale = Boolean(snapshot.error);
-  stage.show(snapshot.picture);
-  handles?.show(snapshot.picture?.handles ?? []);
-  transport.draw();
+  // The eye may have it already.
+  if (stage.stale !== Boolean(snapshot.error) || stage.scene?.picture !== snapshot.picture) draw(snapshot);
   verdict.mark(snapshot);
   // Panels cost the browser more than the picture does: the eye has that first.
   if (embedded) panels();
-  else state.shown ??= painted().then(panels);
+  else state.shown ??= seen.then(panels);
 }
 
 /** Resolves when the next frame is on the screen; at once where there are no frames, in a hidden window. */

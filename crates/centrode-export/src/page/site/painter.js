@@ -161,7 +161,7 @@ export class Painter {
     this.named(poses).forEach((mark) => this.mark(mark));
   }
 
-  /** Places worth a name, in pixels, with where the name begins: beside its place where no other name is, once where two of one name meet. */
+  /** Places worth a name, in pixels, with where the name begins: beside its place where no other name is, nowhere if there is no room, once where two of one name meet. */
   named(poses) {
     this.context.font = NAMES;
     const taken = [];
@@ -174,8 +174,8 @@ export class Painter {
       const { width } = this.context.measureText(name);
       const free = ([left, base]) => taken.every(([l, b, w]) => Math.abs(b - base) >= HIGH || left >= l + w || l >= left + width);
       const places = [8, -8 - width].flatMap((across) => [[px + across, py - 6], [px + across, py + 16]]);
-      const words = places.find(free) ?? places[0];
-      taken.push([...words, width]);
+      const words = places.find(free) ?? null;
+      if (words) taken.push([...words, width]);
       found.push({ name, at: [px, py], words });
     }
     return found;
@@ -195,7 +195,8 @@ export class Painter {
     const width = this.enter(pose);
     this.context.fillStyle = color(`link-${link.tint % 5}`);
     this.context.strokeStyle = color("ink");
-    this.context.lineWidth = width(1.1);
+    // Wider lines take a browser without a graphics card three times as long.
+    this.context.lineWidth = width(1);
     this.context.lineJoin = "round";
     this.context.setLineDash([]);
     this.context.fill(link.body, "evenodd");
@@ -231,7 +232,7 @@ export class Painter {
     context.fill();
     context.fillStyle = color("ink");
     context.font = NAMES;
-    context.fillText(name, ...words);
+    if (words) context.fillText(name, ...words);
   }
 
   /** The outlines of a link, with the ways of its points or without. */

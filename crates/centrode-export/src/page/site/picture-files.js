@@ -70,7 +70,7 @@ function svg(stage, title) {
     const shape = scene.picture.shapes[link.shape];
     const body = shape.filter(({ role }) => role === "body" || role === "hole").map(path).join("");
     if (scene.links[i].solid) {
-      groups[0].append(drawn("path", { ...fixed, d: body, fill: color(`link-${scene.links[i].tint % 5}`), stroke: color("ink"), "stroke-width": wide(1.1), "fill-rule": "evenodd" }));
+      groups[0].append(drawn("path", { ...fixed, d: body, fill: color(`link-${scene.links[i].tint % 5}`), stroke: color("ink"), "stroke-width": wide(1), "fill-rule": "evenodd" }));
     }
     for (const line of shape) {
       if (["body", "hole"].includes(line.role) || line.vertices.length === 0 || (line.role === "pitch" && !stage.pitched)) continue;
@@ -81,10 +81,13 @@ function svg(stage, title) {
     }
   });
   root.append(...layers, ...laidOver(stage));
-  for (const { name, at: [cx, cy], words: [x, y] } of stage.named(poses)) {
+  for (const { name, at: [cx, cy], words } of stage.named(poses)) {
+    root.append(drawn("circle", { cx, cy, r: 4, fill: color("pinned") }));
+    if (!words) continue;
+    const [x, y] = words;
     const label = drawn("text", { x, y, fill: color("ink") });
     label.textContent = name;
-    root.append(drawn("circle", { cx, cy, r: 4, fill: color("pinned") }), label);
+    root.append(label);
   }
   if (stage.mesh.on) root.append(...meshes(stage));
   return `${new XMLSerializer().serializeToString(root)}\n`;

@@ -24,21 +24,24 @@ function numbers(snapshot) {
   return found;
 }
 
-/** In what a number is written. */
-function unitOf(snapshot, name) {
+/** The field of a number. */
+function fieldOf(snapshot, name) {
   const fields = snapshot.tables.flatMap((table) => table.fields);
-  return fields.find((field) => field.key === name.replace(/\[\d+\]$/, ""))?.unit ?? "";
+  return fields.find((field) => field.key === name.replace(/\[\d+\]$/, "")) ?? {};
 }
 
-/** A range about a value: a tenth of it to both sides. */
-function around(value) {
-  const reach = Math.abs(value) * 0.1 || 1;
-  return [value - reach, value + reach].map((end) => String(Number(end.toPrecision(6))));
+/** A range about a value: a tenth of it to both sides; of a count one at least, as far as there is one. */
+function around(value, { kind, least }) {
+  const share = Math.abs(value) * 0.1;
+  const whole = ["integer", "integers"].includes(kind);
+  const reach = whole ? Math.max(1, Math.round(share)) : share || 1;
+  const from = whole ? Math.max(least ?? -Infinity, value - reach) : value - reach;
+  return [from, value + reach].map((end) => String(Number(end.toPrecision(6))));
 }
 
 const number = (input) => Number(input.value.trim().replace(",", "."));
 
-/** Every third of the values at which goals are known: their ways are drawn. */
+/** Every third of many values at which goals are known: their ways are drawn. */
 const THINNED = 3;
 
 /** How many goals are reached at one of the values. */
@@ -51,14 +54,14 @@ function reached(charts, i) {
 /** The dialog: which number, between which values; the answers below. `take` has a value for a key. */
 export async function ask(snapshot, text, take, first) {
   const known = new Map(numbers(snapshot));
-  const units = new Map([...known.keys()].map((name) => [name, unitOf(snapshot, name)]));
+  const units = new Map([...known.keys()].map((name) => [name, fieldOf(snapshot, name).unit ?? ""]));
   const key = element("select", { id: "response-key" }, ...[...known.keys()].map((name) => element("option", { value: name }, name)));
   const from = element("input", { type: "text", inputmode: "decimal", class: "number", id: "response-from" });
   const to = element("input", { type: "text", inputmode: "decimal", class: "number", id: "response-to" });
   const place = element("div", { class: "multiples" });
   const words = element("p", { class: "remark", role: "status" });
   const reach = () => {
-    if (known.size) [from.value, to.value] = around(known.get(key.value));
+    if (known.size) [from.value, to.value] = around(known.get(key.value), fieldOf(snapshot, key.value));
   };
   if (known.has(first)) key.value = first;
   key.addEventListener("change", reach);
@@ -114,7 +117,8 @@ export async function ask(snapshot, text, take, first) {
     };
     if (snapshot.picture) ways.add(snapshot.picture, "");
     row(0, `${known.get(name)}${unit && ` ${unit}`}`, "the design as it is");
-    for (let i = 0; i < values.length; i += THINNED) {
+    const every = values.length > THINNED ** 2 ? THINNED : 1;
+    for (let i = 0; i < values.length; i += every) {
       const value = Number(values[i].toPrecision(6));
       if (value === known.get(name)) continue;
       const found = await server.solve({ text, edits: [{ key: name, value }], depth: "picture" }, signal);

@@ -49,10 +49,9 @@ async function ask(path, method, body, signal, keepalive = false) {
   return answer;
 }
 
-/** An answer that takes long: `heed(evaluations)` hears how far it is. */
-async function streamed(path, body, signal, heed) {
-  const reader = (await ask(path, "POST", body, signal)).body.pipeThrough(new TextDecoderStream()).getReader();
-  let text = "";
+/** The text of an answer as it comes. */
+async function* parts(answer) {
+  const reader = (await answer).body.pipeThrough(new TextDecoderStream()).getReader();
   for (;;) {
     let part;
     try {
@@ -60,8 +59,16 @@ async function streamed(path, body, signal, heed) {
     } catch {
       throw new Away();
     }
-    if (part.done) throw new Away();
-    const lines = (text + part.value).split("\n");
+    if (part.done) return;
+    yield part.value;
+  }
+}
+
+/** An answer that takes long: `heed(evaluations)` hears how far it is. */
+async function streamed(path, body, signal, heed) {
+  let text = "";
+  for await (const part of parts(ask(path, "POST", body, signal))) {
+    const lines = (text + part).split("\n");
     text = lines.pop();
     for (const line of lines) {
       const { evaluations, answer } = JSON.parse(line);
@@ -69,6 +76,25 @@ async function streamed(path, body, signal, heed) {
       heed(evaluations);
     }
   }
+  throw new Away();
+}
+
+/** An answer that is one value in two lines: `heed(first)` hears what the first line holds before the second is there. */
+async function halved(path, body, signal, heed) {
+  let [text, first] = ["", null];
+  for await (const part of parts(ask(path, "POST", body, signal))) {
+    text += part;
+    const end = first ? -1 : text.indexOf("\n");
+    if (end < 0) continue;
+    first = JSON.parse(`${text.slice(0, end)}}`);
+    text = text.slice(end + 1);
+    heed?.(first);
+  }
+  if (!first) return JSON.parse(text);
+  // What breaks off has no end.
+  const { message = text ? null : "solving this design has failed", ...second } = text ? JSON.parse(`{${text.slice(1)}`) : {};
+  if (message) throw new Refused(500, { message });
+  return Object.assign(first, second);
 }
 
 const json = async (answer) => (await answer).json();
@@ -99,7 +125,8 @@ export const stopSearch = () => json(ask("search", "DELETE"));
 export const response = (options, signal) => json(ask("response", "POST", options, signal));
 export const files = async (options, signal) => (await ask("export", "POST", options, signal)).blob();
 export const meshes = async (text, signal) => (await ask("meshes", "POST", { text }, signal)).arrayBuffer();
-export const solve = async (request, signal) => whole(await json(ask("solve", "POST", { page, turn: (turn += 1), ...request }, signal)));
+/** Solves a design; `heed(first)` hears of its picture before the rest is there. */
+export const solve = async (request, signal, heed) => whole(await halved("solve", { page, turn: (turn += 1), ...request }, signal, heed));
 
 /** What share of the checks that are under way is done; null while nothing is solved. */
 export const progress = async () => (await json(ask(`progress/${page}`, "GET"))).share;

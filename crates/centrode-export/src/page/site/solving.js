@@ -20,7 +20,7 @@ const LIVE = 250;
 /** While checks last, how much of them is done is asked for so often, ms. */
 const ASKED = 500;
 
-/** The page: its `form`, `file()`, and what is told of answers: `show`, `judge`, `complain`. */
+/** The page: its `form`, `file()`, and what is told of answers: `draw`, `show`, `judge`, `complain`. */
 const page = {};
 export const connect = (own) => Object.assign(page, own);
 
@@ -70,8 +70,10 @@ async function solve() {
     try {
       const start = performance.now();
       const depth = job.sent ? "numbers" : slow ? "picture" : "checks";
-      const snapshot = await work((signal) => server.solve({ text, edits, depth }, signal), job.sent ? undefined : stop);
-      if (job.wanted && !job.wanted()) continue;
+      const wanted = () => !job.wanted || job.wanted();
+      const first = (picture) => wanted() && page.draw({ ...picture, goals: job.goals });
+      const snapshot = await work((signal) => server.solve({ text, edits, depth }, signal, first), job.sent ? undefined : stop);
+      if (!wanted()) continue;
       if (job.final) settle(snapshot.text, sent, edits.length > 0 || job.fresh);
       if (job.sent && state.pending) continue;
       snapshot.goals = job.goals;

@@ -20,9 +20,6 @@ pub(crate) struct Snapshot {
     title: String,
     /// Definition of the mechanism, in a line.
     definition: String,
-    /// The numbers of the design, table by table.
-    #[serde(skip)]
-    tables: Vec<Table>,
     /// Reason why there is no mechanism.
     error: Option<Fault>,
     /// Error of a detail of a body: picture, curves and checks are those of the design without it.
@@ -36,10 +33,18 @@ pub(crate) struct Snapshot {
     /// Whether its goals are told before the rest of the checks.
     goals_first: bool,
     #[serde(skip)]
-    curves: Vec<Curve>,
+    beside: Beside,
     /// Speed of the input, rad/s, where the design has one.
     speed: Option<f64>,
     verdict: Option<Verdict>,
+}
+
+/// Numbers and curves, which the eye has after the picture.
+#[derive(Clone, Debug, Default)]
+struct Beside {
+    /// The numbers of the design, table by table.
+    tables: Vec<Table>,
+    curves: Vec<Curve>,
 }
 
 /// An error at its key, in the words of the command line.
@@ -120,26 +125,29 @@ pub(super) fn resolved(text: &str) -> Result<Arc<dyn Mechanism>, DesignError> {
 pub(crate) struct Subject {
     snapshot: Snapshot,
     mechanism: Arc<dyn Mechanism>,
+    beside: OnceLock<Beside>,
     /// Picture in detail, once it has been asked for.
     detailed: OnceLock<Option<Picture>>,
 }
 
 impl Snapshot {
-    /// Snapshot of the design alone: its text and numbers; and what is made of the text meanwhile.
-    fn beside<T>(text: String, make: impl FnOnce(&str) -> T) -> (Self, T) {
-        let (made, tables) = together(|| make(&text), || tables(&text));
-        let snapshot = Self {
-            tables,
+    /// Snapshot of the design alone: its text and numbers.
+    fn of(text: String) -> Self {
+        let tables = tables(&text);
+        let curves = Vec::new();
+        Self {
             text,
+            beside: Beside { tables, curves },
             ..Self::default()
-        };
-        (snapshot, made)
+        }
     }
 
     /// Snapshot with the reason why there is no mechanism.
-    pub(crate) fn with_error(mut self, error: &DesignError) -> Self {
-        self.error = Some(error.into());
-        self
+    fn with_error(text: String, error: &DesignError) -> Self {
+        Self {
+            error: Some(error.into()),
+            ..Self::of(text)
+        }
     }
 
     /// Snapshot of a design whose solving was cancelled: its numbers, so that they can be changed.
@@ -152,9 +160,7 @@ impl Snapshot {
                 message: "cancelled; the next change solves it anew".into(),
                 rule: String::new(),
             }),
-            tables: tables(&text),
-            text,
-            ..Self::default()
+            ..Self::of(text)
         }
     }
 
@@ -175,61 +181,69 @@ impl Snapshot {
     /// Snapshot as JSON; numbers that are not finite are null.
     pub(crate) fn json(&self) -> serde_json::Result<String> {
         // What is long is written by two threads.
-        let (picture, others) = together(
-            || serde_json::to_string(&self.picture),
-            || {
-                let curves = serde_json::to_string(&CurveList(&self.curves))?;
-                Ok((serde_json::to_string(&self.tables)?, curves))
-            },
-        );
-        let (picture, (tables, curves)) = (picture?, others?);
+        let (head, beside) = together(|| self.head(), || self.beside.json());
+        Ok(head? + &beside?)
+    }
+
+    /// The beginning of its JSON, to which that of what is beside the picture belongs.
+    fn head(&self) -> serde_json::Result<String> {
+        let picture = serde_json::to_string(&self.picture)?;
         let rest = serde_json::to_string(self)?;
-        let rest = rest.trim_start_matches('{');
-        Ok(format!(
-            "{{\"picture\":{picture},\"tables\":{tables},\"curves\":{curves},{rest}"
-        ))
+        // Its braces are those of the whole.
+        let rest = &rest[1..rest.len() - 1];
+        Ok(format!("{{\"picture\":{picture},{rest}"))
+    }
+}
+
+impl Beside {
+    fn json(&self) -> serde_json::Result<String> {
+        let tables = serde_json::to_string(&self.tables)?;
+        let curves = serde_json::to_string(&CurveList(&self.curves))?;
+        Ok(format!(",\"tables\":{tables},\"curves\":{curves}}}"))
     }
 }
 
 impl Subject {
     /// Resolves a design file and draws it; without a mechanism, the snapshot says why.
     pub(crate) fn from_text(text: String) -> Result<Self, Box<Snapshot>> {
-        let (snapshot, mechanism) = Snapshot::beside(text, resolved);
-        match mechanism {
-            Ok(mechanism) => Ok(Self::new(snapshot, mechanism)),
-            Err(error) => Err(Box::new(snapshot.with_error(&error))),
+        match resolved(&text) {
+            Ok(mechanism) => Ok(Self::new(text, mechanism)),
+            Err(error) => Err(Box::new(Snapshot::with_error(text, &error))),
         }
     }
 
     /// Resolves and draws a design that is worked on: a detail of a body that cannot be is a finding, and the rest is drawn without it.
     pub(crate) fn without_faulty_details(text: String) -> Result<Self, Box<Snapshot>> {
-        let (mut snapshot, made) = Snapshot::beside(text, Made::new);
-        match made {
+        match Made::new(&text) {
             Ok(made) => {
-                snapshot.detail = made.left_out.as_ref().map(|left_out| Fault {
+                let mut subject = Self::new(text, made.mechanism);
+                subject.snapshot.detail = made.left_out.as_ref().map(|left_out| Fault {
                     message: left_out.message(),
                     ..Fault::from(&left_out.error)
                 });
-                snapshot.left_out = made.left_out.map(Arc::new);
-                Ok(Self::new(snapshot, made.mechanism))
+                subject.snapshot.left_out = made.left_out.map(Arc::new);
+                Ok(subject)
             }
-            Err(error) => Err(Box::new(snapshot.with_error(&error))),
+            Err(error) => Err(Box::new(Snapshot::with_error(text, &error))),
         }
     }
 
-    fn new(mut snapshot: Snapshot, mechanism: Arc<dyn Mechanism>) -> Self {
-        snapshot.name = mechanism.design().name().into();
-        snapshot.title = mechanism.design().title().into();
-        snapshot.definition = mechanism.definition();
-        let (picture, curves) = together(|| mechanism.picture(), || mechanism.curves());
-        snapshot.picture = Some(picture);
-        snapshot.coarse = mechanism.is_coarse();
-        snapshot.goals_first = mechanism.goals_come_first();
-        snapshot.curves = curves;
-        snapshot.speed = mechanism.input_speed();
+    fn new(text: String, mechanism: Arc<dyn Mechanism>) -> Self {
+        let snapshot = Snapshot {
+            text,
+            name: mechanism.design().name().into(),
+            title: mechanism.design().title().into(),
+            definition: mechanism.definition(),
+            picture: Some(mechanism.picture()),
+            coarse: mechanism.is_coarse(),
+            goals_first: mechanism.goals_come_first(),
+            speed: mechanism.input_speed(),
+            ..Snapshot::default()
+        };
         Self {
             snapshot,
             mechanism,
+            beside: OnceLock::new(),
             detailed: OnceLock::new(),
         }
     }
@@ -239,15 +253,26 @@ impl Subject {
         self.snapshot.text == text
     }
 
-    /// Snapshot with the picture but without the results of the checks.
-    pub(crate) fn drawn(&self) -> &Snapshot {
-        &self.snapshot
+    /// Snapshot with the picture but without the results of the checks, as JSON in two parts: the picture is in the first.
+    pub(crate) fn drawn(&self, tell: &dyn Fn(String)) -> serde_json::Result<()> {
+        tell(self.snapshot.head()? + "\n");
+        tell(self.beside().json()?);
+        Ok(())
+    }
+
+    fn beside(&self) -> &Beside {
+        self.beside.get_or_init(|| {
+            let numbers = || tables(&self.snapshot.text);
+            let (curves, tables) = together(|| self.mechanism.curves(), numbers);
+            Beside { tables, curves }
+        })
     }
 
     /// Snapshot with the picture in detail.
     pub(crate) fn detailed(&self) -> Snapshot {
         let mut snapshot = self.snapshot.clone();
         snapshot.coarse = false;
+        snapshot.beside = self.beside().clone();
         let detailed = self.detailed.get_or_init(|| self.mechanism.detailed());
         if let Some(picture) = detailed {
             snapshot.picture = Some(picture.clone());
@@ -267,7 +292,7 @@ impl Subject {
         if let Some(left_out) = &snapshot.left_out {
             left_out.report(&mut found);
         }
-        snapshot.curves.extend(curves);
+        snapshot.beside.curves.extend(curves);
         snapshot.verdict = Some(Verdict::new(&*self.mechanism, &found));
         snapshot
     }

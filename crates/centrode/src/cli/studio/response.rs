@@ -44,12 +44,22 @@ pub(crate) fn answers(ask: &Ask) -> Result<Answers, String> {
         let (from, to) = (ask.from, ask.to);
         return Err(format!("the values must rise, but go from {from} to {to}"));
     }
+    // Of a count several may come to one.
     let step = (ask.to - ask.from) / f64::from(COUNT - 1);
     let values: Vec<f64> = (0..COUNT).map(|i| ask.from + step * f64::from(i)).collect();
     let response = file
         .family()
         .response(file.design(), &ask.key, &values, Depth::Motion);
     let response = response.map_err(|error| error.message())?;
+    let given = &response.values;
+    let kept: Vec<usize> = (0..given.len())
+        .filter(|&i| i == 0 || given[i] != given[i - 1])
+        .collect();
+    let values = kept.iter().map(|&i| given[i]).collect();
+    let scaled = |unit: Unit, figures: &[Option<f64>]| {
+        let one = |&i: &usize| figures[i].map(|figure| figure * unit.factor());
+        kept.iter().map(one).collect()
+    };
     let goals: Vec<&Goal> = response
         .reports
         .iter()
@@ -85,12 +95,6 @@ pub(crate) fn answers(ask: &Ask) -> Result<Answers, String> {
         goals.iter().filter_map(chart).collect()
     };
     Ok(Answers { values, charts })
-}
-
-/// Figures in the unit in which they are shown.
-fn scaled(unit: Unit, figures: &[Option<f64>]) -> Vec<Option<f64>> {
-    let one = |figure: &Option<f64>| figure.map(|figure| figure * unit.factor());
-    figures.iter().map(one).collect()
 }
 
 /// Whether a figure changes, so that it is more than a setting.

@@ -1,3 +1,4 @@
+use std::convert::Infallible;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -5,11 +6,13 @@ use crate::FAMILIES;
 use crate::analysis::optimise::{NotSearched, Strategy};
 use crate::export::page;
 use crate::geometry::Cancel;
+use axum::body::{Body, Bytes};
 use axum::extract::{Path, State};
 use axum::http::{StatusCode, header};
 use axum::response::{Html, IntoResponse, Response};
 use axum::routing::{delete, get, post};
 use axum::{Json, Router};
+use futures_util::stream::unfold;
 use serde::Deserialize;
 use serde_json::json;
 use tower_http::limit::RequestBodyLimitLayer;
@@ -100,7 +103,7 @@ impl From<SaveError> for Refused {
 }
 
 /// Answer of JSON text as it is.
-pub(crate) fn as_json(text: String) -> Response {
+pub(crate) fn as_json(text: impl IntoResponse) -> Response {
     ([(header::CONTENT_TYPE, "application/json")], text).into_response()
 }
 
@@ -171,7 +174,13 @@ async fn solve(State(state): Shared, Json(ask): Json<Solve>) -> Result<Response,
         .solve(&ask.page, ask.turn, text, ask.depth)
         .await
     {
-        Ok(snapshot) => Ok(as_json(snapshot)),
+        Ok(answer) => {
+            let parts = unfold(answer, |mut answer| async move {
+                let part: Result<Bytes, Infallible> = Ok(answer.next().await?.into());
+                Some((part, answer))
+            });
+            Ok(as_json(Body::from_stream(parts)))
+        }
         // Being overtaken is no failure: browsers would log it as one.
         Err(Unsolved::Overtaken) => Ok(Json(json!({ "overtaken": true })).into_response()),
         Err(fault) => Err(Refused::because(StatusCode::INTERNAL_SERVER_ERROR, fault)),

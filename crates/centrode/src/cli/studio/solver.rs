@@ -4,6 +4,8 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use crate::analysis::Progress;
 use crate::geometry::Cancel;
 use serde::Deserialize;
+use serde_json::json;
+use tokio::sync::mpsc::{UnboundedReceiver, unbounded_channel};
 
 use crate::cli::page::{Snapshot, Subject};
 
@@ -51,17 +53,40 @@ pub(crate) enum Unsolved {
     Fault(String),
 }
 
+/// Answer to a page, whose parts are told as soon as they are known: one JSON value in all.
+pub(crate) struct Answer {
+    first: Option<String>,
+    later: UnboundedReceiver<Result<String, Unsolved>>,
+    _wait: Wait,
+}
+
+impl Answer {
+    /// The next part; none after the last.
+    pub(crate) async fn next(&mut self) -> Option<String> {
+        if self.first.is_some() {
+            return self.first.take();
+        }
+        let failed = match self.later.recv().await? {
+            Ok(part) => return Some(part),
+            Err(Unsolved::Overtaken) => json!({ "overtaken": true }),
+            Err(fault) => json!({ "message": fault.to_string() }),
+        };
+        // The value that has begun ends with it.
+        Some(failed.to_string().replacen('{', ",", 1))
+    }
+}
+
 /// Guard of a solve that somebody waits for; dropped, it cancels the solve.
-struct Wait<'a> {
-    solver: &'a Solver,
-    page: &'a str,
+struct Wait {
+    solver: Arc<Solver>,
+    page: String,
     cancel: Cancel,
     progress: Progress,
 }
 
-impl<'a> Wait<'a> {
+impl Wait {
     /// Takes the place of the request being solved for the page; none for one that comes after a later one.
-    fn begin(solver: &'a Solver, page: &'a str, turn: u64) -> Option<Self> {
+    fn begin(solver: &Arc<Solver>, page: &str, turn: u64) -> Option<Self> {
         let (cancel, progress) = (Cancel::default(), Progress::default());
         let mut under_way = held(&solver.under_way);
         if under_way.get(page).is_some_and(|later| later.turn > turn) {
@@ -75,28 +100,29 @@ impl<'a> Wait<'a> {
         if let Some(before) = under_way.insert(page.to_owned(), now) {
             before.cancel.cancel();
         }
+        drop(under_way);
         Some(Self {
-            solver,
-            page,
+            solver: Arc::clone(solver),
+            page: page.to_owned(),
             cancel,
             progress,
         })
     }
 }
 
-impl Drop for Wait<'_> {
+impl Drop for Wait {
     fn drop(&mut self) {
         let mut under_way = held(&self.solver.under_way);
         // A cancelled one has been replaced by the next of its page.
         if !self.cancel.is_cancelled() {
-            under_way.remove(self.page);
+            under_way.remove(&self.page);
         }
         self.cancel.cancel();
     }
 }
 
 impl Solver {
-    /// Snapshot of a design as JSON. Dropped before its end, the solve is cancelled.
+    /// Snapshot of a design. Dropped before its end, the solve is cancelled.
     ///
     /// A page numbers its requests by `turn`: on their way one can be overtaken by the next.
     pub(crate) async fn solve(
@@ -105,15 +131,32 @@ impl Solver {
         turn: u64,
         text: String,
         depth: Depth,
-    ) -> Result<String, Unsolved> {
+    ) -> Result<Answer, Unsolved> {
         let wait = Wait::begin(self, page, turn).ok_or(Unsolved::Overtaken)?;
         let (solver, cancel) = (Arc::clone(self), wait.cancel.clone());
         let progress = wait.progress.clone();
-        let job = move || progress.during(|| cancel.run(|| solver.snapshot(text, depth)));
-        match tokio::task::spawn_blocking(job).await {
-            Ok(Ok(json)) => json.map_err(|error| Unsolved::Fault(error.to_string())),
-            Ok(Err(_)) => Err(Unsolved::Overtaken),
-            Err(fault) => Err(Unsolved::Fault(fault.to_string())),
+        let (teller, mut later) = unbounded_channel();
+        let job = move || {
+            // Nobody may be there any more.
+            let tell = |part| drop(teller.send(part));
+            let told = || solver.tell(text, depth, &|part| tell(Ok(part)));
+            match progress.during(|| cancel.run(told)) {
+                Ok(Ok(())) => {}
+                Ok(Err(error)) => tell(Err(Unsolved::Fault(error.to_string()))),
+                Err(_) => tell(Err(Unsolved::Overtaken)),
+            }
+        };
+        let task = tokio::task::spawn_blocking(job);
+        match later.recv().await {
+            Some(first) => Ok(Answer {
+                first: Some(first?),
+                later,
+                _wait: wait,
+            }),
+            None => Err(Unsolved::Fault(match task.await {
+                Ok(()) => "there is no answer".into(),
+                Err(fault) => fault.to_string(),
+            })),
         }
     }
 
@@ -123,26 +166,31 @@ impl Solver {
         Some(under_way.get(page)?.progress.share())
     }
 
-    fn snapshot(&self, text: String, depth: Depth) -> serde_json::Result<String> {
+    fn tell(&self, text: String, depth: Depth, tell: &dyn Fn(String)) -> serde_json::Result<()> {
         if depth == Depth::Numbers {
-            return Snapshot::cancelled(text).json();
+            tell(Snapshot::cancelled(text).json()?);
+            return Ok(());
         }
         let last = held(&self.last).clone();
         let subject = match last.filter(|subject| subject.is_of(&text)) {
             Some(subject) => subject,
             None => match Subject::without_faulty_details(text) {
                 Ok(subject) => Arc::new(subject),
-                Err(snapshot) => return snapshot.json(),
+                Err(snapshot) => {
+                    tell(snapshot.json()?);
+                    return Ok(());
+                }
             },
         };
         *held(&self.last) = Some(Arc::clone(&subject));
         match depth {
-            Depth::Numbers | Depth::Picture => subject.drawn().json(),
+            Depth::Numbers | Depth::Picture => subject.drawn(tell)?,
             // The page has the rest.
-            Depth::Goals => serde_json::to_string(&subject.goals()),
-            Depth::Detail => subject.detailed().json(),
-            Depth::Checks => subject.checked().json(),
+            Depth::Goals => tell(serde_json::to_string(&subject.goals())?),
+            Depth::Detail => tell(subject.detailed().json()?),
+            Depth::Checks => tell(subject.checked().json()?),
         }
+        Ok(())
     }
 }
 
@@ -154,6 +202,7 @@ fn held<T>(what: &Mutex<T>) -> MutexGuard<'_, T> {
 mod tests {
     use super::*;
     use crate::FAMILIES;
+    use serde_json::Value;
     use std::time::{Duration, Instant};
 
     const PAGE: &str = "one";
@@ -166,6 +215,21 @@ mod tests {
         module = 1
         tooth_count = 2000
     "#;
+
+    async fn solved(
+        solver: &Arc<Solver>,
+        page: &str,
+        turn: u64,
+        text: String,
+        depth: Depth,
+    ) -> Result<String, Unsolved> {
+        let mut answer = solver.solve(page, turn, text, depth).await?;
+        let mut whole = String::new();
+        while let Some(part) = answer.next().await {
+            whole += &part;
+        }
+        Ok(whole)
+    }
 
     fn block_on<T>(task: impl Future<Output = T>) -> T {
         let runtime = tokio::runtime::Builder::new_current_thread()
@@ -188,16 +252,14 @@ mod tests {
             let slow = |page: &'static str| {
                 let solver = Arc::clone(&solver);
                 tokio::spawn(
-                    async move { solver.solve(page, 1, SLOW.into(), Depth::Picture).await },
+                    async move { solved(&solver, page, 1, SLOW.into(), Depth::Picture).await },
                 )
             };
             let (ours, others, left) = (slow(PAGE), slow("another"), slow("closed"));
             tokio::time::sleep(Duration::from_millis(300)).await;
             assert!(!ours.is_finished() && !others.is_finished());
             let asked = Instant::now();
-            let quick = solver
-                .solve(PAGE, 2, "family = 1".into(), Depth::Picture)
-                .await;
+            let quick = solved(&solver, PAGE, 2, "family = 1".into(), Depth::Picture).await;
             assert!(quick.expect("the latest").contains("family"));
             let overtaken = ours.await.expect("no panic");
             assert!(matches!(overtaken, Err(Unsolved::Overtaken)));
@@ -205,9 +267,7 @@ mod tests {
             // A request that was held up on its way takes nobody's place.
             let latest = slow(PAGE);
             tokio::time::sleep(Duration::from_millis(50)).await;
-            let late = solver
-                .solve(PAGE, 0, "family = 1".into(), Depth::Picture)
-                .await;
+            let late = solved(&solver, PAGE, 0, "family = 1".into(), Depth::Picture).await;
             assert!(matches!(late, Err(Unsolved::Overtaken)));
             assert!(!latest.is_finished());
             latest.abort();
@@ -222,9 +282,43 @@ mod tests {
     fn a_cancelled_design_shows_its_numbers() {
         block_on(async {
             let solver = Arc::new(Solver::default());
-            let answer = solver.solve(PAGE, 1, SLOW.into(), Depth::Numbers).await;
+            let answer = solved(&solver, PAGE, 1, SLOW.into(), Depth::Numbers).await;
             let answer = answer.expect("at once");
             assert!(answer.contains("cancelled") && answer.contains("pitch.tooth_count"));
+        });
+    }
+
+    #[test]
+    fn the_picture_is_told_before_numbers_and_curves() {
+        block_on(async {
+            let solver = Arc::new(Solver::default());
+            let text = FAMILIES.template("gear-pair").expect("a template");
+            let answer = solver.solve(PAGE, 1, text.into(), Depth::Picture).await;
+            let mut answer = answer.expect("solved");
+            let first = answer.next().await.expect("a part");
+            let second = answer.next().await.expect("another");
+            assert_eq!(answer.next().await, None);
+            let known: Value =
+                serde_json::from_str(&format!("{}}}", first.trim_end())).expect("JSON");
+            assert!(first.ends_with('\n') && known["picture"].is_object());
+            assert_eq!(
+                (&known["tables"], &known["curves"]),
+                (&Value::Null, &Value::Null)
+            );
+            let whole: Value = serde_json::from_str(&(first + &second)).expect("JSON");
+            assert!(whole["tables"].is_array() && whole["curves"].is_array());
+            // Overtaken on its way, it ends as what it is.
+            let cut = solver.solve(PAGE, 2, text.into(), Depth::Picture).await;
+            let mut cut = cut.expect("solved");
+            let first = cut.next().await.expect("a part");
+            cut.later.close();
+            while cut.later.try_recv().is_ok() {}
+            let (teller, later) = unbounded_channel();
+            teller.send(Err(Unsolved::Overtaken)).expect("heard");
+            cut.later = later;
+            let end = cut.next().await.expect("an end");
+            let whole: Value = serde_json::from_str(&(first + &end)).expect("JSON");
+            assert_eq!(whole["overtaken"], true);
         });
     }
 
@@ -241,7 +335,7 @@ mod tests {
                 let text = template.replace("tooth_count = 23", &format!("tooth_count = {z}"));
                 let solver = Arc::clone(&solver);
                 asked.push(tokio::spawn(async move {
-                    solver.solve(PAGE, z, text, Depth::Checks).await
+                    solved(&solver, PAGE, z, text, Depth::Checks).await
                 }));
                 tokio::task::yield_now().await;
             }
@@ -269,16 +363,14 @@ mod tests {
             // Its checks take some seconds in a debug build.
             let slow = FAMILIES.template("three-arm").expect("a template");
             let quick = FAMILIES.template("gear-pair").expect("a template");
-            let first = solver.solve(PAGE, 1, slow.to_owned(), Depth::Picture).await;
+            let first = solved(&solver, PAGE, 1, slow.to_owned(), Depth::Picture).await;
             assert!(first.expect("nothing overtakes it").contains("\"picture\""));
             let checker = Arc::clone(&solver);
             let checks = tokio::spawn(async move {
-                checker.solve(PAGE, 2, slow.to_owned(), Depth::Checks).await
+                solved(&checker, PAGE, 2, slow.to_owned(), Depth::Checks).await
             });
             tokio::task::yield_now().await;
-            let picture = solver
-                .solve(PAGE, 3, quick.to_owned(), Depth::Picture)
-                .await;
+            let picture = solved(&solver, PAGE, 3, quick.to_owned(), Depth::Picture).await;
             assert!(picture.expect("the latest").contains("tooth_count"));
             // The checks are still under way, or were dropped before they began; had the picture waited, they would be done.
             let waited = checks.is_finished() && checks.await.expect("no panic").is_ok();
