@@ -35,7 +35,7 @@ impl Composed {
         for [low, high] in spans {
             let gap = [top, low];
             top = if top.is_finite() { top.max(high) } else { high };
-            if !(gap[1] > gap[0] + ROUNDING) {
+            if gap[1] - gap[0] <= ROUNDING {
                 continue;
             }
             let rings = Spacer::filling(diameter, gap[1] - gap[0]);

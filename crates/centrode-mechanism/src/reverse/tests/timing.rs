@@ -3,6 +3,7 @@ use std::sync::Arc;
 
 use proptest::prelude::{any, prop_assert, prop_assume, proptest};
 
+use super::assert_keyed;
 use crate::composed::{Composed, ComposedDesign, ComposedFigure};
 use crate::design::DesignSpec as _;
 use crate::reverse::{
