@@ -16,6 +16,7 @@ table! {
     ///     shaft_fit: Tolerance class of the shaft in the bore, ISO 286, for the drawing.
     ///     keyway_fit: Tolerance class of the keyway's width, ISO 286, for the drawing.
     ///     heat_treatment: For the drawing.
+    ///     shaft_heat_treatment: Of the shaft in the bore, for the drawing.
     ///     accuracy: Accuracy class of the teeth, for the drawing.
     ///     keyway_angle: Direction of the keyway from the body's x axis, rad.
     ///
@@ -43,6 +44,8 @@ table! {
         keyway_fit: String,
         /// Heat treatment, for the drawing.
         heat_treatment: String,
+        /// Heat treatment of the shaft in the bore, for the drawing.
+        shaft_heat_treatment: String,
         /// Accuracy class of the teeth, for the drawing.
         accuracy: String,
         /// Direction of the keyway from the body's x axis, rad.

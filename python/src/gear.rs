@@ -140,8 +140,8 @@ impl Gear {
         Ok(record::over_pins(py, &over)?)
     }
 
-    /// Pins in teeth of the greatest and of the least thickness that `thickness_deviations` of the pair allow; None where it
-    /// has none.
+    /// Pins in teeth of the greatest and of the least thickness that `thickness_deviations` of the pair, or DIN 3967 for its
+    /// accuracy class, allow; None where neither has any.
     ///
     /// >>> import centrode as ct
     /// >>> pitch = ct.pitch.circle(module=2, tooth_count=24)

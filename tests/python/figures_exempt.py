@@ -85,6 +85,7 @@ EXEMPT = {
     "docs/how-to/shop.md": {
         INPUT: (r"release 12", r"than 0\.01", r"of 1/"),
         FORMULA: (r"a - j / \(2 sin .\)",),
+        RUST: (r"18 \+ the accuracy class: 26h for class 8",),
     },
     "docs/how-to/simulation.md": {
         "a size of PyBullet": (r"margin of 1 mm",),

@@ -9,6 +9,8 @@ pub(crate) struct LoadedKey<'a> {
     pub(crate) key: Key,
     /// Keyway of the hub.
     pub(crate) hub: Keyway,
+    /// Face width of the hub, mm.
+    pub(crate) face: f64,
     /// Diameter of the shaft, mm.
     pub(crate) diameter: f64,
     /// Materials of shaft and hub; one of which the design says nothing is left out.
@@ -22,7 +24,7 @@ pub(crate) struct LoadedKey<'a> {
 impl LoadedKey<'_> {
     /// Greatest pressure on its sides, N/mm²; DIN 6892, method C.
     pub(crate) fn pressure(&self) -> f64 {
-        let long = self.key.bearing_length();
+        let long = self.key.bearing_length().min(self.face);
         self.hub.pressure(self.torque.value, self.diameter, long)
     }
 

@@ -1,5 +1,8 @@
 use crate::figure::{FigureGroup, row};
-use crate::unit::Unit::{Angle, Count, MetrePerSecondSquared, NewtonMillimetre, TurnsPerMinute};
+use crate::unit::Unit::{
+    Angle, Count, MetrePerSecondSquared, NewtonMillimetre, NewtonPerSquareMillimetre,
+    TurnsPerMinute,
+};
 
 /// Figures of a composed machine, in the order in which they are shown.
 #[rustfmt::skip]
@@ -16,5 +19,6 @@ pub(super) const FIGURES: &[FigureGroup] = &[FigureGroup {
         row("least torque of the input", &["input_torque_min"], NewtonMillimetre),
         row("greatest torque of the input", &["input_torque_max"], NewtonMillimetre),
         row("mean torque of the input", &["input_torque_mean"], NewtonMillimetre),
+        row("greatest pressure on a key", &["key_pressure_max"], NewtonPerSquareMillimetre),
     ],
 }];

@@ -4,7 +4,7 @@ use centrode_geometry::{Antiderivative, Extreme, greatest_of, rounding};
 use centrode_mechanism::composed::{Composed, ComposedFigure};
 use centrode_mechanism::machine::{JointKind, Machine};
 
-use super::ends;
+use super::{ends, keys};
 use crate::forces::{Balance, Forces, ForcesError};
 use crate::{Finding, Place, Report, Severity, Table, Unit};
 
@@ -53,22 +53,16 @@ impl Loaded {
             .unwrap_or(f64::NAN)
     }
 
-    /// The greatest of each of several figures, each times a factor; minus infinity for one that is not determined.
-    fn greatest(&self, figures: &[(ComposedFigure, f64)]) -> Vec<Extreme> {
-        let all = |input: f64, values: &mut Vec<f64>| {
-            let forces = self.at(input);
-            let value = |figure| part(forces.as_ref()?, figure);
-            let figures = figures.iter();
-            values.extend(figures.map(|(of, factor)| factor * value(of).unwrap_or(f64::NAN)));
-        };
-        let one = |k: usize, input: f64| {
-            let (figure, factor) = &figures[k];
-            factor * self.value(figure, input)
+    /// The greatest of each of several values of the forces at an input; minus infinity for one that is not determined.
+    fn greatest(&self, count: usize, of: impl Fn(&Forces, f64) -> Vec<f64> + Sync) -> Vec<Extreme> {
+        let found = |input: f64| match self.at(input) {
+            Some(forces) => of(&forces, input),
+            None => vec![f64::NAN; count],
         };
         greatest_of(
-            figures.len(),
-            all,
-            one,
+            count,
+            |input: f64, values: &mut Vec<f64>| values.extend(found(input)),
+            |k: usize, input: f64| found(input)[k],
             |_, value| rounding(value),
             &self.ends,
         )
@@ -89,8 +83,13 @@ pub(super) fn part(forces: &Forces, figure: &ComposedFigure) -> Option<f64> {
     }
 }
 
-/// Torque of the input, and the greatest force of every joint, pin and mesh.
-pub(super) fn forces(loaded: &Result<Loaded, ForcesError>, machine: &Machine, report: &mut Report) {
+/// Torque of the input, the greatest force of every joint, pin and mesh, and the pressure on the keys of shafts.
+pub(super) fn forces(
+    loaded: &Result<Loaded, ForcesError>,
+    composed: &Composed,
+    machine: &Machine,
+    report: &mut Report,
+) {
     let loaded = match loaded {
         Ok(loaded) => loaded,
         Err(error) => return undetermined(error, report),
@@ -113,9 +112,16 @@ pub(super) fn forces(loaded: &Result<Loaded, ForcesError>, machine: &Machine, re
     let joints = rows.len();
     let meshes = machine.meshes.iter().enumerate();
     rows.extend(meshes.map(|(index, mesh)| (pair(mesh.links), ComposedFigure::MeshForce(index))));
-    let greatest = rows.iter().map(|(_, figure)| (*figure, 1.0));
-    let torques = [-1.0, 1.0].map(|factor| (ComposedFigure::InputTorque, factor));
-    let found = loaded.greatest(&greatest.chain(torques).collect::<Vec<_>>());
+    let keys = keys::under_load(composed);
+    let found = loaded.greatest(rows.len() + 2 + keys.len(), |forces, input| {
+        let figures = rows.iter().map(|(_, figure)| part(forces, figure));
+        let torque = forces.input_torque;
+        let keys = keys
+            .iter()
+            .map(|key| Some(key.torque(composed, forces, input)));
+        let all = figures.chain([Some(-torque), Some(torque)]).chain(keys);
+        all.map(|value| value.unwrap_or(f64::NAN)).collect()
+    });
     let (low, high) = (-found[rows.len()].value, found[rows.len() + 1].value);
     let torque = |input: f64| loaded.value(&ComposedFigure::InputTorque, input);
     // The rounding of the torque, that of the moments of all forces, need not be followed.
@@ -133,6 +139,7 @@ pub(super) fn forces(loaded: &Result<Loaded, ForcesError>, machine: &Machine, re
     values.insert("input_torque_min", low);
     values.insert("input_torque_max", high);
     values.insert("input_torque_mean", mean);
+    keys::check(composed, &keys, &found[rows.len() + 2..], report);
     let row = |((name, _), extreme): (&(String, ComposedFigure), &Extreme)| {
         (extreme.value >= 0.0).then(|| (name.clone(), vec![extreme.value]))
     };

@@ -7,6 +7,7 @@ mod figures;
 mod forces;
 mod goals;
 mod joints;
+mod keys;
 mod motion;
 mod pairs;
 mod sound_teeth;
@@ -100,7 +101,7 @@ fn checked(made: &Made<'_>, motion: Motion, depth: Depth) -> Report {
     points(composed, motion, &mut report);
     if is_whole {
         if let (Some(machine), Some(loaded)) = (made.machine(), made.loaded()) {
-            forces::forces(loaded, machine, &mut report);
+            forces::forces(loaded, composed, machine, &mut report);
         }
         pairs::pairs(made, &mut report);
         collisions::collisions(made, &ends(composed), &mut report);

@@ -184,28 +184,25 @@ fn keys(feeder: &Feeder, [still, moving]: [&[Extreme]; 2], report: &mut Report) 
         return;
     };
     let (gear, plate) = (&*body.material, &*plates.material);
-    let (square, round) = (
-        Key::square(hub, plates.thickness),
-        Key::round(hub, body.width),
-    );
-    for (part, figure, key, torque, material) in [
-        ("crank", None, square, 0, plate),
+    let [thin, wide] = [plates.thickness, body.width];
+    for (part, figure, face, torque, material) in [
+        ("crank", None, thin, 0, plate),
         (
             "gear-driven",
             Some("gear_driven_key_pressure_max"),
-            round,
+            wide,
             0,
             gear,
         ),
         (
             "gear-driver",
             Some("gear_driver_key_pressure_max"),
-            round,
+            wide,
             1,
             gear,
         ),
     ] {
-        let Some(key) = key else {
+        let Some(key) = Key::fitting(hub, face) else {
             continue;
         };
         let torque = match still[torque].value > moving[torque].value {
@@ -215,6 +212,7 @@ fn keys(feeder: &Feeder, [still, moving]: [&[Extreme]; 2], report: &mut Report) 
         let loaded = LoadedKey {
             key,
             hub,
+            face,
             diameter: body.bore,
             materials: &[gear, material],
             torque,

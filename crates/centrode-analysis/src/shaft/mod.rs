@@ -297,6 +297,7 @@ fn key(shaft: &SpiralShaft, torque: Extreme, report: &mut Report) {
     let loaded = LoadedKey {
         key,
         hub,
+        face: body.keyway_length,
         diameter: body.journal_diameter,
         materials: &[&body.material],
         torque,

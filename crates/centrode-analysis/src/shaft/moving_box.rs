@@ -105,13 +105,14 @@ fn keys(machine: &MovingBox, drive: &EllipticDrive, report: &mut Report) {
     ] {
         let key = body
             .keyway
-            .and_then(|hub| Some((hub, Key::round(hub, body.width)?)));
+            .and_then(|hub| Some((hub, Key::fitting(hub, body.width)?)));
         let Some((hub, key)) = key else {
             continue;
         };
         let loaded = LoadedKey {
             key,
             hub,
+            face: body.width,
             diameter: body.bore,
             materials: match part {
                 "driven" => &[&body.material, &shaft.body().material],

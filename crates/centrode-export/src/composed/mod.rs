@@ -27,7 +27,7 @@ const POINTS: u32 = 360;
 pub fn machine(composed: &Composed) -> Result<Machine, ExportError> {
     let made = composed.machine();
     let mut made = made.map_err(ExportError::no_solid(&composed.design().name))?;
-    turned::size(&composed.turned(), &mut made);
+    turned::size(composed.turned(), &mut made);
     Ok(made)
 }
 

@@ -30,7 +30,7 @@ pub(super) fn add(
             plate.add(package, drawing)?;
         }
     }
-    turned::add(&composed.turned(), package, drawing)?;
+    turned::add(composed.turned(), package, drawing)?;
     for gear in composed.gears().iter().filter(|gear| !is_copy(&gear.name)) {
         let label = Label {
             name: &gear.name,
@@ -92,6 +92,7 @@ fn plate(composed: &Composed, machine: &Machine, body: usize, quantity: usize) -
         thickness: composed.thickness(body),
         material: spec.material.clone(),
         density: spec.density,
+        heat_treatment: Some(spec.heat_treatment.clone()),
         notes: std::iter::once(axes).chain(slides).collect(),
         tables: Vec::new(),
         exactness: None,

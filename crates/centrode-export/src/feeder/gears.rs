@@ -52,9 +52,9 @@ pub(super) fn parts(feeder: &Feeder, gears: &IntermittentPair, tolerance: Tolera
     let members = [Member::Driver, Member::Driven];
     for ((part, member), teeth) in all.iter_mut().zip(members).zip(teeth) {
         let spec = &feeder.design().gears;
+        let limits = pair.thickness_deviations(member);
         let over = |thinner: f64| pins(gears, member, 0.5 * spec.entry, thinner);
-        let limits = spec.thickness_deviations;
-        let limits = limits.map(|deviations| deviations.map(|deviation| over(-deviation)));
+        let limits = limits.map(|told| told.limits.map(|deviation| over(-deviation)));
         let pins = over(0.0);
         part.exactness = tooth_runout(pair, member).map(Exactness::Teeth);
         let measured = (0..)
@@ -68,6 +68,7 @@ pub(super) fn parts(feeder: &Feeder, gears: &IntermittentPair, tolerance: Tolera
             let below = at.coords.norm() - 2.0 * pair.module();
             part.marks.push(Point::from(at.coords.normalize() * below));
         }
+        part.heat_treatment = None;
         part.tables = vec![
             data(feeder, gears, member, &teeth),
             over_pins(&pins, limits.as_ref()),

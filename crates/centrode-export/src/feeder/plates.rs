@@ -61,6 +61,7 @@ pub(super) fn made(feeder: &Feeder, plate: &Plate) -> plate::Plate {
         thickness: plate.thickness,
         material: spec.material.clone(),
         density: spec.density,
+        heat_treatment: Some(spec.heat_treatment.clone()),
         notes: vec![note],
         tables: Vec::new(),
         exactness: None,

@@ -5,9 +5,6 @@ use centrode_mechanism::machine::Datum;
 
 use crate::sheet::number;
 
-/// Flank tolerance class where the design names none.
-const USUAL: &str = "8";
-
 /// Sizes that the tolerances of a gear depend on, mm.
 #[derive(Clone, Copy, Debug)]
 struct Gauge {
@@ -65,7 +62,7 @@ impl Gauge {
 /// Gear of a flank tolerance class, by the diameter of its equivalent circle; none of another system.
 fn gauges(pair: &GearPair, member: Member) -> Option<[Gauge; 2]> {
     let (gear, module) = (pair.gear(member), pair.module());
-    let class = class(pair, member).trim().parse().ok()?;
+    let class = class(pair, member).parse().ok()?;
     let bend = CurvatureRange::new(pair.rolling(), member).greatest.1;
     let diameters = [2.0 / bend, module * f64::from(gear.tooth_count())];
     Some(diameters.map(|diameter| Gauge {
@@ -76,10 +73,7 @@ fn gauges(pair: &GearPair, member: Member) -> Option<[Gauge; 2]> {
 }
 
 fn class(pair: &GearPair, member: Member) -> &str {
-    match pair.gear(member).body().accuracy.as_str() {
-        "" => USUAL,
-        written => written,
-    }
+    pair.gear(member).body().accuracy_class()
 }
 
 /// Runout of the teeth of a gear to its bore, as measured over pins, mm; none beyond the standard.

@@ -96,7 +96,7 @@ pub(crate) fn list(
 
 /// Lists the keys of a body, one for each of the links, where a standard one fits its keyway.
 pub(crate) fn list_keys(machine: &mut Machine, body: &BodySpec, links: Vec<usize>) {
-    let key = body.keyway.and_then(|hub| Key::round(hub, body.width));
+    let key = body.keyway.and_then(|hub| Key::fitting(hub, body.width));
     if let Some(key) = key {
         machine.part(Part {
             material: KEY.into(),
@@ -184,11 +184,13 @@ pub(crate) fn of_both(pair: &GearPair) -> Vec<Datum> {
 pub(crate) fn by_thickness(pair: &GearPair, backlash: f64) -> Vec<Datum> {
     let (a, mut data) = (pair.center_distance(), Vec::new());
     let (sin, cos) = pair.teeth().tool.pressure_angle.sin_cos();
-    // Both gears are thinner, each by one deviation.
-    let written = pair.design().teeth.thickness_deviations;
-    let backlash = written
-        .unwrap_or_default()
-        .map(|deviation| backlash - 2.0 * deviation * cos);
+    let told = [Member::Driver, Member::Driven].map(|member| pair.thickness_deviations(member));
+    // Both gears are thinner, each by its own deviation.
+    let thinner = |end: usize| {
+        let of_both = told.iter().flatten().map(|told| told.limits[end]);
+        backlash - of_both.sum::<f64>() * cos
+    };
+    let backlash = [thinner(0), thinner(1)];
     // Nowhere takes a shorter distance more backlash than twice its share across a flank where the pitch curves are square to
     // the line of centres.
     let shorter = backlash[0] / (2.0 * sin);
@@ -200,16 +202,10 @@ pub(crate) fn by_thickness(pair: &GearPair, backlash: f64) -> Vec<Datum> {
             within,
         ));
     }
-    let Some(deviations) = written else {
+    if told == [None; 2] {
         return data;
-    };
-    let [upper, lower] = deviations.map(|deviation| number(deviation, 4));
+    }
     data.extend([
-        Datum::new(
-            "Tooth thickness, deviations",
-            "Es",
-            format!("{upper} / {lower}"),
-        ),
         Datum::new("Backlash by thickness, normal", "jn", range(backlash, 4)),
         Datum::new(
             "Centre distance, least by backlash",

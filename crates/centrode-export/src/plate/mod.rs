@@ -39,6 +39,8 @@ pub(crate) struct Plate {
     pub(crate) material: String,
     /// kg/m^3.
     pub(crate) density: f64,
+    /// Heat treatment, empty for none; `None` where a table of the sheet tells it.
+    pub(crate) heat_treatment: Option<String>,
     /// Further notes of its sheet.
     pub(crate) notes: Vec<String>,
     /// Tables of its sheet.
@@ -82,6 +84,7 @@ impl Plate {
             thickness: body.width,
             material: body.material.clone(),
             density: body.density,
+            heat_treatment: Some(body.heat_treatment.clone()),
             notes: Vec::new(),
             tables: Vec::new(),
             exactness: None,
@@ -110,6 +113,7 @@ impl Plate {
             thickness: screws.between(),
             material: material.into(),
             density,
+            heat_treatment: Some(String::new()),
             notes: vec!["Those of one machine are of one length within 0.02 mm.".into()],
             tables: Vec::new(),
             exactness: None,

@@ -7,7 +7,7 @@ use crate::drawing::{Anchor, EntityShape};
 use crate::sheet::geometrical::{Characteristic, NoteLine};
 use crate::sheet::{
     Draft, Pen, Scale, Sheet, SheetBlock, SheetError, Table, TitleBlock, compose, fixed, lettering,
-    number, steady, view_letters,
+    number, steady, treatment_note, view_letters,
 };
 
 /// Most holes with their size and place beside the view; more have a table.
@@ -83,6 +83,7 @@ impl Plate {
             lines.push("Places of holes with a position tolerance are exact.".into());
         }
         lines.extend(self.notes.iter().cloned());
+        lines.extend(self.heat_treatment.as_deref().map(treatment_note));
         lines
     }
 

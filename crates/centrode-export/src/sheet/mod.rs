@@ -16,6 +16,7 @@ mod projection;
 mod scale;
 mod table;
 mod title_block;
+mod treatment;
 
 use crate::drawing::Drawing;
 use centrode_geometry::{Bounds, Vector};
@@ -34,6 +35,7 @@ pub use table::Table;
 pub(crate) use table::broken;
 use thiserror::Error;
 pub use title_block::TitleBlock;
+pub(crate) use treatment::{treatment, treatment_note};
 
 /// Distance of everything from the frame, mm: room for the centring marks.
 const INSET: f64 = 7.0;

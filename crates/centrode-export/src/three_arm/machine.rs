@@ -145,6 +145,7 @@ impl<'a> Machine<'a> {
             thickness: top - bottom,
             material: material.into(),
             density,
+            heat_treatment: Some(String::new()),
             notes: Vec::new(),
             tables: Vec::new(),
             exactness: None,
@@ -287,7 +288,8 @@ impl<'a> Machine<'a> {
             }
             ThreeArmPart::Fork => {
                 let (outline, holes) = self.fork.clone();
-                let plate = self.plate(part, outline, holes, self.pusher.fork_span(), STEEL);
+                let mut plate = self.plate(part, outline, holes, self.pusher.fork_span(), STEEL);
+                plate.heat_treatment = Some(self.pusher.fork_spec().heat_treatment.clone());
                 Some(plate.noted("x points from the pivot's hole to the roller's."))
             }
             ThreeArmPart::Roller => {
@@ -297,6 +299,7 @@ impl<'a> Machine<'a> {
                 let span = self.pusher.cam_span();
                 let mut roller = self.plate(part, circle(spec.roller_radius), holes, span, STEEL);
                 roller.classes[0] = making::RIM.into();
+                roller.heat_treatment = Some(spec.heat_treatment.clone());
                 Some(roller)
             }
             ThreeArmPart::Spacer => {

@@ -8,9 +8,11 @@ use std::ops::Deref;
 
 use centrode_geometry::{Outline, Point};
 use centrode_mechanism::design::DrawingSpec;
-use centrode_mechanism::machine::{Machine, TurnedPart, TurnedPieces};
+use centrode_mechanism::gear::design::BodySpec;
+use centrode_mechanism::machine::{Machine, Spacer, TurnedPart, TurnedPieces};
 
 use crate::drawing::{CENTER, Drawing, EntityShape, PROFILE};
+use crate::plate::Plate;
 use crate::sheet::fit;
 use crate::{ExportError, Package};
 pub(crate) use across::{across, cutting_plane};
@@ -66,7 +68,41 @@ pub(crate) fn add(
             body()?.mesh(tolerance).map_err(ExportError::no_solid(name))
         })?;
     }
+    for sleeve in sleeves(all) {
+        sleeve.add(package, spec)?;
+    }
     Ok(())
+}
+
+/// The sleeves on turned parts, each once.
+fn sleeves(all: &[TurnedPieces]) -> Vec<Plate> {
+    let mut found: Vec<Plate> = Vec::new();
+    for pieces in all {
+        for (spacer, _) in &pieces.spacers {
+            let Some(file) = spacer.file() else { continue };
+            let quantity = pieces.pieces.len();
+            if let Some(known) = found.iter_mut().find(|known| known.name == file) {
+                known.quantity += quantity;
+                continue;
+            }
+            let circle = |diameter: f64| Outline::circle(Point::origin(), 0.5 * diameter);
+            let body = BodySpec {
+                width: spacer.length,
+                bore: spacer.inner,
+                bore_fit: Spacer::BORE.into(),
+                material: pieces.part.material.clone(),
+                density: pieces.part.density,
+                ..BodySpec::default()
+            };
+            let bore = Some(circle(spacer.inner));
+            let names = [&*file, &*spacer.name()];
+            found.push(Plate {
+                quantity,
+                ..Plate::of_body(names, circle(spacer.outer), bore, &body)
+            });
+        }
+    }
+    found
 }
 
 /// A turned part as it is drawn, its axis along x.

@@ -9,7 +9,7 @@ use crate::drawing::EntityShape;
 use crate::sheet::geometrical::{Frame, NoteLine};
 use crate::sheet::{
     Corner, Draft, Pen, Scale, Sheet, SheetBlock, SheetError, TitleBlock, compose, fit, mass,
-    number, steady, view_letters,
+    number, steady, treatment_note, view_letters,
 };
 
 /// Letter of the section; datums have the first two.
@@ -48,6 +48,7 @@ impl Drawn<'_> {
             lines.push(format!("Centre holes at both ends: {centre}."));
         }
         lines.extend(self.notes.iter().cloned());
+        lines.push(treatment_note(&self.heat_treatment));
         let keyed = self
             .steps
             .iter()

@@ -16,6 +16,7 @@ fn a_silhouette_has_the_area_of_its_steps() {
         chamfer: 0.3,
         material: "steel".into(),
         density: 7850.0,
+        heat_treatment: String::new(),
         notes: Vec::new(),
     };
     let whole: f64 = steps

@@ -24,7 +24,7 @@ impl Composed {
         self.list(&mut machine, &pieces);
         self.tell_fits(&mut machine);
         for pieces in self.turned() {
-            machine.add_turned(&pieces, String::new());
+            machine.add_turned(pieces, String::new());
         }
         self.list_brackets(&mut machine);
         machine.arrangement.drawing = self.design.drawing.clone();

@@ -42,6 +42,7 @@ mod reversed;
 mod seating;
 mod shaft_parts;
 mod shafts;
+mod spacing;
 #[cfg(test)]
 mod tests;
 mod touching;
@@ -84,7 +85,7 @@ use self::gearing::Meshing;
 use self::load::ComposedLoad;
 use self::points::BodyPoints;
 use crate::linkage::{Line, LinkId, Linkage};
-use crate::machine::JointKind;
+use crate::machine::{JointKind, TurnedPieces};
 use crate::transmission::{MotionJet, Transmission};
 
 /// A composed machine: its bodies in the order in which they need each other, and their motion.
@@ -108,6 +109,7 @@ pub struct Composed {
     loads: Vec<ComposedLoad>,
     obstacles: Vec<ComposedObstacle>,
     shafts: OnceLock<Vec<ComposedShaft>>,
+    turned: OnceLock<Vec<TurnedPieces>>,
 }
 
 /// A body of a composed machine.
@@ -338,8 +340,7 @@ impl Composed {
         self.linkage.place(self.bodies[body].link, at, input)
     }
 
-    /// Places of points of bodies at each of many inputs, mm: all at the first input, then at the second and so on; see
-    /// [`Linkage::places_each`].
+    /// Places of points of bodies at each of many inputs, mm, input by input; see [`Linkage::places_each`].
     ///
     /// # Panics
     /// Never for indices of bodies.

@@ -4,7 +4,7 @@ use centrode_geometry::Point;
 
 use super::{Composed, ShaftPart};
 use crate::digits::thousandths;
-use crate::machine::{Bar, Fit, TurnedPiece, TurnedPieces};
+use crate::machine::{Bar, Fit, Spacer, TurnedPiece, TurnedPieces};
 
 /// Shares of the period at which plates on one pin have their holes on one axis.
 const SHARES: [f64; 4] = [0.0, 0.137, 0.411, 0.732];
@@ -49,13 +49,15 @@ impl Axis {
 impl Composed {
     /// Shafts, and the pins in the plates that have none.
     #[must_use]
-    pub fn turned(&self) -> Vec<TurnedPieces> {
-        let mut all = self.turned_shafts();
-        all.extend(self.pins_in_plates());
-        all
+    pub fn turned(&self) -> &[TurnedPieces] {
+        self.turned.get_or_init(|| {
+            let mut all = self.turned_shafts();
+            all.extend(self.pins_in_plates());
+            all
+        })
     }
 
-    /// The pins in the plates, those of one length together, the shortest first; each belongs to the body nearest to the frame.
+    /// The pins in the plates, those of one length with the same spacers together, the shortest first; each belongs to the body nearest to the frame.
     #[must_use]
     pub fn pins_in_plates(&self) -> Vec<TurnedPieces> {
         let spec = &self.design.plates;
@@ -67,10 +69,20 @@ impl Composed {
         // A single plate turns on a pin of what is around the machine.
         let is_pin = |axis: &Axis| axis.holes.len() > 1 && !self.has_shaft(axis);
         for axis in axes.into_iter().filter(is_pin) {
-            let bar = Bar::new(spec.pin_diameter, &spec.pin_fit, [0.0, axis.length()]);
-            let bar = bar.held([spec.gap; 2]).through(&axis.parts());
-            let bottom = axis.span[0] + bar.bottom();
             let own = axis.holes.iter().min_by_key(|(body, _)| *body);
+            let spacers = own.map(|own| self.spacers(*own, spec.pin_diameter, &axis.plates));
+            let spacers = spacers.unwrap_or_default();
+            let raised = |(spacer, at): &(Spacer, f64)| {
+                let low = at - axis.span[0];
+                [low, low + spacer.length]
+            };
+            let rings: Vec<[f64; 2]> = spacers.iter().map(raised).collect();
+            let bar = Bar::new(spec.pin_diameter, &spec.pin_fit, [0.0, axis.length()]);
+            let bar = bar
+                .held([spec.gap; 2])
+                .through(&axis.parts())
+                .through(&rings);
+            let bottom = axis.span[0] + bar.bottom();
             let piece = own.map(|&(body, at)| {
                 let name = &self.bodies[body].name;
                 let spec = self.design.bodies.get(name);
@@ -79,17 +91,24 @@ impl Composed {
                     ..TurnedPiece::upright(name, [at.x, at.y, bottom])
                 }
             });
-            let known = found.last_mut();
-            match known.filter(|(long, _)| axis.length() - *long < ONE * spec.pin_diameter) {
+            let above = |(spacer, at): (Spacer, f64)| (spacer, at - bottom);
+            let spacers: Vec<(Spacer, f64)> = spacers.into_iter().map(above).collect();
+            let known = found.iter_mut().find(|(long, pins)| {
+                axis.length() - *long < ONE * spec.pin_diameter
+                    && are_alike(&pins.spacers, &spacers)
+            });
+            match known {
                 Some((_, pins)) => pins.pieces.extend(piece),
                 None => {
                     let title = format!("Pin through {} mm", thousandths(axis.length()));
                     let material = (&*spec.material, spec.density);
                     let mut part = bar.part(["pin", &title], material, general);
+                    part.heat_treatment.clone_from(&spec.pin_heat_treatment);
                     let role = if bar.is_held() { "" } else { "without rings" };
                     part.notes.extend((!bar.is_held()).then(|| BONDED.into()));
                     let pins = TurnedPieces {
                         role: role.into(),
+                        spacers,
                         pieces: piece.into_iter().collect(),
                         ..TurnedPieces::new(part, fit.clone())
                     };
@@ -147,4 +166,14 @@ impl Composed {
         }
         axes
     }
+}
+
+/// Whether spacers of two pins are the same at the same heights.
+fn are_alike(one: &[(Spacer, f64)], other: &[(Spacer, f64)]) -> bool {
+    let mut both = one.iter().zip(other);
+    let same = |((a, low), (b, high)): (&(Spacer, f64), &(Spacer, f64))| {
+        let off = (a.length - b.length).abs().max((low - high).abs());
+        a.is_shim == b.is_shim && off < ONE
+    };
+    one.len() == other.len() && both.all(same)
 }

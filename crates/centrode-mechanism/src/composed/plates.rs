@@ -46,6 +46,12 @@ pub struct ComposedPlatesSpec {
     pub pin_fit: String,
     /// Material, for the drawing.
     pub material: String,
+    /// Heat treatment of the plates, for the drawing; left empty, none.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub heat_treatment: String,
+    /// Heat treatment of the pins and of shafts without a gear, for the drawing; left empty, none.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub pin_heat_treatment: String,
     /// Density, kg/m^3.
     pub density: f64,
 }
@@ -60,6 +66,8 @@ impl Default for ComposedPlatesSpec {
             hole_fit: "H8".into(),
             pin_fit: "f7".into(),
             material: "steel".into(),
+            heat_treatment: String::new(),
+            pin_heat_treatment: String::new(),
             density: 7850.0,
         }
     }
@@ -78,6 +86,8 @@ impl ComposedPlatesSpec {
         hole_class("hole_fit", &self.hole_fit)?;
         shaft_class("pin_fit", &self.pin_fit)?;
         single_line("material", &self.material)?;
+        single_line("heat_treatment", &self.heat_treatment)?;
+        single_line("pin_heat_treatment", &self.pin_heat_treatment)?;
         let most = PIN * self.width;
         in_range("pin_diameter", self.pin_diameter, [0.0, most], " mm")
     }

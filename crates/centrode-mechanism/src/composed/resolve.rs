@@ -152,6 +152,7 @@ impl<'a> Builder<'a> {
             loads: Vec::new(),
             obstacles: Vec::new(),
             shafts: OnceLock::new(),
+            turned: OnceLock::new(),
         }
     }
 

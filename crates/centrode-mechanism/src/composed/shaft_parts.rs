@@ -57,7 +57,9 @@ impl Composed {
             .ring(low, false, beyond(is_lowest))
             .ring(high, true, beyond(is_highest));
         let spans: Vec<[f64; 2]> = on_it.iter().map(|part| part.span).collect();
-        bar = bar.through(&spans);
+        let spacers = self.spacers((shaft.body, shaft.at), hub.bore, &spans);
+        let rings = spacers.iter().map(|(ring, at)| [*at, at + ring.length]);
+        bar = bar.through(&spans).through(&rings.collect::<Vec<_>>());
         if end > 0.0 && *class != hub.shaft_fit {
             bar = bar.seat([low - end, low], &hub.shaft_fit);
         }
@@ -68,7 +70,10 @@ impl Composed {
                 let half = 0.5 * key.length.max(span[1] - span[0]);
                 let middle = 0.5 * (span[0] + span[1]);
                 span = [middle - half, middle + half];
-                bar = bar.keyed(hub.keyway, span);
+                bar = match key.has_square_ends {
+                    true => bar.keyed_square(hub.keyway, span),
+                    false => bar.keyed(hub.keyway, span),
+                };
                 keys.push((key, middle - 0.5 * key.length));
             }
             if *class != hub.shaft_fit {
@@ -79,6 +84,7 @@ impl Composed {
         let name = format!("shaft-{}", self.original(&shaft.name));
         let general = &self.design.drawing.general_tolerance;
         let mut part = bar.part([&name, &title], (&hub.material, hub.density), general);
+        part.heat_treatment.clone_from(&hub.shaft_heat_treatment);
         part.notes.extend(notes(&on_it, (end > 0.0, bar.is_held())));
         let owner = &self.bodies[shaft.body].name;
         let given = self.design.bodies.get(owner).map(|body| body.given_mass());
@@ -98,6 +104,10 @@ impl Composed {
                 (_, false) => String::new(),
             },
             keys: keys.into_iter().map(seat).collect(),
+            spacers: spacers
+                .into_iter()
+                .map(|(ring, at)| (ring, at - bar.bottom()))
+                .collect(),
             pieces: vec![piece],
             ..TurnedPieces::new(
                 part,

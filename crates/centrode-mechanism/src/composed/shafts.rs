@@ -5,6 +5,7 @@ use std::f64::consts::TAU;
 use centrode_geometry::Point;
 use nalgebra::Isometry2;
 
+use super::gearing::Meshing;
 use super::pins::Axis;
 use super::{Composed, PinHole};
 use crate::bore;
@@ -187,6 +188,7 @@ impl Composed {
                     bore_fit: plates.hole_fit.clone(),
                     shaft_fit: plates.pin_fit.clone(),
                     material: plates.material.clone(),
+                    shaft_heat_treatment: plates.pin_heat_treatment.clone(),
                     density: plates.density,
                     ..BodySpec::default()
                 };
@@ -227,7 +229,9 @@ impl Composed {
             let is_seat = (wheel.hub.bore - hub.bore).abs() < ROUNDING
                 && wheel.hub.keyway == hub.keyway
                 && (hub.keyway.is_none() || off < ROUNDING);
-            let key = hub.keyway.and_then(|hub| Key::round(hub, wheel.hub.width));
+            let key = hub
+                .keyway
+                .and_then(|hub| Key::fitting(hub, wheel.hub.width));
             let hold = match (with_it(wheel.body), key) {
                 (true, Some(key)) if is_seat => Hold::Keyed(key),
                 (true, None) if is_seat => Hold::Bonded,
@@ -251,6 +255,17 @@ impl Composed {
             at,
             hub,
         })
+    }
+
+    /// Indices of the meshes of a gear among those of its machine, and whether it is the driven one there.
+    #[must_use]
+    pub fn meshes_of(&self, gear: &str) -> Vec<(usize, bool)> {
+        let is_it = |index: usize| self.gears[index].name == gear;
+        let meshes = self.meshes.iter().enumerate();
+        let role = |mesh: &Meshing| mesh.gears.into_iter().position(is_it);
+        meshes
+            .filter_map(|(index, mesh)| Some((index, role(mesh)? == 1)))
+            .collect()
     }
 
     /// The shaft through a body's plate at a place, and how the plate is joined with it.
@@ -307,5 +322,5 @@ impl Composed {
 
 /// Key of a plate: as long as it is thick or, where no standard key is as short, into the gaps beside it.
 fn plate_key(hub: Keyway, thickness: f64, gap: f64) -> Option<Key> {
-    Key::round(hub, thickness).or_else(|| Key::round(hub, thickness + gap))
+    Key::fitting(hub, thickness).or_else(|| Key::fitting(hub, thickness + gap))
 }

@@ -61,13 +61,18 @@ pub struct GearsSpec {
     #[serde(skip_serializing_if = "String::is_empty")]
     #[schemars(extend("x-detail" = true))]
     pub heat_treatment: String,
+    /// Heat treatment of their shafts and of the cams' pins, for the drawing; left empty, none.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    #[schemars(extend("x-detail" = true))]
+    pub shaft_heat_treatment: String,
     /// Accuracy class of the teeth, for the drawing: a flank tolerance class of ISO 1328-1, or one of another system in words;
     /// left empty, 8.
     #[serde(skip_serializing_if = "String::is_empty")]
     #[schemars(extend("x-detail" = true))]
     pub accuracy: String,
     /// Upper and lower deviation of the tooth thickness from the nominal one along the pitch circle, mm, both at most zero: for
-    /// the drawing, which has limits of the measures over pins by them.
+    /// the drawing, which has limits of the measures over pins by them; left out, zero and the tolerance of DIN 3967 for the
+    /// accuracy class.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-detail" = true))]
     pub thickness_deviations: Option<[f64; 2]>,
@@ -91,6 +96,7 @@ impl Default for GearsSpec {
             bore: 16.0,
             keyway: None,
             heat_treatment: String::new(),
+            shaft_heat_treatment: String::new(),
             accuracy: String::new(),
             thickness_deviations: None,
         }
@@ -142,6 +148,7 @@ impl GearsSpec {
             bore: self.bore,
             keyway: self.keyway.or_else(|| Keyway::of_bore(self.bore)),
             heat_treatment: self.heat_treatment.clone(),
+            shaft_heat_treatment: self.shaft_heat_treatment.clone(),
             accuracy: self.accuracy.clone(),
             ..BodySpec::default()
         }

@@ -41,6 +41,12 @@ pub struct PlatesSpec {
     pub slider_fit: String,
     /// Material, for the drawing.
     pub material: String,
+    /// Heat treatment of the plates, for the drawing; left empty, none.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub heat_treatment: String,
+    /// Heat treatment of the pins, for the drawing; left empty, none.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub pin_heat_treatment: String,
     /// Density, kg/m^3.
     pub density: f64,
 }
@@ -62,6 +68,8 @@ impl Default for PlatesSpec {
             slot_fit: "H9".into(),
             slider_fit: "e9".into(),
             material: "steel".into(),
+            heat_treatment: String::new(),
+            pin_heat_treatment: String::new(),
             density: 7850.0,
         }
     }
@@ -107,6 +115,8 @@ impl PlatesSpec {
         shaft_class("pin_fit", &self.pin_fit)?;
         shaft_class("slider_fit", &self.slider_fit)?;
         single_line("material", &self.material)?;
+        single_line("heat_treatment", &self.heat_treatment)?;
+        single_line("pin_heat_treatment", &self.pin_heat_treatment)?;
         Ok(())
     }
 }

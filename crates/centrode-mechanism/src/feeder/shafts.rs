@@ -40,7 +40,8 @@ impl Feeder {
         let at = at.chain(std::iter::repeat([0.0; 3]));
         let pieces = at.take(2 * stops as usize);
         let material = (&*body.material, body.density);
-        let made = bar.part(["pin-cam", "Pin of a cam"], material, "");
+        let mut made = bar.part(["pin-cam", "Pin of a cam"], material, "");
+        made.heat_treatment.clone_from(&body.shaft_heat_treatment);
         self.has_cams().then(|| TurnedPieces {
             role: standard
                 .map_or("", |_| "pressed into the driven gear")
@@ -116,7 +117,8 @@ impl Feeder {
             let bar = bar.through(&parts);
             let at = axis - self.place(link, self.start()).translation.vector;
             let at = [at.x, at.y, bar.bottom()];
-            let part = bar.part(names, (&spec.material, spec.density), general);
+            let mut part = bar.part(names, (&spec.material, spec.density), general);
+            part.heat_treatment.clone_from(&spec.pin_heat_treatment);
             TurnedPieces {
                 pieces: vec![TurnedPiece::upright(link.name(), at)],
                 axis: Some(axis.coords.into()),
@@ -140,9 +142,9 @@ impl Feeder {
         let crank = Bar::new(body.bore, &body.shaft_fit, [middle, plates.thickness]);
         let crank = crank.ring(middle, false, free);
         // Half round ends of keyways end with the keys, which stand in the middle of their hubs.
-        let round = |keyway| Key::round(keyway, body.width);
-        let round = body.keyway.and_then(round);
-        let beyond = round.map_or(0.0, |key| 0.5 * (body.width - key.length));
+        let key_of_hub = |keyway| Key::fitting(keyway, body.width);
+        let key_of_hub = body.keyway.and_then(key_of_hub);
+        let beyond = key_of_hub.map_or(0.0, |key| 0.5 * (body.width - key.length));
         let crank = keyed(crank, [f64::NEG_INFINITY, hub(middle)[1] - beyond]);
         // A key with square ends leaves its whole seat to the straight part of the keyway.
         let before = 0.5 * body.keyway.map_or(0.0, |keyway| keyway.width);
@@ -175,9 +177,12 @@ impl Feeder {
         let mut of_crank = crank.part(["shaft-a", "Shaft A"], material, general);
         of_crank.notes =
             vec!["The crank is pressed on its seat and key, flush with the end.".into()];
-        let on_shaft = |part: TurnedPart, bar: &Bar, link: &str| TurnedPieces {
-            pieces: vec![TurnedPiece::upright(link, [0.0, 0.0, bar.bottom()])],
-            ..TurnedPieces::new(part, fit.clone())
+        let on_shaft = |mut part: TurnedPart, bar: &Bar, link: &str| {
+            part.heat_treatment.clone_from(&body.shaft_heat_treatment);
+            TurnedPieces {
+                pieces: vec![TurnedPiece::upright(link, [0.0, 0.0, bar.bottom()])],
+                ..TurnedPieces::new(part, fit.clone())
+            }
         };
         // In the middle of its hub.
         let seated = |key: Key, [low, high]: [f64; 2], bar: &Bar| SeatedKey {
@@ -185,7 +190,7 @@ impl Feeder {
             at: 0.5 * (low + high - key.length) - bar.bottom(),
         };
         let key = |bottom: f64, bar: &Bar| {
-            let key = Key::round(body.keyway?, body.width)?;
+            let key = Key::fitting(body.keyway?, body.width)?;
             Some(seated(key, hub(bottom), bar))
         };
         let square = || {

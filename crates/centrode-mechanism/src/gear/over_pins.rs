@@ -5,6 +5,7 @@ use centrode_geometry::{Point, bracketed_minimum};
 use super::{
     pair::{Gear, GearPair, GearPairError},
     rolling::Member,
+    thickness::ThicknessDeviations,
 };
 
 /// Measuring pins laid into every space of a gear, by which a workshop checks tooth thickness.
@@ -73,20 +74,24 @@ impl OverPins {
 }
 
 impl GearPair {
-    /// Pins of a member's usual diameter in teeth of the greatest and the least thickness that the design allows: the
-    /// teeth are cut anew with each. `None` where it tells no deviations.
+    /// Pins of a member's usual diameter in teeth of the greatest and the least thickness that [`Self::thickness_deviations`]
+    /// allow: the teeth are cut anew with each. `None` without deviations.
     ///
     /// # Errors
     /// [`GearPairError`] where a deviation leaves too little of a tooth.
     pub fn pin_limits(&self, member: Member) -> Result<Option<[OverPins; 2]>, GearPairError> {
-        let Some([upper, lower]) = self.design().teeth.thickness_deviations else {
+        let Some(ThicknessDeviations { limits, .. }) = self.thickness_deviations(member) else {
             return Ok(None);
         };
         let diameter = self.pin_diameter(member);
         let over = |deviation: f64| {
+            if deviation == 0.0 {
+                return Ok(self.gear(member).over_pins(diameter));
+            }
             let pair = self.thinned(-deviation);
             pair.map(|pair| pair.gear(member).over_pins(diameter))
         };
+        let [upper, lower] = limits;
         Ok(Some([over(upper)?, over(lower)?]))
     }
 

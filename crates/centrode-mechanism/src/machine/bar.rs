@@ -84,6 +84,33 @@ impl Bar {
         self
     }
 
+    /// A keyway for a key with square ends, whose whole length between two heights is straight: half round ends lie beyond it, past
+    /// grooves there, or the keyway is open at the bar's end.
+    pub(crate) fn keyed_square(self, hub: Option<Keyway>, [low, high]: [f64; 2]) -> Self {
+        let half = 0.5 * hub.map_or(0.0, |hub| hub.width);
+        let walls = self.walls();
+        let past = walls.iter().fold(low - half, |end, &([a, b], _)| {
+            let is_in_the_way = b > end && a - half < end && a < low;
+            if is_in_the_way { a - half } else { end }
+        });
+        let beyond = walls.iter().rev().fold(high + half, |end, &([a, b], _)| {
+            let is_in_the_way = a < end && b + half > end && b > high;
+            if is_in_the_way { b + half } else { end }
+        });
+        let [first, last] = self.span;
+        let past = if past > first + half {
+            past
+        } else {
+            f64::NEG_INFINITY
+        };
+        let beyond = if beyond < last - half {
+            beyond
+        } else {
+            f64::INFINITY
+        };
+        self.keyed(hub, [past, beyond])
+    }
+
     /// A stretch between two heights in a tolerance class of its own.
     pub(crate) fn seat(mut self, span: [f64; 2], class: &str) -> Self {
         self.seats.push((span, class.into()));
@@ -202,6 +229,7 @@ impl Bar {
             chamfer: preferred_size(chamfer.min(1.0)),
             material: material.into(),
             density,
+            heat_treatment: String::new(),
             notes: Vec::new(),
         }
     }

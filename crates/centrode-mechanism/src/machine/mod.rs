@@ -21,6 +21,7 @@ mod part;
 mod plain;
 mod pose;
 mod sound;
+mod spacer;
 mod standard;
 mod turned;
 
@@ -51,6 +52,7 @@ pub use law::{Constant, Linear, Piecewise};
 pub use load::{Axes, Load, STANDARD_GRAVITY};
 pub use part::{Part, Supply};
 pub use sound::{MachineError, loose_link};
+pub use spacer::Spacer;
 pub use standard::{Bearing, Circlip, Dowel, Key, Screw, allowed_pressure};
 pub use turned::{HeldLength, SeatedKey, TurnedPart, TurnedPiece, TurnedPieces, TurnedStep};
 

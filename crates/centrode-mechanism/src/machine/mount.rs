@@ -1,4 +1,4 @@
-//! Turned parts, their rings, keys and bearings as bodies of the links that they are mounted on.
+//! Turned parts, their rings, keys, bearings and spacers as bodies of the links that they are mounted on.
 
 use std::f64::consts::FRAC_PI_2;
 
@@ -10,10 +10,13 @@ use super::{Blank, Form, Link, Machine, Mounted, Part, Shape, Supply, TurnedPiec
 /// Density of rings, keys and bearings: steel, kg/m^3.
 const STEEL: f64 = 7850.0;
 
-/// A ring, key or bearing on a turned part.
-struct Fastener {
+/// A ring, key, bearing or spacer on a turned part.
+struct Fastener<'a> {
     name: String,
-    material: &'static str,
+    material: &'a str,
+    density: f64,
+    /// Name of the files of one that is made.
+    file: Option<String>,
     solid: Option<Solid>,
     /// Its origin in the part's frame, mm, and its turn there.
     at: [f64; 3],
@@ -21,8 +24,9 @@ struct Fastener {
 }
 
 impl TurnedPieces {
-    /// The rings, keys and bearings on each piece: each ring in the middle of its groove, each key on the floor of the keyway.
-    fn fasteners(&self) -> Vec<Fastener> {
+    /// The rings, keys, bearings and spacers on each piece: each ring in the middle of its groove, each key on the floor of the
+    /// keyway.
+    fn fasteners(&self) -> Vec<Fastener<'_>> {
         let part = &self.part;
         let mut low = 0.0;
         let mut all = Vec::new();
@@ -31,6 +35,8 @@ impl TurnedPieces {
                 all.push(Fastener {
                     name: ring.name(),
                     material: "spring steel",
+                    density: STEEL,
+                    file: None,
                     solid: ring.solid(),
                     at: [0.0, 0.0, low + 0.5 * (step.length - ring.thickness)],
                     turn: [0.0; 3],
@@ -41,6 +47,8 @@ impl TurnedPieces {
         all.extend(self.keys.iter().map(|seated| Fastener {
             name: seated.key.name(),
             material: "steel",
+            density: STEEL,
+            file: None,
             solid: seated.key.solid(),
             at: [part.key_foot(), 0.0, seated.at],
             // Its length along the axis, its height away from it.
@@ -49,7 +57,23 @@ impl TurnedPieces {
         all.extend(self.bearings.iter().map(|(bearing, at)| Fastener {
             name: bearing.name(),
             material: "bearing steel",
+            density: STEEL,
+            file: None,
             solid: bearing.solid(),
+            at: [0.0, 0.0, *at],
+            turn: [0.0; 3],
+        }));
+        // Sleeves are of the material of what they are on.
+        all.extend(self.spacers.iter().map(|(spacer, at)| Fastener {
+            name: spacer.name(),
+            material: if spacer.is_shim {
+                "steel"
+            } else {
+                &part.material
+            },
+            density: if spacer.is_shim { STEEL } else { part.density },
+            file: spacer.file(),
+            solid: spacer.solid(),
             at: [0.0, 0.0, *at],
             turn: [0.0; 3],
         }));
@@ -77,7 +101,7 @@ impl Link {
 
 impl Machine {
     /// Mounts the pieces of a turned part on their links and lists it, under a remark, with the rings, keys and bearings that
-    /// are bought for it; its number points to its rim.
+    /// are bought and the sleeves that are made for it; its number points to its rim.
     pub fn add_turned(&mut self, all: &TurnedPieces, remark: String) {
         let part = &all.part;
         let named = |piece: &TurnedPiece| self.link_named(&piece.link).unwrap_or(0);
@@ -123,16 +147,28 @@ impl Machine {
         self.part(listed);
         for fastener in all.fasteners() {
             let solid = fastener.solid.filter(|_| is_body);
-            let own = solid.as_ref().map(|solid| solid.mass_properties(STEEL));
-            let listed = Part {
+            let own = solid.as_ref();
+            let own = own.map(|solid| solid.mass_properties(fastener.density));
+            let bought = Part {
                 material: fastener.material.into(),
                 mass: own.map(|own| own.mass),
                 ..Part::bought(fastener.name, links.clone())
             };
+            let blank = solid.as_ref();
+            let blank = blank.and_then(|solid| Blank::plate(solid.outline(), solid.top()));
+            let listed = match fastener.file {
+                Some(file) => Part {
+                    supply: Supply::Made,
+                    blank,
+                    file,
+                    ..bought
+                },
+                None => bought,
+            };
             if let Some(solid) = solid {
                 let shape = self.shape(Shape {
-                    name: format!("bought/{}", listed.word()),
-                    part: String::new(),
+                    name: format!("{}/{}", listed.supply.name(), listed.word()),
+                    part: listed.file.clone(),
                     form: Form::Solids(vec![solid]),
                 });
                 for piece in &all.pieces {

@@ -79,10 +79,12 @@ impl Part {
 }
 
 impl Machine {
-    /// Adds a part with its pieces; of a bought one, more pieces to that of its name.
+    /// Adds a part with its pieces; of a bought one, or one made from the sheet of another, more pieces to that of its name.
     pub fn part(&mut self, part: Part) -> usize {
         let alike = |known: &Part| {
-            known.supply == Supply::Bought && part.supply == known.supply && known.name == part.name
+            let same = known.supply == part.supply && known.name == part.name;
+            let shares_files = !part.file.is_empty() && known.file == part.file;
+            same && (known.supply == Supply::Bought || shares_files)
         };
         if let Some(index) = self.parts.iter().position(alike) {
             self.parts[index].links.extend(part.links);

@@ -2,7 +2,7 @@ use centrode_geometry::{MassProperties, SolidError, Turned, TurnedSection, Turne
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Bearing, Circlip, Fit, Key};
+use super::{Bearing, Circlip, Fit, Key, Spacer};
 use crate::gear::design::Keyway;
 
 /// A shaft or pin: a part turned from round bar about its axis z, its lower end at z = 0, with a keyway where it has one.
@@ -27,6 +27,9 @@ pub struct TurnedPart {
     pub material: String,
     /// Density, kg/m^3.
     pub density: f64,
+    /// Heat treatment; left empty, none.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub heat_treatment: String,
     /// Further notes of its sheet.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub notes: Vec<String>,
@@ -74,6 +77,8 @@ pub struct TurnedPieces {
     pub keys: Vec<SeatedKey>,
     /// Bearings on each piece, with the height of their lower face above the part's lower end, mm.
     pub bearings: Vec<(Bearing, f64)>,
+    /// Rings in the gaps between the parts on each piece, with the height of their lower face above the part's lower end, mm.
+    pub spacers: Vec<(Spacer, f64)>,
     /// Where its pieces are.
     pub pieces: Vec<TurnedPiece>,
     /// Its axis in the figure of the first link, mm, where it is seen there.
@@ -239,6 +244,7 @@ impl TurnedPieces {
             standard: None,
             keys: Vec::new(),
             bearings: Vec::new(),
+            spacers: Vec::new(),
             pieces: Vec::new(),
             axis: None,
         }

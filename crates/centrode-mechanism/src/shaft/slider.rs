@@ -30,6 +30,9 @@ pub struct SliderSpec {
     pub pin_fit: String,
     /// Material, for the drawing.
     pub material: String,
+    /// Heat treatment, for the drawing; left empty, none.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub heat_treatment: String,
     /// Density, kg/m^3.
     pub density: f64,
 }
@@ -46,6 +49,7 @@ impl Default for SliderSpec {
             hole_fit: "H8".into(),
             pin_fit: "f7".into(),
             material: "steel".into(),
+            heat_treatment: String::new(),
             density: 7850.0,
         }
     }
@@ -67,6 +71,7 @@ impl SliderSpec {
         shaft_class("slider_fit", &self.slider_fit)?;
         shaft_class("pin_fit", &self.pin_fit)?;
         single_line("material", &self.material)?;
+        single_line("heat_treatment", &self.heat_treatment)?;
         let least = width - self.clearance;
         let range = |value, least, greatest| Rule::OutOfRange {
             value,

@@ -104,9 +104,10 @@ impl ThreeArm {
             bar = bar.seat([low, low + bearing.width], BEARING[1]);
         }
         let above = |(bearing, low): (Bearing, f64)| (bearing, low - bar.bottom());
-        let part = bar.part(names, (&body.material, body.density), general);
+        let mut part = bar.part(names, (&body.material, body.density), general);
+        part.heat_treatment.clone_from(&body.shaft_heat_treatment);
         let fit = Fit::new("", body.bore, [&body.bore_fit, &body.shaft_fit]);
-        let key = body.keyway.and_then(|hub| Key::round(hub, body.width));
+        let key = body.keyway.and_then(|hub| Key::fitting(hub, body.width));
         let key = key.map(|key| SeatedKey {
             key,
             at: 0.5 * (body.width - key.length) - bar.bottom(),
@@ -139,6 +140,7 @@ impl ThreeArm {
         let low = standard.map_or(fork[0], |pin| cover - pin.length);
         let bar = Bar::new(seat.size, seat.pin, [low, cover]);
         let mut pivot = bar.part(["pin-fork", "Pin of the fork"], STEEL, "");
+        pivot.heat_treatment.clone_from(&spec.pin_heat_treatment);
         pivot.notes = vec!["Pressed into the front cover, flush with its outside.".into()];
         let at = pusher.pivot();
         let [pressed, _] = seat.fits([""; 2]);
@@ -164,7 +166,10 @@ impl ThreeArm {
                 .into(),
             standard: standard.map(Dowel::name),
             ..TurnedPieces::new(
-                bar.part(["pin-roller", "Pin of the roller"], STEEL, ""),
+                TurnedPart {
+                    heat_treatment: spec.pin_heat_treatment.clone(),
+                    ..bar.part(["pin-roller", "Pin of the roller"], STEEL, "")
+                },
                 pressed,
             )
         };
@@ -183,6 +188,7 @@ impl ThreeArm {
             chamfer: 0.0,
             material: material.into(),
             density,
+            heat_treatment: spec.pin_heat_treatment.clone(),
             notes: vec![
                 "Thin end pressed into the rod; the wide one runs in the fork's slot.".into(),
             ],

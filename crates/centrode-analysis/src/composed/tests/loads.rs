@@ -166,3 +166,70 @@ fn loads_that_cannot_be_are_told_by_key() {
         assert!(error.contains(key) && error.contains(told), "{error}");
     }
 }
+
+/// A crank turned by two like gears of circles, which a torque holds back.
+const GEARED: &str = r#"
+family = "machine"
+[frame.points]
+O = [0, 0]
+[bodies.shaft]
+on = "frame.O"
+law = { ratio = 1 }
+[bodies.crank]
+on = "frame"
+mesh = { gear = "wheel", with = "pinion", direction_deg = 0 }
+points = { A = [0, 30] }
+[pairs.drive]
+pitch = { kind = "circle", module = 2, tooth_count = 24 }
+driver = { width = 12, bore = 10, keyway = { width = 3, depth = 1.4 } }
+driven = { width = 12, bore = 10, keyway = { width = 3, depth = 1.4 } }
+[gears.pinion]
+pair = "drive"
+role = "driver"
+on = "shaft"
+[gears.wheel]
+pair = "drive"
+role = "driven"
+on = "crank"
+[loads.work]
+on = "crank"
+torque = TORQUE
+[plates]
+thickness = 6
+gap = 1
+width = 16
+pin_diameter = 6
+"#;
+
+#[test]
+fn keys_pass_on_the_torque_of_the_teeth() {
+    let checked = |torque: f64| {
+        let text = GEARED.replace("TORQUE", &format!("{torque:?}"));
+        check_composed(&composed(&text))
+    };
+    let key = |report: &Report| {
+        let findings = report.findings.iter();
+        let found = findings.filter(|finding| finding.rule == "key-pressure");
+        found
+            .map(|finding| finding.place.part.clone().unwrap_or_default())
+            .collect::<Vec<_>>()
+    };
+    // The crank's key B 3 x 3 x 6 bears 1.2 mm high over 6 mm at 5 mm from the axis, those of the gears over 9 mm.
+    let light = checked(1000.0);
+    let pressure = light.values["key_pressure_max"];
+    assert!(
+        (pressure / (1000.0 / (5.0 * 1.2 * 6.0)) - 1.0).abs() < 1e-9,
+        "{pressure}"
+    );
+    assert!(key(&light).is_empty());
+    // 0.9 of 235 N/mm²: 7614 N mm on the crank's key, 11421 on the gears'.
+    assert!(key(&checked(7600.0)).is_empty());
+    assert_eq!(key(&checked(-7700.0)), ["crank"]);
+    let mut all = key(&checked(12000.0));
+    all.sort();
+    assert_eq!(all, ["crank", "pinion", "wheel"]);
+    // Bonded parts have no key.
+    let text = GEARED.replace(", keyway = { width = 3, depth = 1.4 }", "");
+    let bonded = check_composed(&composed(&text.replace("TORQUE", "1000.0")));
+    assert!(!bonded.values.contains_key("key_pressure_max"));
+}

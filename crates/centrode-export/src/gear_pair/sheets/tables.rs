@@ -4,7 +4,7 @@ use super::part::{SheetGear, degrees};
 use crate::gear_pair::{arrangement, flank_tolerances, outline};
 use crate::{
     drawing::Anchor,
-    sheet::{Table, broken, fixed, number, range},
+    sheet::{Table, broken, fixed, number, range, treatment},
 };
 use centrode_mechanism::{
     gear::{CurvatureRange, GearPair, Member, OverPins, PinFault, ToolKind, design::Addendum},
@@ -81,14 +81,19 @@ pub(super) fn data(part: &SheetGear<'_>, found: &[Datum]) -> Table {
     rows.table("Gear data")
 }
 
-/// Flank tolerances, material and heat treatment of a gear, for the table of its data.
+/// Flank tolerances, deviations of tooth thickness, material and heat treatment of a gear, for the table of its data.
 pub(crate) fn measured(pair: &GearPair, member: Member) -> Vec<Datum> {
     let body = pair.gear(member).body();
-    let treated = match body.heat_treatment.as_str() {
-        "" => "none: as the material is supplied",
-        treated => treated,
-    };
+    let treated = treatment(&body.heat_treatment);
     let mut data = flank_tolerances(pair, member);
+    if let Some(told) = pair.thickness_deviations(member) {
+        let [upper, lower] = told.limits.map(|deviation| number(deviation, 4));
+        let name = match told.series {
+            Some(series) => format!("Tooth thickness, DIN 3967 {series}h"),
+            None => "Tooth thickness, deviations".into(),
+        };
+        data.push(Datum::new(&name, "Es", format!("{upper} / {lower}")));
+    }
     data.push(Datum::new("Material", "", &*body.material));
     data.push(Datum::new("Heat treatment", "", treated));
     data

@@ -14,7 +14,8 @@ use crate::{
     drawing::{Anchor, EntityShape},
     package::title_or_name,
     sheet::{
-        Corner, Draft, Scale, Sheet, SheetBlock, Table, TitleBlock, compose, mass, view_letters,
+        Corner, Draft, Scale, Sheet, SheetBlock, Table, TitleBlock, compose, mass, treatment_note,
+        view_letters,
     },
 };
 use centrode_geometry::{Arc, Point};
@@ -35,7 +36,8 @@ pub fn shaft_sheets(shaft: &SpiralShaft, options: &Options) -> Result<Vec<Sheet>
     block.mass = mass(shaft.mass_properties()?.mass * 1e3);
     let views = side::Views::new(shaft, tolerance)?;
     let data = tables::data(shaft);
-    let lines = notes(shaft);
+    let mut lines = notes(shaft);
+    lines.push(treatment_note(&shaft.body().heat_treatment));
     let journal = section::journal(shaft, tolerance);
     let groove = section::groove(shaft, tolerance);
     let pieces = |scale: Scale, size: SheetSize| {
@@ -66,9 +68,13 @@ pub fn slider_sheets(shaft: &SpiralShaft, options: &Options) -> Result<Vec<Sheet
     let properties = slider_solid(shaft)?.mass_properties(spec.density);
     block.mass = mass(properties.mass * 1e3);
     block.material.clone_from(&spec.material);
+    let lines = [treatment_note(&spec.heat_treatment)];
     let pieces = |scale: Scale, size: SheetSize| {
         let draft = slider::views(shaft, scale, view_letters(size), block.projection);
-        vec![SheetBlock::view("slider with section", draft)]
+        vec![
+            SheetBlock::notes(&lines),
+            SheetBlock::view("slider with section", draft),
+        ]
     };
     let size = options.sheet.size.or(shaft.drawing().sheet);
     compose(size, &block, spec.length, &pieces, &[]).map_err(ExportError::no_sheet("slider"))

@@ -109,6 +109,23 @@ fn plate_gear_and_shaft_of_a_body_have_their_keyways_on_one_line() {
     let mut long: Vec<f64> = shaft.keys.iter().map(|seated| seated.key.length).collect();
     long.sort_by(f64::total_cmp);
     assert_eq!(long, [6.0, 6.0, 12.0]);
+    // Round ends would leave half of 6 mm.
+    let square = |long: f64| {
+        let mut keys = shaft.keys.iter().map(|seated| seated.key);
+        keys.any(|key| key.length == long && key.has_square_ends)
+    };
+    assert!(square(6.0) && !square(12.0));
+    // A straight stretch of 6 mm under each, its half round ends beyond it.
+    for (keyway, ends) in shaft.part.keyways() {
+        let round = 1.5 * f64::from(u8::from(ends[0]) + u8::from(ends[1]));
+        let inside = |at: f64| at >= keyway[0] && at <= keyway[1];
+        let mut keys = shaft.keys.iter();
+        assert!(keys.any(|seated| {
+            let key = seated.key;
+            let needed = key.length + if key.has_square_ends { round } else { 0.0 };
+            inside(seated.at + 0.5 * key.length) && keyway[1] - keyway[0] >= needed - 1e-9
+        }));
+    }
     let axis = composed.body_named("crank").expect("a crank");
     let fits = composed
         .shafts()
@@ -157,7 +174,9 @@ fn a_plate_that_turns_on_a_shaft_has_a_round_hole_of_its_size_in_the_class_of_pi
         let plain = steps.filter(|step| step.ring.is_none() && step.is_keyed == keyed);
         plain.map(|step| step.class.clone()).collect::<Vec<_>>()
     };
-    assert_eq!(classes(pinion, true), ["h6", "h6"]);
+    // Of a key with square ends the keyway goes on beside its plate.
+    let seats = classes(pinion, true);
+    assert_eq!(seats.iter().filter(|class| *class == "h6").count(), 2);
     assert_eq!(classes(pinion, false), ["h6", "f7"]);
     assert!(classes(wheel, false).iter().all(|class| class == "f7"));
     // 12 + 1 + 6 + 1 + 6 of gear, frame and plate, and the end.
@@ -249,4 +268,91 @@ fn a_cam_through_which_the_shaft_of_another_body_goes_has_a_bracket() {
         "{}",
         pinion.remark
     );
+}
+
+/// Lower and upper faces of all that a turned part carries, in rising order.
+fn faces(composed: &Composed, all: &crate::machine::TurnedPieces) -> Vec<[f64; 2]> {
+    let piece = &all.pieces[0];
+    let body = composed.body_named(&piece.link).expect("a body");
+    let axis = Point::new(piece.at[0], piece.at[1]);
+    let here = |other: usize, at: Point| {
+        let off = |input: f64| composed.place(body, axis, input) - composed.place(other, at, input);
+        [0.0, 0.7, 2.9]
+            .into_iter()
+            .all(|input| off(input).norm() < 1e-6)
+    };
+    let mut found: Vec<[f64; 2]> = Vec::new();
+    for other in 0..composed.bodies().len() {
+        let holes = composed.pin_holes(other).unwrap_or_default();
+        if holes.into_iter().any(|hole| here(other, hole.at)) {
+            let bottom = composed.bottom(other);
+            found.push([bottom, bottom + composed.thickness(other)]);
+        }
+    }
+    for gear in composed.gears() {
+        let other = composed.body_named(gear.body_name()).expect("a body");
+        if here(other, gear.at) {
+            let bottom = composed.gear_bottom(gear);
+            found.push([bottom, bottom + gear.gear().body().width]);
+        }
+    }
+    let rings = all.spacers.iter();
+    found.extend(rings.map(|(ring, at)| [piece.at[2] + at, piece.at[2] + at + ring.length]));
+    found.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    found
+}
+
+#[test]
+fn rings_fill_the_gaps_between_parts_on_a_shaft_or_pin() {
+    let train = train(KEY);
+    let machine = train.machine().expect("a machine");
+    for all in train.turned() {
+        let faces = faces(&train, all);
+        assert!(!all.spacers.is_empty(), "{}", all.part.name);
+        for pair in faces.windows(2) {
+            assert!(
+                (pair[1][0] - pair[0][1]).abs() < 1e-9,
+                "{}: {faces:?}",
+                all.part.name
+            );
+        }
+    }
+    // Gaps of 1 mm on shafts of 10 mm: between gear and frame, and above every plate but the last of an axis.
+    let mut listed = machine.parts.iter();
+    let shims = listed.find(|part| part.name == "Shim DIN 988 - 10 x 16 x 1");
+    let shims = shims.expect("shims");
+    assert_eq!((shims.supply, shims.quantity()), (Supply::Bought, 5));
+    // Without gaps there are none.
+    let close = made(&TRAIN.replace("KEY", KEY).replace("gap = 1", "gap = 0"));
+    assert!(close.turned().iter().all(|all| all.spacers.is_empty()));
+    // A shaft of no size of the standard has none.
+    let odd = TRAIN.replace("KEY", "").replace("bore = 10", "bore = 10.5");
+    assert!(made(&odd).turned().iter().all(|all| all.spacers.is_empty()));
+    // A wider gap has a sleeve, made from its sheet.
+    let wide = made(&TRAIN.replace("KEY", KEY).replace("gap = 1", "gap = 4.5"));
+    let machine = wide.machine().expect("a machine");
+    let mut listed = machine.parts.iter();
+    let sleeves = listed.find(|part| part.name == "Sleeve 10 x 16 x 4.5");
+    let sleeves = sleeves.expect("sleeves");
+    assert_eq!((sleeves.supply, sleeves.quantity()), (Supply::Made, 5));
+    assert_eq!(sleeves.file, "sleeve-10x16x4-5");
+    let volume = PI * (64.0 - 25.0) * 4.5;
+    assert!((sleeves.mass.expect("a mass") - volume * 7850e-9).abs() < 1e-12);
+}
+
+#[test]
+fn heat_treatments_are_those_that_the_design_states() {
+    let stated = ", shaft_heat_treatment = \"case-hardened\"";
+    let text = TRAIN.replace("KEY", &format!("{KEY}{stated}"));
+    let hard = made(&text);
+    let shafts = hard.turned_shafts();
+    assert!(
+        shafts
+            .iter()
+            .all(|all| all.part.heat_treatment == "case-hardened")
+    );
+    let plain = train(KEY).turned_shafts();
+    assert!(plain.iter().all(|all| all.part.heat_treatment.is_empty()));
+    let two_lines = text.replace("case-hardened", "case\\nhardened");
+    assert!(super::refused(&two_lines).contains("shaft_heat_treatment"));
 }

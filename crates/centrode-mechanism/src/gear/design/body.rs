@@ -38,6 +38,9 @@ pub struct BodySpec {
     /// Heat treatment, for the drawing; left empty, none.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub heat_treatment: String,
+    /// Heat treatment of the shaft in the bore, for the drawing; left empty, none.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub shaft_heat_treatment: String,
     /// Accuracy class of the teeth, for the drawing: a flank tolerance class of ISO 1328-1, or one of another system in words;
     /// left empty, 8.
     #[serde(skip_serializing_if = "String::is_empty")]
@@ -207,6 +210,7 @@ impl Default for BodySpec {
             shaft_fit: "h6".into(),
             keyway_fit: "JS9".into(),
             heat_treatment: String::new(),
+            shaft_heat_treatment: String::new(),
             accuracy: String::new(),
         }
     }
@@ -241,6 +245,7 @@ impl BodySpec {
         let words = [
             ("material", &self.material),
             ("heat_treatment", &self.heat_treatment),
+            ("shaft_heat_treatment", &self.shaft_heat_treatment),
             ("accuracy", &self.accuracy),
         ];
         for (key, word) in words {
@@ -299,6 +304,26 @@ mod tests {
         assert_eq!(square.as_deref(), Some("Key DIN 6885-1 B 5 x 5 x 8"));
         let room = |width: f64| Keyway { width, depth: 2.0 }.depth_tolerance();
         assert_eq!([6.0, 8.0, 5.5].map(room), [Some(0.1), Some(0.2), None]);
+    }
+
+    #[test]
+    fn a_body_is_keyed_along_the_x_axis_of_what_carries_it() {
+        let body = |bore: f64| BodySpec {
+            bore,
+            ..BodySpec::default()
+        };
+        for mount in [0.0, 0.3, -2.0, 3.0, -7.1, 40.0] {
+            let keyed = body(16.0).keyed(mount);
+            let hub = keyed.keyway.expect("a keyway");
+            assert_eq!((hub.width, hub.depth), (5.0, 2.3));
+            // Mounted by the angle, its keyway is a whole number of turns from the x axis.
+            let turns = (keyed.keyway_angle + mount) / TAU;
+            assert!((turns - turns.round()).abs() < 1e-12, "{mount}");
+            assert!(keyed.keyway_angle.abs() <= TAU && keyed.validate().is_ok());
+            // Below the least bore of the standard there is none, and no angle of one.
+            let small = body(5.0).keyed(mount);
+            assert_eq!((small.keyway, small.keyway_angle), (None, 0.0));
+        }
     }
 
     #[test]

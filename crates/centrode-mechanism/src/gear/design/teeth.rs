@@ -33,7 +33,8 @@ pub struct TeethSpec {
     /// Least width of a tooth at its tip, as a multiple of the module, before it is reported.
     pub least_tip_width_coefficient: f64,
     /// Upper and lower deviation of the thickness of every finished tooth along its pitch curve, mm, neither above zero: limits
-    /// for the shop. The teeth designed stand at zero.
+    /// for the shop. The teeth designed stand at zero; left out, zero and the tolerance of DIN 3967 for the
+    /// accuracy class.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub thickness_deviations: Option<[f64; 2]>,
     /// Diameter of the measuring pins, mm; left out, a pin that touches near the pitch curve.

@@ -45,10 +45,35 @@ fn limits_are_the_textbook_measures_of_thicker_and_thinner_teeth() {
             assert!((over.over(5, 17).expect("both") - 2.0 * radial).abs() < 4e-9);
         }
     }
-    assert_eq!(
-        circular(0.05).pin_limits(Member::Driver).expect("teeth"),
-        None
-    );
+    design.teeth.thickness_deviations = None;
+    let usual = GearPair::resolve(&design).expect("a sound pair");
+    let told = usual.thickness_deviations(Member::Driver).expect("told");
+    // Class 8, 48 mm.
+    assert_eq!((told.limits, told.series), ([0.0, -0.05], Some(26)));
+    let [high, low] = usual
+        .pin_limits(Member::Driver)
+        .expect("teeth")
+        .expect("told");
+    assert_eq!(high, usual.driver().over_pins(high.diameter));
+    let thin = usual.thinned(0.05).expect("teeth");
+    assert_eq!(low, thin.driver().over_pins(high.diameter));
+    for (accuracy, series) in [
+        (" 6 ", Some(24)),
+        ("12", Some(30)),
+        ("2", None),
+        ("AGMA 8", None),
+    ] {
+        let mut design = design.clone();
+        design.driver.accuracy = accuracy.into();
+        let pair = GearPair::resolve(&design).expect("a sound pair");
+        let told = pair.thickness_deviations(Member::Driver);
+        assert_eq!(told.and_then(|told| told.series), series, "{accuracy}");
+        assert_eq!(told.is_some(), series.is_some());
+        assert_eq!(
+            pair.pin_limits(Member::Driver).expect("teeth").is_some(),
+            series.is_some()
+        );
+    }
     for wrong in [
         [0.01, -0.06],
         [-0.06, -0.03],

@@ -38,6 +38,17 @@ impl Key {
         })
     }
 
+    /// The longest key for a hub likewise: form A or, where one with round ends would bear over no more than half its length,
+    /// form B.
+    #[must_use]
+    pub fn fitting(hub: Keyway, face: f64) -> Option<Self> {
+        let round = Self::round(hub, face)?;
+        match round.bearing_length() > 0.5 * round.length {
+            true => Some(round),
+            false => Self::square(hub, face),
+        }
+    }
+
     /// Designation: "Key DIN 6885-1 A 5 x 5 x 14".
     #[must_use]
     pub fn name(self) -> String {
@@ -126,6 +137,12 @@ mod tests {
         assert!((volume(square) - 8.0 * 7.0 * 28.0).abs() < 1e-9);
         assert!((volume(round) - 7.0 * (8.0 * 20.0 + 16.0 * PI)).abs() < 1e-9);
         assert_eq!(Key::round(hub, 5.9), None);
+        // Of 8 mm in a hub of 16 mm round ends would take a half.
+        for (face, has_square_ends) in [(16.0, true), (17.9, true), (18.0, false)] {
+            let key = Key::fitting(hub, face).expect("a key");
+            assert_eq!(key.has_square_ends, has_square_ends, "{face}");
+        }
+        assert_eq!(Key::fitting(hub, 5.9), None);
         let odd = Keyway {
             width: 5.5,
             depth: 2.0,

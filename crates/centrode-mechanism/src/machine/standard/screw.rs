@@ -111,6 +111,7 @@ impl Screw {
             chamfer: 0.0,
             material: "steel 8.8".into(),
             density: 7850.0,
+            heat_treatment: String::new(),
             notes: Vec::new(),
         }
     }

@@ -2,7 +2,7 @@ use std::f64::consts::TAU;
 
 use centrode_geometry::Point;
 
-use super::drawn;
+use super::{assert_keyed, drawn};
 use crate::composed::Composed;
 use crate::reverse::{MachineError, ReversedMachine, Split, SplitKind, TwoBar};
 
@@ -18,6 +18,7 @@ fn the_machine_composed_of_the_design_follows_the_path() {
         let composed = Composed::resolve(&made.design).expect("a machine");
         let arm = composed.body_named("arm").expect("an arm");
         let link = composed.bodies()[arm].link;
+        assert_keyed(&composed);
         let mut worst = 0.0_f64;
         let by_carrier = chain.by_carrier().expect("a law");
         let start = chain.at(0.0).carrier[0];

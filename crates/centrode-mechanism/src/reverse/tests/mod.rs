@@ -10,7 +10,9 @@ use std::sync::Arc;
 use centrode_geometry::{Curve, Jet, Point, Vector};
 
 use super::WantedPath;
+use crate::composed::{Composed, Hold};
 use crate::design::DesignSpec as _;
+use crate::gear::design::Keyway;
 use crate::three_arm::ThreeArm;
 use crate::three_arm::design::ThreeArmDesign;
 use crate::transmission::MotionJet;
@@ -108,4 +110,22 @@ fn bar(length: f64, angle: &MotionJet) -> [Vector; 4] {
 
 fn published_path() -> WantedPath {
     WantedPath::new(Arc::new(TipPath(published())))
+}
+
+/// Every gear of a machine has the keyway of the standard for its bore, and turns with its shaft by a key.
+fn assert_keyed(composed: &Composed) {
+    assert!(!composed.gears().is_empty());
+    for gear in composed.gears() {
+        let body = gear.gear().body();
+        assert_eq!(body.keyway, Keyway::of_bore(body.bore));
+        assert!(body.keyway.is_some(), "{}: {}", gear.name, body.bore);
+        let mut parts = composed.shafts().iter().flat_map(|shaft| &shaft.parts);
+        let held = parts.find(|part| !part.is_plate && part.name == gear.name);
+        let held = held.map(|part| part.hold);
+        assert!(
+            matches!(held, Some(Hold::Keyed(_))),
+            "{}: {held:?}",
+            gear.name
+        );
+    }
 }

@@ -3,6 +3,7 @@ use std::sync::Arc;
 
 use proptest::prelude::{any, prop_assert, prop_assume, proptest};
 
+use super::assert_keyed;
 use crate::composed::{Composed, ComposedDesign, ComposedFigure};
 use crate::design::DesignSpec as _;
 use crate::reverse::{
@@ -268,6 +269,7 @@ fn the_machine_driven_by_the_gears_does_what_its_goals_ask() {
             let rests = place(160.0 + 50.0 * share);
             assert!((149.49999..150.00001).contains(&rests), "{rests}");
         }
+        assert_keyed(&driven);
         // The crank's axis is where it was.
         let crank = driven.body_named("crank").expect("a crank");
         let axis = driven.place(crank, Default::default(), 1.0);

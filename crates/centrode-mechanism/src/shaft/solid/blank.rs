@@ -35,6 +35,9 @@ pub struct ShaftBody {
     pub density: f64,
     /// Material, for the drawing.
     pub material: String,
+    /// Heat treatment, for the drawing; left empty, none.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub heat_treatment: String,
 }
 
 impl Default for ShaftBody {
@@ -54,6 +57,7 @@ impl Default for ShaftBody {
             keyway_length: 18.0,
             density: 7850.0,
             material: "steel".into(),
+            heat_treatment: String::new(),
         }
     }
 }
@@ -77,6 +81,7 @@ impl ShaftBody {
         hole_class("keyway_fit", &self.keyway_fit)?;
         shaft_class("journal_fit", &self.journal_fit)?;
         single_line("material", &self.material)?;
+        single_line("heat_treatment", &self.heat_treatment)?;
         let below = |key: &str, value: f64, limit: f64| {
             if value < limit {
                 return Ok(());

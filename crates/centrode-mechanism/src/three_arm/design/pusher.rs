@@ -3,7 +3,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::cam::law::LawSpec;
 use crate::degrees;
-use crate::gear::design::rule::{in_range, positive};
+use crate::gear::design::rule::{in_range, positive, single_line};
 use crate::gear::design::{BodySpec, SpecError};
 use crate::machine::preferred_size;
 
@@ -110,6 +110,12 @@ pub struct ForkSpec {
     pub wall: f64,
     /// Thickness, mm.
     pub width: f64,
+    /// Heat treatment of fork and roller, for the drawing; left empty, none.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub heat_treatment: String,
+    /// Heat treatment of the pins of fork, roller and push rod, for the drawing; left empty, none.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub pin_heat_treatment: String,
 }
 
 impl Default for ForkSpec {
@@ -123,6 +129,8 @@ impl Default for ForkSpec {
             slot_width: 4.0,
             wall: 2.5,
             width: 4.0,
+            heat_treatment: String::new(),
+            pin_heat_treatment: String::new(),
         }
     }
 }
@@ -150,7 +158,9 @@ impl ForkSpec {
             self.roller_bore,
             [0.0, 2.0 * self.roller_radius],
             " mm",
-        )
+        )?;
+        single_line("heat_treatment", &self.heat_treatment)?;
+        single_line("pin_heat_treatment", &self.pin_heat_treatment)
     }
 
     /// The usual fork with every length enlarged `k` times, its holes, slot and thickness to preferred sizes.
@@ -166,6 +176,7 @@ impl ForkSpec {
             slot_width: preferred_size(k * usual.slot_width),
             wall: k * usual.wall,
             width: preferred_size(k * usual.width),
+            ..usual
         }
     }
 }

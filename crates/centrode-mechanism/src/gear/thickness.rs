@@ -1,0 +1,166 @@
+//! Limits of tooth thickness.
+
+use std::f64::consts::PI;
+
+use super::design::BodySpec;
+use super::{GearPair, Member};
+
+/// Reference diameters up to which, mm, and tolerances of tooth thickness of series 21 to 30, um; DIN 3967, table 2.
+const TOLERANCES: [(f64, [f64; 10]); 11] = [
+    (
+        10.0,
+        [3.0, 5.0, 8.0, 12.0, 20.0, 30.0, 50.0, 80.0, 130.0, 200.0],
+    ),
+    (
+        50.0,
+        [5.0, 8.0, 12.0, 20.0, 30.0, 50.0, 80.0, 130.0, 200.0, 300.0],
+    ),
+    (
+        125.0,
+        [
+            6.0, 10.0, 16.0, 25.0, 40.0, 60.0, 100.0, 160.0, 250.0, 400.0,
+        ],
+    ),
+    (
+        280.0,
+        [
+            8.0, 12.0, 20.0, 30.0, 50.0, 80.0, 130.0, 200.0, 300.0, 500.0,
+        ],
+    ),
+    (
+        560.0,
+        [
+            10.0, 16.0, 25.0, 40.0, 60.0, 100.0, 160.0, 250.0, 400.0, 600.0,
+        ],
+    ),
+    (
+        1000.0,
+        [
+            12.0, 20.0, 30.0, 50.0, 80.0, 130.0, 200.0, 300.0, 500.0, 800.0,
+        ],
+    ),
+    (
+        1600.0,
+        [
+            16.0, 25.0, 40.0, 60.0, 100.0, 160.0, 250.0, 400.0, 600.0, 1000.0,
+        ],
+    ),
+    (
+        2500.0,
+        [
+            20.0, 30.0, 50.0, 80.0, 130.0, 200.0, 300.0, 500.0, 800.0, 1300.0,
+        ],
+    ),
+    (
+        4000.0,
+        [
+            25.0, 40.0, 60.0, 100.0, 160.0, 250.0, 400.0, 600.0, 1000.0, 1600.0,
+        ],
+    ),
+    (
+        6300.0,
+        [
+            30.0, 50.0, 80.0, 130.0, 200.0, 300.0, 500.0, 800.0, 1300.0, 2000.0,
+        ],
+    ),
+    (
+        10_000.0,
+        [
+            40.0, 60.0, 100.0, 160.0, 250.0, 400.0, 600.0, 1000.0, 1600.0, 2400.0,
+        ],
+    ),
+];
+/// First of these series.
+const FIRST: u32 = 21;
+/// Series less the accuracy class: series 26 for class 8. A tolerance is then at least twice what the thickness of the teeth of
+/// one gear of the class varies by, as DIN 3967 asks.
+const ABOVE_CLASS: u32 = 18;
+/// Least module of the standard, mm.
+const LEAST_MODULE: f64 = 1.0;
+
+/// Upper and lower deviation of the thickness of a gear's teeth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ThicknessDeviations {
+    /// Upper and lower deviation, mm, neither above zero.
+    pub limits: [f64; 2],
+    /// Series of DIN 3967 of the tolerance, where the design states no deviations.
+    pub series: Option<u32>,
+}
+
+impl GearPair {
+    /// Deviations of the thickness of a gear's teeth from those designed: as the design states them, or from zero down by a
+    /// tolerance of DIN 3967, whose deviation series h leaves the backlash as designed. The tolerance series is 18 + the accuracy
+    /// class, 26 for class 8, by the circle as long as the pitch curve. `None` for a class of another system, a module below
+    /// 1 mm, or a gear beyond the table.
+    #[must_use]
+    pub fn thickness_deviations(&self, member: Member) -> Option<ThicknessDeviations> {
+        let written = self.design().teeth.thickness_deviations;
+        written.map_or_else(
+            || self.usual_deviations(member),
+            |limits| {
+                Some(ThicknessDeviations {
+                    limits,
+                    series: None,
+                })
+            },
+        )
+    }
+
+    fn usual_deviations(&self, member: Member) -> Option<ThicknessDeviations> {
+        let gear = self.gear(member);
+        let class: u32 = gear.body().accuracy_class().parse().ok()?;
+        let series = class.checked_add(ABOVE_CLASS)?;
+        let tolerance = tolerance(gear.pitch_length() / PI, series)?;
+        (self.module() >= LEAST_MODULE).then_some(ThicknessDeviations {
+            limits: [0.0, -tolerance],
+            series: Some(series),
+        })
+    }
+}
+
+/// Tolerance of tooth thickness of a series by the reference diameter, mm.
+fn tolerance(diameter: f64, series: u32) -> Option<f64> {
+    let (_, row) = TOLERANCES.iter().find(|(end, _)| diameter <= *end)?;
+    let column = usize::try_from(series.checked_sub(FIRST)?).ok()?;
+    row.get(column).map(|um| um / 1000.0)
+}
+
+impl BodySpec {
+    /// Accuracy class of the teeth in words: as written, or 8 of ISO 1328-1.
+    #[must_use]
+    pub fn accuracy_class(&self) -> &str {
+        match self.accuracy.trim() {
+            "" => "8",
+            written => written,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_tolerance_is_that_of_the_standard() {
+        // The example of DIN 3967, 27cd at 100 mm: -70 and -170 um.
+        assert_eq!(tolerance(100.0, 27), Some(0.1));
+        // Ends of ranges belong to the smaller diameters.
+        assert_eq!(tolerance(50.0, 26), Some(0.05));
+        assert_eq!(tolerance(50.1, 26), Some(0.06));
+        assert_eq!(tolerance(10_000.0, 30), Some(2.4));
+        for (diameter, series) in [(10_001.0, 26), (f64::NAN, 26), (50.0, 20), (50.0, 31)] {
+            assert_eq!(tolerance(diameter, series), None);
+        }
+    }
+
+    #[test]
+    fn tolerances_grow_with_diameter_and_series() {
+        for (_, row) in TOLERANCES {
+            assert!(row.windows(2).all(|pair| pair[0] < pair[1]));
+        }
+        for pair in TOLERANCES.windows(2) {
+            let [(end, small), (next, large)] = [pair[0], pair[1]];
+            assert!(end < next && small.iter().zip(large).all(|(a, b)| *a < b));
+        }
+    }
+}
