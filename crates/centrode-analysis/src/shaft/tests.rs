@@ -357,7 +357,13 @@ fn keys_of_shaft_and_gears_are_pressed_by_the_torques_they_carry() {
         ("driven_key_pressure_max", greatest(&torque)),
         ("driver_key_pressure_max", greatest(&driving)),
     ] {
-        let pressure = torque / 8.0 / (2.0 * (long - 5.0));
+        // Square ends where round ones would leave half the length or less.
+        let bearing = if 2.0 * (long - 5.0) > long {
+            long - 5.0
+        } else {
+            long
+        };
+        let pressure = torque / 8.0 / (2.0 * bearing);
         let found = report.values[figure];
         assert!(
             (found / pressure - 1.0).abs() < 1e-6,

@@ -118,7 +118,11 @@ fn assert_keyed(composed: &Composed) {
     for gear in composed.gears() {
         let body = gear.gear().body();
         assert_eq!(body.keyway, Keyway::of_bore(body.bore));
-        assert!(body.keyway.is_some(), "{}: {}", gear.name, body.bore);
+        // The standard begins above a bore of 6 mm.
+        if body.keyway.is_none() {
+            assert!(body.bore <= 6.0, "{}: {}", gear.name, body.bore);
+            continue;
+        }
         let mut parts = composed.shafts().iter().flat_map(|shaft| &shaft.parts);
         let held = parts.find(|part| !part.is_plate && part.name == gear.name);
         let held = held.map(|part| part.hold);
