@@ -22,7 +22,7 @@ pub struct Draft {
     pub(super) scale: f64,
 }
 
-/// What the first entities cover, found when it is first asked for.
+/// Covered places of the first entities, found when they are first asked for.
 #[derive(Clone, Debug, Default)]
 struct Known(RefCell<Vec<Covered>>);
 

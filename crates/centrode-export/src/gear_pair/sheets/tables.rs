@@ -116,7 +116,7 @@ pub(crate) fn over_pins(pins: &OverPins, limits: Option<&[OverPins; 2]>) -> Tabl
     let between = |of: &dyn Fn(&OverPins) -> Option<f64>| {
         let ends = limits.map(|both| both.each_ref().map(of));
         match ends {
-            Some([Some(high), Some(low)]) => format!("{} / {}", fixed(high, 4), fixed(low, 4)),
+            Some([Some(high), Some(low)]) => format!("{} / {}", fixed(high, 3), fixed(low, 3)),
             _ => String::new(),
         }
     };
@@ -153,7 +153,7 @@ pub(crate) fn over_pins(pins: &OverPins, limits: Option<&[OverPins; 2]>) -> Tabl
     let mut notes = vec![
         "angle, R: polar position of the pin's centre".to_owned(),
         "M: from the axis of the bore over the pin".to_owned(),
-        "M2: over this pin and the one in the space opposite".to_owned(),
+        "M2: over this pin and the one in the other space, opposite".to_owned(),
     ];
     if limits.is_some() {
         notes.push("limits: by the deviations of tooth thickness".to_owned());
@@ -170,7 +170,7 @@ pub(crate) fn over_pins(pins: &OverPins, limits: Option<&[OverPins; 2]>) -> Tabl
             "R",
             "M",
             "limits of M",
-            "opposite",
+            "other",
             "M2",
             "limits of M2",
         ]
