@@ -24,6 +24,10 @@ def read(file):
     return model
 
 
+MOUNTED = ("pin", "shaft-", "circlip-", "key-", "screw-", "spacer", "shim-", "sleeve-")
+"""Beginnings of the names of parts that are mounted on their links."""
+
+
 def every(iterator, current):
     while iterator.MoveNext():
         yield getattr(iterator, current)()
@@ -46,10 +50,7 @@ def test_every_body_is_closed_and_stands_where_its_link_does(name, shipped):
         found = np.eye(4)
         found[:3, :] = fields.T
         # Shafts and pins are mounted on their links.
-        turned = (
-            item.GetObjectResource().GetName().startswith(("pin", "shaft-", "circlip-", "key-", "screw-", "spacer"))
-            and link != "shaft"
-        )
+        turned = item.GetObjectResource().GetName().startswith(MOUNTED) and link != "shaft"
         if name != "three-arm-2021" and not turned:
             # The arrangement shows this machine as an arm picks, all others where the cycle begins.
             np.testing.assert_allclose(found, np.reshape(frames[link], (4, 4)), atol=2e-6)

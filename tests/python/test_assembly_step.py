@@ -94,8 +94,8 @@ def is_turned(product):
 
 
 def is_mounted(product):
-    """Whether it is a shaft or pin, a ring, key or bearing on one, a screw, or a spacer of plates that screws hold."""
-    return is_turned(product) or re.match(r"(circlip|key)-din-|deep-groove-|screw-|spacer", product)
+    """Whether it is a shaft or pin, a ring, sleeve, key or bearing on one, a screw, or a spacer between plates."""
+    return is_turned(product) or re.match(r"(circlip|key|shim)-din-|deep-groove-|screw-|spacer|sleeve-", product)
 
 
 def every(shape, kind):

@@ -121,8 +121,8 @@ impl Contact {
             if found.is_off_by_less_than(TOUCHED) || found.is_jammed(pair) {
                 return found;
             }
-        } else if Self::sampled(pair, 1).is_jammed(pair) {
-            return filling([0.0, 1.0], || Self::sampled(pair, SAMPLES_PER_PITCH));
+        } else if filling([0.0, 0.1], || Self::sampled(pair, 1)).is_jammed(pair) {
+            return filling([0.1, 1.0], || Self::sampled(pair, SAMPLES_PER_PITCH));
         }
         filling([0.1, 1.0], || Self::sampled(pair, FINE_SAMPLES_PER_PITCH))
     }
