@@ -186,7 +186,7 @@ fn findings<'a>(
 /// Two parts of a kind that overlap, by the rule that they break.
 fn collision(
     (rule, kind, remedy): (&'static str, &'static str, &'static str),
-    ([one, other], [least, input]): &Overlap<'_>,
+    &([one, other], [least, input]): &Overlap<'_>,
 ) -> Finding {
     Finding {
         rule,
@@ -195,16 +195,16 @@ fn collision(
             "{kind} {} and {} share a height and overlap by {} at an input of {}",
             one.name,
             other.name,
-            Unit::Millimetre.tell(-*least),
-            Unit::Angle.tell(*input)
+            Unit::Millimetre.tell(-least),
+            Unit::Angle.tell(input)
         ),
-        measured: Some(*least),
+        measured: Some(least),
         required: Some(0.0),
         unit: Unit::Millimetre,
         remedy: Some(remedy),
         place: Place {
             part: Some(one.name.to_owned()),
-            input: Some(*input),
+            input: Some(input),
             ..Place::default()
         },
     }

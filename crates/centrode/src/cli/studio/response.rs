@@ -44,7 +44,6 @@ pub(crate) fn answers(ask: &Ask) -> Result<Answers, String> {
         let (from, to) = (ask.from, ask.to);
         return Err(format!("the values must rise, but go from {from} to {to}"));
     }
-    // Of a count several may come to one.
     let step = (ask.to - ask.from) / f64::from(COUNT - 1);
     let values: Vec<f64> = (0..COUNT).map(|i| ask.from + step * f64::from(i)).collect();
     let response = file
@@ -52,6 +51,7 @@ pub(crate) fn answers(ask: &Ask) -> Result<Answers, String> {
         .response(file.design(), &ask.key, &values, Depth::Motion);
     let response = response.map_err(|error| error.message())?;
     let given = &response.values;
+    // Of a count several may come to one.
     let kept: Vec<usize> = (0..given.len())
         .filter(|&i| i == 0 || given[i] != given[i - 1])
         .collect();
