@@ -1,6 +1,7 @@
 """The design page in a real browser: opened, read, and worked on with mouse and keys."""
 
 import shutil
+import time
 from contextlib import contextmanager
 
 from conftest import ROOT
@@ -34,6 +35,17 @@ def settled(page, patience=30_000):
     expect(page.locator("#findings h2")).to_be_attached(timeout=patience)
     # A change just made has marked nothing stale: it is on its way.
     expect(page.locator("#verdict:not(.stale, [aria-busy=true])")).to_be_attached(timeout=patience)
+
+
+def until(page, expression, arg=None, patience=15_000):
+    """Waits until an expression, or a function of `arg`, holds in the page; `patience` (ms).
+
+    Asked again from here: what polls inside the page would have to evaluate text there, which the page forbids.
+    """
+    end = time.monotonic() + 1e-3 * patience
+    while not page.evaluate(expression, arg):
+        assert time.monotonic() < end, f"never came true: {expression}"
+        page.wait_for_timeout(5)
 
 
 @contextmanager

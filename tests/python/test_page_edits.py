@@ -4,7 +4,7 @@ import json
 import re
 
 import pytest
-from page import ARMS, BOX, CIRCLE, FEEDER, POINTS, drawing, field, figures, opened, settled, shown
+from page import ARMS, BOX, CIRCLE, FEEDER, POINTS, drawing, field, figures, opened, settled, shown, until
 from playwright.sync_api import expect
 from studio import studio
 
@@ -167,7 +167,7 @@ def test_an_error_goes_with_the_number_that_caused_it(arms):
     expect(page.locator('[id="remark-arm.tip_distance"]')).to_contain_text("greater than 0")
     page.keyboard.press("Control+z")
     # As soon as there is a picture, not only when it has been checked.
-    page.wait_for_function("document.querySelector('#verdict').classList.contains('stale')")
+    until(page, "document.querySelector('#verdict').classList.contains('stale')")
     expect(page.locator("#findings")).not_to_contain_text("No mechanism", timeout=1_000)
     expect(page.locator('[id="remark-arm.tip_distance"]')).to_be_empty(timeout=1_000)
     settled(page)
@@ -413,8 +413,8 @@ def test_a_picture_is_drawn_before_its_numbers_and_curves_are_there(browser, tmp
         before, read = drawing(page), page.locator("#readout").inner_text()
         page.evaluate("window.hold = true")
         field(page, "arm.tip_distance").press("ArrowUp")
-        page.wait_for_function("Boolean(window.release)")
-        page.wait_for_function("before => document.querySelector('#stage canvas').toDataURL() !== before", arg=before)
+        until(page, "Boolean(window.release)")
+        until(page, "before => document.querySelector('#stage canvas').toDataURL() !== before", arg=before)
         # What is not of this picture is marked; a change is one to take back once all of it is there.
         expect(page.locator("#verdict")).to_have_class(re.compile("stale"))
         expect(page.locator("#undo")).to_be_disabled()
@@ -429,7 +429,7 @@ def test_a_picture_is_drawn_before_its_numbers_and_curves_are_there(browser, tmp
         page.evaluate("window.hold = true; window.release = null")
         number = field(page, "arm.tip_distance")
         number.press("ArrowUp")
-        page.wait_for_function("Boolean(window.release)")
+        until(page, "Boolean(window.release)")
         page.evaluate("window.hold = false; window.release(false)")
         expect(page.locator("#notices")).to_contain_text("solving this design has failed")
         number.press("ArrowUp")

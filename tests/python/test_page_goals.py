@@ -6,7 +6,7 @@ from contextlib import contextmanager, suppress
 
 import pytest
 from conftest import ROOT, centrode
-from page import ARMS, drag, field, opened, settled
+from page import ARMS, drag, field, opened, settled, until
 from playwright.sync_api import Error, expect
 
 FEEDER = ROOT / "tests" / "designs" / "feeder-2022.toml"
@@ -68,7 +68,7 @@ def test_goals_move_with_a_point_that_is_held(browser, tmp_path, design, name):
         seen = [exact(page)]
         for step in range(1, 6):
             page.mouse.move(x, y + 2 * step)
-            page.wait_for_function(f"before => JSON.stringify({EXACT}) !== JSON.stringify(before)", arg=seen[-1])
+            until(page, f"before => JSON.stringify({EXACT}) !== JSON.stringify(before)", arg=seen[-1])
             known(page)
             seen.append(exact(page))
             # The rest is told to be unknown.
@@ -96,7 +96,7 @@ def test_a_key_that_is_held_is_followed_by_the_goals(browser, tmp_path):
         # However long the picture of a step and its goals take: they wait for no checks.
         for steps in range(1, 5):
             page.keyboard.press("ArrowUp")
-            page.wait_for_function("steps => window.told.size >= steps", arg=steps, timeout=60_000)
+            until(page, "steps => window.told.size >= steps", arg=steps, patience=60_000)
 
 
 def test_goals_of_another_state_are_told_to_be_that(browser, tmp_path):
