@@ -161,7 +161,7 @@ def main():
     parser.add_argument("--minutes", type=float, default=math.inf, help="time after which no more are drawn")
     parser.add_argument("--jobs", type=int, default=1)
     options = parser.parse_args()
-    shipped = {file.stem: tomllib.loads(file.read_text()) for file in DESIGNS.glob("*.toml")}
+    shipped = {file.stem: tomllib.loads(file.read_text()) for file in sorted(DESIGNS.glob("*.toml"))}
     words, tables = {}, {}
     for design in shipped.values():
         for table, key, path in places(design):

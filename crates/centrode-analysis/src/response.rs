@@ -1,7 +1,7 @@
 use std::borrow::Cow;
 
 use centrode_geometry::Cancel;
-use centrode_mechanism::design::{Design, DesignError};
+use centrode_mechanism::design::{Design, DesignError, MechanismError};
 use rayon::prelude::{IntoParallelIterator, ParallelIterator};
 use serde::Serialize;
 
@@ -15,8 +15,8 @@ pub struct Response {
     pub key: String,
     /// Values of the number with which it was checked, in the file's unit: of a count, whole ones.
     pub values: Vec<f64>,
-    /// Report at each value; none where it gives no mechanism.
-    pub reports: Vec<Option<Report>>,
+    /// Report at each value, or the reason why it gives no mechanism.
+    pub reports: Vec<Result<Report, String>>,
 }
 
 /// A figure at each value of a [`Response`].
@@ -33,22 +33,23 @@ pub struct Answer {
 
 impl Response {
     /// Checks a design with each of the values, in the file's unit, at a key; all other numbers stay. `report` checks one
-    /// such design, and has none where that gives no mechanism.
+    /// such design.
     ///
     /// # Errors
-    /// [`DesignError`] where the key is no number of the design. A value that gives no mechanism is no error: its report
-    /// is missing.
+    /// [`DesignError`] where the key is no number of the design. A value that gives no mechanism is no error: it has its
+    /// reason in the place of a report.
     pub fn evaluate(
         design: &dyn Design,
         key: &str,
         values: &[f64],
-        report: impl Fn(&dyn Design) -> Option<Report> + Sync,
+        report: impl Fn(&dyn Design) -> Result<Report, MechanismError> + Sync,
     ) -> Result<Self, DesignError> {
         let numbered = design.numbered(key)?;
         let cancel = Cancel::current();
-        let report = |&value: &f64| -> Option<Report> {
+        let report = |&value: &f64| {
             let _scope = cancel.enter();
-            report(numbered.with(value).ok()?.as_ref())
+            let design = numbered.with(value).map_err(|error| error.message())?;
+            report(design.as_ref()).map_err(|error| error.message())
         };
         Ok(Self {
             key: key.to_owned(),
@@ -80,7 +81,7 @@ impl Response {
             }
         }
         for (at, report) in self.reports.iter().enumerate() {
-            let Some(report) = report else { continue };
+            let Ok(report) = report else { continue };
             for (name, value) in &report.values {
                 // A goal's own figure has been listed.
                 if !found

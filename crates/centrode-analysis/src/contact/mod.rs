@@ -127,7 +127,7 @@ impl Contact {
         filling([0.1, 1.0], || Self::sampled(pair, FINE_SAMPLES_PER_PITCH))
     }
 
-    /// Whether the gears cannot turn: over a fiftieth of the samples or more they penetrate each other by more than a twentieth of
+    /// Whether the gears cannot turn: over a fiftieth of the samples they penetrate each other by more than a twentieth of
     /// the module, wherever the driven gear is put.
     #[must_use]
     pub fn is_jammed(&self, pair: &GearPair) -> bool {

@@ -96,6 +96,12 @@ impl MechanismError {
         let fault = DesignFault::Mechanism(Box::new(error));
         Self { key, fault }
     }
+
+    /// The key and what is wrong with it.
+    #[must_use]
+    pub fn message(&self) -> String {
+        named(&self.key, &self.fault)
+    }
 }
 
 impl From<SpecError> for MechanismError {
@@ -119,22 +125,27 @@ impl DesignError {
     /// The key and what is wrong with it, without the place.
     #[must_use]
     pub fn message(&self) -> String {
-        let fault = self.fault.to_string();
-        let (tables, last) = match self.key.rfind('.') {
-            Some(dot) => self.key.split_at(dot + 1),
-            None => ("", self.key.as_str()),
-        };
-        // Some rules begin with their key already.
-        let named = fault
-            .strip_prefix(last)
-            .is_some_and(|rest| rest.starts_with(|c: char| !c.is_alphanumeric() && c != '_'));
-        if last.is_empty() {
-            fault
-        } else if named {
-            format!("{tables}{fault}")
-        } else {
-            format!("{}: {fault}", self.key)
-        }
+        named(&self.key, &self.fault)
+    }
+}
+
+/// A key and what is wrong with it.
+fn named(key: &str, fault: &DesignFault) -> String {
+    let fault = fault.to_string();
+    let (tables, last) = match key.rfind('.') {
+        Some(dot) => key.split_at(dot + 1),
+        None => ("", key),
+    };
+    // Some rules begin with their key already.
+    let named = fault
+        .strip_prefix(last)
+        .is_some_and(|rest| rest.starts_with(|c: char| !c.is_alphanumeric() && c != '_'));
+    if last.is_empty() {
+        fault
+    } else if named {
+        format!("{tables}{fault}")
+    } else {
+        format!("{key}: {fault}")
     }
 }
 

@@ -169,10 +169,12 @@ impl NumberedDesign {
             .map_err(|e| DesignError::at_start(DesignFault::NotWritable(e.to_string())))?;
         match DesignFile::read(text.as_bytes(), &[self.family]) {
             Ok((file, _)) => Ok(Arc::clone(file.design())),
-            Err(error) => Err(DesignError {
+            Err(error) if error.key.is_empty() => Err(DesignError {
                 key: self.key.clone(),
                 ..error
             }),
+            // The rule that the number breaks may be another key's.
+            Err(error) => Err(error),
         }
     }
 }

@@ -12,6 +12,12 @@ use crate::cli::input::Source;
 use crate::cli::output;
 use crate::cli::progress::Progress;
 
+/// Least width of a column, characters.
+const LEAST_WIDTH: usize = 10;
+
+/// Characters of a line that is read at a glance.
+const LONGEST_LINE: usize = 100;
+
 /// Prints the response of a design's figures to one of its numbers.
 pub(crate) fn run(command: &Response, out: &mut impl Write) -> Result<Status, Failure> {
     let source = Source::open(&command.design)?;
@@ -43,7 +49,7 @@ pub(crate) fn run(command: &Response, out: &mut impl Write) -> Result<Status, Fa
     } else {
         Depth::Motion
     })?;
-    let told = |name: &String| found.1.iter().any(|answer| answer.name == *name);
+    let told = |name: &String| found.1.iter().any(|answer| is_named(answer, name));
     if !command.of.iter().all(told) {
         found = find(Depth::Whole)?;
     }
@@ -55,6 +61,7 @@ pub(crate) fn run(command: &Response, out: &mut impl Write) -> Result<Status, Fa
     if command.json {
         let json = serde_json::json!({
             "key": response.key, "values": response.values, "answers": answers,
+            "refused": response.reports.iter().map(|report| report.as_ref().err()).collect::<Vec<_>>(),
         });
         serde_json::to_writer_pretty(&mut *out, &json).map_err(std::io::Error::from)?;
         writeln!(out)?;
@@ -65,7 +72,7 @@ pub(crate) fn run(command: &Response, out: &mut impl Write) -> Result<Status, Fa
     Ok(Status::Good)
 }
 
-/// Answers asked for; all goals, or all figures of a family without goals, where none is asked for.
+/// Answers asked for; where none is, all goals, or of a family without goals the figures that change.
 fn asked<'a>(
     command: &Response,
     response: &Found,
@@ -78,10 +85,14 @@ fn asked<'a>(
             let mut reports = response.reports.iter().flatten();
             reports.any(|r| r.goals.iter().any(|goal| goal.name == answer.name))
         };
-        return Ok(answers.iter().filter(|a| !any || is_goal(a)).collect());
+        let wanted = |answer: &&Answer| match any {
+            true => is_goal(answer),
+            false => changes(answer),
+        };
+        return Ok(answers.iter().filter(wanted).collect());
     }
     let one = |name: &String| {
-        answers.iter().find(|a| a.name == *name).ok_or_else(|| {
+        answers.iter().find(|a| is_named(a, name)).ok_or_else(|| {
             let known: Vec<&str> = answers.iter().map(|a| &*a.name).collect();
             Failure::Usage(format!(
                 "no figure {name:?}; there are {}",
@@ -92,35 +103,74 @@ fn asked<'a>(
     command.of.iter().map(one).collect()
 }
 
+/// Whether an answer has a name: goals are written with hyphens, figures as the keys of a report.
+fn is_named(answer: &Answer, name: &str) -> bool {
+    answer.name.replace('_', "-") == name.replace('_', "-")
+}
+
 /// A figure as a person reads it: degrees for radians.
 fn shown(answer: &Answer, at: usize) -> String {
     answer.figures[at].map_or("-".into(), |figure| answer.unit.show(figure))
 }
 
+/// Whether a figure changes as it is shown, so that it is more than a setting and its rounding.
+fn changes(answer: &Answer) -> bool {
+    let known = (0..answer.figures.len()).filter(|&at| answer.figures[at].is_some());
+    let mut known = known.map(|at| shown(answer, at));
+    let first = known.next();
+    known.any(|figure| Some(figure) != first)
+}
+
+/// A line for each value; for each figure where the lines would be too long to read.
 fn write_table(response: &Found, answers: &[&Answer], out: &mut impl Write) -> Result<(), Failure> {
-    let head = |answer: &&Answer| {
-        let unit = answer.unit.shown();
-        format!("{} {unit}", answer.name).trim_end().to_owned()
-    };
-    let heads: Vec<String> = answers.iter().map(head).collect();
-    let width = response.key.len().max(10);
-    write!(out, "{:>width$}", response.key)?;
-    for head in &heads {
-        write!(out, "  {head:>12}")?;
+    let given = |value: &f64| ((value * 1e6).round() / 1e6 + 0.0).to_string();
+    let values: Vec<String> = response.values.iter().map(given).collect();
+    let first = std::iter::once(response.key.clone()).chain(values.iter().cloned());
+    let mut columns: Vec<Vec<String>> = vec![first.collect()];
+    for answer in answers {
+        let head = format!("{} {}", answer.name, answer.unit.shown());
+        let figures = (0..values.len()).map(|at| shown(answer, at));
+        let column = std::iter::once(head.trim_end().to_owned()).chain(figures);
+        columns.push(column.collect());
     }
-    writeln!(out)?;
-    for (at, value) in response.values.iter().enumerate() {
-        write!(out, "{:>width$}", (value * 1e6).round() / 1e6 + 0.0)?;
-        for (answer, head) in answers.iter().zip(&heads) {
-            let column = head.len().max(12);
-            write!(out, "  {:>column$}", shown(answer, at))?;
+    let turned: Vec<Vec<String>> = (0..=values.len())
+        .map(|row| columns.iter().map(|column| column[row].clone()).collect())
+        .collect();
+    let columns = match width(&columns) > LONGEST_LINE && width(&turned) < width(&columns) {
+        true => turned,
+        false => columns,
+    };
+    for row in 0..columns[0].len() {
+        let mut line = String::new();
+        for (gap, column) in std::iter::once("")
+            .chain(std::iter::repeat("  "))
+            .zip(&columns)
+        {
+            let _ = write!(line, "{gap}{:>1$}", column[row], wide(column));
         }
-        if response.reports[at].is_none() {
-            write!(out, "  no mechanism")?;
+        writeln!(out, "{line}")?;
+    }
+    for (value, report) in values.iter().zip(&response.reports) {
+        if let Err(why) = report {
+            writeln!(out, "no mechanism at {value}: {why}")?;
         }
-        writeln!(out)?;
+    }
+    let known = response.reports.iter().flatten().count();
+    if known > 1 && !answers.iter().any(|answer| changes(answer)) {
+        writeln!(out, "no figure changes with {}", response.key)?;
     }
     Ok(())
+}
+
+/// Characters that a column takes.
+fn wide(column: &[String]) -> usize {
+    let cells = column.iter().map(|cell| cell.chars().count());
+    cells.max().unwrap_or(0).max(LEAST_WIDTH)
+}
+
+/// Characters that a line of columns takes.
+fn width(columns: &[Vec<String>]) -> usize {
+    columns.iter().map(|column| wide(column) + 2).sum()
 }
 
 fn write_csv(path: &Path, response: &Found, answers: &[Answer]) -> Result<(), Failure> {

@@ -135,7 +135,7 @@ impl Family {
         depth: Depth,
     ) -> Result<Response, DesignError> {
         Response::evaluate(design, key, values, |design| {
-            Some(self.resolve(design).ok()?.report(depth))
+            Ok(self.resolve(design)?.report(depth))
         })
     }
 }

@@ -242,6 +242,45 @@ fn a_response_is_told_as_table_and_written_as_csv() {
 }
 
 #[test]
+fn a_response_without_goals_tells_what_changes_and_why_there_is_no_mechanism() {
+    let folder = tempfile::tempdir().expect("a place to write");
+    let design = folder.path().join("fitted.toml");
+    let text_of = |fit: &str| {
+        format!(
+            "family = \"gear-pair\"\n[pitch]\nkind = \"ellipse\"\neccentricity = 0.3\nmodule = 2\ntooth_count = 23\n\
+             [teeth]\naddendum = \"fitted\"\n{fit}\n[tool]\nkind = \"rack\"\npressure_angle_deg = 20\n"
+        )
+    };
+    let name = design.display().to_string();
+    let ask = |of: &[&str]| {
+        let key = ["response", &name, "--parameter", "tool.pressure_angle_deg"];
+        let ends = ["--from", "18", "--to", "26", "--count", "3"];
+        text(&centrode(&[&key[..], &ends, of].concat()).stdout)
+    };
+    fs::write(&design, text_of("")).expect("written");
+    let told = ask(&[]);
+    let lines: Vec<&str> = told.lines().collect();
+    // Figures by lines: there are more of them than values. What does not change is left out.
+    assert!(
+        lines[0]
+            .trim_start()
+            .starts_with("tool.pressure_angle_deg  "),
+        "{told}"
+    );
+    assert!(lines[0].ends_with(" 26"), "{told}");
+    assert!(
+        told.contains("contact_ratio_mean") && !told.contains("driver_tooth_count"),
+        "{told}"
+    );
+    assert!(told.contains("no mechanism at 26: tool"), "{told}");
+    let other = ask(&["--of", "contact-ratio-mean"]);
+    assert!(other.contains("contact_ratio_mean"), "{other}");
+    // A number that the fit chooses changes nothing.
+    fs::write(&design, text_of("fit = [\"pressure_angle\"]")).expect("written");
+    assert!(ask(&[]).contains("no figure changes with tool.pressure_angle_deg"));
+}
+
+#[test]
 fn a_search_does_not_write_over_its_design() {
     let folder = tempfile::tempdir().expect("a place to write");
     let design = folder.path().join("a.toml");

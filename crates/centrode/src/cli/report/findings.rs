@@ -72,7 +72,9 @@ pub(crate) fn words(finding: &Finding) -> Words {
         about.push(format!("{part}{teeth}"));
     }
     if let Some(input) = finding.place.input {
-        about.push(format!("input at {:.2} deg", input.to_degrees()));
+        // Adding zero takes the sign off a zero.
+        let degrees = (100.0 * input.to_degrees()).round() / 100.0 + 0.0;
+        about.push(format!("input at {degrees:.2} deg"));
     }
     let figures = finding.measured.map_or_else(String::new, |measured| {
         let unit = finding.unit.for_size(measured);
