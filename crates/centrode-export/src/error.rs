@@ -24,6 +24,18 @@ pub enum ExportError {
         /// The smallest size of the machine that counts.
         of: &'static str,
     },
+    /// The tolerance is so fine that a part would take more pieces than anyone can use.
+    #[error(
+        "a tolerance of {tolerance} mm is too fine: at least a billionth of the {of}, {least:.3e} mm"
+    )]
+    FineTolerance {
+        /// The tolerance, mm.
+        tolerance: f64,
+        /// The finest one possible, mm.
+        least: f64,
+        /// The size of the machine that counts.
+        of: &'static str,
+    },
     /// A machine as designed lacks a part that its files need.
     #[error("{}{source}", key.as_ref().map(|key| format!("{key}: ")).unwrap_or_default())]
     Missing {

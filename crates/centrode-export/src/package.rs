@@ -17,6 +17,9 @@ use crate::{
 /// Formats of drawing sheets.
 const SHEETS: [Format; 2] = [Format::Sheet, Format::Pdf];
 
+/// Finest tolerance, as a share of the size of a machine: contours of a gear still take some ten thousands of pieces.
+const FINEST: f64 = 1e-9;
+
 /// The title of a design, or its name where it has none.
 pub(crate) fn title_or_name<'a>(title: &'a str, name: &'a str) -> &'a str {
     if title.is_empty() { name } else { title }
@@ -117,6 +120,19 @@ impl<'a> Package<'a> {
             return Err(ExportError::Tolerance {
                 tolerance,
                 largest,
+                of,
+            });
+        }
+        Ok(())
+    }
+
+    /// Refuses a tolerance of less than a billionth of a size of the machine, mm.
+    pub(crate) fn coarser_than(&self, size: f64, of: &'static str) -> Result<(), ExportError> {
+        let (tolerance, least) = (self.tolerance().mm(), FINEST * size);
+        if tolerance < least {
+            return Err(ExportError::FineTolerance {
+                tolerance,
+                least,
                 of,
             });
         }

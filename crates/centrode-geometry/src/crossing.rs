@@ -186,20 +186,26 @@ impl Search<'_> {
         }
     }
 
-    /// Whether what a crossing cuts off is small: a loop in one segment, or of two that follow each other.
+    /// Whether what a crossing cuts off is small: a loop in one segment, or from the end of one to the start of another.
     fn is_speck(&self, a: &Strand, b: &Strand, found: &Crossing) -> bool {
         let (segments, [one, other]) = (self.outline.segments(), found.segments);
         let near = |point: Point| (found.point - point).norm() < self.speck;
+        let within = |segment: usize, from: f64, to: f64| {
+            let share = |i: u32| from + (to - from) * 0.125 * f64::from(i);
+            (0..=8).all(|i| near(segments[segment].at(share(i)).point))
+        };
         if one == other {
             // Rounding makes a loop or a blunt end of a cusp.
             let (from, to) = (a.piece.u0.min(b.piece.u0), a.piece.u1.max(b.piece.u1));
-            let share = |i: u32| from + (to - from) * 0.125 * f64::from(i);
-            (0..=8).all(|i| near(segments[one].at(share(i)).point))
-        } else if one + 1 == other {
-            near(segments[other].start())
-        } else {
-            one == 0 && other + 1 == segments.len() && near(segments[0].start())
+            return within(one, from, to);
         }
+        // What lies between the two may be a cusp's segments of no length to speak of.
+        let between = |from: usize, to: usize| {
+            let next = |i: &usize| Some((i + 1) % segments.len());
+            let mut way = std::iter::successors(next(&from), next).take_while(|&i| i != to);
+            way.all(|i| within(i, -1.0, 1.0)) && near(segments[to].start())
+        };
+        between(one, other) || between(other, one)
     }
 
     /// Whether two strands, of which the second goes back from the end of the first, part to one side all the way.

@@ -106,6 +106,7 @@ fn add(
         package.tolerance(),
         package.options().sheet.clone(),
     );
+    package.coarser_than(pair.center_distance(), "centre distance")?;
     let name = label.map_or(subject.name(), |label| label.name);
     package.drawing(name, |curves| Ok(drawn.drawing(subject, curves)))?;
     let Some(member) = subject.member() else {

@@ -134,6 +134,26 @@ fn a_tolerance_that_leaves_no_teeth_is_refused() {
 }
 
 #[test]
+fn a_tolerance_below_a_billionth_of_the_machine_is_refused_and_its_sheets_say_what_they_take() {
+    let fine = Options::new(Tolerance::new(5e-8).expect("positive"));
+    let error = files(&elliptic(), &[Format::Dxf], &fine).expect_err("too fine");
+    let told = error.to_string();
+    assert!(
+        told.contains("too fine") && told.contains("5.271e-8 mm"),
+        "{told}"
+    );
+    let mut design = GearPairDesign::new(PitchSpec::Circle(Circle {
+        module: Some(2.0),
+        tooth_count: Some(20),
+        ..Circle::default()
+    }));
+    design.driver.width = 1e9;
+    let wide = GearPair::resolve(&design).expect("a pair");
+    let error = files(&wide, &[Format::Sheet], &options()).expect_err("too wide");
+    assert!(error.to_string().contains("do not fit on A0"), "{error}");
+}
+
+#[test]
 fn profiles_are_one_contour_of_at_most_400_arcs() {
     let pair = elliptic();
     for member in [Member::Driver, Member::Driven] {

@@ -7,6 +7,9 @@ use std::f64::consts::FRAC_PI_4;
 /// Distance of hatching lines, mm.
 const SPACING: f64 = 2.0;
 
+/// Greatest extent of a hatched area on paper, mm: some times that of the largest sheet.
+const LARGEST: f64 = 1e4;
+
 impl Draft {
     /// Hatches the area between contours, some of which may be holes, at 45 degrees.
     pub fn hatch(&mut self, contours: &[Outline], tolerance: Tolerance) {
@@ -19,6 +22,10 @@ impl Draft {
         let heights = || rings.iter().flatten().map(|p| p.y);
         let low = heights().fold(f64::INFINITY, f64::min);
         let high = heights().fold(f64::NEG_INFINITY, f64::max);
+        // What no sheet takes is not drawn at this scale.
+        if high - low > LARGEST {
+            return;
+        }
         let mut row = (low / SPACING).floor();
         while row * SPACING < high {
             row += 1.0;

@@ -159,3 +159,28 @@ fn a_loop_in_a_segment_smaller_than_the_speck_is_let_pass() {
         assert_eq!(outline.crossing_beyond(1.5 * e), None);
     }
 }
+
+#[test]
+fn a_loop_over_segments_of_no_length_to_speak_of_is_let_pass() {
+    // The way up and the way down cross below the short segments that join them.
+    let tip = |e: f64, count: usize| {
+        let mut corners = vec![Point::new(0.0, 0.0), Point::new(1.0 + e, 1.0)];
+        corners.extend((1..count).map(|i| {
+            let share = i as f64 / count as f64;
+            Point::new(1.0 + e - 2.0 * e * share, 1.0 + 1e-3 * e)
+        }));
+        corners.extend([Point::new(1.0 - e, 1.0), Point::new(2.0, 0.0)]);
+        Outline::polygon(&corners)
+    };
+    for count in [1, 3] {
+        for e in [1e-2, 1e-8] {
+            let outline = tip(e, count);
+            assert_eq!(
+                outline.crossing().expect("crosses").segments,
+                [0, count + 1]
+            );
+            assert!(outline.crossing_beyond(0.9 * e).is_some(), "{count} {e}");
+            assert_eq!(outline.crossing_beyond(3.0 * e), None, "{count} {e}");
+        }
+    }
+}

@@ -4,6 +4,8 @@ use centrode_geometry::{Point, bracketed_root, checkpoint, shared_out};
 
 use super::{
     flank::{Flank, Side},
+    pattern::Patterns,
+    pitch::gcd,
     profile::{FlankPlan, ToothPlan, Top},
     rolling::{Member, Rolling},
     tool::{Corner, Tool},
@@ -64,15 +66,19 @@ impl Fitting<'_> {
     /// Trims every tip of both gears and fits every space to the tips that enter it.
     ///
     /// A tip is as high as both flanks stay regular, as mating flanks stay clear of each other away from
-    /// their contact, and as the top land stays wide enough. `meshes` is the number of pitches in a cycle.
+    /// their contact, and as the top land stays wide enough. Teeth that are others turned are fitted with these.
     pub(crate) fn fit(
         &self,
-        driver: &mut [ToothPlan],
-        driven: &mut [ToothPlan],
-        meshes: u32,
+        all: [&mut [ToothPlan]; 2],
+        patterns: &Patterns,
         pitch: f64,
         space: impl Fn(Member) -> f64,
     ) {
+        let [all_1, all_2] = all;
+        let counts = [all_1.len(), all_2.len()];
+        let meshes = patterns.period();
+        let driver = patterns.driver.first(all_1);
+        let driven = patterns.driven.first(all_2);
         let reaches = |member: Member, teeth: &[ToothPlan]| -> Vec<Reaches> {
             let reach = |plan: &FlankPlan, side| self.regular(member, side, plan);
             shared_out(teeth, |t| {
@@ -85,7 +91,11 @@ impl Fitting<'_> {
         let mut reach_1 = reaches(Member::Driver, driver);
         let mut reach_2 = reaches(Member::Driven, driven);
         let (first, last) = (driver.len(), driven.len());
-        let lengths = [Member::Driver, Member::Driven].map(|m| self.rolling.pitch_length(m));
+        let length = |member: Member, teeth: usize| {
+            let share = teeth as f64 / counts[member as usize] as f64;
+            self.rolling.pitch_length(member) * share
+        };
+        let lengths = [length(Member::Driver, first), length(Member::Driven, last)];
         let crossings = |tooth: &ToothPlan, turns: f64| {
             [
                 tooth.leading.crossing + turns,
@@ -93,6 +103,13 @@ impl Fitting<'_> {
             ]
         };
         let circles = self.circles([(driver, &reach_1), (driven, &reach_2)]);
+        let circle = |member: Member, tooth: isize| {
+            let count = counts[member as usize] as isize;
+            let circles = &circles[member as usize];
+            let place = tooth.rem_euclid(count) as usize;
+            let (center, radius) = circles[place % circles.len()];
+            (patterns.of(member).turn(place) * center, radius)
+        };
         let middle = 0.5 * (driver[0].leading.crossing + driver[0].trailing.crossing);
         let mut poses = Poses::new(self.rolling, middle + 0.25 * pitch, pitch);
         // Crossings of driver tooth k, and of a driven tooth beside it, with the numbers of both.
@@ -108,9 +125,15 @@ impl Fitting<'_> {
         // The two driven teeth beside it mesh with it; those beyond can still be met where the
         // pitch curve is concave.
         const BESIDE: [isize; 8] = [-4, -3, -2, -1, 0, 1, 2, 3];
-        for from in (0..meshes as usize).step_by(BLOCK) {
+        let cycle = counts[0] / gcd(counts[0] as u32, counts[1] as u32) as usize * counts[1];
+        let mut changed = 0;
+        for from in (0..cycle).step_by(BLOCK) {
+            // What all teeth have met without a change, they meet for ever.
+            if from >= changed + meshes as usize {
+                break;
+            }
             let mut met = Vec::new();
-            let to = (meshes as usize).min(from + BLOCK);
+            let to = cycle.min(from + BLOCK);
             poses.find(
                 [(from, BESIDE[0]), (to - 1, BESIDE[7])].map(|(k, by)| middle(pair(k, by).1)),
             );
@@ -122,7 +145,10 @@ impl Fitting<'_> {
                     self.tool,
                     middle(crossings),
                     pitch,
-                    [&circles[0][i], &circles[1][j]],
+                    [
+                        &circle(Member::Driver, k as isize),
+                        &circle(Member::Driven, k as isize + by),
+                    ],
                 );
                 met.extend(passage.map(|passage| Meeting {
                     passage,
@@ -138,7 +164,11 @@ impl Fitting<'_> {
                 let [i, j] = meeting.teeth;
                 let now = (reach_1[i], reach_2[j]);
                 let holds = now == known(meeting.teeth);
-                (reach_1[i], reach_2[j]) = if holds { cleared } else { meeting.clear(now) };
+                let cleared = if holds { cleared } else { meeting.clear(now) };
+                if cleared != now {
+                    changed = to;
+                }
+                (reach_1[i], reach_2[j]) = cleared;
             }
         }
         let settled = |member: Member, teeth: &mut [ToothPlan], mut reaches: Vec<Reaches>| {
@@ -154,6 +184,8 @@ impl Fitting<'_> {
         // gear's.
         self.serve(driver, &tips_2, 0, meshes as usize, space(Member::Driver));
         self.serve(driven, &tips_1, 1, meshes as usize, space(Member::Driven));
+        patterns.driver.repeat(all_1, pitch);
+        patterns.driven.repeat(all_2, pitch);
     }
 
     /// Circles around the teeth of both gears before any is trimmed, as deep as any mate reaches.

@@ -69,6 +69,31 @@ impl Pattern {
         })
     }
 
+    /// The first teeth, of which all others are images by a turn.
+    pub(crate) fn first<'a>(&self, teeth: &'a mut [ToothPlan]) -> &'a mut [ToothPlan] {
+        &mut teeth[..self.period as usize]
+    }
+
+    /// Turn, counter-clockwise, that makes one of the first places the place.
+    pub(crate) fn turn(&self, place: usize) -> UnitComplex<f64> {
+        let pitches = (place - place % self.period as usize) as f64;
+        UnitComplex::new(self.sense * TAU * pitches / f64::from(self.count))
+    }
+
+    /// Plans all teeth as the first ones are, of which they are images.
+    pub(crate) fn repeat(&self, teeth: &mut [ToothPlan], pitch: f64) {
+        for k in self.period..self.count {
+            let of = k % self.period;
+            let image = Image {
+                of,
+                mirrored: false,
+                pitches: i64::from(k - of),
+                turn: self.turn(k as usize),
+            };
+            teeth[k as usize] = teeth[of as usize].image(&image, pitch);
+        }
+    }
+
     /// Pattern of the spaces after teeth of this pattern.
     pub(crate) fn of_spaces(self) -> Self {
         Self {
@@ -372,6 +397,27 @@ mod tests {
                             }
                         }
                     }
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn fitted_teeth_repeat_with_the_law_in_every_turn_of_the_driver() {
+        let curve = "kind = \"bspline\"\nplane = \"polar\"\ndegree = 2\ntooth_count = 37\n\
+                     radius = [21, 28, 50, 49, 58, 47, 18, 12, 28, 60, 48, 24]\n\
+                     angle_deg = [20, 45, 76, 105, 132, 165, 195, 225, 255, 285, 316, 345]";
+        for teeth in ["", "addendum = \"fitted\"\nbacklash = 0.05"] {
+            let found = pair(curve, teeth, "[3, 1]");
+            assert_eq!(found.period(), 37, "{teeth}");
+            let driven = found.gear(Member::Driven).teeth();
+            for (k, tooth) in driven.iter().enumerate() {
+                let first = driven[k % 37];
+                for (one, other) in [
+                    (tooth.leading, first.leading),
+                    (tooth.trailing, first.trailing),
+                ] {
+                    assert!((one.tip_height - other.tip_height).abs() < 1e-9, "{k}");
                 }
             }
         }

@@ -4,6 +4,7 @@ use super::{
     design::{Addendum, Phase},
     fitted::Fitting,
     flank::Side,
+    pattern::Patterns,
     profile::{FlankPlan, ToothPlan, Top},
     rolling::{Member, Rolling},
     tool::Tool,
@@ -186,28 +187,24 @@ pub(crate) fn layout(
             })
             .collect())
     };
-    let (mut driver, mut driven) = (plan(Member::Driver)?, plan(Member::Driven)?);
+    let mut layout = Layout {
+        driver: plan(Member::Driver)?,
+        driven: plan(Member::Driven)?,
+        phase,
+        backlash,
+        congruent,
+    };
     if parameters.addendum == Addendum::Fitted {
         let fitting = Fitting {
             rolling,
             tool,
             least_tip_width: parameters.least_tip_width,
         };
-        fitting.fit(
-            &mut driver,
-            &mut driven,
-            counts.driver * rolling.mean_ratio().0,
-            pitch,
-            space,
-        );
+        let patterns = Patterns::new(rolling.symmetry(), counts, &layout, pitch);
+        let all = [&mut layout.driver[..], &mut layout.driven[..]];
+        fitting.fit(all, &patterns, pitch, space);
     }
-    Ok(Layout {
-        driver,
-        driven,
-        phase,
-        backlash,
-        congruent,
-    })
+    Ok(layout)
 }
 
 /// Length that turns normal backlash into the greatest angular backlash over the cycle, mm: the least harmonic mean

@@ -174,7 +174,7 @@ fn gear(
         pieces
     };
     let bounds = part.bounds();
-    let extent = (bounds.max - bounds.min).amax();
+    let extent = (bounds.max - bounds.min).amax().max(part.gear.body().width);
     let pins = part.gear.over_pins(part.pair.pin_diameter(part.member));
     let flowing = [tables::over_pins(&pins, limits), tables::profile(part)];
     let size = options.size.or(part.drawing().sheet);
