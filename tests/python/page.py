@@ -8,6 +8,10 @@ from conftest import ROOT
 from playwright.sync_api import expect
 from studio import studio
 
+# What is to be seen may take as long to come as what is to be pressed, below.
+PATIENCE = 15_000
+expect.set_options(timeout=PATIENCE)
+
 # The shell without windows first: it takes half the time.
 BROWSERS = ["chromium-headless-shell", "chromium", "chromium-browser", "google-chrome"]
 CHROMIUM = next(filter(None, map(shutil.which, BROWSERS)), None)
@@ -37,7 +41,7 @@ def settled(page, patience=30_000):
     expect(page.locator("#verdict:not(.stale, [aria-busy=true])")).to_be_attached(timeout=patience)
 
 
-def until(page, expression, arg=None, patience=15_000):
+def until(page, expression, arg=None, patience=PATIENCE):
     """Waits until an expression, or a function of `arg`, holds in the page; `patience` (ms).
 
     Asked again from here: what polls inside the page would have to evaluate text there, which the page forbids.
@@ -55,7 +59,7 @@ def shown(browser, url, script="", ready=settled, toured=True, size=(1440, 900),
     if toured:
         context.add_cookies([{"name": "centrode-tour", "value": "seen", "domain": "127.0.0.1", "path": "/"}])
     context.add_init_script(script)
-    context.set_default_timeout(15_000)
+    context.set_default_timeout(PATIENCE)
     page = context.new_page()
     complaints = []
     page.on(

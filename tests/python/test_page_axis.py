@@ -91,6 +91,8 @@ def ends(page):
     box = lines.bounding_box()
     for x in (box["x"] + 0.5, box["x"] + box["width"] - 0.5):
         page.mouse.move(x, box["y"] + 20)
+        # Charts follow the pointer in the next frame.
+        page.evaluate("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))")
         found.append(page.locator("#charts .pointed span").first.inner_text())
     page.mouse.move(5, 5)
     return found

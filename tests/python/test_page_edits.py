@@ -435,3 +435,24 @@ def test_a_picture_is_drawn_before_its_numbers_and_curves_are_there(browser, tmp
         number.press("ArrowUp")
         settled(page)
         assert page.locator("#readout").inner_text() != read
+
+
+def test_an_edit_leaves_the_scrubber_alone(arms):
+    page, _ = arms
+    page.evaluate("""() => {
+      window.written = 0;
+      const watch = new MutationObserver((changes) => { window.written += changes.length; });
+      for (const id of ["angle", "scrub"]) {
+        watch.observe(document.getElementById(id), { attributes: true, childList: true, characterData: true });
+      }
+    }""")
+    for key in ("ArrowUp", "ArrowDown"):
+        before = drawing(page)
+        field(page, "arm.tip_distance").press(key)
+        until(page, "before => document.querySelector('#stage canvas').toDataURL() !== before", before)
+    settled(page)
+    assert page.evaluate("window.written") == 0
+    page.locator("#scrub").press("PageUp")
+    expect(page.locator("#angle")).to_have_text("10.0°")
+    expect(page.locator("#scrub")).to_have_attribute("aria-valuetext", "10.0°")
+    assert page.evaluate("window.written") > 0

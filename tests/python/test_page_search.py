@@ -1,6 +1,6 @@
 """Slow answers and searches on the design page: what they may change, and what they leave behind."""
 
-from page import ARMS, POINTS, SLOW, field, opened, settled, shown
+from page import ARMS, POINTS, SLOW, field, opened, settled, shown, until
 from playwright.sync_api import expect
 from studio import studio
 
@@ -72,6 +72,28 @@ def test_a_design_that_comes_ends_the_search_for_the_old_one(arms):
     page.reload()
     settled(page)
     expect(page.locator("#search")).to_be_hidden()
+
+
+def test_the_end_of_a_search_that_is_heard_late_leaves_the_next_one(arms):
+    page, _ = arms
+    searched(page, goals(page))
+    page.locator("#search-stop").click()
+    expect(page.locator("#search-drop")).to_be_visible(timeout=60_000)
+    held = []
+    page.route("**/search", lambda route: held.append(route) if route.request.method == "DELETE" else route.continue_())
+    page.locator("#search-drop").click()
+    page.locator("#search-evaluations").fill("100000000")
+    page.locator("#search-evaluations").press("Enter")
+    page.wait_for_timeout(500)
+    assert held
+    for route in held:
+        route.continue_()
+    page.unroute("**/search")
+    # It goes on, generation by generation.
+    done = "least => parseInt(document.querySelector('#search [role=status]').textContent) > least"
+    for _ in range(3):
+        told = page.locator("#search [role=status]").inner_text()
+        until(page, done, int(told.split()[0]) if told else 0, 30_000)
 
 
 def test_a_search_of_no_evaluations_is_refused_in_words(arms):

@@ -55,6 +55,29 @@ def test_the_picture_as_svg_and_png_is_the_one_that_is_shown(browser, tmp_path, 
         assert max(differ) < 0.3 * max(bare), (differ, bare)
 
 
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_lines_stop_short_of_the_names_of_places(browser, tmp_path, scheme):
+    with opened(browser, tmp_path, FEEDER, color_scheme=scheme) as (page, _):
+        ground = page.evaluate("getComputedStyle(document.documentElement).getPropertyValue('--sheet')")
+        rims = """ground => {
+          const { prototype } = CanvasRenderingContext2D;
+          const stroke = prototype.strokeText;
+          const names = [];
+          prototype.strokeText = function (name, ...place) {
+            if (this.strokeStyle === ground.trim()) names.push(name);
+            return stroke.call(this, name, ...place);
+          };
+          document.getElementById("scrub").dispatchEvent(new Event("input"));
+          prototype.strokeText = stroke;
+          return names;
+        }"""
+        assert set("AGE") <= set(page.evaluate(rims, ground))
+        root, _ = labels(page)
+        names = [text for text in root.iter(f"{SVG}text") if text.text in set("AGE")]
+        assert names
+        assert all(name.get("paint-order") == "stroke" and name.get("stroke") for name in names)
+
+
 def test_a_gif_is_one_cycle_of_the_stated_length_and_size(browser, tmp_path):
     with opened(browser, tmp_path, CIRCLE) as (page, _):
         name, data = taken(page, "gif", 320, 2)

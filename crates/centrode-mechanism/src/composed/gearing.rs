@@ -263,7 +263,7 @@ impl Builder<'_> {
         let is_driven = gear.member == Member::Driven;
         let on_carrier = self.angle(carrier);
         let mesh = RollingMesh {
-            rolling: Arc::new(pair.rolling().clone()),
+            rolling: pair.shared_rolling(),
             lambda: on_carrier.plus(if is_driven {
                 mesh.direction
             } else {
@@ -344,7 +344,7 @@ impl Builder<'_> {
             Some(self.linkage.place(self.bodies[body].link, gear.at, input))
         };
         let [one, other] = [self.gear_angle(driver), self.gear_angle(driven)];
-        let rolling = Arc::new(pair.rolling().clone());
+        let rolling = pair.shared_rolling();
         let count = LOOKS * self.design.input.turns;
         let mut worst = (0.0, 0.0);
         for i in 0..count {

@@ -1,6 +1,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+use centrode_geometry::Recent;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -22,6 +23,12 @@ pub(super) const ROUNDING: f64 = 1e-9;
 const FASTEST: f64 = 1e4;
 /// Inputs a turn at which the speed is looked at: within half a step of a pole like that of tan(phi) it is above the limit.
 const LOOKS: u32 = 720;
+
+/// Laws that are kept: a machine has some.
+const KEPT: usize = 32;
+
+/// A law, or why there is none.
+type Made = Result<Arc<dyn Transmission>, ComposedLawError>;
 
 /// Motion of a body on the one that carries it, by the input: the sum of a start and at most one of the others.
 ///
@@ -266,6 +273,8 @@ impl ComposedLawSpec {
     /// cam; `by` is the turn of the body that
     /// takes the place of the input.
     ///
+    /// A law of the input alone is kept, so that what is kept of the trains it moves is found by it.
+    ///
     /// # Errors
     /// [`ComposedLawError`] where it cannot be read, or does not come back.
     pub(super) fn resolve(
@@ -274,16 +283,24 @@ impl ComposedLawSpec {
         slides: bool,
         by: Option<Arc<dyn Transmission>>,
     ) -> Result<Arc<dyn Transmission>, ComposedLawError> {
-        let period = TAU * f64::from(turns);
-        let law = match by {
-            None => self.motion(turns)?,
+        static LAWS: Recent<(ComposedLawSpec, u32, bool), Made, KEPT> = Recent::new();
+        match by {
+            None => LAWS.get(&(self.clone(), turns, slides), || {
+                self.checked(self.motion(turns)?, turns, slides)
+            }),
             Some(by) => {
                 // A cycle of what it follows: its turns in the period, or one where it swings.
+                let period = TAU * f64::from(turns);
                 let turned = by.advance() * period / (by.period() * TAU);
                 let own = self.motion(turned.abs().round().max(1.0) as u32)?;
-                Arc::new(Chain::new(own, by)?)
+                self.checked(Arc::new(Chain::new(own, by)?), turns, slides)
             }
-        };
+        }
+    }
+
+    /// A motion that is slow enough and comes back.
+    fn checked(&self, law: Arc<dyn Transmission>, turns: u32, slides: bool) -> Made {
+        let period = TAU * f64::from(turns);
         let key = self.motions().next().unwrap_or("ratio");
         let looks = LOOKS * turns;
         let inputs = (0..looks).map(|i| period * f64::from(i) / f64::from(looks));

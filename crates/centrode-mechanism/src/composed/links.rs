@@ -1,5 +1,3 @@
-use std::sync::Arc;
-
 use centrode_geometry::{Outline, Point, SolidError};
 
 use super::load::ComposedLoad;
@@ -95,7 +93,7 @@ impl Composed {
                 axes: mesh.gears.map(axis),
                 // Gears that dwell still hold each other.
                 pitch: Some(PitchCurves {
-                    driven: Arc::new(pair.rolling().clone()),
+                    driven: pair.shared_rolling(),
                     zero: driver.mount,
                 }),
             });

@@ -1,10 +1,15 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+use centrode_geometry::Recent;
+
 use crate::gear::Rolling;
 use crate::transmission::{
     FromFn, MotionJet, Remembered, Transmission, crossings, repeated, sorted,
 };
+
+/// Laws of meshed bodies that are kept: a machine has some, each for every copy.
+const KEPT: usize = 32;
 
 /// Sum of a constant and joint coordinates: the angle of a body, or of a gear on it, without jumps.
 #[derive(Clone, Debug, Default)]
@@ -13,6 +18,16 @@ pub(super) struct Angle {
     pub(super) start: f64,
     /// The coordinates.
     pub(super) terms: Vec<Arc<dyn Transmission>>,
+}
+
+impl PartialEq for Angle {
+    /// Of the very same coordinates.
+    fn eq(&self, other: &Self) -> bool {
+        let same = |(one, two): (&Arc<dyn Transmission>, _)| Arc::ptr_eq(one, two);
+        self.start == other.start
+            && self.terms.len() == other.terms.len()
+            && self.terms.iter().zip(&other.terms).all(same)
+    }
 }
 
 impl Angle {
@@ -53,6 +68,13 @@ pub(super) struct RollingMesh {
     pub(super) lambda: Angle,
 }
 
+impl PartialEq for RollingMesh {
+    /// Of the very same pitch curves.
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.rolling, &other.rolling) && self.lambda == other.lambda
+    }
+}
+
 impl RollingMesh {
     /// Angle of the driven gear by that of the driver.
     pub(super) fn driven(&self, driver: &MotionJet, input: f64) -> MotionJet {
@@ -72,7 +94,7 @@ impl RollingMesh {
 }
 
 /// Coordinate of a body that a mesh moves: its angle against the one that carries it.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub(super) struct MeshedBody {
     pub(super) mesh: RollingMesh,
     /// Whether the body's gear is the driven one of its pair.
@@ -115,7 +137,15 @@ impl MeshedBody {
     }
 
     /// The coordinate by the input, from within half a turn of zero on, and the turns by which it grows over a period.
-    pub(super) fn law(mut self, period: f64) -> (Arc<dyn Transmission>, f64) {
+    ///
+    /// Kept with the values it remembers: most changes of a machine leave its trains as they are.
+    pub(super) fn law(self, period: f64) -> (Arc<dyn Transmission>, f64) {
+        static LAWS: Recent<(MeshedBody, f64), (Arc<dyn Transmission>, f64), KEPT> = Recent::new();
+        let key = (self, period);
+        LAWS.get(&key, || key.0.clone().new_law(period))
+    }
+
+    fn new_law(mut self, period: f64) -> (Arc<dyn Transmission>, f64) {
         self.carrier.start += TAU * (self.at(0.0).position / TAU).round();
         let advance = self.at(period).position - self.at(0.0).position;
         let whole = TAU * (advance / TAU).round();

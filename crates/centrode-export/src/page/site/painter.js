@@ -230,9 +230,13 @@ export class Painter {
     context.beginPath();
     context.arc(px, py, 4, 0, 2 * Math.PI);
     context.fill();
-    context.fillStyle = color("ink");
+    if (!words) return;
     context.font = NAMES;
-    if (words) context.fillText(name, ...words);
+    // Lines that a name lies on stop short of it.
+    Object.assign(context, { strokeStyle: color("sheet"), lineWidth: 3, lineJoin: "round" });
+    context.strokeText(name, ...words);
+    context.fillStyle = color("ink");
+    context.fillText(name, ...words);
   }
 
   /** The outlines of a link, with the ways of its points or without. */

@@ -85,13 +85,16 @@ function svg(stage, title) {
     root.append(drawn("circle", { cx, cy, r: 4, fill: color("pinned") }));
     if (!words) continue;
     const [x, y] = words;
-    const label = drawn("text", { x, y, fill: color("ink") });
+    const label = drawn("text", { x, y, fill: color("ink"), ...halo(3) });
     label.textContent = name;
     root.append(label);
   }
   if (stage.mesh.on) root.append(...meshes(stage));
   return `${new XMLSerializer().serializeToString(root)}\n`;
 }
+
+/** A rim of words, so many pixels wide, on which lines below them stop. */
+const halo = (wide) => ({ stroke: color("sheet"), "stroke-width": wide, "stroke-linejoin": "round", "paint-order": "stroke" });
 
 /** What is laid over the picture: the machine at other places of its cycle, and dimensions. */
 function laidOver(stage) {
@@ -112,7 +115,7 @@ function laidOver(stage) {
     const ink = color("pinned");
     for (const { from, to, words } of overlays.dimensions(stage, scene.motion.at(stage.input))) {
       const [x, y] = overlays.middle(from, to);
-      const label = drawn("text", { x, y: y + 4, fill: ink, "text-anchor": "middle", stroke: color("sheet"), "stroke-width": 4, "paint-order": "stroke" });
+      const label = drawn("text", { x, y: y + 4, fill: ink, "text-anchor": "middle", ...halo(4) });
       label.textContent = words;
       made.push(drawn("path", { d: `M${from.join(" ")}L${to.join(" ")}`, stroke: ink, "data-over": "dimension" }), label);
     }

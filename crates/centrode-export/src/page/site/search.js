@@ -29,6 +29,8 @@ export class Search {
     /** How the search stood when the program was last asked. */
     this.last = null;
     this.showing = null;
+    /** Resolves once the program has heard that the searches before are over. */
+    this.over = null;
     this.method = element("select", { id: "search-method" }, ...methods.map((name) => element("option", { value: name }, name)));
     this.seed = element("input", { type: "text", inputmode: "numeric", class: "number", id: "search-seed", value: "1" });
     this.evaluations = element("input", { type: "text", inputmode: "numeric", class: "number", id: "search-evaluations", value: "20000" });
@@ -73,6 +75,7 @@ export class Search {
     try {
       const [seed, evaluations] = [whole(this.seed), whole(this.evaluations)];
       if (evaluations === 0) throw new Error("a search needs at least 1 evaluation; evaluations is 0");
+      await this.over;
       const options = { text: this.design.text(), method: this.method.value, seed, evaluations };
       await work((signal) => server.search(options, signal), stop);
       this.best = null;
@@ -90,7 +93,12 @@ export class Search {
   }
 
   end() {
-    server.stopSearch().catch((error) => this.fail(error));
+    this.ending(server.stopSearch(), (error) => this.fail(error));
+  }
+
+  /** The program is asked to end the search: heard after the next one has begun, that would end the next one. */
+  ending(asked, wrong) {
+    this.over = Promise.all([this.over, asked.catch(wrong)]);
   }
 
   /** Looks at the search until it ends. */
@@ -120,7 +128,7 @@ export class Search {
   close(taken) {
     const best = this.best;
     this.leave();
-    server.stopSearch().catch((error) => this.design.complain("search", error));
+    this.ending(server.stopSearch(), (error) => this.design.complain("search", error));
     if (taken && best !== null) this.design.take(best);
     else this.design.drop();
   }
@@ -128,7 +136,7 @@ export class Search {
   /** Another design has come: the search for the old one is over, wherever it is. */
   abandon() {
     this.leave();
-    server.forgetSearch().catch((error) => this.design.complain("search", error));
+    this.ending(server.forgetSearch(), (error) => this.design.complain("search", error));
   }
 
   /** Nothing of the search stays in sight. */

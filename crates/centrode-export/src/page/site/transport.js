@@ -51,12 +51,18 @@ export class Transport {
   /** The mechanism at an input, and where the scrubber stands. */
   draw(input = this.input) {
     this.input = Math.min(Math.max(input, 0), this.cycle());
-    const scrub = byId("scrub");
-    scrub.value = this.input / this.cycle();
-    const words = `${(this.input * DEG).toFixed(1)}°`;
-    byId("angle").textContent = words;
-    scrub.setAttribute("aria-valuetext", words);
+    this.tell(this.input / this.cycle(), `${(this.input * DEG).toFixed(1)}°`);
     this.stage.at(this.input);
+  }
+
+  /** Says how far in the cycle the mechanism stands. */
+  tell(share, words) {
+    const [scrub, angle] = [byId("scrub"), byId("angle")];
+    // An edit leaves it where it is, and writing would have the browser lay out the bar again.
+    if (Number(scrub.value) === share && angle.textContent === words) return;
+    scrub.value = share;
+    scrub.setAttribute("aria-valuetext", words);
+    angle.textContent = words;
   }
 
   /** New curves to be read. */

@@ -165,3 +165,33 @@ fn bad_gears_are_told_by_their_key() {
         "{found}"
     );
 }
+
+#[test]
+fn laws_that_are_kept_are_those_of_the_design() {
+    // A whole circle of one planet's angle, bit by bit.
+    let motion = |text: &str| {
+        let train = made(text);
+        let planet = train.body_named("planet-1").expect("there");
+        let at = |i: u32| train.angle(planet, 0.7 * f64::from(i)).position.to_bits();
+        (0..10).map(at).collect::<Vec<u64>>()
+    };
+    let first = motion(TWO_ARM);
+    let moved = TWO_ARM.replace("turned_deg = -29", "turned_deg = -28");
+    assert_eq!(motion(&moved), first);
+    for (old, new) in [
+        ("ratio = 1", "ratio = -1"),
+        ("ratio = 1", "ratio = 1, start_deg = 3"),
+        ("mount_deg = 86", "mount_deg = 87"),
+        ("direction_deg = 0", "direction_deg = 1"),
+        ("direction_deg = 20", "direction_deg = 21"),
+        ("eccentricity = 0.2", "eccentricity = 0.21"),
+        ("on = \"planet-1\" }", "on = \"planet-1\", mount_deg = 5 }"),
+    ] {
+        let text = TWO_ARM.replacen(old, new, 1);
+        assert_ne!(text, TWO_ARM, "{old}");
+        let other = motion(&text);
+        assert_ne!(other, first, "{new}");
+        assert_eq!(motion(&text), other, "{new}");
+    }
+    assert_eq!(motion(TWO_ARM), first);
+}

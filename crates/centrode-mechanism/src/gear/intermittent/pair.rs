@@ -1,5 +1,4 @@
 use std::f64::consts::{PI, TAU};
-use std::sync::Arc;
 
 use centrode_geometry::{Outline, Point, Tolerance, Vector, checkpoint};
 use nalgebra::{Isometry2, Rotation2};
@@ -105,7 +104,7 @@ impl IntermittentPair {
             return Err(IntermittentPairError::StopsNeedCircles { kept, driven });
         }
         let pitch = pair.rolling().pitch_length(Member::Driver) / f64::from(driver);
-        let rolling = Arc::new(pair.rolling().clone());
+        let rolling = pair.shared_rolling();
         let arc = rolling.angle(rolling.parameter(pitch * f64::from(kept)));
         let law = IntermittentLaw {
             arc,

@@ -1,3 +1,4 @@
+mod cutting;
 mod error;
 mod gear;
 
@@ -12,13 +13,13 @@ use super::{
     design::{BodySpec, Fit, GearPairDesign, Phase, ToolSpec},
     fit::Fits,
     flank::{Flank, Side},
-    pattern::{Mating, Patterns},
-    profile::{Cutter, Profile},
+    pattern::Patterns,
     rolling::{Member, Rolling},
     teeth::{Counts, TeethParameters, layout},
     tool::{Tool, ToolKind},
 };
 
+use cutting::Cutting;
 pub use error::GearPairError;
 pub use gear::Gear;
 
@@ -33,7 +34,7 @@ const OUTLINE_TOLERANCE: f64 = 1e-10;
 pub struct GearPair {
     design: GearPairDesign,
     definition: String,
-    rolling: Rolling,
+    rolling: Arc<Rolling>,
     module: f64,
     teeth: TeethParameters,
     phase: f64,
@@ -85,25 +86,15 @@ impl GearPair {
             let teeth = parameters(settled, module);
             let plan = layout(&rolling, &counts, &teeth)?;
             let patterns = Patterns::new(rolling.symmetry(), &counts, &plan, PI * module);
-            let cutter = |member: Member| Cutter {
+            let cutting = Cutting {
                 rolling: &rolling,
-                member,
                 tool: &teeth.tool,
-                pattern: patterns.of(member),
+                plan: &plan,
+                patterns: &patterns,
+                bodies: [&design.driver, &design.driven],
                 tolerance,
             };
-            let driver = cutter(Member::Driver).cut(&plan.driver)?;
-            let driven = match Mating::new(&rolling, &plan) {
-                Some(mating) => driver.mated(&mating, &plan.driven)?,
-                None => cutter(Member::Driven).cut(&plan.driven)?,
-            };
-            let gear = |member: Member, profile: Profile, body: &BodySpec| {
-                Gear::new(&rolling, member, profile, body.clone(), tolerance)
-            };
-            let gears = [
-                gear(Member::Driver, driver, &design.driver)?,
-                gear(Member::Driven, driven, &design.driven)?,
-            ];
+            let gears = cutting.gears()?;
             Ok((teeth, plan, patterns, gears))
         };
         let cut = |design: &GearPairDesign| {
@@ -115,7 +106,7 @@ impl GearPair {
         Ok(Self {
             design: design.clone(),
             definition,
-            rolling,
+            rolling: Arc::new(rolling),
             module,
             teeth,
             phase: plan.phase,
@@ -225,6 +216,11 @@ impl GearPair {
     #[must_use]
     pub fn rolling(&self) -> &Rolling {
         &self.rolling
+    }
+
+    /// The rolling pitch curves, to be kept by what moves by them.
+    pub(crate) fn shared_rolling(&self) -> Arc<Rolling> {
+        Arc::clone(&self.rolling)
     }
 
     /// Distance between the shafts, mm.

@@ -261,10 +261,10 @@ impl Subject {
     }
 
     fn beside(&self) -> &Beside {
-        self.beside.get_or_init(|| {
-            let numbers = || tables(&self.snapshot.text);
-            let (curves, tables) = together(|| self.mechanism.curves(), numbers);
-            Beside { tables, curves }
+        // By one thread: the browser draws the picture meanwhile.
+        self.beside.get_or_init(|| Beside {
+            tables: tables(&self.snapshot.text),
+            curves: self.mechanism.curves(),
         })
     }
 

@@ -1,0 +1,57 @@
+use centrode_geometry::{Tolerance, together};
+
+use super::{Gear, GearPairError};
+use crate::gear::design::BodySpec;
+use crate::gear::pattern::{Mating, Patterns};
+use crate::gear::profile::{Cutter, Profile, ProfileError};
+use crate::gear::rolling::{Member, Rolling};
+use crate::gear::teeth::Layout;
+use crate::gear::tool::Tool;
+
+/// Both gears of a pair, to be cut as their teeth are laid out.
+pub(super) struct Cutting<'a> {
+    pub(super) rolling: &'a Rolling,
+    pub(super) tool: &'a Tool,
+    pub(super) plan: &'a Layout,
+    pub(super) patterns: &'a Patterns,
+    /// Bodies of the driver and the driven gear.
+    pub(super) bodies: [&'a BodySpec; 2],
+    pub(super) tolerance: Tolerance,
+}
+
+impl Cutting<'_> {
+    /// Driver and driven gear: by two threads, or one from the other where they mate with it.
+    pub(super) fn gears(&self) -> Result<[Gear; 2], GearPairError> {
+        let [driver, driven] = [Member::Driver, Member::Driven];
+        if let Some(mating) = Mating::new(self.rolling, self.plan) {
+            let profile = self.cut(driver)?;
+            let mate = profile.mated(&mating, &self.plan.driven)?;
+            return Ok([self.gear(driver, profile)?, self.gear(driven, mate)?]);
+        }
+        let made = |member| Ok(self.gear(member, self.cut(member)?));
+        let (one, two): (Result<_, ProfileError>, Result<_, ProfileError>) =
+            together(|| made(driver), || made(driven));
+        // Teeth that cannot be cut are told before bodies that do not fit them.
+        let (one, two) = (one?, two?);
+        Ok([one?, two?])
+    }
+
+    fn cut(&self, member: Member) -> Result<Profile, ProfileError> {
+        let cutter = Cutter {
+            rolling: self.rolling,
+            member,
+            tool: self.tool,
+            pattern: self.patterns.of(member),
+            tolerance: self.tolerance,
+        };
+        cutter.cut(match member {
+            Member::Driver => &self.plan.driver,
+            Member::Driven => &self.plan.driven,
+        })
+    }
+
+    fn gear(&self, member: Member, profile: Profile) -> Result<Gear, GearPairError> {
+        let body = self.bodies[member as usize].clone();
+        Gear::new(self.rolling, member, profile, body, self.tolerance)
+    }
+}
