@@ -1,6 +1,7 @@
 """Outlines as other programs read them."""
 
 import csv
+import re
 
 import ezdxf
 import numpy as np
@@ -48,3 +49,13 @@ def outline(folder, gear):
     """The toothed contour of a gear's CSV."""
     table = rows(folder / f"{gear}.csv")
     return Polygon(np.column_stack([table["x_mm"], table["y_mm"]]))
+
+
+def is_turned(product):
+    """Whether it is a shaft or pin."""
+    return re.fullmatch(r"pin(-.*)?|shaft-(?!body).*", product)
+
+
+def is_mounted(product):
+    """Whether it is a shaft or pin, a ring, sleeve, key or bearing on one, a screw, or a spacer between plates."""
+    return is_turned(product) or re.match(r"(circlip|key|shim)-din-|deep-groove-|screw-|spacer|sleeve-", product)

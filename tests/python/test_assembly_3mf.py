@@ -10,6 +10,7 @@ import pytest
 import trimesh
 from conftest import ROOT
 from ezdxf import bbox
+from reading import is_mounted
 
 # Gears in place, loops, cams on forks, a shaft with a groove.
 DESIGNS = ("elliptic-pair-2018", "jansen-leg", "feeder-2022", "three-arm-2021", "spiral-shaft-2018")
@@ -22,10 +23,6 @@ def read(file):
     reader.ReadFromFile(str(file))
     assert reader.GetWarningCount() == 0
     return model
-
-
-MOUNTED = ("pin", "shaft-", "circlip-", "key-", "screw-", "spacer", "shim-", "sleeve-")
-"""Beginnings of the names of parts that are mounted on their links."""
 
 
 def every(iterator, current):
@@ -50,8 +47,7 @@ def test_every_body_is_closed_and_stands_where_its_link_does(name, shipped):
         found = np.eye(4)
         found[:3, :] = fields.T
         # Shafts and pins are mounted on their links.
-        turned = item.GetObjectResource().GetName().startswith(MOUNTED) and link != "shaft"
-        if name != "three-arm-2021" and not turned:
+        if name != "three-arm-2021" and not is_mounted(item.GetObjectResource().GetName()):
             # The arrangement shows this machine as an arm picks, all others where the cycle begins.
             np.testing.assert_allclose(found, np.reshape(frames[link], (4, 4)), atol=2e-6)
         turn = found[:3, :3]

@@ -40,6 +40,7 @@ from OCP.XCAFDoc import (
     XCAFDoc_Material,
     XCAFDoc_ShapeTool,
 )
+from reading import is_mounted, is_turned
 
 # Gears in place, loops, cams on forks, a shaft with a groove.
 DESIGNS = ("elliptic-pair-2018", "jansen-leg", "feeder-2022", "three-arm-2021", "spiral-shaft-2018", "moving-box-2018")
@@ -87,15 +88,6 @@ def parts(folder):
     """Rows of the parts list."""
     with (folder / "parts.csv").open(newline="") as lines:
         return list(csv.DictReader(lines))
-
-
-def is_turned(product):
-    return re.fullmatch(r"pin(-.*)?|shaft-(?!body).*", product)
-
-
-def is_mounted(product):
-    """Whether it is a shaft or pin, a ring, sleeve, key or bearing on one, a screw, or a spacer between plates."""
-    return is_turned(product) or re.match(r"(circlip|key|shim)-din-|deep-groove-|screw-|spacer|sleeve-", product)
 
 
 def every(shape, kind):

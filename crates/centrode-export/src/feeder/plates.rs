@@ -3,6 +3,7 @@ use crate::plate::{self, Hole};
 use crate::sheet::{capital, number};
 use centrode_geometry::{Bounds, Point, Vector};
 use centrode_mechanism::feeder::{Feeder, FeederPart, Plate};
+use centrode_mechanism::machine::Stock;
 
 const PATH: &str = "PATH";
 const TEXT: &str = "TEXT";
@@ -74,7 +75,8 @@ pub(super) fn made(feeder: &Feeder, plate: &Plate) -> plate::Plate {
 pub(super) fn spacer(feeder: &Feeder) -> Option<plate::Plate> {
     let spec = &feeder.design().plates;
     let screws = feeder.frame_screws()?.ok()?;
-    let made = (screws.at.len(), &*spec.material, spec.density);
+    let stock = Stock::new(&spec.material, spec.density);
+    let made = (screws.at.len(), stock);
     Some(plate::Plate::spacer(&screws, "Spacer of the frame", made))
 }
 

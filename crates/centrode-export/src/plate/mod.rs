@@ -10,7 +10,7 @@ use centrode_geometry::{
 };
 use centrode_mechanism::design::DrawingSpec;
 use centrode_mechanism::gear::design::BodySpec;
-use centrode_mechanism::machine::Fastening;
+use centrode_mechanism::machine::{Fastening, Stock};
 
 use nalgebra::Isometry2;
 
@@ -97,7 +97,7 @@ impl Plate {
     pub(crate) fn spacer(
         screws: &Fastening,
         title: &str,
-        (quantity, material, density): (usize, &str, f64),
+        (quantity, stock): (usize, Stock<'_>),
     ) -> Self {
         let one = Fastening {
             at: vec![Point::origin()],
@@ -111,9 +111,9 @@ impl Plate {
             holes: Hole::threads(&one),
             opening: None,
             thickness: screws.between(),
-            material: material.into(),
-            density,
-            heat_treatment: Some(String::new()),
+            material: stock.material.into(),
+            density: stock.density,
+            heat_treatment: Some(stock.heat_treatment.into()),
             notes: vec!["Those of one machine are of one length within 0.02 mm.".into()],
             tables: Vec::new(),
             exactness: None,

@@ -1,17 +1,14 @@
 use centrode_geometry::{Bounds, Outline, Point};
 use centrode_mechanism::arm::{ArmBody, ArmPart};
 use centrode_mechanism::gear::{GearPair, Member};
-use centrode_mechanism::machine::{Fastening, Fit, TurnedPieces, with_bosses};
-use centrode_mechanism::three_arm::making::{self, PRESSED, RINGS, SLIDING, STEEL};
+use centrode_mechanism::machine::{Fastening, Fit, Stock, TurnedPieces, with_bosses};
+use centrode_mechanism::three_arm::making::{self, LIGHT, PRESSED, RINGS, SLIDING, SPRING, STEEL};
 use centrode_mechanism::three_arm::{GearboxBody, Pusher, ThreeArm};
 
 use super::ThreeArmPart;
 use crate::plate::{Hole, Plate};
-use crate::sheet::fit;
+use crate::sheet::{fit, number};
 use crate::{ExportError, cam};
-
-/// Material of carrier and housings, with its density in kg/m^3.
-const LIGHT: (&str, f64) = ("aluminium alloy", 2700.0);
 
 /// Tolerance class, ISO 286, of the holes in which the shafts of the gears turn, which are made to fit the gears.
 const BEARING: &str = "F7";
@@ -95,9 +92,11 @@ impl<'a> Machine<'a> {
             -self.mechanism.design().arm.pusher_offset,
         );
         let hole = Outline::circle(pin, 0.25 * self.pusher.fork_spec().slot_width);
-        let bar = fit::keyway(self.mechanism.arm_sizes().rod_bore(), SLIDING[1]);
+        let sizes = self.mechanism.arm_sizes();
+        let bar = fit::keyway(sizes.rod_bore(), SLIDING[1]);
+        let stock = STEEL.treated(&sizes.push_rod.heat_treatment);
         Some(
-            self.plate(ThreeArmPart::PushRod, outline, vec![hole], rod.span, STEEL)
+            self.plate(ThreeArmPart::PushRod, outline, vec![hole], rod.span, stock)
                 .noted("x points from the hole to the pusher.")
                 .noted("Hole for the pin that runs in the fork's slot.")
                 .noted(&format!("Square bar {bar}, to slide in the housing.")),
@@ -122,8 +121,9 @@ impl<'a> Machine<'a> {
 
     fn bore_in_words(&self) -> String {
         let bore = fit::keyway(self.mechanism.arm_sizes().rod_bore(), SLIDING[0]);
+        let at = number(-self.mechanism.design().arm.pusher_offset, 4);
         format!(
-            "Square bore {bore} for the push rod, on the pusher's axis and in the middle of the thickness."
+            "Square bore {bore} for the push rod, its middle at y = {at} and in the middle of the thickness."
         )
     }
 
@@ -133,7 +133,7 @@ impl<'a> Machine<'a> {
         outline: Outline,
         holes: Vec<Outline>,
         [bottom, top]: [f64; 2],
-        (material, density): (&str, f64),
+        stock: Stock<'_>,
     ) -> Plate {
         Plate {
             name: part.name().into(),
@@ -143,9 +143,9 @@ impl<'a> Machine<'a> {
             holes: holes.into_iter().map(Hole::from).collect(),
             opening: None,
             thickness: top - bottom,
-            material: material.into(),
-            density,
-            heat_treatment: Some(String::new()),
+            material: stock.material.into(),
+            density: stock.density,
+            heat_treatment: Some(stock.heat_treatment.into()),
             notes: Vec::new(),
             tables: Vec::new(),
             exactness: None,
@@ -268,9 +268,11 @@ impl<'a> Machine<'a> {
 
     fn bare_plate(&self, part: ThreeArmPart) -> Option<Plate> {
         let light = |name: &str| {
+            let sizes = self.mechanism.arm_sizes();
+            let stock = LIGHT.treated(&sizes.housing.heat_treatment);
             let found = self.of_arm(name)?;
             let (outline, holes) = (found.outline.clone(), found.holes.clone());
-            let plate = self.plate(part, outline, holes, found.span, LIGHT);
+            let plate = self.plate(part, outline, holes, found.span, stock);
             Some(Plate {
                 classes: [String::new(), SLIDING[0].into()],
                 opening: found.opening.clone(),
@@ -283,13 +285,14 @@ impl<'a> Machine<'a> {
             ThreeArmPart::Carrier => {
                 let body = &self.gearbox;
                 let (outline, holes) = (body.outline.clone(), body.holes.clone());
-                let plate = self.plate(part, outline, holes, body.spans[0], LIGHT);
+                let stock = LIGHT.treated(&self.mechanism.design().gearbox.heat_treatment);
+                let plate = self.plate(part, outline, holes, body.spans[0], stock);
                 Some(plate.noted("x points from the sun's axis to the first intermediate gear's."))
             }
             ThreeArmPart::Fork => {
                 let (outline, holes) = self.fork.clone();
-                let mut plate = self.plate(part, outline, holes, self.pusher.fork_span(), STEEL);
-                plate.heat_treatment = Some(self.pusher.fork_spec().heat_treatment.clone());
+                let stock = STEEL.treated(&self.pusher.fork_spec().heat_treatment);
+                let plate = self.plate(part, outline, holes, self.pusher.fork_span(), stock);
                 Some(plate.noted("x points from the pivot's hole to the roller's."))
             }
             ThreeArmPart::Roller => {
@@ -297,19 +300,15 @@ impl<'a> Machine<'a> {
                 let circle = |radius| Outline::circle(Point::origin(), radius);
                 let holes = vec![circle(0.5 * spec.roller_bore)];
                 let span = self.pusher.cam_span();
-                let mut roller = self.plate(part, circle(spec.roller_radius), holes, span, STEEL);
+                let stock = STEEL.treated(&spec.heat_treatment);
+                let mut roller = self.plate(part, circle(spec.roller_radius), holes, span, stock);
                 roller.classes[0] = making::RIM.into();
-                roller.heat_treatment = Some(spec.heat_treatment.clone());
                 Some(roller)
             }
             ThreeArmPart::Spacer => {
                 let screws = self.screws[0].as_ref()?;
                 let quantity = part.quantity(self.mechanism.arms()) as usize;
-                Some(Plate::spacer(
-                    screws,
-                    part.title(),
-                    (quantity, STEEL.0, STEEL.1),
-                ))
+                Some(Plate::spacer(screws, part.title(), (quantity, STEEL)))
             }
             ThreeArmPart::Housing => Some(
                 self.housing(light("housing")?)
@@ -327,7 +326,8 @@ impl<'a> Machine<'a> {
             }
             ThreeArmPart::Clamp => {
                 let found = self.of_arm("flake-left")?;
-                let steel = ("spring steel", STEEL.1);
+                let sizes = self.mechanism.arm_sizes();
+                let steel = SPRING.treated(&sizes.clamp.heat_treatment);
                 let plate = self.plate(part, found.outline.clone(), Vec::new(), found.span, steel);
                 Some(plate.noted("x points from the root in the housing to the tip."))
             }

@@ -2,7 +2,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::gear::design::SpecError;
-use crate::gear::design::rule::{not_negative, positive, screw_size};
+use crate::gear::design::rule::{not_negative, positive, screw_size, single_line};
 
 /// The parts of an arm, around its planet's axis and along its pusher's axis.
 ///
@@ -44,6 +44,9 @@ pub struct HousingSpec {
     /// cover that finds room.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub screw: Option<f64>,
+    /// Heat treatment of housing and covers, for the drawing; left empty, none.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub heat_treatment: String,
 }
 
 impl Default for HousingSpec {
@@ -57,6 +60,7 @@ impl Default for HousingSpec {
             bore: 12.0,
             sleeve_bore: 17.0,
             screw: None,
+            heat_treatment: String::new(),
         }
     }
 }
@@ -73,6 +77,9 @@ pub struct ClampSpec {
     pub thickness: f64,
     /// Distance between the flakes when open, mm.
     pub opening: f64,
+    /// Heat treatment of the flakes, for the drawing; left empty, none.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub heat_treatment: String,
 }
 
 impl Default for ClampSpec {
@@ -82,6 +89,7 @@ impl Default for ClampSpec {
             tip_height: 6.0,
             thickness: 1.5,
             opening: 14.0,
+            heat_treatment: String::new(),
         }
     }
 }
@@ -98,6 +106,9 @@ pub struct PushRodSpec {
     pub pusher_height: f64,
     /// Length of the pusher along the rod, mm.
     pub pusher_length: f64,
+    /// Heat treatment of the rod, for the drawing; left empty, none.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub heat_treatment: String,
 }
 
 impl Default for PushRodSpec {
@@ -107,6 +118,7 @@ impl Default for PushRodSpec {
             stroke: 25.0,
             pusher_height: 5.5,
             pusher_length: 3.0,
+            heat_treatment: String::new(),
         }
     }
 }
@@ -174,8 +186,14 @@ impl ArmBodySpec {
         ] {
             not_negative(key, size)?;
         }
-        screw_size("housing.screw", self.housing.screw)?;
-        Ok(())
+        for (key, word) in [
+            ("housing.heat_treatment", &self.housing.heat_treatment),
+            ("clamp.heat_treatment", &self.clamp.heat_treatment),
+            ("push_rod.heat_treatment", &self.push_rod.heat_treatment),
+        ] {
+            single_line(key, word)?;
+        }
+        screw_size("housing.screw", self.housing.screw)
     }
 
     /// Width and height of the bore for the push rod in the housing's front, mm: the rod's, which slides in it.
@@ -203,19 +221,21 @@ impl ArmBodySpec {
                 wall: k * self.housing.wall,
                 bore: k * self.housing.bore,
                 sleeve_bore: k * self.housing.sleeve_bore,
-                screw: self.housing.screw,
+                ..self.housing.clone()
             },
             clamp: ClampSpec {
                 root_height: k * self.clamp.root_height,
                 tip_height: k * self.clamp.tip_height,
                 thickness: k * self.clamp.thickness,
                 opening: k * self.clamp.opening,
+                ..self.clamp.clone()
             },
             push_rod: PushRodSpec {
                 diameter: k * self.push_rod.diameter,
                 stroke: k * self.push_rod.stroke,
                 pusher_height: k * self.push_rod.pusher_height,
                 pusher_length: k * self.push_rod.pusher_length,
+                ..self.push_rod.clone()
             },
             spring: SpringSpec {
                 outer_diameter: k * self.spring.outer_diameter,

@@ -101,9 +101,7 @@ impl Composed {
                 Some((_, pins)) => pins.pieces.extend(piece),
                 None => {
                     let title = format!("Pin through {} mm", thousandths(axis.length()));
-                    let material = (&*spec.material, spec.density);
-                    let mut part = bar.part(["pin", &title], material, general);
-                    part.heat_treatment.clone_from(&spec.pin_heat_treatment);
+                    let mut part = bar.part(["pin", &title], spec.pin_stock(), general);
                     let role = if bar.is_held() { "" } else { "without rings" };
                     part.notes.extend((!bar.is_held()).then(|| BONDED.into()));
                     let pins = TurnedPieces {
@@ -119,7 +117,10 @@ impl Composed {
         let alone = found.len() == 1;
         let mut found: Vec<TurnedPieces> = found.into_iter().map(|(_, pins)| pins).collect();
         for (index, pins) in found.iter_mut().enumerate().filter(|_| !alone) {
-            pins.part.name = format!("pin-{}", index + 1);
+            let number = index + 1;
+            pins.part.name = format!("pin-{number}");
+            // Pins of one length may have other spacers.
+            pins.part.title = pins.part.title.replace("Pin", &format!("Pin {number}"));
         }
         found
     }

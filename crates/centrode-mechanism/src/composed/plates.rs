@@ -14,7 +14,7 @@ use crate::gear::design::SpecError;
 use crate::gear::design::rule::{
     hole_class, in_range, not_negative, positive, shaft_class, single_line,
 };
-use crate::machine::JointKind;
+use crate::machine::{JointKind, Stock};
 
 /// Greatest diameter of a pin as a share of its plate's width.
 const PIN: f64 = 0.9;
@@ -74,6 +74,12 @@ impl Default for ComposedPlatesSpec {
 }
 
 impl ComposedPlatesSpec {
+    /// Material of the pins.
+    #[must_use]
+    pub fn pin_stock(&self) -> Stock<'_> {
+        Stock::new(&self.material, self.density).treated(&self.pin_heat_treatment)
+    }
+
     pub(super) fn validate(&self) -> Result<(), SpecError> {
         for (key, value) in [
             ("thickness", self.thickness),

@@ -60,8 +60,9 @@ impl Composed {
         let spacers = self.spacers((shaft.body, shaft.at), hub.bore, &spans);
         let rings = spacers.iter().map(|(ring, at)| [*at, at + ring.length]);
         bar = bar.through(&spans).through(&rings.collect::<Vec<_>>());
-        if end > 0.0 && *class != hub.shaft_fit {
-            bar = bar.seat([low - end, low], &hub.shaft_fit);
+        let mut seats = Vec::new();
+        if end > 0.0 {
+            seats.push([low - end, low]);
         }
         let mut keys = Vec::new();
         for part in on_it.iter().filter(|part| part.hold.is_fixed()) {
@@ -75,16 +76,23 @@ impl Composed {
                     false => bar.keyed(hub.keyway, span),
                 };
                 keys.push((key, middle - 0.5 * key.length));
+                if let Some([past, beyond]) = bar.last_keyway() {
+                    seats.extend([[past, span[0]], [span[1], beyond]]);
+                }
             }
-            if *class != hub.shaft_fit {
-                bar = bar.seat(span, &hub.shaft_fit);
+            seats.push(span);
+        }
+        if *class != hub.shaft_fit {
+            let turning = on_it.iter().filter(|part| part.hold == Hold::Turning);
+            let turning: Vec<[f64; 2]> = turning.map(|part| part.span).collect();
+            for seat in joined(seats, &turning) {
+                bar = bar.seat(seat, &hub.shaft_fit);
             }
         }
         let title = format!("Shaft of {}", self.original(&shaft.name));
         let name = format!("shaft-{}", self.original(&shaft.name));
         let general = &self.design.drawing.general_tolerance;
-        let mut part = bar.part([&name, &title], (&hub.material, hub.density), general);
-        part.heat_treatment.clone_from(&hub.shaft_heat_treatment);
+        let mut part = bar.part([&name, &title], hub.shaft_stock(), general);
         part.notes.extend(notes(&on_it, (end > 0.0, bar.is_held())));
         let owner = &self.bodies[shaft.body].name;
         let given = self.design.bodies.get(owner).map(|body| body.given_mass());
@@ -197,6 +205,34 @@ impl Composed {
     }
 }
 
+/// Seats on a shaft as one where nothing turns between them, and out to its ends where nothing turns beyond them: those that reach below what
+/// turns are none.
+fn joined(mut seats: Vec<[f64; 2]>, turning: &[[f64; 2]]) -> Vec<[f64; 2]> {
+    let is_free = |from: f64, to: f64| {
+        let within = |part: &[f64; 2]| part[0] < to - ROUNDING && part[1] > from + ROUNDING;
+        !turning.iter().any(within)
+    };
+    let (low, high) = (f64::NEG_INFINITY, f64::INFINITY);
+    seats.retain(|seat| seat[0] < seat[1] && is_free(seat[0], seat[1]));
+    seats.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let mut all: Vec<[f64; 2]> = Vec::new();
+    for seat in seats {
+        match all.last_mut().filter(|last| is_free(last[1], seat[0])) {
+            Some(last) => last[1] = last[1].max(seat[1]),
+            None => all.push(seat),
+        }
+    }
+    let first = all.first_mut().filter(|first| is_free(low, first[0]));
+    if let Some(first) = first {
+        first[0] = low;
+    }
+    let last = all.last_mut().filter(|last| is_free(last[1], high));
+    if let Some(last) = last {
+        last[1] = high;
+    }
+    all
+}
+
 /// Notes of a shaft's sheet: what drives it, and what is bonded on it.
 fn notes(on_it: &[&ShaftPart], (driven, held): (bool, bool)) -> Vec<String> {
     let mut notes = Vec::new();
@@ -226,4 +262,29 @@ fn notes(on_it: &[&ShaftPart], (driven, held): (bool, bool)) -> Vec<String> {
         notes.push(format!("Keyways on one line set the angles of {what}."));
     }
     notes
+}
+
+#[cfg(test)]
+mod tests {
+    use super::joined;
+
+    #[test]
+    fn seats_are_one_where_nothing_turns_between_them() {
+        let (low, high) = (f64::NEG_INFINITY, f64::INFINITY);
+        let turning = [[12.0, 18.0]];
+        // The end of a keyway with room, and one that reaches below what turns.
+        let seats = vec![
+            [20.0, 26.0],
+            [0.0, 10.0],
+            [26.0, 27.5],
+            [17.0, 20.0],
+            [28.0, 34.0],
+        ];
+        assert_eq!(joined(seats, &turning), [[low, 10.0], [20.0, high]]);
+        // What turns at an end keeps it.
+        assert_eq!(joined(vec![[0.0, 10.0]], &[[11.0, 20.0]]), [[low, 10.0]]);
+        assert_eq!(joined(vec![[0.0, 10.0]], &[[-9.0, 0.0]]), [[0.0, high]]);
+        assert_eq!(joined(vec![[0.0, 10.0], [11.0, 20.0]], &[]), [[low, high]]);
+        assert_eq!(joined(Vec::new(), &[]), [[0.0; 2]; 0]);
+    }
 }

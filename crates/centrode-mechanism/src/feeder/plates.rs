@@ -5,6 +5,7 @@ use crate::gear::design::SpecError;
 use crate::gear::design::rule::{
     hole_class, in_range, not_negative, positive, screw_size, shaft_class, single_line,
 };
+use crate::machine::Stock;
 
 /// The links as plates, stacked along the shafts: crank, coupler, rocker, effector.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -76,6 +77,12 @@ impl Default for PlatesSpec {
 }
 
 impl PlatesSpec {
+    /// Material of the pins.
+    #[must_use]
+    pub fn pin_stock(&self) -> Stock<'_> {
+        Stock::new(&self.material, self.density).treated(&self.pin_heat_treatment)
+    }
+
     pub(super) fn validate(&self) -> Result<(), SpecError> {
         for (key, value) in [
             ("thickness", self.thickness),

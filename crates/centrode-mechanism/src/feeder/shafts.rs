@@ -39,9 +39,7 @@ impl Feeder {
         // Without gears none has a place.
         let at = at.chain(std::iter::repeat([0.0; 3]));
         let pieces = at.take(2 * stops as usize);
-        let material = (&*body.material, body.density);
-        let mut made = bar.part(["pin-cam", "Pin of a cam"], material, "");
-        made.heat_treatment.clone_from(&body.shaft_heat_treatment);
+        let made = bar.part(["pin-cam", "Pin of a cam"], body.shaft_stock(), "");
         self.has_cams().then(|| TurnedPieces {
             role: standard
                 .map_or("", |_| "pressed into the driven gear")
@@ -117,8 +115,7 @@ impl Feeder {
             let bar = bar.through(&parts);
             let at = axis - self.place(link, self.start()).translation.vector;
             let at = [at.x, at.y, bar.bottom()];
-            let mut part = bar.part(names, (&spec.material, spec.density), general);
-            part.heat_treatment.clone_from(&spec.pin_heat_treatment);
+            let part = bar.part(names, spec.pin_stock(), general);
             TurnedPieces {
                 pieces: vec![TurnedPiece::upright(link.name(), at)],
                 axis: Some(axis.coords.into()),
@@ -134,7 +131,7 @@ impl Feeder {
         let (gap, free) = (plates.gap, f64::INFINITY);
         let [rear, front] = [-gap - plates.thickness, -gap];
         let hub = |bottom: f64| [bottom, bottom + body.width];
-        let material = (&*body.material, body.density);
+        let stock = body.shaft_stock();
         let general = &self.design().drawing.general_tolerance;
         let fit = Fit::new("", body.bore, [&body.bore_fit, &body.shaft_fit]);
         let keyed = |bar: Bar, ends: [f64; 2]| bar.keyed(body.keyway, ends);
@@ -174,15 +171,12 @@ impl Feeder {
         let own = keyed(own, [f64::NEG_INFINITY, last - beyond]).ring(front, true, before);
         let on_it = hubs.iter().map(|&bottom| hub(bottom));
         let own = own.through(&on_it.chain([[rear, front]]).collect::<Vec<_>>());
-        let mut of_crank = crank.part(["shaft-a", "Shaft A"], material, general);
+        let mut of_crank = crank.part(["shaft-a", "Shaft A"], stock, general);
         of_crank.notes =
             vec!["The crank is pressed on its seat and key, flush with the end.".into()];
-        let on_shaft = |mut part: TurnedPart, bar: &Bar, link: &str| {
-            part.heat_treatment.clone_from(&body.shaft_heat_treatment);
-            TurnedPieces {
-                pieces: vec![TurnedPiece::upright(link, [0.0, 0.0, bar.bottom()])],
-                ..TurnedPieces::new(part, fit.clone())
-            }
+        let on_shaft = |part: TurnedPart, bar: &Bar, link: &str| TurnedPieces {
+            pieces: vec![TurnedPiece::upright(link, [0.0, 0.0, bar.bottom()])],
+            ..TurnedPieces::new(part, fit.clone())
         };
         // In the middle of its hub.
         let seated = |key: Key, [low, high]: [f64; 2], bar: &Bar| SeatedKey {
@@ -213,7 +207,7 @@ impl Feeder {
                 keys: hubs.iter().filter_map(|&low| key(low, &own)).collect(),
                 axis: Some([-distance, 0.0]),
                 ..on_shaft(
-                    own.part(["shaft-g", "Shaft G"], material, general),
+                    own.part(["shaft-g", "Shaft G"], stock, general),
                     &own,
                     GearBody::NAMES[0],
                 )

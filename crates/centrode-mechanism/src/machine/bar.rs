@@ -1,4 +1,6 @@
-use super::{Circlip, HeldLength, TurnedPart, TurnedStep, general_deviation, preferred_size};
+use super::{
+    Circlip, HeldLength, Stock, TurnedPart, TurnedStep, general_deviation, preferred_size,
+};
 use crate::gear::design::Keyway;
 
 /// Share of a diameter that a chamfer at an end takes at most.
@@ -124,6 +126,11 @@ impl Bar {
         low && high
     }
 
+    /// Heights between which the keyway of the last key goes.
+    pub(crate) fn last_keyway(&self) -> Option<[f64; 2]> {
+        self.keyed.last().copied()
+    }
+
     /// Height of its lower end, mm.
     pub(crate) fn bottom(&self) -> f64 {
         self.span[0]
@@ -209,11 +216,11 @@ impl Bar {
         ends.windows(2).map(step).collect()
     }
 
-    /// The part that it is: names of its files and in words, material and density, and the general tolerances.
+    /// The part that it is: names of its files and in words, material, and the general tolerances.
     pub(crate) fn part(
         &self,
         [name, title]: [&str; 2],
-        (material, density): (&str, f64),
+        stock: Stock<'_>,
         general: &str,
     ) -> TurnedPart {
         let steps = self.steps();
@@ -227,9 +234,9 @@ impl Bar {
             keyway: self.keyway,
             held: self.held_lengths(general),
             chamfer: preferred_size(chamfer.min(1.0)),
-            material: material.into(),
-            density,
-            heat_treatment: String::new(),
+            material: stock.material.into(),
+            density: stock.density,
+            heat_treatment: stock.heat_treatment.into(),
             notes: Vec::new(),
         }
     }

@@ -23,6 +23,7 @@ mod pose;
 mod sound;
 mod spacer;
 mod standard;
+mod stock;
 mod turned;
 
 use std::fmt;
@@ -54,6 +55,7 @@ pub use part::{Part, Supply};
 pub use sound::{MachineError, loose_link};
 pub use spacer::Spacer;
 pub use standard::{Bearing, Circlip, Dowel, Key, Screw, allowed_pressure};
+pub use stock::Stock;
 pub use turned::{HeldLength, SeatedKey, TurnedPart, TurnedPiece, TurnedPieces, TurnedStep};
 
 /// Rigid links, and how each of them moves with the one input.

@@ -2,7 +2,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::SpiralShaft;
 use crate::digits::thousandths;
-use crate::machine::{Bar, Fit, TurnedPiece, TurnedPieces};
+use crate::machine::{Bar, Fit, Stock, TurnedPiece, TurnedPieces};
 
 /// Diameters of its own that the slider's pin is long in the box.
 const IN_BOX: f64 = 2.0;
@@ -14,8 +14,8 @@ impl SpiralShaft {
         let slider = self.slider();
         let length = slider.reach + IN_BOX * slider.pin_diameter;
         let bar = Bar::new(slider.pin_diameter, &slider.pin_fit, [0.0, length]);
-        let material = (&*slider.material, slider.density);
-        let mut part = bar.part(["pin", "Pin of the slider"], material, "");
+        let stock = Stock::new(&slider.material, slider.density);
+        let mut part = bar.part(["pin", "Pin of the slider"], stock, "");
         part.notes = vec![format!(
             "{} mm of it in the slider.",
             thousandths(slider.reach)

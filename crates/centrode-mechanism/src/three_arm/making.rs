@@ -1,7 +1,13 @@
 //! Materials and tolerance classes of parts of which the design says nothing.
 
-/// Material of what carries load, with its density in kg/m^3.
-pub const STEEL: (&str, f64) = ("steel", 7850.0);
+use crate::machine::Stock;
+
+/// Material of what carries load.
+pub const STEEL: Stock<'_> = Stock::new("steel", 7850.0);
+/// Material of carrier and housings.
+pub const LIGHT: Stock<'_> = Stock::new("aluminium alloy", 2700.0);
+/// Material of the clamps.
+pub const SPRING: Stock<'_> = Stock::new("spring steel", STEEL.density);
 /// Tolerance classes, ISO 286, of pins that are pressed in, hole and pin, ISO 8734.
 pub const PRESSED: [&str; 2] = ["H7", "m6"];
 /// Of what slides in a slot or a square bore.

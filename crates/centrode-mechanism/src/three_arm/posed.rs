@@ -81,3 +81,43 @@ impl ThreeArmDesign {
 fn principal(angle: f64) -> f64 {
     angle - TAU * (angle / TAU).round()
 }
+
+#[cfg(test)]
+mod tests {
+    use centrode_geometry::{Point, Vector};
+
+    use super::*;
+    use crate::gear::design::Keyway;
+    use crate::reverse::KeyPose;
+
+    #[test]
+    fn sun_and_planets_are_keyed_on_their_shafts_and_intermediate_gears_turn_on_theirs() {
+        let pose = |share: f64| {
+            let psi = TAU * share;
+            let alpha = 0.4 - 0.3 * psi.sin();
+            let bar = |length: f64, angle: f64| Vector::new(angle.cos(), angle.sin()) * length;
+            KeyPose {
+                point: Point::origin() + bar(280.0, psi) + bar(640.0, alpha),
+                direction: alpha + 0.25,
+            }
+        };
+        let poses = KeyPoses::new(&[0.05, 0.25, 0.45, 0.62, 0.85].map(pose)).expect("a machine");
+        let design = ThreeArmDesign::through(&poses, 0.7, &[]).expect("a design");
+        for (keyed, body) in [
+            (true, &design.sun),
+            (false, &design.intermediate),
+            (true, &design.planet),
+        ] {
+            let known = Keyway::of_bore(body.bore);
+            assert!(known.is_some(), "a bore of {} mm has no keyway", body.bore);
+            assert_eq!(body.keyway, known.filter(|_| keyed));
+            assert_eq!(body.keyway_angle, 0.0);
+            assert!(body.validate().is_ok());
+        }
+        // Each has the bore of its shaft, which is of one piece with what turns with it.
+        assert_eq!(
+            [design.sun.bore, design.planet.bore],
+            [design.intermediate.bore; 2]
+        );
+    }
+}

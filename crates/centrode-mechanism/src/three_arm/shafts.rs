@@ -104,8 +104,7 @@ impl ThreeArm {
             bar = bar.seat([low, low + bearing.width], BEARING[1]);
         }
         let above = |(bearing, low): (Bearing, f64)| (bearing, low - bar.bottom());
-        let mut part = bar.part(names, (&body.material, body.density), general);
-        part.heat_treatment.clone_from(&body.shaft_heat_treatment);
+        let part = bar.part(names, body.shaft_stock(), general);
         let fit = Fit::new("", body.bore, [&body.bore_fit, &body.shaft_fit]);
         let key = body.keyway.and_then(|hub| Key::fitting(hub, body.width));
         let key = key.map(|key| SeatedKey {
@@ -139,8 +138,8 @@ impl ThreeArm {
         let standard = standard.filter(|pin| cover - pin.length < fork[0] + SHORT * spec.width);
         let low = standard.map_or(fork[0], |pin| cover - pin.length);
         let bar = Bar::new(seat.size, seat.pin, [low, cover]);
-        let mut pivot = bar.part(["pin-fork", "Pin of the fork"], STEEL, "");
-        pivot.heat_treatment.clone_from(&spec.pin_heat_treatment);
+        let stock = STEEL.treated(&spec.pin_heat_treatment);
+        let mut pivot = bar.part(["pin-fork", "Pin of the fork"], stock, "");
         pivot.notes = vec!["Pressed into the front cover, flush with its outside.".into()];
         let at = pusher.pivot();
         let [pressed, _] = seat.fits([""; 2]);
@@ -166,16 +165,12 @@ impl ThreeArm {
                 .into(),
             standard: standard.map(Dowel::name),
             ..TurnedPieces::new(
-                TurnedPart {
-                    heat_treatment: spec.pin_heat_treatment.clone(),
-                    ..bar.part(["pin-roller", "Pin of the roller"], STEEL, "")
-                },
+                bar.part(["pin-roller", "Pin of the roller"], stock, ""),
                 pressed,
             )
         };
         let thin = 0.5 * spec.slot_width;
         let [under, over] = wide("push-rod");
-        let (material, density) = STEEL;
         let rod = TurnedPart {
             name: "pin-rod".into(),
             title: "Pin of the push rod".into(),
@@ -186,9 +181,9 @@ impl ThreeArm {
             keyway: None,
             held: Vec::new(),
             chamfer: 0.0,
-            material: material.into(),
-            density,
-            heat_treatment: spec.pin_heat_treatment.clone(),
+            material: stock.material.into(),
+            density: stock.density,
+            heat_treatment: stock.heat_treatment.into(),
             notes: vec![
                 "Thin end pressed into the rod; the wide one runs in the fork's slot.".into(),
             ],

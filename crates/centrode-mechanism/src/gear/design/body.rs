@@ -7,6 +7,7 @@ use super::rule::{
     Rule, SpecError, broken, hole_class, in_range, not_negative, positive, shaft_class, single_line,
 };
 use crate::degrees;
+use crate::machine::Stock;
 
 /// Body of a gear: all but its teeth.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -217,6 +218,12 @@ impl Default for BodySpec {
 }
 
 impl BodySpec {
+    /// Material of the shaft in its bore.
+    #[must_use]
+    pub fn shaft_stock(&self) -> Stock<'_> {
+        Stock::new(&self.material, self.density).treated(&self.shaft_heat_treatment)
+    }
+
     /// The body with the keyway that DIN 6885-1 has for its bore, none where there is no such, along the x axis of what carries the body
     /// at an angle, rad.
     pub(crate) fn keyed(self, mount: f64) -> Self {

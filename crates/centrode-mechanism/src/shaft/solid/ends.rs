@@ -18,27 +18,37 @@ pub(super) fn close(
         radius,
         angles: lines,
     });
-    let mut sections = body.journal(radius, true);
-    let below: f64 = sections.iter().map(|section| section.length).sum();
-    let slot = body.keyway.map(|key| TurnedSlot {
-        width: key.width,
-        foot: 0.5 * body.journal_diameter - key.depth,
-        rounded: body.keyway_rounding() > 0.0,
-    });
-    let journal = Turned::new(thick[0] - below, sections, slot).ok()?;
+    let [below, above] = [true, false].map(|near| body.journal(radius, near));
+    let journal = Turned::new(thick[0] - length(&below), below, body.slot()).ok()?;
     journal.close(builder, [TurnedEnd::Flat, near]);
-    sections = body.journal(radius, false);
-    sections.reverse();
-    for section in &mut sections {
-        section.radii.reverse();
-    }
-    let journal = Turned::new(thick[1], sections, None).ok()?;
+    let journal = Turned::new(thick[1], above, None).ok()?;
     journal.close(builder, [far, TurnedEnd::Flat]);
     Some(())
 }
 
+/// The shaft before its groove is cut, with its keyway; `None` where body and journals make no solid.
+pub(super) fn blank(body: &ShaftBody, radius: f64, thick: [f64; 2]) -> Option<Turned> {
+    let mut sections = body.journal(radius, true);
+    let bottom = thick[0] - length(&sections);
+    sections.push(TurnedSection::cylinder(thick[1] - thick[0], radius));
+    sections.extend(body.journal(radius, false));
+    Turned::new(bottom, sections, body.slot()).ok()
+}
+
+fn length(sections: &[TurnedSection]) -> f64 {
+    sections.iter().map(|section| section.length).sum()
+}
+
 impl ShaftBody {
-    /// Sections of a journal from its tip to the thick part of a radius, the near one with its keyway.
+    fn slot(&self) -> Option<TurnedSlot> {
+        self.keyway.map(|key| TurnedSlot {
+            width: key.width,
+            foot: 0.5 * self.journal_diameter - key.depth,
+            rounded: self.keyway_rounding() > 0.0,
+        })
+    }
+
+    /// Sections of a journal beside the thick part of a radius, upwards: the near one, with its keyway, is below.
     fn journal(&self, radius: f64, near: bool) -> Vec<TurnedSection> {
         let (journal, c) = (0.5 * self.journal_diameter, self.chamfer);
         let cone = |from: f64| TurnedSection {
@@ -58,6 +68,12 @@ impl ShaftBody {
         sections.push(cone(radius));
         // Without chamfers there are no cones.
         sections.retain(|section| section.length > 0.0);
+        if !near {
+            sections.reverse();
+            for section in &mut sections {
+                section.radii.reverse();
+            }
+        }
         sections
     }
 }

@@ -5,8 +5,8 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 use centrode_geometry::{Antiderivative, VolumeMoments};
 use nalgebra::Vector3;
 
-use super::ShaftBody;
 use super::plan::{Level, Plan};
+use super::{ShaftBody, ends};
 use crate::shaft::Groove;
 
 /// Nodes and weights of the Gauss rule on `[-1, 1]` that is exact up to degree 5: along the radius and the axis the
@@ -16,8 +16,6 @@ const RULE: [(f64, f64); 3] = [
     (0.0, 8.0 / 9.0),
     (0.774_596_669_241_483_4, 5.0 / 9.0),
 ];
-/// Parts of the keyway's width and of its chamfer, on each of which the rule is exact to rounding.
-const PARTS: u32 = 32;
 /// Parts of the fillet, down which the groove's width and the section it opens change smoothly.
 const FILLET: u32 = 4;
 /// Even lines round the shaft between which the walls are integrated: those tried first, and the most.
@@ -34,96 +32,12 @@ fn nodes([low, high]: [f64; 2], parts: u32) -> impl Iterator<Item = (f64, f64)> 
     })
 }
 
-/// Moments of the shaft: the blank, less the groove and the keyway.
+/// Moments of the shaft: the blank with its keyway, less the groove. A body that has been validated has a blank.
 pub(super) fn moments(groove: &Groove, body: &ShaftBody, thick: [f64; 2]) -> VolumeMoments {
-    let mut sum = VolumeMoments::default();
-    let (r, j, c) = (groove.radius(), 0.5 * body.journal_diameter, body.chamfer);
-    revolved(&mut sum, thick, [r, r]);
-    for (end, way) in thick.into_iter().zip([-1.0, 1.0]) {
-        let shoulder = end + way * c;
-        let edge = shoulder + way * (body.journal_length - c);
-        revolved(&mut sum, [end, shoulder], [r, r - c]);
-        revolved(&mut sum, [shoulder, edge], [j, j]);
-        revolved(&mut sum, [edge, edge + way * c], [j, j - c]);
-        if let (Some(keyway), true) = (body.keyway, way < 0.0) {
-            let tip = edge + way * c;
-            let half = body.keyway_rounding();
-            let inner = tip - way * (body.keyway_length - half);
-            let (foot, width) = (j - keyway.depth, keyway.width);
-            let straight = |ends: [f64; 2], radii: [f64; 2]| {
-                let length = (ends[1] - ends[0]).abs();
-                let parts = if radii[0] == radii[1] { 1 } else { PARTS };
-                nodes([0.0, 1.0], parts).map(move |(share, along)| {
-                    let [z, radius] = [ends, radii].map(|[a, b]| a + (b - a) * share);
-                    Cut {
-                        z,
-                        length: length * along,
-                        radius,
-                        width,
-                    }
-                })
-            };
-            // Beyond the walls by the sine of an angle, where it is as wide as by its cosine.
-            let round = nodes([0.0, FRAC_PI_2], PARTS).map(|(angle, turned)| {
-                let (sin, cos) = angle.sin_cos();
-                Cut {
-                    z: inner - way * half * sin,
-                    length: half * cos * turned,
-                    radius: j,
-                    width: width * cos,
-                }
-            });
-            slot(&mut sum, foot, straight([inner, edge], [j, j]));
-            slot(&mut sum, foot, straight([edge, tip], [j, j - c]));
-            slot(&mut sum, foot, round);
-        }
-    }
+    let blank = ends::blank(body, groove.radius(), thick);
+    let mut sum = blank.map_or_else(VolumeMoments::default, |blank| blank.moments());
     grooved(&mut sum, groove, body.fillet);
     sum
-}
-
-/// Adds a cylinder or cone about the axis between two heights, given its radius at both.
-fn revolved(sum: &mut VolumeMoments, ends: [f64; 2], radii: [f64; 2]) {
-    let length = (ends[1] - ends[0]).abs();
-    for (share, along) in nodes([0.0, 1.0], 1) {
-        let z = ends[0] + (ends[1] - ends[0]) * share;
-        let edge = radii[0] + (radii[1] - radii[0]) * share;
-        for (radius, out) in nodes([0.0, edge], 1) {
-            // Moments up to the second are those of three even angles and more.
-            for i in 0..4 {
-                let volume = length * along * out * radius * FRAC_PI_2;
-                sum.add(at(radius, FRAC_PI_2 * f64::from(i), z), volume);
-            }
-        }
-    }
-}
-
-/// A thin slice of a keyway across the axis.
-struct Cut {
-    /// Height, and length along the axis, mm.
-    z: f64,
-    length: f64,
-    /// Radius of the surface that it is cut into, mm.
-    radius: f64,
-    /// Distance of its walls, mm.
-    width: f64,
-}
-
-/// Subtracts a keyway along x, its floor so far from the axis, slice by slice.
-fn slot(sum: &mut VolumeMoments, foot: f64, cuts: impl Iterator<Item = Cut>) {
-    for cut in cuts {
-        let edge = (0.5 * cut.width / cut.radius).asin();
-        for (angle, turned) in nodes([-edge, edge], PARTS) {
-            let (sin, cos) = angle.sin_cos();
-            for (x, out) in nodes([foot, cut.radius * cos], 1) {
-                let across = turned * cut.radius * cos;
-                sum.add(
-                    Vector3::new(x, cut.radius * sin, cut.z),
-                    -cut.length * across * out,
-                );
-            }
-        }
-    }
 }
 
 /// Subtracts the groove: its radial walls, and below them the fillet down to the floor.

@@ -5,7 +5,7 @@ use super::angle;
 use crate::arm::{ArmBodySpec, UsualArm};
 use crate::degrees;
 use crate::gear::design::SpecError;
-use crate::gear::design::rule::{in_range, not_negative, positive, screw_size};
+use crate::gear::design::rule::{in_range, not_negative, positive, screw_size, single_line};
 
 /// An arm, fixed to its planet.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -87,6 +87,9 @@ pub struct GearboxSpec {
     /// plate that finds room.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub screw: Option<f64>,
+    /// Heat treatment of its plates, for the drawing; left empty, none.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub heat_treatment: String,
 }
 
 impl Default for GearboxSpec {
@@ -97,6 +100,7 @@ impl Default for GearboxSpec {
             clearance: 2.0,
             bearings: false,
             screw: None,
+            heat_treatment: String::new(),
         }
     }
 }
@@ -110,6 +114,7 @@ impl GearboxSpec {
         not_negative("housing_offset", self.housing_offset)?;
         positive("wall", self.wall)?;
         not_negative("clearance", self.clearance)?;
-        screw_size("screw", self.screw)
+        screw_size("screw", self.screw)?;
+        single_line("heat_treatment", &self.heat_treatment)
     }
 }
