@@ -126,10 +126,12 @@ impl<'a> Package<'a> {
         Ok(())
     }
 
-    /// Refuses a tolerance of less than a billionth of a size of the machine, mm.
+    /// Refuses a tolerance of less than a billionth of a size of the machine, mm, for files that take more pieces for it; in STEP
+    /// curves are as they are.
     pub(crate) fn coarser_than(&self, size: f64, of: &'static str) -> Result<(), ExportError> {
         let (tolerance, least) = (self.tolerance().mm(), FINEST * size);
-        if tolerance < least {
+        let is_exact = self.formats.iter().all(|format| *format == Format::Step);
+        if tolerance < least && !is_exact {
             return Err(ExportError::FineTolerance {
                 tolerance,
                 least,
