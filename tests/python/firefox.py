@@ -14,6 +14,8 @@ PREFERENCES = {
     "browser.shell.checkDefaultBrowser": False,
     "browser.startup.page": 0,
     "browser.tabs.remote.warmup.enabled": False,
+    # A script of the page that is left is not ended half-way, which the console would tell of the next page.
+    "dom.ipc.cancel_content_js_when_navigating": False,
     "datareporting.policy.dataSubmissionEnabled": False,
     "extensions.getAddons.cache.enabled": False,
     "network.captive-portal-service.enabled": False,

@@ -751,6 +751,34 @@ def test_the_axis_is_sought_within_a_box(page, running):
     assert tomllib.loads(saved(page, running.folder))["axis_box"] == [[200.0, 120.0], [300.0, 210.0]]
 
 
+def test_the_machine_found_stays_though_figures_of_the_path_come_late(page, running):
+    held = []
+
+    def hold(route):
+        if route.request.post_data_json.get("others"):
+            held.append(route)
+        else:
+            route.continue_()
+
+    page.route("**/path/solve", hold)
+    field(page, "axis.sought").check()
+    solved(page)
+    expect(page.locator("#possible h2")).to_contain_text("This axis is possible")
+    for _ in range(1000):
+        if held:
+            break
+        page.wait_for_timeout(10)
+    page.get_by_role("button", name="Find the machine").click()
+    expect(page.locator("#verdict[aria-busy=true]")).to_be_attached()
+    expect(page.locator("#possible h2")).to_contain_text("A machine is found", timeout=60_000)
+    for route in held:
+        route.fulfill(json={"picture": None, "curves": [], "figures": [], "goals": [], "findings": []})
+    page.unroute("**/path/solve")
+    page.wait_for_timeout(300)
+    expect(page.locator("#possible h2")).to_contain_text("A machine is found")
+    solved(page)
+
+
 def test_columns_of_a_file_become_bands_and_directions(page, running):
     rows = ["x,y,tolerance,direction_deg,direction_tolerance_deg"]
     rows += [f"{x},{y},{i % 3},{40 if i == 4 else ''},{3.5 if i == 4 else ''}" for i, (x, y) in enumerate(EXAMPLE)]

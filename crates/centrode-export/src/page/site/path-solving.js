@@ -27,6 +27,13 @@ export class Solving {
     });
   }
 
+  /** Ends what is under way: another machine is shown than the one asked for. */
+  end() {
+    this.pending = null;
+    this.stop?.abort();
+    this.resting?.abort();
+  }
+
   async run() {
     while (this.pending) {
       const { wish, final } = this.pending;
@@ -50,7 +57,8 @@ export class Solving {
     const stop = new AbortController();
     this[mark] = stop;
     try {
-      return await work((signal) => server.solvePath({ ...asked(wish, { placed: true }), ...options }, signal), stop);
+      const answer = await work((signal) => server.solvePath({ ...asked(wish, { placed: true }), ...options }, signal), stop);
+      return stop.signal.aborted ? null : answer;
     } catch (error) {
       if (!stop.signal.aborted) this.complain(error);
       return null;

@@ -50,7 +50,7 @@ const form = new Form({ edit, hold: () => {}, respond: () => {}, fixed: false })
 const handles = new Handles(stage, { edit, began: () => {}, points: (table) => form.points.get(table) });
 const field = new Field(stage, complain);
 stage.field = field;
-const solving = new Solving({ show: (answer, more) => wish.given === "path" && show(answer, more), complain, rested: () => byId("verdict").setAttribute("aria-busy", "false") });
+const solving = new Solving({ show: (answer, more) => wish.given === "path" && show(answer, more), complain, rested: () => busy(Boolean(finding)) });
 
 /** What is drawn is kept while the window is open: a design made of it leads away from this page, and back. */
 const KEPT = "centrode-path";
@@ -115,7 +115,7 @@ function take(next, final, fresh = true) {
   byId("save-path").hidden = wish.given === "poses";
   finding?.abort();
   if (isPath) {
-    byId("verdict").setAttribute("aria-busy", "true");
+    busy(true);
     solving.ask(wish, final);
     field.ask(wish, final);
   } else {
@@ -125,7 +125,7 @@ function take(next, final, fresh = true) {
 
 /** Shows what is given, for which no machine has been sought yet. */
 function unfound() {
-  byId("verdict").setAttribute("aria-busy", "false");
+  busy(false);
   const words = wish.given === "poses" ? "takes these poses" : "runs along these points, with any return to the first,";
   show({ curves: [], figures: [], fault: { of: "sought", message: `The machine whose tip ${words} is sought when you say so: it takes some seconds.` } });
 }
@@ -134,10 +134,12 @@ function unfound() {
 async function find() {
   const stop = new AbortController();
   finding = stop;
-  byId("verdict").setAttribute("aria-busy", "true");
+  busy(true);
   try {
     const answer = await work((signal) => server.findMachine(asked(wish), signal, maker.heed), stop);
     if (finding !== stop) return;
+    // What others the path has may still be on its way: it is not that of the machine found.
+    solving.end();
     if (answer.refused) show({ curves: [], figures: [], fault: { of: "none", message: answer.refused } });
     else show({ ...answer, found: true });
   } catch (error) {
@@ -145,7 +147,7 @@ async function find() {
   } finally {
     if (finding === stop) {
       finding = null;
-      byId("verdict").setAttribute("aria-busy", "false");
+      busy(false);
     }
   }
 }
@@ -233,6 +235,11 @@ function keep() {
 
 function complain(error) {
   dialogs.notice("server", error.message, [], "error");
+}
+
+/** Whether an answer is still to come. */
+function busy(is) {
+  byId("verdict").setAttribute("aria-busy", String(is));
 }
 
 function buttons() {
