@@ -52,7 +52,7 @@ connect({ form, file: () => file, draw, show, judge, complain });
 /** Resolves when the picture that was drawn last is on the screen. */
 let seen = Promise.resolve();
 
-/** Draws the picture of a snapshot, whatever else is known of it, and marks what is still of the design before. */
+/** Draws the picture of a snapshot, whatever else is known of it, and marks what is still of the design before; resolves once it is seen. */
 function draw(snapshot) {
   stage.stale = Boolean(snapshot.error);
   stage.show(snapshot.picture);
@@ -60,6 +60,7 @@ function draw(snapshot) {
   transport.draw();
   verdict.mark(snapshot);
   if (!embedded) seen = painted();
+  return seen;
 }
 
 /** Shows what the program answers; `asked` is the form's clock when it was asked. */

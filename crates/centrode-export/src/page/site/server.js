@@ -79,7 +79,7 @@ async function streamed(path, body, signal, heed) {
   throw new Away();
 }
 
-/** An answer that is one value in two lines: `heed(first)` hears what the first line holds before the second is there. */
+/** An answer that is one value in two lines: `heed(first)` hears what the first line holds; the second is read once that is done. */
 async function halved(path, body, signal, heed) {
   let [text, first] = ["", null];
   for await (const part of parts(ask(path, "POST", body, signal))) {
@@ -88,7 +88,7 @@ async function halved(path, body, signal, heed) {
     if (end < 0) continue;
     first = JSON.parse(`${text.slice(0, end)}}`);
     text = text.slice(end + 1);
-    heed?.(first);
+    await heed?.(first);
   }
   if (!first) return JSON.parse(text);
   // What breaks off has no end.
@@ -125,7 +125,7 @@ export const stopSearch = () => json(ask("search", "DELETE"));
 export const response = (options, signal) => json(ask("response", "POST", options, signal));
 export const files = async (options, signal) => (await ask("export", "POST", options, signal)).blob();
 export const meshes = async (text, signal) => (await ask("meshes", "POST", { text }, signal)).arrayBuffer();
-/** Solves a design; `heed(first)` hears of its picture before the rest is there. */
+/** Solves a design; `heed(first)` hears of its picture before the rest is read. */
 export const solve = async (request, signal, heed) => whole(await halved("solve", { page, turn: (turn += 1), ...request }, signal, heed));
 
 /** What share of the checks that are under way is done; null while nothing is solved. */
