@@ -3,9 +3,10 @@
 
 use crate::{Point, Segment, SegmentJet, Tolerance, Vector};
 
-/// Pairs of parts to compare for one pair of segments; a crossing, however flat, takes some hundreds. What takes
-/// more has no end: the segments lie on each other.
-const MOST_PAIRS: u32 = 20_000;
+/// Pairs of parts to compare for one pair of segments. A crossing, however flat, takes some hundreds; two strands that leave a cusp
+/// in one direction take about 200 sqrt(K/D), where K is their curvature and D the difference of their curvatures. What takes more has no
+/// end: the segments lie on each other.
+const MOST_PAIRS: u32 = 200_000;
 
 /// Part of one segment with the bounds that prove it apart from another.
 #[derive(Clone, Copy)]

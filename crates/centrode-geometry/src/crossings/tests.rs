@@ -80,6 +80,31 @@ fn a_loop_as_small_as_rounding_is_found_at_most_once() {
 }
 
 #[test]
+fn strands_that_leave_a_cusp_in_one_direction_are_apart_however_little_their_curvatures_differ() {
+    for share in [1.0, 1e-2, 1e-4, 3e-6] {
+        let bend = |curvature: f64, from: f64, to: f64| {
+            let parabola = |x: f64| Point::new(x, 0.5 * curvature * x * x);
+            let part = PolySegment::fit(parabola, from, to, fine());
+            Segment::from(part[0])
+        };
+        let (there, back) = (bend(0.3, 1.0, 0.0), bend(0.3 * (1.0 + share), 0.0, 1.0));
+        let told = crossings(
+            &there,
+            &back,
+            true,
+            Tolerance::new(1e-10).expect("positive"),
+        );
+        // Rounding may have them cross where they part by no more than it.
+        let parted = |u: f64| 0.15 * share * (0.5 * (1.0 - u)).powi(2);
+        let crossed = told.expect("told");
+        assert!(
+            crossed.iter().all(|&(u, _)| parted(u) < 1e-15),
+            "{share}: {crossed:?}"
+        );
+    }
+}
+
+#[test]
 fn curves_that_lie_on_each_other_are_an_error_that_names_a_place() {
     let quarter = polys(|t| Point::new(t.cos(), t.sin()), 0.0, 1.5)[0];
     let found = crossings(&quarter, &quarter.reversed(), false, fine());
