@@ -262,7 +262,7 @@ fn search(
 /// Whether two crossings are one, found from parts beside each other.
 ///
 /// Strands that cross twice cross opposite ways, so two crossings of one sense with no length between them are one. Near a
-/// cusp the parameters of one place differ by the root of the rounding, and more.
+/// cusp the parameters of one place differ by the root of the rounding, and more; a place is told within [`miss`] on either strand.
 fn is_same(
     a: &SegmentPart<'_>,
     b: &SegmentPart<'_>,
@@ -270,15 +270,15 @@ fn is_same(
     found: (f64, f64),
     shortest: f64,
 ) -> bool {
-    let near = |segment: &Segment, x: f64, y: f64| {
-        let at = |u: f64| segment.at(u).point;
+    let near = |part: &SegmentPart<'_>, x: f64, y: f64| {
+        let at = |u: f64| part.segment.at(u).point;
         let (from, to, middle) = (at(x), at(y), at(0.5 * (x + y)));
-        (x - y).abs() < 1e-7 || (middle - from).norm() + (to - middle).norm() < shortest
+        let apart = (middle - from).norm() + (to - middle).norm();
+        let speed = part.segment.at(x).first.norm();
+        (x - y).abs() < 1e-7 || apart < shortest + 2.0 * miss(part, speed)
     };
     let rises = |(u, v): (f64, f64)| a.segment.at(u).first.perp(&b.segment.at(v).first) > 0.0;
-    near(a.segment, known.0, found.0)
-        && near(b.segment, known.1, found.1)
-        && rises(known) == rises(found)
+    near(a, known.0, found.0) && near(b, known.1, found.1) && rises(known) == rises(found)
 }
 
 fn unjoined(part: SegmentPart<'_>) -> SegmentPart<'_> {
@@ -286,6 +286,11 @@ fn unjoined(part: SegmentPart<'_>) -> SegmentPart<'_> {
         joined: false,
         ..part
     }
+}
+
+/// Distance, mm, by which the places of a crossing on two strands may miss each other for their rounding.
+fn miss(part: &SegmentPart<'_>, speed: f64) -> f64 {
+    1e-11 * (speed + part.start.coords.amax())
 }
 
 /// Newton's method on the two parameters, kept to the parts and a rounding beyond.
@@ -308,14 +313,10 @@ fn polish(a: &SegmentPart<'_>, b: &SegmentPart<'_>) -> Option<(f64, f64)> {
         }
     }
     let gap = (b.segment.at(v).point - a.segment.at(u).point).norm();
-    let size = a
-        .segment
-        .at(u)
-        .first
-        .norm()
-        .max(b.segment.at(v).first.norm());
+    let speed = a.segment.at(u).first.norm();
+    let size = speed.max(b.segment.at(v).first.norm());
     let inside = |x: f64, part: &SegmentPart<'_>| x >= part.from - 1e-12 && x <= part.to + 1e-12;
-    let hit = gap <= 1e-11 * (size + a.start.coords.amax()) && inside(u, a) && inside(v, b);
+    let hit = gap <= miss(a, size) && inside(u, a) && inside(v, b);
     hit.then(|| (u.clamp(-1.0, 1.0), v.clamp(-1.0, 1.0)))
 }
 
