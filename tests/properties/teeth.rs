@@ -1,4 +1,4 @@
-use centrode_geometry::Segment;
+use centrode_geometry::{LoopError, Segment, Unresolved};
 use centrode_mechanism::gear::design::{Addendum, GearPairDesign};
 use centrode_mechanism::gear::pitch::{Bspline, PitchSpec};
 use centrode_mechanism::gear::{
@@ -184,12 +184,14 @@ proptest! {
     ) {
         let [gentle, wild] = designs;
         assert_sound(&resolved_in_time(&gentle).expect("a pair"), 1e-5)?;
-        // Overshooting its points, a curve may turn back; teeth may be too large for it, so that nothing or no simple contour is left.
+        // Overshooting its points, a curve may turn back; teeth may be too large for it, so that nothing or no simple contour is left,
+        // or two of their flanks are one curve: of 5,000 curves one has flanks 3e-11 mm apart over a millimetre.
         if let Err(error) = resolved_in_time(&wild) {
             prop_assert!(
                 matches!(
                     error,
                     GearPairError::Pitch(_) | GearPairError::Profile(ProfileError::Looped { .. } | ProfileError::Gap { .. } | ProfileError::Touches { .. })
+                        | GearPairError::Profile(ProfileError::Unresolved { cause: LoopError::Unresolved { cause: Unresolved::Overlap { .. }, .. }, .. })
                 ),
                 "{error}"
             );
