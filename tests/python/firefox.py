@@ -14,8 +14,9 @@ PREFERENCES = {
     "browser.shell.checkDefaultBrowser": False,
     "browser.startup.page": 0,
     "browser.tabs.remote.warmup.enabled": False,
-    # A script of the page that is left is not ended half-way, which the console would tell of the next page.
-    "dom.ipc.cancel_content_js_when_navigating": False,
+    # Where a page is left for one of another kind its process ends; a script at work then, as one that hears the page hidden, would
+    # be told of to the console.
+    "dom.abort_script_on_child_shutdown": False,
     "datareporting.policy.dataSubmissionEnabled": False,
     "extensions.getAddons.cache.enabled": False,
     "network.captive-portal-service.enabled": False,

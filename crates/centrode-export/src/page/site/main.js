@@ -58,7 +58,7 @@ function draw(snapshot) {
   stage.show(snapshot.picture);
   handles?.show(snapshot.picture?.handles ?? []);
   transport.draw();
-  verdict.mark(snapshot);
+  verdict.fade(snapshot);
   if (!embedded) seen = painted();
   return seen;
 }
@@ -80,7 +80,7 @@ function show(snapshot, asked = snapshot.asked) {
   if (state.pinned && !state.pinned.verdict && snapshot.verdict && snapshot.text === state.pinned.text) state.pinned = snapshot;
   // The eye may have it already.
   if (stage.stale !== Boolean(snapshot.error) || stage.scene?.picture !== snapshot.picture) draw(snapshot);
-  verdict.mark(snapshot);
+  verdict.fade(snapshot);
   // Panels cost the browser more than the picture does: the eye has that first.
   if (embedded) panels();
   else state.shown ??= seen.then(panels);

@@ -107,7 +107,9 @@ async function solve() {
     if (unchecked && await tell(unchecked) && !state.pending) check(unchecked);
   }
   state.solving = false;
-  byId("verdict").setAttribute("aria-busy", "false");
+  // What is shown is this answer's once its panels are.
+  await state.shown;
+  if (!state.solving) byId("verdict").setAttribute("aria-busy", "false");
 }
 
 /**

@@ -22,8 +22,14 @@ export function unchecked(again) {
     element("p", {}, "The checks were cancelled. ", element("button", { type: "button", class: "link", onclick: again }, "Check")));
 }
 
-/** Marks what is still that of the design before. */
-export function mark({ verdict, goals: told, error }) {
+/** Marks what will be that of the design before once a snapshot's picture is drawn. */
+export function fade({ verdict, goals: told, error }) {
+  if (!verdict && !told) byId("goals").setAttribute("aria-busy", "true");
+  if (!verdict || error) byId("verdict").classList.add("stale");
+}
+
+/** Marks what is still that of the design before, of all that is shown. */
+function mark({ verdict, goals: told, error }) {
   byId("goals").setAttribute("aria-busy", String(!verdict && !told));
   byId("verdict").classList.toggle("stale", !verdict || Boolean(error));
 }
