@@ -14,8 +14,8 @@ PREFERENCES = {
     "browser.shell.checkDefaultBrowser": False,
     "browser.startup.page": 0,
     "browser.tabs.remote.warmup.enabled": False,
-    # Where a page is left for one of another kind its process ends; a script at work then, as one that hears the page hidden, would
-    # be told of to the console.
+    # Where a page is left for one of another kind its process ends. A script at work then, as one that hears the page
+    # hidden, would be told of to the console.
     "dom.abort_script_on_child_shutdown": False,
     "datareporting.policy.dataSubmissionEnabled": False,
     "extensions.getAddons.cache.enabled": False,
