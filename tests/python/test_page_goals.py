@@ -195,19 +195,26 @@ addEventListener("DOMContentLoaded", () => {
     });
     return clear.apply(this, box);
   };
+  const verdict = document.getElementById("verdict");
+  window.told = [];
+  new MutationObserver(() => {
+    window.told.push([verdict.classList.contains("stale"), document.getElementById("figures").textContent]);
+  }).observe(verdict, { attributes: true, attributeFilter: ["class"] });
 });
 """
 
 
 def test_no_picture_stands_beside_the_report_of_another_design(browser, tmp_path):
     with opened(browser, tmp_path, ARMS, script=MARKED) as (page, _):
-        page.evaluate("window.marked.length = 0")
+        page.evaluate("window.marked.length = window.told.length = 0")
+        before = page.evaluate("document.getElementById('figures').textContent")
         field(page, "arm.tip_distance").press("ArrowUp")
         settled(page)
-        marked = page.evaluate("window.marked")
+        marked, told = page.evaluate("[window.marked, window.told]")
         # With the first drawing of the new design, and until what its checks say is shown.
         assert marked[0]
-        assert not page.locator("#verdict.stale").count()
+        assert told[-1][0] is False
+        assert before not in [figures for is_stale, figures in told if not is_stale]
         assert marked == sorted(marked, reverse=True)
 
 
