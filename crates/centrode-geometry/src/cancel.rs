@@ -110,24 +110,36 @@ pub fn checkpoint() {
     }
 }
 
-/// Results of two jobs that run side by side, the second on a thread of its own, both under the token of the calling
-/// thread.
+/// Results of two jobs that run side by side, each on a thread of its own, both under the token of the calling thread.
 ///
 /// ```
 /// assert_eq!(centrode_geometry::together(|| 6, || 7), (6, 7));
 /// ```
-pub fn together<A, B: Send>(one: impl FnOnce() -> A, other: impl FnOnce() -> B + Send) -> (A, B) {
+pub fn together<A: Send, B: Send>(
+    one: impl FnOnce() -> A + Send,
+    other: impl FnOnce() -> B + Send,
+) -> (A, B) {
     let cancel = Cancel::current();
     std::thread::scope(|scope| {
-        let other = scope.spawn(move || {
-            let _scope = cancel.enter();
-            other()
-        });
-        let one = one();
-        match other.join() {
-            Ok(other) => (one, other),
-            Err(unwound) => resume_unwind(unwound),
+        // The caller waits: a single new thread beside one that works is often left on the same core, for some milliseconds.
+        let one = started(scope, &cancel, one);
+        let other = started(scope, &cancel, other);
+        match (one.join(), other.join()) {
+            (Ok(one), Ok(other)) => (one, other),
+            (Err(unwound), _) | (_, Err(unwound)) => resume_unwind(unwound),
         }
+    })
+}
+
+/// A job that has begun on a thread of its own under a token.
+fn started<'scope, T: Send + 'scope>(
+    scope: &'scope std::thread::Scope<'scope, '_>,
+    cancel: &'scope Cancel,
+    job: impl FnOnce() -> T + Send + 'scope,
+) -> std::thread::ScopedJoinHandle<'scope, T> {
+    scope.spawn(move || {
+        let _scope = cancel.enter();
+        job()
     })
 }
 
