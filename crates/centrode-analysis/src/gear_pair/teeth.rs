@@ -34,6 +34,9 @@ fn flanks(
     places
 }
 
+/// Least share of a pair's module that is told as a remedy: below it twenty times the teeth would be needed.
+const USEFUL: f64 = 0.05;
+
 pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut Report) {
     let part = gear.member().name();
     let least = pair.teeth().least_tip_width;
@@ -47,10 +50,16 @@ pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut 
         (found.into_iter().map(|f| f.0).collect(), worst)
     };
     let sides = |tooth: &Tooth| [tooth.leading, tooth.trailing];
-    let largest = format!(
-        "the largest module without it is {:.4} mm",
-        limits.largest_module_of_full_teeth()
-    );
+    let module = limits.largest_module_of_full_teeth();
+    let largest = if module < USEFUL * pair.module() {
+        let sharpest = limits.convex_curvature.max(limits.concave_curvature);
+        format!(
+            "the pitch curves bend to a radius of {:.4} mm, too sharp for any module of use",
+            1.0 / sharpest
+        )
+    } else {
+        format!("the largest module without it is {module:.4} mm")
+    };
     let mut add = |rule,
                    severity,
                    (teeth, worst): (Vec<u32>, f64),
@@ -193,5 +202,36 @@ pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut 
     let radii = gear.radii();
     for (name, figure) in names.into_iter().zip([width, fillet, radii.0, radii.1]) {
         report.values.insert(name, figure);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use centrode_mechanism::gear::design::GearPairDesign;
+    use centrode_mechanism::gear::pitch::{Ellipse, PitchSpec};
+
+    use super::*;
+
+    #[test]
+    fn a_module_of_no_use_is_not_told_as_a_remedy() {
+        let told = |eccentricity| {
+            let pair = GearPair::resolve(&GearPairDesign::new(PitchSpec::Ellipse(Ellipse {
+                eccentricity,
+                module: Some(2.0),
+                tooth_count: Some(21),
+                ..Ellipse::default()
+            })))
+            .expect("a pair");
+            let mut report = Report::default();
+            teeth(&pair, pair.driver(), &pair.limits(), &mut report);
+            let messages: Vec<String> = report.findings.into_iter().map(|f| f.message).collect();
+            messages.join("\n")
+        };
+        let mild = told(0.6);
+        assert!(mild.contains("the largest module without it is"), "{mild}");
+        // The ends of this ellipse have the radius a (1 - e^2).
+        let sharp = told(0.99);
+        assert!(sharp.contains("bend to a radius of 0.6"), "{sharp}");
+        assert!(!sharp.contains("largest module"), "{sharp}");
     }
 }
