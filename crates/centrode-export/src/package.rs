@@ -275,7 +275,10 @@ impl<'a> Package<'a> {
         if !sheets && !models && !whole {
             return Ok(());
         }
-        let made = make()?;
+        let mut made = make()?;
+        for part in made.parts.iter_mut().filter(|part| !part.file.is_empty()) {
+            part.file.insert_str(0, self.prefix);
+        }
         self.arrangement(&made)?;
         if whole {
             machine::add_whole(&made, self)?;

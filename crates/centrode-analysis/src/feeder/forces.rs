@@ -2,7 +2,6 @@ use std::cell::Cell;
 
 use centrode_geometry::{Extreme, SolidError, Vector, greatest_each};
 use centrode_mechanism::feeder::{Feeder, FeederError, FeederPart};
-use centrode_mechanism::gear::design::Keyway;
 use centrode_mechanism::machine::Key;
 
 use crate::forces::{Balance, Forces, ForcesError};
@@ -157,9 +156,11 @@ pub(super) fn forces(feeder: &Feeder, report: &mut Report) {
         feeder.design().gears.body(),
         feeder.design().plates.thickness,
     );
-    if let (Some(keyway), Some(length)) = (body.keyway, Keyway::key_length(width)) {
-        // A key with square ends bears over its whole length.
-        let pressure = |torque: f64| keyway.pressure(torque, body.bore, length);
+    let seated = body
+        .keyway
+        .and_then(|hub| Some((hub, Key::square(hub, width)?)));
+    if let Some((keyway, key)) = seated {
+        let pressure = |torque: f64| keyway.pressure(torque, body.bore, key.bearing_length());
         values.insert("crank_key_pressure_max", pressure(moving[0].value));
         values.insert("crank_key_pressure_still_max", pressure(still[0].value));
     }
@@ -202,7 +203,12 @@ fn keys(feeder: &Feeder, [still, moving]: [&[Extreme]; 2], report: &mut Report) 
             gear,
         ),
     ] {
-        let Some(key) = Key::fitting(hub, face) else {
+        let key = match part {
+            // With square ends in the thin plate.
+            "crank" => Key::square(hub, face),
+            _ => Key::fitting(hub, face),
+        };
+        let Some(key) = key else {
             continue;
         };
         let torque = match still[torque].value > moving[torque].value {

@@ -3,9 +3,9 @@
 use centrode_geometry::{Bounds, Point, Vector};
 use centrode_mechanism::design::Projection;
 
-use super::Plate;
 use super::hole::circle;
-use crate::sheet::{Draft, Pen, fit, number};
+use super::{Exactness, Plate};
+use crate::sheet::{Draft, Pen, fit, number, steady};
 
 /// Places of lengths.
 const PLACES: usize = 3;
@@ -17,11 +17,22 @@ impl Plate {
         Some(2.0 * radius)
     }
 
+    /// Axis and diameter of the circle about the tips of a toothed one, mm: it is turned before its teeth are cut.
+    pub(super) fn blank(&self) -> Option<(Point, f64)> {
+        let is_toothed = matches!(self.exactness, Some(Exactness::Teeth(_)));
+        let (_, axis) = self.first_datum().filter(|_| is_toothed)?;
+        Some((axis, steady(2.0 * self.reach(axis))))
+    }
+
     /// The edge, beside the face: seen from the left it stands on the right in first angle.
     pub(super) fn edge(&self, draft: &mut Draft, k: f64, projection: Projection) {
         let whole = draft.bounds();
         let Bounds { min, max } = self.outline.bounds();
-        let (low, high) = (min.y * k, max.y * k);
+        let blank = self.blank();
+        let [low, high] = match blank {
+            Some((axis, diameter)) => [-0.5, 0.5].map(|half| k * (axis.y + half * diameter)),
+            None => [min.y, max.y].map(|y| k * y),
+        };
         let thick = self.thickness * k;
         let gap = 14.0;
         let left = match projection {
@@ -36,12 +47,13 @@ impl Plate {
         draft.rectangle(Pen::Outline, edge);
         let heights = [p(left + thick, low), p(left + thick, high)];
         let beside = p(left + thick + 9.0, low);
-        let words = match self.round() {
+        let round = self.round().or(blank.map(|(_, diameter)| diameter));
+        let words = match round {
             Some(diameter) => fit::bore(diameter, &self.classes[0]),
             None => fit::keyway(max.y - min.y, &self.classes[0]),
         };
         draft.dimension(heights, Vector::y(), beside, &words);
-        if self.round().is_some() {
+        if round.is_some() {
             let middle = 0.5 * (low + high);
             let ends = [left - 3.0, left + thick + 3.0].map(|x| p(x, middle));
             draft.line(Pen::Axis, ends[0], ends[1]);

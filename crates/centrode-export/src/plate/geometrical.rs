@@ -77,12 +77,12 @@ impl Plate {
     }
 
     /// Distance of the farthest corner of the contour, mm.
-    fn reach(&self, from: Point) -> f64 {
+    pub(super) fn reach(&self, from: Point) -> f64 {
         let corners = self.outline.segments().iter().map(|side| side.start());
         corners.map(|p| (p - from).norm()).fold(0.0, f64::max)
     }
 
-    fn first_datum(&self) -> Option<(usize, Point)> {
+    pub(super) fn first_datum(&self) -> Option<(usize, Point)> {
         let with_class = |hole: &&Hole| !hole.fit.is_empty() && hole.axis().is_some();
         let seat = self
             .holes
@@ -97,7 +97,18 @@ impl Plate {
 
     /// Letters of both datums: not those that name holes.
     fn letters(&self) -> [char; 2] {
-        let named = (0..self.holes.len()).any(|index| self.label(index).chars().count() == 1);
-        if named { ['P', 'Q'] } else { ['A', 'B'] }
+        let names: Vec<String> = (0..self.holes.len())
+            .map(|index| self.label(index))
+            .collect();
+        let is_free = |letter: &char| !names.contains(&letter.to_string());
+        let named = names.iter().any(|name| name.chars().count() == 1);
+        // I and O are read as digits.
+        let letters = if named {
+            "PQRSTUVWXYZABCDEFGHJKLMN"
+        } else {
+            "AB"
+        };
+        let mut free = letters.chars().filter(is_free);
+        ['A', 'B'].map(|other| free.next().unwrap_or(other))
     }
 }

@@ -111,7 +111,7 @@ impl Plate {
             draft.line(Pen::Axis, p(0.0, low.y - 3.0), p(0.0, high.y + 3.0));
         }
         // Below everything, and left of the notes. The diameter of a round one stands at its edge.
-        if self.round().is_none() {
+        if self.round().is_none() && self.blank().is_none() {
             draft.dimension(
                 [p(low.x, low.y), p(high.x, low.y)],
                 Vector::x(),
@@ -198,9 +198,8 @@ impl Plate {
         let middle = 0.5 * (min.x + max.x);
         let note = |(index, hole): (usize, &Hole)| {
             let (center, radius) = match hole.kind() {
-                HoleKind::Round(center, radius) | HoleKind::Slot([center, _], radius) => {
-                    (center, radius)
-                }
+                HoleKind::Round(center, radius) => (center, radius),
+                HoleKind::Slot(ends, radius) => (nalgebra::center(&ends[0], &ends[1]), radius),
                 HoleKind::Free => {
                     let Bounds { min, max } = hole.outline.bounds();
                     (min + 0.5 * (max - min), 0.5 * (max - min).amin())
@@ -208,7 +207,14 @@ impl Plate {
             };
             // Towards the column of words it is put in.
             let outwards = if center.x < middle { -1.0 } else { 1.0 };
-            let side = Vector::new(outwards * 0.8, 0.6) * radius;
+            let way = Vector::new(outwards * 0.8, 0.6);
+            let center = match hole.kind() {
+                // There the round end is the farthest of the slot.
+                HoleKind::Slot([one, other], _) if (one - other).dot(&way) > 0.0 => one,
+                HoleKind::Slot([_, other], _) => other,
+                _ => center,
+            };
+            let side = way * radius;
             let lines = [hole.size()].into_iter().chain(hole.place());
             let lines = lines.chain(hole.notes.iter().cloned());
             let mut words: Vec<String> = lines.filter(|line| !line.is_empty()).collect();

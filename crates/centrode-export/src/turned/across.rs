@@ -96,8 +96,18 @@ const BEFORE: f64 = 3.2;
 const ARROW: f64 = 7.0;
 const OUT: f64 = 6.0;
 
-/// The ends of the plane of a section across a shaft, seen towards the left end.
-pub(crate) fn cutting_plane(draft: &mut Draft, x: f64, height: f64, letter: char) {
+/// Places of a section along its keyway, as shares of its length, in the order in which they are tried.
+const PLANES: [f64; 7] = [0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8];
+
+/// The ends of the plane of a section across a shaft, seen towards the left end: in the middle of a keyway or near it, where its
+/// letters miss all that is drawn.
+pub(crate) fn cutting_plane(draft: &mut Draft, [from, to]: [f64; 2], height: f64, letter: char) {
+    let places = PLANES.map(|share| from + share * (to - from));
+    let free = places.into_iter().find(|x| {
+        let mut letters = plane_letters(*x, height).into_iter();
+        letters.all(|at| !draft.touches(at))
+    });
+    let x = free.unwrap_or(places[0]);
     for side in [-1.0, 1.0] {
         let inner = Point::new(x, side * height);
         let outer = Point::new(x, side * (height + OUT));
@@ -111,7 +121,7 @@ pub(crate) fn cutting_plane(draft: &mut Draft, x: f64, height: f64, letter: char
 }
 
 /// Room that the letters of such a plane take, with some air about them.
-pub(super) fn plane_letters(x: f64, height: f64) -> [Bounds; 2] {
+fn plane_letters(x: f64, height: f64) -> [Bounds; 2] {
     [-1.0, 1.0].map(|side| {
         let middle = Point::new(x - ARROW - BEFORE, side * (height + OUT));
         let half = Vector::new(0.45, 0.65) * LETTER;

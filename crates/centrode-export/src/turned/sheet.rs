@@ -2,7 +2,6 @@ use centrode_geometry::{Arc, Point, Tolerance, Vector};
 use centrode_mechanism::design::{DrawingSpec, SheetSize};
 use centrode_mechanism::machine::HeldLength;
 
-use super::across::plane_letters;
 use super::{Drawn, across, centre, centre_mark, cutting_plane};
 use crate::SheetOptions;
 use crate::drawing::EntityShape;
@@ -16,8 +15,6 @@ use crate::sheet::{
 const SECTION: char = 'C';
 /// Tolerance class of the width of a ring's groove, ISO 286.
 const GROOVE: &str = "H13";
-/// Places of the section along its keyway, as shares of its length, in the order in which they are tried.
-const PLANES: [f64; 7] = [0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8];
 /// Places of lengths.
 const PLACES: usize = 3;
 /// Distance of heights that are one, mm: rounding.
@@ -170,18 +167,13 @@ impl Drawn<'_> {
         }
     }
 
-    /// The plane of the section across the first keyway, in its middle or near it, where its letters miss all that is drawn.
+    /// The plane of the section across the first keyway.
     fn draw_plane(&self, draft: &mut Draft, k: f64) {
         let Some(&([from, to], _)) = self.keyways().first() else {
             return;
         };
         let height = 0.5 * k * self.diameter() + 2.0;
-        let places = PLANES.map(|share| k * (from + share * (to - from)));
-        let free = places.into_iter().find(|x| {
-            let mut letters = plane_letters(*x, height).into_iter();
-            letters.all(|at| !draft.touches(at))
-        });
-        cutting_plane(draft, free.unwrap_or(places[0]), height, SECTION);
+        cutting_plane(draft, [k * from, k * to], height, SECTION);
     }
 
     /// Lengths that are dimensioned, with their words: of every step but grooves and the last one, and over all. Where deviations hold for

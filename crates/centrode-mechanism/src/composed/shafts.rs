@@ -9,7 +9,7 @@ use super::gearing::Meshing;
 use super::pins::Axis;
 use super::{Composed, PinHole};
 use crate::bore;
-use crate::gear::design::{BodySpec, Keyway};
+use crate::gear::design::BodySpec;
 use crate::machine::{JointKind, Key};
 
 /// Wall of a plate beside the hole of a shaft, as a share of its diameter.
@@ -205,7 +205,7 @@ impl Composed {
             .map(|(&(body, at), &span)| {
                 let key = hub
                     .keyway
-                    .and_then(|hub| plate_key(hub, span[1] - span[0], plates.gap));
+                    .and_then(|hub| Key::fitting(hub, span[1] - span[0]));
                 let hold = match key {
                     _ if !with_it(body) => Hold::Turning,
                     Some(key) => Hold::Keyed(key),
@@ -318,9 +318,4 @@ impl Composed {
         let shaft = shaft.filter(|shaft| shaft.hub.bore != self.design.plates.pin_diameter);
         shaft.map_or(0.0, |shaft| bore::reach(&shaft.hub) + WALL * shaft.hub.bore)
     }
-}
-
-/// Key of a plate: as long as it is thick or, where no standard key is as short, into the gaps beside it.
-fn plate_key(hub: Keyway, thickness: f64, gap: f64) -> Option<Key> {
-    Key::fitting(hub, thickness).or_else(|| Key::fitting(hub, thickness + gap))
 }

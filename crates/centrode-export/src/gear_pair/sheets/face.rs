@@ -290,6 +290,16 @@ pub(super) fn bore(part: &SheetGear<'_>) -> Option<Draft> {
     draft.note(tip, elbow, &[size.into(), Frame::datum('A').into()]);
     let bounds = draft.bounds();
     let title = p(0.0, bounds.max.y + 5.0);
-    draft.text(title, 5.0, &format!("D ({scale})"), Anchor::Middle);
+    let mut words = format!("D ({scale})");
+    let turned = -body.keyway_angle.to_degrees();
+    if turned != 0.0 {
+        let way = if turned < 0.0 {
+            "clockwise"
+        } else {
+            "counter-clockwise"
+        };
+        words = format!("{words}, turned {}° {way}", number(turned.abs(), 4));
+    }
+    draft.text(title, 5.0, &words, Anchor::Middle);
     Some(draft)
 }

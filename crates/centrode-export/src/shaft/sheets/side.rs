@@ -109,12 +109,7 @@ impl<'a> Views<'a> {
                 above,
                 &number(body.keyway_length, 3),
             );
-            cutting_plane(
-                &mut draft,
-                k * (start + 0.5 * body.keyway_length),
-                k * j + 2.0,
-                SECTION,
-            );
+            cutting_plane(&mut draft, [start, to].map(|x| k * x), k * j + 2.0, SECTION);
         }
         if let Some(frame) = Frame::runout(2.0 * r, "A") {
             let tip = p(0.5 * (low + high), r);

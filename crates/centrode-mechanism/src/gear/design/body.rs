@@ -63,58 +63,32 @@ fn is_along_x(angle: &f64) -> bool {
     *angle == 0.0
 }
 
-/// Width and height of a parallel key, depth left to the hub beyond that of the shaft, mm; DIN 6885-1.
-const KEYS: [(f64, f64, f64); 15] = [
-    (2.0, 2.0, 0.2),
-    (3.0, 3.0, 0.2),
-    (4.0, 4.0, 0.3),
-    (5.0, 5.0, 0.3),
-    (6.0, 6.0, 0.3),
-    (8.0, 7.0, 0.3),
-    (10.0, 8.0, 0.3),
-    (12.0, 8.0, 0.3),
-    (14.0, 9.0, 0.3),
-    (16.0, 10.0, 0.3),
-    (18.0, 11.0, 0.4),
-    (20.0, 12.0, 0.4),
-    (22.0, 14.0, 0.4),
-    (25.0, 14.0, 0.4),
-    (28.0, 16.0, 0.4),
-];
-/// Lengths of parallel keys, mm; DIN 6885-1.
-const LENGTHS: [u16; 34] = [
-    6, 8, 10, 12, 14, 16, 18, 20, 22, 25, 28, 32, 36, 40, 45, 50, 56, 63, 70, 80, 90, 100, 110,
-    125, 140, 160, 180, 200, 220, 250, 280, 320, 360, 400,
+/// Width and height of a parallel key, depth left to the hub beyond that of the shaft, least and greatest length, mm; DIN 6885-1.
+const KEYS: [(f64, f64, f64, [f64; 2]); 15] = [
+    (2.0, 2.0, 0.2, [6.0, 20.0]),
+    (3.0, 3.0, 0.2, [6.0, 36.0]),
+    (4.0, 4.0, 0.3, [8.0, 45.0]),
+    (5.0, 5.0, 0.3, [10.0, 56.0]),
+    (6.0, 6.0, 0.3, [14.0, 70.0]),
+    (8.0, 7.0, 0.3, [18.0, 90.0]),
+    (10.0, 8.0, 0.3, [22.0, 110.0]),
+    (12.0, 8.0, 0.3, [28.0, 140.0]),
+    (14.0, 9.0, 0.3, [36.0, 160.0]),
+    (16.0, 10.0, 0.3, [45.0, 180.0]),
+    (18.0, 11.0, 0.4, [50.0, 200.0]),
+    (20.0, 12.0, 0.4, [56.0, 220.0]),
+    (22.0, 14.0, 0.4, [63.0, 250.0]),
+    (25.0, 14.0, 0.4, [70.0, 280.0]),
+    (28.0, 16.0, 0.4, [80.0, 320.0]),
 ];
 
 impl Keyway {
-    /// Designation of the longest standard key for a hub of a face width, mm; `None` where no standard key is as wide as the
-    /// keyway, or as short as the hub.
+    /// Least and greatest length of the standard keys as wide as this keyway, mm; `None` where there are none. Source: DIN 6885-1.
     #[must_use]
-    pub fn key(self, face: f64) -> Option<String> {
-        self.standard('A', face)
-    }
-
-    /// Designation of the longest standard key with square ends, form B, likewise: in a thin hub it bears over its whole length,
-    /// where one of form A with its round ends bears over its length less its width.
-    #[must_use]
-    pub fn square_key(self, face: f64) -> Option<String> {
-        self.standard('B', face)
-    }
-
-    fn standard(self, form: char, face: f64) -> Option<String> {
-        let (width, height, _) = KEYS.into_iter().find(|(b, ..)| *b == self.width)?;
-        let length = Self::key_length(face)?;
-        Some(format!(
-            "Key DIN 6885-1 {form} {width} x {height} x {length}"
-        ))
-    }
-
-    /// Length of the longest standard key for a hub of a face width, mm; `None` where all are longer.
-    #[must_use]
-    pub fn key_length(face: f64) -> Option<f64> {
-        let mut fitting = LENGTHS.into_iter().rev().map(f64::from);
-        fitting.find(|&length| length <= face)
+    pub fn key_lengths(self) -> Option<[f64; 2]> {
+        let mut keys = KEYS.into_iter();
+        keys.find(|(b, ..)| *b == self.width)
+            .map(|(.., lengths)| lengths)
     }
 
     /// Pressure between a hub and the key in this keyway of it, N/mm², for a torque (N mm) on a shaft of a diameter and a key that
@@ -184,7 +158,10 @@ impl Keyway {
     /// Width and height of its key, and the room above the key, mm.
     fn sizes(self) -> (f64, f64, f64) {
         let standard = KEYS.into_iter().find(|(b, ..)| *b == self.width);
-        standard.unwrap_or((self.width, self.width, 0.06 * self.width))
+        standard.map_or(
+            (self.width, self.width, 0.06 * self.width),
+            |(width, height, room, _)| (width, height, room),
+        )
     }
 
     /// The keyway on the other side of the key: what both leave of its height is room above it.
@@ -293,22 +270,8 @@ mod tests {
         ] {
             assert_eq!(of(bore), keyway, "{bore}");
         }
-        let key = |width: f64, face: f64| Keyway { width, depth: 2.0 }.key(face);
-        assert_eq!(
-            key(5.0, 15.0).as_deref(),
-            Some("Key DIN 6885-1 A 5 x 5 x 14")
-        );
-        assert_eq!(
-            key(12.0, 500.0).as_deref(),
-            Some("Key DIN 6885-1 A 12 x 8 x 400")
-        );
-        assert_eq!((key(5.0, 5.9), key(5.5, 15.0)), (None, None));
-        let square = Keyway {
-            width: 5.0,
-            depth: 2.3,
-        }
-        .square_key(8.0);
-        assert_eq!(square.as_deref(), Some("Key DIN 6885-1 B 5 x 5 x 8"));
+        let lengths = |width: f64| Keyway { width, depth: 2.0 }.key_lengths();
+        assert_eq!((lengths(5.0), lengths(5.5)), (Some([10.0, 56.0]), None));
         let room = |width: f64| Keyway { width, depth: 2.0 }.depth_tolerance();
         assert_eq!([6.0, 8.0, 5.5].map(room), [Some(0.1), Some(0.2), None]);
     }

@@ -15,26 +15,41 @@ pub struct Key {
     pub has_square_ends: bool,
 }
 
+/// Lengths of parallel keys, mm; DIN 6885-1.
+const LENGTHS: [u16; 33] = [
+    6, 8, 10, 12, 14, 16, 18, 20, 22, 25, 28, 32, 36, 40, 45, 50, 56, 63, 70, 80, 90, 100, 110,
+    125, 140, 160, 180, 200, 220, 250, 280, 320, 360,
+];
+/// Least length of a key that is cut from key steel, as a share of its width.
+const STUBBIEST: f64 = 0.5;
+
 impl Key {
     /// The longest key with round ends, form A, for a hub with a keyway and a face width, mm; `None` where no standard key is
     /// as wide as the keyway, or as short as the hub.
     #[must_use]
     pub fn round(hub: Keyway, face: f64) -> Option<Self> {
-        hub.key(face)?;
-        Some(Self {
+        let [least, greatest] = hub.key_lengths()?;
+        let mut fitting = LENGTHS.into_iter().rev().map(f64::from);
+        let length = fitting.find(|&length| length <= face && length <= greatest)?;
+        (length >= least).then_some(Self {
             width: hub.width,
             height: hub.key_height(),
-            length: Keyway::key_length(face)?,
+            length,
             has_square_ends: false,
         })
     }
 
-    /// The longest key with square ends, form B, likewise: in a thin hub it bears over its whole length.
+    /// The longest key with square ends, form B, likewise: in a thin hub it bears over its whole length. In one that is thinner than
+    /// the shortest standard key it is cut from key steel, to whole millimetres; `None` where it would be shorter than half its width.
     #[must_use]
     pub fn square(hub: Keyway, face: f64) -> Option<Self> {
-        Some(Self {
+        hub.key_lengths()?;
+        let length = Self::round(hub, face).map_or(face.floor(), |standard| standard.length);
+        (length >= STUBBIEST * hub.width).then_some(Self {
+            width: hub.width,
+            height: hub.key_height(),
+            length,
             has_square_ends: true,
-            ..Self::round(hub, face)?
         })
     }
 
@@ -42,19 +57,22 @@ impl Key {
     /// form B.
     #[must_use]
     pub fn fitting(hub: Keyway, face: f64) -> Option<Self> {
-        let round = Self::round(hub, face)?;
-        match round.bearing_length() > 0.5 * round.length {
-            true => Some(round),
-            false => Self::square(hub, face),
-        }
+        let round = Self::round(hub, face);
+        let round = round.filter(|key| key.bearing_length() > 0.5 * key.length);
+        round.or_else(|| Self::square(hub, face))
     }
 
-    /// Designation: "Key DIN 6885-1 A 5 x 5 x 14".
+    /// Designation: "Key DIN 6885-1 A 5 x 5 x 14", or of one that is cut "Key B 5 x 5 x 8 of key steel DIN 6880".
     #[must_use]
     pub fn name(self) -> String {
         let form = if self.has_square_ends { 'B' } else { 'A' };
         let [width, height, length] = [self.width, self.height, self.length];
-        format!("Key DIN 6885-1 {form} {width} x {height} x {length}")
+        let size = format!("{form} {width} x {height} x {length}");
+        let hub = Keyway { width, depth: 0.0 };
+        match hub.key_lengths() {
+            Some([least, _]) if length < least => format!("Key {size} of key steel DIN 6880"),
+            _ => format!("Key DIN 6885-1 {size}"),
+        }
     }
 
     /// Length over which its sides bear, mm: without round ends.
@@ -127,8 +145,6 @@ mod tests {
         let [round, square] = [Key::round(hub, 30.0), Key::square(hub, 30.0)].map(Option::unwrap);
         assert_eq!(round.name(), "Key DIN 6885-1 A 8 x 7 x 28");
         assert_eq!(square.name(), "Key DIN 6885-1 B 8 x 7 x 28");
-        assert_eq!(Some(round.name()), hub.key(30.0));
-        assert_eq!(Some(square.name()), hub.square_key(30.0));
         assert_eq!(
             (round.bearing_length(), square.bearing_length()),
             (20.0, 28.0)
@@ -136,13 +152,20 @@ mod tests {
         let volume = |key: Key| key.solid().expect("a body").volume();
         assert!((volume(square) - 8.0 * 7.0 * 28.0).abs() < 1e-9);
         assert!((volume(round) - 7.0 * (8.0 * 20.0 + 16.0 * PI)).abs() < 1e-9);
-        assert_eq!(Key::round(hub, 5.9), None);
-        // Of 8 mm in a hub of 16 mm round ends would take a half.
-        for (face, has_square_ends) in [(16.0, true), (17.9, true), (18.0, false)] {
-            let key = Key::fitting(hub, face).expect("a key");
-            assert_eq!(key.has_square_ends, has_square_ends, "{face}");
+        assert_eq!(
+            (Key::round(hub, 17.9), Key::round(hub, f64::NAN)),
+            (None, None)
+        );
+        let fitting = |face: f64| Key::fitting(hub, face).map(Key::name);
+        for (face, name) in [
+            (500.0, "Key DIN 6885-1 A 8 x 7 x 90"),
+            (18.0, "Key DIN 6885-1 A 8 x 7 x 18"),
+            (17.9, "Key B 8 x 7 x 17 of key steel DIN 6880"),
+            (4.0, "Key B 8 x 7 x 4 of key steel DIN 6880"),
+        ] {
+            assert_eq!(fitting(face).as_deref(), Some(name), "{face}");
         }
-        assert_eq!(Key::fitting(hub, 5.9), None);
+        assert_eq!((fitting(3.9), fitting(f64::NAN)), (None, None));
         let odd = Keyway {
             width: 5.5,
             depth: 2.0,
