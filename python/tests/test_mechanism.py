@@ -83,7 +83,7 @@ def test_links_have_the_shafts_pins_rings_and_keys_mounted_on_them():
         "circlip-din-471-10x1": 2,
         "circlip-din-471-16x1": 4,
         "key-din-6885-1-a-5x5x14": 1,
-        "key-din-6885-1-b-5x5x8": 1,
+        "key-din-6880-b-5x5x8": 1,
     }
     for body in links["crank"].mounted:
         # A turned part as STEP, an extrusion by its edges.

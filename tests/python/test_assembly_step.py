@@ -326,7 +326,7 @@ def test_rings_keys_and_bearings_lie_on_their_shafts_clear_of_everything(name, s
         # On the bottom of the groove, or the floor of the keyway.
         assert held == 1, (link, product)
         diameter = re.match(r"circlip-din-471-(\d+)x", product)
-        key = re.match(r"key-din-6885-1-(.)-(\d+)x(\d+)x(\d+)", product)
+        key = re.match(r"key-din-(?:6885-1|6880)-(.)-(\d+)x(\d+)x(\d+)", product)
         bearing = re.match(r"deep-groove-ball-bearing-iso-15-.+-(\d+)x(\d+)x(\d+)", product)
         sides = sorted(high - low)
         if diameter:

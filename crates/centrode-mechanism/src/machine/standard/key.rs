@@ -62,7 +62,7 @@ impl Key {
         round.or_else(|| Self::square(hub, face))
     }
 
-    /// Designation: "Key DIN 6885-1 A 5 x 5 x 14", or of one that is cut "Key B 5 x 5 x 8 of key steel DIN 6880".
+    /// Designation: "Key DIN 6885-1 A 5 x 5 x 14", or of one that is cut from key steel "Key DIN 6880 B 5 x 5 x 8".
     #[must_use]
     pub fn name(self) -> String {
         let form = if self.has_square_ends { 'B' } else { 'A' };
@@ -70,7 +70,7 @@ impl Key {
         let size = format!("{form} {width} x {height} x {length}");
         let hub = Keyway { width, depth: 0.0 };
         match hub.key_lengths() {
-            Some([least, _]) if length < least => format!("Key {size} of key steel DIN 6880"),
+            Some([least, _]) if length < least => format!("Key DIN 6880 {size}"),
             _ => format!("Key DIN 6885-1 {size}"),
         }
     }
@@ -160,8 +160,8 @@ mod tests {
         for (face, name) in [
             (500.0, "Key DIN 6885-1 A 8 x 7 x 90"),
             (18.0, "Key DIN 6885-1 A 8 x 7 x 18"),
-            (17.9, "Key B 8 x 7 x 17 of key steel DIN 6880"),
-            (4.0, "Key B 8 x 7 x 4 of key steel DIN 6880"),
+            (17.9, "Key DIN 6880 B 8 x 7 x 17"),
+            (4.0, "Key DIN 6880 B 8 x 7 x 4"),
         ] {
             assert_eq!(fitting(face).as_deref(), Some(name), "{face}");
         }
