@@ -186,28 +186,25 @@ fn keys(feeder: &Feeder, [still, moving]: [&[Extreme]; 2], report: &mut Report) 
     };
     let (gear, plate) = (&*body.material, &*plates.material);
     let [thin, wide] = [plates.thickness, body.width];
-    for (part, figure, face, torque, material) in [
-        ("crank", None, thin, 0, plate),
+    // The key of the thin plate has square ends.
+    let [square, fitting] = [Key::square(hub, thin), Key::fitting(hub, wide)];
+    for (part, figure, (key, face), torque, material) in [
+        ("crank", None, (square, thin), 0, plate),
         (
             "gear-driven",
             Some("gear_driven_key_pressure_max"),
-            wide,
+            (fitting, wide),
             0,
             gear,
         ),
         (
             "gear-driver",
             Some("gear_driver_key_pressure_max"),
-            wide,
+            (fitting, wide),
             1,
             gear,
         ),
     ] {
-        let key = match part {
-            // With square ends in the thin plate.
-            "crank" => Key::square(hub, face),
-            _ => Key::fitting(hub, face),
-        };
         let Some(key) = key else {
             continue;
         };

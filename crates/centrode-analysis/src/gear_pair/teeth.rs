@@ -225,13 +225,14 @@ mod tests {
             let mut report = Report::default();
             teeth(&pair, pair.driver(), &pair.limits(), &mut report);
             let messages: Vec<String> = report.findings.into_iter().map(|f| f.message).collect();
-            messages.join("\n")
+            (messages.join("\n"), 0.5 * pair.center_distance())
         };
-        let mild = told(0.6);
+        let (mild, _) = told(0.6);
         assert!(mild.contains("the largest module without it is"), "{mild}");
         // The ends of this ellipse have the radius a (1 - e^2).
-        let sharp = told(0.99);
-        assert!(sharp.contains("bend to a radius of 0.6"), "{sharp}");
+        let (sharp, a) = told(0.99);
+        let radius = format!("bend to a radius of {:.4} mm", a * (1.0 - 0.99 * 0.99));
+        assert!(sharp.contains(&radius), "{radius}: {sharp}");
         assert!(!sharp.contains("largest module"), "{sharp}");
     }
 }

@@ -197,22 +197,26 @@ impl Plate {
         let Bounds { min, max } = self.outline.bounds();
         let middle = 0.5 * (min.x + max.x);
         let note = |(index, hole): (usize, &Hole)| {
-            let (center, radius) = match hole.kind() {
-                HoleKind::Round(center, radius) => (center, radius),
-                HoleKind::Slot(ends, radius) => (nalgebra::center(&ends[0], &ends[1]), radius),
+            let ([one, other], radius) = match hole.kind() {
+                HoleKind::Round(center, radius) => ([center; 2], radius),
+                HoleKind::Slot(ends, radius) => (ends, radius),
                 HoleKind::Free => {
                     let Bounds { min, max } = hole.outline.bounds();
-                    (min + 0.5 * (max - min), 0.5 * (max - min).amin())
+                    ([min + 0.5 * (max - min); 2], 0.5 * (max - min).amin())
                 }
             };
             // Towards the column of words it is put in.
-            let outwards = if center.x < middle { -1.0 } else { 1.0 };
+            let outwards = if 0.5 * (one.x + other.x) < middle {
+                -1.0
+            } else {
+                1.0
+            };
             let way = Vector::new(outwards * 0.8, 0.6);
-            let center = match hole.kind() {
-                // There the round end is the farthest of the slot.
-                HoleKind::Slot([one, other], _) if (one - other).dot(&way) > 0.0 => one,
-                HoleKind::Slot([_, other], _) => other,
-                _ => center,
+            // There the round end is the farthest of the slot.
+            let center = if (one - other).dot(&way) > 0.0 {
+                one
+            } else {
+                other
             };
             let side = way * radius;
             let lines = [hole.size()].into_iter().chain(hole.place());

@@ -86,9 +86,12 @@ impl Keyway {
     /// Least and greatest length of the standard keys as wide as this keyway, mm; `None` where there are none. Source: DIN 6885-1.
     #[must_use]
     pub fn key_lengths(self) -> Option<[f64; 2]> {
-        let mut keys = KEYS.into_iter();
-        keys.find(|(b, ..)| *b == self.width)
-            .map(|(.., lengths)| lengths)
+        self.standard().map(|(.., lengths)| lengths)
+    }
+
+    /// The standard keys as wide as this keyway.
+    fn standard(self) -> Option<(f64, f64, f64, [f64; 2])> {
+        KEYS.into_iter().find(|(b, ..)| *b == self.width)
     }
 
     /// Pressure between a hub and the key in this keyway of it, N/mm², for a torque (N mm) on a shaft of a diameter and a key that
@@ -132,8 +135,7 @@ impl Keyway {
     /// other widths. Source: DIN 6885-1.
     #[must_use]
     pub fn depth_tolerance(self) -> Option<f64> {
-        let mut keys = KEYS.into_iter();
-        let (width, ..) = keys.find(|(b, ..)| *b == self.width)?;
+        let (width, ..) = self.standard()?;
         Some(if width <= 6.0 { 0.1 } else { 0.2 })
     }
 
@@ -157,8 +159,7 @@ impl Keyway {
 
     /// Width and height of its key, and the room above the key, mm.
     fn sizes(self) -> (f64, f64, f64) {
-        let standard = KEYS.into_iter().find(|(b, ..)| *b == self.width);
-        standard.map_or(
+        self.standard().map_or(
             (self.width, self.width, 0.06 * self.width),
             |(width, height, room, _)| (width, height, room),
         )
