@@ -19,6 +19,7 @@ table! {
     ///     general_tolerance: General tolerances.
     ///     edges: State of the edges.
     ///     surface: Texture of the surfaces that nothing else is said of, ISO 21920.
+    ///     fitted_surface: Texture of the surfaces with a tolerance class up to grade 8, and of flanks and profiles.
     ///
     /// >>> import centrode as ct
     /// >>> ct.DrawingSpec(number="7-204", sheet="A3").projection
@@ -48,5 +49,7 @@ table! {
         edges: String,
         /// Texture of the surfaces that nothing else is said of.
         surface: String,
+        /// Texture of the surfaces with a tolerance class up to grade 8, and of flanks and profiles.
+        fitted_surface: String,
     }
 }

@@ -338,7 +338,7 @@ def plates_made_from_their_sheets(folder):
         BRepBndLib.AddOptimal_s(shape, box, True, False)
         low, high = box.CornerMin(), box.CornerMax()
         # Neither the letters of the frame nor the cells of tables are dimensions.
-        (first,) = [i for i, text in enumerate(texts) if text.endswith(" of these a machine.")]
+        (first,) = [i for i, text in enumerate(texts) if text.endswith(" for each machine.")]
         views = texts[first : texts.index("Contour")]
         numbers = [float(found[1]) for text in views if (found := SIZE.match(text))]
         for side in (high.X() - low.X(), high.Y() - low.Y(), high.Z() - low.Z()):
@@ -625,7 +625,7 @@ def turned_steps(texts):
     first = next((i for i, text in enumerate(texts) if CHAMFER.match(text)), sized[0])
 
     def ends(text):
-        others = text == "Material" or text.endswith(" of these a machine.") or text.startswith("C-C ")
+        others = text == "Material" or text.endswith(" for each machine.") or text.startswith("C-C ")
         return others or REST.match(text)
 
     before = next((i for i in range(first, -1, -1) if ends(texts[i])), 0)

@@ -155,11 +155,11 @@ def test_each_pair_of_a_machine_gets_a_file(run, tmp_path):
 
 
 def test_the_proof_of_a_pair_of_a_machine_is_accepted(run, tmp_path):
-    design, file = DESIGNS / "index-table.toml", tmp_path / "step.proof"
-    run("prove", design, "--pair", "step", "-o", file)
+    design, file = DESIGNS / "index-table.toml", tmp_path / "advance.proof"
+    run("prove", design, "--pair", "advance", "-o", file)
     status, answer = checked(file, design)
     assert status == 0, answer
-    assert answer.startswith("proved: the gears of 'step' hold each other")
+    assert answer.startswith("proved: the gears of 'advance' hold each other")
 
 
 def test_a_pair_that_is_not_there_is_told(run, tmp_path):

@@ -5,12 +5,12 @@ use centrode_mechanism::composed::{Composed, ComposedDesign};
 use centrode_mechanism::machine::{JointKind, Machine, Surface};
 
 use super::clearance::surfaces;
-use super::{Made, ends as ends_of};
+use super::{Made, ends as ends_of, through};
 use crate::interference::LinkPair;
 use crate::{Finding, Place, Report, Severity, Unit};
 
 /// Accuracy to which collisions of parts are sought, as a share of a plate's width.
-const ACCURACY: f64 = 1e-3;
+pub(super) const ACCURACY: f64 = 1e-3;
 
 /// Accuracy to which it is found how near the circles around two parts come, as a share of their distance.
 const SLACK: f64 = 0.05;
@@ -19,17 +19,17 @@ const SLACK: f64 = 0.05;
 const MOST: usize = 30;
 
 /// Surfaces of a link that belong to one part, and a circle around them.
-struct PartSurfaces<'a> {
-    name: &'a str,
-    link: usize,
-    surfaces: Vec<&'a Surface>,
+pub(super) struct PartSurfaces<'a> {
+    pub(super) name: &'a str,
+    pub(super) link: usize,
+    pub(super) surfaces: Vec<&'a Surface>,
     center: Point,
     radius: f64,
 }
 
 impl<'a> PartSurfaces<'a> {
     /// The part; none where it has no surface.
-    fn new(
+    pub(super) fn new(
         name: &'a str,
         link: usize,
         surfaces: Vec<&'a Surface>,
@@ -96,22 +96,23 @@ pub(super) fn collisions(made: &Made<'_>, ends: &[f64], report: &mut Report) {
         "fewer copies, smaller gears, or gears of another pair, which lies at another height";
     let told = ("gears-collide", "gears", remedy);
     report.findings.extend(findings(told, &found));
+    through::collisions(made, machine, (ends, tolerance), report);
 }
 
 /// Parts of a kind that overlap, and how many pairs are not looked at since so many do.
-struct Overlaps<'a> {
+pub(super) struct Overlaps<'a> {
     found: Vec<Overlap<'a>>,
     left: usize,
 }
 
 /// Two parts that overlap, with their least clearance (mm, below zero) and the input there.
-type Overlap<'a> = ([&'a PartSurfaces<'a>; 2], [f64; 2]);
+pub(super) type Overlap<'a> = ([&'a PartSurfaces<'a>; 2], [f64; 2]);
 
 /// Pairs of parts that overlap within the cycle, among those that may collide, until so many do as are told of.
 ///
 /// What touches, as plates side by side on one line do, does not overlap; parts whose circles keep apart, and parts at other
 /// heights, cost no more than that look.
-fn overlaps<'a>(
+pub(super) fn overlaps<'a>(
     composed: &Composed,
     machine: &Machine,
     (pieces, may_collide): (
@@ -145,7 +146,7 @@ fn overlaps<'a>(
     let overlap = |pair: [&'a PartSurfaces<'a>; 2]| -> Option<Overlap<'a>> {
         let surfaces = pair.map(|piece| piece.surfaces.clone());
         let links = pair.map(|piece| piece.link);
-        let ready = LinkPair::new(machine, links, surfaces, tolerance).ok()??;
+        let ready = LinkPair::of_any(machine, links, surfaces, tolerance).ok()??;
         let found = ready.over([0.0, machine.input.period]).ok()?;
         (found.least < -tolerance.mm()).then_some((pair, [found.least, found.input]))
     };
@@ -159,7 +160,7 @@ fn overlaps<'a>(
 }
 
 /// Findings of parts of a kind that overlap: rule, words for them, and remedy.
-fn findings<'a>(
+pub(super) fn findings<'a>(
     told: (&'static str, &'static str, &'static str),
     overlaps: &'a Overlaps<'a>,
 ) -> impl Iterator<Item = Finding> + 'a {

@@ -13,6 +13,7 @@ mod pairs;
 mod sound_teeth;
 #[cfg(test)]
 mod tests;
+mod through;
 
 use std::sync::{Arc, OnceLock};
 

@@ -90,6 +90,16 @@ impl LinkPair {
         if links[0] == links[1] || links.iter().any(|link| *link >= count) {
             return Err(LinkClearanceError::Links { links, count });
         }
+        Self::of_any(machine, links, surfaces, tolerance)
+    }
+
+    /// Makes contours ready as [`new`](Self::new) does, of two links or of one, on which both stand still; the links are the machine's.
+    pub(crate) fn of_any(
+        machine: &Machine,
+        links: [usize; 2],
+        surfaces: [Vec<&Surface>; 2],
+        tolerance: Tolerance,
+    ) -> Result<Option<Self>, LinkClearanceError> {
         let chains = apart(machine, links);
         for joint in chains.iter().flatten() {
             if !joint.is_planar() {

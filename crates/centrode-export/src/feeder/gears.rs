@@ -1,4 +1,4 @@
-use centrode_geometry::{Point, Segment, Tolerance};
+use centrode_geometry::{Arc, Outline, Point, Segment, Tolerance};
 use centrode_mechanism::feeder::{Feeder, GearBody};
 use centrode_mechanism::gear::{IntermittentPair, Member};
 use centrode_mechanism::machine::Datum;
@@ -12,6 +12,8 @@ use crate::plate::{Exactness, Hole, Plate};
 use crate::sheet::{Table, broken, capital, number};
 
 const CAM: &str = "CAM";
+/// Share of a radius by which arcs fitted to a contour may differ from the circle that it follows.
+const FITTED: f64 = 1e-3;
 
 /// Driver, driven gear and, where there is an entry angle, the cams beside the driver; with arcs within the tolerance.
 pub(super) fn parts(feeder: &Feeder, gears: &IntermittentPair, tolerance: Tolerance) -> Vec<Plate> {
@@ -69,10 +71,9 @@ pub(super) fn parts(feeder: &Feeder, gears: &IntermittentPair, tolerance: Tolera
             part.marks.push(Point::from(at.coords.normalize() * below));
         }
         part.heat_treatment = None;
-        part.tables = vec![
-            data(feeder, gears, member, &teeth),
-            over_pins(&pins, limits.as_ref()),
-        ];
+        let mut told = data(feeder, gears, member, &teeth);
+        told.rows.extend(locked(&part.outline, gears.lock_radius()));
+        part.tables = vec![told, over_pins(&pins, limits.as_ref())];
     }
     for part in &mut all {
         let file = format!("{}.csv", part.name);
@@ -80,6 +81,34 @@ pub(super) fn parts(feeder: &Feeder, gears: &IntermittentPair, tolerance: Tolera
         part.tables.push(points);
     }
     all
+}
+
+/// Row of the gear data of the locking arc about the gear's own axis; none of a gear whose locks are about the other's.
+fn locked(outline: &Outline, radius: f64) -> Option<Vec<String>> {
+    let is_lock = |arc: &Arc| {
+        let off = (arc.radius() - radius)
+            .abs()
+            .max(arc.center().coords.norm());
+        off < FITTED * radius
+    };
+    let arcs = outline.segments().iter().filter_map(|side| match side {
+        Segment::Arc(arc) if is_lock(arc) => Some(arc),
+        _ => None,
+    });
+    let arcs: Vec<&Arc> = arcs.collect();
+    let from = *arcs.iter().find(|arc| {
+        let begins = |other: &&Arc| (other.end - arc.start).norm() < FITTED * radius;
+        !arcs.iter().any(begins)
+    })?;
+    let turn: f64 = arcs.iter().map(|arc| arc.sweep()).sum();
+    let first = from.start.y.atan2(from.start.x);
+    let [first, last] = [first, first + turn].map(|angle| number(angle.to_degrees(), 1));
+    let row = [
+        "Locking arc, polar angles",
+        "",
+        &format!("{first}° to {last}°"),
+    ];
+    Some(row.map(String::from).to_vec())
 }
 
 /// The data of a gear.

@@ -7,6 +7,8 @@ use super::hole::circle;
 use super::{Exactness, Plate};
 use crate::sheet::{Draft, Pen, fit, number, steady};
 
+/// Words of the runout of both faces.
+const FACES: &str = "both faces";
 /// Places of lengths.
 const PLACES: usize = 3;
 
@@ -67,8 +69,13 @@ impl Plate {
         );
         if let Some(frame) = self.face_runout() {
             let tip = p(left, high - 0.2 * (high - low));
-            let at = p(left - 4.0, (high + 8.0).max(whole.max.y + 4.0));
-            draft.pointed_frame(tip, at, &frame, "both faces");
+            // Words of a short dimension stand above it: the frame ends before them.
+            let before = left + thick + 4.0 - frame.width(FACES);
+            let at = p(
+                (left - 4.0).min(before),
+                (high + 8.0).max(whole.max.y + 4.0),
+            );
+            draft.pointed_frame(tip, at, &frame, FACES);
         }
     }
 

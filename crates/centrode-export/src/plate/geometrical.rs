@@ -7,7 +7,8 @@ use crate::sheet::geometrical::Frame;
 
 impl Plate {
     /// Frames of each hole. The first datum is the seat of a shaft, or else the first hole with a class; the second is the hole
-    /// with a class that lies farthest from it. All others lie in position to both. Holes of screws are datums only where no other
+    /// with a class that lies farthest from it. All others, and slots with a class, lie in position to both; a keyway is symmetrical to the
+    /// first. Holes of screws are datums only where no other
     /// hole has a class.
     pub(super) fn frames(&self) -> Vec<Vec<Frame>> {
         let mut frames = vec![Vec::new(); self.holes.len()];
@@ -34,16 +35,29 @@ impl Plate {
             let position = Frame::position(distance, self.holes[index].off, &datums);
             frames[index].extend(position);
         }
+        for (index, hole) in self.holes.iter().enumerate() {
+            let datums = match second {
+                Some(_) => format!("{one} {two}"),
+                None => one.to_string(),
+            };
+            let distance = hole.fitted_slot().map(|at| (at - origin).norm());
+            let position = distance.and_then(|mm| Frame::position_of_slot(mm, &datums));
+            frames[index].extend(position);
+        }
         // A letter that nothing lies to is not told.
-        let is_used = others
-            .iter()
-            .any(|&(index, _)| Some(index) != second && !frames[index].is_empty());
+        let is_used = (0..frames.len())
+            .any(|index| index != first && Some(index) != second && !frames[index].is_empty());
         if let Some(second) = second.filter(|_| is_used) {
             frames[second].push(Frame::datum(two));
         }
+        let keyed = self.holes[first].keyed;
+        let keyway = Frame::symmetry(keyed, &one.to_string());
         let is_used = self.face_runout().is_some()
             || self.contour_frame().is_some()
-            || others.iter().any(|&(index, _)| !frames[index].is_empty());
+            || keyway.is_some()
+            || (0..frames.len()).any(|index| index != first && !frames[index].is_empty());
+        // Below what is said of the keyway.
+        frames[first].extend(keyway);
         if is_used {
             frames[first].push(Frame::datum(one));
         }
@@ -70,6 +84,7 @@ impl Plate {
         let [one, _] = self.letters().map(String::from);
         match exactness {
             Exactness::Profile => Some((Frame::profile(self.reach(origin), &one)?, "")),
+            Exactness::Rim => Some((Frame::runout(2.0 * self.reach(origin), &one)?, "rim")),
             Exactness::Teeth(width) => {
                 Some((Frame::runout_within(width, &one), "teeth, over pins"))
             }

@@ -21,6 +21,8 @@ pub(crate) struct Hole {
     pub(crate) off: f64,
     /// Whether it is the seat of a shaft.
     pub(crate) is_seat: bool,
+    /// Width of its keyway, mm; 0 without one.
+    pub(crate) keyed: f64,
     /// Further lines beside it.
     pub(crate) notes: Vec<String>,
     /// Screw that it is for, whether through it or into a thread.
@@ -86,6 +88,7 @@ impl Hole {
             ..Self::from(outline)
         };
         if let Some(key) = body.keyway {
+            bore.keyed = key.width;
             let angle = number(body.keyway_angle.to_degrees(), 4);
             bore.notes = vec![
                 fit::bore(body.bore, &body.bore_fit),
@@ -105,6 +108,7 @@ impl From<Outline> for Hole {
             fit: String::new(),
             off: 0.0,
             is_seat: false,
+            keyed: 0.0,
             notes: Vec::new(),
             screw: None,
         }
@@ -133,6 +137,14 @@ impl Hole {
             Segment::Arc(arc) => Some(arc.center()),
             _ => None,
         })
+    }
+
+    /// Middle of a slot with a class.
+    pub(super) fn fitted_slot(&self) -> Option<Point> {
+        match self.kind() {
+            HoleKind::Slot([a, b], _) if !self.fit.is_empty() => Some(nalgebra::center(&a, &b)),
+            _ => None,
+        }
     }
 
     pub(super) fn kind(&self) -> HoleKind {

@@ -59,6 +59,8 @@ pub(crate) struct Plate {
 pub(crate) enum Exactness {
     /// Its profile within a grade of its reach.
     Profile,
+    /// The runout of a round one, within a grade of its diameter.
+    Rim,
     /// The runout of its teeth over pins, mm.
     Teeth(f64),
 }

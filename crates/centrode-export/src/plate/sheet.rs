@@ -1,7 +1,8 @@
 use centrode_geometry::{Arc, Bounds, Outline, Point, Segment, Tolerance, Vector};
 use centrode_mechanism::design::{DrawingSpec, Projection, SheetSize};
 
-use super::{Hole, HoleKind, Plate, ScrewHole};
+use super::hole::circle;
+use super::{Exactness, Hole, HoleKind, Plate, ScrewHole};
 use crate::SheetOptions;
 use crate::drawing::{Anchor, EntityShape};
 use crate::sheet::geometrical::{Characteristic, NoteLine};
@@ -40,7 +41,16 @@ impl Plate {
             ..self.clone()
         };
         let projection = block.projection;
-        let lines = self.lines();
+        let mut lines = self.lines();
+        let fits = self.holes.iter().filter(|hole| hole.screw.is_none());
+        let fits = fits.map(|hole| &*hole.fit);
+        let contour = match self.exactness {
+            Some(Exactness::Profile) => "the contour",
+            Some(Exactness::Teeth(_)) => "the flanks",
+            Some(Exactness::Rim) | None => "",
+        };
+        let classes = self.classes.iter().map(|class| &**class);
+        lines.extend(block.fitted(fits.chain(classes), contour));
         let pieces = |scale: Scale, size: SheetSize| {
             vec![
                 SheetBlock::notes(&lines),
@@ -63,7 +73,7 @@ impl Plate {
 
     fn lines(&self) -> Vec<String> {
         let name = &self.name;
-        let mut lines = vec![format!("{} of these a machine.", self.quantity)];
+        let mut lines = vec![format!("{} for each machine.", self.quantity)];
         lines.push(match self.is_told() {
             true => format!("Cutting file: {name}.dxf."),
             false => format!("Contour: {name}.dxf."),
@@ -140,7 +150,10 @@ impl Plate {
         }
         if let Some((frame, words)) = self.contour_frame() {
             let corners = self.outline.segments().iter().map(|side| side.start());
-            if let Some(top) = corners.max_by(|a, b| steady(a.y).total_cmp(&steady(b.y))) {
+            // A circle has no corner at its top.
+            let top = circle(&self.outline).map(|(at, radius)| at + Vector::new(0.0, radius));
+            let highest = corners.max_by(|a, b| steady(a.y).total_cmp(&steady(b.y)));
+            if let Some(top) = top.or(highest) {
                 let at = top * k + Vector::new(5.0, 9.0);
                 draft.pointed_frame(top * k, at, &frame, words);
             }

@@ -22,6 +22,8 @@ pub(crate) enum Characteristic {
     Position,
     /// Form and place of a profile, the zone equally on both sides of it.
     Profile,
+    /// Median plane of a feature on that of its datum.
+    Symmetry,
     /// Circular runout, axial on a face and radial on a cylinder.
     Runout,
     /// A feature that others refer to, with its letter.
@@ -33,6 +35,7 @@ impl Characteristic {
         match self {
             Self::Position => "position",
             Self::Profile => "profile",
+            Self::Symmetry => "symmetry",
             Self::Runout => "runout",
             Self::Datum => "datum",
         }
@@ -53,7 +56,7 @@ impl NoteLine {
     pub(super) fn width(&self, letters: f64) -> f64 {
         match self {
             Self::Words(words) => lettering::width(words, letters),
-            Self::Frame(frame) => frame.widths().iter().sum(),
+            Self::Frame(frame) => frame.width(""),
         }
     }
 }
@@ -108,6 +111,19 @@ impl Frame {
         Some(Self::new(Characteristic::Position, value, datums))
     }
 
+    /// Position of the median plane of a slot at a distance from its datum: within the eighth grade of that distance. None beyond the
+    /// grades of ISO 286-1.
+    pub(crate) fn position_of_slot(distance: f64, datums: &str) -> Option<Self> {
+        let value = number(grade(distance, "H8")?, 3);
+        Some(Self::new(Characteristic::Position, value, datums))
+    }
+
+    /// Symmetry of a keyway of a width: within the ninth grade of that, as the width itself. None beyond the grades of ISO 286-1.
+    pub(crate) fn symmetry(width: f64, datums: &str) -> Option<Self> {
+        let value = number(grade(width, "H9")?, 3);
+        Some(Self::new(Characteristic::Symmetry, value, datums))
+    }
+
     /// Runout of a feature of a diameter: within the seventh grade of that. None beyond the grades of ISO 286-1.
     pub(crate) fn runout(diameter: f64, datums: &str) -> Option<Self> {
         Some(Self::runout_within(grade(diameter, "H7")?, datums))
@@ -131,6 +147,12 @@ impl Frame {
             characteristic,
             cells: std::iter::once(value).chain(letters).collect(),
         }
+    }
+
+    /// Width of the frame and of words above it on a sheet, mm.
+    pub(crate) fn width(&self, words: &str) -> f64 {
+        let own: f64 = self.widths().iter().sum();
+        own.max(lettering::width(words, LETTERS))
     }
 
     fn widths(&self) -> Vec<f64> {
@@ -161,14 +183,13 @@ impl Draft {
         }
     }
 
-    /// Draws a frame from the middle of its left side, with a leader from a feature and words behind it.
+    /// Draws a frame from the middle of its left side, with a leader from a feature and words above it.
     pub(crate) fn pointed_frame(&mut self, tip: Point, at: Point, frame: &Frame, words: &str) {
         self.arrow(tip, tip - at);
         self.line(Pen::Dimension, tip, at);
         self.frame(at, frame);
-        let beyond: f64 = frame.widths().iter().sum();
-        let at = at + Vector::new(beyond + 1.0, -0.5 * LETTERS);
-        self.text(at, LETTERS, words, Anchor::Left);
+        let above = at + Vector::new(0.0, HALF + 1.0);
+        self.text(above, LETTERS, words, Anchor::Left);
     }
 
     fn frame(&mut self, at: Point, frame: &Frame) {
@@ -214,6 +235,11 @@ impl Draft {
                 self.draw(Pen::Dimension, EntityShape::Arc(half));
                 self.line(Pen::Dimension, half.start, half.end);
             }
+            Characteristic::Symmetry => {
+                for (y, half) in [(-0.8, 0.9), (0.0, 1.5), (0.8, 0.9)] {
+                    self.line(Pen::Dimension, p(-half, y), p(half, y));
+                }
+            }
             Characteristic::Runout => {
                 self.line(Pen::Dimension, p(-1.4, -1.4), p(1.4, 1.4));
                 let head = Vector::new(1.0, 1.0).normalize();
@@ -252,6 +278,11 @@ mod tests {
             "runout 0.0465 A"
         );
         assert_eq!(Frame::runout(501.0, "A"), None);
+        // IT9 of 3 to 6 mm is 30 um.
+        let keyway = Frame::symmetry(5.0, "A").expect("a grade");
+        assert_eq!(keyway.to_string(), "symmetry 0.03 A");
+        let slot = Frame::position_of_slot(60.0, "A B").expect("a grade");
+        assert_eq!(slot.to_string(), "position 0.046 A B");
         assert_eq!(NoteLine::from(Frame::datum('A')).to_string(), "datum A");
     }
 
@@ -261,6 +292,7 @@ mod tests {
             Frame::runout(30.0, "A"),
             Frame::position(30.0, 0.0, "A B"),
             Frame::profile(30.0, "A"),
+            Frame::symmetry(5.0, "A"),
             Some(Frame::datum('B')),
         ] {
             let frame = frame.expect("a grade");

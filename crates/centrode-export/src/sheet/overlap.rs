@@ -5,8 +5,8 @@ use crate::drawing::{EntityShape, Text};
 use centrode_geometry::{Bounds, Outline, Point, Segment, Tolerance, Vector};
 use nalgebra::Rotation2;
 
-/// Half the width of a leader's arrow with some air, mm.
-const HALF: f64 = 0.6;
+/// How near a leader may pass by words, mm: the line below them is 1.3 mm away.
+const AIR: f64 = 1.5;
 
 /// Words that touch something.
 #[derive(Clone, Debug, PartialEq)]
@@ -104,9 +104,9 @@ impl Covered {
                 && self.lines.iter().any(|line| ink.is_met_by(*line, 0.0)))
     }
 
-    /// Whether a straight line of a thin pen runs through its words.
+    /// Whether a straight line of a thin pen runs through its words, or so near that it would be the line they stand on.
     pub(super) fn is_struck(&self, line: [Point; 2]) -> bool {
-        self.inks.iter().any(|ink| ink.is_met_by(line, HALF))
+        self.inks.iter().any(|ink| ink.is_met_by(line, AIR))
     }
 }
 

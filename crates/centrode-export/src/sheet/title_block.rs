@@ -51,6 +51,8 @@ pub struct TitleBlock {
     pub edges: String,
     /// Texture of the surfaces.
     pub surface: String,
+    /// Texture of those with a tolerance class up to [`TitleBlock::FINE`], and of flanks and profiles; empty, that of the others.
+    pub fitted_surface: String,
     /// Arrangement of the views.
     pub projection: Projection,
 }
@@ -73,6 +75,7 @@ impl TitleBlock {
             general_tolerance: spec.general_tolerance.clone(),
             edges: spec.edges.clone(),
             surface: spec.surface.clone(),
+            fitted_surface: spec.fitted_surface.clone(),
             projection: options.projection.unwrap_or(spec.projection),
             ..Self::default()
         }
@@ -91,6 +94,37 @@ impl TitleBlock {
             document: "Part drawing".into(),
             ..Self::new(spec, name, options)
         }
+    }
+
+    /// Coarsest grade of ISO 286 whose surfaces have a texture of their own.
+    pub const FINE: u32 = 8;
+
+    /// Names the texture of fitted surfaces behind that of the others, where some of these tolerance classes are fine or the part has
+    /// flanks or a profile, in words; the note that tells where it holds.
+    pub(crate) fn fitted<'a>(
+        &mut self,
+        classes: impl IntoIterator<Item = &'a str>,
+        contour: &str,
+    ) -> Option<String> {
+        let grade = |class: &str| {
+            let letters = class.trim_end_matches(|c: char| c.is_ascii_digit());
+            class[letters.len()..].parse::<u32>().ok()
+        };
+        // Threads have a class, too: 6H.
+        let mut grades = classes.into_iter().filter_map(grade);
+        let is_fine = grades.any(|grade| grade <= Self::FINE);
+        let fine = self.fitted_surface.clone();
+        if fine.is_empty() || (!is_fine && contour.is_empty()) {
+            return None;
+        }
+        let classes = format!("surfaces with a class up to grade {}", Self::FINE);
+        let places = match (is_fine, contour) {
+            (true, "") => classes,
+            (false, contour) => contour.into(),
+            (true, contour) => format!("{classes}, {contour}"),
+        };
+        self.surface = format!("{} ({fine})", self.surface);
+        Some(format!("{fine}: {places}."))
     }
 
     /// Draft of the block, its lower left corner in the origin, on the sheet `page` of `pages`.

@@ -6,7 +6,7 @@ use centrode_mechanism::three_arm::making::{self, LIGHT, PRESSED, RINGS, SLIDING
 use centrode_mechanism::three_arm::{GearboxBody, Pusher, ThreeArm};
 
 use super::ThreeArmPart;
-use crate::plate::{Hole, Plate};
+use crate::plate::{Exactness, Hole, Plate};
 use crate::sheet::{fit, number};
 use crate::{ExportError, cam};
 
@@ -303,6 +303,10 @@ impl<'a> Machine<'a> {
                 let stock = STEEL.treated(&spec.heat_treatment);
                 let mut roller = self.plate(part, circle(spec.roller_radius), holes, span, stock);
                 roller.classes[0] = making::RIM.into();
+                roller.exactness = Some(Exactness::Rim);
+                for hole in &mut roller.holes {
+                    hole.is_seat = true;
+                }
                 Some(roller)
             }
             ThreeArmPart::Spacer => {

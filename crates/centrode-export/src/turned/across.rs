@@ -6,17 +6,17 @@ use centrode_geometry::{Arc, Bounds, Outline, Point, Segment, Tolerance, Vector}
 use centrode_mechanism::gear::design::Keyway;
 
 use crate::drawing::{Anchor, EntityShape};
-use crate::sheet::geometrical::NoteLine;
+use crate::sheet::geometrical::{Frame, NoteLine};
 use crate::sheet::{Draft, Pen, Scale, fit};
 
 /// Longest side of a section on paper, mm.
 const ROOM: f64 = 45.0;
 
 /// Section across a shaft of a diameter with its keyway, which lies to the left: what faces the viewer of the side view does when
-/// it is seen towards the left end.
+/// it is seen towards the left end. The keyway is symmetrical to datum A where there is such.
 pub(crate) fn across(
     diameter: f64,
-    (keyway, class): (Option<Keyway>, &str),
+    (keyway, class, has_datum): (Option<Keyway>, &str, bool),
     letter: char,
     words: &[NoteLine],
     tolerance: Tolerance,
@@ -53,7 +53,15 @@ pub(crate) fn across(
     }
     let tip = p(0.6 * radius, 0.8 * radius);
     let elbow = p(0.8 * reach, reach + 3.0);
-    draft.note(tip, elbow, words);
+    let width = keyway.map_or(0.0, |key| key.width);
+    let symmetry = Frame::symmetry(width, "A").filter(|_| has_datum);
+    let symmetry = symmetry.map(|frame| [NoteLine::from("keyway".to_owned()), frame.into()]);
+    let lines: Vec<NoteLine> = words
+        .iter()
+        .cloned()
+        .chain(symmetry.into_iter().flatten())
+        .collect();
+    draft.note(tip, elbow, &lines);
     let bounds = draft.bounds();
     let at = p(0.5 * (bounds.min.x + bounds.max.x), bounds.max.y + 5.0);
     draft.text(

@@ -9,10 +9,10 @@ use std::ops::Deref;
 use centrode_geometry::{Outline, Point};
 use centrode_mechanism::design::DrawingSpec;
 use centrode_mechanism::gear::design::BodySpec;
-use centrode_mechanism::machine::{Machine, Spacer, TurnedPart, TurnedPieces};
+use centrode_mechanism::machine::{Machine, Spacer, SpacerKind, TurnedPart, TurnedPieces};
 
 use crate::drawing::{CENTER, Drawing, EntityShape, PROFILE};
-use crate::plate::Plate;
+use crate::plate::{Exactness, Plate};
 use crate::sheet::fit;
 use crate::{ExportError, Package};
 pub(crate) use across::{across, cutting_plane};
@@ -68,14 +68,14 @@ pub(crate) fn add(
             body()?.mesh(tolerance).map_err(ExportError::no_solid(name))
         })?;
     }
-    for sleeve in sleeves(all) {
-        sleeve.add(package, spec)?;
+    for ring in made_rings(all) {
+        ring.add(package, spec)?;
     }
     Ok(())
 }
 
-/// The sleeves on turned parts, each once.
-fn sleeves(all: &[TurnedPieces]) -> Vec<Plate> {
+/// The sleeves and rollers on turned parts, each once.
+fn made_rings(all: &[TurnedPieces]) -> Vec<Plate> {
     let mut found: Vec<Plate> = Vec::new();
     for pieces in all {
         for (spacer, _) in &pieces.spacers {
@@ -86,19 +86,30 @@ fn sleeves(all: &[TurnedPieces]) -> Vec<Plate> {
                 continue;
             }
             let circle = |diameter: f64| Outline::circle(Point::origin(), 0.5 * diameter);
+            // A roller turns on its pin and is as hard.
+            let (bore, rim, treatment) = match spacer.kind {
+                SpacerKind::Roller => {
+                    (&*pieces.fit.hole, Spacer::RIM, &*pieces.part.heat_treatment)
+                }
+                SpacerKind::Shim | SpacerKind::Sleeve => (Spacer::BORE, "", ""),
+            };
             let body = BodySpec {
                 width: spacer.length,
                 bore: spacer.inner,
-                bore_fit: Spacer::BORE.into(),
+                bore_fit: bore.into(),
+                heat_treatment: treatment.into(),
                 material: pieces.part.material.clone(),
                 density: pieces.part.density,
                 ..BodySpec::default()
             };
             let bore = Some(circle(spacer.inner));
             let names = [&*file, &*spacer.name()];
+            let ring = Plate::of_body(names, circle(spacer.outer), bore, &body);
             found.push(Plate {
                 quantity,
-                ..Plate::of_body(names, circle(spacer.outer), bore, &body)
+                classes: [rim.into(), String::new()],
+                exactness: (!rim.is_empty()).then_some(Exactness::Rim),
+                ..ring
             });
         }
     }

@@ -39,12 +39,14 @@ impl Drawn<'_> {
         let mut block = TitleBlock::of_part(spec, words, supplement, options);
         block.material.clone_from(&self.material);
         block.mass = self.mass().map(|kg| mass(kg * 1e3)).unwrap_or_default();
-        let mut lines = vec![format!("{quantity} of these a machine.")];
+        let mut lines = vec![format!("{quantity} for each machine.")];
         lines.push(format!("Turned; contour: {}.dxf.", self.name));
         if let Some(centre) = self.centre() {
             lines.push(format!("Centre holes at both ends: {centre}."));
         }
         lines.extend(self.notes.iter().cloned());
+        let classes = self.steps.iter().map(|step| &*step.class);
+        lines.extend(block.fitted(classes, ""));
         lines.push(treatment_note(&self.heat_treatment));
         let keyed = self
             .steps
@@ -52,9 +54,10 @@ impl Drawn<'_> {
             .find(|step| step.is_keyed && step.ring.is_none());
         let section = keyed.map(|step| {
             let words = [NoteLine::from(fit::bore(step.diameter, &step.class))];
+            let is_datum = self.datum().is_some();
             across(
                 step.diameter,
-                (self.keyway, fit::SHAFT_KEYWAY),
+                (self.keyway, fit::SHAFT_KEYWAY, is_datum),
                 SECTION,
                 &words,
                 tolerance,

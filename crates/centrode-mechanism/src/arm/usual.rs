@@ -72,12 +72,21 @@ fn of_two_digits(length: f64) -> f64 {
     if rounded.is_finite() { rounded } else { length }
 }
 
-/// Default sizes enlarged: what other parts fit to preferred sizes, what is cut from plate to two digits.
+/// A length of a millimetre or more rounded up to half millimetres.
+fn whole_halves(length: f64) -> f64 {
+    match length >= 1.0 && length.is_finite() {
+        true => 0.5 * (2.0 * length - 1e-9).ceil(),
+        false => length,
+    }
+}
+
+/// Default sizes enlarged: what other parts fit to preferred sizes, the bore for the cam's sleeve to half millimetres, what is cut from plate to two digits.
 fn enlarged(scale: f64) -> ArmBodySpec {
     let mut body = ArmBodySpec::default().scaled(scale);
     for size in [&mut body.housing.bore, &mut body.push_rod.diameter] {
         *size = preferred_size(*size);
     }
+    body.housing.sleeve_bore = whole_halves(body.housing.sleeve_bore);
     for thickness in [
         &mut body.housing.wall,
         &mut body.housing.width,

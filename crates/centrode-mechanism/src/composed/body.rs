@@ -8,12 +8,13 @@ use serde::{Deserialize, Serialize};
 use super::corner::points;
 use super::drawn::Drawn;
 use super::given_mass::GivenMass;
+use super::plates::LAYERS;
 use super::{
     ComposedCircleSpec, ComposedCornerSpec, ComposedLawSpec, ComposedMeshSpec, CornerSpec,
 };
 use crate::degrees;
 use crate::gear::design::SpecError;
-use crate::gear::design::rule::{Rule, broken, count_in_range, finite, positive};
+use crate::gear::design::rule::{Rule, broken, finite, in_range, positive};
 
 /// A body of a composed machine: turning on a pin, sliding along a line, fixed to another body or made by a dyad.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -41,9 +42,10 @@ pub struct ComposedBodySpec {
     )]
     #[schemars(with = "Option<f64>")]
     pub turned: Option<f64>,
-    /// Place of its plate along the shafts, counted from the one next to the frame; left out, plates stack in order.
+    /// Place of its plate along the shafts, counted from the one next to the frame, which is in layer -1: below it are the gears; left out, plates
+    /// stack in order.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub layer: Option<u32>,
+    pub layer: Option<i32>,
     /// Whether it is drawn as a plate; left out, it is.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub plate: Option<bool>,
@@ -125,7 +127,7 @@ impl ComposedBodySpec {
             finite(key, angle.unwrap_or(0.0))?;
         }
         if let Some(layer) = self.layer {
-            count_in_range("layer", layer, 0, 1000)?;
+            in_range("layer", layer.into(), LAYERS, "")?;
         }
         if let Some(law) = &self.law {
             let slides = self.slides.is_some();

@@ -63,6 +63,18 @@ impl ComposedCam {
         )
     }
 
+    /// Name of its surface in the machine.
+    #[must_use]
+    pub fn surface_name(&self) -> String {
+        format!("{}-profile", self.name)
+    }
+
+    /// Name of its body.
+    #[must_use]
+    pub fn body_name(&self) -> &str {
+        &self.body_name
+    }
+
     /// Place of the cam's axes in those of its body.
     fn place(&self) -> Isometry2<f64> {
         Isometry2::new(self.at.coords, self.mount)
@@ -83,7 +95,7 @@ impl ComposedCam {
     /// Its contour to touch with.
     pub(super) fn surface(&self, solid: &Solid) -> Surface {
         Surface {
-            name: format!("{}-profile", self.name),
+            name: self.surface_name(),
             outline: solid.outline().clone(),
             span: [solid.bottom(), solid.top()],
             teeth: Vec::new(),
@@ -107,12 +119,16 @@ impl ComposedCam {
 }
 
 impl Composed {
-    /// Height of a cam's lower face along the shafts, mm: cams lie one below the other, behind the gears.
+    /// Height of a cam's lower face along the shafts, mm: that of its layer, or else cams lie one below the other, behind the gears.
     pub(super) fn cam_bottom(&self, cam: &ComposedCam) -> f64 {
-        let cams = self.written.cams.iter();
-        let own = self.original(&cam.name);
-        let upto = cams.take_while(|(name, _)| name.as_str() <= own);
-        let depth = upto.map(|(_, spec)| spec.body.width + self.design.plates.gap);
+        let cams = &self.written.cams;
+        let (own, plates) = (self.original(&cam.name), &self.design.plates);
+        if let Some(layer) = cams.get(own).and_then(|spec| spec.layer) {
+            return f64::from(layer) * (plates.thickness + plates.gap);
+        }
+        let upto = cams.iter().take_while(|(name, _)| name.as_str() <= own);
+        let behind = upto.filter(|(_, spec)| spec.layer.is_none());
+        let depth = behind.map(|(_, spec)| spec.body.width + plates.gap);
         self.gears_bottom() - depth.sum::<f64>()
     }
 

@@ -3,11 +3,12 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::plates::LAYERS;
 use crate::cam::design::{
     Follower, MotionSpec, SwingingFlat, SwingingRoller, TranslatingFlat, TranslatingRoller, Turn,
 };
 use crate::degrees;
-use crate::gear::design::rule::{Rule, broken, finite, positive};
+use crate::gear::design::rule::{Rule, broken, finite, in_range, positive};
 use crate::gear::design::{BodySpec, SpecError};
 
 /// A disc cam on a body, which others follow.
@@ -39,6 +40,9 @@ pub struct ComposedCamSpec {
     /// Body that moves already, by its own law or by others, to whose motion the cam is cut: in place of `motion`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cut_to: Option<String>,
+    /// Place along the shafts, counted in plates from the one next to the frame; left out, cams lie one below the other behind the gears.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub layer: Option<i32>,
     /// Width, bore and material.
     #[serde(default)]
     pub body: BodySpec,
@@ -163,6 +167,9 @@ impl ComposedCamSpec {
     pub(super) fn validate(&self) -> Result<(), SpecError> {
         finite("mount_deg", self.mount)?;
         positive("base_radius", self.base_radius)?;
+        if let Some(layer) = self.layer {
+            in_range("layer", layer.into(), LAYERS, "")?;
+        }
         let (_, written) = self.follower.written();
         let follower = self.follower.at(written.unwrap_or(1.0));
         follower.validate().map_err(|e| e.inside("follower"))?;

@@ -2,9 +2,10 @@
 
 use centrode_geometry::Point;
 
-use super::{Composed, ShaftPart};
+use super::points::ROLLER;
+use super::{Composed, ComposedCam, ShaftPart};
 use crate::digits::thousandths;
-use crate::machine::{Bar, Fit, Spacer, TurnedPiece, TurnedPieces};
+use crate::machine::{Bar, Circlip, Fit, Spacer, TurnedPiece, TurnedPieces};
 
 /// Shares of the period at which plates on one pin have their holes on one axis.
 const SHARES: [f64; 4] = [0.0, 0.137, 0.411, 0.732];
@@ -21,10 +22,21 @@ pub(super) struct Axis {
     pub(super) holes: Vec<(usize, Point)>,
     /// Lower and upper faces of the plates with these holes, mm.
     pub(super) plates: Vec<[f64; 2]>,
+    /// Rollers of followers on it, with the height of their lower faces, mm.
+    rollers: Vec<(Spacer, f64)>,
     /// From the lowest face to the highest, mm.
     span: [f64; 2],
     /// Diameter of its pin, mm.
     size: f64,
+}
+
+/// A pin or shaft with its rings, as others near it see them.
+struct Cylinders {
+    /// The bodies with a hole for it, and its place in their axes.
+    holes: Vec<(usize, Point)>,
+    radius: f64,
+    span: [f64; 2],
+    rings: Vec<(Spacer, f64)>,
 }
 
 impl Axis {
@@ -35,10 +47,17 @@ impl Axis {
         both.all(|(a, b)| (a - b).norm() < near)
     }
 
-    /// Heights of the plates with a hole on it, from the lowest, above the lowest face.
+    /// Heights of the plates with a hole on it and of the rollers.
     fn parts(&self) -> Vec<[f64; 2]> {
-        let raised = |span: &[f64; 2]| span.map(|z| z - self.span[0]);
-        self.plates.iter().map(raised).collect()
+        let rollers = self.rollers.iter();
+        let rollers = rollers.map(|(roller, at)| [*at, at + roller.length]);
+        self.plates.iter().copied().chain(rollers).collect()
+    }
+
+    /// The body nearest to the frame, with the place in its axes.
+    fn owner(&self) -> (usize, Point) {
+        let nearest = self.holes.iter().min_by_key(|(body, _)| *body);
+        nearest.copied().unwrap_or((0, Point::origin()))
     }
 
     fn length(&self) -> f64 {
@@ -57,65 +76,39 @@ impl Composed {
         })
     }
 
-    /// The pins in the plates, those of one length with the same spacers together, the shortest first; each belongs to the body nearest to the frame.
+    /// The pins in the plates, alike ones together, the shortest first; each belongs to the body nearest to the frame.
     #[must_use]
     pub fn pins_in_plates(&self) -> Vec<TurnedPieces> {
-        let spec = &self.design.plates;
-        let fit = Fit::new("", spec.pin_diameter, [&spec.hole_fit, &spec.pin_fit]);
-        let general = &self.design.drawing.general_tolerance;
-        let mut found: Vec<(f64, TurnedPieces)> = Vec::new();
         let mut axes = self.axes();
         axes.sort_by(|a, b| a.length().total_cmp(&b.length()));
+        let mut bars: Vec<Cylinders> = axes.iter().map(|axis| self.cylinders(axis)).collect();
         // A single plate turns on a pin of what is around the machine.
-        let is_pin = |axis: &Axis| axis.holes.len() > 1 && !self.has_shaft(axis);
-        for axis in axes.into_iter().filter(is_pin) {
-            let own = axis.holes.iter().min_by_key(|(body, _)| *body);
-            let spacers = own.map(|own| self.spacers(*own, spec.pin_diameter, &axis.plates));
-            let spacers = spacers.unwrap_or_default();
-            let raised = |(spacer, at): &(Spacer, f64)| {
-                let low = at - axis.span[0];
-                [low, low + spacer.length]
+        let is_pin = |axis: &Axis| axis.parts().len() > 1 && !self.has_shaft(axis);
+        let pins: Vec<usize> = (0..axes.len()).filter(|&n| is_pin(&axes[n])).collect();
+        for &number in &pins {
+            let axis = &axes[number];
+            let rings = self.spacers(axis.owner(), axis.size, &axis.parts());
+            let is_free = |(ring, low): &(Spacer, f64)| {
+                let span = [*low, low + ring.length];
+                is_clear_of(&bars, number, (0.5 * ring.outer, span))
             };
-            let rings: Vec<[f64; 2]> = spacers.iter().map(raised).collect();
-            let bar = Bar::new(spec.pin_diameter, &spec.pin_fit, [0.0, axis.length()]);
-            let bar = bar
-                .held([spec.gap; 2])
-                .through(&axis.parts())
-                .through(&rings);
-            let bottom = axis.span[0] + bar.bottom();
-            let piece = own.map(|&(body, at)| {
-                let name = &self.bodies[body].name;
-                let spec = self.design.bodies.get(name);
-                TurnedPiece {
-                    is_counted: spec.is_some_and(|body| body.given_mass().mass.is_some()),
-                    ..TurnedPiece::upright(name, [at.x, at.y, bottom])
-                }
-            });
-            let above = |(spacer, at): (Spacer, f64)| (spacer, at - bottom);
-            let spacers: Vec<(Spacer, f64)> = spacers.into_iter().map(above).collect();
-            let known = found.iter_mut().find(|(long, pins)| {
-                axis.length() - *long < ONE * spec.pin_diameter
-                    && are_alike(&pins.spacers, &spacers)
-            });
-            match known {
-                Some((_, pins)) => pins.pieces.extend(piece),
-                None => {
-                    let title = format!("Pin through {} mm", thousandths(axis.length()));
-                    let mut part = bar.part(["pin", &title], spec.pin_stock(), general);
-                    let role = if bar.is_held() { "" } else { "without rings" };
-                    part.notes.extend((!bar.is_held()).then(|| BONDED.into()));
-                    let pins = TurnedPieces {
-                        role: role.into(),
-                        spacers,
-                        pieces: piece.into_iter().collect(),
-                        ..TurnedPieces::new(part, fit.clone())
-                    };
-                    found.push((axis.length(), pins));
-                }
+            let rings: Vec<(Spacer, f64)> = rings.into_iter().filter(is_free).collect();
+            bars[number].rings.extend(rings);
+        }
+        let mut found: Vec<TurnedPieces> = Vec::new();
+        for number in pins {
+            let made = self.pin(&axes[number], &bars, number);
+            let alike = |known: &&mut TurnedPieces| {
+                known.part.title == made.part.title
+                    && known.part.steps == made.part.steps
+                    && are_alike(&known.spacers, &made.spacers)
+            };
+            match found.iter_mut().find(alike) {
+                Some(known) => known.pieces.extend(made.pieces),
+                None => found.push(made),
             }
         }
         let alone = found.len() == 1;
-        let mut found: Vec<TurnedPieces> = found.into_iter().map(|(_, pins)| pins).collect();
         for (index, pins) in found.iter_mut().enumerate().filter(|_| !alone) {
             let number = index + 1;
             pins.part.name = format!("pin-{number}");
@@ -123,6 +116,87 @@ impl Composed {
             pins.part.title = pins.part.title.replace("Pin", &format!("Pin {number}"));
         }
         found
+    }
+
+    /// The pin of an axis among others.
+    fn pin(&self, axis: &Axis, bars: &[Cylinders], number: usize) -> TurnedPieces {
+        let spec = &self.design.plates;
+        let (body, at) = axis.owner();
+        let rings = bars[number].rings.iter();
+        let raised = |[low, high]: [f64; 2]| {
+            // Heights of many layers have rounding of their own.
+            [low, high].map(|z| ((z - axis.span[0]) * 1e9).round() / 1e9)
+        };
+        let spans = rings.clone().map(|(ring, at)| [*at, at + ring.length]);
+        let on_it: Vec<[f64; 2]> = axis
+            .plates
+            .iter()
+            .copied()
+            .chain(spans)
+            .map(raised)
+            .collect();
+        let [_, length] = raised(axis.span);
+        let bar = Bar::new(spec.pin_diameter, &spec.pin_fit, [0.0, length]);
+        let is_free = |reach: f64, span: [f64; 2]| is_clear_of(bars, number, (reach, span));
+        let [low, high] = axis.span;
+        let room = [(low, false), (high, true)]
+            .map(|face| self.room_at((body, at), axis.size, face, &is_free));
+        let bar = bar.held(room).through(&on_it);
+        let bottom = axis.span[0] + bar.bottom();
+        let title = format!("Pin through {} mm", thousandths(length));
+        let general = &self.design.drawing.general_tolerance;
+        let mut part = bar.part(["pin", &title], spec.pin_stock(), general);
+        let role = if bar.is_held() { "" } else { "without rings" };
+        part.notes.extend((!bar.is_held()).then(|| BONDED.into()));
+        let name = &self.bodies[body].name;
+        let given = self.design.bodies.get(name).map(|body| body.given_mass());
+        let piece = TurnedPiece {
+            is_counted: given.is_some_and(|given| given.mass.is_some()),
+            ..TurnedPiece::upright(name, [at.x, at.y, bottom])
+        };
+        let fit = Fit::new("", spec.pin_diameter, [&spec.hole_fit, &spec.pin_fit]);
+        TurnedPieces {
+            role: role.into(),
+            spacers: rings.map(|(ring, at)| (*ring, at - bottom)).collect(),
+            pieces: vec![piece],
+            ..TurnedPieces::new(part, fit)
+        }
+    }
+
+    /// Room for a ring beyond a face of the outermost part on an axis, mm: the plates' gap, or what a ring needs where nothing passes
+    /// and what else is asked of its reach and heights is so.
+    pub(super) fn room_at(
+        &self,
+        own: (usize, Point),
+        diameter: f64,
+        (wall, is_above): (f64, bool),
+        is_free: &dyn Fn(f64, [f64; 2]) -> bool,
+    ) -> f64 {
+        let gap = self.design.plates.gap;
+        let Some(ring) = Circlip::of_shaft(diameter) else {
+            return gap;
+        };
+        let beyond = match is_above {
+            true => [wall, wall + ring.room()],
+            false => [wall - ring.room(), wall],
+        };
+        let is_free = is_free(ring.reach(), beyond) && self.is_clear(own, ring.reach(), beyond);
+        gap.max(if is_free { ring.room() } else { 0.0 })
+    }
+
+    /// Pin or shaft on an axis, of which others must keep clear.
+    fn cylinders(&self, axis: &Axis) -> Cylinders {
+        let &(body, at) = &axis.holes[0];
+        let shaft = self.shaft_at(body, at).map(|(shaft, _)| shaft);
+        let spans = shaft.into_iter().flat_map(|shaft| &shaft.parts);
+        let spans = spans.map(|part| part.span).chain([axis.span]);
+        let span = spans.reduce(|[a, b], [low, high]| [a.min(low), b.max(high)]);
+        Cylinders {
+            holes: axis.holes.clone(),
+            radius: 0.5 * shaft.map_or(axis.size, |shaft| shaft.hub.bore),
+            span: span.unwrap_or(axis.span),
+            rings: axis.rollers.clone(),
+        }
     }
 
     /// Whether a shaft is on an axis.
@@ -159,22 +233,69 @@ impl Composed {
                         places,
                         holes: vec![(body, at)],
                         plates: vec![[bottom, top]],
+                        rollers: Vec::new(),
                         span: [bottom, top],
                         size: self.design.plates.pin_diameter,
                     }),
                 }
             }
         }
+        for (body, at, (roller, low)) in self.rollers() {
+            let is_here = |axis: &&mut Axis| {
+                let near = |(_, hole): &&(usize, Point)| (hole - at).norm() < ONE * axis.size;
+                let mut holes = axis.holes.iter();
+                holes.any(|hole| hole.0 == body && near(&hole))
+            };
+            if let Some(axis) = axes.iter_mut().find(is_here) {
+                axis.span = [axis.span[0].min(low), axis.span[1].max(low + roller.length)];
+                axis.rollers.push((roller, low));
+            }
+        }
         axes
+    }
+
+    /// Rollers of the bodies that follow cams, each with its body, its axis there and the height of its lower face, mm: as wide as the
+    /// cam, and as high.
+    fn rollers(&self) -> Vec<(usize, Point, (Spacer, f64))> {
+        let of = |cam: &ComposedCam, follower: &String| {
+            let radius = cam.disc().follower().roller_radius()?;
+            let at = self.points.get(follower)?.get(ROLLER)?.at;
+            let (pin, width) = (self.design.plates.pin_diameter, cam.part.body().width);
+            let roller = Spacer::roller(radius, pin, width)?;
+            Some((
+                self.body_named(follower)?,
+                at,
+                (roller, self.cam_bottom(cam)),
+            ))
+        };
+        let cams = self.cams.iter();
+        let pairs = cams.flat_map(|cam| cam.followers.iter().map(move |name| (cam, name)));
+        pairs.filter_map(|(cam, name)| of(cam, name)).collect()
     }
 }
 
-/// Whether spacers of two pins are the same at the same heights.
+/// Whether a ring of a radius between two heights keeps clear of the other pins and shafts of the bodies that its own holds.
+fn is_clear_of(all: &[Cylinders], own: usize, (radius, span): (f64, [f64; 2])) -> bool {
+    let others = all.iter().enumerate().filter(|(other, _)| *other != own);
+    let is_level = |[low, high]: [f64; 2]| low < span[1] && high > span[0];
+    others.into_iter().all(|(_, other)| {
+        let holes = all[own].holes.iter();
+        let pairs = holes.flat_map(|a| other.holes.iter().map(move |b| (a, b)));
+        let shared = pairs.filter(|(a, b)| a.0 == b.0);
+        let apart = shared.map(|(a, b)| (a.1 - b.1).norm());
+        let apart = apart.fold(f64::INFINITY, f64::min);
+        let rings = other.rings.iter();
+        let rings = rings.map(|(ring, low)| (0.5 * ring.outer, [*low, low + ring.length]));
+        let mut parts = rings.chain([(other.radius, other.span)]);
+        parts.all(|(reach, span)| !is_level(span) || apart > radius + reach)
+    })
+}
+
+/// Whether rings of two pins are the same at the same heights.
 fn are_alike(one: &[(Spacer, f64)], other: &[(Spacer, f64)]) -> bool {
     let mut both = one.iter().zip(other);
     let same = |((a, low), (b, high)): (&(Spacer, f64), &(Spacer, f64))| {
-        let off = (a.length - b.length).abs().max((low - high).abs());
-        a.is_shim == b.is_shim && off < ONE
+        a.is_like(*b) && (low - high).abs() < ONE
     };
     one.len() == other.len() && both.all(same)
 }

@@ -22,6 +22,8 @@ const PIN: f64 = 0.9;
 const BLOCK: [f64; 2] = [1.0, 0.6];
 /// Radius of its corners, as a share of a plate's width.
 const BLOCK_ROUNDING: f64 = 0.1;
+/// First and last layer.
+pub(super) const LAYERS: [f64; 2] = [-1000.0, 1000.0];
 /// Distance of two pins, as a share of their diameter, below which they are one.
 const ONE: f64 = 1e-6;
 /// Accuracy of the check of a contour drawn by hand, as a share of its length.

@@ -41,7 +41,15 @@ impl Composed {
             .map(|part| part.span[1])
             .fold(f64::NEG_INFINITY, f64::max);
         let [deepest, highest] = self.extent();
-        let beyond = |is_last: bool| if is_last { f64::INFINITY } else { spec.gap };
+        let beyond = |wall: f64, is_above: bool, is_last: bool| match is_last {
+            true => f64::INFINITY,
+            false => self.room_at(
+                (shaft.body, shaft.at),
+                hub.bore,
+                (wall, is_above),
+                &|_, _| true,
+            ),
+        };
         let (is_lowest, is_highest) = (low <= deepest + ROUNDING, high >= highest - ROUNDING);
         let end = match shaft.is_driven && is_lowest {
             true => DRIVEN_END * hub.bore,
@@ -54,8 +62,8 @@ impl Composed {
             &hub.shaft_fit
         };
         let mut bar = Bar::new(hub.bore, class, [low - end, high])
-            .ring(low, false, beyond(is_lowest))
-            .ring(high, true, beyond(is_highest));
+            .ring(low, false, beyond(low, false, is_lowest))
+            .ring(high, true, beyond(high, true, is_highest));
         let spans: Vec<[f64; 2]> = on_it.iter().map(|part| part.span).collect();
         let spacers = self.spacers((shaft.body, shaft.at), hub.bore, &spans);
         let rings = spacers.iter().map(|(ring, at)| [*at, at + ring.length]);
@@ -196,8 +204,11 @@ impl Composed {
             let bottom = self.bottom(body);
             [bottom, bottom + self.thickness(body)]
         });
-        let gears = self.gears.iter().map(|gear| [self.gear_bottom(gear); 2]);
-        let cams = self.cams.iter().map(|cam| [self.cam_bottom(cam); 2]);
+        let from = |bottom: f64, width: f64| [bottom, bottom + width];
+        let gears = self.gears.iter();
+        let gears = gears.map(|gear| from(self.gear_bottom(gear), gear.gear().body().width));
+        let cams = self.cams.iter();
+        let cams = cams.map(|cam| from(self.cam_bottom(cam), cam.part.body().width));
         let all = plates.chain(gears).chain(cams);
         all.fold([f64::INFINITY, f64::NEG_INFINITY], |[low, high], [a, b]| {
             [low.min(a), high.max(b)]

@@ -14,6 +14,8 @@ use crate::machine::{JointKind, Key};
 
 /// Wall of a plate beside the hole of a shaft, as a share of its diameter.
 const WALL: f64 = 0.14;
+/// Steps of the diameter of a plate about a shaft, mm.
+const STEP: f64 = 0.5;
 /// Difference of angles (rad), or of diameters (mm), that is rounding.
 pub(super) const ROUNDING: f64 = 1e-9;
 
@@ -87,7 +89,7 @@ struct Wheel {
 impl Composed {
     /// Shafts of its gears and cams, and those by which bodies are driven from outside.
     ///
-    /// Each belongs to the body of the gear next to the plates. What is on this body, or on others fixed to it, sits on the
+    /// Each belongs to the body of the gear with the narrowest bore, of these of the one next to the plates. What is on this body, or on others fixed to it, sits on the
     /// shaft, keyed where the gear has a keyway; what is on other bodies turns on it.
     #[must_use]
     pub fn shafts(&self) -> &[ComposedShaft] {
@@ -167,7 +169,11 @@ impl Composed {
             .iter()
             .filter(|wheel| axis.is_one(&self.places_of(wheel.body, wheel.at)))
             .collect();
-        own.sort_by(|a, b| b.span[1].total_cmp(&a.span[1]));
+        // A shaft goes through wider bores: brackets hold what they are in.
+        own.sort_by(|a, b| {
+            let narrower = a.hub.bore.total_cmp(&b.hub.bore);
+            narrower.then(b.span[1].total_cmp(&a.span[1]))
+        });
         // By the joint on the frame at its origin, or with another plate that is fixed to it.
         let is_own = |&&(body, at): &&(usize, Point)| {
             let here = at.coords.norm() <= ROUNDING * self.design.plates.width;
@@ -269,7 +275,7 @@ impl Composed {
     }
 
     /// The shaft through a body's plate at a place, and how the plate is joined with it.
-    fn shaft_at(&self, body: usize, at: Point) -> Option<(&ComposedShaft, Hold)> {
+    pub(super) fn shaft_at(&self, body: usize, at: Point) -> Option<(&ComposedShaft, Hold)> {
         let near = ROUNDING * self.design.plates.width;
         let is_here =
             |part: &&ShaftPart| part.is_plate && part.body == body && (part.at - at).norm() <= near;
@@ -316,6 +322,10 @@ impl Composed {
         let shaft = self.shaft_at(body, at).map(|(shaft, _)| shaft);
         // Holes of pins, whatever goes through them, are narrower than the plates.
         let shaft = shaft.filter(|shaft| shaft.hub.bore != self.design.plates.pin_diameter);
-        shaft.map_or(0.0, |shaft| bore::reach(&shaft.hub) + WALL * shaft.hub.bore)
+        let around = |shaft: &ComposedShaft| bore::reach(&shaft.hub) + WALL * shaft.hub.bore;
+        // A diameter of whole steps.
+        shaft.map_or(0.0, |shaft| {
+            0.5 * STEP * (2.0 * around(shaft) / STEP).ceil()
+        })
     }
 }

@@ -53,7 +53,7 @@ impl Composed {
     }
 
     /// Whether all parts keep farther from an axis than a radius and the plates' gap, mm, between two heights.
-    fn is_clear(&self, own: (usize, Point), radius: f64, gap: [f64; 2]) -> bool {
+    pub(super) fn is_clear(&self, own: (usize, Point), radius: f64, gap: [f64; 2]) -> bool {
         let passing = self.passing(gap);
         if passing.is_empty() {
             return true;

@@ -40,6 +40,8 @@ pub struct DrawingSpec {
     pub edges: String,
     /// Texture of the surfaces that nothing else is said of, ISO 21920.
     pub surface: String,
+    /// Texture of the surfaces with a tolerance class up to grade 8, and of flanks and profiles, ISO 21920; empty, that of the others.
+    pub fitted_surface: String,
 }
 
 /// Size of a drawing sheet, ISO 5457.
@@ -84,6 +86,7 @@ impl Default for DrawingSpec {
             general_tolerance: "ISO 2768-mK".into(),
             edges: "ISO 13715, -0.2 / +0.1".into(),
             surface: "Ra 3.2".into(),
+            fitted_surface: "Ra 1.6".into(),
         }
     }
 }
@@ -104,6 +107,7 @@ impl DrawingSpec {
             ("general_tolerance", &self.general_tolerance),
             ("edges", &self.edges),
             ("surface", &self.surface),
+            ("fitted_surface", &self.fitted_surface),
         ];
         words
             .iter()

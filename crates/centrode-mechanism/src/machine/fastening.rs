@@ -10,6 +10,8 @@ use super::{Fit, Screw, TurnedPiece, TurnedPieces};
 const ENTERED: f64 = 2.0;
 /// Length of thread beyond the end of the screw, in its diameters.
 const BEYOND: f64 = 0.5;
+/// Least distance of the ends of two screws that are screwed in from both sides, in their diameters.
+const APART: f64 = 0.25;
 /// Most places looked at along a segment of a line.
 const MOST_PLACES: f64 = 500.0;
 /// Fewest screws that hold a plate.
@@ -62,7 +64,7 @@ pub enum FasteningError {
 
 impl Fastening {
     /// Screws of a diameter for plates of a thickness between two outer faces, mm, without places yet: each as long as leaves it
-    /// two diameters of thread at most and no more than half of what lies between the plates.
+    /// two diameters of thread at most, and its end apart from that of the screw from the other side.
     ///
     /// # Errors
     /// [`FasteningError::TooShort`] where it then enters less than so many diameters.
@@ -72,7 +74,7 @@ impl Fastening {
         least: f64,
     ) -> Result<Self, FasteningError> {
         let between = faces[1] - faces[0] - 2.0 * plate;
-        let enters = (ENTERED * diameter).min(0.5 * between);
+        let enters = (ENTERED * diameter).min(0.5 * (between - APART * diameter));
         let screw = Screw::for_diameter(diameter, plate + enters);
         let entered = |screw: &Screw| screw.length - plate >= least * diameter * (1.0 - 1e-9);
         let screw = screw.filter(entered).ok_or(FasteningError::TooShort {
@@ -283,12 +285,15 @@ mod tests {
     }
 
     #[test]
-    fn screws_enter_no_more_than_two_diameters_and_half_of_what_is_between() {
+    fn screws_enter_no_more_than_two_diameters_and_do_not_meet() {
         let between = |distance: f64| {
             let faces = [-6.0, distance + 6.0];
             Fastening::new(6.0, (faces, 6.0), 1.0).map(|f| (f.screw.length, f.thread_depth()))
         };
         assert_eq!(between(14.0), Ok((12.0, None)));
+        // Screws of 16 mm would end in the middle of 20 mm.
+        assert_eq!(between(20.0), Ok((12.0, Some(9.0))));
+        assert_eq!(between(22.0), Ok((16.0, None)));
         assert_eq!(between(100.0), Ok((16.0, Some(13.0))));
         let error = between(10.0).expect_err("too short");
         assert_eq!(

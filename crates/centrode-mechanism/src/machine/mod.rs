@@ -53,7 +53,7 @@ pub use law::{Constant, Linear, Piecewise};
 pub use load::{Axes, Load, STANDARD_GRAVITY};
 pub use part::{Part, Supply};
 pub use sound::{MachineError, loose_link};
-pub use spacer::Spacer;
+pub use spacer::{Spacer, SpacerKind};
 pub use standard::{Bearing, Circlip, Dowel, Key, Screw, allowed_pressure};
 pub use stock::Stock;
 pub use turned::{HeldLength, SeatedKey, TurnedPart, TurnedPiece, TurnedPieces, TurnedStep};

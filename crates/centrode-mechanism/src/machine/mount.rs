@@ -5,7 +5,9 @@ use std::f64::consts::FRAC_PI_2;
 use centrode_geometry::{MassProperties, Solid};
 use nalgebra::Point3;
 
-use super::{Blank, Form, Link, Machine, Mounted, Part, Shape, Supply, TurnedPiece, TurnedPieces};
+use super::{
+    Blank, Form, Link, Machine, Mounted, Part, Shape, SpacerKind, Supply, TurnedPiece, TurnedPieces,
+};
 
 /// Density of rings, keys and bearings: steel, kg/m^3.
 const STEEL: f64 = 7850.0;
@@ -63,19 +65,21 @@ impl TurnedPieces {
             at: [0.0, 0.0, *at],
             turn: [0.0; 3],
         }));
-        // Sleeves are of the material of what they are on.
-        all.extend(self.spacers.iter().map(|(spacer, at)| Fastener {
-            name: spacer.name(),
-            material: if spacer.is_shim {
-                "steel"
-            } else {
-                &part.material
-            },
-            density: if spacer.is_shim { STEEL } else { part.density },
-            file: spacer.file(),
-            solid: spacer.solid(),
-            at: [0.0, 0.0, *at],
-            turn: [0.0; 3],
+        // Sleeves and rollers are of the material of what they are on.
+        all.extend(self.spacers.iter().map(|(spacer, at)| {
+            let (material, density) = match spacer.kind {
+                SpacerKind::Shim => ("steel", STEEL),
+                SpacerKind::Sleeve | SpacerKind::Roller => (&*part.material, part.density),
+            };
+            Fastener {
+                name: spacer.name(),
+                material,
+                density,
+                file: spacer.file(),
+                solid: spacer.solid(),
+                at: [0.0, 0.0, *at],
+                turn: [0.0; 3],
+            }
         }));
         all
     }

@@ -14,10 +14,12 @@ const SHIMS: [[f64; 2]; 27] = [
 const THICKNESSES: [f64; 5] = [1.0, 0.5, 0.3, 0.2, 0.1];
 /// Greatest number of shims in one gap; a sleeve fills a wider one.
 const MOST: usize = 3;
+/// Least wall of a roller, as a share of its pin's diameter.
+const ROLLER_WALL: f64 = 0.1;
 /// Difference of lengths that is rounding, mm.
 const ROUNDING: f64 = 1e-6;
 
-/// Ring on a pin or shaft that fills a gap between two parts on it.
+/// Ring on a pin or shaft: it fills a gap between two parts there, or rolls on a cam.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Spacer {
     /// Diameter of the pin or shaft, mm.
@@ -26,13 +28,39 @@ pub struct Spacer {
     pub outer: f64,
     /// Length along the axis, mm.
     pub length: f64,
-    /// Whether it is a shim of DIN 988, which is bought; else a sleeve, which is made.
-    pub is_shim: bool,
+    /// Its use.
+    pub kind: SpacerKind,
+}
+
+/// Use of a ring on a pin or shaft.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub enum SpacerKind {
+    /// Shim of DIN 988, which is bought.
+    Shim,
+    /// Sleeve, which is made.
+    Sleeve,
+    /// Roller of a cam's follower, which is made.
+    Roller,
 }
 
 impl Spacer {
     /// Tolerance class of the bore of a sleeve, which goes over a shaft of any of the usual classes.
     pub const BORE: &'static str = "D10";
+    /// Tolerance class of the rim of a roller.
+    pub const RIM: &'static str = "h7";
+
+    /// The roller of a radius that turns on a pin of a diameter, as wide as its cam, all in mm; none where its wall would be thinner than
+    /// a tenth of the pin, as at a follower that is a point.
+    #[must_use]
+    pub fn roller(radius: f64, pin: f64, width: f64) -> Option<Self> {
+        let roller = Self {
+            inner: pin,
+            outer: 2.0 * radius,
+            length: width,
+            kind: SpacerKind::Roller,
+        };
+        (pin > 0.0 && radius - 0.5 * pin >= ROLLER_WALL * pin - ROUNDING).then_some(roller)
+    }
 
     /// Rings for a gap on a diameter, mm: up to three shims of DIN 988, or a sleeve of their diameters. None where the standard
     /// has no shim of the diameter.
@@ -42,42 +70,58 @@ impl Spacer {
         let Some([inner, outer]) = sizes.filter(|_| gap > ROUNDING && gap.is_finite()) else {
             return Vec::new();
         };
-        let ring = |length: f64, is_shim: bool| Self {
+        let ring = |length: f64, kind: SpacerKind| Self {
             inner,
             outer,
             length,
-            is_shim,
+            kind,
         };
         let (mut left, mut shims) = (gap, Vec::new());
         while shims.len() < MOST
             && let Some(thickness) = THICKNESSES.into_iter().find(|t| *t <= left + ROUNDING)
         {
-            shims.push(ring(thickness, true));
+            shims.push(ring(thickness, SpacerKind::Shim));
             left -= thickness;
         }
         match left.abs() <= ROUNDING {
             true => shims,
-            false => vec![ring(gap, false)],
+            false => vec![ring(gap, SpacerKind::Sleeve)],
         }
     }
 
-    /// Designation of a shim, "Shim DIN 988 - 6 x 12 x 1"; title of a sleeve, "Sleeve 6 x 12 x 13".
+    /// Designation of a shim, "Shim DIN 988 - 6 x 12 x 1"; title of a sleeve or roller, "Sleeve 6 x 12 x 13".
     #[must_use]
     pub fn name(self) -> String {
-        let [inner, outer, length] = [self.inner, self.outer, self.length].map(thousandths);
-        let sizes = format!("{inner} x {outer} x {length}");
-        match self.is_shim {
-            true => format!("Shim DIN 988 - {sizes}"),
-            false => format!("Sleeve {sizes}"),
+        let sizes = self.sizes(" x ");
+        match self.kind {
+            SpacerKind::Shim => format!("Shim DIN 988 - {sizes}"),
+            SpacerKind::Sleeve => format!("Sleeve {sizes}"),
+            SpacerKind::Roller => format!("Cam roller {sizes}"),
         }
     }
 
-    /// Name that the files of a sleeve begin with; none of a shim.
+    /// Name that the files of a sleeve or roller begin with; none of a shim.
     #[must_use]
     pub fn file(self) -> Option<String> {
-        let [inner, outer, length] = [self.inner, self.outer, self.length].map(thousandths);
-        let file = format!("sleeve-{inner}x{outer}x{length}").replace('.', "-");
-        (!self.is_shim).then_some(file)
+        let word = match self.kind {
+            SpacerKind::Shim => return None,
+            SpacerKind::Sleeve => "sleeve",
+            SpacerKind::Roller => "roller",
+        };
+        Some(format!("{word}-{}", self.sizes("x")).replace('.', "-"))
+    }
+
+    fn sizes(self, times: &str) -> String {
+        let all = [self.inner, self.outer, self.length].map(thousandths);
+        all.join(times)
+    }
+
+    /// Whether another ring is the same within rounding.
+    #[must_use]
+    pub fn is_like(self, other: Self) -> bool {
+        let sizes = |ring: Self| [ring.inner, ring.outer, ring.length];
+        let mut both = sizes(self).into_iter().zip(sizes(other));
+        self.kind == other.kind && both.all(|(a, b)| (a - b).abs() < ROUNDING)
     }
 
     /// Its body, from z = 0 upwards.
@@ -106,7 +150,9 @@ mod tests {
         assert_eq!(names(6.0, 0.8 - 1e-9).len(), 2);
         for gap in [0.05, 1.05, 3.4, 13.0] {
             let made = Spacer::filling(6.0, gap);
-            assert!(matches!(made[..], [ring] if !ring.is_shim && ring.length == gap));
+            assert!(
+                matches!(made[..], [ring] if ring.kind == SpacerKind::Sleeve && ring.length == gap)
+            );
         }
         assert_eq!(names(6.0, 13.0), ["Sleeve 6 x 12 x 13"]);
         let file = Spacer::filling(6.0, 13.5)[0].file();
@@ -118,6 +164,17 @@ mod tests {
         let volume = std::f64::consts::PI * (36.0 - 9.0) * 13.0;
         let body = Spacer::filling(6.0, 13.0)[0].solid().expect("a body");
         assert!((body.volume() - volume).abs() < 1e-9);
+    }
+
+    #[test]
+    fn a_roller_has_a_wall_of_a_tenth_of_its_pin_or_is_none() {
+        let roller = Spacer::roller(6.0, 6.0, 10.5).expect("a roller");
+        assert_eq!(roller.name(), "Cam roller 6 x 12 x 10.5");
+        assert_eq!(roller.file().as_deref(), Some("roller-6x12x10-5"));
+        assert!(Spacer::roller(3.6, 6.0, 10.0).is_some());
+        for (radius, pin) in [(3.5, 6.0), (0.0, 6.0), (6.0, 0.0), (f64::NAN, 6.0)] {
+            assert!(Spacer::roller(radius, pin, 10.0).is_none());
+        }
     }
 
     #[test]

@@ -139,6 +139,47 @@ fn plates_of_one_layer_that_collide_are_found_with_the_depth_and_others_are_not(
     assert_eq!(found.place.part.as_deref(), Some("disc"));
 }
 
+/// A shaft in the frame, a lever on it that is joined with a link three layers higher, and a plate between them that stands still.
+const BETWEEN: &str = r#"
+family = "machine"
+[frame.points]
+O = [0, 0]
+Q = [70, 0]
+[bodies.shaft]
+on = "frame.O"
+law = { ratio = 1 }
+points = { A = [20, 0] }
+[bodies.stop]
+fixed_to = "frame.Q"
+layer = LAYER
+circle = { center = [-30, 0], radius = 22 }
+[bodies.link]
+on = "shaft.A"
+law = { ratio = -1 }
+points = { B = [20, 0] }
+layer = 3
+"#;
+
+#[test]
+fn a_pin_that_runs_into_a_plate_without_a_hole_for_it_is_found_with_the_depth() {
+    let check = |layer: &str| check_composed(&composed(&BETWEEN.replace("LAYER", layer)));
+    for layer in ["4", "-3"] {
+        let fine = check(layer);
+        assert!(
+            fine.findings.iter().all(|f| f.rule != "pins-collide"),
+            "{layer}"
+        );
+    }
+    let found = check("1");
+    let found = found.findings.iter().find(|f| f.rule == "pins-collide");
+    let found = found.expect("they collide");
+    assert_eq!(found.place.part.as_deref(), Some("pin"));
+    assert!(found.message.contains("pin and stop"), "{}", found.message);
+    // The pin, 3 mm in diameter, passes at 20 mm from the shaft; the disc begins at 18.
+    let depth = found.measured.expect("a depth");
+    assert!((depth + 3.5).abs() < 2e-2, "{depth}");
+}
+
 #[test]
 fn obstacles_that_cannot_be_are_told_by_key() {
     for (obstacle, key, told) in [

@@ -250,7 +250,7 @@ fn section(part: &SheetGear<'_>, scale: Scale) -> Draft {
     let runout = face.filter(|_| half > 0.0);
     if let Some(frame) = runout.and_then(|face| Frame::runout(face, "A")) {
         let tip = p(0.5 * (left_root - half), 0.0);
-        draft.pointed_frame(tip, tip + Vector::new(4.0, -9.0), &frame, "both faces");
+        draft.pointed_frame(tip, tip + Vector::new(4.0, -12.0), &frame, "both faces");
     }
     let title = p(0.0, width + 7.0);
     draft.text(title, 5.0, "C-C", Anchor::Middle);
@@ -287,7 +287,10 @@ pub(super) fn bore(part: &SheetGear<'_>) -> Option<Draft> {
     let tip = p(-0.5 * half, 0.75_f64.sqrt() * half);
     let elbow = p(-0.75 * reach, reach + 3.0);
     let size = fit::bore(body.bore, &body.bore_fit);
-    draft.note(tip, elbow, &[size.into(), Frame::datum('A').into()]);
+    let mut lines = vec![size.into(), Frame::datum('A').into()];
+    let symmetry = Frame::symmetry(key.width, "A").into_iter();
+    lines.extend(symmetry.flat_map(|frame| [NoteLine::from("keyway".to_owned()), frame.into()]));
+    draft.note(tip, elbow, &lines);
     let bounds = draft.bounds();
     let title = p(0.0, bounds.max.y + 5.0);
     let mut words = format!("D ({scale})");

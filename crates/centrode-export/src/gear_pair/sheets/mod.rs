@@ -155,7 +155,10 @@ fn gear(
         .map(|((tooth, place), letter)| tooth::detail(part, letter, tooth, place))
         .collect();
     let bore = face::bore(part);
-    let lines = notes(part);
+    let mut lines = notes(part);
+    let bore_class = part.gear.body();
+    let bore_class = bore_class.bore_fit.as_str();
+    lines.extend(block.fitted([bore_class], "the flanks"));
     let projection = block.projection;
     let pieces = |scale: Scale, size: SheetSize| {
         let face = face::views(part, scale, view_letters(size), projection);
@@ -215,7 +218,7 @@ fn notes(part: &SheetGear<'_>) -> Vec<String> {
         }
     }
     if let Some(label) = part.label {
-        lines.push(format!("{} of these a machine.", label.quantity));
+        lines.push(format!("{} for each machine.", label.quantity));
     } else if part.pair.congruent() && part.pair.driver().body() == part.pair.driven().body() {
         lines.push("Driver and driven gear are the same part.".to_owned());
     }

@@ -37,6 +37,8 @@ pub fn shaft_sheets(shaft: &SpiralShaft, options: &Options) -> Result<Vec<Sheet>
     let views = side::Views::new(shaft, tolerance)?;
     let data = tables::data(shaft);
     let mut lines = notes(shaft);
+    let journals = [shaft.body().journal_fit.as_str()];
+    lines.extend(block.fitted(journals, "walls of the groove"));
     lines.push(treatment_note(&shaft.body().heat_treatment));
     let journal = section::journal(shaft, tolerance);
     let groove = section::groove(shaft, tolerance);
@@ -68,7 +70,9 @@ pub fn slider_sheets(shaft: &SpiralShaft, options: &Options) -> Result<Vec<Sheet
     let properties = slider_solid(shaft)?.mass_properties(spec.density);
     block.mass = mass(properties.mass * 1e3);
     block.material.clone_from(&spec.material);
-    let lines = [treatment_note(&spec.heat_treatment)];
+    let mut lines = vec![treatment_note(&spec.heat_treatment)];
+    let classes = [spec.slider_fit.as_str(), &spec.hole_fit, &spec.pin_fit];
+    lines.extend(block.fitted(classes, ""));
     let pieces = |scale: Scale, size: SheetSize| {
         let draft = slider::views(shaft, scale, view_letters(size), block.projection);
         vec![

@@ -23,7 +23,7 @@ pub(super) fn journal(shaft: &SpiralShaft, tolerance: Tolerance) -> Draft {
         Frame::datum('A').into(),
         "both journals".to_owned().into(),
     ];
-    let key = (body.keyway, &*body.keyway_fit);
+    let key = (body.keyway, &*body.keyway_fit, true);
     across(body.journal_diameter, key, SECTION, &words, tolerance)
 }
 

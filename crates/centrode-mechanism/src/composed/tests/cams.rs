@@ -232,6 +232,53 @@ fn a_cam_is_a_part_with_its_mass_on_its_body_and_a_roller_in_the_picture() {
 }
 
 #[test]
+fn a_roller_is_a_part_on_a_pin_from_its_plate_to_its_cam_at_whatever_height_that_is() {
+    let text = text(2, 0);
+    for (layer, clear) in [
+        ("", None),
+        ("layer = 4\n", Some(4.0)),
+        ("layer = -9\n", Some(-9.0)),
+    ] {
+        let machine =
+            made(&text.replace("base_radius = 25\n", &format!("base_radius = 25\n{layer}")));
+        let plates = &machine.design().plates;
+        let step = plates.thickness + plates.gap;
+        let made = machine.machine().expect("plates and cams");
+        let part = made.parts.iter().find(|part| part.file == "roller-3x8x7");
+        let part = part.expect("listed");
+        assert_eq!((&*part.name, part.quantity()), ("Cam roller 3 x 8 x 7", 1));
+        // A ring of steel.
+        let mass = std::f64::consts::PI * (16.0 - 2.25) * 7.0 * plates.density * 1e-9;
+        assert!((part.mass.expect("a mass") - mass).abs() < 1e-12);
+        let low = clear.map_or(-step - 7.0 - plates.gap, |layer: f64| layer * step);
+        let pins = machine.pins_in_plates();
+        let pin = pins.iter().find(|pin| pin.pieces[0].link == "lever");
+        let pin = pin.expect("a pin");
+        let bottom = pin.pieces[0].at[2];
+        let (_, at) = pin
+            .spacers
+            .iter()
+            .find(|(ring, _)| ring.outer == 8.0)
+            .expect("on it");
+        assert!((bottom + at - low).abs() < 1e-9, "{bottom} {at} {low}");
+        // It goes through the plate and the roller.
+        let lever = machine.bottom(machine.body_named("lever").expect("there"));
+        let ends = [lever.min(low), (lever + plates.thickness).max(low + 7.0)];
+        assert!(bottom <= ends[0] + 1e-9 && bottom + pin.part.length() >= ends[1] - 1e-9);
+    }
+    // A flat face has none, and a pin that the roller does not hold neither.
+    let files = |text: &str| {
+        let parts = made(text).machine().expect("plates").parts;
+        parts
+            .iter()
+            .filter(|part| part.file.starts_with("roller"))
+            .count()
+    };
+    assert_eq!(files(&self::text(1, 0)), 0);
+    assert_eq!(files(&format!("{text}[plates]\npin_diameter = 7\n")), 0);
+}
+
+#[test]
 fn bad_cams_are_told_by_their_key_with_both_numbers() {
     let sliding = text(0, 0);
     let swinging = text(2, 0);

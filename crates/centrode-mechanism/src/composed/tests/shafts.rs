@@ -174,15 +174,15 @@ fn a_plate_that_turns_on_a_shaft_has_a_round_hole_of_its_size_in_the_class_of_pi
         let plain = steps.filter(|step| step.ring.is_none() && step.is_keyed == keyed);
         plain.map(|step| step.class.clone()).collect::<Vec<_>>()
     };
-    // Of a key with square ends the keyway goes on beside its plate.
+    // Of a key with square ends the keyway goes on beside its plate, past the ring above.
     let seats = classes(pinion, true);
-    assert_eq!(seats.iter().filter(|class| *class == "h6").count(), 2);
+    assert_eq!(seats.iter().filter(|class| *class == "h6").count(), 3);
     assert_eq!(classes(pinion, false), ["h6", "f7"]);
     // One length of the other's, below the plate that turns on it.
     let running = classes(wheel, false);
     assert_eq!(running.iter().filter(|class| *class == "f7").count(), 1);
-    // 12 + 1 + 6 + 1 + 6 of gear, frame and plate, and the end.
-    assert!((pinion.part.length() - 26.0 - 30.0).abs() < 1e-9);
+    // 12 + 1 + 6 + 1 + 6 of gear, frame and plate, the end, and groove and land of the ring.
+    assert!((pinion.part.length() - 26.0 - 30.0 - 1.7).abs() < 1e-9);
 }
 
 #[test]
@@ -237,7 +237,7 @@ fn a_cam_through_which_the_shaft_of_another_body_goes_has_a_bracket() {
     let around = table
         .shafts()
         .iter()
-        .find(|shaft| shaft.name == "hub-wheel")
+        .find(|shaft| shaft.name == "hub-pinion")
         .expect("a shaft");
     let cam = around
         .parts
@@ -256,19 +256,20 @@ fn a_cam_through_which_the_shaft_of_another_body_goes_has_a_bracket() {
             .all(keyed)
     );
     let turned = text.replace(
-        "hub-pinion = { pair = \"step\", role = \"driver\", on = \"hub\" }",
-        "hub-pinion = { pair = \"step\", role = \"driver\", on = \"hub\", mount_deg = 90 }",
+        "hub-pinion = { pair = \"advance\", role = \"driver\", on = \"hub\" }",
+        "hub-pinion = { pair = \"advance\", role = \"driver\", on = \"hub\", mount_deg = 90 }",
     );
     let table = made(&turned);
     let parts = table.machine().expect("a machine").parts;
-    let pinion = parts
+    // The shaft is that of the pinion, next to the plates.
+    let wheel = parts
         .iter()
-        .find(|part| part.name == "hub-pinion")
-        .expect("a pinion");
+        .find(|part| part.name == "hub-wheel")
+        .expect("a wheel");
     assert!(
-        pinion.remark.ends_with("is not its shaft's"),
+        wheel.remark.ends_with("is not its shaft's"),
         "{}",
-        pinion.remark
+        wheel.remark
     );
 }
 

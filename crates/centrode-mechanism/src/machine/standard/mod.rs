@@ -8,6 +8,7 @@ use centrode_geometry::{Arc, Outline, Point, Segment, Solid};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::preferred_size;
 pub use bearing::Bearing;
 pub use key::{Key, allowed_pressure};
 pub use screw::Screw;
@@ -32,6 +33,18 @@ pub struct Dowel {
 }
 
 impl Dowel {
+    /// Diameter of the pin nearest to a size by ratio, mm; of sizes beyond all pins the preferred size.
+    #[must_use]
+    pub fn nearest_diameter(size: f64) -> f64 {
+        let preferred = preferred_size(size);
+        if !(DOWELS[0]..=DOWELS[DOWELS.len() - 1]).contains(&preferred) {
+            return preferred;
+        }
+        let off = |diameter: f64| (diameter / size).ln().abs();
+        let nearer = |a: f64, b: f64| if off(b) < off(a) { b } else { a };
+        DOWELS.into_iter().reduce(nearer).unwrap_or(preferred)
+    }
+
     /// The longest pin of a diameter that is no longer than a room, mm; `None` where there is no such pin.
     #[must_use]
     pub fn for_diameter(diameter: f64, room: f64) -> Option<Self> {
@@ -136,6 +149,12 @@ impl Circlip {
     #[must_use]
     pub fn room(self) -> f64 {
         self.width + self.land
+    }
+
+    /// Distance from the axis that its ears reach, mm: they are about as wide again as the ring.
+    #[must_use]
+    pub fn reach(self) -> f64 {
+        0.5 * self.groove + 2.0 * self.radial
     }
 
     /// Its body on the bottom of its groove, from z = 0 upwards: of even width, its gap as wide and along x, its ears left out.

@@ -5,7 +5,7 @@ use crate::cam::law::LawSpec;
 use crate::degrees;
 use crate::gear::design::rule::{in_range, positive, single_line};
 use crate::gear::design::{BodySpec, SpecError};
-use crate::machine::preferred_size;
+use crate::machine::{Dowel, preferred_size};
 
 /// The cam, fixed to the carrier about a planet's axis, that draws the push rod back and lets it go.
 ///
@@ -163,17 +163,18 @@ impl ForkSpec {
         single_line("pin_heat_treatment", &self.pin_heat_treatment)
     }
 
-    /// The usual fork with every length enlarged `k` times, its holes, slot and thickness to preferred sizes.
+    /// The usual fork with every length enlarged `k` times, its holes and slot for pins that are bought, its roller and thickness to
+    /// preferred sizes.
     #[must_use]
     pub fn usual(k: f64) -> Self {
         let usual = Self::default();
         Self {
             pivot_distance: k * usual.pivot_distance,
             arm_length: k * usual.arm_length,
-            roller_radius: k * usual.roller_radius,
-            roller_bore: preferred_size(k * usual.roller_bore),
-            pivot_bore: preferred_size(k * usual.pivot_bore),
-            slot_width: preferred_size(k * usual.slot_width),
+            roller_radius: 0.5 * preferred_size(2.0 * k * usual.roller_radius),
+            roller_bore: Dowel::nearest_diameter(k * usual.roller_bore),
+            pivot_bore: Dowel::nearest_diameter(k * usual.pivot_bore),
+            slot_width: 2.0 * Dowel::nearest_diameter(0.5 * k * usual.slot_width),
             wall: k * usual.wall,
             width: preferred_size(k * usual.width),
             ..usual
