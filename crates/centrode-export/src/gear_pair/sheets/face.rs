@@ -145,6 +145,9 @@ fn notes(part: &SheetGear<'_>, k: f64) -> Vec<(Point, Vec<NoteLine>)> {
     notes
 }
 
+/// Least width on a sheet of what is drawn behind a section, mm.
+const SEEN: f64 = 0.7;
+
 /// Where a number may stand, mm outwards and along the pitch curve, the best first.
 const PLACES: [(f64, f64); 9] = [
     (0.0, 0.0),
@@ -205,6 +208,14 @@ fn section(part: &SheetGear<'_>, scale: Scale) -> Draft {
         max: p(to, width),
     };
     draft.rectangle(Pen::Outline, rectangle(left_tip, right_tip));
+    // Teeth behind the plane that reach farther.
+    let [left_behind, right_behind] = part.behind().map(|x| x * k);
+    let (left_end, right_end) = (left_behind.min(left_tip), right_behind.max(right_tip));
+    for (from, to) in [(left_end, left_tip), (right_tip, right_end)] {
+        if to - from > SEEN {
+            draft.rectangle(Pen::Outline, rectangle(from, to));
+        }
+    }
     let upright = |draft: &mut Draft, pen: Pen, x: f64, beyond: f64| {
         draft.line(pen, p(x, -beyond), p(x, width + beyond));
     };
@@ -243,8 +254,8 @@ fn section(part: &SheetGear<'_>, scale: Scale) -> Draft {
             draft.hatch(&[Outline::polygon(&corners)], part.tolerance);
         }
     }
-    let beside = p(right_tip + 10.0, 0.0);
-    let edges = [p(right_tip, 0.0), p(right_tip, width)];
+    let beside = p(right_end + 10.0, 0.0);
+    let edges = [p(right_end, 0.0), p(right_end, width)];
     draft.dimension(edges, Vector::y(), beside, &number(body.width, 3));
     let face = part.tips().map(|tips| 2.0 * tips.greatest.coords.norm());
     let runout = face.filter(|_| half > 0.0);
