@@ -290,7 +290,10 @@ fn forces(shaft: &SpiralShaft, report: &mut Report) {
 fn key(shaft: &SpiralShaft, torque: Extreme, report: &mut Report) {
     let body = shaft.body();
     let hub = body.keyway.map(Keyway::of_hub);
-    let key = hub.and_then(|hub| Some((hub, Key::round(hub, body.keyway_length)?)));
+    // In a keyway shorter than any standard key one is cut, whose end is square where the keyway's is half round.
+    let long = body.keyway_length;
+    let cut = |hub: Keyway| Key::square(hub, long - 0.5 * hub.width);
+    let key = hub.and_then(|hub| Some((hub, Key::round(hub, long).or_else(|| cut(hub))?)));
     let Some((hub, key)) = key else {
         return;
     };

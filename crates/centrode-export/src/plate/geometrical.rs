@@ -127,3 +127,87 @@ impl Plate {
         ['A', 'B'].map(|other| free.next().unwrap_or(other))
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use centrode_geometry::Outline;
+    use centrode_mechanism::composed::PinHole;
+    use centrode_mechanism::gear::design::{BodySpec, Keyway};
+
+    use super::*;
+
+    fn hole(label: &str, at: [f64; 2], radius: f64) -> Hole {
+        Hole {
+            fit: "H8".into(),
+            label: label.into(),
+            ..Hole::from(Outline::circle(Point::from(at), radius))
+        }
+    }
+
+    fn plate(holes: Vec<Hole>) -> Plate {
+        let corners = [[-20.0, -20.0], [90.0, -20.0], [90.0, 60.0], [-20.0, 60.0]];
+        let outline = Outline::polygon(&corners.map(Point::from));
+        let body = BodySpec::default();
+        Plate {
+            holes,
+            ..Plate::of_body(["plate", "Plate"], outline, None, &body)
+        }
+    }
+
+    fn told(plate: &Plate) -> Vec<Vec<String>> {
+        let frames = plate.frames().into_iter();
+        frames
+            .map(|all| all.iter().map(ToString::to_string).collect())
+            .collect()
+    }
+
+    #[test]
+    fn datums_have_letters_that_no_hole_has() {
+        let at = [[0.0, 0.0], [60.0, 0.0], [30.0, 40.0]];
+        let with = |names: [&str; 3]| {
+            let holes = names.into_iter().zip(at);
+            told(&plate(
+                holes.map(|(name, at)| hole(name, at, 3.0)).collect(),
+            ))
+        };
+        // IT8 of 50 to 80 and 30 to 50 mm.
+        let plain = with(["", "", ""]);
+        assert_eq!(plain[0], ["datum A"]);
+        assert_eq!(plain[1], ["position Ø0.046 A", "datum B"]);
+        assert_eq!(plain[2], ["position Ø0.039 A B"]);
+        assert_eq!(with(["O", "P", "S"])[2], ["position Ø0.039 Q R"]);
+        assert_eq!(with(["pivot", "roller", "pin"])[2], ["position Ø0.039 A B"]);
+    }
+
+    #[test]
+    fn a_keyway_is_symmetrical_to_its_bore_and_a_slot_in_position_to_the_holes() {
+        let hub = BodySpec {
+            bore: 16.0,
+            keyway: Some(Keyway {
+                width: 5.0,
+                depth: 2.3,
+            }),
+            ..BodySpec::default()
+        };
+        let bore = PinHole {
+            name: String::new(),
+            at: Point::origin(),
+            hub: hub.clone(),
+        };
+        let ends = [(Point::new(55.0, 0.0), 4.0), (Point::new(65.0, 0.0), 4.0)];
+        let slot = Hole {
+            fit: "H9".into(),
+            ..Hole::from(Outline::hull(&ends).expect("a slot"))
+        };
+        let part = plate(vec![Hole::bore(bore.outline(), &hub), slot.clone()]);
+        // IT9 of 3 to 6 mm, IT8 of 50 to 80 mm.
+        assert_eq!(told(&part)[0], ["symmetry 0.03 A", "datum A"]);
+        assert_eq!(told(&part)[1], ["position 0.046 A"]);
+        let free = Hole {
+            fit: String::new(),
+            ..slot
+        };
+        let part = plate(vec![hole("", [0.0, 0.0], 3.0), free]);
+        assert_eq!(told(&part), [Vec::<String>::new(), Vec::new()]);
+    }
+}

@@ -109,6 +109,14 @@ impl Drawn<'_> {
                 }
             }
         }
+        // Where the class changes on one diameter; grooves have edges.
+        for (pair, [_, end]) in self.steps.windows(2).zip(self.ends()) {
+            let [one, other] = [&pair[0], &pair[1]];
+            if one.diameter == other.diameter && one.class != other.class {
+                let radius = 0.5 * one.diameter;
+                draft.line(Pen::Thin, p(end, -radius), p(end, radius));
+            }
+        }
         let whole = self.length();
         draft.line(
             Pen::Axis,

@@ -114,7 +114,9 @@ impl<'a> SheetGear<'a> {
     /// Least and greatest x of the contour below the x axis: what a section along it, seen from above, shows behind the cut.
     pub(super) fn behind(&self) -> [f64; 2] {
         let corners = self.tips.iter().chain(&self.roots).filter(|p| p.y <= 0.0);
-        corners.fold([0.0, 0.0], |[least, most], p| [p.x.min(least), p.x.max(most)])
+        corners.fold([0.0, 0.0], |[least, most], p| {
+            [p.x.min(least), p.x.max(most)]
+        })
     }
 
     pub(super) fn bounds(&self) -> Bounds {
