@@ -31,6 +31,8 @@ const ABOVE: f64 = 12.0;
 const LEAN: f64 = 6.0;
 const MORE: f64 = 1.5;
 const LEANS: u32 = 24;
+/// Distance of points on a sheet that are one, mm.
+const ONE_PLACE: f64 = 0.1;
 /// Most dimensions whose order is looked for among all orders.
 const ORDERED: usize = 6;
 
@@ -135,7 +137,16 @@ impl View<'_> {
             .filter(|axis| axis.stands() && !axis.marked);
         let shafts = shafts.map(|axis| (axis.at, axis.name.clone()));
         let mut left = Vec::new();
+        let mut named: Vec<(Point, String)> = Vec::new();
         for (at, name) in marks.chain(shafts) {
+            // Points of two bodies under one name, one on the other, are named once.
+            let is_known = |(known, word): &(Point, String)| {
+                *word == name && ((known - at) * k).norm() < ONE_PLACE
+            };
+            if named.iter().any(is_known) {
+                continue;
+            }
+            named.push((at, name.clone()));
             if !label(draft, at * k, &name) {
                 left.push((at * k, vec![name]));
             }

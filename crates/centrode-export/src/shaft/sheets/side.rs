@@ -123,7 +123,7 @@ impl<'a> Views<'a> {
         if c > 0.0 {
             let tip = p(high + 0.5 * c, r - 0.5 * c);
             let elbow = tip + Vector::new(6.0, 7.0);
-            draft.leader(tip, elbow, &[format!("4 times {} x 45°", number(c, 3))]);
+            draft.leader(tip, elbow, &[format!("4× {} x 45°", number(c, 3))]);
         }
         draft
     }
