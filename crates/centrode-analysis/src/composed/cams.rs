@@ -1,9 +1,10 @@
 use std::f64::consts::{FRAC_PI_4, FRAC_PI_6};
 
-use centrode_mechanism::composed::Composed;
+use centrode_mechanism::composed::{Composed, ComposedCam};
+use centrode_mechanism::machine::Spacer;
 
 use crate::cam::CheckedCam;
-use crate::{Report, Table, Unit};
+use crate::{Finding, Place, Report, Severity, Table, Unit};
 
 /// Pressure angles up to which a sliding and a swinging follower run well while they are lifted, rad. VDI 2142 part 2.
 const PRESSURE_ANGLES: [f64; 2] = [FRAC_PI_6, FRAC_PI_4];
@@ -20,6 +21,7 @@ pub(super) fn cams(composed: &Composed, report: &mut Report) {
         let (least, greatest) = cam.part.radii();
         let [convex, concave] = [limits.least_radius.value, limits.largest_wheel.value];
         radii.push((cam.name.clone(), vec![least, greatest, convex, concave]));
+        thin_roller(composed, cam, report);
         let swings = disc.follower().swings();
         let checked = CheckedCam {
             part: &cam.name,
@@ -59,5 +61,33 @@ pub(super) fn cams(composed: &Composed, report: &mut Report) {
             .map(String::from)
             .into(),
         rows: radii,
+    });
+}
+
+/// Tells of a roller whose wall is too thin for the pins of the design: it has no part and no pin.
+fn thin_roller(composed: &Composed, cam: &ComposedCam, report: &mut Report) {
+    let pin = composed.design().plates.pin_diameter;
+    let radius = cam.disc().follower().roller_radius().unwrap_or(0.0);
+    let is_made = Spacer::roller(radius, pin, cam.part.body().width).is_some();
+    if radius == 0.0 || pin == 0.0 || is_made {
+        return;
+    }
+    let (wall, least) = (radius - 0.5 * pin, Spacer::ROLLER_WALL * pin);
+    report.findings.push(Finding {
+        rule: "thin-roller",
+        severity: Severity::Warning,
+        message: format!(
+            "the roller on cam {}, Ø{:.3} mm, has a wall of {wall:.3} mm on a pin of Ø{pin:.3} mm, {least:.3} mm are needed: it is no part, and has no pin",
+            cam.name,
+            2.0 * radius
+        ),
+        measured: Some(wall),
+        required: Some(least),
+        unit: Unit::Millimetre,
+        remedy: Some("a larger roller_radius, or a smaller pin_diameter"),
+        place: Place {
+            part: Some(cam.name.clone()),
+            ..Place::default()
+        },
     });
 }

@@ -75,11 +75,12 @@ pub(super) fn collisions(made: &Made<'_>, ends: &[f64], report: &mut Report) {
         return;
     };
     let plate = |link: usize| {
-        let own = surfaces(machine, link).filter(|surface| surface.teeth.is_empty());
+        let is_plate = |surface: &&Surface| surface.name == machine.links[link].name;
+        let own = surfaces(machine, link).filter(is_plate);
         PartSurfaces::new(&machine.links[link].name, link, own.collect(), tolerance)
     };
     let plates: Vec<PartSurfaces<'_>> = (0..machine.links.len()).filter_map(plate).collect();
-    let may_collide = |pair: [&PartSurfaces<'_>; 2]| !held(machine, pair.map(|piece| piece.link));
+    let may_collide = |pair: [usize; 2]| !held(machine, pair.map(|plate| plates[plate].link));
     let found = overlaps(composed, machine, (&plates, may_collide), (ends, tolerance));
     let remedy = "another layer for one of them, or a narrower plate";
     let told = ("plates-collide", "the plates of", remedy);
@@ -90,7 +91,8 @@ pub(super) fn collisions(made: &Made<'_>, ends: &[f64], report: &mut Report) {
         PartSurfaces::new(&gear.name, link, own.collect(), tolerance)
     });
     let gears: Vec<PartSurfaces<'_>> = gears.collect();
-    let may_collide = |pair: [&PartSurfaces<'_>; 2]| !is_meshed(composed, machine, pair);
+    let may_collide =
+        |pair: [usize; 2]| !is_meshed(composed, machine, pair.map(|gear| &gears[gear]));
     let found = overlaps(composed, machine, (&gears, may_collide), (ends, tolerance));
     let remedy =
         "fewer copies, smaller gears, or gears of another pair, which lies at another height";
@@ -115,17 +117,12 @@ pub(super) type Overlap<'a> = ([&'a PartSurfaces<'a>; 2], [f64; 2]);
 pub(super) fn overlaps<'a>(
     composed: &Composed,
     machine: &Machine,
-    (pieces, may_collide): (
-        &'a [PartSurfaces<'a>],
-        impl Fn([&PartSurfaces<'a>; 2]) -> bool,
-    ),
+    (pieces, may_collide): (&'a [PartSurfaces<'a>], impl Fn([usize; 2]) -> bool),
     (ends, tolerance): (&[f64], Tolerance),
 ) -> Overlaps<'a> {
     let numbers = 0..pieces.len();
     let pairs = numbers.flat_map(|i| (i + 1..pieces.len()).map(move |k| [i, k]));
-    let pairs: Vec<[usize; 2]> = pairs
-        .filter(|pair| may_collide(pair.map(|number| &pieces[number])))
-        .collect();
+    let pairs: Vec<[usize; 2]> = pairs.filter(|pair| may_collide(*pair)).collect();
     let centers: Vec<(usize, Point)> = pieces.iter().map(|p| (p.link, p.center)).collect();
     let together = |input: f64, values: &mut Vec<f64>| {
         let places = composed.moving(&centers, input);

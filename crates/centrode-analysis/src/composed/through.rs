@@ -1,4 +1,4 @@
-//! Pins and shafts that run into parts through which they have no hole.
+//! Pins and shafts that run into parts through which they have no hole, and cams and gears that run into what is at their height.
 
 use centrode_geometry::{Outline, Point, Solid, Tolerance};
 use centrode_mechanism::composed::Composed;
@@ -8,16 +8,31 @@ use super::Made;
 use super::collisions::{PartSurfaces, findings, overlaps};
 use crate::Report;
 
+/// Height by which parts that touch may overlap, mm: rounding.
+const LEVEL: f64 = 1e-6;
 /// Shares of the period at which what goes through a hole is in it.
 const SHARES: [f64; 4] = [0.0, 0.137, 0.411, 0.732];
 
-/// Owner of surfaces.
+/// Part that surfaces belong to.
 #[derive(Clone, Copy)]
 enum Kind<'a> {
-    /// A pin or shaft with the sleeves on it, or rollers, by its axis in its link.
+    /// A pin or shaft with the sleeves on it, or a roller, by its axis in its link.
     Turned { axis: Point, is_roller: bool },
-    /// A plate, gear or cam with its holes.
-    Part { solid: &'a Solid, is_cam: bool },
+    /// A plate, with its holes.
+    Plate(&'a Solid),
+    /// A gear, with its bore.
+    Gear(&'a Solid),
+    /// A cam, with its bore.
+    Cam(&'a Solid),
+}
+
+/// A pin or shaft with the sleeves on it, or a roller.
+struct Round {
+    name: String,
+    link: usize,
+    axis: Point,
+    surfaces: Vec<Surface>,
+    is_roller: bool,
 }
 
 /// Pins, shafts and what is on them that run into plates, gears or cams.
@@ -31,51 +46,67 @@ pub(super) fn collisions(
     let turned = on_axes(composed, machine);
     let mut kinds = Vec::new();
     let mut pieces = Vec::new();
-    for (name, link, axis, surfaces, is_roller) in &turned {
-        let all = surfaces.iter().collect();
-        if let Some(piece) = PartSurfaces::new(name, *link, all, tolerance) {
-            let axis = *axis;
-            let is_roller = *is_roller;
+    for round in &turned {
+        let all = round.surfaces.iter().collect();
+        if let Some(piece) = PartSurfaces::new(&round.name, round.link, all, tolerance) {
+            let (axis, is_roller) = (round.axis, round.is_roller);
             kinds.push(Kind::Turned { axis, is_roller });
             pieces.push(piece);
         }
     }
-    for (name, link, surface, solid, is_cam) in parts(composed, machine) {
-        if let Some(piece) = PartSurfaces::new(name, link, vec![surface], tolerance) {
-            kinds.push(Kind::Part { solid, is_cam });
+    let parts = parts(composed, machine);
+    for (name, link, surface, kind) in &parts {
+        if let Some(piece) = PartSurfaces::new(name, *link, vec![surface], tolerance) {
+            kinds.push(*kind);
             pieces.push(piece);
         }
     }
-    let number = |piece: &PartSurfaces<'_>| {
-        pieces
-            .iter()
-            .position(|known| std::ptr::eq(known, piece))
-            .map(|index| kinds[index])
+    let is_level = |[one, other]: [usize; 2]| {
+        let mut own = pieces[one].surfaces.iter();
+        own.any(|a| {
+            let mut others = pieces[other].surfaces.iter();
+            others.any(|b| a.span[0] < b.span[1] && b.span[0] < a.span[1])
+        })
     };
-    let may_collide = |[one, other]: [&PartSurfaces<'_>; 2]| {
-        let (Some(Kind::Turned { axis, is_roller }), Some(Kind::Part { solid, is_cam })) =
-            (number(one), number(other))
-        else {
+    // Turned parts come first.
+    let pins_may = |[one, other]: [usize; 2]| {
+        let Kind::Turned { axis, is_roller } = kinds[one] else {
             return false;
         };
-        let own = one.surfaces.iter();
-        let mut at_height = own.filter(|s| s.span[0] < solid.top() && s.span[1] > solid.bottom());
-        // A roller touches its cam.
-        !(is_roller && is_cam)
-            && at_height.next().is_some()
-            && !is_in_hole(composed, (one.link, axis), (other.link, solid))
+        let own = (pieces[one].link, axis);
+        let is_free = || match kinds[other] {
+            Kind::Turned { axis, .. } => !is_one(composed, own, (pieces[other].link, axis)),
+            // A roller touches its cam, and goes through no hole of a pin.
+            Kind::Cam(solid) => !is_roller && !is_in_hole(composed, own, pieces[other].link, solid),
+            Kind::Plate(solid) | Kind::Gear(solid) => {
+                is_roller || !is_in_hole(composed, own, pieces[other].link, solid)
+            }
+        };
+        is_level([one, other]) && is_free()
     };
-    let found = overlaps(composed, machine, (&pieces, may_collide), (ends, tolerance));
+    let found = overlaps(composed, machine, (&pieces, pins_may), (ends, tolerance));
     let remedy = "another layer for a plate or cam that it joins, or for what it runs into";
     let told = ("pins-collide", "parts", remedy);
     report.findings.extend(findings(told, &found));
+    // Plates among each other, and gears, are looked at by themselves.
+    let parts_may = |pair: [usize; 2]| {
+        let is_ours = matches!(
+            pair.map(|part| kinds[part]),
+            [Kind::Cam(_), Kind::Plate(_) | Kind::Gear(_) | Kind::Cam(_)]
+                | [Kind::Plate(_) | Kind::Gear(_), Kind::Cam(_)]
+                | [Kind::Plate(_), Kind::Gear(_)]
+                | [Kind::Gear(_), Kind::Plate(_)]
+        );
+        is_ours && is_level(pair)
+    };
+    let found = overlaps(composed, machine, (&pieces, parts_may), (ends, tolerance));
+    let remedy = "another layer for the cam or plate";
+    let told = ("parts-collide", "parts", remedy);
+    report.findings.extend(findings(told, &found));
 }
 
-/// Name, link, axis and surfaces of each pin and shaft with its sleeves, and of the rollers on it.
-fn on_axes(
-    composed: &Composed,
-    machine: &Machine,
-) -> Vec<(String, usize, Point, Vec<Surface>, bool)> {
+/// Each pin and shaft with its sleeves, and the rollers on it.
+fn on_axes(composed: &Composed, machine: &Machine) -> Vec<Round> {
     let mut found = Vec::new();
     for pieces in composed.turned() {
         for piece in &pieces.pieces {
@@ -83,15 +114,24 @@ fn on_axes(
                 continue;
             };
             let axis = Point::new(piece.at[0], piece.at[1]);
-            let name = &pieces.part.name;
-            found.push((name.clone(), link, axis, bars(pieces, piece), false));
-            for (ring, at) in &pieces.spacers {
-                if ring.kind == SpacerKind::Roller {
-                    let roller = round(piece, ring.outer, [*at, at + ring.length]);
-                    let name = format!("roller of {}", piece.link);
-                    found.push((name, link, axis, vec![roller], true));
-                }
-            }
+            let on_it = |name: String, surfaces: Vec<Surface>, is_roller: bool| Round {
+                name,
+                link,
+                axis,
+                surfaces,
+                is_roller,
+            };
+            let name = match pieces.pieces.len() {
+                1 => pieces.part.name.clone(),
+                _ => format!("{} of {}", pieces.part.name, piece.link),
+            };
+            found.push(on_it(name, bars(pieces, piece), false));
+            let rings = pieces.spacers.iter();
+            let rollers = rings.filter(|(ring, _)| ring.kind == SpacerKind::Roller);
+            found.extend(rollers.map(|(ring, at)| {
+                let roller = round(piece, ring.outer, [*at, at + ring.length]);
+                on_it(format!("roller of {}", piece.link), vec![roller], true)
+            }));
         }
     }
     found
@@ -112,17 +152,17 @@ fn round(piece: &TurnedPiece, diameter: f64, span: [f64; 2]) -> Surface {
     Surface {
         name: piece.link.clone(),
         outline: Outline::circle(Point::new(x, y), 0.5 * diameter),
-        span: span.map(|z| low + z),
+        span: [low + span[0] + LEVEL, low + span[1] - LEVEL],
         teeth: Vec::new(),
         coarseness: 1.0,
     }
 }
 
-/// Name, link, surface and solid of every plate, gear and cam, and whether it is a cam.
+/// Name, link, surface and solid of every plate, gear and cam.
 fn parts<'a>(
     composed: &'a Composed,
     machine: &'a Machine,
-) -> Vec<(&'a str, usize, &'a Surface, &'a Solid, bool)> {
+) -> Vec<(&'a str, usize, Surface, Kind<'a>)> {
     let mut found = Vec::new();
     for (index, link) in machine.links.iter().enumerate() {
         let shape = link.shape.and_then(|shape| machine.shapes.get(shape));
@@ -131,36 +171,43 @@ fn parts<'a>(
         };
         // A link has a surface for each of its solids, in the same order.
         for (&surface, solid) in link.surfaces.iter().zip(solids) {
-            let surface = &machine.surfaces[surface];
-            let gears = composed.gears().iter();
-            let gear = gears
-                .filter(|gear| gear.surface_name() == surface.name)
-                .map(|gear| &*gear.name);
-            let cams = composed.cams().iter();
-            let cam = cams
-                .filter(|cam| cam.surface_name() == surface.name)
-                .map(|cam| &*cam.name)
-                .next();
-            let name = gear.chain(cam).next().unwrap_or(&link.name);
-            found.push((name, index, surface, solid, cam.is_some()));
+            let mut surface = machine.surfaces[surface].clone();
+            surface.span = [surface.span[0] + LEVEL, surface.span[1] - LEVEL];
+            let mut gears = composed.gears().iter();
+            let gear = gears.find(|gear| gear.surface_name() == surface.name);
+            let mut cams = composed.cams().iter();
+            let cam = cams.find(|cam| cam.surface_name() == surface.name);
+            let (name, kind) = match (gear, cam) {
+                (Some(gear), _) => (&gear.name, Kind::Gear(solid)),
+                (None, Some(cam)) => (&cam.name, Kind::Cam(solid)),
+                (None, None) => (&link.name, Kind::Plate(solid)),
+            };
+            found.push((&**name, index, surface, kind));
         }
     }
     found
 }
 
-/// Whether the axis of a pin lies in one hole of a part all through the cycle.
-fn is_in_hole(
-    composed: &Composed,
-    (own, axis): (usize, Point),
-    (link, solid): (usize, &Solid),
-) -> bool {
-    let places = SHARES.map(|share| {
+/// Places of an axis over the cycle in the axes of a body.
+fn seen(composed: &Composed, (own, axis): (usize, Point), body: usize) -> [Point; 4] {
+    SHARES.map(|share| {
         let input = share * composed.period();
         let at = composed.place(own, axis, input);
-        let origin = composed.place(link, Point::origin(), input);
-        let turn = nalgebra::Rotation2::new(-composed.angle(link, input).position);
+        let origin = composed.place(body, Point::origin(), input);
+        let turn = nalgebra::Rotation2::new(-composed.angle(body, input).position);
         Point::from(turn * (at - origin))
-    });
+    })
+}
+
+/// Whether two axes are one all through the cycle.
+fn is_one(composed: &Composed, own: (usize, Point), (body, axis): (usize, Point)) -> bool {
+    let places = seen(composed, own, body);
+    places.iter().all(|at| (at - axis).norm() < LEVEL)
+}
+
+/// Whether the axis of a pin lies in one hole of a part all through the cycle.
+fn is_in_hole(composed: &Composed, own: (usize, Point), link: usize, solid: &Solid) -> bool {
+    let places = seen(composed, own, link);
     let mut holes = solid.holes().iter();
     holes.any(|hole| places.iter().all(|at| hole.contains(*at)))
 }

@@ -114,7 +114,7 @@ impl TitleBlock {
         let mut grades = classes.into_iter().filter_map(grade);
         let is_fine = grades.any(|grade| grade <= Self::FINE);
         let fine = self.fitted_surface.clone();
-        if fine.is_empty() || (!is_fine && contour.is_empty()) {
+        if fine.trim().is_empty() || fine == self.surface || (!is_fine && contour.is_empty()) {
             return None;
         }
         let classes = format!("surfaces with a class up to grade {}", Self::FINE);

@@ -37,6 +37,8 @@ struct Cylinders {
     radius: f64,
     span: [f64; 2],
     rings: Vec<(Spacer, f64)>,
+    /// Radii that retaining rings reach, and their heights, mm.
+    held: Vec<(f64, [f64; 2])>,
 }
 
 impl Axis {
@@ -52,6 +54,25 @@ impl Axis {
         let rollers = self.rollers.iter();
         let rollers = rollers.map(|(roller, at)| [*at, at + roller.length]);
         self.plates.iter().copied().chain(rollers).collect()
+    }
+
+    /// A ring on it, no wider than lets it run past the cam beside a roller next to it: a sleeve in the place of a wider shim.
+    fn clear_of_cams(&self, (ring, low): (Spacer, f64)) -> (Spacer, f64) {
+        let span = [low, low + ring.length];
+        let is_next = |roller: &Spacer, at: f64| {
+            let off = (at - span[1])
+                .abs()
+                .min((at + roller.length - span[0]).abs());
+            off < ONE * self.size
+        };
+        let next = self
+            .rollers
+            .iter()
+            .find(|(roller, at)| is_next(roller, *at));
+        match next {
+            Some((roller, _)) => (ring.beside(*roller), low),
+            None => (ring, low),
+        }
     }
 
     /// The body nearest to the frame, with the place in its axes.
@@ -88,16 +109,24 @@ impl Composed {
         for &number in &pins {
             let axis = &axes[number];
             let rings = self.spacers(axis.owner(), axis.size, &axis.parts());
+            let rings = rings.into_iter().map(|ring| axis.clear_of_cams(ring));
             let is_free = |(ring, low): &(Spacer, f64)| {
                 let span = [*low, low + ring.length];
                 is_clear_of(&bars, number, (0.5 * ring.outer, span))
             };
-            let rings: Vec<(Spacer, f64)> = rings.into_iter().filter(is_free).collect();
+            let rings: Vec<(Spacer, f64)> = rings.filter(is_free).collect();
             bars[number].rings.extend(rings);
         }
         let mut found: Vec<TurnedPieces> = Vec::new();
         for number in pins {
             let made = self.pin(&axes[number], &bars, number);
+            let mut low = made.pieces[0].at[2];
+            for step in &made.part.steps {
+                let span = [low, low + step.length];
+                let reach = step.ring.map(|ring| (ring.reach(), span));
+                bars[number].held.extend(reach);
+                low = span[1];
+            }
             let alike = |known: &&mut TurnedPieces| {
                 known.part.title == made.part.title
                     && known.part.steps == made.part.steps
@@ -196,6 +225,7 @@ impl Composed {
             radius: 0.5 * shaft.map_or(axis.size, |shaft| shaft.hub.bore),
             span: span.unwrap_or(axis.span),
             rings: axis.rollers.clone(),
+            held: Vec::new(),
         }
     }
 
@@ -256,7 +286,7 @@ impl Composed {
 
     /// Rollers of the bodies that follow cams, each with its body, its axis there and the height of its lower face, mm: as wide as the
     /// cam, and as high.
-    fn rollers(&self) -> Vec<(usize, Point, (Spacer, f64))> {
+    pub(super) fn rollers(&self) -> Vec<(usize, Point, (Spacer, f64))> {
         let of = |cam: &ComposedCam, follower: &String| {
             let radius = cam.disc().follower().roller_radius()?;
             let at = self.points.get(follower)?.get(ROLLER)?.at;
@@ -286,7 +316,8 @@ fn is_clear_of(all: &[Cylinders], own: usize, (radius, span): (f64, [f64; 2])) -
         let apart = apart.fold(f64::INFINITY, f64::min);
         let rings = other.rings.iter();
         let rings = rings.map(|(ring, low)| (0.5 * ring.outer, [*low, low + ring.length]));
-        let mut parts = rings.chain([(other.radius, other.span)]);
+        let held = other.held.iter().copied();
+        let mut parts = rings.chain(held).chain([(other.radius, other.span)]);
         parts.all(|(reach, span)| !is_level(span) || apart > radius + reach)
     })
 }

@@ -12,7 +12,7 @@ const STEPS: u32 = 360;
 /// Distance from their contours within which the corners of what passes are, mm.
 const FINE: f64 = 1e-2;
 
-/// A plate, gear or cam that may pass a ring: its body, its corners there and its heights.
+/// A plate, gear, cam or roller that may pass a ring: its body, its corners there and its heights.
 struct Passing {
     body: usize,
     corners: Vec<Point>,
@@ -78,7 +78,7 @@ impl Composed {
         })
     }
 
-    /// Plates, gears and cams that reach between two heights.
+    /// Plates, gears, cams and rollers that reach between two heights.
     fn passing(&self, [low, high]: [f64; 2]) -> Vec<Passing> {
         let between =
             |bottom: f64, thick: f64| bottom < high - ROUNDING && bottom + thick > low + ROUNDING;
@@ -98,7 +98,11 @@ impl Composed {
             let is_there = between(self.cam_bottom(cam), cam.part.body().width);
             is_there.then(|| round(&cam.body_name, cam.at, cam.part.profile().outline()))?
         });
-        let all = bodies.chain(gears).chain(cams);
+        let rollers = self.rollers().into_iter();
+        let rollers = rollers.filter(|(.., (roller, low))| between(*low, roller.length));
+        let rollers =
+            rollers.map(|(body, at, (roller, _))| (body, Outline::circle(at, 0.5 * roller.outer)));
+        let all = bodies.chain(gears).chain(cams).chain(rollers);
         all.filter_map(|(body, outline)| {
             let corners = outline.flatten(Tolerance::new(FINE).ok()?);
             Some(Passing {

@@ -14,8 +14,6 @@ const SHIMS: [[f64; 2]; 27] = [
 const THICKNESSES: [f64; 5] = [1.0, 0.5, 0.3, 0.2, 0.1];
 /// Greatest number of shims in one gap; a sleeve fills a wider one.
 const MOST: usize = 3;
-/// Least wall of a roller, as a share of its pin's diameter.
-const ROLLER_WALL: f64 = 0.1;
 /// Difference of lengths that is rounding, mm.
 const ROUNDING: f64 = 1e-6;
 
@@ -46,6 +44,8 @@ pub enum SpacerKind {
 impl Spacer {
     /// Tolerance class of the bore of a sleeve, which goes over a shaft of any of the usual classes.
     pub const BORE: &'static str = "D10";
+    /// Least wall of a roller, as a share of its pin's diameter.
+    pub const ROLLER_WALL: f64 = 0.1;
     /// Tolerance class of the rim of a roller.
     pub const RIM: &'static str = "h7";
 
@@ -59,7 +59,7 @@ impl Spacer {
             length: width,
             kind: SpacerKind::Roller,
         };
-        (pin > 0.0 && radius - 0.5 * pin >= ROLLER_WALL * pin - ROUNDING).then_some(roller)
+        (pin > 0.0 && radius - 0.5 * pin >= Self::ROLLER_WALL * pin - ROUNDING).then_some(roller)
     }
 
     /// Rings for a gap on a diameter, mm: up to three shims of DIN 988, or a sleeve of their diameters. None where the standard
@@ -86,6 +86,20 @@ impl Spacer {
         match left.abs() <= ROUNDING {
             true => shims,
             false => vec![ring(gap, SpacerKind::Sleeve)],
+        }
+    }
+
+    /// The ring beside a roller on one pin: no wider than leaves half of the roller's wall free of it.
+    #[must_use]
+    pub fn beside(self, roller: Self) -> Self {
+        let most = 0.5 * (roller.inner + roller.outer);
+        match self.outer <= most {
+            true => self,
+            false => Self {
+                outer: most,
+                kind: SpacerKind::Sleeve,
+                ..self
+            },
         }
     }
 
@@ -172,6 +186,11 @@ mod tests {
         assert_eq!(roller.name(), "Cam roller 6 x 12 x 10.5");
         assert_eq!(roller.file().as_deref(), Some("roller-6x12x10-5"));
         assert!(Spacer::roller(3.6, 6.0, 10.0).is_some());
+        // A shim of 12 mm would reach as far as the cam.
+        let shim = Spacer::filling(6.0, 1.0)[0];
+        assert_eq!(shim.beside(roller).name(), "Sleeve 6 x 9 x 1");
+        let wide = Spacer::roller(10.0, 6.0, 10.0).expect("a roller");
+        assert_eq!(shim.beside(wide), shim);
         for (radius, pin) in [(3.5, 6.0), (0.0, 6.0), (6.0, 0.0), (f64::NAN, 6.0)] {
             assert!(Spacer::roller(radius, pin, 10.0).is_none());
         }

@@ -180,6 +180,53 @@ fn a_pin_that_runs_into_a_plate_without_a_hole_for_it_is_found_with_the_depth() 
     assert!((depth + 3.5).abs() < 2e-2, "{depth}");
 }
 
+/// A lever of 40 mm that follows a cam 8 mm wide.
+const CAM: &str = r#"
+family = "machine"
+[frame.points]
+O = [0, 0]
+P = [50, 10]
+[bodies.shaft]
+on = "frame.O"
+law = { ratio = 1 }
+[bodies.lever]
+on = "frame.P"
+law = { follows = "push" }
+[cams.push]
+on = "shaft"
+base_radius = 25
+LAYER
+follower = { kind = "swinging-roller", roller_radius = RADIUS, arm_length = 40 }
+body = { width = 8 }
+[[cams.push.motion.segments]]
+kind = "rise"
+span_deg = 180
+swing_deg = 14
+[[cams.push.motion.segments]]
+kind = "return"
+span_deg = 180
+swing_deg = 14
+"#;
+
+#[test]
+fn cams_in_the_height_of_a_plate_and_rollers_without_a_wall_are_found() {
+    let check = |layer: &str, radius: &str| {
+        let text = CAM.replace("LAYER", layer).replace("RADIUS", radius);
+        let report = check_composed(&composed(&text));
+        let rules = report.findings.into_iter().map(|finding| finding.rule);
+        rules.collect::<Vec<_>>()
+    };
+    assert_eq!(check("", "5"), [""; 0]);
+    // The frame is between -6 and -1 mm.
+    assert!(check("layer = -1", "5").contains(&"parts-collide"));
+    assert!(check("layer = -2", "5").contains(&"parts-collide"));
+    assert!(!check("layer = -3", "5").contains(&"parts-collide"));
+    // Beside the lever in its own layer.
+    assert!(check("layer = 1", "5").contains(&"pins-collide"));
+    assert_eq!(check("", "1.6"), ["thin-roller"]);
+    assert_eq!(check("", "0"), [""; 0]);
+}
+
 #[test]
 fn obstacles_that_cannot_be_are_told_by_key() {
     for (obstacle, key, told) in [
