@@ -12,6 +12,9 @@ const SHARES: [f64; 4] = [0.0, 0.137, 0.411, 0.732];
 /// Distance, as a share of the pin's diameter, within which axes are one.
 const ONE: f64 = 1e-6;
 
+/// Length by which play between rings may move one, mm.
+const SPARE: f64 = 1.0;
+
 /// How a pin is held where there is no room for rings.
 const BONDED: &str = "No room for rings: bonded into one of its plates with a retaining compound.";
 
@@ -165,15 +168,21 @@ impl Composed {
             .map(raised)
             .collect();
         let [_, length] = raised(axis.span);
-        let bar = Bar::new(spec.pin_diameter, &spec.pin_fit, [0.0, length]);
+        let general = &self.design.drawing.general_tolerance;
         let is_free = |reach: f64, span: [f64; 2]| is_clear_of(bars, number, (reach, span));
         let [low, high] = axis.span;
         let room = [(low, false), (high, true)]
             .map(|face| self.room_at((body, at), axis.size, face, &is_free));
-        let bar = bar.held(room).through(&on_it);
-        let bottom = axis.span[0] + bar.bottom();
+        let held = |room: [f64; 2]| {
+            let bar = Bar::new(spec.pin_diameter, &spec.pin_fit, [0.0, length]);
+            bar.held(room).through(&on_it)
+        };
+        // Play between the rings moves each by half of it.
+        let needed = Circlip::of_shaft(axis.size).map_or(0.0, Circlip::room);
+        let moved = 0.5 * held(room).growth(general);
+        let bar = held(room.map(|room| if needed + moved > room { 0.0 } else { room }));
+        let bottom = axis.span[0] + bar.bottom() - 0.5 * bar.growth(general);
         let title = format!("Pin through {} mm", thousandths(length));
-        let general = &self.design.drawing.general_tolerance;
         let mut part = bar.part(["pin", &title], spec.pin_stock(), general);
         let role = if bar.is_held() { "" } else { "without rings" };
         part.notes.extend((!bar.is_held()).then(|| BONDED.into()));
@@ -205,12 +214,13 @@ impl Composed {
         let Some(ring) = Circlip::of_shaft(diameter) else {
             return gap;
         };
+        let needed = ring.room() + SPARE;
         let beyond = match is_above {
-            true => [wall, wall + ring.room()],
-            false => [wall - ring.room(), wall],
+            true => [wall, wall + needed],
+            false => [wall - needed, wall],
         };
         let is_free = is_free(ring.reach(), beyond) && self.is_clear(own, ring.reach(), beyond);
-        gap.max(if is_free { ring.room() } else { 0.0 })
+        gap.max(if is_free { needed } else { 0.0 })
     }
 
     /// Pin or shaft on an axis, of which others must keep clear.

@@ -61,13 +61,16 @@ impl Composed {
         } else {
             &hub.shaft_fit
         };
+        let above = beyond(high, true, is_highest);
         let mut bar = Bar::new(hub.bore, class, [low - end, high])
             .ring(low, false, beyond(low, false, is_lowest))
-            .ring(high, true, beyond(high, true, is_highest));
+            .ring(high, true, above);
         let spans: Vec<[f64; 2]> = on_it.iter().map(|part| part.span).collect();
         let spacers = self.spacers((shaft.body, shaft.at), hub.bore, &spans);
         let rings = spacers.iter().map(|(ring, at)| [*at, at + ring.length]);
+        let general = &self.design.drawing.general_tolerance;
         bar = bar.through(&spans).through(&rings.collect::<Vec<_>>());
+        bar = bar.within(above, general);
         let mut seats = Vec::new();
         if end > 0.0 {
             seats.push([low - end, low]);
@@ -99,7 +102,6 @@ impl Composed {
         }
         let title = format!("Shaft of {}", self.original(&shaft.name));
         let name = format!("shaft-{}", self.original(&shaft.name));
-        let general = &self.design.drawing.general_tolerance;
         let mut part = bar.part([&name, &title], hub.shaft_stock(), general);
         part.notes.extend(notes(&on_it, (end > 0.0, bar.is_held())));
         let owner = &self.bodies[shaft.body].name;

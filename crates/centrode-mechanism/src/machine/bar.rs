@@ -131,6 +131,28 @@ impl Bar {
         self.keyed.last().copied()
     }
 
+    /// Length by which the part is longer than the bar, mm: play between its rings.
+    pub(crate) fn growth(&self, general: &str) -> f64 {
+        match &self.held_lengths(general)[..] {
+            [held] => held.middle(),
+            _ => 0.0,
+        }
+    }
+
+    /// The bar without the ring at its upper end where that, moved by the play, finds no room.
+    pub(crate) fn within(mut self, room: f64, general: &str) -> Self {
+        let needed = Circlip::of_shaft(self.diameter).map_or(0.0, Circlip::room);
+        if needed + self.growth(general) <= room + ROUNDING {
+            return self;
+        }
+        let [_, end] = self.span;
+        let at_end = |&(wall, above): &(f64, bool)| above && wall + needed > end - ROUNDING;
+        if let Some(ring) = self.grooves.iter().position(at_end) {
+            self.span[1] = self.grooves.remove(ring).0;
+        }
+        self
+    }
+
     /// Height of its lower end, mm.
     pub(crate) fn bottom(&self) -> f64 {
         self.span[0]
@@ -223,7 +245,8 @@ impl Bar {
         stock: Stock<'_>,
         general: &str,
     ) -> TurnedPart {
-        let steps = self.steps();
+        let (mut steps, mut held) = (self.steps(), self.held_lengths(general));
+        lengthen(&mut steps, &mut held);
         let lands = [steps.first(), steps.last()].into_iter().flatten();
         let shortest = lands.map(|step| step.length).fold(f64::INFINITY, f64::min);
         let chamfer = (CHAMFER * self.diameter).min(0.5 * shortest);
@@ -232,12 +255,31 @@ impl Bar {
             title: title.into(),
             steps,
             keyway: self.keyway,
-            held: self.held_lengths(general),
+            held,
             chamfer: preferred_size(chamfer.min(1.0)),
             material: stock.material.into(),
             density: stock.density,
             heat_treatment: stock.heat_treatment.into(),
             notes: Vec::new(),
         }
+    }
+}
+
+/// Makes the last step of a length between two grooves longer by the middle of its deviations, which are then even: what lies beyond keeps
+/// its length, and the contour lies within all limits. Lengths one after another keep theirs: the parts on them would move.
+fn lengthen(steps: &mut [TurnedStep], held: &mut [HeldLength]) {
+    let [length] = held else {
+        return;
+    };
+    let ([lower, upper], middle) = (length.deviations, length.middle());
+    let mut end = 0.0;
+    let last = steps.iter_mut().find(|step| {
+        end += step.length;
+        end > length.span[1] - ROUNDING
+    });
+    if let Some(last) = last {
+        last.length += middle;
+        length.span[1] += middle;
+        length.deviations = [lower - middle, upper - middle].map(|mm| (mm * 1e3).round() / 1e3);
     }
 }

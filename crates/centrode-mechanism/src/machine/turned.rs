@@ -107,6 +107,14 @@ pub struct TurnedPiece {
     pub is_counted: bool,
 }
 
+impl HeldLength {
+    /// Middle of its deviations, mm.
+    #[must_use]
+    pub fn middle(&self) -> f64 {
+        0.5 * (self.deviations[0] + self.deviations[1])
+    }
+}
+
 impl TurnedStep {
     /// A plain cylinder of a diameter and length (mm), in a tolerance class.
     #[must_use]
@@ -309,19 +317,24 @@ mod tests {
             let bar = Bar::new(16.0, "h6", [0.0, 60.0]).ring(0.0, false, 9.0);
             let bar = bar.ring(15.0, true, 2.0).through(parts);
             let shaft = bar.part(["shaft", "Shaft"], STEEL, general);
-            shaft
-                .held
-                .iter()
-                .map(|held| held.deviations)
-                .collect::<Vec<_>>()
+            let told = |held: &HeldLength| {
+                let long = held.span[1] - held.span[0];
+                ((1e6 * long).round() / 1e6, held.deviations)
+            };
+            let all: Vec<(f64, [f64; 2])> = shaft.held.iter().map(told).collect();
+            // What lies beyond keeps its length.
+            let longer: f64 = all.iter().map(|(long, _)| long - 15.0).sum();
+            assert!((shaft.length() - 62.3 - longer).abs() < 1e-9);
+            all
         };
         // 15 +- 0.2 in 15, two rings of 1 mm in grooves of 1.1 mm: 0.05 are left of 15.05 + 0.2 - 15.2.
-        assert_eq!(held(&[[0.0, 15.0]], "ISO 2768-mK"), [[0.05, 0.15]]);
+        let even = [-0.05, 0.05];
+        assert_eq!(held(&[[0.0, 15.0]], "ISO 2768-mK"), [(15.1, even)]);
         // +- 0.1 of class f: 0.05 are left of 14.95 + 0.2 - 15.1.
-        assert_eq!(held(&[[0.0, 15.0]], "ISO 2768-fH"), [[-0.05, 0.05]]);
+        assert_eq!(held(&[[0.0, 15.0]], "ISO 2768-fH"), [(15.0, even)]);
         // 14.5 in 15 have play whatever the length is, and what is elsewhere is not held.
-        assert_eq!(held(&[[0.5, 14.5]], "ISO 2768-mK"), [[0.0; 2]; 0]);
-        assert_eq!(held(&[[20.0, 35.0]], "ISO 2768-mK"), [[0.0; 2]; 0]);
+        assert_eq!(held(&[[0.5, 14.5]], "ISO 2768-mK"), []);
+        assert_eq!(held(&[[20.0, 35.0]], "ISO 2768-mK"), []);
     }
 
     #[test]
