@@ -10,7 +10,7 @@ use crate::interference::LinkPair;
 use crate::{Finding, Place, Report, Severity, Unit};
 
 /// Accuracy to which collisions of parts are sought, as a share of a plate's width.
-pub(super) const ACCURACY: f64 = 1e-3;
+const ACCURACY: f64 = 1e-3;
 
 /// Accuracy to which it is found how near the circles around two parts come, as a share of their distance.
 const SLACK: f64 = 0.05;
@@ -98,7 +98,7 @@ pub(super) fn collisions(made: &Made<'_>, ends: &[f64], report: &mut Report) {
         "fewer copies, smaller gears, or gears of another pair, which lies at another height";
     let told = ("gears-collide", "gears", remedy);
     report.findings.extend(findings(told, &found));
-    through::collisions(made, machine, (ends, tolerance), report);
+    through::collisions(composed, machine, (ends, tolerance), report);
 }
 
 /// Parts of a kind that overlap, and how many pairs are not looked at since so many do.
@@ -108,7 +108,7 @@ pub(super) struct Overlaps<'a> {
 }
 
 /// Two parts that overlap, with their least clearance (mm, below zero) and the input there.
-pub(super) type Overlap<'a> = ([&'a PartSurfaces<'a>; 2], [f64; 2]);
+type Overlap<'a> = ([&'a PartSurfaces<'a>; 2], [f64; 2]);
 
 /// Pairs of parts that overlap within the cycle, among those that may collide, until so many do as are told of.
 ///

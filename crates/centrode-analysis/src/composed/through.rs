@@ -4,14 +4,11 @@ use centrode_geometry::{Outline, Point, Solid, Tolerance};
 use centrode_mechanism::composed::Composed;
 use centrode_mechanism::machine::{Form, Machine, SpacerKind, Surface, TurnedPiece, TurnedPieces};
 
-use super::Made;
 use super::collisions::{PartSurfaces, findings, overlaps};
 use crate::Report;
 
 /// Height by which parts that touch may overlap, mm: rounding.
 const LEVEL: f64 = 1e-6;
-/// Shares of the period at which what goes through a hole is in it.
-const SHARES: [f64; 4] = [0.0, 0.137, 0.411, 0.732];
 
 /// Part that surfaces belong to.
 #[derive(Clone, Copy)]
@@ -37,12 +34,11 @@ struct Round {
 
 /// Pins, shafts and what is on them that run into plates, gears or cams.
 pub(super) fn collisions(
-    made: &Made<'_>,
+    composed: &Composed,
     machine: &Machine,
     (ends, tolerance): (&[f64], Tolerance),
     report: &mut Report,
 ) {
-    let composed = made.composed;
     let turned = on_axes(composed, machine);
     let mut kinds = Vec::new();
     let mut pieces = Vec::new();
@@ -189,14 +185,8 @@ fn parts<'a>(
 }
 
 /// Places of an axis over the cycle in the axes of a body.
-fn seen(composed: &Composed, (own, axis): (usize, Point), body: usize) -> [Point; 4] {
-    SHARES.map(|share| {
-        let input = share * composed.period();
-        let at = composed.place(own, axis, input);
-        let origin = composed.place(body, Point::origin(), input);
-        let turn = nalgebra::Rotation2::new(-composed.angle(body, input).position);
-        Point::from(turn * (at - origin))
-    })
+fn seen(composed: &Composed, own: (usize, Point), body: usize) -> [Point; 4] {
+    Composed::SHARES.map(|share| composed.seen_from(body, own, share * composed.period()))
 }
 
 /// Whether two axes are one all through the cycle.

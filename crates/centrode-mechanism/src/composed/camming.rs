@@ -69,12 +69,6 @@ impl ComposedCam {
         format!("{}-profile", self.name)
     }
 
-    /// Name of its body.
-    #[must_use]
-    pub fn body_name(&self) -> &str {
-        &self.body_name
-    }
-
     /// Place of the cam's axes in those of its body.
     fn place(&self) -> Isometry2<f64> {
         Isometry2::new(self.at.coords, self.mount)
@@ -124,7 +118,7 @@ impl Composed {
         let cams = &self.written.cams;
         let (own, plates) = (self.original(&cam.name), &self.design.plates);
         if let Some(layer) = cams.get(own).and_then(|spec| spec.layer) {
-            return f64::from(layer) * (plates.thickness + plates.gap);
+            return plates.height_of(layer.into());
         }
         let upto = cams.iter().take_while(|(name, _)| name.as_str() <= own);
         let behind = upto.filter(|(_, spec)| spec.layer.is_none());

@@ -7,8 +7,6 @@ use super::{Composed, ComposedCam, ShaftPart};
 use crate::digits::thousandths;
 use crate::machine::{Bar, Circlip, Fit, Spacer, TurnedPiece, TurnedPieces};
 
-/// Shares of the period at which plates on one pin have their holes on one axis.
-const SHARES: [f64; 4] = [0.0, 0.137, 0.411, 0.732];
 /// Distance, as a share of the pin's diameter, within which axes are one.
 const ONE: f64 = 1e-6;
 
@@ -90,6 +88,9 @@ impl Axis {
 }
 
 impl Composed {
+    /// Shares of the period at which axes of two bodies are one that are one all through it.
+    pub const SHARES: [f64; 4] = [0.0, 0.137, 0.411, 0.732];
+
     /// Shafts, and the pins in the plates that have none.
     #[must_use]
     pub fn turned(&self) -> &[TurnedPieces] {
@@ -252,7 +253,7 @@ impl Composed {
     /// Places of a point of a body over the period, mm.
     pub(super) fn places_of(&self, body: usize, at: Point) -> Vec<Point> {
         let place = |share: f64| self.place(body, at, share * self.period());
-        SHARES.into_iter().map(place).collect()
+        Self::SHARES.into_iter().map(place).collect()
     }
 
     /// Axes of the holes in the plates.

@@ -100,6 +100,11 @@ impl ComposedPlatesSpec {
         in_range("pin_diameter", self.pin_diameter, [0.0, most], " mm")
     }
 
+    /// Height of the lower face of what lies in a layer along the shafts, mm.
+    pub(super) fn height_of(&self, layer: f64) -> f64 {
+        layer * (self.thickness + self.gap)
+    }
+
     /// Least width of a plate that holds its pins, mm.
     pub(super) fn least_width(&self) -> f64 {
         self.pin_diameter / PIN
@@ -343,7 +348,7 @@ impl Composed {
                 original.unwrap_or(body) as f64 - 1.0
             }
         };
-        layer * (spec.thickness + spec.gap)
+        spec.height_of(layer)
     }
 
     /// Thickness of a body's plate, mm.

@@ -64,10 +64,7 @@ impl Composed {
         passing.iter().all(|part| {
             let mut before: Option<(Point, f64)> = None;
             inputs.iter().all(|&input| {
-                let axis = self.place(own.0, own.1, input);
-                let origin = self.place(part.body, Point::origin(), input);
-                let turn = Rotation2::new(-self.angle(part.body, input).position);
-                let at = Point::from(turn * (axis - origin));
+                let at = self.seen_from(part.body, own, input);
                 let near = part.distance(at);
                 // Between two steps it comes nearer by no more than half the way.
                 let way = before.map_or(0.0, |(last, _)| (at - last).norm());
@@ -76,6 +73,15 @@ impl Composed {
                 nearest > least
             })
         })
+    }
+
+    /// Place of a point of a body in the axes of another, mm.
+    #[must_use]
+    pub fn seen_from(&self, body: usize, (own, at): (usize, Point), input: f64) -> Point {
+        let at = self.place(own, at, input);
+        let origin = self.place(body, Point::origin(), input);
+        let turn = Rotation2::new(-self.angle(body, input).position);
+        Point::from(turn * (at - origin))
     }
 
     /// Plates, gears, cams and rollers that reach between two heights.
