@@ -26,7 +26,7 @@ from OCP.TopExp import TopExp_Explorer
 from OCP.TopoDS import TopoDS
 from reading import texts
 from shapely import STRtree
-from shapely.affinity import rotate
+from shapely.affinity import rotate, translate
 from shapely.geometry import LineString, Point, Polygon, box
 
 TEMPLATES = ("gear-pair", "three-arm", "spiral-shaft", "moving-box", "feeder", "machine")
@@ -40,7 +40,7 @@ THREAD = re.compile(rf"^(?:[^:]+: )?M({NUMBER})-6H (through|\u00d7 ({NUMBER}) fr
 DRILLS = {1.6: 1.25, 2: 1.6, 2.5: 2.05, 3: 2.5, 4: 3.3, 5: 4.2, 6: 5, 8: 6.8, 10: 8.5, 12: 10.2}
 PLACE = re.compile(rf"^at ({NUMBER}), ({NUMBER})")
 KEYWAY = re.compile(rf"^keyway ({NUMBER})")
-KEYED = re.compile(rf"^Ø \+ depth ({NUMBER}) \(\+0\.100 / 0\), at {NUMBER}°$")
+KEYED = re.compile(rf"^Ø \+ depth ({NUMBER}) \(\+0\.100 / 0\), at {NUMBER}°(?: ±{NUMBER}°)?$")
 # A length, or a diameter of a round plate with the class of a shaft.
 SIZE = re.compile(rf"^Ø?({NUMBER})(?: [a-z]+\d+ \(.*\))?$")
 ENDS = re.compile(rf"^R({NUMBER}) about ({NUMBER}), ({NUMBER}) and ({NUMBER}), ({NUMBER})$")
@@ -100,10 +100,11 @@ GIVEN = {
     "Stand": "it stands on what is around the machine",
     "Sleeve of a cam": "how it is fixed to the front plate is open",
     "Hub of an arm": "how it is fixed to the front cover is open",
+    "Seat of a clamp": "how it holds the flakes and is fixed in the wall is open",
     "Bracket of .+": "it stands on what is around the shaft that goes through",
 }
-# What each must fit: a shaft or a bore by size and class.
-FITTED = re.compile(r"Ø[\d.]+ [a-zA-Z]+\d+")
+# What each must fit: a shaft or a bore by size and class, or how far apart what it holds lies.
+FITTED = re.compile(r"Ø[\d.]+ [a-zA-Z]+\d+|two flakes [\d.]+ apart")
 
 
 @pytest.mark.parametrize("name", [*DESIGNS, *TEMPLATES])
@@ -357,9 +358,23 @@ def plates_made_from_their_sheets(folder):
 
 
 def inked(page):
-    """Rectangles around the ink of each line of words on a page, mm, as PDFium draws it."""
+    """Rectangles around the ink of each line of words on a page, mm, as PDFium draws it, turned as the words are."""
     for text in page.get_objects(filter=[pypdfium2.raw.FPDF_PAGEOBJ_TEXT]):
-        yield box(*(side * 25.4 / 72 for side in text.get_bounds()))
+        bounds = box(*(side * 25.4 / 72 for side in text.get_bounds()))
+        matrix = text.get_matrix()
+        turn = math.atan2(matrix.b, matrix.a)
+        sine, cosine = abs(math.sin(turn)), abs(math.cos(turn))
+        if min(sine, cosine) < 1e-6 or abs(cosine - sine) < 0.2:
+            yield bounds
+            continue
+        # What PDFium tells stands upright about the turned rectangle: wide = w cos + h sin, high = w sin + h cos.
+        left, low, right, top = bounds.bounds
+        wide, high = right - left, top - low
+        share = cosine**2 - sine**2
+        half = [(wide * cosine - high * sine) / share / 2, (high * cosine - wide * sine) / share / 2]
+        upright = box(-half[0], -half[1], half[0], half[1])
+        turned = rotate(upright, turn, origin=(0, 0), use_radians=True)
+        yield translate(turned, (left + right) / 2, (low + top) / 2)
 
 
 def corners(page):
@@ -443,7 +458,7 @@ def test_no_line_runs_through_words(name, drawn):
 KEY_WIDTH = re.compile(rf"^({NUMBER}) (?:JS|N|P|D)\d+ \(")
 KEY_DEPTH = re.compile(rf"^({NUMBER}) \(\+0\.[12]00 / 0\)$")
 KEY_ANGLE = re.compile(rf"^Keyway at polar angle ({NUMBER})°")
-KEY_LINE = re.compile(rf"^Ø \+ depth ({NUMBER}) \(\+0\.[12]00 / 0\), at ({NUMBER})°$")
+KEY_LINE = re.compile(rf"^Ø \+ depth ({NUMBER}) \(\+0\.[12]00 / 0\), at ({NUMBER})°(?: ±{NUMBER}°)?$")
 
 
 def told_points(folder, texts):

@@ -1,12 +1,10 @@
-use std::sync::Arc;
-
 use centrode_geometry::Outline;
-use centrode_mechanism::composed::{Composed, ComposedGear, PinHole};
+use centrode_mechanism::composed::{Composed, PinHole};
 use centrode_mechanism::machine::Machine;
 
 use super::plates;
 use crate::gear_pair::{self, Label};
-use crate::plate::{Hole, Plate};
+use crate::plate::{Hole, Plate, hold_apart};
 use crate::sheet::{capital, fit, number};
 use crate::{ExportError, Package, cam, turned};
 
@@ -35,7 +33,7 @@ pub(super) fn add(
         let label = Label {
             name: &gear.name,
             title: &capital(&gear.name),
-            mate: &mates(composed, gear),
+            mate: &mates(composed, &gear.name),
             machine: package.design(),
             drawing,
             quantity: quantity(&gear.name),
@@ -77,6 +75,12 @@ fn plate(composed: &Composed, machine: &Machine, body: usize, quantity: usize) -
     let name = &composed.bodies()[body].name;
     let [guide, block] = Composed::GUIDE_FIT;
     let guided = composed.guided(body);
+    let mut holes: Vec<Hole> = solid.holes().iter().zip(pins).map(hole).collect();
+    for pair in composed.carried_pairs(body) {
+        if let Some(off) = gear_pair::half_play(pair, pair.backlash()) {
+            hold_apart(&mut holes, pair.center_distance(), off);
+        }
+    }
     let axes = "x and y are the body's axes in the design.".to_owned();
     let slides = guided.map(|height| {
         let guide = fit::keyway(height, guide);
@@ -87,7 +91,7 @@ fn plate(composed: &Composed, machine: &Machine, body: usize, quantity: usize) -
         title: capital(name),
         quantity,
         outline: solid.outline().clone(),
-        holes: solid.holes().iter().zip(pins).map(hole).collect(),
+        holes,
         opening: None,
         thickness: composed.thickness(body),
         material: spec.material.clone(),
@@ -101,14 +105,10 @@ fn plate(composed: &Composed, machine: &Machine, body: usize, quantity: usize) -
     })
 }
 
-/// Names of the gears of a pair's other member.
-fn mates(composed: &Composed, gear: &ComposedGear) -> String {
-    let gears = composed.gears().iter();
-    let of_pair = gears.filter(|other| Arc::ptr_eq(&other.pair, &gear.pair));
-    let others = of_pair.filter(|other| other.member != gear.member);
-    let originals = others.map(|other| composed.original(&other.name));
-    let mut names: Vec<&str> = originals.collect();
-    names.sort_unstable();
+/// Names of the gears that a gear meshes with; copies have those of their originals.
+fn mates(composed: &Composed, gear: &str) -> String {
+    let mates = composed.mates(gear).into_iter();
+    let mut names: Vec<&str> = mates.map(|mate| composed.original(&mate.name)).collect();
     names.dedup();
     names.join(" and ")
 }

@@ -6,6 +6,7 @@ use centrode_mechanism::machine::{
     self, Axis, Blank, Datum, Dimension, Fit, Form, Line, LineRole, Machine,
 };
 
+use super::gears::TITLES;
 use super::plates::spacer;
 use crate::sheet::number;
 use crate::turned;
@@ -170,7 +171,7 @@ fn gears(feeder: &Feeder, machine: &mut Machine) {
     let (driver, driven) = (spec.driver_pitches, spec.driven_pitches);
     let seen = Some(("driver", driver));
     add(
-        "intermittent gear",
+        TITLES[0],
         vec![own.unwrap_or(0)],
         "gear-driver",
         bored(driver),
@@ -178,7 +179,7 @@ fn gears(feeder: &Feeder, machine: &mut Machine) {
     );
     let seen = Some(("driven gear", driven));
     add(
-        "gear on the crank",
+        TITLES[1],
         vec![mate.unwrap_or(crank)],
         "gear-driven",
         bored(driven),
@@ -187,8 +188,8 @@ fn gears(feeder: &Feeder, machine: &mut Machine) {
     if feeder.has_cams() {
         let beside = "beside the intermittent gear";
         for (name, link, file) in [
-            ("entry cam", entry, "gear-entry-cam"),
-            ("exit cam", exit, "gear-exit-cam"),
+            (TITLES[2], entry, "gear-entry-cam"),
+            (TITLES[3], exit, "gear-exit-cam"),
         ] {
             add(name, vec![link.unwrap_or(0)], file, beside.into(), None);
         }

@@ -9,8 +9,17 @@ use crate::csv::Column;
 use crate::drawing::{Anchor, CENTER, Color, Drawing, EntityShape, HOLE, LineType, PROFILE};
 use crate::gear_pair::{by_thickness, measured, over_pins, tooth_runout};
 use crate::plate::{Exactness, Hole, Plate};
-use crate::sheet::{Table, broken, capital, number};
+use crate::sheet::{Table, broken, capital, fit, number};
 
+/// Names of gears and cams in lists and titles, in the order of [`GearBody::NAMES`].
+pub(super) const TITLES: [&str; 4] = [
+    "intermittent gear",
+    "gear on the crank",
+    "entry cam",
+    "exit cam",
+];
+
+/// Layer of cams.
 const CAM: &str = "CAM";
 /// Share of a radius by which arcs fitted to a contour may differ from the circle that it follows.
 const FITTED: f64 = 1e-3;
@@ -23,7 +32,7 @@ pub(super) fn parts(feeder: &Feeder, gears: &IntermittentPair, tolerance: Tolera
         let name = body.name;
         let is_cam = body.is_cam();
         let mut part = Plate::of_body(
-            [name, &capital(name)],
+            [name, &capital(title(name))],
             body.outline,
             body.bore,
             driver.body(),
@@ -63,9 +72,14 @@ pub(super) fn parts(feeder: &Feeder, gears: &IntermittentPair, tolerance: Tolera
             .zip(&pins.pins)
             .find_map(|(k, pin)| Some((k, pin.ok()?.center)));
         if let Some((space, at)) = measured {
-            let angle = number(at.y.atan2(at.x).to_degrees(), 4);
+            let angle = at.y.atan2(at.x);
+            let body = pair.gear(member).body();
+            let angle = match body.keyway {
+                Some(key) => fit::keyway_angle(angle, body.bore, key.width),
+                None => format!("{}°", number(angle.to_degrees(), 4)),
+            };
             part.notes.push(format!(
-                "Timing: middle of space {space}, marked, at {angle}° from the keyway."
+                "Timing: middle of space {space}, centre-punched, at {angle} from the keyway."
             ));
             let below = at.coords.norm() - 2.0 * pair.module();
             part.marks.push(Point::from(at.coords.normalize() * below));
@@ -109,6 +123,12 @@ fn locked(outline: &Outline, radius: f64) -> Option<Vec<String>> {
         &format!("{first}° to {last}°"),
     ];
     Some(row.map(String::from).to_vec())
+}
+
+/// Name of a gear or cam in lists and titles, by that of its files.
+fn title(file: &str) -> &str {
+    let at = GearBody::NAMES.iter().position(|name| *name == file);
+    at.map_or(file, |at| TITLES[at])
 }
 
 /// The data of a gear.

@@ -48,6 +48,15 @@ impl Gauge {
         self.of(slope.hypot(form))
     }
 
+    /// The gear, or the least that the standard knows where it is smaller: its tolerances hardly fall from there.
+    fn at_least_five_teeth(self) -> Self {
+        let least = (5.0 * self.module).max(5.0);
+        Self {
+            diameter: self.diameter.max(least),
+            ..self
+        }
+    }
+
     /// Whether the standard's formulas hold for the gear with teeth of a face width, mm.
     fn is_told(self, width: f64) -> bool {
         let teeth = self.diameter / self.module;
@@ -92,7 +101,9 @@ pub(crate) fn flank_tolerances(pair: &GearPair, member: Member) -> Vec<Datum> {
     };
     let mut data = vec![Datum::new("Flank tolerance class, ISO 1328-1", "A", class)];
     let width = gear.body().width;
-    let mut say = |gauge: Gauge, name: &str, rows: &[(&str, &str, f64)]| {
+    let bent = local.diameter;
+    let local = local.at_least_five_teeth();
+    let mut say = |gauge: Gauge, bent: f64, name: &str, rows: &[(&str, &str, f64)]| {
         if !gauge.is_told(width) {
             let size = number(gauge.diameter, 2);
             let words = format!("equivalent gear of d = {size} beyond ISO 1328-1");
@@ -101,6 +112,13 @@ pub(crate) fn flank_tolerances(pair: &GearPair, member: Member) -> Vec<Datum> {
         }
         let place = format!("equivalent gear of d = {}", number(gauge.diameter, 2));
         data.push(Datum::new(name, "", place));
+        if bent < gauge.diameter {
+            let words = format!(
+                "bends as d = {}, below that standard's least",
+                number(bent, 2)
+            );
+            data.push(Datum::new("", "", words));
+        }
         let row = |(name, symbol, um): &(&str, &str, f64)| {
             Datum::new(name, symbol, number(um / 1000.0, 4))
         };
@@ -108,6 +126,7 @@ pub(crate) fn flank_tolerances(pair: &GearPair, member: Member) -> Vec<Datum> {
     };
     say(
         local,
+        bent,
         "Where the pitch curve bends most",
         &[
             ("Single pitch, either way", "fpT", local.single_pitch()),
@@ -116,6 +135,7 @@ pub(crate) fn flank_tolerances(pair: &GearPair, member: Member) -> Vec<Datum> {
     );
     say(
         whole,
+        whole.diameter,
         "All round, by the number of teeth",
         &[
             ("Total pitch", "FpT", whole.total_pitch()),
@@ -152,5 +172,22 @@ mod tests {
         // Class 1 is a quarter of class 5: 1.58, 5.09, 2.13, 4.58.
         assert_eq!(found(gauge(1)), [1.6, 5.0, 2.1, 4.6]);
         assert!(gauge(11).is_told(10.0) && !gauge(12).is_told(10.0) && !gauge(8).is_told(3.0));
+    }
+
+    #[test]
+    fn a_bend_of_less_than_five_teeth_is_told_by_the_least_gear_of_the_standard() {
+        let gauge = |diameter| Gauge {
+            diameter,
+            module: 3.0,
+            class: 8,
+        };
+        let least = gauge(4.8).at_least_five_teeth();
+        assert!(!gauge(4.8).is_told(10.0) && least.is_told(10.0));
+        assert_eq!(
+            (least.diameter, gauge(90.0).at_least_five_teeth().diameter),
+            (15.0, 90.0)
+        );
+        // What it is wider by is far below what the standard rounds to.
+        assert_eq!(least.single_pitch(), gauge(4.8).single_pitch());
     }
 }

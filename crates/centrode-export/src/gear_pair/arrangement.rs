@@ -2,6 +2,7 @@ use centrode_mechanism::gear::design::BodySpec;
 use centrode_mechanism::gear::{Gear, GearPair, Member};
 use centrode_mechanism::machine::{Blank, Callout, Datum, Fit, Key, Machine, Part, Supply};
 
+use crate::sheet::geometrical::grade;
 use crate::sheet::{fit, number, range};
 
 /// Material of keys; their mass is that of the shaft's link, which is the customer's.
@@ -148,7 +149,7 @@ fn data(pair: &GearPair) -> Vec<Datum> {
         Datum::new("Pressure angle", "α", format!("{}°", number(degrees, 4))),
         Datum::new("Driver's pitch curve", "", pair.definition()),
     ];
-    data.extend(of_both(pair));
+    data.extend(of_both(pair, None));
     let radius = number(pair.rolling().radius(0.0), 6);
     data.push(Datum::new("Pitch point at φ = 0, from driver", "r", radius));
     data.push(Datum::new(
@@ -160,15 +161,40 @@ fn data(pair: &GearPair) -> Vec<Datum> {
 }
 
 /// Data that both gears have in common.
-pub(crate) fn of_both(pair: &GearPair) -> Vec<Datum> {
+pub(crate) fn of_both(pair: &GearPair, of: Option<Member>) -> Vec<Datum> {
     let (driver, driven) = pair.mean_ratio();
     let a = pair.center_distance();
     let (least, greatest) = pair.rolling().radii(Member::Driver);
     let ratios = [least / (a - least), greatest / (a - greatest)];
-    let turns = format!("{driver}:{driven}");
+    // In a machine of several meshes either gear may move the other.
+    let (mean, ratio, turns, ratios) = match of {
+        None => (
+            "driver : driven",
+            "driven : driver",
+            [driver, driven],
+            ratios,
+        ),
+        Some(Member::Driver) => (
+            "this gear : mate",
+            "mate : this gear",
+            [driver, driven],
+            ratios,
+        ),
+        Some(Member::Driven) => {
+            let [least, greatest] = ratios.map(f64::recip);
+            let turns = [driven, driver];
+            (
+                "this gear : mate",
+                "mate : this gear",
+                turns,
+                [greatest, least],
+            )
+        }
+    };
+    let turns = format!("{}:{}", turns[0], turns[1]);
     let mut data = vec![
-        Datum::new("Mean ratio, turns driver : driven", "", turns),
-        Datum::new("Ratio, driven : driver speed", "i", range(ratios, 6)),
+        Datum::new(&format!("Mean ratio, turns {mean}"), "", turns),
+        Datum::new(&format!("Ratio, {ratio} speed"), "i", range(ratios, 6)),
         Datum::new("Centre distance", "a", number(a, 6)),
         Datum::new(
             "Backlash, as designed, normal",
@@ -180,37 +206,53 @@ pub(crate) fn of_both(pair: &GearPair) -> Vec<Datum> {
     data
 }
 
+/// Half of what a pair with a normal backlash, mm, lets its centre distance be shorter, mm; none without backlash.
+pub(crate) fn half_play(pair: &GearPair, backlash: f64) -> Option<f64> {
+    let [least, _] = backlash_limits(pair, backlash);
+    (least > 0.0).then(|| 0.5 * shorter(pair, least))
+}
+
+/// How much shorter a backlash lets the centre distance be, mm.
+fn shorter(pair: &GearPair, backlash: f64) -> f64 {
+    // Nowhere takes a shorter distance more backlash than twice its share across a flank where the pitch curves are square to
+    // the line of centres.
+    backlash / (2.0 * pair.teeth().tool.pressure_angle.sin())
+}
+
+/// Least and greatest normal backlash by the deviations of tooth thickness, mm.
+fn backlash_limits(pair: &GearPair, backlash: f64) -> [f64; 2] {
+    let cos = pair.teeth().tool.pressure_angle.cos();
+    // Both gears are thinner, each by its own deviation.
+    [0, 1].map(|end| {
+        let told = [Member::Driver, Member::Driven].map(|member| pair.thickness_deviations(member));
+        let of_both = told.iter().flatten().map(|told| told.limits[end]);
+        backlash - of_both.sum::<f64>() * cos
+    })
+}
+
 /// Centre distance by the normal backlash of a pair, mm, and what the deviations of tooth thickness leave of it.
 pub(crate) fn by_thickness(pair: &GearPair, backlash: f64) -> Vec<Datum> {
     let (a, mut data) = (pair.center_distance(), Vec::new());
-    let (sin, cos) = pair.teeth().tool.pressure_angle.sin_cos();
-    let told = [Member::Driver, Member::Driven].map(|member| pair.thickness_deviations(member));
-    // Both gears are thinner, each by its own deviation.
-    let thinner = |end: usize| {
-        let of_both = told.iter().flatten().map(|told| told.limits[end]);
-        backlash - of_both.sum::<f64>() * cos
-    };
-    let backlash = [thinner(0), thinner(1)];
-    // Nowhere takes a shorter distance more backlash than twice its share across a flank where the pitch curves are square to
-    // the line of centres.
-    let shorter = backlash[0] / (2.0 * sin);
-    if shorter > 0.0 {
-        let within = format!("{} ±{}", number(a, 4), number(0.5 * shorter, 3));
-        data.push(Datum::new(
-            "Centre distance, by half the backlash",
-            "a",
-            within,
-        ));
+    if let Some(half) = half_play(pair, backlash) {
+        let within = format!("{} ±{}", number(a, 4), number(half, 3));
+        let name = "Centre distance, by half the backlash";
+        data.push(Datum::new(name, "a", within));
+    } else if let Some(width) = grade(a, "H8") {
+        let within = format!("{} +{} / 0", number(a, 4), number(width, 3));
+        let name = "Centre distance, no backlash to give";
+        data.push(Datum::new(name, "a", within));
     }
+    let told = [Member::Driver, Member::Driven].map(|member| pair.thickness_deviations(member));
     if told == [None; 2] {
         return data;
     }
+    let limits = backlash_limits(pair, backlash);
     data.extend([
-        Datum::new("Backlash by thickness, normal", "jn", range(backlash, 4)),
+        Datum::new("Backlash by thickness, normal", "jn", range(limits, 4)),
         Datum::new(
             "Centre distance, least by backlash",
             "a",
-            number(a - shorter, 4),
+            number(a - shorter(pair, limits[0]), 4),
         ),
     ]);
     data

@@ -344,3 +344,52 @@ fn kept_solids_stand_in_the_place_of_their_step_files() {
     let exact = solid(&pair, Member::Driven).expect("a solid");
     assert_eq!(bundle.into_solids(), [("driven".to_owned(), exact)]);
 }
+
+#[test]
+fn ratios_of_a_gear_of_a_machine_are_those_of_itself_and_its_mate() {
+    let pair = elliptic();
+    let told = |of| {
+        let data = of_both(&pair, of);
+        let find = |name: &str| data.iter().find(|datum| datum.name.starts_with(name));
+        let ratio = find("Ratio").expect("a ratio");
+        (ratio.name.clone(), ratio.value.clone())
+    };
+    let ([name, value], [own, other]) = (
+        <[String; 2]>::from(told(None)),
+        <[String; 2]>::from(told(Some(Member::Driver))),
+    );
+    assert_eq!(
+        (name.as_str(), own.as_str()),
+        (
+            "Ratio, driven : driver speed",
+            "Ratio, mate : this gear speed"
+        )
+    );
+    assert_eq!(value, other);
+    // r / (a - r) of an ellipse turns over into itself.
+    assert_eq!(told(Some(Member::Driven)).1, value);
+    let mut design = GearPairDesign::new(PitchSpec::Circle(Circle {
+        module: Some(2.0),
+        tooth_count: Some(20),
+        ..Circle::default()
+    }));
+    design.mean_ratio = [2, 1];
+    let pair = GearPair::resolve(&design).expect("a sound pair");
+    let turns = |of| of_both(&pair, of)[0].value.clone();
+    assert_eq!(
+        [turns(Some(Member::Driver)), turns(Some(Member::Driven))],
+        ["2:1", "1:2"]
+    );
+}
+
+#[test]
+fn a_centre_distance_without_backlash_may_only_be_longer() {
+    let pair = circular();
+    let data = by_thickness(&pair, 0.0);
+    // IT8 of 30 to 50 mm is 39 um.
+    assert_eq!(data[0].value, "40 +0.039 / 0");
+    assert_eq!(half_play(&pair, 0.0), None);
+    let half = half_play(&pair, 0.1).expect("some play");
+    let sine = 20_f64.to_radians().sin();
+    assert!((half - 0.1 / (4.0 * sine)).abs() < 1e-12);
+}

@@ -51,6 +51,8 @@ impl Plate {
         let beside = p(left + thick + 9.0, low);
         let round = self.round().or(blank.map(|(_, diameter)| diameter));
         let words = match round {
+            // Tips are laid within the tolerance of files: no finer figure is meant.
+            Some(diameter) if blank.is_some() => format!("Ø{}", number(diameter, PLACES)),
             Some(diameter) => fit::bore(diameter, &self.classes[0]),
             None => fit::keyway(max.y - min.y, &self.classes[0]),
         };

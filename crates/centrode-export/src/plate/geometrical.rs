@@ -32,7 +32,8 @@ impl Plate {
                 Some(other) if other != index => format!("{one} {two}"),
                 _ => one.to_string(),
             };
-            let position = Frame::position(distance, self.holes[index].off, &datums);
+            let Hole { off, apart, .. } = self.holes[index];
+            let position = Frame::position(distance, off, apart, &datums);
             frames[index].extend(position);
         }
         for (index, hole) in self.holes.iter().enumerate() {

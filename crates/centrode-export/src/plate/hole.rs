@@ -19,6 +19,9 @@ pub(crate) struct Hole {
     pub(crate) fit: String,
     /// How far its place may be off either way, mm; 0 where general tolerances hold.
     pub(crate) off: f64,
+    /// How far its distance from another hole of the plate may be off either way, mm: that of two gears in mesh. None where
+    /// nothing asks for it.
+    pub(crate) apart: Option<f64>,
     /// Whether it is the seat of a shaft.
     pub(crate) is_seat: bool,
     /// Width of its keyway, mm; 0 without one.
@@ -89,14 +92,27 @@ impl Hole {
         };
         if let Some(key) = body.keyway {
             bore.keyed = key.width;
-            let angle = number(body.keyway_angle.to_degrees(), 4);
+            let angle = fit::keyway_angle(body.keyway_angle, body.bore, key.width);
             bore.notes = vec![
                 fit::bore(body.bore, &body.bore_fit),
                 format!("keyway {}", fit::keyway(key.width, &body.keyway_fit)),
-                format!("Ø + depth {}, at {angle}°", fit::hub_depth(body.bore, key)),
+                format!("Ø + depth {}, at {angle}", fit::hub_depth(body.bore, key)),
             ];
         }
         bore
+    }
+}
+
+/// Holds holes that are the centre distance of gears in mesh apart, mm, to how far it may be off either way.
+pub(crate) fn hold_apart(holes: &mut [Hole], distance: f64, off: f64) {
+    const NEAR: f64 = 1e-6;
+    let axes: Vec<Option<Point>> = holes.iter().map(Hole::axis).collect();
+    let apart = |at: Point| move |other: Point| ((other - at).norm() - distance).abs() < NEAR;
+    for (hole, at) in holes.iter_mut().zip(&axes) {
+        let meets = at.is_some_and(|at| axes.iter().flatten().copied().any(apart(at)));
+        if meets {
+            hole.apart = Some(hole.apart.map_or(off, |known| known.min(off)));
+        }
     }
 }
 
@@ -107,6 +123,7 @@ impl From<Outline> for Hole {
             label: String::new(),
             fit: String::new(),
             off: 0.0,
+            apart: None,
             is_seat: false,
             keyed: 0.0,
             notes: Vec::new(),
@@ -242,5 +259,23 @@ mod tests {
         let corners = [p(0.0, 0.0), p(1.0, 0.0), p(0.0, 1.0)];
         let free = Hole::from(Outline::polygon(&corners));
         assert_eq!((free.kind(), free.size()), (HoleKind::Free, String::new()));
+    }
+
+    #[test]
+    fn holes_of_gears_in_mesh_are_held_to_what_their_distance_may_be_off() {
+        let at = [(0.0, 0.0), (40.0, 0.0), (40.0, 30.0)];
+        let hole = |(x, y)| Hole::from(Outline::circle(Point::new(x, y), 3.0));
+        let mut holes = at.map(hole);
+        hold_apart(&mut holes, 40.0, 0.03);
+        assert_eq!(
+            holes.each_ref().map(|hole| hole.apart),
+            [Some(0.03), Some(0.03), None]
+        );
+        // Of two pairs the closer one holds.
+        hold_apart(&mut holes, 30.0, 0.02);
+        assert_eq!(
+            holes.map(|hole| hole.apart),
+            [Some(0.03), Some(0.02), Some(0.02)]
+        );
     }
 }

@@ -18,7 +18,7 @@ use crate::drawing::{CENTER, Drawing, EntityShape, HOLE, PROFILE};
 use crate::dxf::Curves;
 use crate::sheet::{Table, mass};
 use crate::{ExportError, Package};
-pub(crate) use hole::Hole;
+pub(crate) use hole::{Hole, hold_apart};
 use hole::{HoleKind, ScrewHole};
 
 /// A part of one thickness.

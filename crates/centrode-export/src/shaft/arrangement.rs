@@ -45,7 +45,7 @@ pub(super) fn tell(parts: &Machine<'_>, machine: &mut Linked) -> Result<(), Expo
     if let Some(gears) = &parts.gears {
         told.notes
             .push("Gears on the near end, seen along the shaft, drawn left of it.".into());
-        told.data.extend(gear_pair::of_both(&gears.pair));
+        told.data.extend(gear_pair::of_both(&gears.pair, None));
     }
     let ([low, high], (first, last)) = (solid.ends(), shaft.traverse().reach());
     let around = -TAU * shaft.groove().radius();

@@ -3,6 +3,7 @@
 use centrode_mechanism::gear::design::Keyway;
 use centrode_mechanism::machine::{Fit, limits_of_size};
 
+use super::geometrical::{SYMMETRY, grade};
 use super::number;
 
 /// Tolerance class of the width of a keyway in a shaft, ISO 286.
@@ -16,6 +17,16 @@ pub(crate) fn bore(diameter: f64, class: &str) -> String {
 /// Width of a keyway, of a slot or of what runs in it as written on a drawing.
 pub(crate) fn keyway(width: f64, class: &str) -> String {
     fitted(&number(width, 3), width, class)
+}
+
+/// Polar angle of a keyway in a bore, rad, in degrees with what its symmetry lets it turn about the middle.
+pub(crate) fn keyway_angle(angle: f64, bore: f64, width: f64) -> String {
+    let told = number(angle.to_degrees(), 4);
+    let off = grade(width, SYMMETRY).map(|zone| (zone / bore).to_degrees());
+    match off.map(|off| (off * 1e2).floor() / 1e2) {
+        Some(off) if off > 0.0 => format!("{told}° ±{}°", number(off, 2)),
+        _ => format!("{told}°"),
+    }
 }
 
 /// Diameter and depth of a keyway in a hub as written on a drawing.

@@ -102,11 +102,18 @@ impl Frame {
 
     /// Position of an axis at a distance from its datum: within the eighth grade of that distance, or twice what it may be off
     /// either way. None beyond the grades of ISO 286-1.
-    pub(crate) fn position(distance: f64, off: f64, datums: &str) -> Option<Self> {
+    pub(crate) fn position(
+        distance: f64,
+        off: f64,
+        apart: Option<f64>,
+        datums: &str,
+    ) -> Option<Self> {
         let width = match off > 0.0 {
             true => 2.0 * off,
             false => grade(distance, "H8")?,
         };
+        // Two holes that each are off by half of it are so far off their distance.
+        let width = apart.map_or(width, |apart| width.min((apart * 1e3).floor() / 1e3));
         let value = format!("Ø{}", number(width, 3));
         Some(Self::new(Characteristic::Position, value, datums))
     }
@@ -120,7 +127,7 @@ impl Frame {
 
     /// Symmetry of a keyway of a width: within the ninth grade of that, as the width itself. None beyond the grades of ISO 286-1.
     pub(crate) fn symmetry(width: f64, datums: &str) -> Option<Self> {
-        let value = number(grade(width, "H9")?, 3);
+        let value = number(grade(width, SYMMETRY)?, 3);
         Some(Self::new(Characteristic::Symmetry, value, datums))
     }
 
@@ -169,8 +176,11 @@ impl fmt::Display for Frame {
     }
 }
 
+/// Class whose width is the symmetry of a keyway, by the width of that.
+pub(crate) const SYMMETRY: &str = "H9";
+
 /// Width of a tolerance grade for a size, mm, ISO 286-1, by a class of holes of that grade.
-fn grade(size: f64, class: &str) -> Option<f64> {
+pub(crate) fn grade(size: f64, class: &str) -> Option<f64> {
     limits_of_size(size, class).map(|[low, high]| high - low)
 }
 
@@ -264,10 +274,15 @@ mod tests {
     #[test]
     fn values_are_grades_of_iso_286_and_frames_have_words() {
         // IT8 of 50 to 80 mm is 46 um, IT7 of 80 to 120 mm 35 um.
-        let position = Frame::position(60.0, 0.0, "A B").expect("a grade");
+        let position = Frame::position(60.0, 0.0, None, "A B").expect("a grade");
         assert_eq!(position.to_string(), "position Ø0.046 A B");
-        let off = Frame::position(60.0, 0.02, "A").expect("a grade");
+        let off = Frame::position(60.0, 0.02, None, "A").expect("a grade");
         assert_eq!(off.to_string(), "position Ø0.04 A");
+        // Two holes each off by half of it are so much off their distance, rounded down.
+        let meshing = Frame::position(60.0, 0.0, Some(0.0379), "A").expect("a grade");
+        assert_eq!(meshing.to_string(), "position Ø0.037 A");
+        let wide = Frame::position(60.0, 0.0, Some(0.2), "A").expect("a grade");
+        assert_eq!(wide.to_string(), "position Ø0.046 A");
         let runout = Frame::runout(100.0, "A").expect("a grade");
         assert_eq!(runout.to_string(), "runout 0.035 A");
         // IT8 of 30 to 50 mm is 39 um.
@@ -290,7 +305,7 @@ mod tests {
     fn a_frame_is_as_wide_as_its_line_says() {
         for frame in [
             Frame::runout(30.0, "A"),
-            Frame::position(30.0, 0.0, "A B"),
+            Frame::position(30.0, 0.0, None, "A B"),
             Frame::profile(30.0, "A"),
             Frame::symmetry(5.0, "A"),
             Some(Frame::datum('B')),

@@ -65,6 +65,7 @@ fn given(parts: &Machine<'_>, machine: &mut machine::Machine) {
         false => String::new(),
     };
     let inside = number(design.planet.bore, 4);
+    let apart = number(parts.mechanism.arm_sizes().clamp.opening, 3);
     let links = |part| links(part, parts.mechanism.arms(), machine);
     let base = machine.link_named("base").into_iter().collect();
     let all = [
@@ -87,6 +88,13 @@ fn given(parts: &Machine<'_>, machine: &mut machine::Machine) {
             links(ThreeArmPart::CoverFront),
             on_shaft(&design.planet).map(|shaft| {
                 format!("on the planet's shaft, {shaft}, {of_hub} long from the front plate{in_cover}, fixed to both")
+            }),
+        ),
+        (
+            "Seat of a clamp",
+            links(ThreeArmPart::CoverFront),
+            parts.of_arm("flake-left").map(|_| {
+                format!("holds the roots of two flakes {apart} apart in the housing's front wall, which it goes through")
             }),
         ),
     ];

@@ -6,7 +6,8 @@ use centrode_mechanism::three_arm::making::{self, LIGHT, PRESSED, RINGS, SLIDING
 use centrode_mechanism::three_arm::{GearboxBody, Pusher, ThreeArm};
 
 use super::ThreeArmPart;
-use crate::plate::{Exactness, Hole, Plate};
+use crate::gear_pair::half_play;
+use crate::plate::{Exactness, Hole, Plate, hold_apart};
 use crate::sheet::{fit, number};
 use crate::{ExportError, cam};
 
@@ -262,6 +263,11 @@ impl<'a> Machine<'a> {
                 false => BEARING,
             };
             hole.fit = class.into();
+        }
+        if let Some((pair, _)) = self.gear(ThreeArmPart::Sun)
+            && let Some(off) = half_play(pair, pair.backlash())
+        {
+            hold_apart(&mut plate.holes, pair.center_distance(), off);
         }
         plate
     }

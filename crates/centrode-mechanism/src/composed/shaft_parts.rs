@@ -3,7 +3,7 @@
 use super::shafts::ROUNDING;
 use super::{Composed, ComposedShaft, Hold, ShaftPart};
 use crate::digits::thousandths;
-use crate::gear::design::BodySpec;
+use crate::gear::design::{BodySpec, Keyway};
 use crate::machine::{
     Bar, Fit, JointKind, Machine, Part, SeatedKey, Supply, TurnedPiece, TurnedPieces,
 };
@@ -185,12 +185,20 @@ impl Composed {
             };
             let inside = thousandths(shaft.hub.bore);
             let bore = thousandths(hub.bore);
+            let kept = match hub.keyway.map(Keyway::of_shaft) {
+                Some(key) => format!(
+                    "keyway {} x {}",
+                    thousandths(key.width),
+                    thousandths(key.depth)
+                ),
+                None => "kept from turning".into(),
+            };
             machine.part(Part {
                 name,
                 links: link.into_iter().collect(),
                 supply: Supply::Given,
                 remark: format!(
-                    "holds it on {}: Ø{bore} {} in its bore, clear of Ø{inside} inside",
+                    "holds it on {}: Ø{bore} {} in its bore, {kept}, clear of Ø{inside} inside",
                     self.original(body),
                     hub.shaft_fit
                 ),

@@ -130,7 +130,7 @@ fn notes(part: &SheetGear<'_>, k: f64) -> Vec<(Point, Vec<NoteLine>)> {
         mate.into(),
     ];
     let tooth = part.middle(0, 0.0);
-    let name = format!("tooth 0, marked, at {:.3}°", degrees(tooth.point));
+    let name = format!("tooth 0, centre-punched, at {:.3}°", degrees(tooth.point));
     if (tooth.point - start).norm() * k < 4.0 {
         words.insert(1, name.into());
     } else {

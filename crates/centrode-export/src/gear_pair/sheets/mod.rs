@@ -12,7 +12,7 @@ use crate::{
     package::title_or_name,
     sheet::{
         Corner, Draft, Scale, Sheet, SheetBlock, SheetError, TitleBlock, compose, fit, mass,
-        number, view_letters,
+        view_letters,
     },
 };
 use centrode_geometry::Tolerance;
@@ -21,8 +21,8 @@ use centrode_mechanism::{
     gear::{GearPair, Member, OverPins, design::Keyway},
     machine::Fit,
 };
-use part::SheetGear;
 pub(super) use part::middle;
+use part::{Likeness, SheetGear, likeness};
 pub(crate) use tables::{measured, over_pins};
 
 /// Subject of a sheet.
@@ -199,11 +199,9 @@ fn notes(part: &SheetGear<'_>) -> Vec<String> {
     ];
     lines.push(format!("Teeth and spaces are numbered {}.", part.sense()));
     let body = part.gear.body();
-    if body.keyway.is_some() {
-        lines.push(match body.keyway_angle {
-            0.0 => "Keyway on the x axis, at polar angle 0°.".to_owned(),
-            angle => format!("Keyway at polar angle {}°.", number(angle.to_degrees(), 4)),
-        });
+    if let Some(key) = body.keyway {
+        let angle = fit::keyway_angle(body.keyway_angle, body.bore, key.width);
+        lines.push(format!("Keyway at polar angle {angle}."));
     }
     if part.label.is_none() && body.bore > 0.0 {
         // Of a pair alone the shaft belongs to the machine around it: its sheet is not here.
@@ -219,8 +217,15 @@ fn notes(part: &SheetGear<'_>) -> Vec<String> {
     }
     if let Some(label) = part.label {
         lines.push(format!("{} for each machine.", label.quantity));
-    } else if part.pair.congruent() && part.pair.driver().body() == part.pair.driven().body() {
-        lines.push("Driver and driven gear are the same part.".to_owned());
+    } else {
+        lines.extend(likeness(part.pair).map(|alike| {
+            let same = match alike {
+                Likeness::All => "are the same part",
+                Likeness::AllButMark => "are the same part but for their marks",
+                Likeness::Teeth => "have the same teeth",
+            };
+            format!("Driver and driven gear {same}.")
+        }));
     }
     lines
 }

@@ -1,7 +1,11 @@
 use super::Label;
-use centrode_geometry::{Bounds, Extreme, Outline, Point, Tolerance, Vector, least};
+use centrode_geometry::{
+    Bounds, Extreme, Outline, Point, Tolerance, Vector, bracketed_root, least,
+};
 use centrode_mechanism::design::DrawingSpec;
+use centrode_mechanism::gear::design::BodySpec;
 use centrode_mechanism::gear::{Frame, Gear, GearPair, Member, Role};
+use nalgebra::Rotation2;
 use std::f64::consts::TAU;
 
 /// A gear with what its sheets ask of it, millimetres of the part.
@@ -22,6 +26,50 @@ pub(super) struct SheetGear<'a> {
     tips: Vec<Point>,
     /// The innermost point of each space.
     roots: Vec<Point>,
+}
+
+/// How far driver and driven gear are one part.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Likeness {
+    Teeth,
+    AllButMark,
+    All,
+}
+
+/// How far the two gears of a pair are one part; none where their teeth differ.
+pub(super) fn likeness(pair: &GearPair) -> Option<Likeness> {
+    if !pair.congruent() {
+        return None;
+    }
+    let of = |member, tooth: u32| middle(pair, member, f64::from(tooth)).point;
+    let teeth = pair.driver().tooth_count();
+    let angle = |p: Point| p.y.atan2(p.x);
+    let near = 1e-6 * pair.module();
+    // Turned so, the driver is the driven gear; their teeth are numbered in opposite senses.
+    let turns = (0..teeth).filter_map(|first| {
+        let turn = angle(of(Member::Driven, 0)) - angle(of(Member::Driver, first));
+        let fits = (0..teeth).all(|k| {
+            let mine = Rotation2::new(turn) * of(Member::Driver, (first + teeth - k) % teeth);
+            (mine - of(Member::Driven, k)).norm() < near
+        });
+        fits.then_some((turn, first == 0))
+    });
+    let (driver, driven) = (pair.driver().body(), pair.driven().body());
+    let own = |angle| BodySpec {
+        keyway_angle: angle,
+        ..driven.clone()
+    };
+    let keyed = driver.keyway.is_some();
+    let level = |(turn, marked): (f64, bool)| {
+        let off = driver.keyway_angle + turn - driven.keyway_angle;
+        let placed = !keyed || (0.5 * off).sin().abs() < 1e-9;
+        match placed && own(driver.keyway_angle) == *driver {
+            true if marked => Likeness::All,
+            true => Likeness::AllButMark,
+            false => Likeness::Teeth,
+        }
+    };
+    turns.map(level).max().or(Some(Likeness::Teeth))
 }
 
 /// The points with the greatest and the least radius of a kind.
@@ -123,6 +171,25 @@ impl<'a> SheetGear<'a> {
         self.outline.bounds().with(Point::origin())
     }
 
+    /// Distance of the contour from the pitch curve along its normal, outwards for `side` 1 and inwards for -1; the nearest
+    /// where the normal meets it more than once.
+    pub(super) fn height(&self, frame: &Frame, side: f64) -> Option<f64> {
+        let joined = 1e-9 * self.pair.module();
+        let heights = self.gear.outline().segments().iter().filter_map(|segment| {
+            let from = |u: f64| segment.at(u).point - frame.point;
+            let past = |u: f64| from(u).dot(&frame.tangent);
+            let ends = [-1.0, 1.0].map(past);
+            let at = match ends {
+                [a, _] if a.abs() < joined => -1.0,
+                [a, b] if a * b > 0.0 => return None,
+                [a, b] => bracketed_root(past, -1.0, 1.0, a, b),
+            };
+            let height = side * from(at).dot(&frame.normal);
+            (height > 0.0).then_some(height)
+        });
+        heights.min_by(f64::total_cmp)
+    }
+
     /// Distance of the teeth along the pitch curve.
     pub(super) fn pitch(&self) -> f64 {
         self.gear.pitch_length() / f64::from(self.gear.tooth_count())
@@ -168,4 +235,77 @@ pub(super) fn degrees(p: Point) -> f64 {
     let angle = p.y.atan2(p.x).to_degrees().rem_euclid(360.0);
     // What would be written as 360.00 is nought.
     if angle > 359.995 { 0.0 } else { angle }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use centrode_mechanism::gear::design::{GearPairDesign, Keyway};
+    use centrode_mechanism::gear::pitch::{Circle, Ellipse, PitchSpec};
+    use std::f64::consts::PI;
+
+    fn pair(pitch: PitchSpec, driven: impl Fn(&mut BodySpec)) -> GearPair {
+        let mut design = GearPairDesign::new(pitch);
+        design.driver.bore = 12.0;
+        design.driver.keyway = Some(Keyway {
+            width: 4.0,
+            depth: 1.8,
+        });
+        design.driven = design.driver.clone();
+        driven(&mut design.driven);
+        GearPair::resolve(&design).expect("a sound pair")
+    }
+
+    fn elliptic() -> PitchSpec {
+        PitchSpec::Ellipse(Ellipse {
+            eccentricity: 0.2679,
+            module: Some(2.25),
+            tooth_count: Some(23),
+            ..Ellipse::default()
+        })
+    }
+
+    fn circular() -> PitchSpec {
+        PitchSpec::Circle(Circle {
+            module: Some(2.0),
+            tooth_count: Some(20),
+            ..Circle::default()
+        })
+    }
+
+    #[test]
+    fn gears_are_one_part_only_where_bore_and_keyway_lie_alike() {
+        // The long side of an ellipse points from the driver's focus to its mate and from the driven gear's away from it.
+        let same = pair(elliptic(), |_| {});
+        assert_eq!(likeness(&same), Some(Likeness::AllButMark));
+        let turned = pair(elliptic(), |driven| driven.keyway_angle = PI);
+        assert_eq!(likeness(&turned), Some(Likeness::Teeth));
+        let wider = pair(elliptic(), |driven| driven.bore = 14.0);
+        assert_eq!(likeness(&wider), Some(Likeness::Teeth));
+        let bored = pair(elliptic(), |driven| driven.keyway = None);
+        assert_eq!(likeness(&bored), Some(Likeness::Teeth));
+        // A circle of twenty teeth turned by any of them is itself; the driven one has its first tooth beside its keyway.
+        let round = pair(circular(), |_| {});
+        let step = PI / 20.0;
+        assert_eq!(likeness(&round), Some(Likeness::Teeth));
+        let beside = pair(circular(), |driven| driven.keyway_angle = step);
+        assert!(likeness(&beside) >= Some(Likeness::AllButMark));
+    }
+
+    #[test]
+    fn heights_of_teeth_are_those_of_the_tool() {
+        for pitch in [elliptic(), circular()] {
+            let pair = pair(pitch, |_| {});
+            for member in [Member::Driver, Member::Driven] {
+                let part = SheetGear::new(&pair, member, Tolerance::new(1e-3).expect("positive"));
+                for tooth in 0..pair.gear(member).tooth_count() {
+                    let crest = part.height(&part.middle(tooth, 0.0), 1.0);
+                    let root = part.height(&part.middle(tooth, 0.5), -1.0);
+                    let [crest, root] = [crest, root].map(|height| height.unwrap_or(0.0));
+                    assert!((crest - pair.module()).abs() < 1e-6, "{crest}");
+                    assert!((root - 1.25 * pair.module()).abs() < 1e-6, "{root}");
+                }
+            }
+        }
+    }
 }

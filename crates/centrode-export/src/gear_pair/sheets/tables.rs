@@ -1,6 +1,6 @@
 //! The tables of a gear's sheets.
 
-use super::part::{SheetGear, degrees};
+use super::part::{Likeness, SheetGear, degrees, likeness};
 use crate::gear_pair::{arrangement, flank_tolerances, outline};
 use crate::{
     drawing::Anchor,
@@ -54,7 +54,14 @@ pub(super) fn data(part: &SheetGear<'_>, found: &[Datum]) -> Table {
     );
     let definition = match part.member {
         Member::Driver => pair.definition().to_owned(),
-        Member::Driven => format!("rolls on the driver's: {}", pair.definition()),
+        Member::Driven => {
+            let mate = if part.label.is_some() {
+                "mate"
+            } else {
+                "driver"
+            };
+            format!("rolls on the {mate}'s: {}", pair.definition())
+        }
     };
     rows.add("Pitch curve", "", &definition);
     rows.add("Length of pitch curve", "", number(gear.pitch_length(), 6));
@@ -72,7 +79,8 @@ pub(super) fn data(part: &SheetGear<'_>, found: &[Datum]) -> Table {
         None => mate_name(pair, mate),
     };
     rows.add("Mate", "", mate);
-    for datum in arrangement::of_both(pair).iter().chain(found) {
+    let own = part.label.map(|_| part.member);
+    for datum in arrangement::of_both(pair, own).iter().chain(found) {
         rows.add(&datum.name, &datum.symbol, &datum.value);
     }
     for datum in measured(pair, part.member) {
@@ -106,7 +114,12 @@ fn mate_name(pair: &GearPair, mate: Member) -> String {
     } else {
         format!("{number}-{}", mate.name())
     };
-    let same = if pair.congruent() { ", same part" } else { "" };
+    let same = match likeness(pair) {
+        Some(Likeness::All) => ", same part",
+        Some(Likeness::AllButMark) => ", same part but for its mark",
+        Some(Likeness::Teeth) => ", same teeth",
+        None => "",
+    };
     format!("{name}, {} teeth{same}", pair.gear(mate).tooth_count())
 }
 

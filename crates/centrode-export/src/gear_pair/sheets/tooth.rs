@@ -8,6 +8,10 @@ use crate::{
 use centrode_geometry::{Point, Tolerance, Vector};
 use nalgebra::Rotation2;
 
+/// Height of the letters, mm.
+const LETTERS: f64 = 2.5;
+/// Length that words of four figures take beyond the arrows of a dimension, mm.
+const WORDS: f64 = 18.0;
 /// Length on paper of what is shown, mm.
 const SHOWN: f64 = 72.0;
 
@@ -27,12 +31,12 @@ pub(super) fn extremes(part: &SheetGear<'_>) -> Vec<(u32, &'static str)> {
         return vec![(0, "every tooth alike")];
     }
     let gentlest = if least.1 < 0.0 {
-        "where the pitch curve is most concave"
+        "nearest to where the pitch curve is most concave"
     } else {
-        "where the pitch curve bends least"
+        "nearest to where the pitch curve bends least"
     };
     vec![
-        (most.0, "where the pitch curve bends most"),
+        (most.0, "nearest to where the pitch curve bends most"),
         (least.0, gentlest),
     ]
 }
@@ -47,7 +51,7 @@ pub(super) fn detail(part: &SheetGear<'_>, letter: char, tooth: u32, place: &str
     let upright = |p: Point| Point::from(turn * (p - frame.point) * k);
     let fine = Tolerance::new(0.01 / k).unwrap_or(part.tolerance);
     let reach = 0.9 * pitch * k;
-    let mut draft = Draft::default().at_scale(k);
+    let mut draft = Draft::lettered(LETTERS).at_scale(k);
     let profile = near(&part.gear.outline().flatten(fine), &upright, reach);
     let curve = near(
         &part.gear.pitch_curve().flatten(fine),
@@ -84,43 +88,44 @@ pub(super) fn detail(part: &SheetGear<'_>, letter: char, tooth: u32, place: &str
     let above = p(0.0, heights(&profile, f64::max, high) + 9.0);
     let words = format!("{thick:.3}");
     // Where the thickness stands beside its arrows the heights keep clear of it.
-    let beyond = foot[0].x.max(foot[1].x) + lettering::width(&words, 3.5) + 13.0;
+    let beyond = foot[0].x.max(foot[1].x) + lettering::width(&words, LETTERS) + 13.0;
     draft.dimension(foot, foot[1] - foot[0], above, &words);
     let right = (reach + 9.0).max(beyond);
-    let crest = p(0.0, high);
-    let words = format!("{:.3}", high / k);
-    draft.dimension(
-        [p(reach + 4.0, 0.0), crest],
-        Vector::y(),
-        p(right, 0.0),
-        &words,
-    );
-    // The spaces beside the tooth, not what a bent pitch curve brings into view farther off.
-    let beside: Vec<Point> = profile
-        .iter()
-        .filter(|q| q.x.abs() < 0.6 * pitch * k)
-        .copied()
-        .collect();
-    let root = heights(&beside, f64::min, 0.0);
-    let words = format!("{:.3}", (high - root) / k);
-    let floor = p(reach, root);
-    draft.dimension([floor, crest], Vector::y(), p(right + 10.0, 0.0), &words);
+    if let Some(height) = part.height(&frame, 1.0) {
+        let words = format!("{height:.3}");
+        let ends = [p(0.0, 0.0), p(0.0, height * k)];
+        draft.dimension(ends, Vector::y(), p(right, 0.0), &words);
+    }
+    // A bent pitch curve leans the spaces: their depth lies along their own normal.
+    let spaces = [-0.5, 0.5].map(|half| part.middle(tooth, half));
+    let space = spaces.iter().find(|frame| upright(frame.point).x < 0.0);
+    let depth = space.and_then(|frame| Some((frame, part.height(frame, -1.0)?)));
+    if let Some((frame, depth)) = depth {
+        let ends = [frame.point, frame.point - frame.normal * depth].map(upright);
+        let outwards = turn * frame.tangent;
+        let outwards = -outwards * outwards.x.signum();
+        // Beside the neighbouring tooth, as far as the profile is drawn; words below lean towards it as the normal does.
+        let lean = WORDS * outwards.y.abs();
+        let far = (reach + 9.0 + lean + ends[0].x) / outwards.x.abs().max(0.5);
+        let at = ends[0] + outwards * far;
+        draft.dimension(ends, ends[1] - ends[0], at, &format!("{depth:.3}"));
+    }
     let fillet = side.leading.fillet_radius.min(side.trailing.fillet_radius);
-    let own = |q: &&Point| q.x < 0.0 && q.x > -0.5 * pitch * k && q.y < 0.0;
+    let own = |q: &&Point| q.x > 0.0 && q.x < 0.5 * pitch * k && q.y < 0.0;
     let at = profile.iter().filter(own).min_by(|a, b| {
-        let off = |q: &Point| (q.y - 0.85 * root).abs();
+        let off = |q: &Point| (q.y - 0.85 * low).abs();
         off(a).total_cmp(&off(b))
     });
     if let (Some(&at), true) = (at, fillet.is_finite() && fillet > 0.0) {
-        let elbow = p(-reach - 5.0, high.max(3.0) + 2.0);
+        let elbow = p(reach + 5.0, low - 1.0);
         let words = format!("fillet R ≥ {}", number(fillet, 3));
         draft.leader(at, elbow, &[words]);
     }
     let radius = 1.0 / frame.curvature;
     let bend = if frame.curvature.abs() * part.gear.pitch_length() < 1e-6 {
-        "straight".to_owned()
+        "straight here".to_owned()
     } else {
-        format!("radius of curvature {}", number(radius, 3))
+        format!("radius of curvature here {}", number(radius, 3))
     };
     let lines = [
         format!(

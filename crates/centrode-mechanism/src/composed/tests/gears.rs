@@ -195,3 +195,18 @@ fn laws_that_are_kept_are_those_of_the_design() {
     }
     assert_eq!(motion(TWO_ARM), first);
 }
+
+#[test]
+fn a_gear_meets_the_gears_of_its_meshes_alone() {
+    let machine = made(TWO_ARM);
+    let mates = |gear: &str| -> Vec<&str> {
+        let mates = machine.mates(gear).into_iter();
+        mates.map(|mate| mate.name.as_str()).collect()
+    };
+    assert_eq!(mates("sun"), ["idler-gear-1", "idler-gear-2"]);
+    assert_eq!(mates("planet-gear-1"), ["idler-gear-1"]);
+    assert_eq!(mates("idler-gear-2"), ["planet-gear-2", "sun"]);
+    let carrier = machine.body_named("carrier").expect("a carrier");
+    assert_eq!(machine.carried_pairs(carrier).len(), 4);
+    assert!(machine.carried_pairs(0).is_empty());
+}

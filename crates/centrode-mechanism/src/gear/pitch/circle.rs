@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use super::error::{eccentricity, positive};
 use super::plane::{Derivatives, Direction, PolarCurve, RadiusLaw};
 use super::size::{OwnSize, Size};
-use super::{Draft, PitchError, Symmetry};
+use super::{Draft, PitchError, Scaled, Symmetry};
 
 /// A circle around the shaft axis: an ordinary gear.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -58,7 +58,9 @@ impl Circle {
             radius: self.radius.unwrap_or(1.0),
             eccentricity: 0.0,
         };
-        Draft::new("radius", PolarCurve::new(law), size, "circle, r = R".into())
+        let radius = law.radius;
+        let draft = Draft::new("radius", PolarCurve::new(law), size, "circle, r = R".into())?;
+        Ok(draft.scaled(Scaled::Length("R", radius)))
     }
 }
 
@@ -77,7 +79,9 @@ impl EccentricCircle {
             "eccentric circle, r = R (e cos phi + sqrt(1 - e^2 sin^2 phi)), e = {}",
             self.eccentricity
         );
-        Draft::new("eccentricity", PolarCurve::new(law), size, definition)
+        let radius = law.radius;
+        let draft = Draft::new("eccentricity", PolarCurve::new(law), size, definition)?;
+        Ok(draft.scaled(Scaled::Length("R", radius)))
     }
 }
 

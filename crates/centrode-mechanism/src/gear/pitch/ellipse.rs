@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use super::error::{eccentricity, positive};
 use super::plane::{Derivatives, Direction, PolarCurve, RadiusLaw};
 use super::size::{OwnSize, Size};
-use super::{Draft, PitchError, Symmetry};
+use super::{Draft, PitchError, Scaled, Symmetry};
 
 /// An ellipse turning about one of its foci.
 ///
@@ -93,16 +93,17 @@ fn draft(
     definition: String,
 ) -> Result<Draft, PitchError> {
     let key = "semi_major_axis";
-    let own = match own {
+    let own_size = match own {
         Some(a) => positive(key, a).map(|_| OwnSize::Fixed(key))?,
         None => OwnSize::Missing(key),
     };
     let size = Size {
         module,
         tooth_count,
-        own,
+        own: own_size,
     };
-    Draft::new("eccentricity", PolarCurve::new(law), size, definition)
+    let draft = Draft::new("eccentricity", PolarCurve::new(law), size, definition)?;
+    Ok(draft.scaled(Scaled::Length("A", own.unwrap_or(1.0))))
 }
 
 #[derive(Debug)]

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 use super::error::{finite, in_range, positive};
 use super::plane::{Derivatives, Direction, PolarCurve, RadiusLaw};
 use super::size::{OwnSize, Size};
-use super::{Draft, PitchError, Symmetry};
+use super::{Draft, PitchError, Scaled, Symmetry};
 
 /// A limacon of Pascal, if wanted with several lobes: `r(phi) = b + c cos(N phi)`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -58,7 +58,8 @@ impl Limacon {
             self.lobes,
             self.amplitude / self.mean_radius
         );
-        Draft::new("amplitude", PolarCurve::new(law), size, definition)
+        let draft = Draft::new("amplitude", PolarCurve::new(law), size, definition)?;
+        Ok(draft.scaled(Scaled::Length("b", self.mean_radius)))
     }
 }
 

@@ -199,6 +199,17 @@ impl PitchSpec {
     }
 }
 
+/// How a definition in words tells the scale of its curve.
+#[derive(Debug)]
+enum Scaled {
+    /// It holds at every scale.
+    Not,
+    /// By the length that it leaves open: its symbol, and its value before scaling, mm.
+    Length(&'static str, f64),
+    /// By a factor, where it is not drawn as it is written.
+    Written,
+}
+
 /// Proved shape, before scaling.
 #[derive(Debug)]
 pub(crate) struct Draft {
@@ -207,6 +218,7 @@ pub(crate) struct Draft {
     curve: Box<dyn ScalableCurve>,
     size: Size,
     definition: String,
+    scaled: Scaled,
     implied_ratio: Option<(u32, u32)>,
 }
 
@@ -224,17 +236,25 @@ impl Draft {
             curve: Box::new(curve),
             size,
             definition,
+            scaled: Scaled::Written,
             implied_ratio: None,
         })
+    }
+
+    /// Its definition tells how it is scaled.
+    fn scaled(self, scaled: Scaled) -> Self {
+        Self { scaled, ..self }
     }
 
     fn finish(mut self) -> Result<Pitch, PitchError> {
         let written = sized(self.key, perimeter(self.curve.as_ref()))?;
         let tooth_count = self.size.tooth_count;
+        let mut factor = 1.0;
         let module = match (self.size.module, tooth_count) {
             (Some(module), Some(z)) => {
                 let length = sized("module", PI * module * f64::from(z))?;
-                self.curve.rescale(length / written);
+                factor = length / written;
+                self.curve.rescale(factor);
                 Some(module)
             }
             (None, Some(z)) => Some(written / (PI * f64::from(z))),
@@ -242,6 +262,12 @@ impl Draft {
         };
         let symmetry = self.curve.symmetry();
         let shape: Arc<dyn ScalableCurve> = Arc::from(self.curve);
+        let told = |value: f64| (value * 1e9).round() / 1e9;
+        self.definition += &match self.scaled {
+            Scaled::Length(symbol, length) => format!(", {symbol} = {} mm", told(length * factor)),
+            Scaled::Written if told(factor) != 1.0 => format!(", times {}", told(factor)),
+            Scaled::Written | Scaled::Not => String::new(),
+        };
         Ok(Pitch {
             curve: shape,
             tooth_count,

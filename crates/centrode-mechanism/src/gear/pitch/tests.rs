@@ -500,3 +500,36 @@ proptest! {
         }
     }
 }
+
+#[test]
+fn a_definition_in_words_tells_the_size() {
+    let ellipse = Ellipse {
+        eccentricity: 0.25,
+        module: Some(2.0),
+        tooth_count: Some(20),
+        ..Ellipse::default()
+    };
+    let pitch = resolve(&PitchSpec::Ellipse(ellipse));
+    let far = pitch.curve.at(0.0).point.coords.norm();
+    let words = pitch.definition.rsplit("A = ").next().expect("its size");
+    let told: f64 = words.trim_end_matches(" mm").parse().expect("a number");
+    // The far apex lies A (1 + k) from the focus.
+    assert!((told * 1.25 - far).abs() < 1e-8, "{}", pitch.definition);
+    let polar = |module| {
+        resolve(&PitchSpec::Polar(Polar {
+            expression: Some("30 + 2*cos(phi)".into()),
+            module,
+            tooth_count: Some(20),
+            ..Polar::default()
+        }))
+    };
+    let [written, scaled] = [polar(None), polar(Some(2.0))];
+    assert_eq!(written.definition, "polar, r = 30 + 2*cos(phi)");
+    let factor = scaled
+        .definition
+        .rsplit("times ")
+        .next()
+        .expect("its factor");
+    let factor: f64 = factor.parse().expect("a number");
+    assert!((factor - length(&scaled) / length(&written)).abs() < 1e-8);
+}

@@ -10,7 +10,7 @@ use super::plane::{Derivatives, Direction, PolarCurve, RadiusLaw};
 use super::points::count;
 use super::polar::{read_formula, seam};
 use super::size::{OwnSize, Size};
-use super::{Draft, PitchError};
+use super::{Draft, PitchError, Scaled};
 use crate::degrees;
 use crate::formula::{Formula, Taylor};
 
@@ -279,6 +279,7 @@ fn draft(
         };
         Antiderivative::new(q, &ends).total()
     });
+    draft.scaled = Scaled::Not;
     draft.implied_ratio = Some(turns(key, total / TAU)?);
     Ok(draft)
 }
