@@ -834,7 +834,7 @@ def test_what_rings_hold_has_play_along_the_axis_whatever_the_tolerances_make_of
         if part == "hub":
             with (folder / "parts.csv").open(newline="") as lines:
                 remark = next(row["remark"] for row in csv.DictReader(lines) if row["part"] == "Hub of an arm")
-            return float(re.search(rf"; ({NUMBER}) long", remark)[1])
+            return float(re.search(rf"; from {NUMBER} to ({NUMBER}) before", remark)[1])
         return round(thickness(solid(folder / f"{part}.step")), 6)
 
     told = 0

@@ -37,17 +37,27 @@ pub(super) fn parts(feeder: &Feeder, gears: &IntermittentPair, tolerance: Tolera
             body.bore,
             driver.body(),
         )
-        .noted("Drawn as the motion begins: on the driver x points to the")
-        .noted("driven gear's axis, on the driven gear away from the driver's.")
+        .noted("Drawn as the motion begins: on the intermittent gear x points to the axis of")
+        .noted("the gear on the crank, on that away from the intermittent gear's.")
         .noted("Keyed along x: gears and cams stand right on the shaft.");
-        part.holes.extend(body.pins.into_iter().map(|outline| Hole {
-            label: "pin".into(),
-            fit: Feeder::CAM_PIN_FIT[0].into(),
-            off: 0.02,
-            ..Hole::from(outline)
-        }));
+        let cams = TITLES[2..].iter().zip(gears.cams());
+        let labels = cams.flat_map(|(cam, own)| own.pins.iter().map(move |_| cam));
+        if !body.pins.is_empty() {
+            part = part.noted("Each pin stands out on the side of its cam.");
+        }
+        part.holes.extend(
+            body.pins
+                .into_iter()
+                .zip(labels)
+                .map(|(outline, cam)| Hole {
+                    label: format!("pin of {cam}"),
+                    fit: Feeder::CAM_PIN_FIT[0].into(),
+                    off: 0.02,
+                    ..Hole::from(outline)
+                }),
+        );
         if is_cam {
-            part = part.noted("Fixed beside the driver, its x axis on the driver's.");
+            part = part.noted("Fixed beside the intermittent gear, its x axis on that one's.");
             part.exactness = Some(Exactness::Profile);
         }
         part

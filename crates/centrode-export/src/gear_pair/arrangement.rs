@@ -36,6 +36,10 @@ pub(super) fn tell(pair: &GearPair, machine: &mut Machine) {
     ]
     .map(String::from)
     .into();
+    if pair.driver().tooth_count() != pair.driven().tooth_count() {
+        told.notes
+            .push("Teeth and spaces are counted on through the turns.".into());
+    }
     let last = pair.driven().tooth_count() - 1;
     let first = [
         (

@@ -177,9 +177,9 @@ impl TitleBlock {
         }
         let [left, right, low, _] = SURFACE;
         let slope = 60.0_f64.to_radians().tan();
-        let foot = Point::new(left + 4.0, low + 0.9);
+        let foot = Point::new(left + 4.0, low + 0.6);
         let at = |x: f64, y: f64| Point::new(foot.x + x, foot.y + y);
-        let (short, long) = (2.5, 5.0);
+        let (short, long) = (2.3, 4.6);
         draft.line(Pen::Thin, foot, at(-short / slope, short));
         draft.line(Pen::Thin, foot, at(long / slope, long));
         draft.line(

@@ -32,6 +32,7 @@ pub(super) fn tell(parts: &Machine<'_>, machine: &mut machine::Machine) {
     told.notes = [
         "Shown as arm I picks; arms II and III follow it.",
         "Gears seen through the front plate of the carrier.",
+        "Tooth k of the sun or of a planet gear runs in space k - 1 of an intermediate gear.",
         "Dash-dotted: pitch curves, path of the tips.",
         "Springs: bought, not listed.",
     ]
@@ -87,7 +88,7 @@ fn given(parts: &Machine<'_>, machine: &mut machine::Machine) {
             "Hub of an arm",
             links(ThreeArmPart::CoverFront),
             on_shaft(&design.planet).map(|shaft| {
-                format!("on the planet's shaft, {shaft}, {of_hub} long from the front plate{in_cover}, fixed to both")
+                format!("on the planet's shaft, {shaft}, from {of_sleeve} to {of_hub} before the front plate{in_cover}, fixed to both")
             }),
         ),
         (

@@ -1,7 +1,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::{Composed, ComposedGear};
 use crate::degrees;
+use crate::gear::{GearPair, Member};
 
 /// Gear of a pair.
 #[derive(Clone, Copy, Debug, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
@@ -50,4 +52,57 @@ pub struct ComposedMeshSpec {
 pub struct ComposedLoopSpec {
     /// The two gears.
     pub gears: [String; 2],
+}
+
+impl Composed {
+    /// The pairs whose two gears turn on one body.
+    #[must_use]
+    pub fn carried_pairs(&self, body: usize) -> Vec<&GearPair> {
+        let carrier = |moved: usize| Some(self.bodies[moved].mount.as_ref()?.carrier);
+        let meshes = self.meshes.iter();
+        let own = meshes.filter(|mesh| carrier(mesh.moved) == Some(body));
+        own.map(|mesh| &*self.gears[mesh.gears[0]].pair).collect()
+    }
+
+    /// The gears that a gear meshes with, in the order of their names.
+    #[must_use]
+    pub fn mates(&self, gear: &str) -> Vec<&ComposedGear> {
+        let both = self.in_mesh().flat_map(|[a, b]| [[a, b], [b, a]]);
+        let own = both.filter(|[one, _]| self.gears[*one].name == gear);
+        let mut mates: Vec<usize> = own.map(|[_, other]| other).collect();
+        mates.sort_unstable();
+        mates.dedup();
+        mates.into_iter().map(|mate| &self.gears[mate]).collect()
+    }
+
+    /// Indices of the two gears of each mesh, of those that hold bodies and of those beside.
+    fn in_mesh(&self) -> impl Iterator<Item = [usize; 2]> {
+        let named = |name: &String| self.gears.iter().position(|gear| gear.name == *name);
+        let beside = self.design.meshes.values();
+        let beside =
+            beside.filter_map(move |mesh| Some([named(&mesh.gears[0])?, named(&mesh.gears[1])?]));
+        self.meshes.iter().map(|mesh| mesh.gears).chain(beside)
+    }
+
+    /// Which teeth run in which spaces, by the names of the gears; copies run as their originals.
+    pub(super) fn meshing_notes(&self) -> Vec<String> {
+        let mut notes: Vec<String> = Vec::new();
+        for both in self.in_mesh() {
+            let [driver, driven] = match self.gears[both[0]].member {
+                Member::Driver => both,
+                Member::Driven => [both[1], both[0]],
+            }
+            .map(|gear| &self.gears[gear]);
+            let counted = match driver.gear().tooth_count() == driven.gear().tooth_count() {
+                true => "",
+                false => ", counted on through the turns",
+            };
+            let [of, mate] = [driver, driven].map(|gear| self.original(&gear.name));
+            let note = format!("Tooth k of {of} runs in space k - 1 of {mate}{counted}.");
+            if !notes.contains(&note) {
+                notes.push(note);
+            }
+        }
+        notes
+    }
 }

@@ -26,6 +26,7 @@ impl Composed {
         }
         self.list_brackets(&mut machine);
         machine.arrangement.drawing = self.design.drawing.clone();
+        machine.arrangement.notes.extend(self.meshing_notes());
         Ok(machine)
     }
 

@@ -250,31 +250,6 @@ impl Composed {
         &self.gears
     }
 
-    /// The pairs whose two gears turn on one body.
-    #[must_use]
-    pub fn carried_pairs(&self, body: usize) -> Vec<&crate::gear::GearPair> {
-        let carrier = |moved: usize| Some(self.bodies[moved].mount.as_ref()?.carrier);
-        let meshes = self.meshes.iter();
-        let own = meshes.filter(|mesh| carrier(mesh.moved) == Some(body));
-        own.map(|mesh| &*self.gears[mesh.gears[0]].pair).collect()
-    }
-
-    /// The gears that a gear meshes with, in the order of their names.
-    #[must_use]
-    pub fn mates(&self, gear: &str) -> Vec<&ComposedGear> {
-        let named = |name: &String| self.gears.iter().position(|other| other.name == *name);
-        let beside = self.design.meshes.values();
-        let beside =
-            beside.filter_map(|mesh| Some([named(&mesh.gears[0])?, named(&mesh.gears[1])?]));
-        let both = self.meshes.iter().map(|mesh| mesh.gears).chain(beside);
-        let both = both.flat_map(|[a, b]| [[a, b], [b, a]]);
-        let own = both.filter(|[one, _]| self.gears[*one].name == gear);
-        let mut mates: Vec<usize> = own.map(|[_, other]| other).collect();
-        mates.sort_unstable();
-        mates.dedup();
-        mates.into_iter().map(|mate| &self.gears[mate]).collect()
-    }
-
     /// Cams in the order of their names.
     #[must_use]
     pub fn cams(&self) -> &[ComposedCam] {

@@ -13,8 +13,11 @@ const ONE: f64 = 1e-6;
 /// Length by which play between rings may move one, mm.
 const SPARE: f64 = 1.0;
 
-/// How a pin is held where there is no room for rings.
-const BONDED: &str = "No room for rings: bonded into one of its plates with a retaining compound.";
+/// How a pin is held where there is no room for rings, or for one alone.
+const BONDED: [&str; 2] = [
+    "No room for rings: bonded into one of its plates with a retaining compound.",
+    "Room for one ring alone: bonded into one of its plates with a retaining compound, too.",
+];
 
 /// Holes on one axis.
 pub(super) struct Axis {
@@ -185,8 +188,12 @@ impl Composed {
         let bottom = axis.span[0] + bar.bottom() - 0.5 * bar.growth(general);
         let title = format!("Pin through {} mm", thousandths(length));
         let mut part = bar.part(["pin", &title], spec.pin_stock(), general);
-        let role = if bar.is_held() { "" } else { "without rings" };
-        part.notes.extend((!bar.is_held()).then(|| BONDED.into()));
+        let (role, note) = match bar.rings() {
+            [true, true] => ("", None),
+            [false, false] => ("without rings", Some(BONDED[0])),
+            _ => ("one ring", Some(BONDED[1])),
+        };
+        part.notes.extend(note.map(Into::into));
         let name = &self.bodies[body].name;
         let given = self.design.bodies.get(name).map(|body| body.given_mass());
         let piece = TurnedPiece {

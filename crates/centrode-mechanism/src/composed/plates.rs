@@ -86,6 +86,7 @@ impl ComposedPlatesSpec {
         for (key, value) in [
             ("thickness", self.thickness),
             ("width", self.width),
+            ("pin_diameter", self.pin_diameter),
             ("density", self.density),
         ] {
             positive(key, value)?;

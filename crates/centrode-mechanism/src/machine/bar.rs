@@ -119,11 +119,14 @@ impl Bar {
         self
     }
 
+    /// Whether a ring is at the lower end, and whether at the upper.
+    pub(crate) fn rings(&self) -> [bool; 2] {
+        [false, true].map(|way| self.grooves.iter().any(|(_, above)| *above == way))
+    }
+
     /// Whether a ring is at either end.
     pub(crate) fn is_held(&self) -> bool {
-        let [low, high] =
-            [false, true].map(|way| self.grooves.iter().any(|(_, above)| *above == way));
-        low && high
+        self.rings() == [true; 2]
     }
 
     /// Heights between which the keyway of the last key goes.

@@ -108,8 +108,12 @@ fn notes(part: &SheetGear<'_>, k: f64) -> Vec<(Point, Vec<NoteLine>)> {
                 vec![size.into(), format!("{kind} circle").into()],
             ));
         } else {
-            notes.push(radius(greatest, &format!("largest {kind} radius")));
-            notes.push(radius(least, &format!("least {kind} radius")));
+            let [high, low] = match kind {
+                "tip" => ["largest tip radius", "tip radius of the lowest tooth"],
+                _ => ["root radius of the highest space", "least root radius"],
+            };
+            notes.push(radius(greatest, high));
+            notes.push(radius(least, low));
         }
     }
     let body = part.gear.body();

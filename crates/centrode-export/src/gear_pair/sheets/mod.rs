@@ -197,7 +197,9 @@ fn notes(part: &SheetGear<'_>) -> Vec<String> {
             }
         ),
     ];
-    lines.push(format!("Teeth and spaces are numbered {}.", part.sense()));
+    lines.push(format!("Teeth and spaces are numbered {},", part.sense()));
+    lines.push("tooth k before space k; numbers stand at the spaces.".to_owned());
+    lines.push("Dimensions of the teeth are auxiliary: the profile holds.".to_owned());
     let body = part.gear.body();
     if let Some(key) = body.keyway {
         let angle = fit::keyway_angle(body.keyway_angle, body.bore, key.width);
@@ -212,7 +214,7 @@ fn notes(part: &SheetGear<'_>) -> Vec<String> {
             let rest = fit::shaft_depth(body.bore, key);
             lines.extend([seat, format!("with a keyway {width}, Ø - depth {rest}.")]);
         } else {
-            lines.push(format!("{seat}."));
+            lines.push(format!("{seat}, fixed there by the customer."));
         }
     }
     if let Some(label) = part.label {

@@ -95,20 +95,34 @@ pub(in crate::gear_pair) fn middle(pair: &GearPair, member: Member, pitches: f64
 impl<'a> SheetGear<'a> {
     pub(super) fn new(pair: &'a GearPair, member: Member, tolerance: Tolerance) -> Self {
         let gear = pair.gear(member);
-        let teeth = gear.tooth_count() as usize;
-        let (mut tips, mut roots) = (vec![None; teeth], vec![None; teeth]);
+        let mut tips: Vec<Option<(f64, Point)>> = vec![None; gear.tooth_count() as usize];
+        let mut roots: Vec<Option<(f64, Point)>> = Vec::new();
+        let is_root = |role: &Role| matches!(role, Role::Root | Role::Fillet);
         let parts = gear.outline().segments().iter().zip(gear.roles());
+        let mut before = gear.roles().last().is_some_and(is_root);
+        let is_open = before && gear.roles().first().is_some_and(is_root);
+        // A space begins where a tooth ends; the contour may begin within one.
+        roots.extend(is_open.then_some(None));
         for ((segment, role), &owner) in parts.zip(gear.owners()) {
-            let (list, sign) = match role {
-                Role::Tip | Role::Flank => (&mut tips, -1.0),
-                Role::Root | Role::Fillet => (&mut roots, 1.0),
+            let space = is_root(role);
+            if space && !before {
+                roots.push(None);
+            }
+            before = space;
+            let (found, sign) = match roots.last_mut() {
+                Some(found) if space => (found, 1.0),
+                _ => (&mut tips[owner as usize], -1.0),
             };
             let radius = |u: f64| sign * segment.at(u).point.coords.norm();
             let Extreme { input, value } = least(radius, &[-1.0, 1.0]);
-            let found: &mut Option<(f64, Point)> = &mut list[owner as usize];
             if found.is_none_or(|(best, _)| value < best) {
                 *found = Some((value, segment.at(input).point));
             }
+        }
+        if let (true, Some(Some(last))) = (is_open && roots.len() > 1, roots.last().copied()) {
+            let first = roots[0].filter(|first| first.0 <= last.0);
+            roots[0] = first.or(Some(last));
+            roots.pop();
         }
         let points = |list: Vec<Option<(f64, Point)>>| -> Vec<Point> {
             list.into_iter().flatten().map(|(_, p)| p).collect()
@@ -305,6 +319,30 @@ mod tests {
                     assert!((crest - pair.module()).abs() < 1e-6, "{crest}");
                     assert!((root - 1.25 * pair.module()).abs() < 1e-6, "{root}");
                 }
+            }
+        }
+    }
+
+    #[test]
+    fn every_space_has_its_own_innermost_point() {
+        let pair = pair(elliptic(), |_| {});
+        for member in [Member::Driver, Member::Driven] {
+            let part = SheetGear::new(&pair, member, Tolerance::new(1e-3).expect("positive"));
+            let spaces: Vec<f64> = (0..23)
+                .map(|space| {
+                    let frame = part.middle(space, 0.5);
+                    let depth = part.height(&frame, -1.0).expect("a space");
+                    (frame.point - frame.normal * depth).coords.norm()
+                })
+                .collect();
+            assert_eq!((part.roots.len(), part.tips.len()), (23, 23));
+            // Near the middle of each the radius is hardly greater than at its innermost point.
+            let mut found: Vec<f64> = part.roots.iter().map(|p| p.coords.norm()).collect();
+            let mut told = spaces;
+            found.sort_by(f64::total_cmp);
+            told.sort_by(f64::total_cmp);
+            for (found, told) in found.iter().zip(&told) {
+                assert!((-1e-9..0.1).contains(&(told - found)), "{found} {told}");
             }
         }
     }

@@ -6,6 +6,7 @@ use crate::{
     sheet::{Draft, Pen, Scale, lettering, number},
 };
 use centrode_geometry::{Point, Tolerance, Vector};
+use centrode_mechanism::gear::Role;
 use nalgebra::Rotation2;
 
 /// Height of the letters, mm.
@@ -111,11 +112,15 @@ pub(super) fn detail(part: &SheetGear<'_>, letter: char, tooth: u32, place: &str
         draft.dimension(ends, ends[1] - ends[0], at, &format!("{depth:.3}"));
     }
     let fillet = side.leading.fillet_radius.min(side.trailing.fillet_radius);
-    let own = |q: &&Point| q.x > 0.0 && q.x < 0.5 * pitch * k && q.y < 0.0;
-    let at = profile.iter().filter(own).min_by(|a, b| {
-        let off = |q: &Point| (q.y - 0.85 * low).abs();
-        off(a).total_cmp(&off(b))
-    });
+    let (segments, roles) = (part.gear.outline().segments(), part.gear.roles());
+    let owned = segments.iter().zip(roles).zip(part.gear.owners());
+    let own = owned.filter(|((_, role), owner)| **owner == tooth && **role == Role::Fillet);
+    let mut own: Vec<Point> = own
+        .map(|((segment, _), _)| upright(segment.at(0.0).point))
+        .filter(|q| q.x > 0.0 && q.x < reach)
+        .collect();
+    own.sort_by(|a, b| a.y.total_cmp(&b.y));
+    let at = own.get(own.len() / 2);
     if let (Some(&at), true) = (at, fillet.is_finite() && fillet > 0.0) {
         let elbow = p(reach + 5.0, low - 1.0);
         let words = format!("fillet R ≥ {}", number(fillet, 3));

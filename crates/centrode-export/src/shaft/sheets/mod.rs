@@ -14,8 +14,8 @@ use crate::{
     drawing::{Anchor, EntityShape},
     package::title_or_name,
     sheet::{
-        Corner, Draft, Scale, Sheet, SheetBlock, Table, TitleBlock, compose, mass, treatment_note,
-        view_letters,
+        Corner, Draft, Scale, Sheet, SheetBlock, Table, TitleBlock, compose, fit, mass,
+        treatment_note, view_letters,
     },
 };
 use centrode_geometry::{Arc, Point};
@@ -70,7 +70,11 @@ pub fn slider_sheets(shaft: &SpiralShaft, options: &Options) -> Result<Vec<Sheet
     let properties = slider_solid(shaft)?.mass_properties(spec.density);
     block.mass = mass(properties.mass * 1e3);
     block.material.clone_from(&spec.material);
-    let mut lines = vec![treatment_note(&spec.heat_treatment)];
+    let mut lines = vec![
+        "1 for each machine.".to_owned(),
+        "Cutting file: slider.dxf.".to_owned(),
+        treatment_note(&spec.heat_treatment),
+    ];
     let classes = [spec.slider_fit.as_str(), &spec.hole_fit, &spec.pin_fit];
     lines.extend(block.fitted(classes, ""));
     let pieces = |scale: Scale, size: SheetSize| {
@@ -91,6 +95,7 @@ fn block(shaft: &SpiralShaft, part: &str, title: &str, options: &Options) -> Tit
 
 fn notes(shaft: &SpiralShaft) -> Vec<String> {
     let mut lines = vec![
+        "1 for each machine.".to_owned(),
         "Development seen from outside, its lower edge at 360°.".to_owned(),
         "Groove angle θ = 0 where the slider is at the first hole;".to_owned(),
         "it faces the viewer in the side view.".to_owned(),
@@ -101,8 +106,9 @@ fn notes(shaft: &SpiralShaft) -> Vec<String> {
     if let Some(centre) = centre(shaft.body().journal_diameter) {
         lines.push(format!("Centre holes at both ends: {centre}."));
     }
-    if shaft.body().keyway.is_some() {
-        lines.push("Keyway at θ = 0.".to_owned());
+    if let Some(key) = shaft.body().keyway {
+        let angle = fit::keyway_angle(0.0, shaft.body().journal_diameter, key.width);
+        lines.push(format!("Keyway at θ = {angle}."));
     }
     lines
 }

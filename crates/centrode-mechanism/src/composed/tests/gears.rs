@@ -210,3 +210,61 @@ fn a_gear_meets_the_gears_of_its_meshes_alone() {
     assert_eq!(machine.carried_pairs(carrier).len(), 4);
     assert!(machine.carried_pairs(0).is_empty());
 }
+
+#[test]
+fn a_tooth_runs_in_the_space_of_which_the_note_tells() {
+    use crate::gear::Member;
+
+    for design in [TWO_ARM, PRESS] {
+        let machine = made(design);
+        let middle = |gear: &crate::composed::ComposedGear, pitches: f64, input: f64| {
+            let (pair, rolling) = (&gear.pair, gear.pair.rolling());
+            let own = match gear.member {
+                Member::Driver => 0.0,
+                Member::Driven => 0.5,
+            };
+            let pitch = gear.gear().pitch_length() / f64::from(gear.gear().tooth_count());
+            let arc = (pitches + pair.phase() + own) * pitch;
+            let frame = rolling.frame(gear.member, rolling.parameter(arc));
+            let turned = nalgebra::Rotation2::new(gear.mount) * frame.point;
+            let body = machine.body_named(&gear.body_name).expect("a body");
+            machine.point(body, gear.at + turned.coords, input).point
+        };
+        let notes = machine.machine().expect("a machine").arrangement.notes;
+        for mesh in &machine.meshes {
+            let mut both = mesh.gears.map(|gear| &machine.gears()[gear]);
+            both.sort_by_key(|gear| gear.member == Member::Driven);
+            let [driver, driven] = both;
+            let told = format!(
+                "Tooth k of {} runs in space k - 1 of {}",
+                driver.name, driven.name
+            );
+            assert!(
+                notes.iter().any(|note| note.starts_with(&told)),
+                "{told}: {notes:?}"
+            );
+            let teeth = driver.gear().tooth_count();
+            for input in [0.0, 0.7, 3.1] {
+                // The tooth that is deepest in a space.
+                let off = |tooth: u32| {
+                    let tooth = f64::from(tooth);
+                    let at = middle(driver, tooth, input);
+                    (at - middle(driven, tooth - 1.0 + 0.5, input)).norm()
+                };
+                let nearest = (0..teeth).map(off).fold(f64::INFINITY, f64::min);
+                assert!(
+                    nearest < 0.2 * driver.pair.module(),
+                    "{told} at {input}: {nearest}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn pins_have_a_diameter() {
+    let bare = PRESS.replace("pin_diameter = 6", "pin_diameter = 0");
+    let told = refused(&bare);
+    assert!(told.contains("plates.pin_diameter"), "{told}");
+    assert!(told.contains("must be greater than 0"), "{told}");
+}
