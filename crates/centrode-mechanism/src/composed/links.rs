@@ -120,7 +120,7 @@ impl Composed {
                 blank: outline.and_then(|outline| Blank::plate(outline, self.thickness(index))),
                 mass: made.mass().map(|own| own.mass),
                 remark: outline
-                    .and_then(|_| self.told_fixed(index))
+                    .and_then(|_| self.told_fixed(index).or_else(|| self.told_driven(index)))
                     .unwrap_or_default(),
                 ..Part::default()
             };

@@ -9,7 +9,7 @@ use crate::machine::{
 };
 
 /// Diameters of its own that a shaft goes on to what drives it.
-const DRIVEN_END: f64 = 3.0;
+const FREE_END: f64 = 3.0;
 
 impl Composed {
     /// The shafts as turned parts, those of copies as pieces of one.
@@ -51,8 +51,10 @@ impl Composed {
             ),
         };
         let (is_lowest, is_highest) = (low <= deepest + ROUNDING, high >= highest - ROUNDING);
-        let end = match shaft.is_driven && is_lowest {
-            true => DRIVEN_END * hub.bore,
+        // A frame's plate on one axis alone is held by its shaft, not the shaft by it.
+        let stands_alone = shaft.body == 0 && self.hole_places(0).is_some_and(|at| at.len() == 1);
+        let end = match (shaft.is_driven || stands_alone) && is_lowest {
+            true => FREE_END * hub.bore,
             false => 0.0,
         };
         let turning = on_it.iter().any(|part| part.hold == Hold::Turning);
@@ -103,7 +105,12 @@ impl Composed {
         let title = format!("Shaft of {}", self.original(&shaft.name));
         let name = format!("shaft-{}", self.original(&shaft.name));
         let mut part = bar.part([&name, &title], hub.shaft_stock(), general);
-        part.notes.extend(notes(&on_it, (end > 0.0, bar.is_held())));
+        let free = match shaft.body {
+            _ if end == 0.0 => None,
+            0 => Some("Held"),
+            _ => Some("Driven"),
+        };
+        part.notes.extend(notes(&on_it, free, bar.is_held()));
         let owner = &self.bodies[shaft.body].name;
         let given = self.design.bodies.get(owner).map(|body| body.given_mass());
         let piece = TurnedPiece {
@@ -117,7 +124,8 @@ impl Composed {
         };
         TurnedPieces {
             role: match (shaft.body, end > 0.0) {
-                (0, _) => "stands still".into(),
+                (0, false) => "stands still".into(),
+                (0, true) => "stands still, held at its free end".into(),
                 (_, true) => "driven at its free end".into(),
                 (_, false) => String::new(),
             },
@@ -143,6 +151,13 @@ impl Composed {
             Some(Hold::Loose) => Some("bore or keyway is not its shaft's"),
             Some(_) => None,
         }
+    }
+
+    /// Note of the parts list on a plate that the machine neither moves nor has a shaft for.
+    pub(super) fn told_driven(&self, body: usize) -> Option<String> {
+        let has_shaft = self.shafts().iter().any(|shaft| shaft.body == body);
+        let told = self.is_driven(body) && !has_shaft;
+        told.then(|| "driven by the customer".into())
     }
 
     /// Note of the parts list on a plate that is fixed to another body away from any shaft of both.
@@ -254,11 +269,11 @@ fn joined(mut seats: Vec<[f64; 2]>, turning: &[[f64; 2]]) -> Vec<[f64; 2]> {
     all
 }
 
-/// Notes of a shaft's sheet: what drives it, and what is bonded on it.
-fn notes(on_it: &[&ShaftPart], (driven, held): (bool, bool)) -> Vec<String> {
+/// Notes of a shaft's sheet: what is done at its free end, and what is bonded on it.
+fn notes(on_it: &[&ShaftPart], free: Option<&str>, held: bool) -> Vec<String> {
     let mut notes = Vec::new();
-    if driven {
-        notes.push("Driven at its free end, to be cut to length.".into());
+    if let Some(done) = free {
+        notes.push(format!("{done} at its free end, to be cut to length."));
     }
     let bonded = on_it.iter().filter(|part| match part.hold {
         Hold::Bonded => true,

@@ -140,7 +140,7 @@ impl Composed {
     }
 
     /// Whether a body turns on the frame by a law of its own, moved by nothing else of the machine.
-    fn is_driven(&self, body: usize) -> bool {
+    pub(super) fn is_driven(&self, body: usize) -> bool {
         let own = &self.bodies[body];
         let law = self
             .design

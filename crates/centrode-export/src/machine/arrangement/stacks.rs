@@ -18,6 +18,8 @@ const BESIDE: f64 = 6.0;
 const LEAST: f64 = 0.1;
 /// Distance within which two axes are one, mm.
 const ONE: f64 = 1e-6;
+/// How far a drawn contour may be off the one whose blank is listed, mm.
+const DRAWN: f64 = 0.01;
 /// Height of the letters of headings and numbers, mm.
 const LETTERS: f64 = 2.5;
 
@@ -112,8 +114,8 @@ impl Stack {
         let span = [ends[0].min(ends[1]) - ONE, ends[0].max(ends[1]) + ONE];
         for other in bodies {
             let cuts = other.cuts((axis, across), (wide, span), tolerance);
-            for (cut, thickness) in cuts {
-                let item = other.item(machine, thickness);
+            for (cut, size) in cuts {
+                let item = other.item(machine, size);
                 let hatched = !matches!(other.shape.form, Form::Turned(_))
                     && item.is_some_and(|item| machine.parts[item].supply == Supply::Made);
                 if let Some(item) = item
@@ -187,8 +189,9 @@ impl Stack {
 }
 
 impl Placed<'_> {
-    /// Its number in the parts list: by the name of its files, by the standard it is bought by, or by its link and thickness.
-    fn item(&self, machine: &Machine, thickness: f64) -> Option<usize> {
+    /// Its number in the parts list: by the name of its files, by the standard it is bought by, or by its link and thickness; of
+    /// bodies alike in these by the diameter about the axis, mm.
+    fn item(&self, machine: &Machine, [thickness, diameter]: [f64; 2]) -> Option<usize> {
         let find = |is: &dyn Fn(&Part) -> bool| machine.parts.iter().position(is);
         let shape = self.shape;
         if !shape.part.is_empty() {
@@ -205,23 +208,27 @@ impl Placed<'_> {
             return find(&is).or_else(|| find(&bought));
         }
         let of = |blank: &Blank| match blank {
-            Blank::Plate { thickness, .. } => *thickness,
-            Blank::Round { length, .. } => *length,
+            Blank::Plate { thickness, .. } => [*thickness, 0.0],
+            Blank::Round { length, diameter } => [*length, *diameter],
         };
-        let is = |part: &Part| {
-            let own = part.blank.as_ref().map(of);
-            on_link(part) && own.is_some_and(|own| (own - thickness).abs() < ONE)
+        let alike = |part: &Part| {
+            let own = part.blank.as_ref().map(of).filter(|_| on_link(part));
+            own.filter(|own| (own[0] - thickness).abs() < ONE)
         };
-        find(&is)
+        let round = |part: &Part| alike(part).is_some_and(|own| (own[1] - diameter).abs() < DRAWN);
+        let flat = |part: &Part| alike(part).is_some_and(|own| own[1] == 0.0);
+        let any = |part: &Part| alike(part).is_some();
+        find(&round).or_else(|| find(&flat)).or_else(|| find(&any))
     }
 
-    /// Rectangles in which a plane cuts it, no farther from the axis than half a width, each with the thickness of what is cut.
+    /// Rectangles in which a plane cuts it, no farther from the axis than half a width, each with the thickness of what is cut and
+    /// its diameter about the axis.
     fn cuts(
         &self,
         plane: (Point, Vector),
         (half, span): (f64, [f64; 2]),
         tolerance: Tolerance,
-    ) -> Vec<(Bounds, f64)> {
+    ) -> Vec<(Bounds, [f64; 2])> {
         let upright = (self.place.rotation * Vector3::z()).z.abs() > 1.0 - 1e-9;
         let z = self.place.translation.vector.z;
         let up = (self.place.rotation * Vector3::z()).z;
@@ -242,11 +249,11 @@ impl Placed<'_> {
                             min: Point::new(along - radius, bottom),
                             max: Point::new(along + radius, top),
                         };
-                        (bounds, turned.length())
+                        (bounds, [turned.length(), 0.0])
                     })
                 });
-                let steps: Vec<(Bounds, f64)> = steps.collect();
-                let meets = |(bounds, _): &(Bounds, f64)| {
+                let steps: Vec<(Bounds, [f64; 2])> = steps.collect();
+                let meets = |(bounds, _): &(Bounds, [f64; 2])| {
                     bounds.min.y <= span[1] && bounds.max.y >= span[0]
                 };
                 if steps.iter().any(meets) {
@@ -263,13 +270,15 @@ impl Placed<'_> {
                     if bottom > span[1] || top < span[0] {
                         return Vec::new();
                     }
+                    let about = self.place.inverse() * Point3::new(plane.0.x, plane.0.y, z);
+                    let about = solid.outline().farthest(Point::new(about.x, about.y));
                     let spans = self.spans(solid, plane, half, tolerance);
                     let spans = spans.into_iter().map(|[left, right]| {
                         let bounds = Bounds {
                             min: Point::new(left, bottom),
                             max: Point::new(right, top),
                         };
-                        (bounds, top - bottom)
+                        (bounds, [top - bottom, 2.0 * about])
                     });
                     spans.collect()
                 })
@@ -300,7 +309,7 @@ impl Placed<'_> {
                     && bounds.min.y <= span[1]
                     && bounds.max.y >= span[0];
                 if within {
-                    vec![(bounds, 0.0)]
+                    vec![(bounds, [0.0; 2])]
                 } else {
                     Vec::new()
                 }
@@ -327,7 +336,10 @@ impl Placed<'_> {
             min: at - reach,
             max: at + reach,
         };
-        if !solid.outline().bounds().meets(&around) {
+        let bounds = solid.outline().bounds();
+        // Sleeves and rollers on another axis nearby have a section of their own.
+        let small = (bounds.max - bounds.min).amax() < 2.0 * half;
+        if !bounds.meets(&around) || (small && !bounds.meets(&Bounds { min: at, max: at })) {
             return Vec::new();
         }
         let mut crossings: Vec<f64> = Vec::new();
@@ -345,7 +357,10 @@ impl Placed<'_> {
         crossings.sort_by(f64::total_cmp);
         let pairs = crossings.chunks_exact(2);
         let cut = pairs.map(|pair| [pair[0].max(-half), pair[1].min(half)]);
-        cut.filter(|[left, right]| right - left > LEAST * half)
+        // What stands about the axis is shown however thin it is.
+        let about = solid.holes().iter().any(|hole| hole.contains(at));
+        let whole = |[left, right]: &[f64; 2]| -half < *left && *right < half;
+        cut.filter(|span| span[1] - span[0] > LEAST * half || (about && whole(span)))
             .collect()
     }
 }
