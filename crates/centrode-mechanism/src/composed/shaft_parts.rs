@@ -3,7 +3,7 @@
 use super::shafts::ROUNDING;
 use super::{Composed, ComposedShaft, Hold, ShaftPart};
 use crate::digits::thousandths;
-use crate::gear::design::{BodySpec, Keyway};
+use crate::gear::design::Keyway;
 use crate::machine::{
     Bar, Fit, JointKind, Machine, Part, SeatedKey, Supply, TurnedPiece, TurnedPieces,
 };
@@ -185,27 +185,30 @@ impl Composed {
                 &self.bodies[part.body].name,
             );
             let link = machine.link_named(body);
-            if let Some(known) = machine.parts.iter_mut().find(|part| part.name == name) {
-                known.links.extend(link);
-                continue;
-            }
-            let own = |(name, hub): (&String, &BodySpec)| (*name == part.name).then(|| hub.clone());
-            let gears = self
-                .gears
-                .iter()
-                .map(|gear| (&gear.name, gear.gear().body()));
-            let cams = self.cams.iter().map(|cam| (&cam.name, cam.part.body()));
-            let Some(hub) = gears.chain(cams).find_map(own) else {
+            let gears = self.gears.iter();
+            let gears = gears.map(|gear| (&gear.name, gear.gear().body(), gear.mount));
+            let cams = self.cams.iter();
+            let cams = cams.map(|cam| (&cam.name, cam.part.body(), cam.mount));
+            let found = gears.chain(cams).find(|(name, ..)| **name == part.name);
+            let Some((_, hub, mount)) = found else {
                 continue;
             };
+            let angle = thousandths((mount + hub.keyway_angle).to_degrees());
+            if let Some(known) = machine.parts.iter_mut().find(|part| part.name == name) {
+                known.links.extend(link);
+                if hub.keyway.is_some() {
+                    known.remark += &format!(", of a copy {angle}°");
+                }
+                continue;
+            }
             let inside = thousandths(shaft.hub.bore);
             let bore = thousandths(hub.bore);
             let kept = match hub.keyway.map(Keyway::of_shaft) {
-                Some(key) => format!(
-                    "keyway {} x {}",
-                    thousandths(key.width),
-                    thousandths(key.depth)
-                ),
+                Some(key) => {
+                    let on = self.original(body);
+                    let [width, depth] = [key.width, key.depth].map(thousandths);
+                    format!("keyway {width} x {depth} at {angle}° from the x axis of {on}")
+                }
                 None => "kept from turning".into(),
             };
             machine.part(Part {
@@ -213,7 +216,7 @@ impl Composed {
                 links: link.into_iter().collect(),
                 supply: Supply::Given,
                 remark: format!(
-                    "holds it on {}: Ø{bore} {} in its bore, {kept}, clear of Ø{inside} inside",
+                    "holds it on {}: Ø{bore} {} in its bore, clear of Ø{inside} inside, {kept}",
                     self.original(body),
                     hub.shaft_fit
                 ),

@@ -109,8 +109,8 @@ fn notes(part: &SheetGear<'_>, k: f64) -> Vec<(Point, Vec<NoteLine>)> {
             ));
         } else {
             let [high, low] = match kind {
-                "tip" => ["largest tip radius", "tip radius of the lowest tooth"],
-                _ => ["root radius of the highest space", "least root radius"],
+                "tip" => ["highest tip", "lowest tip"],
+                _ => ["highest root", "lowest root"],
             };
             notes.push(radius(greatest, high));
             notes.push(radius(least, low));
@@ -134,7 +134,7 @@ fn notes(part: &SheetGear<'_>, k: f64) -> Vec<(Point, Vec<NoteLine>)> {
         mate.into(),
     ];
     let tooth = part.middle(0, 0.0);
-    let name = format!("tooth 0, centre-punched, at {:.3}°", degrees(tooth.point));
+    let name = format!("tooth 0, punched, at {:.3}°", degrees(tooth.point));
     if (tooth.point - start).norm() * k < 4.0 {
         words.insert(1, name.into());
     } else {

@@ -223,7 +223,7 @@ fn notes(part: &SheetGear<'_>) -> Vec<String> {
         lines.extend(likeness(part.pair).map(|alike| {
             let same = match alike {
                 Likeness::All => "are the same part",
-                Likeness::AllButMark => "are the same part but for their marks",
+                Likeness::AllButMark => "are the same but for their marks",
                 Likeness::Teeth => "have the same teeth",
             };
             format!("Driver and driven gear {same}.")

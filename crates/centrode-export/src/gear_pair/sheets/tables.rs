@@ -116,7 +116,7 @@ fn mate_name(pair: &GearPair, mate: Member) -> String {
     };
     let same = match likeness(pair) {
         Some(Likeness::All) => ", same part",
-        Some(Likeness::AllButMark) => ", same part but for its mark",
+        Some(Likeness::AllButMark) => ", same but for marks",
         Some(Likeness::Teeth) => ", same teeth",
         None => "",
     };

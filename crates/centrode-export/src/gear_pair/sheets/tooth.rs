@@ -32,12 +32,12 @@ pub(super) fn extremes(part: &SheetGear<'_>) -> Vec<(u32, &'static str)> {
         return vec![(0, "every tooth alike")];
     }
     let gentlest = if least.1 < 0.0 {
-        "nearest to where the pitch curve is most concave"
+        "nearest to where the curve is most concave"
     } else {
-        "nearest to where the pitch curve bends least"
+        "nearest to where the curve bends least"
     };
     vec![
-        (most.0, "nearest to where the pitch curve bends most"),
+        (most.0, "nearest to where the curve bends most"),
         (least.0, gentlest),
     ]
 }
@@ -130,7 +130,7 @@ pub(super) fn detail(part: &SheetGear<'_>, letter: char, tooth: u32, place: &str
     let bend = if frame.curvature.abs() * part.gear.pitch_length() < 1e-6 {
         "straight here".to_owned()
     } else {
-        format!("radius of curvature here {}", number(radius, 3))
+        format!("radius here {}", number(radius, 3))
     };
     let lines = [
         format!(
