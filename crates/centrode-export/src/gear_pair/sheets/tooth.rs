@@ -122,7 +122,7 @@ pub(super) fn detail(part: &SheetGear<'_>, letter: char, tooth: u32, place: &str
     own.sort_by(|a, b| a.y.total_cmp(&b.y));
     let at = own.get(own.len() / 2);
     if let (Some(&at), true) = (at, fillet.is_finite() && fillet > 0.0) {
-        let elbow = p(reach + 5.0, low - 1.0);
+        let elbow = p(reach + 5.0, low - 5.0);
         let words = format!("fillet R ≥ {}", number(fillet, 3));
         draft.leader(at, elbow, &[words]);
     }
