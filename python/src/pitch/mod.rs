@@ -16,7 +16,7 @@ use crate::error::{Answer, finite};
 ///
 /// >>> import centrode as ct
 /// >>> ct.pitch.circle(module=2, tooth_count=20)
-/// Pitch(circle, r = R: module 2.0 mm, 20 teeth)
+/// Pitch(circle, R = 20 mm: module 2.0 mm, 20 teeth)
 #[pyclass(frozen, eq, module = "centrode")]
 #[derive(Debug)]
 pub(crate) struct Pitch {

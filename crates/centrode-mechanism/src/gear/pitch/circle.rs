@@ -59,7 +59,7 @@ impl Circle {
             eccentricity: 0.0,
         };
         let radius = law.radius;
-        let draft = Draft::new("radius", PolarCurve::new(law), size, "circle, r = R".into())?;
+        let draft = Draft::new("radius", PolarCurve::new(law), size, "circle".into())?;
         Ok(draft.scaled(Scaled::Length("R", radius)))
     }
 }
