@@ -8,7 +8,7 @@ use crate::machine::{
     Bar, Fit, JointKind, Machine, Part, SeatedKey, Supply, TurnedPiece, TurnedPieces,
 };
 
-/// Diameters of its own that a shaft goes on to what drives it.
+/// Diameters of its own that a shaft goes on to what drives or holds it.
 const FREE_END: f64 = 3.0;
 
 impl Composed {

@@ -41,29 +41,33 @@ pub(super) fn likeness(pair: &GearPair) -> Option<Likeness> {
     if !pair.congruent() {
         return None;
     }
-    let of = |member, tooth: u32| middle(pair, member, f64::from(tooth)).point;
-    let teeth = pair.driver().tooth_count();
+    let teeth = pair.driver().tooth_count() as usize;
+    let [driver, driven] = [Member::Driver, Member::Driven].map(|member| -> Vec<Point> {
+        let tooth = |k: usize| middle(pair, member, k as f64).point;
+        (0..teeth).map(tooth).collect()
+    });
     let angle = |p: Point| p.y.atan2(p.x);
     let near = 1e-6 * pair.module();
     // Turned so, the driver is the driven gear; their teeth are numbered in opposite senses.
     let turns = (0..teeth).filter_map(|first| {
-        let turn = angle(of(Member::Driven, 0)) - angle(of(Member::Driver, first));
+        let turn = angle(driven[0]) - angle(driver[first]);
+        let turned = Rotation2::new(turn);
         let fits = (0..teeth).all(|k| {
-            let mine = Rotation2::new(turn) * of(Member::Driver, (first + teeth - k) % teeth);
-            (mine - of(Member::Driven, k)).norm() < near
+            let mine = turned * driver[(first + teeth - k) % teeth];
+            (mine - driven[k]).norm() < near
         });
         fits.then_some((turn, first == 0))
     });
-    let (driver, driven) = (pair.driver().body(), pair.driven().body());
+    let (body, other) = (pair.driver().body(), pair.driven().body());
     let own = |angle| BodySpec {
         keyway_angle: angle,
-        ..driven.clone()
+        ..other.clone()
     };
-    let keyed = driver.keyway.is_some();
+    let keyed = body.keyway.is_some();
     let level = |(turn, marked): (f64, bool)| {
-        let off = driver.keyway_angle + turn - driven.keyway_angle;
+        let off = body.keyway_angle + turn - other.keyway_angle;
         let placed = !keyed || (0.5 * off).sin().abs() < 1e-9;
-        match placed && own(driver.keyway_angle) == *driver {
+        match placed && own(body.keyway_angle) == *body {
             true if marked => Likeness::All,
             true => Likeness::AllButMark,
             false => Likeness::Teeth,
