@@ -8,7 +8,6 @@ use super::{
     cycle::{Base, period},
     edges::EdgeContact,
     meshing::Meshing,
-    walk::Walk,
 };
 
 /// Share of a pitch beside a change within which a sample may count either way: there the edge still is within a seated gap.
@@ -74,14 +73,13 @@ impl Meshing<'_> {
         (inputs, counted): (&[f64], &[u32]),
         base: &Base,
         edges: &[EdgeContact],
-        walk: &Walk,
     ) -> Option<Counts> {
         let pair = self.pair;
         let (angle, pitches) = (period(pair), f64::from(pair.period()));
-        let changes = edges.iter().filter_map(|edge| {
-            let (input, _) = self.edge_contact(edge, walk)?;
-            let by = if edge.begins { 1 } else { -1 };
-            self.meets(edge, input).then_some(Change { input, by })
+        let changes = edges.iter().filter(|edge| self.meets(edge));
+        let changes = changes.map(|edge| Change {
+            input: edge.at.input,
+            by: if edge.begins { 1 } else { -1 },
         });
         let mut changes: Vec<Change> = changes.collect();
         changes.sort_by(|a, b| a.input.total_cmp(&b.input));

@@ -1,7 +1,7 @@
 //! Driver angles at which a contact reaches the end of a flank.
 
 use centrode_geometry::{Point, Vector};
-use centrode_mechanism::gear::{Member, Role};
+use centrode_mechanism::gear::{Member, PitchContact, Role};
 
 use super::{
     body::{GearOutline, OutlinePart},
@@ -12,9 +12,6 @@ use super::{
     walk::Walk,
 };
 
-/// Steps a pitch at which a contact's edge is bracketed.
-const STEPS: u32 = 8;
-
 /// Depth, modules, to which flanks are taken to touch that are told by their chords.
 const TOUCHING: f64 = 1e-3;
 
@@ -24,12 +21,12 @@ const TOUCHING: f64 = 1e-3;
 pub(super) struct EdgeContact {
     member: Member,
     edge: Edge,
-    /// Step of the walk after which it is.
-    step: usize,
+    /// Where the pitch curves touch then.
+    pub(super) at: PitchContact,
     /// Whether the contact comes to the flank there, and does not leave it.
     pub(super) begins: bool,
-    /// Bound of the sliding speed there per speed of the driver, mm/rad.
-    pub(super) fastest: f64,
+    /// Sliding speed there per speed of the driver, mm/rad.
+    pub(super) sliding: f64,
 }
 
 /// End of a flank: its point and the flank's outward normal there, in the axes of its gear.
@@ -91,84 +88,63 @@ fn pitch_point(member: Member, ratio: f64, pose: &Pose) -> Vector {
 impl Meshing<'_> {
     /// Steps along a period between which contacts at edges are sought.
     pub(super) fn edge_walk(&self) -> Walk {
-        Walk::new(self.pair, Stand::Law, STEPS)
+        Walk::new(self.pair, Stand::Law)
     }
 
-    /// Contacts at edges of flanks of both gears that drive on (`sign` 1) or back (-1), over one period, those that may slide fastest
+    /// Contacts at edges of flanks of both gears that drive on (`sign` 1) or back (-1), over one period, those that slide fastest
     /// first.
     pub(super) fn edge_contacts(&self, walk: &Walk, sign: f64) -> Vec<EdgeContact> {
         let mut found = Vec::new();
-        let ratios: Vec<f64> = walk
-            .inputs
-            .iter()
-            .map(|&phi| self.pair.ratio(phi))
-            .collect();
+        let pair = self.pair;
+        let cycle = 0.0..period(pair);
         for (member, body) in [Member::Driver, Member::Driven]
             .into_iter()
             .zip([&self.driver, &self.driven])
         {
-            let steps = ratios.iter().zip(&walk.poses);
-            let points = steps.map(|(&ratio, pose)| pitch_point(member, ratio, pose));
-            let points: Vec<Vector> = points.collect();
+            let point = |at: &PitchContact, pose: &Pose| pitch_point(member, at.ratio(), pose);
+            let steps = walk.points.iter().zip(&walk.poses);
+            let points: Vec<Vector> = steps.map(|(at, pose)| point(at, pose)).collect();
             for edge in edges(body, sign) {
                 let touched = self.touched(&edge, member);
                 for steps in walk.passages(member, edge.point) {
                     found.extend(steps.filter_map(|step| {
-                        let both = [step, step + 1];
-                        let [f, g] = both.map(|k| edge.aside(points[k]));
-                        let speeds = both.map(|k| (points[k] - touched).norm() * (1.0 + ratios[k]));
-                        // Steady between the steps.
-                        let [low, high] = [speeds[0].min(speeds[1]), speeds[0].max(speeds[1])];
-                        ((f > 0.0) != (g > 0.0)).then_some(EdgeContact {
+                        let [f, g] = [step, step + 1].map(|k| edge.aside(points[k]));
+                        if (f > 0.0) == (g > 0.0) {
+                            return None;
+                        }
+                        let at = walk.root(pair, step, |at, pose| edge.aside(point(at, pose)))?;
+                        let away = point(&at, &Pose::at(pair, &at, Stand::Law)) - touched;
+                        cycle.contains(&at.input).then_some(EdgeContact {
                             member,
                             edge,
-                            step,
+                            at,
                             begins: edge.side * g > 0.0,
-                            fastest: high + (high - low),
+                            sliding: away.norm() * (1.0 + at.ratio()),
                         })
                     }));
                 }
             }
         }
-        found.sort_by(|a, b| b.fastest.total_cmp(&a.fastest));
+        found.sort_by(|a, b| b.sliding.total_cmp(&a.sliding));
         found
     }
 
-    /// Driver angle of a contact at an edge, and the sliding speed there per speed of the driver, mm/rad; nothing outside of the
-    /// cycle.
-    pub(super) fn edge_contact(&self, contact: &EdgeContact, walk: &Walk) -> Option<(f64, f64)> {
-        let EdgeContact {
-            member, edge, step, ..
-        } = contact;
-        let point = |phi: f64, pose: &Pose| pitch_point(*member, self.pair.ratio(phi), pose);
-        let at_step = |k: usize| edge.aside(point(walk.inputs[k], &walk.poses[k]));
-        let at = |phi: f64| edge.aside(point(phi, &Pose::at_law(self.pair, phi)));
-        let phi = walk.roots(*step..step + 1, at_step, at).next()?;
-        let pose = Pose::at_law(self.pair, phi);
-        let away = point(phi, &pose) - self.touched(edge, *member);
-        let sliding = away.norm() * (1.0 + self.pair.ratio(phi));
-        (0.0..period(self.pair))
-            .contains(&phi)
-            .then_some((phi, sliding))
-    }
-
     /// Whether the mate has a flank near where an edge would touch it.
-    pub(super) fn has_mate(&self, contact: &EdgeContact, phi: f64) -> bool {
-        self.any_mate(contact, phi, |_, _| true)
+    pub(super) fn has_mate(&self, contact: &EdgeContact) -> bool {
+        self.any_mate(contact, |_, _| true)
     }
 
     /// Whether the mate has a flank where an edge would touch it.
-    pub(super) fn meets(&self, contact: &EdgeContact, phi: f64) -> bool {
-        self.any_mate(contact, phi, |part, point| foot(part, point).is_some())
+    pub(super) fn meets(&self, contact: &EdgeContact) -> bool {
+        self.any_mate(contact, |part, point| foot(part, point).is_some())
     }
 
     fn any_mate(
         &self,
         contact: &EdgeContact,
-        phi: f64,
         touches: impl Fn(&OutlinePart<'_>, &Point) -> bool,
     ) -> bool {
-        let pose = Pose::at_law(self.pair, phi);
+        let pose = Pose::at(self.pair, &contact.at, Stand::Law);
         let edge = &contact.edge;
         let half = Point::from(edge.point.coords + edge.normal * (0.5 * self.pair.backlash()));
         let (mate, point) = match contact.member {

@@ -4,7 +4,7 @@ use centrode_geometry::{Extreme, bracketed_minimum_below};
 use centrode_mechanism::gear::GearPair;
 
 use super::{
-    CARRIED, Contact,
+    CARRIED, Contact, at_angle, clearances,
     count::{Counts, sampled},
     cycle::{Base, period},
     edges::EdgeContact,
@@ -14,7 +14,7 @@ use super::{
 };
 
 /// Angle, rad, of which a seat tells no more.
-const ROUNDING: f64 = 1e-12;
+pub(super) const ROUNDING: f64 = 1e-12;
 
 /// Share of a figure by which no peak is told from another.
 const SAME: f64 = 1e-10;
@@ -69,6 +69,7 @@ impl Contact {
             pair,
             base: Base::new(self, pair),
             is_jammed: self.is_jammed(pair),
+            carries: self.carries(),
             meshing: None,
         };
         let a = pair.center_distance();
@@ -87,7 +88,14 @@ impl Contact {
             false => search.meshing().edge_contacts(&walk, 1.0),
         };
         let (counts, gaps) = search.counts(&edges, &walk);
-        let suspects = search.suspects(gaps);
+        // Flanks that carry the motion leave the driven gear at the law's angle, where an edge can be followed along a fillet.
+        let sampled = self.fillet_clearance.iter().copied();
+        let sampled = sampled.fold(f64::INFINITY, f64::min);
+        let nearest = search
+            .carries
+            .then(|| search.edges_to_fillets(walk, sampled));
+        let nearest = nearest.flatten();
+        let suspects = search.suspects(gaps, nearest);
         let transmission_error = search.greatest(error, period, ROUNDING);
         let transmission_error = search.worst(error, transmission_error, &suspects);
         ContactExtremes {
@@ -111,9 +119,9 @@ impl Contact {
                 least(&mut search, normal, period, a * ROUNDING),
                 search.greatest(normal, period, a * ROUNDING),
             ],
-            clearance: search.least_clearance(|c, k| c.clearance[k]),
-            fillet_clearance: search.least_fillet_clearance(),
-            sliding: search.fastest(&edges, &walk),
+            clearance: search.least_clearance(clearances::TIP),
+            fillet_clearance: search.least_fillet_clearance(nearest, sampled),
+            sliding: search.fastest(&edges),
             contacts: counts.range,
             contact_ratio: counts.mean,
         }
@@ -132,21 +140,10 @@ impl Contact {
 }
 
 /// An extreme of the figure with the other sign.
-fn negative(extreme: Extreme) -> Extreme {
+pub(super) fn negative(extreme: Extreme) -> Extreme {
     Extreme {
         value: -extreme.value,
         ..extreme
-    }
-}
-
-/// A clearance by the greatest nearness; infinite where nothing is as near as `within`.
-fn told(nearest: Extreme, within: f64) -> Extreme {
-    match nearest.value > -within {
-        true => negative(nearest),
-        false => Extreme {
-            value: f64::INFINITY,
-            ..nearest
-        },
     }
 }
 
@@ -178,18 +175,20 @@ impl Peak {
 }
 
 /// Search between the samples of a contact.
-struct Search<'a> {
-    contact: &'a Contact,
-    pair: &'a GearPair,
-    base: Base,
+pub(super) struct Search<'a> {
+    pub(super) contact: &'a Contact,
+    pub(super) pair: &'a GearPair,
+    pub(super) base: Base,
     /// Whether the gears have no room for each other: nothing is sought between the samples.
     is_jammed: bool,
+    /// Whether the flanks carry the motion at every sample.
+    pub(super) carries: bool,
     /// Made when it is first needed.
     meshing: Option<Meshing<'a>>,
 }
 
 impl<'a> Search<'a> {
-    fn meshing(&mut self) -> &mut Meshing<'a> {
+    pub(super) fn meshing(&mut self) -> &mut Meshing<'a> {
         let pair = self.pair;
         self.meshing.get_or_insert_with(|| Meshing::new(pair))
     }
@@ -211,7 +210,7 @@ impl<'a> Search<'a> {
     }
 
     /// Greatest value of a figure over the cycle, from samples of it and from what it is between them.
-    fn greatest_among(
+    pub(super) fn greatest_among(
         &mut self,
         (inputs, values): (&[f64], &[f64]),
         among: usize,
@@ -249,60 +248,30 @@ impl<'a> Search<'a> {
         best
     }
 
-    /// Least value of a clearance of the samples; infinite where all are.
-    fn least_clearance(&mut self, figure: Figure) -> Extreme {
-        // Nothing farther apart is looked at.
-        let near = self.meshing().near;
-        let among = self.base.half;
-        let found = self.greatest(|c, k| -figure(c, k).min(near), among, near * ROUNDING);
-        told(found, near)
-    }
-
-    /// Least clearance from a fillet.
-    ///
-    /// Flanks that carry the motion leave the driven gear at the law's angle, where an edge can be followed along a fillet; what
-    /// comes nearer than any edge is found among the samples.
-    fn least_fillet_clearance(&mut self) -> Extreme {
-        let figure: Figure = |c, k| c.fillet_clearance[k];
-        if !self.contact.carries() {
-            return self.least_clearance(figure);
-        }
-        let rounding = self.meshing().near * ROUNDING;
-        let sampled = self.contact.fillet_clearance.iter().copied();
-        let sampled = sampled.fold(f64::INFINITY, f64::min);
-        let edges = self.meshing().edges_to_fillets(Stand::Law, sampled);
-        match edges {
-            Some(edges) if edges.value <= sampled + rounding => edges,
-            _ => self.least_clearance(figure),
-        }
-    }
-
     /// Greatest sliding speed: flanks slide faster the farther they touch from the pitch point, so fastest where the contact
     /// reaches an edge. Where an edge carries the motion itself, the samples tell.
-    fn fastest(&mut self, edges: &[EdgeContact], walk: &Walk) -> Extreme {
-        let sliding = |c: &Contact, k: usize| c.sliding[k];
+    fn fastest(&mut self, edges: &[EdgeContact]) -> Extreme {
         let contact = self.contact;
         let mut best = highest(&contact.input, &contact.sliding);
-        let pair = self.pair;
-        let carries = contact.carries();
+        let (pair, carries) = (self.pair, self.carries);
         // Speed at edges at which the contact was seen to end, just beside which nothing is slower by more than rounding.
         let mut ended: f64 = 0.0;
         let beside = BESIDE * period(pair) / f64::from(pair.period());
         for edge in edges {
             let known = best.value.max(ended) * (1.0 + SAME);
-            if edge.fastest <= known {
+            let speed = edge.sliding;
+            if speed <= known {
                 break;
             }
             let meshing = self.meshing();
-            let Some((phi, speed)) = meshing.edge_contact(edge, walk) else {
-                continue;
-            };
             // Gears off their law may touch anywhere.
-            if speed <= known || (carries && !meshing.has_mate(edge, phi)) {
+            if carries && !meshing.has_mate(edge) {
                 continue;
             }
-            for phi in [phi - beside, phi + beside] {
-                let value = self.value(&sliding, phi);
+            for phi in [edge.at.input - beside, edge.at.input + beside] {
+                let point = at_angle(pair, phi);
+                let facing = meshing.at_law(&point).sliding;
+                let value = facing.unwrap_or_else(|| meshing.sample(&point).loaded[0].sliding);
                 if value >= speed * (1.0 - ENDED) {
                     ended = ended.max(speed);
                 }
@@ -317,19 +286,25 @@ impl<'a> Search<'a> {
 
     /// Stretches of the driver angle, by middle and half length, at which flanks may not carry the motion though they do at all
     /// samples: where none of them is in contact, and where an edge comes deepest into a fillet.
-    fn suspects(&mut self, mut found: Vec<(f64, f64)>) -> Vec<(f64, f64)> {
-        if !self.contact.carries() {
+    fn suspects(
+        &mut self,
+        mut found: Vec<(f64, f64)>,
+        nearest: Option<Extreme>,
+    ) -> Vec<(f64, f64)> {
+        if !self.carries {
             return found;
         }
         let reach = REACH * period(self.pair) / f64::from(self.pair.period());
-        let stands: &[Stand] = match self.pair.backlash() > 0.0 {
-            true => &[Stand::Seat(1.0), Stand::Seat(-1.0)],
-            false => &[Stand::Law],
-        };
-        let mirrored = self.base.is_mirrored();
+        if self.pair.backlash() == 0.0 {
+            let deepest = nearest.filter(|nearest| nearest.value < 0.0);
+            found.extend(deepest.map(|found| (found.input, reach)));
+            return found;
+        }
         // Pushed back it is the mirror image.
-        for &stand in &stands[..if mirrored { 1 } else { stands.len() }] {
-            let deepest = self.meshing().edges_to_fillets(stand, 0.0);
+        let stands = [1.0, -1.0].map(Stand::Seat);
+        for &stand in &stands[..if self.base.is_mirrored() { 1 } else { 2 }] {
+            let walk = Walk::new(self.pair, stand);
+            let deepest = self.meshing().edges_to_fillets(&walk, 0.0);
             found.extend(deepest.map(|found| (found.input, reach)));
         }
         found
@@ -365,18 +340,18 @@ impl<'a> Search<'a> {
     /// pushes.
     fn counts(&mut self, edges: &[EdgeContact], walk: &Walk) -> (Counts, Vec<(f64, f64)>) {
         let (contact, base) = (self.contact, self.base);
-        if !contact.carries() {
+        if !self.carries {
             return (sampled(contact), Vec::new());
         }
         let meshing = self.meshing();
-        let on = meshing.counts((&contact.input, &contact.contacts), &base, edges, walk);
+        let on = meshing.counts((&contact.input, &contact.contacts), &base, edges);
         let counts = on.unwrap_or_else(|| sampled(contact));
         let mut gaps = counts.gaps.clone();
         // Pushed back it is the mirror image.
         if !base.is_mirrored() {
             let edges = meshing.edge_contacts(walk, -1.0);
             let counted = (&contact.input[..], &contact.reverse_contacts[..]);
-            let back = meshing.counts(counted, &base, &edges, walk);
+            let back = meshing.counts(counted, &base, &edges);
             gaps.extend(back.into_iter().flat_map(|counts| counts.gaps));
         }
         (counts, gaps)
@@ -396,8 +371,8 @@ impl<'a> Search<'a> {
 
     /// A figure at a driver angle.
     fn value(&mut self, figure: &impl Fn(&Contact, usize) -> f64, phi: f64) -> f64 {
-        let law = self.pair.driven_angle(phi);
-        let sample = self.meshing().sample(phi, law);
+        let point = at_angle(self.pair, phi);
+        let sample = self.meshing().sample(&point);
         figure(&Contact::from_iter([sample]), 0)
     }
 }

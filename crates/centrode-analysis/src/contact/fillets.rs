@@ -6,14 +6,12 @@ use centrode_geometry::{Extreme, Point, SegmentJet, Vector, bracketed_minimum_be
 use centrode_mechanism::gear::{Member, Role};
 
 use super::{
+    at_angle,
     body::{Corner, GearOutline},
     meshing::Meshing,
-    touch::{self, Pose, Stand},
+    touch::{self, Pose},
     walk::Walk,
 };
-
-/// Steps a pitch among which the least distance is sought.
-const STEPS: u32 = 16;
 
 /// Multiple of the least distance known within which lesser ones are looked for.
 const BEYOND: f64 = 4.0;
@@ -94,14 +92,12 @@ impl<'a> Fillets<'a> {
 }
 
 impl Meshing<'_> {
-    /// Least clearance of an edge from a fillet over the cycle with the driven gear at some stand, where one of `known` mm is
-    /// known; nothing where no edge comes so near.
+    /// Least clearance of an edge from a fillet over a walk, where one of `known` mm is known; nothing where no edge comes so near.
     ///
     /// An edge is nearest where its way runs along the fillet, or where the fillet that faces it ends. The latter is the root of
     /// the edge's distance, along the tangent, from that end.
-    pub(super) fn edges_to_fillets(&self, stand: Stand, known: f64) -> Option<Extreme> {
+    pub(super) fn edges_to_fillets(&self, walk: &Walk, known: f64) -> Option<Extreme> {
         let within = (BEYOND * known).max(LEAST * self.module).min(self.near);
-        let walk = Walk::new(self.pair, stand, STEPS);
         let gears = [
             (
                 Member::Driver,
@@ -116,7 +112,6 @@ impl Meshing<'_> {
         ];
         let approaches = gears.iter().flat_map(|(member, own, fillets)| {
             let corners = own.parts.iter().filter_map(|part| part.corner.as_ref());
-            let walk = &walk;
             corners.map(move |corner| Approach {
                 meshing: self,
                 walk,
@@ -180,7 +175,7 @@ impl Approach<'_> {
 
     fn pose(&self, phi: f64) -> Pose {
         let pair = self.meshing.pair;
-        Pose::new(phi, self.walk.stand.at(pair, phi), pair.center_distance())
+        Pose::at(pair, &at_angle(pair, phi), self.walk.stand)
     }
 
     /// Distance from a part that faces the edge, and that the edge faces.
@@ -302,7 +297,7 @@ impl Approach<'_> {
         let first = steps[0].fillet;
         let last = self.parts(first).last().unwrap_or(first);
         let from = steps[0].step.saturating_sub(1);
-        let to = (steps[steps.len() - 1].step + 1).min(self.walk.inputs.len() - 1);
+        let to = (steps[steps.len() - 1].step + 1).min(self.walk.points.len() - 1);
         let ends = [(first, -1.0), (last, 1.0)].into_iter();
         ends.flat_map(move |(part, u)| {
             let jet = self.end(part, u);
@@ -333,11 +328,11 @@ impl Approach<'_> {
         };
         steps.iter().filter_map(move |here| {
             let (value, step) = (here.gap?, here.step);
-            if step == 0 || step + 1 == self.walk.inputs.len() {
+            if step == 0 || step + 1 == self.walk.points.len() {
                 return None;
             }
             let [f, g] = [gap_at(step - 1), gap_at(step + 1)];
-            let at = |step: usize, gap: f64| (self.walk.inputs[step], gap);
+            let at = |step: usize, gap: f64| (self.walk.points[step].input, gap);
             let gaps = [at(step - 1, f), at(step, value), at(step + 1, g)];
             let fillet = here.fillet;
             let least = value - KINK * (f + g - 2.0 * value);
@@ -351,10 +346,10 @@ impl Approach<'_> {
             Chance::End { part, u, step } => {
                 let jet = self.end(part, u);
                 let along = |pose: &Pose| (self.point(pose) - jet.point).dot(&jet.first);
-                let at_step = |k: usize| along(&self.walk.poses[k]);
-                let at = |phi: f64| along(&self.pose(phi));
-                let phi = self.walk.roots(step..step + 1, at_step, at).next()?;
-                Some((phi, self.gap(part, &self.pose(phi))?))
+                let pair = self.meshing.pair;
+                let at = self.walk.root(pair, step, |_, pose| along(pose))?;
+                let pose = Pose::at(pair, &at, self.walk.stand);
+                Some((at.input, self.gap(part, &pose)?))
             }
             Chance::Between { fillet, gaps } => {
                 let gap = |phi: f64| {

@@ -1,9 +1,10 @@
 use std::cell::RefCell;
 
 use centrode_geometry::{Point, Vector, checkpoint};
-use centrode_mechanism::gear::GearPair;
+use centrode_mechanism::gear::{GearPair, PitchContact};
 
 use super::{
+    at_law::sliding,
     body::GearOutline,
     hit::Hit,
     places::{Candidates, Kind, Place, gaps},
@@ -91,17 +92,16 @@ impl<'a> Meshing<'a> {
         self.memory.clear();
     }
 
-    /// Analyses one pose.
-    pub(super) fn sample(&mut self, phi: f64, law: f64) -> Sample {
+    /// Analyses the pose in which the pitch curves touch at a point.
+    pub(super) fn sample(&mut self, point: &PitchContact) -> Sample {
         checkpoint();
+        let (phi, law) = (point.input, point.driven_angle);
         let a = self.pair.center_distance();
         let pose = Pose::new(phi, law, a);
         let mut candidates = self.candidates(&pose);
         let places = self.places(&mut candidates, &pose);
         let seats = self.seats(&candidates, phi, law);
-        let point = self.pair.pitch_point(phi);
-        let levers = [point.pressure_angle, point.reverse_pressure_angle]
-            .map(|angle| point.driven_radius * angle.cos());
+        let levers = [1.0, -1.0].map(|sign| touch::lever(self.pair, point, sign));
         let [Some(forward), Some(back)] = &seats else {
             // Nothing near enough to drive: the mesh has come apart.
             return Sample {
@@ -114,23 +114,21 @@ impl<'a> Meshing<'a> {
                 fillet_clearance: f64::INFINITY,
             };
         };
-        let ratio = self.pair.ratio(phi);
+        let ratio = point.ratio();
         let half = 0.5 * self.pair.backlash();
         let loaded = |seat: &Seat, sign: f64, lever: f64| {
-            let fastest = |touches: &mut dyn Iterator<Item = (Point, Vector)>| {
-                let speeds = touches.map(|(point, normal)| sliding(point, normal, phi, a, ratio));
-                speeds.reduce(f64::max)
-            };
             // Flanks that stand as designed slide on each other where they face each other at the law's angle; where none do, an
             // edge slides where it touches.
-            let designed = self.designed(&places, sign);
-            let mut facing = designed.filter(|place| place.touch.is_on_both());
-            let facing = fastest(&mut facing.by_ref().map(|p| (p.touch.point, p.touch.normal)));
-            let touching = || fastest(&mut seat.touches.iter().copied());
+            let facing = self.fastest(&places, point, sign);
+            let touching = || {
+                let speeds = seat.touches.iter();
+                let speeds = speeds.map(|&(at, normal)| sliding(at, normal, phi, a, ratio));
+                speeds.reduce(f64::max)
+            };
             Loaded {
                 on_flanks: facing.is_some(),
                 angle: seat.angle,
-                error: seat.angle - self.ideal(&places, phi, law, sign * half),
+                error: seat.angle - self.ideal(&places, point, sign * half),
                 contacts: seat.contacts,
                 sliding: facing.or_else(touching).map_or(0.0, |speed| speed.max(0.0)),
                 lever,
@@ -202,7 +200,11 @@ impl<'a> Meshing<'a> {
 
     /// Places at the law's angle at which flanks face each other with half the designed backlash, where the driver pushes on
     /// (`sign` above zero) or back.
-    fn designed<'p>(&self, places: &'p [Place], sign: f64) -> impl Iterator<Item = &'p Place> {
+    pub(super) fn designed<'p>(
+        &self,
+        places: &'p [Place],
+        sign: f64,
+    ) -> impl Iterator<Item = &'p Place> {
         let (half, near) = (0.5 * self.pair.backlash(), DESIGNED * self.module);
         places.iter().filter(move |p| {
             p.kind == Kind::Flanks
@@ -216,7 +218,8 @@ impl<'a> Meshing<'a> {
     ///
     /// At the law's own angle flanks thinned for backlash are parallel and half the backlash apart; the driven gear is turned
     /// until they touch. Where no flanks face each other as designed the lever is that of the law's own normal.
-    fn ideal(&self, places: &[Place], phi: f64, law: f64, half: f64) -> f64 {
+    fn ideal(&self, places: &[Place], point: &PitchContact, half: f64) -> f64 {
+        let (phi, law) = (point.input, point.driven_angle);
         if half == 0.0 {
             return law;
         }
@@ -238,7 +241,7 @@ impl<'a> Meshing<'a> {
             }
             None
         });
-        touching.unwrap_or_else(|| Stand::Seat(half.signum()).at(self.pair, phi))
+        touching.unwrap_or_else(|| Stand::Seat(half.signum()).angle(self.pair, point))
     }
 
     /// Points where two flanks face each other, sought from where they did: on these parts, on their neighbours of the
@@ -364,13 +367,4 @@ impl<'a> Meshing<'a> {
         }
         turning.finish()
     }
-}
-
-/// Sliding speed of the gears in a contact per speed of the driver, mm/rad.
-fn sliding(point: Point, normal: Vector, phi: f64, a: f64, ratio: f64) -> f64 {
-    let axis = Vector::new(a * phi.cos(), a * phi.sin());
-    let arm = point.coords - axis;
-    let across = |v: Vector| Vector::new(-v.y, v.x);
-    let speed = across(axis) + across(arm) * (1.0 + ratio);
-    speed.perp(&normal).abs()
 }

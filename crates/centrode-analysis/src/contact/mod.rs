@@ -4,7 +4,9 @@
 //! input the driven gear is seated against the driver from either side, and every place where the two
 //! outlines face each other is measured.
 
+mod at_law;
 mod body;
+mod clearances;
 mod count;
 mod cycle;
 mod edges;
@@ -32,7 +34,7 @@ use std::ops::Range;
 
 use centrode_geometry::Cancel;
 use centrode_mechanism::gear::design::Addendum;
-use centrode_mechanism::gear::{GearPair, Tooth, ToothSide};
+use centrode_mechanism::gear::{GearPair, PitchContact, Tooth, ToothSide};
 use cycle::Cycle;
 pub use extremes::ContactExtremes;
 pub use jumps::SeatJump;
@@ -148,7 +150,11 @@ impl Contact {
         let cores = (rayon::current_num_threads() as u32).min(runs);
         let cancel = Cancel::current();
         let steps = Steps::new(cycle.analysed() as usize);
-        let stretches = (0..cores.max(1)).into_par_iter().panic_fuse();
+        if cores <= 1 {
+            // Handing little work to another thread takes longer than doing it.
+            return cycle.whole(run_samples(pair, &cycle, 0..runs, &steps));
+        }
+        let stretches = (0..cores).into_par_iter().panic_fuse();
         let samples = stretches.flat_map_iter(|core| {
             let _scope = cancel.enter();
             let [from, to] = [core, core + 1].map(|k| k * runs / cores);
@@ -161,7 +167,7 @@ impl Contact {
     #[must_use]
     pub fn analyse_at(pair: &GearPair, inputs: &[f64]) -> Self {
         let mut meshing = Meshing::new(pair);
-        let sample = |&phi: &f64| meshing.sample(phi, pair.driven_angle(phi));
+        let sample = |&phi: &f64| meshing.sample(&at_angle(pair, phi));
         inputs.iter().map(sample).collect()
     }
 
@@ -169,8 +175,23 @@ impl Contact {
     #[must_use]
     pub fn posed(pair: &GearPair, poses: &[[f64; 2]]) -> Self {
         let mut meshing = Meshing::new(pair);
-        let sample = |&[phi, law]: &[f64; 2]| meshing.sample(phi, law);
+        let sample = |&[phi, driven_angle]: &[f64; 2]| {
+            let point = at_angle(pair, phi);
+            meshing.sample(&PitchContact {
+                driven_angle,
+                ..point
+            })
+        };
         poses.iter().map(sample).collect()
+    }
+}
+
+/// Where the pitch curves touch at a driver angle.
+fn at_angle(pair: &GearPair, phi: f64) -> PitchContact {
+    let rolling = pair.rolling();
+    PitchContact {
+        input: phi,
+        ..rolling.pitch_contact(rolling.parameter_at_angle(phi))
     }
 }
 
@@ -182,8 +203,8 @@ fn run_samples(pair: &GearPair, cycle: &Cycle, runs: Range<u32>, steps: &Steps) 
     for run in runs {
         meshing.begin();
         for i in run * RUN..cycle.analysed().min((run + 1) * RUN) {
-            let t = rolling.parameter(cycle.arc(i));
-            out.push(meshing.sample(rolling.angle(t), rolling.driven_angle_at(t)));
+            let point = rolling.pitch_contact(rolling.parameter(cycle.arc(i)));
+            out.push(meshing.sample(&point));
             steps.step();
         }
     }

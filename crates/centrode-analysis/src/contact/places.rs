@@ -12,7 +12,7 @@ use super::{
 
 /// Depth, in modules, up to which a penetration is accepted without a second test: too little to tell on which side of a
 /// contour a point lies.
-const ROUNDED: f64 = 1e-9;
+pub(super) const ROUNDED: f64 = 1e-9;
 
 /// Greatest curvature, by the module, beyond which a part is a sharp bend at an end: that of a flank that ends near a cusp.
 const SHARP: f64 = 50.0;

@@ -4,7 +4,8 @@ use centrode_mechanism::gear::design::{Addendum, GearPairDesign};
 use centrode_mechanism::three_arm::{ThreeArm, design::ThreeArmDesign};
 
 use super::{
-    Contact, ProofError, ProofStretch, meshing::Meshing, prove, touch::Pose, window::Allowance,
+    Contact, ProofError, ProofStretch, at_angle, meshing::Meshing, prove, touch::Pose,
+    window::Allowance,
 };
 
 /// Many teeth on a circle off its centre by half its radius.
@@ -57,6 +58,30 @@ fn design(name: &str) -> GearPair {
     let text = std::fs::read_to_string(format!("{folder}/{name}.toml")).expect("readable");
     let design = GearPairDesign::from_toml(&text).expect("a design");
     GearPair::resolve(&design).expect("a pair")
+}
+
+#[test]
+fn what_the_law_alone_tells_is_what_the_seats_tell_too() {
+    for name in ["elliptic-pair-2018", "law-pair", "quintic-pair"] {
+        let pair = design(name);
+        let (mut with, mut without) = (Meshing::new(&pair), Meshing::new(&pair));
+        for i in 0..60 {
+            let point = at_angle(&pair, 0.1 + 0.1037 * f64::from(i));
+            let (sample, at_law) = (with.sample(&point), without.at_law(&point));
+            let gaps = at_law.gaps.expect("nothing penetrates");
+            let sliding = at_law.sliding.expect("flanks that face each other");
+            assert!((sliding - sample.loaded[0].sliding).abs() < 1e-9, "{name}");
+            for (one, other) in gaps
+                .into_iter()
+                .zip([sample.clearance, sample.fillet_clearance])
+            {
+                assert!(
+                    one == other || (one - other).abs() < 1e-9,
+                    "{name}: {one} {other}"
+                );
+            }
+        }
+    }
 }
 
 /// The backlash comes from seating the contours as polygons.

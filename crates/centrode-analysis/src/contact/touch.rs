@@ -1,5 +1,5 @@
 use centrode_geometry::{Point, SegmentJet, Vector};
-use centrode_mechanism::gear::GearPair;
+use centrode_mechanism::gear::{GearPair, PitchContact};
 
 use super::body::{Corner, OutlinePart};
 
@@ -26,6 +26,16 @@ impl Pose {
     /// Pose at a driver angle with the driven gear where the law has it.
     pub(super) fn at_law(pair: &GearPair, phi: f64) -> Self {
         Self::new(phi, pair.driven_angle(phi), pair.center_distance())
+    }
+
+    /// Pose with the pitch curves touching at a point and the driven gear at some stand.
+    pub(super) fn at(pair: &GearPair, point: &PitchContact, stand: Stand) -> Self {
+        let (sin, cos) = (point.input + stand.angle(pair, point)).sin_cos();
+        Self {
+            axis: Point::from(point.direction * pair.center_distance()),
+            sin,
+            cos,
+        }
     }
 
     /// Turn of the gears to each other between two poses, rad, or twice the sine of half of it.
@@ -80,21 +90,21 @@ pub(super) enum Stand {
 
 impl Stand {
     /// Driven angle, rad.
-    pub(super) fn at(self, pair: &GearPair, phi: f64) -> f64 {
-        let law = pair.driven_angle(phi);
+    pub(super) fn angle(self, pair: &GearPair, point: &PitchContact) -> f64 {
+        let law = point.driven_angle;
         match self {
             Self::Law => law,
-            Self::Seat(sign) => {
-                let point = pair.pitch_point(phi);
-                let angle = if sign > 0.0 {
-                    point.pressure_angle
-                } else {
-                    point.reverse_pressure_angle
-                };
-                law - sign * 0.5 * pair.backlash() / (point.driven_radius * angle.cos())
-            }
+            Self::Seat(sign) => law - sign * 0.5 * pair.backlash() / lever(pair, point, sign),
         }
     }
+}
+
+/// Distance of the driven axis from the line of action by the law, with the driver pushing on (1) or back (-1), mm:
+/// r2 cos(alpha -+ mu).
+pub(super) fn lever(pair: &GearPair, point: &PitchContact, sign: f64) -> f64 {
+    let (sin, cos) = pair.teeth().tool.pressure_angle.sin_cos();
+    let (along, across) = point.inclination;
+    point.radii[1] * (cos * along + sign * sin * across)
 }
 
 /// Pair of points, one on each gear, that face each other along a common normal.

@@ -4,9 +4,10 @@ use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
 use centrode_geometry::{Point, bracketed_root, checkpoint};
-use centrode_mechanism::gear::{GearPair, Member};
+use centrode_mechanism::gear::{GearPair, Member, PitchContact};
 
 use super::{
+    at_angle,
     cycle::period,
     touch::{Pose, Stand},
 };
@@ -15,11 +16,14 @@ use super::{
 /// the edge of a full tooth touches within 1.3 of them.
 const WITHIN: u32 = 2;
 
+/// Steps a pitch.
+pub(super) const STEPS: u32 = 16;
+
 /// Poses of a pair, evenly over one period and a little more on either side.
 pub(super) struct Walk {
     pub(super) stand: Stand,
-    /// Driver angles, rad, ascending.
-    pub(super) inputs: Vec<f64>,
+    /// Where the pitch curves touch, at ascending driver angles.
+    pub(super) points: Vec<PitchContact>,
     pub(super) poses: Vec<Pose>,
     /// Direction of the other axis in each gear's own axes, ascending in the sense of `SENSES`.
     directions: [Vec<f64>; 2],
@@ -31,21 +35,32 @@ pub(super) struct Walk {
 const SENSES: [f64; 2] = [1.0, -1.0];
 
 impl Walk {
-    pub(super) fn new(pair: &GearPair, stand: Stand, steps_per_pitch: u32) -> Self {
-        let (steps, beside) = (pair.period() * steps_per_pitch, WITHIN * steps_per_pitch);
+    pub(super) fn new(pair: &GearPair, stand: Stand) -> Self {
+        let (steps, beside) = (pair.period() * STEPS, WITHIN * STEPS);
         let step = period(pair) / f64::from(steps);
         let inputs = (0..=steps + 2 * beside).map(|k| (f64::from(k) - f64::from(beside)) * step);
-        let inputs: Vec<f64> = inputs.collect();
-        let turned: Vec<f64> = inputs.iter().map(|&phi| stand.at(pair, phi)).collect();
-        let a = pair.center_distance();
-        let both = || inputs.iter().zip(&turned);
+        let points: Vec<PitchContact> = inputs.map(|phi| at_angle(pair, phi)).collect();
+        let turned: Vec<f64> = points.iter().map(|p| stand.angle(pair, p)).collect();
         Self {
             stand,
-            poses: both().map(|(&phi, &psi)| Pose::new(phi, psi, a)).collect(),
-            directions: [inputs.clone(), turned.iter().map(|psi| PI - psi).collect()],
+            poses: points.iter().map(|p| Pose::at(pair, p, stand)).collect(),
+            directions: [
+                points.iter().map(|p| p.input).collect(),
+                turned.iter().map(|psi| PI - psi).collect(),
+            ],
             beside: beside as usize,
-            inputs,
+            points,
         }
+    }
+
+    /// The walk over the first half of the period.
+    pub(super) fn half(mut self) -> Self {
+        let margin = 2 * self.beside;
+        let count = (self.points.len() - 1 - margin).div_ceil(2) + margin + 1;
+        self.points.truncate(count);
+        self.poses.truncate(count);
+        self.directions.iter_mut().for_each(|d| d.truncate(count));
+        self
     }
 
     /// Steps from the first to before the last of every passage of a gear's point by the line of centres.
@@ -70,17 +85,23 @@ impl Walk {
             })
     }
 
-    /// Inputs between steps at which a function that is known at every step changes its sign.
-    pub(super) fn roots(
+    /// Place between a step and the next at which a function of where the pitch curves touch, and of the pose there, changes its sign.
+    pub(super) fn root(
         &self,
-        steps: Range<usize>,
-        at_step: impl Fn(usize) -> f64,
-        at: impl Fn(f64) -> f64,
-    ) -> impl Iterator<Item = f64> {
-        steps.filter_map(move |k| {
-            let [f, g] = [k, k + 1].map(&at_step);
-            let (low, high) = (self.inputs[k], self.inputs[k + 1]);
-            ((f > 0.0) != (g > 0.0)).then(|| bracketed_root(&at, low, high, f, g))
+        pair: &GearPair,
+        step: usize,
+        f: impl Fn(&PitchContact, &Pose) -> f64,
+    ) -> Option<PitchContact> {
+        let ends = [step, step + 1].map(|k| f(&self.points[k], &self.poses[k]));
+        let [low, high] = [step, step + 1].map(|k| self.points[k].parameter);
+        let at = |t: f64| {
+            let point = pair.rolling().pitch_contact(t);
+            f(&point, &Pose::at(pair, &point, self.stand))
+        };
+        let differ = (ends[0] > 0.0) != (ends[1] > 0.0);
+        differ.then(|| {
+            let t = bracketed_root(at, low, high, ends[0], ends[1]);
+            pair.rolling().pitch_contact(t)
         })
     }
 }

@@ -1,6 +1,6 @@
 //! Flank tolerances of the teeth, ISO 1328-1:2013.
 
-use centrode_mechanism::gear::{CurvatureRange, GearPair, Member};
+use centrode_mechanism::gear::{GearPair, Member};
 use centrode_mechanism::machine::Datum;
 
 use crate::sheet::number;
@@ -72,7 +72,9 @@ impl Gauge {
 fn gauges(pair: &GearPair, member: Member) -> Option<[Gauge; 2]> {
     let (gear, module) = (pair.gear(member), pair.module());
     let class = class(pair, member).parse().ok()?;
-    let bend = CurvatureRange::new(pair.rolling(), member).greatest.1;
+    let bend = pair.rolling().curvature_ranges()[member as usize]
+        .greatest
+        .1;
     let diameters = [2.0 / bend, module * f64::from(gear.tooth_count())];
     Some(diameters.map(|diameter| Gauge {
         diameter,

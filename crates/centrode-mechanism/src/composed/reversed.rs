@@ -10,7 +10,7 @@ use super::{
 };
 use crate::gear::design::{Addendum, BodySpec, GearPairDesign};
 use crate::gear::pitch::{PitchSpec, Transmission};
-use crate::gear::{CurvatureRange, GearPair, GearPairError, Member, Rolling};
+use crate::gear::{CurvatureRange, GearPair, GearPairError, Rolling};
 use crate::machine::preferred_size;
 use crate::reverse::{KeepOut, Split, SplitKind, TwoBar, leg};
 
@@ -145,7 +145,7 @@ impl ReversedMachine {
         let rolled = pairs.iter().map(|(_, pair)| Ok(GearPair::roll(pair)?.1));
         let rolled = rolled.collect::<Result<Vec<Rolling>, GearPairError>>()?;
         let train = Train::new(split, &rolled);
-        let ranges: Vec<_> = rolled.iter().map(curvature_ranges).collect();
+        let ranges: Vec<_> = rolled.iter().map(Rolling::curvature_ranges).collect();
         let off = |t: f64| {
             let tip = train.tip(chain, chain.at(t).carrier[0]);
             chain.path().distance_near(tip, t)
@@ -183,11 +183,7 @@ pub(super) fn fewest_steps<T, E>(
 
 /// Least radii of curvature where convex, mm: of driver and driven gear.
 pub(super) fn least_convex_radii(rolling: &Rolling) -> [f64; 2] {
-    curvature_ranges(rolling).map(least_convex_radius)
-}
-
-fn curvature_ranges(rolling: &Rolling) -> [CurvatureRange; 2] {
-    [Member::Driver, Member::Driven].map(|member| CurvatureRange::new(rolling, member))
+    rolling.curvature_ranges().map(least_convex_radius)
 }
 
 fn least_convex_radius(range: CurvatureRange) -> f64 {

@@ -1,11 +1,11 @@
-use centrode_geometry::{Extreme, checkpoint, extremes, greatest};
+use centrode_geometry::{Extreme, checkpoint, greatest};
 
 use super::{
     design::GearPairDesign,
     flank::{Flank, Side},
     pair::{GearPair, parameters},
     pitch::{Circle, PitchSpec},
-    rolling::{Member, Rolling},
+    rolling::{CurvatureRange, Member, PitchContact},
     tool::{Tool, ToolKind},
 };
 
@@ -29,26 +29,6 @@ pub struct Limits {
     pub largest_addendum: f64,
     /// Range of curvature of the driver's and of the driven gear's pitch curve.
     pub ranges: [CurvatureRange; 2],
-}
-
-/// Least and greatest curvature of a member's pitch curve (1/mm), and the arc lengths they are at.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct CurvatureRange {
-    /// Least curvature; negative for a curve with a concave part.
-    pub least: (f64, f64),
-    /// Greatest curvature.
-    pub greatest: (f64, f64),
-}
-
-impl CurvatureRange {
-    /// Range over the whole pitch curve of a member, to the float limit between its breaks.
-    #[must_use]
-    pub fn new(rolling: &Rolling, member: Member) -> Self {
-        let curvature = |t: f64| rolling.frame(member, t).curvature;
-        let [least, greatest] = extremes(curvature, &rolling.pieces())
-            .map(|Extreme { input, value }| (rolling.arc_length(input), value));
-        Self { least, greatest }
-    }
 }
 
 /// Both pitch curves where they touch at one driver angle.
@@ -83,28 +63,18 @@ impl GearPair {
     /// Radii, curvatures and pressure angles where the pitch curves touch at a driver angle.
     #[must_use]
     pub fn pitch_point(&self, phi: f64) -> PitchPoint {
+        let rolling = self.rolling();
+        let contact = rolling.pitch_contact(rolling.parameter_at_angle(phi));
+        let alpha = self.teeth().tool.pressure_angle;
+        let inclination = inclination(&contact);
+        let [driver_radius, driven_radius] = contact.radii;
+        let [driver_curvature, driven_curvature] = rolling.curvatures(contact.parameter);
         PitchPoint {
             input: phi,
-            ..self.pitch_point_at(self.rolling().parameter_at_angle(phi))
-        }
-    }
-
-    /// Radii, curvatures and pressure angles where the pitch curves touch at a parameter of the driver's.
-    fn pitch_point_at(&self, t: f64) -> PitchPoint {
-        let rolling = self.rolling();
-        let [driver, driven] = [Member::Driver, Member::Driven].map(|m| rolling.frame(m, t));
-        let radial = driver.point.coords.normalize();
-        let inclination = driver
-            .tangent
-            .dot(&radial)
-            .atan2(radial.perp(&driver.tangent));
-        let alpha = self.teeth().tool.pressure_angle;
-        PitchPoint {
-            input: rolling.angle(t),
-            driver_radius: driver.point.coords.norm(),
-            driven_radius: driven.point.coords.norm(),
-            driver_curvature: driver.curvature,
-            driven_curvature: driven.curvature,
+            driver_radius,
+            driven_radius,
+            driver_curvature,
+            driven_curvature,
             pressure_angle: (alpha - inclination).abs(),
             reverse_pressure_angle: (alpha + inclination).abs(),
         }
@@ -114,10 +84,9 @@ impl GearPair {
     #[must_use]
     pub fn greatest_pressure_angle(&self) -> Extreme {
         let rolling = self.rolling();
-        let steeper = |t: f64| {
-            let point = self.pitch_point_at(t);
-            point.pressure_angle.max(point.reverse_pressure_angle)
-        };
+        // |alpha - mu| and |alpha + mu|: the greater of both.
+        let alpha = self.teeth().tool.pressure_angle;
+        let steeper = |t: f64| alpha + inclination(&rolling.pitch_contact(t)).abs();
         let found = greatest(steeper, &rolling.pieces());
         Extreme {
             input: rolling.angle(found.input),
@@ -130,8 +99,7 @@ impl GearPair {
     pub fn limits(&self) -> Limits {
         let tool = &self.teeth().tool;
         let sin = tool.pressure_angle.sin();
-        let ranges =
-            [Member::Driver, Member::Driven].map(|m| CurvatureRange::new(self.rolling(), m));
+        let ranges = self.rolling().curvature_ranges();
         let convex = ranges.iter().map(|r| r.greatest.1).fold(0.0, f64::max);
         let concave = ranges.iter().map(|r| -r.least.1).fold(0.0, f64::max);
         let regular = sin * sin / convex.max(concave);
@@ -153,7 +121,10 @@ impl GearPair {
     fn widest_height(&self, limit: f64) -> f64 {
         let mut height = limit;
         for member in [Member::Driver, Member::Driven] {
-            for tooth in self.gear(member).teeth() {
+            let pattern = self.patterns.of(member);
+            // Teeth that are images of others are as wide as they.
+            let teeth = (0..).zip(self.gear(member).teeth());
+            for (_, tooth) in teeth.filter(|(k, _)| pattern.image(*k).is_none()) {
                 checkpoint();
                 let flank = |side, crossing| Flank {
                     rolling: self.rolling(),
@@ -209,6 +180,12 @@ impl Limits {
         let tool = parameters(&design, 1.0).tool;
         largest_module(&tool, 1.0, curvatures).min(fillet_module(&tool, 1.0, curvatures[1]))
     }
+}
+
+/// Inclination of the common tangent to the driver's circle, rad.
+fn inclination(contact: &PitchContact) -> f64 {
+    let (cos, sin) = contact.inclination;
+    sin.atan2(cos)
 }
 
 fn largest_module(tool: &Tool, module: f64, [convex, concave]: [f64; 2]) -> f64 {

@@ -28,11 +28,11 @@ pub use intermittent::{
     Cam, IntermittentDrive, IntermittentError, IntermittentLaw, IntermittentPair,
     IntermittentPairError, IntermittentPairSpec, Pins,
 };
-pub use limits::{CurvatureRange, Limits, PitchPoint};
+pub use limits::{Limits, PitchPoint};
 pub use over_pins::{OverPins, Pin, PinFault};
 pub use pair::{Gear, GearPair, GearPairError};
 pub use profile::{ProfileError, Role, Tooth, ToothSide};
-pub use rolling::{Frame, Member, Rolling, RollingError};
+pub use rolling::{CurvatureRange, Frame, Member, PitchContact, Rolling, RollingError};
 pub use teeth::{TeethError, TeethParameters};
 pub use thickness::ThicknessDeviations;
 pub use tool::{Tool, ToolKind};

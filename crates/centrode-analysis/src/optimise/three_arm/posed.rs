@@ -196,8 +196,7 @@ fn quick(design: &mut ThreeArmDesign) -> Option<(Vec<Goal>, f64)> {
 
 /// Greatest convex and concave curvature of both pitch curves, 1/mm.
 fn curvatures(rolling: &Rolling) -> [f64; 2] {
-    let ranges =
-        [Member::Driver, Member::Driven].map(|member| CurvatureRange::new(rolling, member));
+    let ranges = rolling.curvature_ranges();
     let greatest = |of: fn(&CurvatureRange) -> f64| ranges.iter().map(of).fold(0.0, f64::max);
     [
         greatest(|range| range.greatest.1),

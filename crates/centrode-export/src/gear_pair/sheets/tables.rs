@@ -7,7 +7,7 @@ use crate::{
     sheet::{Table, broken, fixed, number, range, treatment},
 };
 use centrode_mechanism::{
-    gear::{CurvatureRange, GearPair, Member, OverPins, PinFault, ToolKind, design::Addendum},
+    gear::{GearPair, Member, OverPins, PinFault, ToolKind, design::Addendum},
     machine::Datum,
 };
 
@@ -67,7 +67,7 @@ pub(super) fn data(part: &SheetGear<'_>, found: &[Datum]) -> Table {
     rows.add("Length of pitch curve", "", number(gear.pitch_length(), 6));
     let (least, greatest) = pair.rolling().radii(part.member);
     rows.add("Pitch radius", "r", range([least, greatest], 4));
-    let bend = CurvatureRange::new(pair.rolling(), part.member);
+    let bend = pair.rolling().curvature_ranges()[part.member as usize];
     rows.add(
         "Curvature of pitch curve",
         "1/mm",

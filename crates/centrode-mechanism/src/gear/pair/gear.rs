@@ -15,6 +15,8 @@ pub struct Gear {
     outline: Outline,
     roles: Vec<Role>,
     owners: Vec<u32>,
+    /// Least and greatest distance of the outline from the axis, mm.
+    radii: (f64, f64),
     pitch_curve: Outline,
     teeth: Vec<Tooth>,
     pub(super) body: BodySpec,
@@ -38,6 +40,7 @@ impl Gear {
             member,
             tooth_count: teeth.len() as u32,
             pitch_length: rolling.pitch_length(member),
+            radii: radii(&outline),
             outline,
             roles,
             owners,
@@ -51,7 +54,7 @@ impl Gear {
 
     pub(super) fn clears_bore(&self) -> Result<(), GearPairError> {
         let reach = bore::reach(&self.body);
-        let (root, _) = self.radii();
+        let (root, _) = self.radii;
         if reach >= root {
             return Err(GearPairError::Bore {
                 member: self.member,
@@ -119,37 +122,7 @@ impl Gear {
     /// Least and greatest distance of the outline from the axis, mm.
     #[must_use]
     pub fn radii(&self) -> (f64, f64) {
-        (self.nearest(1.0), -self.nearest(-1.0))
-    }
-
-    /// Least distance of the outline from the axis times a sign, mm.
-    fn nearest(&self, sign: f64) -> f64 {
-        const STEPS: usize = 8;
-        let at = |i: usize| -1.0 + 2.0 * i as f64 / STEPS as f64;
-        let segments = self.outline.segments();
-        let radius = |segment: &Segment, u: f64| sign * segment.at(u).point.coords.norm();
-        let sampled: Vec<[f64; STEPS + 1]> = segments
-            .iter()
-            .map(|segment| std::array::from_fn(|i| radius(segment, at(i))))
-            .collect();
-        let known = sampled
-            .iter()
-            .flatten()
-            .copied()
-            .fold(f64::INFINITY, f64::min);
-        let mut least = known;
-        for (segment, samples) in segments.iter().zip(&sampled) {
-            for i in 1..STEPS {
-                let (value, beside) = (samples[i], [samples[i - 1], samples[i + 1]]);
-                // A parabola through the three reaches an eighth of this below the middle one.
-                let below = beside[0] + beside[1] - 2.0 * value;
-                if value <= beside[0].min(beside[1]) && value - below < least {
-                    let along = |u: f64| radius(segment, u);
-                    least = least.min(bracketed_minimum(along, at(i - 1), at(i + 1)).1);
-                }
-            }
-        }
-        least
+        self.radii
     }
 
     /// The bore with its keyway, counter-clockwise; `None` for a gear without one.
@@ -157,6 +130,60 @@ impl Gear {
     pub fn bore(&self) -> Option<Outline> {
         bore::outline(&self.body)
     }
+}
+
+/// Steps of a segment among which its distances from the axis are followed.
+const STEPS: usize = 8;
+
+/// Least and greatest distance of an outline from the axis, mm.
+fn radii(outline: &Outline) -> (f64, f64) {
+    let starts = outline.segments().iter().map(|s| s.start().coords.norm());
+    let (mut least, mut greatest) = starts.fold((f64::INFINITY, 0.0_f64), |(low, high), r| {
+        (low.min(r), high.max(r))
+    });
+    let place = |i: usize| -1.0 + 2.0 * i as f64 / STEPS as f64;
+    for segment in outline.segments() {
+        let (near, far) = around(segment);
+        if near > least && far < greatest {
+            continue;
+        }
+        let radius = |u: f64| segment.at(u).point.coords.norm();
+        let samples: [f64; STEPS + 1] = std::array::from_fn(|i| radius(place(i)));
+        least = nearest(&samples, place, radius, least);
+        greatest = -nearest(&samples.map(|r| -r), place, |u| -radius(u), -greatest);
+    }
+    (least, greatest)
+}
+
+/// Bounds of a segment's distance from the axis, mm.
+fn around(segment: &Segment) -> (f64, f64) {
+    match segment {
+        Segment::Poly(poly) => {
+            let sizes: f64 = poly.coefficients()[1..].iter().map(|c| c.norm()).sum();
+            let middle = poly.coefficients()[0].norm();
+            (middle - sizes, middle + sizes)
+        }
+        Segment::Line(..) | Segment::Arc(..) => (0.0, f64::INFINITY),
+    }
+}
+
+/// The least of a function from its samples at some places, as far as it is below what is known.
+fn nearest(
+    samples: &[f64; STEPS + 1],
+    place: impl Fn(usize) -> f64,
+    f: impl Fn(f64) -> f64,
+    known: f64,
+) -> f64 {
+    let mut least = samples.iter().copied().fold(known, f64::min);
+    for i in 1..STEPS {
+        let (value, beside) = (samples[i], [samples[i - 1], samples[i + 1]]);
+        // A parabola through the three reaches an eighth of this below the middle one.
+        let below = beside[0] + beside[1] - 2.0 * value;
+        if value <= beside[0].min(beside[1]) && value - below < least {
+            least = least.min(bracketed_minimum(&f, place(i - 1), place(i + 1)).1);
+        }
+    }
+    least
 }
 
 fn pitch_curve(

@@ -1,14 +1,16 @@
 mod error;
 mod knots;
 mod overlap;
+mod pitch_contact;
 mod resolve;
 
 use std::f64::consts::{PI, TAU};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use centrode_geometry::{Antiderivative, Curve, Jet, Point, Vector, pieces};
 
 pub use error::RollingError;
+pub use pitch_contact::{CurvatureRange, PitchContact};
 
 use super::pitch::Symmetry;
 
@@ -87,6 +89,8 @@ pub struct Rolling {
     least: Extreme,
     greatest: Extreme,
     symmetry: Symmetry,
+    /// Ranges of both curvatures, found when first needed.
+    ranges: OnceLock<[CurvatureRange; 2]>,
 }
 
 /// Share of the period within which two parameters are the same but for rounding.

@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 
 use centrode_geometry::{Extreme, Point, bracketed_minimum, checkpoint};
 
-use super::{Member, Rolling};
+use super::Rolling;
 
 /// Places on a turn of the driver among which an overlap is sought.
 const PLACES: usize = 360;
@@ -14,7 +14,6 @@ const ROUNDING: f64 = 1e-9;
 
 /// A place of the driver's pitch curve, with what the driven gear's has there.
 struct Place {
-    parameter: f64,
     angle: f64,
     radius: f64,
     driven: f64,
@@ -29,16 +28,16 @@ impl Rolling {
     /// r1(phi + gamma) - rho. Convex curves have none. Sought among 360 places of either curve and found between them.
     #[must_use]
     pub fn overlap(&self) -> Option<Extreme> {
+        if self
+            .curvature_ranges()
+            .iter()
+            .all(|range| range.least.1 >= 0.0)
+        {
+            return None;
+        }
         let places: Vec<Place> = (0..=PLACES)
             .map(|k| self.place(self.arc.total() * k as f64 / PLACES as f64))
             .collect();
-        let is_concave = places.iter().any(|place| {
-            let curvature = |member| self.frame(member, place.parameter).curvature;
-            curvature(Member::Driver).min(curvature(Member::Driven)) < 0.0
-        });
-        if !is_concave {
-            return None;
-        }
         // Deepest first.
         let mut found = self.suspects(&places);
         found.sort_by(|p, q| q.0.total_cmp(&p.0));
@@ -69,12 +68,11 @@ impl Rolling {
 
     /// Place at an arc length.
     fn place(&self, arc: f64) -> Place {
-        let parameter = self.parameter(arc);
+        let contact = self.pitch_contact(self.parameter(arc));
         Place {
-            parameter,
-            angle: self.angle(parameter),
-            radius: self.frame(Member::Driver, parameter).point.coords.norm(),
-            driven: self.driven_angle_at(parameter),
+            angle: contact.input,
+            radius: contact.radii[0],
+            driven: contact.driven_angle,
         }
     }
 

@@ -1,5 +1,5 @@
 use std::f64::consts::TAU;
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use centrode_geometry::{Antiderivative, Curve, Point, bracketed_root};
 
@@ -86,6 +86,7 @@ impl Rolling {
             least,
             greatest,
             symmetry: Symmetry::NONE,
+            ranges: OnceLock::new(),
         };
         rolling.knots = rolling.knots_at(&breaks);
         rolling.check_repeats()?;

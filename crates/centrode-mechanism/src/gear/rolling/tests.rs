@@ -1,5 +1,5 @@
 use super::*;
-use crate::gear::pitch::{Bspline, PitchSpec};
+use crate::gear::pitch::{Bspline, PitchSpec, Polar};
 
 #[test]
 fn a_knot_where_the_cycle_starts_is_its_start_whatever_the_rounding() {
@@ -29,6 +29,46 @@ fn a_knot_where_the_cycle_starts_is_its_start_whatever_the_rounding() {
                 count as usize - usize::from(knot),
                 "{degree} {count}"
             );
+        }
+    }
+}
+
+#[test]
+fn pitch_curves_touch_where_their_frames_have_it() {
+    for (expression, ratio) in [
+        ("30 + 6*cos(2*phi) + sin(4*phi)", (1, 1)),
+        ("20/(1 - 0.4*cos(2*phi))", (3, 2)),
+    ] {
+        let spec = PitchSpec::Polar(Polar {
+            expression: Some(expression.into()),
+            ..Polar::default()
+        });
+        let curve = spec.resolve().expect("a curve").curve;
+        let rolling = Rolling::new(curve, ratio).expect("rolls");
+        let [mut least, mut greatest] = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+        for i in -40..90 {
+            let t = 0.0713 * f64::from(i);
+            let contact = rolling.pitch_contact(t);
+            let frames = [Member::Driver, Member::Driven].map(|m| rolling.frame(m, t));
+            let curvatures = rolling.curvatures(t);
+            for (k, frame) in frames.iter().enumerate() {
+                assert!((frame.point.coords.norm() - contact.radii[k]).abs() < 1e-12);
+                assert!((frame.curvature - curvatures[k]).abs() < 1e-13);
+                least[k] = least[k].min(curvatures[k]);
+                greatest[k] = greatest[k].max(curvatures[k]);
+            }
+            let [driver, _] = &frames;
+            assert!((contact.direction * contact.radii[0] - driver.point.coords).norm() < 1e-12);
+            assert!((contact.input - rolling.angle(t)).abs() < 1e-14);
+            assert!((contact.driven_angle - rolling.driven_angle_at(t)).abs() < 1e-14);
+            let (cos, sin) = contact.inclination;
+            assert!((cos - contact.direction.perp(&driver.tangent)).abs() < 1e-14);
+            assert!((sin - contact.direction.dot(&driver.tangent)).abs() < 1e-14);
+            assert!((contact.ratio() - rolling.ratio(contact.input)).abs() < 1e-13);
+        }
+        for (k, range) in rolling.curvature_ranges().iter().enumerate() {
+            assert!(range.least.1 <= least[k] && greatest[k] <= range.greatest.1);
+            assert!(range.greatest.1 - greatest[k] < 0.01 * (range.greatest.1 - range.least.1));
         }
     }
 }
