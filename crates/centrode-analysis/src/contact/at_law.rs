@@ -9,9 +9,9 @@ use super::{
     touch::{Pose, Stand, Touch},
 };
 
-/// Figures of gears that stand at the law's angle, whoever pushes.
+/// Figures of gears that stand at the law's angle.
 pub(super) struct AtLaw {
-    /// Greatest sliding speed of flanks that face each other as designed, by the driver's; none where none do.
+    /// Greatest sliding speed, by the driver's, of flanks that face each other as designed and push on; none where none do.
     pub(super) sliding: Option<f64>,
     /// Clearances of tips from roots and from fillets; none where the gears penetrate each other.
     pub(super) gaps: Option<[f64; 2]>,

@@ -86,11 +86,6 @@ fn pitch_point(member: Member, ratio: f64, pose: &Pose) -> Vector {
 }
 
 impl Meshing<'_> {
-    /// Steps along a period between which contacts at edges are sought.
-    pub(super) fn edge_walk(&self) -> Walk {
-        Walk::new(self.pair, Stand::Law)
-    }
-
     /// Contacts at edges of flanks of both gears that drive on (`sign` 1) or back (-1), over one period, those that slide fastest
     /// first.
     pub(super) fn edge_contacts(&self, walk: &Walk, sign: f64) -> Vec<EdgeContact> {

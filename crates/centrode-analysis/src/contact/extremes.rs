@@ -82,7 +82,7 @@ impl Contact {
         let penetration: Figure = |c, k| c.penetration[k];
         let backlash: Figure = |c, k| c.backlash[k];
         let normal: Figure = |c, k| c.normal_backlash[k];
-        let walk = search.meshing().edge_walk();
+        let walk = Walk::new(pair, Stand::Law);
         let edges = match search.is_jammed {
             true => Vec::new(),
             false => search.meshing().edge_contacts(&walk, 1.0),

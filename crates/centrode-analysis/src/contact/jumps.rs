@@ -99,7 +99,8 @@ fn jump(meshing: &mut Meshing<'_>, (from, to): (f64, f64), is_reverse: bool) -> 
 /// How far off its law the driven gear is held at a driver angle, rad, and the teeth that hold it.
 fn seat(meshing: &mut Meshing<'_>, phi: f64, is_reverse: bool) -> Option<(f64, (u32, u32))> {
     let law = meshing.pair.driven_angle(phi);
-    let candidates = meshing.candidates(&Pose::at_law(meshing.pair, phi));
+    let pose = Pose::new(phi, law, meshing.pair.center_distance());
+    let candidates = meshing.candidates(&pose);
     let [on, back] = meshing.seats(&candidates, phi, law);
     let seat: Seat = if is_reverse { back? } else { on? };
     let (i, j) = seat.hits.first()?.parts;

@@ -23,11 +23,6 @@ impl Pose {
         }
     }
 
-    /// Pose at a driver angle with the driven gear where the law has it.
-    pub(super) fn at_law(pair: &GearPair, phi: f64) -> Self {
-        Self::new(phi, pair.driven_angle(phi), pair.center_distance())
-    }
-
     /// Pose with the pitch curves touching at a point and the driven gear at some stand.
     pub(super) fn at(pair: &GearPair, point: &PitchContact, stand: Stand) -> Self {
         let (sin, cos) = (point.input + stand.angle(pair, point)).sin_cos();

@@ -17,7 +17,7 @@ use super::{
 const WITHIN: u32 = 2;
 
 /// Steps a pitch.
-pub(super) const STEPS: u32 = 16;
+const STEPS: u32 = 16;
 
 /// Poses of a pair, evenly over one period and a little more on either side.
 pub(super) struct Walk {
@@ -40,13 +40,12 @@ impl Walk {
         let step = period(pair) / f64::from(steps);
         let inputs = (0..=steps + 2 * beside).map(|k| (f64::from(k) - f64::from(beside)) * step);
         let points: Vec<PitchContact> = inputs.map(|phi| at_angle(pair, phi)).collect();
-        let turned: Vec<f64> = points.iter().map(|p| stand.angle(pair, p)).collect();
         Self {
             stand,
             poses: points.iter().map(|p| Pose::at(pair, p, stand)).collect(),
             directions: [
                 points.iter().map(|p| p.input).collect(),
-                turned.iter().map(|psi| PI - psi).collect(),
+                points.iter().map(|p| PI - stand.angle(pair, p)).collect(),
             ],
             beside: beside as usize,
             points,
