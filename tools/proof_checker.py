@@ -14,9 +14,10 @@ The driver stands in its own axes. At the driver angle phi the driven gear, turn
 Its seat `on` is the least psi of its backlash, `back` the greatest. With w the half width, for every phi of the cycle:
 
  1. Neither contour meets the other at any psi from on + w to back - w. Two pieces are apart by the discs around them,
-    or by a parabola H(X) = Im y - k (Re y)^2 = 0, y = conj(T) (X - c), through a point c of a contour along its unit
-    tangent T: the driver keeps H above a number, the driven gear below it. A walk along a contour, away from c, bounds
-    H by its slope and its second derivative. As dH/dpsi has one sign, the driven gear stays below when it is turned.
+    by a strip along one of them, or by a parabola H(X) = Im y - k (Re y)^2 = 0, y = conj(T) (X - c), through a point c
+    of a contour along its unit tangent T: the driver keeps H above a number, the driven gear below it. A walk along a
+    contour, away from c, bounds H by its slope and its second derivative. As dH/dpsi has one sign, the driven gear
+    stays below when it is turned.
  2. Within w of either seat the contours meet: two components of the vector from a point of one to the other change
     their signs over opposite sides of a rectangle in (place along the contour, psi), so both vanish in it (Miranda).
 

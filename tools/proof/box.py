@@ -3,6 +3,7 @@
 from flint import acb, acb_poly, acb_series, arb, arb_poly
 from proof import floats
 from proof.balls import TERMS, UNIT, ZERO, UndecidedError, chebyshev, magnitude, shifted, sweep
+from proof.floats import SHARE
 from proof.law import OVERLAP
 from proof.meeting import AROUND, Meeting, ends
 
@@ -28,6 +29,7 @@ class Box:
         seats = [self.along(s) for s in stretch["seats"]]
         backlash = seats[1] - seats[0]
         self.backlash = floats.upper(magnitude(sweep(backlash)) + 2 * pair.width)
+        self.half_backlash = self.backlash / 2
         clear = [ahead + law + s + e * pair.width for s, e in zip(seats, (1, -1), strict=True)]
         between = ahead + law + (seats[0] + seats[1]) * arb(0.5)
         self.axis = self.turning(ahead, pair.distance)
@@ -85,8 +87,8 @@ class Box:
         return [(a, part) for part in b.parts]
 
     def apart(self, a, b, offset=0.0, half=None):
-        """Whether the discs of two nodes are apart at every angle of the box and every turn within the backlash."""
-        half = self.backlash / 2 if half is None else half
+        """Whether discs or strips of two nodes are apart at every angle of the box and every turn in the backlash."""
+        half = self.half_backlash if half is None else half
         places = self.turned.get(offset)
         if places is None:
             # A float near e^(i offset): what it lacks is left to the rounding of the motion.
@@ -99,11 +101,21 @@ class Box:
         swing = b.size * half
         if room > swing:
             return True
+        if a.along and b.along and self.is_beside(a, b, found, places[None], swing):
+            return True
         if not room > 0 or swing < a.radius + b.radius:
             return False
         # The backlash is wider than the discs: in two parts.
         half /= 2
         return self.apart(a, b, offset + half, half) and self.apart(a, b, offset - half, half)
+
+    def is_beside(self, a, b, place, turn, swing):
+        """Whether two parts lie on either side of a strip along one of them."""
+        # Neither a middle nor a direction turns by more over the box than the motion's swing tells.
+        along, off = self.between.b * turn * b.along, (place[0] - a.centre).conjugate()
+        cross = abs((a.along.conjugate() * along).imag)
+        over = a.thick + b.thick + swing + place[1] + self.between.swing * b.radius + SHARE * (a.size + b.size)
+        return abs((off * a.along).imag) > over + cross * b.radius or abs((off * along).imag) > over + cross * a.radius
 
     def is_free(self):
         """Claim 1: whether no two pieces meet within the backlash."""
@@ -115,7 +127,7 @@ class Box:
         parted, orders, tried = [], {}, set()
         while near:
             a, b = near.pop()
-            if self.apart(a, b) or is_parted(parted, a, b):
+            if is_parted(parted, a, b) or self.apart(a, b):
                 continue
             length = max(a.last - a.first, b.last - b.first)
             # No more parabolas than it takes, and those at hand first: they cost much.

@@ -44,11 +44,13 @@ class Hull:
 
 
 class Node:
-    """Part of a contour's piece, or a run of pieces: a disc around it, and what it splits into."""
+    """Part of a contour's piece, or a run of pieces: a disc around it, a strip along it, and what it splits into."""
 
-    def __init__(self, first, last, centre, radius, split):
+    def __init__(self, first, last, centre, radius, split, along=None, thick=0.0):
+        """`along` is a float near a unit vector, `thick` how far the part reaches off the line through the centre."""
         self.first, self.last = first, last
         self.centre, self.radius, self.size = centre, radius, above(abs(centre), radius)
+        self.along, self.thick = along, thick
         self._split, self._parts = split, None
 
     @property
@@ -142,8 +144,9 @@ class Contour:
         out = list(self.floats[piece])
         count = len(out)
         for i in range(count - 1):
+            above = out[-1]
             for k in range(count - 2, i - 1, -1):
-                out[k] += at * out[k + 1]
+                above = out[k] = out[k] + at * above
         return out
 
     def place(self, piece, at):
@@ -243,8 +246,13 @@ class Contour:
         def split():
             return self.part(piece, start, middle), self.part(piece, middle, stop)
 
-        ends = piece + (start + 1) / 2, piece + (stop + 1) / 2
-        return Node(*ends, series[0], above(sum(map(abs, series[1:])), off[0], self.miss, self.slack), split)
+        ends, more = (piece + (start + 1) / 2, piece + (stop + 1) / 2), (off[0], self.miss, self.slack)
+        radius, speed = above(sum(map(abs, series[1:])), *more), abs(series[1])
+        if not speed > 0:
+            return Node(*ends, series[0], radius, split)
+        along = series[1] / speed
+        thick = above(sum(abs((along.conjugate() * c).imag) for c in series[2:]), *more, SHARE * radius)
+        return Node(*ends, series[0], radius, split, along, thick)
 
 
 class Range:

@@ -2,7 +2,7 @@ use std::sync::{Mutex, PoisonError};
 
 use centrode_geometry::{Antiderivative, Extreme, greatest_of, rounding};
 use centrode_mechanism::composed::{Composed, ComposedFigure};
-use centrode_mechanism::machine::{JointKind, Machine};
+use centrode_mechanism::machine::{JointKind, Load, Machine};
 
 use super::{ends, keys};
 use crate::forces::{Balance, Forces, ForcesError};
@@ -83,6 +83,12 @@ pub(super) fn part(forces: &Forces, figure: &ComposedFigure) -> Option<f64> {
     }
 }
 
+/// Whether a cycle gives back all the work that it takes: without loads and friction, weight and inertia alone.
+fn returns_all_work(machine: &Machine) -> bool {
+    let masses = |load: &Load| matches!(load, Load::Mass { .. });
+    machine.loads.iter().all(masses) && machine.guides.is_empty()
+}
+
 /// Torque of the input, the greatest force of every joint, pin and mesh, and the pressure on the keys of shafts.
 pub(super) fn forces(
     loaded: &Result<Loaded, ForcesError>,
@@ -123,14 +129,18 @@ pub(super) fn forces(
         all.map(|value| value.unwrap_or(f64::NAN)).collect()
     });
     let (low, high) = (-found[rows.len()].value, found[rows.len() + 1].value);
-    let torque = |input: f64| loaded.value(&ComposedFigure::InputTorque, input);
-    // The rounding of the torque, that of the moments of all forces, need not be followed.
-    let force = found[..rows.len()].iter().map(|found| found.value);
-    let force = force.fold(0.0, f64::max);
-    let arms = machine.joints.iter().map(|joint| joint.origin);
-    let arm = arms.map(|[x, y, _]| x.hypot(y)).fold(0.0, f64::max);
-    let size = ROUNDING * high.abs().max(low.abs()).max(force * arm);
-    let mean = Antiderivative::of_size(torque, &loaded.ends, size).total() / loaded.period;
+    let mean = if returns_all_work(machine) {
+        0.0
+    } else {
+        let torque = |input: f64| loaded.value(&ComposedFigure::InputTorque, input);
+        // The rounding of the torque, that of the moments of all forces, need not be followed.
+        let force = found[..rows.len()].iter().map(|found| found.value);
+        let force = force.fold(0.0, f64::max);
+        let arms = machine.joints.iter().map(|joint| joint.origin);
+        let arm = arms.map(|[x, y, _]| x.hypot(y)).fold(0.0, f64::max);
+        let size = ROUNDING * high.abs().max(low.abs()).max(force * arm);
+        Antiderivative::of_size(torque, &loaded.ends, size).total() / loaded.period
+    };
     let failed = loaded.failed.lock();
     if let Some(error) = failed.unwrap_or_else(PoisonError::into_inner).as_ref() {
         return undetermined(error, report);
