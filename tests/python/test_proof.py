@@ -6,6 +6,7 @@ import math
 import re
 import subprocess
 import sys
+from itertools import pairwise
 from types import SimpleNamespace
 
 import centrode as ct
@@ -18,6 +19,10 @@ from shapely import affinity
 
 sys.path.insert(0, str(ROOT / "tools"))
 import proof_checker
+from proof import floats
+from proof.balls import TERMS
+from proof.box import Box
+from proof.contour import Contour
 
 DESIGNS = ROOT / "tests" / "designs"
 CHECKER = ROOT / "tools" / "proof_checker.py"
@@ -113,6 +118,38 @@ def test_seats_that_touch_at_a_turning_place_are_not_taken_to_cross(monkeypatch)
     values = proof_checker.spread(flint.arb_poly([1e-6, 2e-6, 1e-6]))
     assert -width / 8 < values.lower() <= 0
     assert 4e-6 <= values.upper() < 4e-6 + width / 8
+
+
+def along_a_piece(piece, beside):
+    """Contour of a piece and two straight ones by way of a point beside it."""
+    start, stop = (sum(c * end**k for k, c in enumerate(piece)) for end in (-1, 1))
+    lines = [[(a + b) / 2, (b - a) / 2] for a, b in pairwise((stop, beside, start))]
+    return Contour([[(c.real, c.imag) for c in map(complex, p)] for p in (piece, *lines)], "gear")
+
+
+def test_parts_that_meet_are_not_taken_to_lie_on_either_side_of_a_strip():
+    # The driven gear turns by t^2 / 2 on an axis 8 mm away, so that the middle of its turn is longer than one.
+    turns = [Box.turning(None, flint.arb_poly(angle), radius) for angle, radius in (([0], 8), ([0, 0, 0.5], 1))]
+    series = [[near[k] for k in range(TERMS)] + [far[TERMS]] for near, far in turns]
+    motion = floats.Motion(*series, 2.0, 1e-12)
+    assert abs(motion.b) > 1.02
+    along = motion.b / abs(motion.b)
+    # A bulge of 20 mm that ends where the point of the driven gear is at t = 0.
+    piece = [9 - along - 20j * along, along, 20j * along]
+    driver = along_a_piece(piece, 9 + 10j * along).part(0, -1.0, 1.0)
+    driven = along_a_piece([1, 0.001], 1 + 0.001j).part(0, -1.0, 1.0)
+    box = SimpleNamespace(between=motion)
+    assert not Box.is_beside(box, driver, driven, motion.reach(driven.centre), 1.0, 0.0)
+    # Moved off by more than the strip is thick it is beside it.
+    moved = [piece[0] - 60j * along, *piece[1:]]
+    driver = along_a_piece(moved, 9 - 50j * along).part(0, -1.0, 1.0)
+    assert Box.is_beside(box, driver, driven, motion.reach(driven.centre), 1.0, 0.0)
+
+
+def test_a_part_that_all_but_stands_still_has_no_strip():
+    contour = along_a_piece([1, 5e-324 * (1 + 1j), 1e-9, 1e-9], 1 + 1j)
+    assert contour.part(0, -1.0, 1.0).along is None
+    assert contour.part(1, -1.0, 1.0).along is not None
 
 
 def test_a_proof_is_of_one_design(file, design):

@@ -66,7 +66,7 @@ class Box:
         return self.known[number]
 
     def near(self):
-        """Pieces whose discs are not known to be apart."""
+        """Pieces whose discs and strips are not known to be apart."""
         out, open_ = [], list(self.suspects)
         while open_:
             a, b = open_.pop()
@@ -111,11 +111,14 @@ class Box:
 
     def is_beside(self, a, b, place, turn, swing):
         """Whether two parts lie on either side of a strip along one of them."""
-        # Neither a middle nor a direction turns by more over the box than the motion's swing tells.
+        # No direction turns by more over the box than the motion's swing tells.
         along, off = self.between.b * turn * b.along, (place[0] - a.centre).conjugate()
         cross = abs((a.along.conjugate() * along).imag)
         over = a.thick + b.thick + swing + place[1] + self.between.swing * b.radius + SHARE * (a.size + b.size)
-        return abs((off * a.along).imag) > over + cross * b.radius or abs((off * along).imag) > over + cross * a.radius
+        if abs((off * a.along).imag) > over + cross * b.radius:
+            return True
+        # The middle of a turn is no unit: what is measured along it is longer or shorter by its length.
+        return abs((off * along).imag) > over * max(1.0, abs(along)) + cross * a.radius
 
     def is_free(self):
         """Claim 1: whether no two pieces meet within the backlash."""

@@ -1,4 +1,4 @@
-"""A gear's closed contour, and the discs around its parts."""
+"""A gear's closed contour, and the discs and strips around its parts."""
 
 from functools import cached_property
 from math import ceil, floor, perm
@@ -144,9 +144,9 @@ class Contour:
         out = list(self.floats[piece])
         count = len(out)
         for i in range(count - 1):
-            above = out[-1]
+            last = out[-1]
             for k in range(count - 2, i - 1, -1):
-                above = out[k] = out[k] + at * above
+                last = out[k] = out[k] + at * last
         return out
 
     def place(self, piece, at):
@@ -248,7 +248,7 @@ class Contour:
 
         ends, more = (piece + (start + 1) / 2, piece + (stop + 1) / 2), (off[0], self.miss, self.slack)
         radius, speed = above(sum(map(abs, series[1:])), *more), abs(series[1])
-        if not speed > 0:
+        if not speed > SHARE * radius:
             return Node(*ends, series[0], radius, split)
         along = series[1] / speed
         thick = above(sum(abs((along.conjugate() * c).imag) for c in series[2:]), *more, SHARE * radius)

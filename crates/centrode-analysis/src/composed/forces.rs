@@ -83,7 +83,7 @@ pub(super) fn part(forces: &Forces, figure: &ComposedFigure) -> Option<f64> {
     }
 }
 
-/// Whether a cycle gives back all the work that it takes: without loads and friction, weight and inertia alone.
+/// Whether a cycle of a composed machine gives back all the work that it takes: without loads and friction, weight and inertia alone.
 fn returns_all_work(machine: &Machine) -> bool {
     let masses = |load: &Load| matches!(load, Load::Mass { .. });
     machine.loads.iter().all(masses) && machine.guides.is_empty()
