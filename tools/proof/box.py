@@ -29,7 +29,6 @@ class Box:
         seats = [self.along(s) for s in stretch["seats"]]
         backlash = seats[1] - seats[0]
         self.backlash = floats.upper(magnitude(sweep(backlash)) + 2 * pair.width)
-        self.half_backlash = self.backlash / 2
         clear = [ahead + law + s + e * pair.width for s, e in zip(seats, (1, -1), strict=True)]
         between = ahead + law + (seats[0] + seats[1]) * arb(0.5)
         self.axis = self.turning(ahead, pair.distance)
@@ -88,7 +87,7 @@ class Box:
 
     def apart(self, a, b, offset=0.0, half=None):
         """Whether discs or strips of two nodes are apart at every angle of the box and every turn in the backlash."""
-        half = self.half_backlash if half is None else half
+        half = self.backlash / 2 if half is None else half
         places = self.turned.get(offset)
         if places is None:
             # A float near e^(i offset): what it lacks is left to the rounding of the motion.
