@@ -15,6 +15,7 @@ use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::thread;
 use std::time::{Duration, Instant};
 
+use centrode_mechanism::design::Design;
 use centrode_mechanism::gear::GearPair;
 use centrode_mechanism::gear::design::GearPairDesign;
 use centrode_tests::{Points, bspline_pair, crossing};
@@ -189,7 +190,7 @@ fn main() -> io::Result<()> {
         }
         for job in listed {
             let (row, index) = place(job);
-            let design = toml::to_string(&row.design(seed, index)).expect("a design");
+            let design = row.design(seed, index).to_toml().expect("a design");
             writeln!(out, "{row:?} {index}:\n{design}")?;
         }
     }

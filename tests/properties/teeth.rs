@@ -1,4 +1,5 @@
 use centrode_geometry::{LoopError, Segment, Unresolved};
+use centrode_mechanism::design::{Design, DesignSpec};
 use centrode_mechanism::gear::design::{Addendum, GearPairDesign};
 use centrode_mechanism::gear::pitch::{Bspline, PitchSpec};
 use centrode_mechanism::gear::{
@@ -69,7 +70,7 @@ proptest! {
 
     #[test]
     fn scaling_a_design_scales_every_output(design in sound_pair(), factor in 0.1..20.0_f64) {
-        let text = toml::to_string(&design).expect("valid");
+        let text = design.to_toml().expect("valid");
         let mut table: toml::Table = text.parse().expect("TOML");
         let scale = |table: &mut toml::Table, part: &str, key: &str| {
             if let Some(value) = table.get_mut(part).and_then(|p| p.get_mut(key))
@@ -82,7 +83,7 @@ proptest! {
             scale(&mut table, "pitch", key);
         }
         scale(&mut table, "teeth", "backlash");
-        let larger: GearPairDesign = toml::from_str(&table.to_string()).expect("valid");
+        let larger = GearPairDesign::from_toml(&table.to_string()).expect("valid");
         let (pair, larger) = (
             GearPair::resolve(&design).expect("valid"),
             GearPair::resolve(&larger).expect("valid"),

@@ -8,7 +8,7 @@ use serde::de::DeserializeOwned;
 use toml::Spanned;
 use toml::de::{DeTable, Error, ValueDeserializer};
 
-use super::number::NumberedDesign;
+use super::number::{NumberedDesign, written};
 use super::reader::Reader;
 use super::{DesignError, DesignFault, DesignFile};
 use crate::gear::design::SpecError;
@@ -127,7 +127,7 @@ impl<D: DesignSpec> Design for D {
     }
 
     fn to_toml(&self) -> Result<String, DesignError> {
-        let keys = toml::to_string(self);
+        let keys = written(self).and_then(|root| toml::to_string(&root));
         let keys = keys.map_err(|e| DesignError::at_start(DesignFault::NotWritable(e.to_string())));
         Ok(format!("family = \"{}\"\n{}", D::FAMILY, keys?))
     }

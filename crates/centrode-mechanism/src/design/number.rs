@@ -41,10 +41,16 @@ fn numbers(value: &toml::Value, key: &str, visit: &mut impl FnMut(&str, f64)) {
     }
 }
 
+/// What the file of a design holds. All that is written of a design is written by way of it: each other way would be compiled
+/// anew for every table that a design can have.
+pub(super) fn written(design: &impl Serialize) -> Result<toml::Value, toml::ser::Error> {
+    toml::Value::try_from(design)
+}
+
 /// Every number of a design by its key, in the file's units; none of what cannot be written.
 pub(crate) fn numbers_of(design: &impl Serialize) -> Vec<(String, f64)> {
     let mut found = Vec::new();
-    if let Ok(root) = toml::Value::try_from(design) {
+    if let Ok(root) = written(design) {
         numbers(&root, "", &mut |key, number| {
             found.push((key.to_owned(), number));
         });

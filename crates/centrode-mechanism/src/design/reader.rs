@@ -4,6 +4,7 @@ use toml::de::{DeTable, DeValue, Deserializer, ValueDeserializer};
 use super::family::{DesignFamily, DesignSpec, Tagged};
 use super::fault::nearest;
 use super::keys::{Keys, line_and_column};
+use super::number::written;
 use super::{DesignError, DesignFault};
 use crate::gear::design::SpecError;
 
@@ -57,8 +58,9 @@ impl<'a> Reader<'a> {
             self.tagged(root.get_ref(), tagged)?;
         }
         let design = D::deserialize(Deserializer::from(root)).map_err(|e| self.shape(&e))?;
-        let read = toml::Table::try_from(&design).unwrap_or_default();
-        if let Some((key, length, kept)) = self.keys.cut(&read) {
+        let read = written(&design).ok();
+        let read = read.as_ref().and_then(toml::Value::as_table);
+        if let Some((key, length, kept)) = read.and_then(|read| self.keys.cut(read)) {
             let fault = DesignFault::WrongType(format!("must have {kept} values, not {length}"));
             let offset = self.keys.offset(&key).unwrap_or(0);
             return Err(self.error(fault, key, offset));

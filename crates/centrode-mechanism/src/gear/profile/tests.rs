@@ -1,11 +1,20 @@
 use super::{ProfileError, Role};
+use crate::design::DesignSpec;
+use crate::gear::design::GearPairDesign;
 use crate::gear::{Gear, GearPair, GearPairError};
 use centrode_geometry::{Outline, Tolerance};
 
+/// A pair of the keys of its file, but for its family.
+fn read(keys: &str) -> Result<GearPair, GearPairError> {
+    let text = format!("family = \"gear-pair\"\n{keys}");
+    GearPair::resolve(&GearPairDesign::from_toml(&text).expect("a design"))
+}
+
 /// A pair of the keys of its pitch curve, its tool and its teeth.
 fn pair(pitch: &str, tool: &str, teeth: &str) -> Result<GearPair, GearPairError> {
-    let text = format!("pitch = {{ {pitch} }}\ntool = {{ {tool} }}\nteeth = {{ {teeth} }}");
-    GearPair::resolve(&toml::from_str(&text).expect("a design"))
+    read(&format!(
+        "pitch = {{ {pitch} }}\ntool = {{ {tool} }}\nteeth = {{ {teeth} }}"
+    ))
 }
 
 fn assert_simple(gear: &Gear) {
@@ -85,7 +94,7 @@ teeth = { addendum = "full", phase = 0.0, backlash = 0.26645351715930593, thickn
 mean_ratio = [1, 1]"#,
     ];
     for text in designs {
-        let pair = GearPair::resolve(&toml::from_str(text).expect("a design")).expect("a pair");
+        let pair = read(text).expect("a pair");
         let tolerance = Tolerance::new(1e-6 * pair.module()).expect("positive");
         for gear in [pair.driver(), pair.driven()] {
             let polygon = Outline::polygon(&gear.outline().flatten(tolerance));
