@@ -6,7 +6,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use toml::Spanned;
-use toml::de::{DeTable, Error, ValueDeserializer};
+use toml::de::DeTable;
 
 use super::number::{NumberedDesign, written};
 use super::reader::Reader;
@@ -80,8 +80,6 @@ pub trait DesignSpec:
     const TEMPLATE: &'static str;
     /// Keys at the root that hold a table.
     const TABLES: &'static [&'static str];
-    /// Tables among them whose key `kind` decides their other keys.
-    const TAGGED: &'static [Tagged] = &[];
 
     /// Name and title, as written.
     fn words(&self) -> [&str; 2];
@@ -176,13 +174,4 @@ impl AsRef<DesignFamily> for DesignFamily {
     fn as_ref(&self) -> &Self {
         self
     }
-}
-
-/// Table whose key `kind` decides its other keys.
-#[derive(Clone, Copy, Debug)]
-pub struct Tagged {
-    pub(crate) key: &'static str,
-    pub(crate) kinds: &'static [&'static str],
-    /// Reads the keys beside `kind`, for the places of its errors.
-    pub(crate) read: fn(&str, ValueDeserializer<'_>) -> Result<(), Error>,
 }

@@ -1,6 +1,10 @@
 use std::ops::Range;
 
+use serde::de::Unexpected;
+use toml::Spanned;
 use toml::de::{DeTable, DeValue};
+
+use super::number::at;
 
 /// Places of all keys of a file.
 #[derive(Clone, Debug, Default)]
@@ -17,32 +21,133 @@ struct Entry {
     inner: Vec<Option<usize>>,
 }
 
+/// Visits every value of a table by its key, with where its key stands, entries of lists by their number.
+fn visit<'t>(
+    table: &'t DeTable<'t>,
+    prefix: &str,
+    found: &mut impl FnMut(&str, Range<usize>, &'t Spanned<DeValue<'t>>),
+) {
+    for (key, value) in table {
+        let path = format!("{prefix}{}", key.get_ref());
+        visit_value(value, &path, key.span(), found);
+    }
+}
+
+/// Visits a value and all in it. The parser refuses deep nesting, so this recursion is shallow.
+fn visit_value<'t>(
+    value: &'t Spanned<DeValue<'t>>,
+    path: &str,
+    key: Range<usize>,
+    found: &mut impl FnMut(&str, Range<usize>, &'t Spanned<DeValue<'t>>),
+) {
+    found(path, key, value);
+    match value.get_ref() {
+        DeValue::Table(table) => visit(table, &format!("{path}."), found),
+        DeValue::Array(list) => {
+            for (i, value) in list.iter().enumerate() {
+                visit_value(value, &format!("{path}[{i}]"), value.span(), found);
+            }
+        }
+        _ => {}
+    }
+}
+
+/// Serde's word for a value that it did not expect.
+fn unexpected(value: &DeValue<'_>) -> String {
+    match value {
+        DeValue::String(word) => format!("string {word:?}"),
+        DeValue::Integer(whole) => format!("integer `{whole}`"),
+        DeValue::Float(number) => match number.as_str().parse() {
+            Ok(number) => Unexpected::Float(number).to_string(),
+            Err(_) => String::new(),
+        },
+        DeValue::Boolean(truth) => format!("boolean `{truth}`"),
+        DeValue::Datetime(_) | DeValue::Table(_) => "map".into(),
+        DeValue::Array(_) => "sequence".into(),
+    }
+}
+
+/// Whether serde's message on a value may be on this one.
+fn is_on(message: &str, value: &DeValue<'_>) -> bool {
+    if let Some(length) = message.strip_prefix("invalid length ") {
+        let length = length.split(',').next().and_then(|n| n.parse().ok());
+        return value.as_array().map(|list| list.len()) == length;
+    }
+    let given = ["invalid type: ", "invalid value: "];
+    let given = given.iter().find_map(|start| message.strip_prefix(start));
+    let given = given.and_then(|rest| rest.split_once(", expected "));
+    given.is_some_and(|(given, _)| given == unexpected(value))
+}
+
+/// The key of a value on which serde has a message, and where it stands, where serde tells but the table or list around it.
+///
+/// Serde gathers a table whose `kind` decides its other keys before it looks at them, and loses their places on the way.
+pub(super) fn inside(text: &str, around: &str, message: &str) -> Option<(String, usize)> {
+    let root = DeTable::parse(text).ok()?;
+    let name = message.strip_prefix("unknown field `");
+    let name = name.and_then(|rest| rest.split('`').next());
+    let mut found: Vec<(String, usize)> = Vec::new();
+    let mut is_known = false;
+    visit(root.get_ref(), "", &mut |path, key, value| {
+        let below = path.strip_prefix(around);
+        let last = path.rsplit('.').next();
+        let is_here = name.map_or_else(
+            || is_on(message, value.get_ref()),
+            |name| last == Some(name),
+        );
+        match below {
+            Some("") => is_known |= is_here,
+            Some(rest) if is_here && rest.starts_with(['.', '[']) => {
+                let start = if name.is_some() {
+                    key.start
+                } else {
+                    value.span().start
+                };
+                found.push((path.to_owned(), start));
+            }
+            _ => {}
+        }
+    });
+    if is_known {
+        return None;
+    }
+    match name {
+        // Nearest to the table.
+        Some(_) => found
+            .into_iter()
+            .min_by_key(|(path, _)| path.matches('.').count()),
+        // Of equal values one may be as it should: only entries of one list are told by the first.
+        None => {
+            let list = |path: &str| path[..path.rfind('[').unwrap_or(path.len())].to_owned();
+            let first = list(&found.first()?.0);
+            let is_one = found.iter().all(|(path, _)| list(path) == first);
+            is_one.then(|| found.remove(0))
+        }
+    }
+}
+
 impl Keys {
     pub(super) fn new(root: &DeTable<'_>) -> Self {
         let mut keys = Self::default();
-        keys.add(root, "");
-        keys
-    }
-
-    fn add(&mut self, table: &DeTable<'_>, prefix: &str) {
-        for (key, value) in table {
-            let path = format!("{prefix}{}", key.get_ref());
+        let length = |one: &DeValue<'_>| one.as_array().map(|list| list.len());
+        visit(root, "", &mut |path, key, value| {
+            let is_entry = path.ends_with(']');
+            // Of lists the tables have keys of their own.
+            if is_entry && !value.get_ref().is_table() {
+                return;
+            }
             let list = value.get_ref().as_array();
-            let length = |one: &DeValue<'_>| one.as_array().map(|list| list.len());
-            self.0.push(Entry {
-                path: path.clone(),
-                key: key.span(),
+            keys.0.push(Entry {
+                path: path.to_owned(),
+                key,
                 value: value.span(),
                 length: length(value.get_ref()),
                 inner: list.map_or_else(Vec::new, |list| {
                     list.iter().map(|one| length(one.get_ref())).collect()
                 }),
             });
-            // The parser refuses deep nesting, so this recursion is shallow.
-            if let DeValue::Table(inner) = value.get_ref() {
-                self.add(inner, &format!("{path}."));
-            }
-        }
+        });
+        keys
     }
 
     /// Byte offset of a key, or of the nearest list or table around it that is there.
@@ -59,14 +164,9 @@ impl Keys {
     /// The first list that is longer than what was read of it: its key, its length, and how much was read.
     ///
     /// Serde reads a list of fixed length and leaves the rest.
-    pub(super) fn cut(&self, read: &toml::Table) -> Option<(String, usize, usize)> {
+    pub(super) fn cut(&self, read: &toml::Value) -> Option<(String, usize, usize)> {
         self.0.iter().find_map(|entry| {
-            let (way, last) = entry.path.rsplit_once('.').unwrap_or(("", &entry.path));
-            let steps = way.split('.').filter(|step| !step.is_empty());
-            let table = steps
-                .into_iter()
-                .try_fold(read, |table, step| table.get(step)?.as_table())?;
-            let kept = table.get(last)?.as_array()?;
+            let kept = at(read, &entry.path)?.as_array()?;
             if let Some(length) = entry.length.filter(|length| *length > kept.len()) {
                 return Some((entry.path.clone(), length, kept.len()));
             }

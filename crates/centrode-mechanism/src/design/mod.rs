@@ -10,7 +10,7 @@ mod reader;
 mod schema;
 
 pub use drawing::{DrawingSpec, Projection, SheetSize};
-pub use family::{Design, DesignFamily, DesignSpec, Tagged};
+pub use family::{Design, DesignFamily, DesignSpec};
 pub use fault::{DesignError, DesignFault, MechanismError};
 pub use file::DesignFile;
 pub use number::NumberedDesign;

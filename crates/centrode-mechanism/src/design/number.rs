@@ -41,7 +41,7 @@ fn numbers(value: &toml::Value, key: &str, visit: &mut impl FnMut(&str, f64)) {
     }
 }
 
-/// What the file of a design holds. All that is written of a design is written by way of it: each other way would be compiled
+/// Content of a design's file. All that is written of a design is written by way of it: each other way would be compiled
 /// anew for every table that a design can have.
 pub(super) fn written(design: &impl Serialize) -> Result<toml::Value, toml::ser::Error> {
     toml::Value::try_from(design)
@@ -72,6 +72,14 @@ fn steps(path: &str) -> Option<Vec<Step>> {
         }
     }
     Some(steps)
+}
+
+/// The value at a path.
+pub(super) fn at<'v>(root: &'v toml::Value, path: &str) -> Option<&'v toml::Value> {
+    steps(path)?.iter().try_fold(root, |here, step| match step {
+        Step::Name(name) => here.get(name),
+        Step::Index(index) => here.get(*index),
+    })
 }
 
 impl NumberedDesign {
@@ -208,13 +216,7 @@ mod tests {
             let design = published().numbered(key).expect("a number").with(value);
             let written = design.expect("a design").to_toml().expect("text");
             let root: toml::Value = toml::from_str(&written).expect("toml");
-            let mut here = &root;
-            for step in steps(key).expect("a path") {
-                here = match step {
-                    Step::Name(name) => here.get(&name).expect("there"),
-                    Step::Index(index) => here.get(index).expect("there"),
-                };
-            }
+            let here = at(&root, key).expect("there");
             let read = here.as_float().or(here.as_integer().map(|i| i as f64));
             assert_eq!(read, Some(value), "{key}");
         }

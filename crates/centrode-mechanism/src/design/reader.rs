@@ -1,9 +1,9 @@
 use toml::Spanned;
-use toml::de::{DeTable, DeValue, Deserializer, ValueDeserializer};
+use toml::de::{DeTable, DeValue, Deserializer};
 
-use super::family::{DesignFamily, DesignSpec, Tagged};
+use super::family::{DesignFamily, DesignSpec};
 use super::fault::nearest;
-use super::keys::{Keys, line_and_column};
+use super::keys::{Keys, inside, line_and_column};
 use super::number::written;
 use super::{DesignError, DesignFault};
 use crate::gear::design::SpecError;
@@ -54,13 +54,9 @@ impl<'a> Reader<'a> {
         root: Spanned<DeTable<'a>>,
     ) -> Result<D, DesignError> {
         self.tables(root.get_ref(), D::TABLES)?;
-        for tagged in D::TAGGED {
-            self.tagged(root.get_ref(), tagged)?;
-        }
         let design = D::deserialize(Deserializer::from(root)).map_err(|e| self.shape(&e))?;
         let read = written(&design).ok();
-        let read = read.as_ref().and_then(toml::Value::as_table);
-        if let Some((key, length, kept)) = read.and_then(|read| self.keys.cut(read)) {
+        if let Some((key, length, kept)) = read.and_then(|read| self.keys.cut(&read)) {
             let fault = DesignFault::WrongType(format!("must have {kept} values, not {length}"));
             let offset = self.keys.offset(&key).unwrap_or(0);
             return Err(self.error(fault, key, offset));
@@ -82,30 +78,6 @@ impl<'a> Reader<'a> {
             }
         }
         Ok(())
-    }
-
-    /// Reads a table whose key `kind` decides its other keys, for the places of its errors.
-    ///
-    /// Serde gathers such a table before it looks at its keys, and loses their places on the way.
-    fn tagged(&self, root: &DeTable<'a>, tagged: &Tagged) -> Result<(), DesignError> {
-        let Tagged { key, kinds, read } = *tagged;
-        let Some(value) = root.get(key) else {
-            return Ok(());
-        };
-        let DeValue::Table(table) = value.get_ref() else {
-            return Ok(());
-        };
-        let path = format!("{key}.kind");
-        let offset = self.keys.offset(key).unwrap_or(0);
-        let kind = self.word(table, "kind", &path, offset)?;
-        if !kinds.contains(&kind.as_str()) {
-            let kinds: Vec<String> = kinds.iter().map(|&k| k.into()).collect();
-            return Err(self.unknown_word(&path, kind, &kinds));
-        }
-        let mut rest = table.clone();
-        rest.remove("kind");
-        let rest = Spanned::new(value.span(), DeValue::Table(rest));
-        read(&kind, ValueDeserializer::from(rest)).map_err(|e| self.shape(&e))
     }
 
     /// The string at a key that must be there.
@@ -161,6 +133,7 @@ impl<'a> Reader<'a> {
         let offset = error.span().map_or(0, |s| s.start);
         let key = self.keys.around(offset).unwrap_or_default().to_owned();
         let message = error.message();
+        let (key, offset) = inside(self.text, &key, message).unwrap_or((key, offset));
         let names = quoted(message);
         if message.starts_with("unknown field") {
             let known: Vec<String> = names.iter().skip(1).cloned().collect();
@@ -220,6 +193,7 @@ fn plain(message: &str) -> String {
         "u32" | "u64" | "usize" => "a whole number, 0 or greater",
         "i32" | "i64" => "a whole number",
         "a sequence" => "a list",
+        "variant identifier" => "a word in quotes",
         other if other.starts_with("struct ") => "a table",
         other => match other.strip_prefix("an array of length ") {
             Some(count) => &format!("a list of {count} values"),

@@ -1,4 +1,5 @@
 use super::*;
+use crate::composed::ComposedDesign;
 use crate::gear::GearPair;
 use crate::gear::design::GearPairDesign;
 use crate::three_arm::design::ThreeArmDesign;
@@ -97,7 +98,7 @@ fn every_bad_line_is_named_with_key_and_place() {
         (
             "kind = \"ellipse\"",
             "kind = \"elipse\"",
-            "line 6, column 1: pitch.kind: unknown word \"elipse\", did you mean \"ellipse\"?",
+            "line 6, column 8: pitch.kind: unknown word \"elipse\", did you mean \"ellipse\"?",
         ),
         (
             "kind = \"ellipse\"\n",
@@ -107,7 +108,7 @@ fn every_bad_line_is_named_with_key_and_place() {
         (
             "kind = \"ellipse\"",
             "kind = 7",
-            "line 6, column 1: pitch.kind: must be a word in quotes",
+            "line 6, column 8: pitch.kind: must be a word in quotes, not 7",
         ),
         (
             "module = 2.25",
@@ -142,7 +143,7 @@ fn every_bad_line_is_named_with_key_and_place() {
         (
             "kind = \"rack\"",
             "kind = \"rake\"",
-            "line 12, column 1: tool.kind: unknown word \"rake\", did you mean \"rack\"?",
+            "line 12, column 8: tool.kind: unknown word \"rake\", did you mean \"rack\"?",
         ),
         (
             "pressure_angle_deg = 20",
@@ -285,6 +286,83 @@ fn every_bad_line_is_named_with_key_and_place() {
         assert!(GOOD.contains(old), "{old}");
         let text = GOOD.replacen(old, new, 1);
         let found = read(text).and_then(|file| pair_of(&file).map(drop));
+        let message = found.expect_err(new).to_string();
+        assert!(message.starts_with(expected), "{new:?}:\n  {message}");
+    }
+}
+
+#[test]
+fn what_is_wrong_in_a_table_of_a_kind_is_told_at_its_own_key() {
+    const CAM: &str = r#"family = "composed"
+[cams.still]
+on = "frame.O"
+follower = { kind = "swinging-roller", roller_radius = 6, arm_length = 45 }
+
+[[cams.still.motion.segments]]
+kind = "rise"
+span_deg = 60
+law = { kind = "polynomial", end = [0, 1] }
+
+[[cams.still.motion.segments]]
+kind = "transition"
+span_deg = 61
+swing_deg = 30
+"#;
+    for (old, new, expected) in [
+        (
+            "roller_radius",
+            "roler_radius",
+            "line 4, column 40: cams.still.follower.roler_radius: unknown key, did you mean \"roller_radius\"?",
+        ),
+        (
+            "roller_radius = 6",
+            "roller_radius = \"six\"",
+            "line 4, column 56: cams.still.follower.roller_radius: must be a number, not \"six\"",
+        ),
+        // Which of the two is meant serde does not tell.
+        (
+            "roller_radius = 6, arm_length = 45",
+            "roller_radius = true, arm_length = true",
+            "line 4, column 12: cams.still.follower: must be a number, not true",
+        ),
+        (
+            "swinging-roller",
+            "swinging-rollr",
+            "line 4, column 21: cams.still.follower.kind: unknown word \"swinging-rollr\", did you mean \"swinging-roller\"?",
+        ),
+        (
+            "swing_deg",
+            "swing_dg",
+            "line 14, column 1: cams.still.motion.segments[1].swing_dg: unknown key, did you mean \"swing_deg\"?",
+        ),
+        (
+            "span_deg = 61",
+            "span_deg = [61]",
+            "line 13, column 12: cams.still.motion.segments[1].span_deg: must be a number, not a list",
+        ),
+        (
+            "transition",
+            "transitin",
+            "line 12, column 8: cams.still.motion.segments[1].kind: unknown word \"transitin\", did you mean \"transition\"?",
+        ),
+        (
+            "span_deg = 61\n",
+            "",
+            "line 11, column 3: cams.still.motion.segments[1].span_deg: the key \"span_deg\" is missing",
+        ),
+        (
+            "end = [0, 1]",
+            "ends = [0, 1]",
+            "line 9, column 30: cams.still.motion.segments[0].law.ends: unknown key, did you mean \"end\"?",
+        ),
+        (
+            "end = [0, 1]",
+            "end = [0, \"1\", \"1\"]",
+            "line 9, column 40: cams.still.motion.segments[0].law.end[1]: must be a number, not \"1\"",
+        ),
+    ] {
+        assert!(CAM.contains(old), "{old}");
+        let found = ComposedDesign::from_toml(&CAM.replacen(old, new, 1));
         let message = found.expect_err(new).to_string();
         assert!(message.starts_with(expected), "{new:?}:\n  {message}");
     }

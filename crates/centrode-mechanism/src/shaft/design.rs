@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{AmplitudeFor, Load, Mill, Reversal, ShaftBody, ShaftError, SliderSpec, SpeedLaw};
 use crate::degrees;
-use crate::design::{DesignSpec, DrawingSpec, Tagged};
+use crate::design::{DesignSpec, DrawingSpec};
 use crate::gear::design::SpecError;
 use crate::gear::design::rule::{
     Rule, broken, count_in_range, file_name, finite, in_range, positive, single_line,
@@ -112,7 +112,6 @@ impl DesignSpec for SpiralShaftDesign {
     const TABLES: &'static [&'static str] = &[
         "law", "reversal", "groove", "slider", "body", "mill", "load",
     ];
-    const TAGGED: &'static [Tagged] = &[SpeedLaw::TAGGED];
 
     fn words(&self) -> [&str; 2] {
         [&self.name, &self.title]

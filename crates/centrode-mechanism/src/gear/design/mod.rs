@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::pitch::PitchSpec;
-use crate::design::{DesignSpec, DrawingSpec, Tagged};
+use crate::design::{DesignSpec, DrawingSpec};
 
 mod body;
 pub(crate) mod rule;
@@ -74,7 +74,6 @@ impl DesignSpec for GearPairDesign {
     const TEMPLATE: &'static str = include_str!("../../../design/gear_pair.toml");
     const TABLES: &'static [&'static str] =
         &["pitch", "tool", "teeth", "driver", "driven", "drawing"];
-    const TAGGED: &'static [Tagged] = &[PitchSpec::TAGGED, ToolSpec::TAGGED];
 
     fn words(&self) -> [&str; 2] {
         [&self.name, &self.title]

@@ -1,12 +1,10 @@
 use std::f64::consts::PI;
 
 use schemars::JsonSchema;
-use serde::de::Error as _;
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Serialize};
 
 use super::rule::{Rule, SpecError, broken, count_in_range, in_range, not_negative, positive};
 use crate::degrees;
-use crate::design::Tagged;
 
 /// The tool that cuts both gears, by the key `kind`; its module is that of the pitch curve.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -114,25 +112,6 @@ impl Default for Shaper {
 }
 
 impl ToolSpec {
-    /// Every `kind`.
-    pub(crate) const KINDS: &'static [&'static str] = &["rack", "shaper"];
-
-    /// The table of a design file that holds one.
-    pub(crate) const TAGGED: Tagged = Tagged {
-        key: "tool",
-        kinds: Self::KINDS,
-        read: |kind, table| Self::of_kind(kind, table).map(drop),
-    };
-
-    /// Reads the keys beside `kind`.
-    pub(crate) fn of_kind<'de, D: Deserializer<'de>>(kind: &str, d: D) -> Result<Self, D::Error> {
-        match kind {
-            "rack" => Rack::deserialize(d).map(Self::Rack),
-            "shaper" => Shaper::deserialize(d).map(Self::Shaper),
-            other => Err(D::Error::unknown_variant(other, Self::KINDS)),
-        }
-    }
-
     /// Checks the ranges, and that the tip rounding fits the tool.
     ///
     /// # Errors

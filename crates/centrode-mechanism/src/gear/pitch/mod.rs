@@ -7,10 +7,7 @@ use std::sync::Arc;
 
 use centrode_geometry::{Antiderivative, Curve};
 use schemars::JsonSchema;
-use serde::de::Error as _;
-use serde::{Deserialize, Deserializer, Serialize};
-
-use crate::design::Tagged;
+use serde::{Deserialize, Serialize};
 
 mod bezier;
 mod bspline;
@@ -94,46 +91,6 @@ pub struct Pitch {
 }
 
 impl PitchSpec {
-    /// Every `kind`.
-    pub(crate) const KINDS: &'static [&'static str] = &[
-        "circle",
-        "eccentric-circle",
-        "ellipse",
-        "lobed-ellipse",
-        "limacon",
-        "bspline",
-        "bezier",
-        "polar",
-        "transmission",
-        "ratio",
-        "conjugate",
-    ];
-
-    /// The table of a design file that holds one.
-    pub(crate) const TAGGED: Tagged = Tagged {
-        key: "pitch",
-        kinds: Self::KINDS,
-        read: |kind, table| Self::of_kind(kind, table).map(drop),
-    };
-
-    /// Reads the keys beside `kind`.
-    pub(crate) fn of_kind<'de, D: Deserializer<'de>>(kind: &str, d: D) -> Result<Self, D::Error> {
-        match kind {
-            "circle" => Circle::deserialize(d).map(Self::Circle),
-            "eccentric-circle" => EccentricCircle::deserialize(d).map(Self::EccentricCircle),
-            "ellipse" => Ellipse::deserialize(d).map(Self::Ellipse),
-            "lobed-ellipse" => LobedEllipse::deserialize(d).map(Self::LobedEllipse),
-            "limacon" => Limacon::deserialize(d).map(Self::Limacon),
-            "bspline" => Bspline::deserialize(d).map(Self::Bspline),
-            "bezier" => Bezier::deserialize(d).map(Self::Bezier),
-            "polar" => Polar::deserialize(d).map(Self::Polar),
-            "transmission" => Transmission::deserialize(d).map(Self::Transmission),
-            "ratio" => Ratio::deserialize(d).map(Self::Ratio),
-            "conjugate" => Conjugate::deserialize(d).map(Self::Conjugate),
-            other => Err(D::Error::unknown_variant(other, Self::KINDS)),
-        }
-    }
-
     /// Exact curve, proved to wind once round the shaft axis, in order.
     ///
     /// # Errors

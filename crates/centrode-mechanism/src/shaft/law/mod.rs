@@ -5,8 +5,7 @@ use std::sync::Arc;
 
 use centrode_geometry::{Extreme, extremes, greatest, pieces};
 use schemars::JsonSchema;
-use serde::de::Error as _;
-use serde::{Deserialize, Deserializer, Serialize};
+use serde::{Deserialize, Serialize};
 
 mod general;
 mod rotated;
@@ -17,7 +16,6 @@ pub use rotated::RotatedSine;
 pub use sine::{AmplitudeFor, Sine};
 
 use super::ShaftError;
-use crate::design::Tagged;
 use crate::gear::design::rule::positive;
 use crate::transmission::{MotionJet, Transmission};
 
@@ -59,29 +57,6 @@ impl Default for SpeedLaw {
 }
 
 impl SpeedLaw {
-    /// Every `kind`.
-    pub const KINDS: &'static [&'static str] =
-        &["sine", "rotated-sine", "knots", "table", "formula"];
-
-    /// The table of a design file that holds one.
-    pub(crate) const TAGGED: Tagged = Tagged {
-        key: "law",
-        kinds: Self::KINDS,
-        read: |kind, table| Self::of_kind(kind, table).map(drop),
-    };
-
-    /// Reads the keys beside `kind`.
-    pub(crate) fn of_kind<'de, D: Deserializer<'de>>(kind: &str, d: D) -> Result<Self, D::Error> {
-        match kind {
-            "sine" => Sine::deserialize(d).map(Self::Sine),
-            "rotated-sine" => RotatedSine::deserialize(d).map(Self::RotatedSine),
-            "knots" => SpeedKnots::deserialize(d).map(Self::Knots),
-            "table" => SpeedTable::deserialize(d).map(Self::Table),
-            "formula" => SpeedFormula::deserialize(d).map(Self::Formula),
-            other => Err(D::Error::unknown_variant(other, Self::KINDS)),
-        }
-    }
-
     /// The exact law for a lead (mm a turn), proved to run one way. `radius` (mm) is that of the shaft;
     /// only the rotated sine depends on it.
     ///

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Parameter;
 use crate::degrees;
-use crate::design::{DesignSpec, DrawingSpec, Tagged};
+use crate::design::{DesignSpec, DrawingSpec};
 use crate::gear::design::rule::{
     broken, count_in_range, file_name, finite, in_range, positive, single_line,
 };
@@ -168,7 +168,6 @@ impl DesignSpec for ThreeArmDesign {
         "planet",
         "drawing",
     ];
-    const TAGGED: &'static [Tagged] = &[PitchSpec::TAGGED, ToolSpec::TAGGED];
 
     fn words(&self) -> [&str; 2] {
         [&self.name, &self.title]
