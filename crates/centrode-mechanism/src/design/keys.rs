@@ -82,7 +82,11 @@ fn is_on(message: &str, value: &DeValue<'_>) -> bool {
 /// The key of a value on which serde has a message, and where it stands, where serde tells but the table or list around it.
 ///
 /// Serde gathers a table whose `kind` decides its other keys before it looks at them, and loses their places on the way.
-pub(super) fn inside(text: &str, around: &str, message: &str) -> Option<(String, usize)> {
+pub(super) fn inside(
+    text: &str,
+    (around, offset): (&str, usize),
+    message: &str,
+) -> Option<(String, usize)> {
     let root = DeTable::parse(text).ok()?;
     let name = message.strip_prefix("unknown field `");
     let name = name.and_then(|rest| rest.split('`').next());
@@ -111,18 +115,20 @@ pub(super) fn inside(text: &str, around: &str, message: &str) -> Option<(String,
     if is_known {
         return None;
     }
-    match name {
-        // Nearest to the table.
-        Some(_) => found
-            .into_iter()
-            .min_by_key(|(path, _)| path.matches('.').count()),
+    let Some(name) = name else {
         // Of equal values one may be as it should: only entries of one list are told by the first.
-        None => {
-            let list = |path: &str| path[..path.rfind('[').unwrap_or(path.len())].to_owned();
-            let first = list(&found.first()?.0);
-            let is_one = found.iter().all(|(path, _)| list(path) == first);
-            is_one.then(|| found.remove(0))
-        }
+        let list = |path: &str| path[..path.rfind('[').unwrap_or(path.len())].to_owned();
+        let first = list(&found.first()?.0);
+        let is_one = found.iter().all(|(path, _)| list(path) == first);
+        return is_one.then(|| found.remove(0));
+    };
+    let depth = |path: &str| path.matches('.').count();
+    let nearest = found.iter().map(|(path, _)| depth(path)).min()?;
+    found.retain(|(path, _)| depth(path) == nearest);
+    // A key that one table of a list knows another may not.
+    match found.len() {
+        1 => found.pop(),
+        _ => Some((format!("{around}.{name}"), offset)),
     }
 }
 
@@ -182,8 +188,13 @@ impl Keys {
     /// The innermost key whose name or value holds the byte `offset`.
     pub(super) fn around(&self, offset: usize) -> Option<&str> {
         let holds = |e: &&Entry| e.key.contains(&offset) || e.value.contains(&offset);
-        let innermost = self.0.iter().filter(holds).max_by_key(|e| e.path.len());
-        innermost.map(|e| e.path.as_str())
+        let innermost = self.0.iter().filter(holds).max_by_key(|e| e.path.len())?;
+        // Where a list begins with its first entry, what is wrong may be in any of them.
+        let list = innermost.path.strip_suffix(']');
+        let list = list.and_then(|path| path.rsplit_once('['));
+        let list = list.and_then(|(list, _)| self.0.iter().find(|e| e.path == list));
+        let list = list.filter(|list| list.value.start == offset);
+        Some(&list.unwrap_or(innermost).path)
     }
 }
 
