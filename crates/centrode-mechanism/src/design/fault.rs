@@ -44,12 +44,14 @@ pub enum DesignFault {
     #[error("{0}")]
     Syntax(String),
     /// A key that means nothing here.
-    #[error("unknown key{}; known are {}", near.as_ref().map_or(String::new(), |n| format!(", did you mean {n:?}?")), known.join(", "))]
+    #[error("unknown key{}; known are {}{}", near.as_ref().map_or(String::new(), |n| format!(", did you mean {n:?}?")), known.join(", "), in_words(elsewhere))]
     UnknownKey {
         /// Nearest known key.
         near: Option<String>,
         /// All keys known here.
         known: Vec<String>,
+        /// Where else the family has a key of this name, the nearest to the root; none where one known here is near.
+        elsewhere: Vec<String>,
     },
     /// A key that must be there.
     #[error("the key {0:?} is missing")]
@@ -126,6 +128,14 @@ impl DesignError {
     #[must_use]
     pub fn message(&self) -> String {
         named(&self.key, &self.fault)
+    }
+}
+
+/// Where else a key is known, in words.
+fn in_words(keys: &[String]) -> String {
+    match keys {
+        [] => String::new(),
+        keys => format!("; elsewhere there is {}", keys.join(", ")),
     }
 }
 

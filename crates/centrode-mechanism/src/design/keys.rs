@@ -4,7 +4,7 @@ use serde::de::Unexpected;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-use super::number::at;
+use super::path::{Path, at};
 
 /// Places of all keys of a file.
 #[derive(Clone, Debug, Default)]
@@ -22,30 +22,33 @@ struct Entry {
 }
 
 /// Visits every value of a table by its key, with where its key stands, entries of lists by their number.
+///
+/// The parser refuses deep nesting, so this recursion is shallow.
 fn visit<'t>(
     table: &'t DeTable<'t>,
-    prefix: &str,
+    path: &mut Path,
     found: &mut impl FnMut(&str, Range<usize>, &'t Spanned<DeValue<'t>>),
 ) {
     for (key, value) in table {
-        let path = format!("{prefix}{}", key.get_ref());
-        visit_value(value, &path, key.span(), found);
+        path.name(key.get_ref(), |path| {
+            visit_value(value, path, key.span(), found);
+        });
     }
 }
 
-/// Visits a value and all in it. The parser refuses deep nesting, so this recursion is shallow.
+/// Visits a value and all in it.
 fn visit_value<'t>(
     value: &'t Spanned<DeValue<'t>>,
-    path: &str,
+    path: &mut Path,
     key: Range<usize>,
     found: &mut impl FnMut(&str, Range<usize>, &'t Spanned<DeValue<'t>>),
 ) {
-    found(path, key, value);
+    found(path.written(), key, value);
     match value.get_ref() {
-        DeValue::Table(table) => visit(table, &format!("{path}."), found),
+        DeValue::Table(table) => visit(table, path, found),
         DeValue::Array(list) => {
             for (i, value) in list.iter().enumerate() {
-                visit_value(value, &format!("{path}[{i}]"), value.span(), found);
+                path.index(i, |path| visit_value(value, path, value.span(), found));
             }
         }
         _ => {}
@@ -92,26 +95,30 @@ pub(super) fn inside(
     let name = name.and_then(|rest| rest.split('`').next());
     let mut found: Vec<(String, usize)> = Vec::new();
     let mut is_known = false;
-    visit(root.get_ref(), "", &mut |path, key, value| {
-        let below = path.strip_prefix(around);
-        let last = path.rsplit('.').next();
-        let is_here = name.map_or_else(
-            || is_on(message, value.get_ref()),
-            |name| last == Some(name),
-        );
-        match below {
-            Some("") => is_known |= is_here,
-            Some(rest) if is_here && rest.starts_with(['.', '[']) => {
-                let start = if name.is_some() {
-                    key.start
-                } else {
-                    value.span().start
-                };
-                found.push((path.to_owned(), start));
+    visit(
+        root.get_ref(),
+        &mut Path::default(),
+        &mut |path, key, value| {
+            let below = path.strip_prefix(around);
+            let last = path.rsplit('.').next();
+            let is_here = name.map_or_else(
+                || is_on(message, value.get_ref()),
+                |name| last == Some(name),
+            );
+            match below {
+                Some("") => is_known |= is_here,
+                Some(rest) if is_here && rest.starts_with(['.', '[']) => {
+                    let start = if name.is_some() {
+                        key.start
+                    } else {
+                        value.span().start
+                    };
+                    found.push((path.to_owned(), start));
+                }
+                _ => {}
             }
-            _ => {}
-        }
-    });
+        },
+    );
     if is_known {
         return None;
     }
@@ -136,7 +143,7 @@ impl Keys {
     pub(super) fn new(root: &DeTable<'_>) -> Self {
         let mut keys = Self::default();
         let length = |one: &DeValue<'_>| one.as_array().map(|list| list.len());
-        visit(root, "", &mut |path, key, value| {
+        visit(root, &mut Path::default(), &mut |path, key, value| {
             let is_entry = path.ends_with(']');
             // Of lists the tables have keys of their own.
             if is_entry && !value.get_ref().is_table() {

@@ -6,6 +6,7 @@ mod fault;
 mod file;
 mod keys;
 mod number;
+mod path;
 mod reader;
 mod schema;
 

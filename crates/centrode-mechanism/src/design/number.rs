@@ -3,6 +3,7 @@ use std::sync::Arc;
 use serde::Serialize;
 
 use super::fault::nearest;
+use super::path::{Path, Step, steps};
 use super::{Design, DesignError, DesignFamily, DesignFault, DesignFile};
 
 /// A design with one of its numbers open.
@@ -15,26 +16,19 @@ pub struct NumberedDesign {
     whole: bool,
 }
 
-#[derive(Clone, Debug)]
-enum Step {
-    Name(String),
-    Index(usize),
-}
-
 /// Visits all numbers at and below a value, each by its key.
-fn numbers(value: &toml::Value, key: &str, visit: &mut impl FnMut(&str, f64)) {
+fn numbers(value: &toml::Value, key: &mut Path, visit: &mut impl FnMut(&str, f64)) {
     match value {
-        toml::Value::Integer(whole) => visit(key, *whole as f64),
-        toml::Value::Float(number) => visit(key, *number),
+        toml::Value::Integer(whole) => visit(key.written(), *whole as f64),
+        toml::Value::Float(number) => visit(key.written(), *number),
         toml::Value::Array(list) => {
             for (i, value) in list.iter().enumerate() {
-                numbers(value, &format!("{key}[{i}]"), visit);
+                key.index(i, |key| numbers(value, key, visit));
             }
         }
         toml::Value::Table(table) => {
-            let dot = if key.is_empty() { "" } else { "." };
             for (name, value) in table {
-                numbers(value, &format!("{key}{dot}{name}"), visit);
+                key.name(name, |key| numbers(value, key, visit));
             }
         }
         _ => {}
@@ -51,35 +45,11 @@ pub(super) fn written(design: &impl Serialize) -> Result<toml::Value, toml::ser:
 pub(crate) fn numbers_of(design: &impl Serialize) -> Vec<(String, f64)> {
     let mut found = Vec::new();
     if let Ok(root) = written(design) {
-        numbers(&root, "", &mut |key, number| {
+        numbers(&root, &mut Path::default(), &mut |key, number| {
             found.push((key.to_owned(), number));
         });
     }
     found
-}
-
-/// The steps of a path; `None` where it is none.
-fn steps(path: &str) -> Option<Vec<Step>> {
-    let mut steps = Vec::new();
-    for part in path.split('.') {
-        let (name, rest) = part.split_at(part.find('[').unwrap_or(part.len()));
-        if name.is_empty() {
-            return None;
-        }
-        steps.push(Step::Name(name.into()));
-        for index in rest.split_terminator(']') {
-            steps.push(Step::Index(index.strip_prefix('[')?.parse().ok()?));
-        }
-    }
-    Some(steps)
-}
-
-/// The value at a path.
-pub(super) fn at<'v>(root: &'v toml::Value, path: &str) -> Option<&'v toml::Value> {
-    steps(path)?.iter().try_fold(root, |here, step| match step {
-        Step::Name(name) => here.get(name),
-        Step::Index(index) => here.get(*index),
-    })
 }
 
 impl NumberedDesign {
@@ -88,12 +58,15 @@ impl NumberedDesign {
         let root: toml::Value = toml::from_str(text)
             .map_err(|e| DesignError::at_start(DesignFault::NotWritable(e.to_string())))?;
         let mut known = Vec::new();
-        numbers(&root, "", &mut |key, _| known.push(key.to_owned()));
+        numbers(&root, &mut Path::default(), &mut |key, _| {
+            known.push(key.to_owned())
+        });
         let unknown = || DesignError {
             key: key.chars().take(80).collect(),
             ..DesignError::at_start(DesignFault::UnknownKey {
                 near: nearest(key, &known),
                 known: known.clone(),
+                elsewhere: Vec::new(),
             })
         };
         let no_number = || DesignError {
@@ -197,6 +170,7 @@ impl NumberedDesign {
 mod tests {
     use super::*;
     use crate::design::DesignSpec;
+    use crate::design::path::at;
     use crate::three_arm::design::ThreeArmDesign;
 
     fn published() -> ThreeArmDesign {

@@ -54,7 +54,8 @@ impl<'a> Reader<'a> {
         root: Spanned<DeTable<'a>>,
     ) -> Result<D, DesignError> {
         self.tables(root.get_ref(), D::TABLES)?;
-        let design = D::deserialize(Deserializer::from(root)).map_err(|e| self.shape(&e))?;
+        let design = D::deserialize(Deserializer::from(root))
+            .map_err(|e| self.shape(&e, DesignFamily::new::<D>()))?;
         let read = written(&design).ok();
         if let Some((key, length, kept)) = read.and_then(|read| self.keys.cut(&read)) {
             let fault = DesignFault::WrongType(format!("must have {kept} values, not {length}"));
@@ -129,7 +130,7 @@ impl<'a> Reader<'a> {
     }
 
     /// Names the key of an error serde has found, in the words of the file rather than of Rust.
-    fn shape(&self, error: &toml::de::Error) -> DesignError {
+    fn shape(&self, error: &toml::de::Error, family: DesignFamily) -> DesignError {
         let offset = error.span().map_or(0, |s| s.start);
         let key = self.keys.around(offset).unwrap_or_default().to_owned();
         let message = error.message();
@@ -137,8 +138,18 @@ impl<'a> Reader<'a> {
         let names = quoted(message);
         if message.starts_with("unknown field") {
             let known: Vec<String> = names.iter().skip(1).cloned().collect();
-            let near = names.first().and_then(|name| nearest(name, &known));
-            return self.error(DesignFault::UnknownKey { near, known }, key, offset);
+            let name = names.first().map_or("", String::as_str);
+            let near = nearest(name, &known);
+            let elsewhere = match near {
+                Some(_) => Vec::new(),
+                None => family.keys_named(name, &key),
+            };
+            let fault = DesignFault::UnknownKey {
+                near,
+                known,
+                elsewhere,
+            };
+            return self.error(fault, key, offset);
         }
         if message.starts_with("unknown variant") {
             let known: Vec<String> = names.iter().skip(1).cloned().collect();

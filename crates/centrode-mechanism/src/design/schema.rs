@@ -43,6 +43,20 @@ impl DesignFamily {
         schema.to_value()
     }
 
+    /// Keys of a name in the family's design files, the three nearest to the root: `teeth.backlash`, `cams.NAME.motion`.
+    ///
+    /// Without those at the place of `key` itself, which other kinds of its table may have.
+    pub(super) fn keys_named(&self, name: &str, key: &str) -> Vec<String> {
+        let schema = self.json_schema();
+        let mut found = Vec::new();
+        named_in(&schema, &schema, name, &mut Vec::new(), "", &mut found);
+        found.retain(|path| !is_at(path, key));
+        found.sort_by_cached_key(|path| path.matches(['.', '[']).count());
+        found.dedup();
+        found.truncate(3);
+        found
+    }
+
     /// Adds the key that names the family.
     fn tag(&self, schema: &mut Schema) {
         let word = json!({ "type": "string", "const": self.word });
@@ -54,6 +68,62 @@ impl DesignFamily {
             None => {
                 schema.insert("required".into(), json!(["family"]));
             }
+        }
+    }
+}
+
+/// Whether a key with `NAME` and `[]` in it is the one written.
+fn is_at(path: &str, key: &str) -> bool {
+    let parts = |path: &str| -> Vec<String> {
+        let parts = path.split('.').map(|part| part.split('[').next());
+        parts.map(|name| name.unwrap_or_default().into()).collect()
+    };
+    let (path, key) = (parts(path), parts(key));
+    let mut pairs = path.iter().zip(&key);
+    path.len() == key.len() && pairs.all(|(p, k)| p == "NAME" || p == k)
+}
+
+/// Gathers the keys of a name at and below a schema, but not below itself.
+fn named_in<'s>(
+    root: &'s Value,
+    here: &'s Value,
+    name: &str,
+    around: &mut Vec<&'s str>,
+    path: &str,
+    found: &mut Vec<String>,
+) {
+    let reference = here.get("$ref").and_then(Value::as_str);
+    let reference = reference.and_then(|r| r.strip_prefix('#'));
+    if let Some(place) = reference.filter(|place| !around.contains(place)) {
+        around.push(place);
+        if let Some(there) = root.pointer(place) {
+            named_in(root, there, name, around, path, found);
+        }
+        around.pop();
+    }
+    for (key, there) in here
+        .get("properties")
+        .and_then(Value::as_object)
+        .into_iter()
+        .flatten()
+    {
+        let dot = if path.is_empty() { "" } else { "." };
+        let path = format!("{path}{dot}{key}");
+        if key == name {
+            found.push(path.clone());
+        }
+        named_in(root, there, name, around, &path, found);
+    }
+    if let Some(there) = here.get("additionalProperties") {
+        named_in(root, there, name, around, &format!("{path}.NAME"), found);
+    }
+    if let Some(there) = here.get("items") {
+        named_in(root, there, name, around, &format!("{path}[]"), found);
+    }
+    for words in ["oneOf", "anyOf", "allOf", "prefixItems"] {
+        let list = here.get(words).and_then(Value::as_array);
+        for there in list.into_iter().flatten() {
+            named_in(root, there, name, around, path, found);
         }
     }
 }

@@ -370,6 +370,36 @@ swing_deg = 30
 }
 
 #[test]
+fn a_key_in_the_wrong_table_is_told_where_it_belongs() {
+    for (old, new, expected) in [
+        (
+            "width = 10",
+            "backlash = 10",
+            "; elsewhere there is teeth.backlash",
+        ),
+        (
+            "mean_ratio = [1, 1]",
+            "pressure_angle_deg = 20",
+            "; elsewhere there is tool.pressure_angle_deg",
+        ),
+        (
+            "backlash = 0.05",
+            "depth = 0.05",
+            "; elsewhere there is driver.keyway.depth, driven.keyway.depth",
+        ),
+        // A key of another kind of the same table is not elsewhere.
+        ("kind = \"ellipse\"", "kind = \"circle\"", ", tooth_count"),
+        ("width = 10", "nowhere = 10", ", accuracy"),
+    ] {
+        assert!(GOOD.contains(old), "{old}");
+        let error = read(GOOD.replacen(old, new, 1)).expect_err(new);
+        let message = error.to_string();
+        assert!(message.contains("unknown key; known are"), "{message}");
+        assert!(message.ends_with(expected), "{new:?}:\n  {message}");
+    }
+}
+
+#[test]
 fn a_missing_table_is_told_by_its_own_name() {
     for (text, key) in [
         ("family = \"gear-pair\"\n", "pitch"),
