@@ -286,13 +286,13 @@ impl Fitting<'_> {
         let Top::Height(height) = plan.top else {
             return 0.0;
         };
-        let (sin, cos) = self.tool.pressure_angle.sin_cos();
         let flank = self.flank(member, side, plan.crossing);
         // A full tooth keeps its full height, exactly.
         let end = flank
             .at_height(height)
-            .map(|(t, _)| (self.rolling.arc_length(t) - flank.crossing).abs());
-        let most = end.unwrap_or((height / (sin * cos)).max(0.0));
+            .map_or_else(|| flank.farthest(height), |(t, _)| t);
+        let rolled = side.sign() * (flank.crossing - self.rolling.arc_length(end));
+        let most = rolled.max(0.0);
         reach(self.rolling, self.tool, (member, side), plan.crossing, most)
     }
 

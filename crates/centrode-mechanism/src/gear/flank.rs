@@ -24,6 +24,9 @@ impl Side {
     }
 }
 
+/// Greatest length rolled up to a height, by that of a rack.
+const FARTHEST: f64 = 4.0;
+
 /// The exact flank, fillet, tip and root curves about one crossing of a pitch curve.
 ///
 /// While the pitch curve rolls on the tool's pitch line, the contact point of the straight flank that
@@ -130,14 +133,79 @@ impl Flank<'_> {
         }
     }
 
-    /// Parameters at which the flank reaches a normal distance `height` from the pitch curve: of the
-    /// flank and of the foot of that normal. `None` where Newton's method leaves the neighbourhood.
-    pub(crate) fn at_height(&self, height: f64) -> Option<(f64, f64)> {
+    /// Arc lengths at which the flank of the circle that osculates the pitch curve at the crossing, an involute, reaches a
+    /// height, and of the foot of the normal there: with d rolled, (1 + k d cos sin)^2 + (k d cos^2)^2 = (1 + k h)^2.
+    fn about_height(&self, height: f64) -> (f64, f64) {
         let (sin, cos) = self.tool.pressure_angle.sin_cos();
-        let arc = self.crossing - self.side.sign() * height / (sin * cos);
-        let foot = arc + (self.crossing - arc) * cos * cos;
+        let curvature = self.frame(self.rolling.parameter(self.crossing)).curvature;
+        let rise = height * (2.0 + curvature * height);
+        let root = (sin * sin + curvature * rise).sqrt();
+        // A concave circle's flank may end below the height: then a straight pitch line's.
+        let (curvature, rolled) = if root.is_nan() {
+            (0.0, height / (sin * cos))
+        } else {
+            (curvature, rise / (cos * (sin + root)))
+        };
+        let (along, up) = (rolled * cos * cos, rolled * cos * sin);
+        let turn = (curvature * along).atan2(1.0 + curvature * up);
+        let back = if turn == 0.0 { along } else { turn / curvature };
+        let sign = self.side.sign();
+        let arc = self.crossing - sign * rolled;
+        (arc, arc + sign * back)
+    }
+
+    /// Parameters at which the flank reaches a normal distance `height` from the pitch curve: of the
+    /// flank and of the foot of that normal. `None` where it turns back before, or does not come so far.
+    pub(crate) fn at_height(&self, height: f64) -> Option<(f64, f64)> {
+        let start = self.rolling.parameter(self.crossing);
+        let is_ahead = |t: f64| {
+            let rolled = self.side.sign() * (self.crossing - self.rolling.arc_length(t));
+            rolled * height >= 0.0 && self.slower(0.0, start, t).is_none()
+        };
+        let found = self.near_height(height);
+        found
+            .filter(|(t, _)| is_ahead(*t))
+            .or_else(|| self.first_at_height(height, start))
+    }
+
+    /// Parameter beyond which the flank is not followed up to a height: at a multiple of the length that a rack's would take.
+    pub(crate) fn farthest(&self, height: f64) -> f64 {
+        let (sin, cos) = self.tool.pressure_angle.sin_cos();
+        let rolled = FARTHEST * height / (sin * cos);
+        self.rolling
+            .parameter(self.crossing - self.side.sign() * rolled)
+    }
+
+    /// [`at_height`](Self::at_height) by the heights along the flank, where Newton's method leads elsewhere.
+    fn first_at_height(&self, height: f64, start: f64) -> Option<(f64, f64)> {
+        const SAMPLES: u32 = 24;
+        let far = self.farthest(height);
+        let end = self.slower(0.0, start, far).unwrap_or(far);
+        // Of all normals the shortest: its length has no jumps.
+        let short = |t: f64| {
+            let above = self.nearest_foot(t).map_or(f64::NAN, |(_, above)| above);
+            (height - above) * height.signum()
+        };
+        let mut before = (start, height.abs());
+        for i in 1..=SAMPLES {
+            checkpoint();
+            let t = start + (end - start) * f64::from(i) / f64::from(SAMPLES);
+            let now = short(t);
+            if now <= 0.0 {
+                let t = bracketed_root(short, before.0, t, before.1, now);
+                return self.nearest_foot(t).map(|(foot, _)| (t, foot));
+            }
+            before = (t, now);
+        }
+        None
+    }
+
+    /// [`at_height`](Self::at_height) by Newton's method; `None` where it leaves the neighbourhood.
+    fn near_height(&self, height: f64) -> Option<(f64, f64)> {
+        let (sin, cos) = self.tool.pressure_angle.sin_cos();
+        let (arc, foot) = self.about_height(height);
         let (mut t, mut tau) = (self.rolling.parameter(arc), self.rolling.parameter(foot));
-        let reach = 4.0 * height.abs() / (sin * cos);
+        let reach = FARTHEST * height.abs() / (sin * cos);
         let mut miss = f64::INFINITY;
         for _ in 0..40 {
             let (at, under) = (self.frame(t), self.frame(tau));
@@ -184,10 +252,51 @@ impl Flank<'_> {
             }
             tau += step.clamp(-limit, limit) / under.speed;
             if step.abs() <= 1e-15 * limit {
-                break;
+                return (tau, self.height_over(tau, &point));
             }
         }
+        let nearest = self.nearest_foot(t);
+        nearest.unwrap_or_else(|| (tau, self.height_over(tau, &point)))
+    }
+
+    /// Foot of the shortest normal from the flank's point at `t` to the pitch curve thereabouts, and the signed distance.
+    pub(crate) fn nearest_foot(&self, t: f64) -> Option<(f64, f64)> {
+        let at = self.frame(t);
+        let point = self.point_in(&at);
+        // No place nearer than the pitch point lies farther along, but where the curve winds.
+        let limit = self.tool.addendum + self.tool.dedendum;
+        let reach = 2.0 * (limit + (self.crossing - at.arc).abs());
+        let reach = reach.min(0.5 * self.rolling.pitch_length(self.member));
+        let tau = self.nearest(&point, at.arc, reach)?;
+        Some((tau, self.height_over(tau, &point)))
+    }
+
+    /// Height of a point over the tangent at a parameter of the pitch curve.
+    fn height_over(&self, tau: f64, point: &Point) -> f64 {
         let under = self.frame(tau);
-        (tau, (point - under.point).dot(&under.normal))
+        (point - under.point).dot(&under.normal)
+    }
+
+    /// Foot of the shortest normal from a point to the pitch curve, within a reach of an arc length.
+    fn nearest(&self, point: &Point, arc: f64, reach: f64) -> Option<f64> {
+        const SAMPLES: u32 = 96;
+        let ahead = |tau: f64| {
+            let under = self.frame(tau);
+            (point - under.point).dot(&under.tangent)
+        };
+        let at = |i: u32| arc + reach * (2.0 * f64::from(i) / f64::from(SAMPLES) - 1.0);
+        let places: Vec<(f64, f64)> = (0..=SAMPLES)
+            .map(|i| self.rolling.parameter(at(i)))
+            .map(|tau| (tau, ahead(tau)))
+            .collect();
+        let feet = places.windows(2).filter_map(|pair| {
+            let [(a, before), (b, after)] = [pair[0], pair[1]];
+            checkpoint();
+            (before >= 0.0 && after < 0.0).then(|| bracketed_root(ahead, a, b, before, after))
+        });
+        feet.min_by(|a, b| {
+            let [a, b] = [a, b].map(|tau| self.height_over(*tau, point).abs());
+            a.total_cmp(&b)
+        })
     }
 }

@@ -87,8 +87,7 @@ impl FlankCount {
         let short = match plan.top {
             Top::Reach(_) => false,
             Top::Height(height) => flank.at_height(height).is_none_or(|(tip, _)| {
-                let reach = (rolling.arc_length(tip) - plan.crossing).abs();
-                reach > tool.addendum_reach() || flank.slower(0.0, start, tip).is_some()
+                (rolling.arc_length(tip) - plan.crossing).abs() > tool.addendum_reach()
             }),
         };
         self.flanks += 1;

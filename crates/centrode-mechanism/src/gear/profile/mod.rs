@@ -176,11 +176,8 @@ impl Cutter<'_> {
                 };
             }
         };
-        let found = flank.at_height(wanted);
-        let beyond = |t: f64| sign * (limit - t) > 0.0;
-        if let Some((tip, foot)) = found
-            && !beyond(tip)
-            && flank.slower(0.0, start, tip).is_none()
+        if let Some((tip, foot)) = flank.at_height(wanted)
+            && sign * (limit - tip) <= 0.0
         {
             return Ends {
                 tip,
@@ -190,16 +187,17 @@ impl Cutter<'_> {
             };
         }
         // As far up as the flank goes: to its singular point or the tool's own limit.
-        let farthest = match found {
-            Some((tip, _)) if !beyond(tip) => tip,
-            _ => {
-                let (sin, cos) = self.tool.pressure_angle.sin_cos();
-                let reach = (2.0 * wanted / (sin * cos)).min(self.tool.addendum_reach());
-                rolling.parameter(plan.crossing - sign * reach)
-            }
+        let farthest = flank.farthest(wanted);
+        let farthest = if sign * (limit - farthest) > 0.0 {
+            limit
+        } else {
+            farthest
         };
         let tip = flank.slower(BLUNT, start, farthest).unwrap_or(farthest);
-        let (foot, height) = flank.foot(tip);
+        let (mut foot, mut height) = flank.foot(tip);
+        if height > wanted {
+            (foot, height) = flank.nearest_foot(tip).unwrap_or((foot, height));
+        }
         Ends {
             tip,
             foot,

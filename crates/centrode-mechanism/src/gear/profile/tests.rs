@@ -1,4 +1,3 @@
-use super::{ProfileError, Role};
 use crate::design::DesignSpec;
 use crate::gear::design::GearPairDesign;
 use crate::gear::{Gear, GearPair, GearPairError};
@@ -56,17 +55,55 @@ fn spaces_without_a_land_are_joined_by_a_step_where_their_sides_are_unlike_in_de
 }
 
 #[test]
-fn curves_of_a_tooth_that_do_not_meet_are_an_error_that_tells_how_far_they_are_apart() {
-    let refused = pair(
+fn tips_of_few_teeth_are_as_high_as_written() {
+    for teeth in 5..=12 {
+        for pressure_angle in [12.0, 14.5, 15.475, 17.0, 20.0, 25.0, 28.0] {
+            for addendum in [0.6, 0.96, 1.0, 1.3] {
+                let pair = pair(
+                    &format!(r#"kind = "circle", module = 2.0, tooth_count = {teeth}"#),
+                    &format!(
+                        r#"kind = "rack", pressure_angle_deg = {pressure_angle}, addendum_coefficient = {addendum}, dedendum_coefficient = {}, tip_radius_coefficient = 0.0"#,
+                        addendum + 0.1
+                    ),
+                    r#"addendum = "full""#,
+                );
+                let Ok(pair) = pair else { continue };
+                let tip = f64::from(teeth) + 2.0 * addendum;
+                for gear in [pair.driver(), pair.driven()] {
+                    let most = gear.radii().1;
+                    assert!(
+                        most < tip + 1e-9,
+                        "{teeth} {pressure_angle} {addendum}: {most}"
+                    );
+                    let is_pointed = gear.teeth().iter().all(|tooth| tooth.tip_width < 1e-9);
+                    assert!(
+                        is_pointed || most > tip - 1e-9,
+                        "{teeth} {pressure_angle}: {most}"
+                    );
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn beside_a_sharp_bend_inwards_tips_stand_over_the_nearest_place_of_the_pitch_curve() {
+    let pair = pair(
         r#"kind = "polar", radius = [24.650148120189883, 14.553127807982031, 23.876894143362563, 14.141476665570298, 14.11264329406592, 13.044958529047, 22.578617672823565, 18.839472039011653, 13.37086621952813, 13.262343858517378, 18.979657058502585], interpolation = "cubic", module = 3.586448941441285, tooth_count = 16"#,
         r#"kind = "rack", pressure_angle_deg = 14.5, addendum_coefficient = 1.299642696708099, dedendum_coefficient = 1.4971226983382036, tip_radius_coefficient = 0.1307553187945724"#,
         r#"phase = 0.0, thickness_split = 0.5227733477368081"#,
-    );
-    let Err(GearPairError::Profile(ProfileError::Gap { roles, gap, .. })) = refused else {
-        panic!("{refused:?}");
-    };
-    assert_eq!(roles, [Role::Flank, Role::Tip]);
-    assert!(gap > 1.0);
+    )
+    .expect("a pair");
+    let tolerance = Tolerance::new(1e-6 * pair.module()).expect("positive");
+    for gear in [pair.driver(), pair.driven()] {
+        let polygon = Outline::polygon(&gear.outline().flatten(tolerance));
+        assert_eq!(polygon.crossing(), None);
+        for tooth in gear.teeth() {
+            for side in [&tooth.leading, &tooth.trailing] {
+                assert!(side.tip_height < 1.2997 * pair.module());
+            }
+        }
+    }
 }
 
 #[test]
