@@ -50,7 +50,7 @@ pub enum DesignFault {
         near: Option<String>,
         /// All keys known here.
         known: Vec<String>,
-        /// Where else the family has a key of this name, the nearest to the root; none where one known here is near.
+        /// Where else the family has a key of this name, at most four, the nearest first.
         elsewhere: Vec<String>,
     },
     /// A key that must be there.
@@ -135,6 +135,9 @@ impl DesignError {
 fn in_words(keys: &[String]) -> String {
     match keys {
         [] => String::new(),
+        [one, two, three, _, ..] => {
+            format!("; elsewhere there is {one}, {two}, {three} and others")
+        }
         keys => format!("; elsewhere there is {}", keys.join(", ")),
     }
 }

@@ -140,10 +140,7 @@ impl<'a> Reader<'a> {
             let known: Vec<String> = names.iter().skip(1).cloned().collect();
             let name = names.first().map_or("", String::as_str);
             let near = nearest(name, &known);
-            let elsewhere = match near {
-                Some(_) => Vec::new(),
-                None => family.keys_named(name, &key),
-            };
+            let elsewhere = family.keys_named(name, &key);
             let fault = DesignFault::UnknownKey {
                 near,
                 known,

@@ -1,3 +1,5 @@
+use std::cmp::Reverse;
+
 use schemars::Schema;
 use schemars::generate::SchemaSettings;
 use serde_json::{Value, json};
@@ -43,7 +45,8 @@ impl DesignFamily {
         schema.to_value()
     }
 
-    /// Keys of a name in the family's design files, the three nearest to the root: `teeth.backlash`, `cams.NAME.motion`.
+    /// Keys of a name in the family's design files, the four nearest to a place in a file: `teeth.backlash`,
+    /// `cams.NAME.motion`.
     ///
     /// Without those at the place of `key` itself, which other kinds of its table may have.
     pub(super) fn keys_named(&self, name: &str, key: &str) -> Vec<String> {
@@ -51,9 +54,17 @@ impl DesignFamily {
         let mut found = Vec::new();
         named_in(&schema, &schema, name, &mut Vec::new(), "", &mut found);
         found.retain(|path| !is_at(path, key));
-        found.sort_by_cached_key(|path| path.matches(['.', '[']).count());
-        found.dedup();
-        found.truncate(3);
+        found.sort_by_cached_key(|path| {
+            let shared = common(path, key);
+            (Reverse(shared), path.matches(['.', '[']).count())
+        });
+        let mut seen = Vec::new();
+        found.retain(|path| {
+            let is_new = !seen.contains(path);
+            seen.push(path.clone());
+            is_new
+        });
+        found.truncate(4);
         found
     }
 
@@ -72,15 +83,23 @@ impl DesignFamily {
     }
 }
 
+/// The names of tables and key that make up a key, without the numbers of entries.
+fn parts(key: &str) -> Vec<&str> {
+    let parts = key.split('.').map(|part| part.split('[').next());
+    parts.map(Option::unwrap_or_default).collect()
+}
+
+/// Number of tables that a key with `NAME` and `[]` in it and one written have in common.
+fn common(path: &str, key: &str) -> usize {
+    let (path, key) = (parts(path), parts(key));
+    let pairs = path.iter().zip(&key);
+    pairs.take_while(|(p, k)| **p == "NAME" || p == k).count()
+}
+
 /// Whether a key with `NAME` and `[]` in it is the one written.
 fn is_at(path: &str, key: &str) -> bool {
-    let parts = |path: &str| -> Vec<String> {
-        let parts = path.split('.').map(|part| part.split('[').next());
-        parts.map(|name| name.unwrap_or_default().into()).collect()
-    };
-    let (path, key) = (parts(path), parts(key));
-    let mut pairs = path.iter().zip(&key);
-    path.len() == key.len() && pairs.all(|(p, k)| p == "NAME" || p == k)
+    let depth = parts(path).len();
+    depth == parts(key).len() && common(path, key) == depth
 }
 
 /// Gathers the keys of a name at and below a schema, but not below itself.

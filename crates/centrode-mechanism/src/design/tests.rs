@@ -387,6 +387,16 @@ fn a_key_in_the_wrong_table_is_told_where_it_belongs() {
             "depth = 0.05",
             "; elsewhere there is driver.keyway.depth, driven.keyway.depth",
         ),
+        (
+            "name = \"pair\"",
+            "depth = 10",
+            "did you mean \"teeth\"?; known are name, title, mean_ratio, tooth_count, center_distance, pitch, tool, teeth, driver, driven, drawing; elsewhere there is driver.keyway.depth, driven.keyway.depth",
+        ),
+        (
+            "eccentricity = 0.25",
+            "width = 0.25",
+            "; elsewhere there is driver.width, driven.width, driver.keyway.width and others",
+        ),
         // A key of another kind of the same table is not elsewhere.
         ("kind = \"ellipse\"", "kind = \"circle\"", ", tooth_count"),
         ("width = 10", "nowhere = 10", ", accuracy"),
@@ -394,7 +404,7 @@ fn a_key_in_the_wrong_table_is_told_where_it_belongs() {
         assert!(GOOD.contains(old), "{old}");
         let error = read(GOOD.replacen(old, new, 1)).expect_err(new);
         let message = error.to_string();
-        assert!(message.contains("unknown key; known are"), "{message}");
+        assert!(message.contains(": unknown key"), "{message}");
         assert!(message.ends_with(expected), "{new:?}:\n  {message}");
     }
 }

@@ -74,34 +74,56 @@ impl Flank<'_> {
     /// First parameter between `from` and `to` at which the flank moves on more slowly than `least`
     /// times a straight rack's would.
     pub(crate) fn slower(&self, least: f64, from: f64, to: f64) -> Option<f64> {
-        const SAMPLES: u32 = 12;
-        let floor = least * self.tool.pressure_angle.sin();
-        let speed = |frame: &Frame| self.speed_in(frame) - floor;
         let mut ends = vec![from];
         ends.extend(self.rolling.breaks_between(from, to));
         ends.push(to);
-        for pair in ends.windows(2) {
-            let (a, b) = (pair[0], pair[1]);
-            let inward = if b > a { b.next_down() } else { b };
-            let start = if b > a { a } else { a.next_down() };
-            let mut before = (start, speed(&self.frame(start)));
-            if before.1 <= 0.0 {
-                return Some(a);
-            }
-            for i in 1..=SAMPLES {
-                checkpoint();
-                let t = if i == SAMPLES {
-                    inward
-                } else {
-                    a + (b - a) * f64::from(i) / f64::from(SAMPLES)
-                };
-                let now = speed(&self.frame(t));
-                if now <= 0.0 {
-                    let root = |t: f64| speed(&self.frame(t));
-                    return Some(bracketed_root(root, before.0, t, before.1, now));
+        ends.windows(2)
+            .find_map(|pair| self.slower_between(least, pair[0], pair[1]))
+    }
+
+    /// [`slower`](Self::slower) between breaks of the pitch curve: at steps that are short beside what a tooth rolls, and at
+    /// the least speed about a step that is slower than its neighbours.
+    fn slower_between(&self, least: f64, a: f64, b: f64) -> Option<f64> {
+        /// Steps for the length that a rack rolls from the pitch line to its tip, and the fewest.
+        const STEPS: f64 = 12.0;
+        let (sin, cos) = self.tool.pressure_angle.sin_cos();
+        let floor = least * sin;
+        let speed = |t: f64| self.speed_in(&self.frame(t)) - floor;
+        let inward = if b > a { b.next_down() } else { b };
+        let start = if b > a { a } else { a.next_down() };
+        let [first, last] = [start, inward].map(|t| self.frame(t));
+        let whole = self.speed_in(&first) - floor;
+        if whole <= 0.0 {
+            return Some(a);
+        }
+        let rolled = (last.arc - first.arc).abs() * sin * cos / self.tool.addendum;
+        let steps = (STEPS * rolled.clamp(1.0, 16.0)).ceil() as u32;
+        let root =
+            |from: (f64, f64), to: (f64, f64)| bracketed_root(speed, from.0, to.0, from.1, to.1);
+        let mut before = [(start, whole); 2];
+        for i in 1..=steps {
+            checkpoint();
+            let t = if i == steps {
+                inward
+            } else {
+                a + (b - a) * f64::from(i) / f64::from(steps)
+            };
+            let now = (t, speed(t));
+            let [(_, earlier), (middle, slow)] = before;
+            // Between the three the speed may fall below the floor and rise again.
+            let bend = earlier - 2.0 * slow + now.1;
+            let lowest = middle + 0.5 * (t - middle) * (earlier - now.1) / bend;
+            if i > 1 && slow <= earlier && slow <= now.1 && lowest.is_finite() {
+                let least = (lowest, speed(lowest));
+                if least.1 <= 0.0 {
+                    let is_beyond = (lowest - middle) * (b - a) > 0.0;
+                    return Some(root(before[usize::from(is_beyond)], least));
                 }
-                before = (t, now);
             }
+            if now.1 <= 0.0 {
+                return Some(root(before[1], now));
+            }
+            before = [before[1], now];
         }
         None
     }
@@ -178,7 +200,7 @@ impl Flank<'_> {
 
     /// [`at_height`](Self::at_height) by the heights along the flank, where Newton's method leads elsewhere.
     fn first_at_height(&self, height: f64, start: f64) -> Option<(f64, f64)> {
-        const SAMPLES: u32 = 24;
+        const SAMPLES: u32 = 48;
         let far = self.farthest(height);
         let end = self.slower(0.0, start, far).unwrap_or(far);
         // Of all normals the shortest: its length has no jumps.
@@ -191,6 +213,10 @@ impl Flank<'_> {
             checkpoint();
             let t = start + (end - start) * f64::from(i) / f64::from(SAMPLES);
             let now = short(t);
+            // Where there is no normal there is no height.
+            if now.is_nan() {
+                continue;
+            }
             if now <= 0.0 {
                 let t = bracketed_root(short, before.0, t, before.1, now);
                 return self.nearest_foot(t).map(|(foot, _)| (t, foot));
@@ -263,7 +289,7 @@ impl Flank<'_> {
     pub(crate) fn nearest_foot(&self, t: f64) -> Option<(f64, f64)> {
         let at = self.frame(t);
         let point = self.point_in(&at);
-        // No place nearer than the pitch point lies farther along, but where the curve winds.
+        // The pitch point at which it was made is no farther than it rolled; what is nearer lies thereabouts.
         let limit = self.tool.addendum + self.tool.dedendum;
         let reach = 2.0 * (limit + (self.crossing - at.arc).abs());
         let reach = reach.min(0.5 * self.rolling.pitch_length(self.member));

@@ -56,6 +56,7 @@ fn spaces_without_a_land_are_joined_by_a_step_where_their_sides_are_unlike_in_de
 
 #[test]
 fn tips_of_few_teeth_are_as_high_as_written() {
+    let mut cut = 0;
     for teeth in 5..=12 {
         for pressure_angle in [12.0, 14.5, 15.475, 17.0, 20.0, 25.0, 28.0] {
             for addendum in [0.6, 0.96, 1.0, 1.3] {
@@ -68,6 +69,7 @@ fn tips_of_few_teeth_are_as_high_as_written() {
                     r#"addendum = "full""#,
                 );
                 let Ok(pair) = pair else { continue };
+                cut += 1;
                 let tip = f64::from(teeth) + 2.0 * addendum;
                 for gear in [pair.driver(), pair.driven()] {
                     let most = gear.radii().1;
@@ -81,6 +83,54 @@ fn tips_of_few_teeth_are_as_high_as_written() {
                         "{teeth} {pressure_angle}: {most}"
                     );
                 }
+            }
+        }
+    }
+    // The tools of the others come to a point.
+    assert!(cut > 150, "{cut}");
+}
+
+#[test]
+fn no_tooth_is_higher_than_written_where_a_flank_turns_back_for_a_short_way() {
+    for (curve, angle, addendum, phase, ratio) in [
+        (
+            "1 + 0.0601254*cos(4*phi) - 0.0169521*sin(8*phi)\", module = 2, tooth_count = 12",
+            14.5,
+            0.6,
+            -0.95,
+            "[2, 1]",
+        ),
+        (
+            "1 + 0.21982334*cos(3*phi) + 0.07510884*sin(6*phi)\", module = 2, tooth_count = 8",
+            14.5,
+            1.0,
+            -0.525,
+            "[2, 1]",
+        ),
+        (
+            "1 + 0.2206520448010779*cos(3*phi) + 0.0951802892428884*sin(6*phi)\", module = 2, tooth_count = 10",
+            12.0,
+            1.0,
+            0.453_089_665_956_862_2,
+            "[1, 1]",
+        ),
+    ] {
+        let pair = read(&format!(
+            "mean_ratio = {ratio}\npitch = {{ kind = \"polar\", expression = \"{curve} }}\n\
+             tool = {{ kind = \"rack\", pressure_angle_deg = {angle}, addendum_coefficient = {addendum}, \
+             dedendum_coefficient = {}, tip_radius_coefficient = 0.0 }}\nteeth = {{ phase = {phase} }}",
+            addendum + 0.1
+        ))
+        .expect("a pair");
+        for gear in [pair.driver(), pair.driven()] {
+            let wanted = addendum * pair.module();
+            for side in gear.teeth().iter().flat_map(|t| [&t.leading, &t.trailing]) {
+                assert!(
+                    side.tip_height <= wanted + 1e-9,
+                    "{curve}: {}",
+                    side.tip_height
+                );
+                assert!((side.tip_height + side.tip_shortening - wanted).abs() < 1e-9);
             }
         }
     }
