@@ -219,7 +219,15 @@ EXEMPT = {
         FORMULA: (r"phi;<sub>1</sub>, the groove",),
     },
     "docs/theory/teeth.md": {
-        FORMULA: (r"&plusmn;1", r"m z/2", r", 2 h<sub>"),
+        FORMULA: (
+            r"&plusmn;1",
+            r"m z/2",
+            r", 2 h<sub>",
+            r"k = 1/r",
+            r"d<sup>2</sup>",
+            r"<sup>2</sup> &alpha; \+ 2 d",
+            r"h \(2 \+ k h\)",
+        ),
         LIMIT: (r"from 0\.35 to 0\.65", r"from 14\.5 to 30 degrees", r"0\.002 pitches, 0\.001, and 0\.05 degrees"),
         INPUT: (r"with 14 teeth for the ratio 1 \+ 0\.4 cos 2 phi", r"\(23 degrees for a radius of 0\.38 modules\)"),
     },
