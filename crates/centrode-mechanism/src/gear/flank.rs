@@ -268,6 +268,7 @@ impl Flank<'_> {
         let mut tau = self
             .rolling
             .parameter(at.arc + (self.crossing - at.arc) * cos * cos);
+        let mut last = f64::INFINITY;
         for _ in 0..40 {
             let under = self.frame(tau);
             let offset = point - under.point;
@@ -277,12 +278,17 @@ impl Flank<'_> {
                 break;
             }
             tau += step.clamp(-limit, limit) / under.speed;
-            if step.abs() <= 1e-15 * limit {
-                return (tau, self.height_over(tau, &point));
+            last = step.abs();
+            if last <= 1e-15 * limit {
+                break;
             }
         }
-        let nearest = self.nearest_foot(t);
-        nearest.unwrap_or_else(|| (tau, self.height_over(tau, &point)))
+        let found = (tau, self.height_over(tau, &point));
+        // Far from the axis rounding keeps the steps from ending: that is no other place.
+        if last <= 1e-9 * limit {
+            return found;
+        }
+        self.nearest_foot(t).unwrap_or(found)
     }
 
     /// Foot of the shortest normal from the flank's point at `t` to the pitch curve thereabouts, and the signed distance.
