@@ -4,6 +4,7 @@ import csv
 import math
 import re
 from collections import Counter
+from functools import cache
 from itertools import combinations
 from xml.etree import ElementTree
 
@@ -178,10 +179,22 @@ def volume(shape):
     return properties.Mass()
 
 
+@pytest.fixture(scope="module")
+def assembled(shipped):
+    """Folder of a design and its assembly, exported and read once."""
+
+    @cache
+    def read(name):
+        folder = shipped(name, "csv,step,urdf" if name == "feeder-2022" else "csv,step")
+        return folder, Assembly(folder / "assembly.step")
+
+    return read
+
+
 @pytest.mark.parametrize("name", DESIGNS)
-def test_every_piece_is_a_sound_solid_that_stands_where_its_link_does(name, shipped):
+def test_every_piece_is_a_sound_solid_that_stands_where_its_link_does(name, assembled):
     machine = ct.load(ROOT / "tests" / "designs" / f"{name}.toml")
-    assembly = Assembly(shipped(name, "step") / "assembly.step")
+    _, assembly = assembled(name)
     assert called(assembly.root) == (machine.title or machine.name)
     frames = machine.frames(0.0)
     assert assembly.pieces
@@ -198,9 +211,8 @@ def test_every_piece_is_a_sound_solid_that_stands_where_its_link_does(name, ship
             solids.Next()
 
 
-def test_bodies_are_written_once_and_colored(shipped):
-    folder = shipped("three-arm-2021", "step")
-    assembly = Assembly(folder / "assembly.step")
+def test_bodies_are_written_once_and_colored(assembled):
+    folder, assembly = assembled("three-arm-2021")
     counts = Counter(product for _, product, _, _ in assembly.pieces)
     bodies = (folder / "assembly.step").read_text().count("=MANIFOLD_SOLID_BREP(")
     painted = list(assembly.painted())
@@ -212,10 +224,9 @@ def test_bodies_are_written_once_and_colored(shipped):
 
 
 @pytest.mark.parametrize(("name", "density"), [("jansen-leg", 1200), ("feeder-2022", 7850)])
-def test_pieces_weigh_what_the_parts_list_says(name, density, shipped):
-    folder = shipped(name, "csv,step")
+def test_pieces_weigh_what_the_parts_list_says(name, density, assembled):
+    folder, assembly = assembled(name)
     rows = [row for row in parts(folder) if row["files"] and row["mass_kg"]]
-    assembly = Assembly(folder / "assembly.step")
     weighed = {product: volume(shape) * density * 1e-9 for _, product, _, shape in assembly.pieces}
     assert len(rows) > 3
     for row in rows:
@@ -224,8 +235,8 @@ def test_pieces_weigh_what_the_parts_list_says(name, density, shipped):
         assert math.isclose(weighed[row["files"]], pieces * float(row["mass_kg"]), rel_tol=1e-6), row["part"]
 
 
-def test_gears_and_plates_of_the_feeder_stand_clear_of_each_other(shipped):
-    assembly = Assembly(shipped("feeder-2022", "step") / "assembly.step")
+def test_gears_and_plates_of_the_feeder_stand_clear_of_each_other(assembled):
+    _, assembly = assembled("feeder-2022")
     heights = {}
     for _, product, place, shape in assembly.pieces:
         if is_mounted(product):
@@ -248,9 +259,8 @@ def test_gears_and_plates_of_the_feeder_stand_clear_of_each_other(shipped):
 
 
 @pytest.mark.parametrize("name", [*DESIGNS, "composed-feeder", "composed-three-arm", "press"])
-def test_everything_that_is_made_and_bought_is_a_solid_of_its_material(name, shipped):
-    folder = shipped(name, "csv,step")
-    assembly = Assembly(folder / "assembly.step")
+def test_everything_that_is_made_and_bought_is_a_solid_of_its_material(name, assembled):
+    folder, assembly = assembled(name)
     listed = parts(folder)
     # Of a shaft that is given no place is known, nor of its key.
     given = [row["links"] for row in listed if row["supply"] == "given" and row["part"].startswith("Shaft of")]
@@ -273,8 +283,8 @@ def test_everything_that_is_made_and_bought_is_a_solid_of_its_material(name, shi
 
 
 @pytest.mark.parametrize("name", TURNED)
-def test_shafts_and_pins_sit_in_their_bores(name, shipped):
-    assembly = Assembly(shipped(name, "csv,step") / "assembly.step")
+def test_shafts_and_pins_sit_in_their_bores(name, assembled):
+    _, assembly = assembled(name)
     pieces = [(product, moved(shape, place)) for _, product, place, shape in assembly.pieces]
     turned = [(product, shape) for product, shape in pieces if is_turned(product)]
     others = [
@@ -303,9 +313,8 @@ def test_shafts_and_pins_sit_in_their_bores(name, shipped):
 
 
 @pytest.mark.parametrize("name", TURNED)
-def test_rings_keys_and_bearings_lie_on_their_shafts_clear_of_everything(name, shipped):
-    folder = shipped(name, "csv,step")
-    assembly = Assembly(folder / "assembly.step")
+def test_rings_keys_and_bearings_lie_on_their_shafts_clear_of_everything(name, assembled):
+    folder, assembly = assembled(name)
     pieces = [(link, product, moved(shape, place)) for link, product, place, shape in assembly.pieces]
     boxed = [(link, product, shape, box(shape)) for link, product, shape in pieces]
     of_shafts = re.compile(r"(circlip|key)-din-|deep-groove-")
@@ -341,10 +350,9 @@ def test_rings_keys_and_bearings_lie_on_their_shafts_clear_of_everything(name, s
             assert math.isclose(size, height * rounded, rel_tol=1e-9), product
 
 
-def test_links_weigh_what_is_mounted_on_them(shipped):
+def test_links_weigh_what_is_mounted_on_them(assembled):
     """Mass and centre of a link of the simulator model are those the kernel integrates over its pieces."""
-    folder = shipped("feeder-2022", "csv,step,urdf")
-    assembly = Assembly(folder / "assembly.step")
+    folder, assembly = assembled("feeder-2022")
     weights = {}
     for link, _, place, shape in assembly.pieces:
         properties = GProp_GProps()

@@ -6,7 +6,7 @@ import re
 
 import ezdxf
 import numpy as np
-import pypdf
+import pypdfium2
 import pytest
 from conftest import ROOT
 from ezdxf.math import bulge_to_arc
@@ -85,6 +85,7 @@ def test_blanks_are_the_least_that_the_contours_need(name, shipped):
 def test_the_book_of_sheets_has_the_cut_list(shipped):
     for name in ("feeder-2022", "three-arm-2021", "composed-three-arm"):
         folder = shipped(name, "pdf")
-        words = "\n".join(page.extract_text() for page in pypdf.PdfReader(folder / "sheets.pdf").pages)
+        book = pypdfium2.PdfDocument(folder / "sheets.pdf")
+        words = "\n".join(page.get_textpage().get_text_bounded() for page in book)
         assert "Cut list" in words
         assert "plate " in words

@@ -82,12 +82,13 @@ impl Outline {
     /// unless they part from it to one side, which is told by their distances ever nearer to the joint.
     #[must_use]
     pub fn crossing(&self) -> Option<Crossing> {
-        self.crossing_beyond(0.0)
+        self.crossing_beyond(0.0, 0.0)
     }
 
-    /// [`crossing`](Self::crossing), where loops smaller than a distance, mm, are let pass in a segment and at its ends.
+    /// [`crossing`](Self::crossing), where loops smaller than a distance, mm, are let pass in a segment and at its ends,
+    /// and those at the blunt end of a cusp that are thinner than another, mm.
     #[must_use]
-    pub fn crossing_beyond(&self, speck: f64) -> Option<Crossing> {
+    pub fn crossing_beyond(&self, speck: f64, thin: f64) -> Option<Crossing> {
         let strands = self.strands();
         let bounds: Bounds = strands.iter().map(|s| s.start).collect();
         let size = bounds.diagonal();
@@ -96,6 +97,7 @@ impl Outline {
             touch: TOUCH * size,
             rounding: ROUNDING * size,
             speck,
+            thin,
         };
         let strands: Vec<Strand> = strands
             .into_iter()
@@ -167,6 +169,8 @@ struct Search<'a> {
     rounding: f64,
     /// Size, mm, of a loop in a segment or at its ends that is let pass.
     speck: f64,
+    /// Distance, mm, that two strands at a cusp may lie over each other.
+    thin: f64,
 }
 
 impl Search<'_> {
@@ -223,19 +227,23 @@ impl Search<'_> {
             let u = bracketed_root(ahead, u0, u1, ahead(u0), ahead(u1));
             along.perp(&way(u))
         };
-        let (mut side, mut s) = (0.0, least);
-        while s > 0.0 {
-            let gap = aside(b, s) - aside(a, s);
-            if gap.abs() <= self.rounding {
-                break;
+        let places = std::iter::successors(Some(least), |s| Some(0.8 * s));
+        let mut gaps = places
+            .map(|s| (s, aside(b, s) - aside(a, s)))
+            .take_while(|(s, _)| *s > self.rounding);
+        let (mut side, close) = (0.0, self.rounding.max(self.thin));
+        for (s, gap) in gaps.by_ref() {
+            if gap.abs() <= close {
+                // They lie on each other where they part by no more than rounding for long.
+                let mut rest = || self.thin > 0.0 && gaps.all(|(_, gap)| gap.abs() <= close);
+                return side != 0.0 && (s < 1e-2 * least || rest());
             }
             if side * gap < 0.0 {
                 return false;
             }
-            (side, s) = (gap, 0.8 * s);
+            side = gap;
         }
-        // They lie on each other where they part by no more than rounding for long.
-        side != 0.0 && s < 1e-2 * least
+        side != 0.0
     }
 
     /// Whether two strands that share no end meet.

@@ -128,9 +128,12 @@ fn curves_that_part_from_a_cusp_do_not_touch_however_flat_and_those_that_swap_si
         found.segments == [0, 3] && found.point.x < 0.11,
         "{found:?}"
     );
-    assert!(swapped.crossing_beyond(0.05).is_some());
+    assert!(swapped.crossing_beyond(0.05, 0.0).is_some());
     // What is within the speck is let pass, and nothing but it.
-    assert_eq!(swapped.crossing_beyond(0.12), None);
+    assert_eq!(swapped.crossing_beyond(0.12, 0.0), None);
+    // They lie over each other by up to 4e-3/27.
+    assert!(swapped.crossing_beyond(0.0, 1.4e-4).is_some());
+    assert_eq!(swapped.crossing_beyond(0.0, 1.5e-4), None);
     let coincident = cusp(|t| t * t, |t| t * t);
     assert!(coincident.crossing().is_some());
 }
@@ -155,8 +158,8 @@ fn a_loop_in_a_segment_smaller_than_the_speck_is_let_pass() {
         let outline = looped(e);
         let found = outline.crossing().expect("crosses");
         assert_eq!(found.segments, [0, 0]);
-        assert!(outline.crossing_beyond(0.5 * e).is_some());
-        assert_eq!(outline.crossing_beyond(1.5 * e), None);
+        assert!(outline.crossing_beyond(0.5 * e, 0.0).is_some());
+        assert_eq!(outline.crossing_beyond(1.5 * e, 0.0), None);
     }
 }
 
@@ -179,8 +182,11 @@ fn a_loop_over_segments_of_no_length_to_speak_of_is_let_pass() {
                 outline.crossing().expect("crosses").segments,
                 [0, count + 1]
             );
-            assert!(outline.crossing_beyond(0.9 * e).is_some(), "{count} {e}");
-            assert_eq!(outline.crossing_beyond(3.0 * e), None, "{count} {e}");
+            assert!(
+                outline.crossing_beyond(0.9 * e, 0.0).is_some(),
+                "{count} {e}"
+            );
+            assert_eq!(outline.crossing_beyond(3.0 * e, 0.0), None, "{count} {e}");
         }
     }
 }

@@ -6,6 +6,9 @@ use super::{Cutter, Member, Profile, ProfileError, Role, Side, Tooth, ToothCurve
 /// rounding.
 const SPECK: f64 = 1e5;
 
+/// Distance, in tolerances of the contour, that two curves may lie over each other at a cusp for the tolerance of both.
+const THIN: f64 = 4.0;
+
 impl Cutter<'_> {
     /// Joins what is left of the pieces into the contour, and finds what it leaves of each tooth.
     pub(super) fn join(
@@ -90,7 +93,8 @@ impl Cutter<'_> {
         }
         let outline = Outline::new(segments)?;
         // Where a flank turns back on its fillet the two part by less than rounding at first.
-        if let Some(found) = outline.crossing_beyond(SPECK * self.tolerance.mm()) {
+        let tolerance = self.tolerance.mm();
+        if let Some(found) = outline.crossing_beyond(SPECK * tolerance, THIN * tolerance) {
             return Err(ProfileError::Touches {
                 member: self.member,
                 point: found.point,

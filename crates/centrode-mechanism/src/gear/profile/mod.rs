@@ -226,36 +226,27 @@ impl Cutter<'_> {
             };
             let swing = Swing::new(corner, center, end);
             let (from, to) = if leads { (center, end) } else { (end, center) };
-            let curve = |w: f64| flank.fillet(corner, swing.parameter(w));
-            let cut = |t: f64| swing.own(t);
-            self.fit(
-                pieces,
-                (Role::Fillet, flank.side, index),
-                (from, to),
-                &cut,
-                &curve,
-            );
+            let mut cuts: Vec<f64> = self.cuts(from, to).map(|t| swing.own(t)).collect();
+            if cuts.len() == 2 {
+                // One piece never suffices: not trying it saves a third of the work.
+                cuts.insert(1, 0.5 * (cuts[0] + cuts[1]));
+            }
+            self.fit(pieces, (Role::Fillet, flank.side, index), cuts, &|w| {
+                flank.fillet(corner, swing.parameter(w))
+            });
         };
         fillet(&leading, &plan.leading.corner, pieces);
-        let mut add = |role: Role, side: Side, from: f64, to: f64, curve: &dyn Fn(f64) -> Point| {
-            self.fit(pieces, (role, side, index), (from, to), &|t| t, curve);
-        };
-        add(Role::Flank, Side::Leading, lead_end, lead.tip, &|t| {
-            leading.point(t)
-        });
-        let width = trail.foot - lead.foot;
-        add(Role::Tip, Side::Trailing, lead.foot, trail.foot, &|t| {
-            let frame = leading.frame(t);
-            let share = if width == 0.0 {
-                0.0
-            } else {
-                (t - lead.foot) / width
+        let add =
+            |side: Side, flank: &Flank<'_>, from: f64, to: f64, pieces: &mut Vec<ToothCurve>| {
+                let cuts = self.cuts(from, to).collect();
+                self.fit(pieces, (Role::Flank, side, index), cuts, &|t| {
+                    flank.point(t)
+                });
             };
-            frame.point + frame.normal * (lead.height + share * (trail.height - lead.height))
-        });
-        add(Role::Flank, Side::Trailing, trail.tip, trail_end, &|t| {
-            trailing.point(t)
-        });
+        add(Side::Leading, &leading, lead_end, lead.tip, pieces);
+        let top = [(lead.foot, lead.height), (trail.foot, trail.height)];
+        self.land(pieces, (Role::Tip, index), &leading, top, |share| share);
+        add(Side::Trailing, &trailing, trail.tip, trail_end, pieces);
         fillet(&trailing, &plan.trailing.corner, pieces);
         let side = |flank: &Flank<'_>, plan: &FlankPlan, ends: &Ends| ToothSide {
             crossing: plan.crossing,
@@ -281,66 +272,58 @@ impl Cutter<'_> {
         let parameter = |arc: f64| self.rolling.parameter(arc);
         let trail_center = parameter(plan.trailing.crossing + plan.trailing.corner.center);
         let next_center = parameter(next.crossing - next.corner.center);
-        let bottom = next_center - trail_center;
-        let (deep, next_deep) = (plan.trailing.corner.depth, next.corner.depth);
-        if bottom.abs() <= CRUMB * trail_center.abs() {
-            // Roundings that leave no land between them, at unlike depths: a step joins them.
-            let frame = leading.frame(trail_center);
-            let step = |w: f64| frame.point - frame.normal * (deep + w * (next_deep - deep));
-            if (next_deep - deep).abs() > self.tolerance.mm() {
-                pieces.extend(
-                    PolySegment::fit(step, 0.0, 1.0, self.tolerance)
-                        .into_iter()
-                        .map(|poly| ToothCurve {
-                            poly,
-                            role: Role::Root,
-                            tooth: index,
-                            span: (trail_center, next_center),
-                            side: Side::Trailing,
-                            image: None,
-                        }),
-                );
-            }
-        }
-        let mut add = |role: Role, side: Side, from: f64, to: f64, curve: &dyn Fn(f64) -> Point| {
-            self.fit(pieces, (role, side, index), (from, to), &|t| t, curve);
-        };
-        add(
-            Role::Root,
-            Side::Trailing,
-            trail_center,
-            next_center,
-            &|t| {
-                let frame = leading.frame(t);
-                let share = if bottom == 0.0 {
-                    0.0
-                } else {
-                    (t - trail_center) / bottom
-                };
-                let smooth = share * share * (3.0 - 2.0 * share);
-                frame.point - frame.normal * (deep + smooth * (next_deep - deep))
-            },
-        );
+        let bottom = [
+            (trail_center, -plan.trailing.corner.depth),
+            (next_center, -next.corner.depth),
+        ];
+        self.land(pieces, (Role::Root, index), &leading, bottom, |share| {
+            share * share * (3.0 - 2.0 * share)
+        });
     }
 
-    /// Fits a curve between two pitch-curve parameters, cut at the pitch curve's breaks; `own` turns
-    /// such a parameter into the curve's own.
+    /// Tip or root from one pitch-curve parameter and height over the pitch curve to another, as `blend` has it of the
+    /// share of the way.
+    fn land(
+        &self,
+        pieces: &mut Vec<ToothCurve>,
+        (role, tooth): (Role, u32),
+        flank: &Flank<'_>,
+        [(from, low), (to, high)]: [(f64, f64); 2],
+        blend: fn(f64) -> f64,
+    ) {
+        let (width, rise) = (to - from, high - low);
+        let narrow = (width * flank.frame(from).speed).abs() <= self.tolerance.mm();
+        if narrow && rise.abs() <= self.tolerance.mm() {
+            return;
+        }
+        // Roundings that leave no land between them, at unlike depths: a step joins them.
+        let height = |share: f64| low + rise * if narrow { share } else { blend(share) };
+        let inside = |t: f64| ((t - from) / width).clamp(0.0, 1.0);
+        let breaks = self.rolling.breaks_between(from, to);
+        let breaks = breaks.into_iter().map(inside).filter(|_| !narrow);
+        let cuts = std::iter::once(0.0).chain(breaks).chain([1.0]).collect();
+        // By the share of the way: a parameter has too few digits for the height along a narrow one.
+        self.fit(pieces, (role, Side::Trailing, tooth), cuts, &|share| {
+            let frame = flank.frame(from + share * width);
+            frame.point + frame.normal * height(share)
+        });
+    }
+
+    /// Two pitch-curve parameters and the pitch curve's breaks between them.
+    fn cuts(&self, from: f64, to: f64) -> impl Iterator<Item = f64> {
+        let breaks = self.rolling.breaks_between(from, to);
+        std::iter::once(from).chain(breaks).chain([to])
+    }
+
+    /// Fits a curve between the places of its parameter at which it is cut.
     fn fit(
         &self,
         pieces: &mut Vec<ToothCurve>,
         (role, side, tooth): (Role, Side, u32),
-        (from, to): (f64, f64),
-        own: &dyn Fn(f64) -> f64,
+        cuts: Vec<f64>,
         curve: &dyn Fn(f64) -> Point,
     ) {
-        let mut ends = vec![own(from)];
-        ends.extend(self.rolling.breaks_between(from, to).into_iter().map(own));
-        ends.push(own(to));
-        if role == Role::Fillet && ends.len() == 2 {
-            // One piece never suffices: not trying it saves a third of the work.
-            ends.insert(1, 0.5 * (ends[0] + ends[1]));
-        }
-        for pair in ends.windows(2) {
+        for pair in cuts.windows(2) {
             // Backward crumbs of a root without width would only be cut off again.
             if (pair[1] - pair[0]).abs() <= CRUMB * pair[0].abs().max(pair[1].abs()) {
                 continue;

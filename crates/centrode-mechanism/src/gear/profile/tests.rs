@@ -22,6 +22,16 @@ fn assert_simple(gear: &Gear) {
     assert!(outline.is_counter_clockwise());
 }
 
+/// Polygons within a millionth of the module of the contours of a design.
+fn assert_simple_polygons(text: &str) {
+    let pair = read(text).expect("a pair");
+    let tolerance = Tolerance::new(1e-6 * pair.module()).expect("positive");
+    for gear in [pair.driver(), pair.driven()] {
+        let polygon = Outline::polygon(&gear.outline().flatten(tolerance));
+        assert_eq!(polygon.crossing(), None, "{text}");
+    }
+}
+
 #[test]
 fn teeth_cut_off_together_with_the_curve_between_them_leave_a_simple_contour() {
     let eight = pair(
@@ -179,13 +189,26 @@ mean_ratio = [2, 1]"#,
 tool = { kind = "rack", pressure_angle_deg = 14.5, addendum_coefficient = 1.0912509077094859, dedendum_coefficient = 1.362313639469925, tip_radius_coefficient = 0.12093737448407488, profile_shift_coefficient = -0.4904069324358544 }
 teeth = { addendum = "full", phase = 0.0, backlash = 0.26645351715930593, thickness_split = 0.5031343221525656 }
 mean_ratio = [1, 1]"#,
+        r#"pitch = { kind = "bspline", degree = 3, interpolate = true, plane = "polar", radius = [26.792767098544466, 39.16871093527554, 39.21056614767088, 34.52782826255997, 42.54621488549807, 25.459779202693156, 43.12579744885687, 31.38835624662809, 24.530231080610097, 44.50790414971723, 29.085781116104798, 38.18960921600835, 29.764543156922777], angle_deg = [0.0, 27.69230769230769, 55.38461538461538, 83.07692307692308, 110.76923076923076, 138.46153846153848, 166.15384615384616, 193.84615384615384, 221.53846153846152, 249.23076923076923, 276.92307692307696, 304.6153846153846, 332.3076923076923], module = 2.6325862430946194, tooth_count = 16 }
+tool = { kind = "rack", pressure_angle_deg = 14.5, addendum_coefficient = 1.0, dedendum_coefficient = 1.1972611387317844, tip_radius_coefficient = 0.03297777809096545, profile_shift_coefficient = 0.0 }
+teeth = { addendum = "full", phase = 0.0, backlash = 0.0, thickness_split = 0.5 }
+mean_ratio = [1, 1]"#,
     ];
-    for text in designs {
-        let pair = read(text).expect("a pair");
-        let tolerance = Tolerance::new(1e-6 * pair.module()).expect("positive");
-        for gear in [pair.driver(), pair.driven()] {
-            let polygon = Outline::polygon(&gear.outline().flatten(tolerance));
-            assert_eq!(polygon.crossing(), None, "{text}");
-        }
-    }
+    designs.into_iter().for_each(assert_simple_polygons);
+}
+
+#[test]
+fn lands_narrower_than_their_parameters_have_digits_for_and_tips_over_each_other_leave_a_simple_contour()
+ {
+    let designs = [
+        r#"pitch = { kind = "conjugate", mean_ratio = [2, 1], of = { kind = "eccentric-circle", eccentricity = 0.3689172946804461, module = 1.0, tooth_count = 30 }, module = 3.0562125155855173, tooth_count = 48 }
+tool = { kind = "rack", pressure_angle_deg = 27.324824106674, addendum_coefficient = 1.216879753674706, dedendum_coefficient = 1.474972552011973, tip_radius_coefficient = 0.0, profile_shift_coefficient = 0.007757012258982177 }
+teeth = { addendum = "fitted", phase = -0.4886353449380616, backlash = 0.0, thickness_split = 0.5 }
+mean_ratio = [1, 1]"#,
+        r#"pitch = { kind = "conjugate", mean_ratio = [2, 1], of = { kind = "limacon", mean_radius = 19.837400987091502, amplitude = 11.116799973951625, lobes = 4, module = 1.0, tooth_count = 30 }, module = 1.7498220730779859, tooth_count = 54 }
+tool = { kind = "rack", pressure_angle_deg = 20.0, addendum_coefficient = 1.2575908901710229, dedendum_coefficient = 1.5458927264896059, tip_radius_coefficient = 0.1805235953968268, profile_shift_coefficient = 0.16832051502228607 }
+teeth = { addendum = "full", phase = -0.8315767390565034, backlash = 0.04068361107933593, thickness_split = 0.48393694566041434 }
+mean_ratio = [3, 1]"#,
+    ];
+    designs.into_iter().for_each(assert_simple_polygons);
 }
