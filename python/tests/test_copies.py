@@ -165,18 +165,32 @@ def figures(thing):
     return told
 
 
+@pytest.fixture(scope="module")
+def known():
+    """Figures of an object, found once for each: some take seconds."""
+    found = {}
+
+    def once(thing):
+        if id(thing) not in found:
+            # The thing is held: no other has its number.
+            found[id(thing)] = thing, figures(thing)
+        return found[id(thing)][1]
+
+    return once
+
+
 @pytest.mark.parametrize("public", CLASSES, ids=CLASSES.values())
 @pytest.mark.parametrize(
     "again", [lambda x: pickle.loads(pickle.dumps(x)), copy.copy, copy.deepcopy], ids=["pickle", "copy", "deepcopy"]
 )
-def test_every_public_class_comes_back_equal(objects, public, again):
+def test_every_public_class_comes_back_equal(objects, known, public, again):
     things = objects.get(public)
     assert things, f"no object of {CLASSES[public]} is tried: add one"
     for thing in things:
         other = again(thing)
         assert type(other) is type(thing)
         assert repr(other) == repr(thing)
-        assert figures(other) == figures(thing)
+        assert figures(other) == known(thing)
         # Classes that can be compared are.
         if public.__eq__ is not object.__eq__ and not is_dataclass(public):
             assert other == thing

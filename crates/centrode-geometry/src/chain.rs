@@ -14,6 +14,9 @@ const SAME: f64 = 1e-11;
 /// Stretches between crossings, the longest ones, whose winding number is counted as well as summed up.
 const COUNTED: usize = 16;
 
+/// Size, in tolerances, below which loops are specks: they may stay where crossings in them do not fit.
+const SPECK: f64 = 1e3;
+
 /// Place of a chain: segment, and parameter from -1 to below 1.
 type Place = (usize, f64);
 
@@ -32,8 +35,9 @@ fn order(a: &Place, b: &Place) -> Ordering {
 }
 
 /// The other passage of each one's crossing.
-pub(crate) fn others(passages: &[Passage]) -> Vec<usize> {
-    let mut of_crossing = vec![usize::MAX; passages.len() / 2];
+fn others(passages: &[Passage]) -> Vec<usize> {
+    let crossings = passages.iter().map(|p| p.crossing + 1).max();
+    let mut of_crossing = vec![usize::MAX; crossings.unwrap_or(0)];
     let mut others = vec![0; passages.len()];
     for (k, passage) in passages.iter().enumerate() {
         let first = &mut of_crossing[passage.crossing];
@@ -44,6 +48,15 @@ pub(crate) fn others(passages: &[Passage]) -> Vec<usize> {
         }
     }
     others
+}
+
+/// The crossings of a chain, as it passes through them.
+pub(crate) struct Passages {
+    pub(crate) all: Vec<Passage>,
+    /// The other passage of each one's crossing.
+    pub(crate) others: Vec<usize>,
+    /// Winding number on the left of the chain after each.
+    pub(crate) left: Vec<i32>,
 }
 
 pub(crate) struct Chain<'a> {
@@ -64,9 +77,11 @@ impl<'a> Chain<'a> {
     /// Edge of the largest region, of all stretches that have such a region on their inner side.
     pub(crate) fn edge(
         &self,
-        passages: &[Passage],
-        others: &[usize],
-        left: &[i32],
+        Passages {
+            all: passages,
+            others,
+            left,
+        }: &Passages,
         counter_clockwise: bool,
     ) -> Vec<Kept> {
         // The region is on the left, or on the right where the chain is clockwise.
@@ -94,8 +109,42 @@ impl<'a> Chain<'a> {
         kept
     }
 
-    /// Every passage through a crossing, in order along the chain.
-    pub(crate) fn passages(&self) -> Result<Vec<Passage>, LoopError> {
+    /// Every passage through a crossing. Where a curve turns back within rounding crossings in a speck may not fit each other:
+    /// then none of these is one.
+    pub(crate) fn passages(&self) -> Result<Passages, LoopError> {
+        let wound = |all: Vec<Passage>| {
+            let others = others(&all);
+            let left = self.left(&all, &others)?;
+            Ok(Passages { all, others, left })
+        };
+        let all = self.found()?;
+        match wound(all.clone()) {
+            Err(LoopError::Inconsistent { .. }) => wound(self.without_specks(&all)),
+            passages => passages,
+        }
+    }
+
+    /// The passages but those from which the chain comes back to their crossing within a speck.
+    fn without_specks(&self, passages: &[Passage]) -> Vec<Passage> {
+        let speck = SPECK * self.tolerance.mm();
+        let is_speck = |from: Place, to: Place| {
+            let mut lengths = self.way(from, to).scan(0.0, |sum, part| {
+                *sum += self.length(&part);
+                Some(*sum)
+            });
+            lengths.all(|length| length < speck)
+        };
+        let others = others(passages);
+        let pairs = passages.iter().zip(&others);
+        pairs
+            .map(|(passage, &other)| (passage, passages[other].place))
+            .filter(|(p, other)| !is_speck(p.place, *other) && !is_speck(*other, p.place))
+            .map(|(passage, _)| *passage)
+            .collect()
+    }
+
+    /// Every passage through a crossing that is found, in order along the chain.
+    fn found(&self) -> Result<Vec<Passage>, LoopError> {
         let count = self.segments.len();
         let mut found: Vec<(Place, Place, i32)> = Vec::new();
         let mut add = |i: usize, j: usize, list: Result<Vec<(f64, f64)>, Unresolved>| {
@@ -193,11 +242,7 @@ impl<'a> Chain<'a> {
     }
 
     /// Winding number on the left of the chain after each passage.
-    pub(crate) fn left(
-        &self,
-        passages: &[Passage],
-        others: &[usize],
-    ) -> Result<Vec<i32>, LoopError> {
+    fn left(&self, passages: &[Passage], others: &[usize]) -> Result<Vec<i32>, LoopError> {
         let count = passages.len();
         let mut left: Vec<i32> = passages
             .iter()
@@ -265,9 +310,13 @@ impl<'a> Chain<'a> {
 
     /// Parts of segments from a passage to the next.
     fn between(&self, passages: &[Passage], k: usize) -> impl Iterator<Item = Kept> + use<> {
+        let next = &passages[(k + 1) % passages.len()];
+        self.way(passages[k].place, next.place)
+    }
+
+    /// Parts of segments from a place on to another.
+    fn way(&self, (first, start): Place, (last, end): Place) -> impl Iterator<Item = Kept> + use<> {
         let count = self.segments.len();
-        let (first, start) = passages[k].place;
-        let (last, end) = passages[(k + 1) % passages.len()].place;
         let ahead = (last + count - first) % count;
         let steps = if ahead == 0 && end <= start {
             count

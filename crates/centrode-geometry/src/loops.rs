@@ -1,10 +1,6 @@
 //! Removal of loops from closed chains of curves.
 
-use crate::{
-    Segment, Tolerance,
-    chain::{Chain, others},
-    crossings::Unresolved,
-};
+use crate::{Segment, Tolerance, chain::Chain, crossings::Unresolved};
 
 /// Greatest number of passes; each may find loops which the one before laid bare.
 const MOST_PASSES: u32 = 16;
@@ -101,13 +97,11 @@ pub fn without_loops(
         let chain = Chain::new(&parts, tolerance);
         let named = |cause| named(cause, &left);
         let passages = chain.passages().map_err(named)?;
-        if passages.is_empty() {
+        if passages.all.is_empty() {
             return Ok(left);
         }
-        let others = others(&passages);
-        last = [0, others[0]].map(|k| left[passages[k].place.0].index);
-        let winding = chain.left(&passages, &others).map_err(named)?;
-        let kept = chain.edge(&passages, &others, &winding, counter_clockwise);
+        last = [0, passages.others[0]].map(|k| left[passages.all[k].place.0].index);
+        let kept = chain.edge(&passages, counter_clockwise);
         if kept.is_empty() {
             return Err(LoopError::Everywhere);
         }

@@ -212,3 +212,18 @@ mean_ratio = [3, 1]"#,
     ];
     designs.into_iter().for_each(assert_simple_polygons);
 }
+
+#[test]
+fn a_flank_that_turns_back_within_rounding_of_its_fillet_leaves_a_simple_contour() {
+    let designs = [
+        r#"pitch = { kind = "bspline", degree = 2, interpolate = false, plane = "cartesian", x = [26.122387498597618, 20.107057666098044, 8.240726751916169, -7.958295670376018, -18.511520280784733, -25.604142337168746, -21.311669544175324, -9.410013652336968, 5.84149930296789, 20.06158841688901], y = [0.0, 14.367088039711676, 21.378908472789487, 21.229353479220823, 13.470613780986177, 1.1750212719381203, -14.096775456975505, -25.767336033164604, -21.968228840602027, -16.67230274544473], module = 3.3183366646282457, tooth_count = 51 }
+tool = { kind = "rack", pressure_angle_deg = 14.5, addendum_coefficient = 1.2421659506382985, dedendum_coefficient = 1.5101144675684879, tip_radius_coefficient = 0.0, profile_shift_coefficient = -0.30475256382877347 }
+teeth = { addendum = "full", phase = -0.46011470299729473, backlash = 0.2839530567510447, thickness_split = 0.49709617971249137 }
+mean_ratio = [1, 1]"#,
+        r#"pitch = { kind = "ellipse", eccentricity = 0.4584263668193459, module = 1.3884481289339332, tooth_count = 26 }
+tool = { kind = "rack", pressure_angle_deg = 14.5, addendum_coefficient = 0.8701527138279792, dedendum_coefficient = 1.01634361303425, tip_radius_coefficient = 0.17090511361553734, profile_shift_coefficient = 0.0 }
+teeth = { addendum = "full", phase = -0.2857413704224736, backlash = 0.0, thickness_split = 0.4814649328961767 }
+mean_ratio = [2, 1]"#,
+    ];
+    designs.into_iter().for_each(assert_simple_polygons);
+}
