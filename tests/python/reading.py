@@ -2,6 +2,7 @@
 
 import csv
 import re
+from functools import cache
 
 import ezdxf
 import numpy as np
@@ -28,6 +29,12 @@ def plain(file):
 
 def texts(file):
     """All words of a DXF, in the order drawn."""
+    return [*read_texts(file, file.stat().st_mtime_ns)]
+
+
+@cache
+def read_texts(file, _written):
+    """Words of a file as it was written at a time: sheets are looked at by many tests."""
     return [e.dxf.text for e in plain(file) if e.dxftype() == "TEXT"]
 
 
