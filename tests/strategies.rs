@@ -249,12 +249,12 @@ fn polar_spline() -> impl Strategy<Value = PitchSpec> {
 }
 
 /// Where a contour of a pair crosses itself; a loop at a joint or a cusp, smaller than `speck` modules, is let pass, and one
-/// at a cusp that is thinner than two contours' tolerances, 4e-10 mm.
+/// at a cusp that is thinner than the tolerances of its two sides, 2e-10 mm.
 pub fn crossing(pair: &GearPair, speck: f64) -> Option<(Member, Crossing)> {
     [pair.driver(), pair.driven()].into_iter().find_map(|gear| {
         let found = gear
             .outline()
-            .crossing_beyond(speck * pair.module(), 4e-10)?;
+            .crossing_beyond(speck * pair.module(), 2e-10)?;
         Some((gear.member(), found))
     })
 }

@@ -35,7 +35,7 @@ fn order(a: &Place, b: &Place) -> Ordering {
 }
 
 /// The other passage of each one's crossing.
-fn others(passages: &[Passage]) -> Vec<usize> {
+fn partners(passages: &[Passage]) -> Vec<usize> {
     let crossings = passages.iter().map(|p| p.crossing + 1).max();
     let mut of_crossing = vec![usize::MAX; crossings.unwrap_or(0)];
     let mut others = vec![0; passages.len()];
@@ -112,33 +112,32 @@ impl<'a> Chain<'a> {
     /// Every passage through a crossing. Where a curve turns back within rounding crossings in a speck may not fit each other:
     /// then none of these is one.
     pub(crate) fn passages(&self) -> Result<Passages, LoopError> {
-        let wound = |all: Vec<Passage>| {
-            let others = others(&all);
-            let left = self.left(&all, &others)?;
-            Ok(Passages { all, others, left })
-        };
-        let all = self.found()?;
-        match wound(all.clone()) {
-            Err(LoopError::Inconsistent { .. }) => wound(self.without_specks(&all)),
-            passages => passages,
+        let mut all = self.found()?;
+        let mut others = partners(&all);
+        let mut left = self.left(&all, &others);
+        if let Err(LoopError::Inconsistent { .. }) = left {
+            all = self.without_specks(&all, &others);
+            others = partners(&all);
+            left = self.left(&all, &others);
         }
+        let left = left?;
+        Ok(Passages { all, others, left })
     }
 
     /// The passages but those from which the chain comes back to their crossing within a speck.
-    fn without_specks(&self, passages: &[Passage]) -> Vec<Passage> {
+    fn without_specks(&self, passages: &[Passage], others: &[usize]) -> Vec<Passage> {
         let speck = SPECK * self.tolerance.mm();
         let is_speck = |from: Place, to: Place| {
-            let mut lengths = self.way(from, to).scan(0.0, |sum, part| {
-                *sum += self.length(&part);
-                Some(*sum)
-            });
-            lengths.all(|length| length < speck)
+            let point = self.segments[from.0].at(from.1).point;
+            self.way(from, to)
+                .all(|part| self.segments[part.index].keeps_near(point, speck, part.from, part.to))
         };
-        let others = others(passages);
-        let pairs = passages.iter().zip(&others);
+        let is_loop = |passage: &Passage, other: &Passage| {
+            !is_speck(passage.place, other.place) && !is_speck(other.place, passage.place)
+        };
+        let pairs = passages.iter().zip(others);
         pairs
-            .map(|(passage, &other)| (passage, passages[other].place))
-            .filter(|(p, other)| !is_speck(p.place, *other) && !is_speck(*other, p.place))
+            .filter(|&(passage, &other)| is_loop(passage, &passages[other]))
             .map(|(passage, _)| *passage)
             .collect()
     }

@@ -195,8 +195,7 @@ impl Search<'_> {
         let (segments, [one, other]) = (self.outline.segments(), found.segments);
         let near = |point: Point| (found.point - point).norm() < self.speck;
         let within = |segment: usize, from: f64, to: f64| {
-            let share = |i: u32| from + (to - from) * 0.125 * f64::from(i);
-            (0..=8).all(|i| near(segments[segment].at(share(i)).point))
+            segments[segment].keeps_near(found.point, self.speck, from, to)
         };
         if one == other {
             // Rounding makes a loop or a blunt end of a cusp.
@@ -243,7 +242,7 @@ impl Search<'_> {
             }
             side = gap;
         }
-        side != 0.0
+        side != 0.0 && self.rounding < 1e-2 * least
     }
 
     /// Whether two strands that share no end meet.

@@ -140,6 +140,12 @@ impl Segment {
         (self.end() - start).amax() <= rounding && self.length() <= rounding
     }
 
+    /// Whether the part between two parameters stays nearer to a point than a distance, mm, at nine places of it.
+    pub(crate) fn keeps_near(&self, point: Point, distance: f64, from: f64, to: f64) -> bool {
+        let share = |i: u32| from + (to - from) * 0.125 * f64::from(i);
+        (0..=8).all(|i| (point - self.at(share(i)).point).norm() < distance)
+    }
+
     /// Unit tangent at `u`, the limit from inside where the speed vanishes at an end.
     #[must_use]
     pub fn tangent(&self, u: f64) -> Vector {

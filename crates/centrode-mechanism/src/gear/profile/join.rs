@@ -7,7 +7,7 @@ use super::{Cutter, Member, Profile, ProfileError, Role, Side, Tooth, ToothCurve
 const SPECK: f64 = 1e5;
 
 /// Distance, in tolerances of the contour, that two curves may lie over each other at a cusp for the tolerance of both.
-const THIN: f64 = 4.0;
+const THIN: f64 = 2.0;
 
 impl Cutter<'_> {
     /// Joins what is left of the pieces into the contour, and finds what it leaves of each tooth.

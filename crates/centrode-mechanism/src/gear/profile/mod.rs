@@ -298,10 +298,11 @@ impl Cutter<'_> {
         }
         // Roundings that leave no land between them, at unlike depths: a step joins them.
         let height = |share: f64| low + rise * if narrow { share } else { blend(share) };
-        let inside = |t: f64| ((t - from) / width).clamp(0.0, 1.0);
-        let breaks = self.rolling.breaks_between(from, to);
-        let breaks = breaks.into_iter().map(inside).filter(|_| !narrow);
-        let cuts = std::iter::once(0.0).chain(breaks).chain([1.0]).collect();
+        let cuts = if narrow {
+            vec![0.0, 1.0]
+        } else {
+            self.cuts(from, to).map(|t| (t - from) / width).collect()
+        };
         // By the share of the way: a parameter has too few digits for the height along a narrow one.
         self.fit(pieces, (role, Side::Trailing, tooth), cuts, &|share| {
             let frame = flank.frame(from + share * width);
@@ -324,7 +325,7 @@ impl Cutter<'_> {
         curve: &dyn Fn(f64) -> Point,
     ) {
         for pair in cuts.windows(2) {
-            // Backward crumbs of a root without width would only be cut off again.
+            // What has no length would only be cut off again.
             if (pair[1] - pair[0]).abs() <= CRUMB * pair[0].abs().max(pair[1].abs()) {
                 continue;
             }
