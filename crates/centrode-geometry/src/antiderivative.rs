@@ -28,6 +28,8 @@ struct Panel {
     integral: [f64; NODES + 1],
     /// Those of the integrand.
     integrand: [f64; NODES],
+    /// Values of the integrand at both ends.
+    ends: [f64; 2],
 }
 
 impl Antiderivative {
@@ -55,7 +57,7 @@ impl Antiderivative {
         let tables = tables();
         let mut ends = vec![breaks[0]];
         let mut panels: Vec<Panel> = Vec::new();
-        let mut sum = 0.0;
+        let mut before = 0.0;
         let mut lost = 0.0;
         while let Some((a, b, depth)) = pending.pop() {
             crate::checkpoint();
@@ -93,21 +95,22 @@ impl Antiderivative {
                 .sum::<f64>();
             let whole: f64 = 2.0 * integral.iter().skip(1).step_by(2).sum::<f64>();
             panels.push(Panel {
-                before: sum,
+                before,
                 integral,
                 integrand: series,
+                ends: [-1.0, 1.0].map(|u| sum(series[0], &series[1..], u)),
             });
             ends.push(b);
             // Compensated: a thousand panels lose no digit.
             let y = whole - lost;
-            let next = sum + y;
-            lost = (next - sum) - y;
-            sum = next;
+            let next = before + y;
+            lost = (next - before) - y;
+            before = next;
         }
         Self {
             ends,
             panels,
-            total: sum,
+            total: before,
         }
     }
 
@@ -166,7 +169,15 @@ impl Antiderivative {
             let u = ((t - a) - (b - t)) / (b - a);
             (off, off / sum(integrand[0], &integrand[1..], u))
         };
-        bracketed_newton(at, a, b, a + (b - a) * (-low / (high - low)))
+        // The cubic with the slopes of the inverse at both ends begins two digits nearer than a line.
+        let share = -low / (high - low);
+        let [first, last] = self.panels[index]
+            .ends
+            .map(|slope| (high - low) / ((b - a) * slope) - 1.0);
+        let bend = share * (1.0 - share) * ((1.0 - share) * first - share * last);
+        let line = a + (b - a) * share;
+        let curve = line + (b - a) * bend;
+        bracketed_newton(at, a, b, if curve > a && curve < b { curve } else { line })
     }
 }
 

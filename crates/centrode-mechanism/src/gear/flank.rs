@@ -212,7 +212,15 @@ impl Flank<'_> {
         for i in 1..=SAMPLES {
             checkpoint();
             let t = start + (end - start) * f64::from(i) / f64::from(SAMPLES);
-            let now = short(t);
+            // The shortest normal is no longer than one that is found at once, unless that stands far off.
+            let (foot, above) = self.foot(t);
+            let [at, under] = [t, foot].map(|t| self.rolling.arc_length(t));
+            let room = height.abs() - above.abs();
+            let now = if room > 0.0 && (under - at).abs() <= self.reach(at) {
+                room
+            } else {
+                short(t)
+            };
             // Where there is no normal there is no height.
             if now.is_nan() {
                 continue;
@@ -231,7 +239,9 @@ impl Flank<'_> {
         let (sin, cos) = self.tool.pressure_angle.sin_cos();
         let (arc, foot) = self.about_height(height);
         let (mut t, mut tau) = (self.rolling.parameter(arc), self.rolling.parameter(foot));
-        let reach = FARTHEST * height.abs() / (sin * cos);
+        // Half a turn away it would be another tooth's, or this one's once more.
+        let turn = self.rolling.pitch_length(self.member);
+        let reach = (FARTHEST * height.abs() / (sin * cos)).min(0.5 * turn);
         let mut miss = f64::INFINITY;
         for _ in 0..40 {
             let (at, under) = (self.frame(t), self.frame(tau));
@@ -295,12 +305,16 @@ impl Flank<'_> {
     pub(crate) fn nearest_foot(&self, t: f64) -> Option<(f64, f64)> {
         let at = self.frame(t);
         let point = self.point_in(&at);
-        // The pitch point at which it was made is no farther than it rolled; what is nearer lies thereabouts.
-        let limit = self.tool.addendum + self.tool.dedendum;
-        let reach = 2.0 * (limit + (self.crossing - at.arc).abs());
-        let reach = reach.min(0.5 * self.rolling.pitch_length(self.member));
-        let tau = self.nearest(&point, at.arc, reach)?;
+        let tau = self.nearest(&point, at.arc, self.reach(at.arc))?;
         Some((tau, self.height_over(tau, &point)))
+    }
+
+    /// Arc length from the pitch point at which a place was made to the foot of its shortest normal, at most: that pitch point is no
+    /// farther than it rolled, and what is nearer lies thereabouts.
+    fn reach(&self, arc: f64) -> f64 {
+        let limit = self.tool.addendum + self.tool.dedendum;
+        let reach = 2.0 * (limit + (self.crossing - arc).abs());
+        reach.min(0.5 * self.rolling.pitch_length(self.member))
     }
 
     /// Height of a point over the tangent at a parameter of the pitch curve.
@@ -316,11 +330,9 @@ impl Flank<'_> {
             let under = self.frame(tau);
             (point - under.point).dot(&under.tangent)
         };
-        let at = |i: u32| arc + reach * (2.0 * f64::from(i) / f64::from(SAMPLES) - 1.0);
-        let places: Vec<(f64, f64)> = (0..=SAMPLES)
-            .map(|i| self.rolling.parameter(at(i)))
-            .map(|tau| (tau, ahead(tau)))
-            .collect();
+        let [first, last] = [arc - reach, arc + reach].map(|arc| self.rolling.parameter(arc));
+        let at = |i: u32| first + (last - first) * f64::from(i) / f64::from(SAMPLES);
+        let places: Vec<(f64, f64)> = (0..=SAMPLES).map(|i| (at(i), ahead(at(i)))).collect();
         let feet = places.windows(2).filter_map(|pair| {
             let [(a, before), (b, after)] = [pair[0], pair[1]];
             checkpoint();

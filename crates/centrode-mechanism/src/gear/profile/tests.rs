@@ -1,6 +1,6 @@
 use crate::design::DesignSpec;
 use crate::gear::design::GearPairDesign;
-use crate::gear::{Gear, GearPair, GearPairError};
+use crate::gear::{Gear, GearPair, GearPairError, ProfileError, Role};
 use centrode_geometry::{Outline, Tolerance};
 
 /// A pair of the keys of its file, but for its family.
@@ -226,4 +226,28 @@ teeth = { addendum = "full", phase = -0.2857413704224736, backlash = 0.0, thickn
 mean_ratio = [2, 1]"#,
     ];
     designs.into_iter().for_each(assert_simple_polygons);
+}
+
+#[test]
+fn tips_stand_over_their_own_tooth_and_not_once_more_round_a_small_gear() {
+    assert_simple_polygons(
+        r#"pitch = { kind = "limacon", mean_radius = 25.35913982516481, amplitude = 15.068077987954187, lobes = 4, module = 0.7291877141555998, tooth_count = 10 }
+tool = { kind = "rack", pressure_angle_deg = 14.5, addendum_coefficient = 1.0, dedendum_coefficient = 1.1269599827850645, tip_radius_coefficient = 0.19402206952829182, profile_shift_coefficient = -0.3567265487281023 }
+teeth = { addendum = "full", phase = -0.35802832874925206, backlash = 0.0, thickness_split = 0.5 }
+mean_ratio = [1, 2]"#,
+    );
+}
+
+#[test]
+fn curves_of_a_tooth_that_do_not_meet_are_no_profile_and_told_with_their_distance() {
+    let refused = pair(
+        r#"kind = "limacon", mean_radius = 20.0, amplitude = 19.15606738324485, lobes = 8, module = 2.0, tooth_count = 7"#,
+        r#"kind = "shaper", pressure_angle_deg = 16.444633513321094, addendum_coefficient = 1.0, dedendum_coefficient = 1.100397840421288, tip_radius_coefficient = 0.17400953167551528, profile_shift_coefficient = -0.318335702221644, tooth_count = 49"#,
+        r#"addendum = "full", phase = -0.033812248531348565, backlash = 0.2551198660399243, thickness_split = 0.5"#,
+    );
+    let Err(GearPairError::Profile(ProfileError::Gap { roles, gap, .. })) = refused else {
+        panic!("{refused:?}");
+    };
+    assert_eq!(roles, [Role::Flank, Role::Tip]);
+    assert!(gap > 1e-6, "{gap}");
 }
