@@ -21,6 +21,8 @@ Its seat `on` is the least psi of its backlash, `back` the greatest. With w the 
  2. Within w of either seat the contours meet: two components of the vector from a point of one to the other change
     their signs over opposite sides of a rectangle in (place along the contour, psi), so both vanish in it (Miranda).
 
+Both seats go on from stretch to stretch and at the end of the cycle as at its start, within 2 w.
+
 So each seat lies within w of its series in the file; the transmission error, seat less law, in an interval 2 w wide.
 Where there is no backlash, nothing lies between on + w and back - w; then 1 says that the flanks of either side are
 apart when the driven gear is turned by w off its seat on that side: they overlap by no more than w times the radius.
@@ -36,10 +38,21 @@ import json
 import sys
 from argparse import ArgumentParser
 from concurrent.futures import ProcessPoolExecutor
-from math import tau
+from math import isfinite, tau
 
 from flint import acb, arb, arb_poly
-from proof.balls import UNIT, Motion, RejectedError, high, interval, low, magnitude, sweep
+from proof.balls import (
+    UNIT,
+    Motion,
+    RejectedError,
+    UndecidedError,
+    chebyshev,
+    high,
+    interval,
+    low,
+    magnitude,
+    sweep,
+)
 from proof.box import Box, settle
 from proof.contour import Contour
 from proof.law import Law
@@ -84,6 +97,15 @@ class Pair:
         end = self.cycle / self.sectors
         if at != end:
             raise RejectedError(f"the stretches end at {at} rad, the part of the cycle at {end} rad")
+        self.go_on()
+
+    def go_on(self):
+        """Whether both seats go on from stretch to stretch, and at the end as at the start."""
+        for one, other in zip(self.stretches, self.stretches[1:] + self.stretches[:1], strict=True):
+            for before, after in zip(one["seats"], other["seats"], strict=True):
+                jump = chebyshev(before)(arb(1)) - chebyshev(after)(arb(-1))
+                if not magnitude(jump) < 2 * self.width + self.off:
+                    raise RejectedError(f"a seat jumps at {one['to']} rad")
 
     def repeats(self, turns, back):
         """Bounds by how much contours and law differ from sector to sector."""
@@ -160,8 +182,11 @@ def load(path):
     def refuse(name):
         raise RejectedError(f"the file holds {name}")
 
+    def finite(text):
+        return float(text) if isfinite(float(text)) else refuse(text)
+
     with open(path, encoding="utf-8") as file:
-        proof = json.load(file, parse_constant=refuse)
+        proof = json.load(file, parse_constant=refuse, parse_float=finite)
     PAIR = Pair(proof)
     return proof
 
@@ -212,7 +237,10 @@ def main():
     except RejectedError as reason:
         print(f"rejected: {reason}")
         return 1
-    except (KeyError, TypeError, ValueError, IndexError, ArithmeticError, AttributeError) as reason:
+    except UndecidedError:
+        print("rejected: the file's numbers are too wide apart to say anything")
+        return 1
+    except (LookupError, TypeError, ValueError, ArithmeticError, AttributeError, RecursionError) as reason:
         print(f"rejected: the file is no proof ({type(reason).__name__}: {reason})")
         return 1
     except OSError as reason:

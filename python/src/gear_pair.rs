@@ -365,7 +365,7 @@ impl GearPair {
     /// >>> import centrode as ct
     /// >>> pitch = ct.pitch.from_ratio("1 + 0.45*cos(2*phi)", module=2, tooth_count=24)
     /// >>> [(found.addendum, len(found.fit), found.least_tooth_count) for found in ct.GearPair(pitch).remedies()]
-    /// [('fitted', 0, 31), ('fitted', 3, 24)]
+    /// [('fitted', 0, 27), ('fitted', 3, 24)]
     fn remedies<'py>(&self, py: Python<'py>) -> Answer<Bound<'py, PyTuple>> {
         let pair = Arc::clone(&self.0);
         let found = wait(py, move || remedies(&pair))?;

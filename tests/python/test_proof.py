@@ -331,6 +331,26 @@ def sector(proof):
     proof["sectors"] = 2
 
 
+def corner(proof):
+    """A corner that is none of both gears'."""
+    stretch = proof["stretches"][1]
+    stretch["meetings"][stretch["held_by"][0]]["corner"] = -2
+
+
+def piece(proof):
+    for meeting in proof["stretches"][1]["meetings"]:
+        meeting["pieces"][1] -= len(proof["driven"])
+
+
+def side(proof):
+    for meeting in proof["stretches"][1]["meetings"]:
+        meeting["side"] -= 2
+
+
+def coefficient(proof):
+    proof["law"]["pieces"][0].append(None)
+
+
 def stranger(proof):
     proof["driver"][3][2][1] = "1"
 
@@ -345,7 +365,26 @@ def nothing(proof):
 
 @pytest.mark.parametrize(
     "defect",
-    [bulge, vertex, fillet, axis, box, bound, seat, law, swapped, cycle, sector, stranger, hollow, nothing],
+    [
+        bulge,
+        vertex,
+        fillet,
+        axis,
+        box,
+        bound,
+        seat,
+        law,
+        swapped,
+        cycle,
+        sector,
+        corner,
+        piece,
+        side,
+        coefficient,
+        stranger,
+        hollow,
+        nothing,
+    ],
     ids=lambda defect: defect.__name__,
 )
 def test_the_checker_rejects_a_planted_defect(defect, proof, tmp_path):
@@ -357,7 +396,34 @@ def test_the_checker_rejects_a_planted_defect(defect, proof, tmp_path):
     assert (status, answer.split(":")[0]) == (1, "rejected"), answer
 
 
-@pytest.mark.parametrize("text", ["", "{", '{"format": NaN}', "[]", "null"])
+def test_a_driven_gear_that_jumps_a_tooth_and_back_is_rejected(run, tmp_path):
+    path, teeth = tmp_path / "circular-pair.proof", 36
+    run("prove", DESIGNS / "circular-pair.toml", "-o", path)
+    proof = json.loads(path.read_text())
+    stretch, count = proof["stretches"][5], len(proof["driven"])
+    for series in stretch["seats"]:
+        series[0] += 2 * math.pi / teeth
+    for meeting in stretch["meetings"]:
+        meeting["pieces"][1] = (meeting["pieces"][1] - count // teeth) % count
+    path.write_text(json.dumps(proof))
+    assert checked(path) == (1, f"rejected: a seat jumps at {stretch['from']} rad\n")
+
+
+@pytest.mark.parametrize(("low", "high"), [(-0.5, 1.0005), (-1.0005, 0.5), (-1.0005, 1.0005)])
+def test_a_place_that_may_lie_beyond_either_end_leaves_its_piece(low, high):
+    corners = [0, 1, 1 + 1j, 1j]
+    sides = zip(corners, corners[1:] + corners[:1], strict=True)
+    square = Contour(
+        [[[((a + b) / 2).real, ((a + b) / 2).imag], [((b - a) / 2).real, ((b - a) / 2).imag]] for a, b in sides],
+        "square",
+    )
+    off = square.beyond(0, flint.arb(low).union(flint.arb(high)), flint.arb(0))
+    # Round a square corner: as far off as it is beyond, along and across.
+    assert off > 5e-4 / 2
+    assert square.beyond(0, flint.arb(-0.5).union(flint.arb(0.5)), flint.arb(0)) == 0
+
+
+@pytest.mark.parametrize("text", ["", "{", '{"format": NaN}', '{"format": 1e400}', "[" * 100_000, "[]", "null"])
 def test_a_file_that_is_no_proof_is_rejected(text, tmp_path):
     path = tmp_path / "x.proof"
     path.write_text(text)

@@ -8,10 +8,10 @@ from flint import acb, acb_poly, arb
 from proof.balls import ZERO, RejectedError, UndecidedError, high, interval, magnitude
 from proof.floats import SHARE, above, below, near, upper
 
-#: Distance, mm, up to which pieces of a contour may miss each other at a joint: such a gap counts as closed.
-JOINT = arb(1e-9)
-#: Distance, mm, up to which sectors of a contour may differ.
-SLACK = 1e-7
+#: Distance, as a share of a contour's size, up to which pieces may miss each other at a joint that counts as closed.
+JOINT = arb(2e-11)
+#: Distance, as a share of a contour's size, up to which its sectors may differ.
+SLACK = 2e-9
 #: Parts of a piece, of 2, over which functions are bounded one by one, longer ones by all of theirs.
 CELLS = 32
 #: How far, from a piece's middle, its polynomial is used, and how far with a cell more.
@@ -87,10 +87,11 @@ class Contour:
         self.stops = [p(acb(1)) for p in self.at]
         self.slopes = [(d(acb(-1)), d(acb(1))) for d in self.first]
         area, self.gap = ZERO, ZERO
+        around = max(sum(map(abs, piece)) for piece in self.floats)
         for i in range(self.count):
             gap = magnitude(self.starts[(i + 1) % self.count] - self.stops[i])
             self.gap = self.gap.max(gap)
-            if not gap < JOINT:
+            if not gap < JOINT * around:
                 raise RejectedError(f"the {name}'s contour is open by {gap} mm after piece {i}")
             conjugate = acb_poly([c.conjugate() for c in self.at[i].coeffs()])
             swept = (conjugate * self.first[i]).integral()
@@ -122,7 +123,7 @@ class Contour:
                 size = sum(map(abs, piece))
                 off = sum(abs(turn * a - b) for a, b in zip(piece, there, strict=True))
                 self.slack = max(self.slack, above(off, (2 * SHARE + rounding) * size))
-            if not self.slack < SLACK:
+            if not self.slack < SLACK * self.size:
                 raise RejectedError(f"the {self.name}'s contour differs by {self.slack} mm from sector to sector")
 
     def run(self, first, last):
@@ -223,7 +224,12 @@ class Contour:
 
     def beyond(self, piece, place, reach):
         """How far the contour leaves a piece's continuation within a reach of a place; none where it is far."""
-        end = 1 if place > 0 else -1
+        # A place known only roughly may reach beyond both ends.
+        both = [self.past(piece, place, reach, end) for end in (-1, 1)]
+        return None if None in both else both[0].max(both[1])
+
+    def past(self, piece, place, reach, end):
+        """How far the contour leaves a piece's continuation over one end of it."""
         over = high(place * end + reach - 1)
         if over <= 0:
             return ZERO

@@ -16,6 +16,8 @@ class Law:
         self.ends, self.period = law["ends"], law["period"]
         self.slope = arb(law["advance"]) / arb(self.period)
         self.series = law["pieces"]
+        if not all(isinstance(c, (int, float)) for series in self.series for c in series):
+            raise RejectedError("a coefficient of the law is no number")
         self.pieces = [chebyshev(c) for c in self.series]
         if self.ends[0] != 0 or self.ends[-1] != self.period or len(self.ends) != len(self.pieces) + 1:
             raise RejectedError("the law's pieces do not cover its period")

@@ -8,6 +8,7 @@ from proof.balls import (
     UNIT,
     ZERO,
     Motion,
+    RejectedError,
     disc,
     expand,
     high,
@@ -25,8 +26,8 @@ from proof.walk import Walk
 
 #: Pieces beyond those that touch whose neighbours a parabola has to part.
 AROUND = 4
-#: Half of the rectangle's side along the contour, mm, and where the piece slows down to its end.
-SIDES = arb(1e-6), arb(1e-7)
+#: Half of the rectangle's side along the contour, as a share of the driver's size, and where a piece slows down.
+SIDES = arb(4e-8), arb(4e-9)
 
 
 class Meeting:
@@ -38,6 +39,11 @@ class Meeting:
         self.way = (1, -1)[self.side]
         self.pieces = hint["pieces"]
         self.corner = hint.get("corner")
+        if not (is_one_of(self.side, (0, 1)) and (self.corner is None or is_one_of(self.corner, (0, 1)))):
+            raise RejectedError(f"a meeting is on side {self.side} with the corner of {self.corner}")
+        counts = self.pair.driver.count, self.pair.driven.count
+        if not all(is_one_of(*named) for named in zip(self.pieces, map(range, counts), strict=True)):
+            raise RejectedError(f"a meeting is of pieces {self.pieces}, which are none of the contours'")
         self.bends = [float(k) for k in hint["bends"]]
         self.k = self.bends[0]
         self.places = [acb_poly(box.along(series)) for series in hint["parameters"]]
@@ -137,7 +143,8 @@ class Meeting:
             size = low(magnitude(contour.first[piece](acb(path))))
             still = driven.at[j](acb(self.v if fixed == 0 else (1 if self.v > 0 else -1)))
             arm = moved[1].turn(still) + disc(slack)
-            for side in SIDES:
+            for share in SIDES:
+                side = share * driver.size
                 reach = ((side + 2 * magnitude(base)) / size).upper()
                 hull = acb(interval(low(path) - reach, high(path) + reach))
                 bend = magnitude(contour.second[piece](hull))
@@ -163,6 +170,11 @@ class Meeting:
         before = (base - slope * reach + error + turning).real
         after = (base + slope * reach + error + turning).real
         return (before < 0 and after > 0) or (before > 0 and after < 0)
+
+
+def is_one_of(number, numbers):
+    """Whether a number is whole and one of some."""
+    return type(number) is int and number in numbers
 
 
 def ends(stretch):

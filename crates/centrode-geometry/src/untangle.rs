@@ -1,5 +1,7 @@
 //! Chords of an outline that cross where the outline does not: two of its parts are nearer each other than chords leave them.
 
+use std::collections::HashSet;
+
 use crate::{Bounds, Outline, Point, Tolerance, bracketed_root, piece::Place};
 
 /// Greatest number of passes; each halves the longest chord that crosses another.
@@ -7,6 +9,12 @@ const MOST_PASSES: u32 = 48;
 
 /// Share of a chord's parameter, from either end, within which no place is added.
 const END: f64 = 1e-6;
+
+/// Share of the outline's size below which a loop of chords is a speck, and is left out.
+const SPECK: f64 = 1e-10;
+
+/// Share of the outline's size below which a chord is rounding and tells no direction.
+const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 impl Outline {
     /// Adds places until no chords cross, except where the outline does or its parts are apart by rounding only.
@@ -16,9 +24,16 @@ impl Outline {
     pub(crate) fn untangled(&self, mut places: Vec<Place>, tolerance: Tolerance) -> Vec<Place> {
         for _ in 0..MOST_PASSES {
             let points: Vec<Point> = places.iter().map(|&place| self.point(place)).collect();
-            let crossed = Chords::new(&points).crossed(tolerance.mm());
+            let size = points.iter().copied().collect::<Bounds>().diagonal();
+            let crossed = Chords::new(&points).crossed(tolerance.mm(), ROUNDING * size);
             if crossed.is_empty() {
                 break;
+            }
+            let specks = specks(&points, &crossed, SPECK * size);
+            if !specks.is_empty() {
+                let mut number = 0..;
+                places.retain(|_| number.next().is_some_and(|k| !specks.contains(&k)));
+                continue;
             }
             let mut added: Vec<(usize, Place)> = Vec::new();
             for (i, j) in crossed {
@@ -130,6 +145,21 @@ impl Outline {
     }
 }
 
+/// Vertices of a closed polygon, but for the first, that lie between two crossing chords and within a distance of each other.
+fn specks(points: &[Point], crossed: &[(usize, usize)], speck: f64) -> HashSet<usize> {
+    let count = points.len();
+    let between = |from: usize, to: usize| -> Vec<usize> {
+        let first = (from + 1) % count;
+        let steps = (to + count - first) % count;
+        let round = (1..=steps).map(|step| (first + step) % count);
+        let near = |k: usize| (points[k] - points[first]).norm() <= speck;
+        let all: Option<Vec<usize>> = round.map(|k| near(k).then_some(k)).collect();
+        all.unwrap_or_default()
+    };
+    let both = crossed.iter().flat_map(|&(i, j)| [(i, j), (j, i)]);
+    both.flat_map(|(from, to)| between(from, to)).collect()
+}
+
 /// Chords of a closed polygon with a tree of boxes around them.
 struct Chords<'a> {
     points: &'a [Point],
@@ -171,8 +201,8 @@ impl<'a> Chords<'a> {
         bounds
     }
 
-    /// Pairs of chords that meet though their curves, within the tolerance of them, need not.
-    fn crossed(&self, tolerance: f64) -> Vec<(usize, usize)> {
+    /// Pairs of chords that meet though their curves, within the tolerance of them, need not; chords that are rounding do not count.
+    fn crossed(&self, tolerance: f64, rounding: f64) -> Vec<(usize, usize)> {
         let mut found = Vec::new();
         let whole = (1, 0, self.points.len());
         let mut pending = vec![(whole, whole)];
@@ -186,7 +216,7 @@ impl<'a> Chords<'a> {
                 }
             } else if self.boxes[a.0].meets(&self.boxes[b.0]) {
                 if length(a) == 1 && length(b) == 1 {
-                    if self.cross(a.1, b.1, tolerance) {
+                    if self.cross(a.1, b.1, tolerance, rounding) {
                         found.push((a.1, b.1));
                     }
                 } else if length(a) >= length(b) {
@@ -199,10 +229,13 @@ impl<'a> Chords<'a> {
         found
     }
 
-    fn cross(&self, i: usize, j: usize, tolerance: f64) -> bool {
+    fn cross(&self, i: usize, j: usize, tolerance: f64, rounding: f64) -> bool {
         let count = self.points.len();
         let ([a, b], [p, q]) = (self.chord(i), self.chord(j));
         let (own, other) = (b - a, q - p);
+        if own.norm() <= rounding && other.norm() <= rounding {
+            return false;
+        }
         if (i + 1) % count == j || (j + 1) % count == i {
             // Chords that follow each other meet where the second lies on the first.
             return own.perp(&other) == 0.0 && own.dot(&other) < 0.0;

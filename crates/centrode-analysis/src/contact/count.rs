@@ -13,6 +13,9 @@ use super::{
 /// Share of a pitch beside a change within which a sample may count either way: there the edge still is within a seated gap.
 const UNSURE: f64 = 0.02;
 
+/// Share of a pitch within which both gears' edges may end one contact.
+const BOTH: f64 = 0.25;
+
 /// Share of a pitch that a count must last.
 const LASTING: f64 = 1e-9;
 
@@ -28,9 +31,33 @@ pub(super) struct Counts {
 }
 
 /// Driver angle, rad, from which on one contact more or less is there.
+#[derive(Clone, Copy)]
 struct Change {
     input: f64,
     by: i32,
+    /// Teeth of driver and driven gear.
+    teeth: (u32, u32),
+}
+
+/// The changes at which teeth come to touch and cease to, in order: two teeth touch from the later of two edges on, till the earlier
+/// of two, where both come to a mate within a part of a pitch.
+fn of_teeth(mut changes: Vec<Change>, near: f64) -> Vec<Change> {
+    changes.sort_by(|a, b| a.input.total_cmp(&b.input));
+    let mut kept: Vec<Change> = Vec::with_capacity(changes.len());
+    for change in changes {
+        let same = |other: &Change| other.teeth == change.teeth && other.by == change.by;
+        let beside = kept
+            .iter()
+            .rposition(|other| change.input - other.input > near);
+        let from = beside.map_or(0, |k| k + 1);
+        match kept[from..].iter().position(same) {
+            Some(_) if change.by < 0 => continue,
+            Some(k) => drop(kept.remove(from + k)),
+            None => {}
+        }
+        kept.push(change);
+    }
+    kept
 }
 
 /// Counts of samples.
@@ -76,13 +103,14 @@ impl Meshing<'_> {
     ) -> Option<Counts> {
         let pair = self.pair;
         let (angle, pitches) = (period(pair), f64::from(pair.period()));
-        let changes = edges.iter().filter(|edge| self.meets(edge));
-        let changes = changes.map(|edge| Change {
-            input: edge.at.input,
-            by: if edge.begins { 1 } else { -1 },
+        let changes = edges.iter().filter_map(|edge| {
+            Some(Change {
+                input: edge.at.input,
+                by: if edge.begins { 1 } else { -1 },
+                teeth: self.touching_teeth(edge)?,
+            })
         });
-        let mut changes: Vec<Change> = changes.collect();
-        changes.sort_by(|a, b| a.input.total_cmp(&b.input));
+        let changes = of_teeth(changes.collect(), BOTH * angle / pitches);
         if changes.is_empty() || changes.iter().map(|c| c.by).sum::<i32>() != 0 {
             return None;
         }

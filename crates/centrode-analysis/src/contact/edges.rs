@@ -15,12 +15,17 @@ use super::{
 /// Depth, modules, to which flanks are taken to touch that are told by their chords.
 const TOUCHING: f64 = 1e-3;
 
+/// Distance, modules, of an edge from the end of a flank's part within which it touches it.
+const ROUNDING: f64 = 1e-6;
+
 /// Passage of the pitch point through the normal of a flank at its edge: there the contact, by the law of gearing, comes to the
 /// edge or leaves it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct EdgeContact {
     member: Member,
     edge: Edge,
+    /// How the driven gear stands then.
+    stand: Stand,
     /// Where the pitch curves touch then.
     pub(super) at: PitchContact,
     /// Whether the contact comes to the flank there, and does not leave it.
@@ -34,6 +39,8 @@ pub(super) struct EdgeContact {
 struct Edge {
     point: Point,
     normal: Vector,
+    /// Tooth of the flank.
+    owner: u32,
     /// Side of the normal on which the flank is, by the sign of distances from it.
     side: f64,
 }
@@ -59,6 +66,7 @@ fn edges(body: &GearOutline<'_>, sign: f64) -> Vec<Edge> {
         (part.role == Role::Flank).then_some(Edge {
             point,
             normal,
+            owner: part.owner,
             side,
         })
     };
@@ -100,7 +108,7 @@ impl Meshing<'_> {
             let steps = walk.points.iter().zip(&walk.poses);
             let points: Vec<Vector> = steps.map(|(at, pose)| point(at, pose)).collect();
             for edge in edges(body, sign) {
-                let touched = self.touched(&edge, member);
+                let touched = self.touched(&edge, member, walk.stand);
                 for steps in walk.passages(member, edge.point) {
                     found.extend(steps.filter_map(|step| {
                         let [f, g] = [step, step + 1].map(|k| edge.aside(points[k]));
@@ -108,10 +116,11 @@ impl Meshing<'_> {
                             return None;
                         }
                         let at = walk.root(pair, step, |at, pose| edge.aside(point(at, pose)))?;
-                        let away = point(&at, &Pose::at(pair, &at, Stand::Law)) - touched;
+                        let away = point(&at, &Pose::at(pair, &at, walk.stand)) - touched;
                         cycle.contains(&at.input).then_some(EdgeContact {
                             member,
                             edge,
+                            stand: walk.stand,
                             at,
                             begins: edge.side * g > 0.0,
                             sliding: away.norm() * (1.0 + at.ratio()),
@@ -126,39 +135,66 @@ impl Meshing<'_> {
 
     /// Whether the mate has a flank near where an edge would touch it.
     pub(super) fn has_mate(&self, contact: &EdgeContact) -> bool {
-        self.any_mate(contact, |_, _| true)
+        self.mate(contact, |_, _| true).is_some()
     }
 
-    /// Whether the mate has a flank where an edge would touch it.
-    pub(super) fn meets(&self, contact: &EdgeContact) -> bool {
-        self.any_mate(contact, |part, point| foot(part, point).is_some())
+    /// The teeth of driver and driven gear that touch where the mate has a flank for an edge.
+    pub(super) fn touching_teeth(&self, contact: &EdgeContact) -> Option<(u32, u32)> {
+        // Seats are known to the first order of the backlash: an edge may stand off its mate's flank, beyond the normals of both
+        // parts of it at a joint.
+        let (play, a) = (self.pair.backlash(), self.pair.center_distance());
+        let off = ROUNDING * self.module + 2.0 * play * play / a;
+        let mate = self.mate(contact, |part, point| {
+            let at_end = |end: &Point| (end - point).norm() < off;
+            foot(part, point).is_some() || part.ends.iter().any(at_end)
+        })?;
+        Some(match contact.member {
+            Member::Driver => (contact.edge.owner, mate),
+            Member::Driven => (mate, contact.edge.owner),
+        })
     }
 
-    fn any_mate(
+    /// The tooth of the mate with a flank where an edge would touch it.
+    fn mate(
         &self,
         contact: &EdgeContact,
         touches: impl Fn(&OutlinePart<'_>, &Point) -> bool,
-    ) -> bool {
-        let pose = Pose::at(self.pair, &contact.at, Stand::Law);
+    ) -> Option<u32> {
+        let pose = Pose::at(self.pair, &contact.at, contact.stand);
         let edge = &contact.edge;
-        let half = Point::from(edge.point.coords + edge.normal * (0.5 * self.pair.backlash()));
+        let half = Point::from(edge.point.coords + edge.normal * self.off(contact.stand));
         let (mate, point) = match contact.member {
             Member::Driver => (&self.driven, pose.back(&half)),
             Member::Driven => (&self.driver, pose.place(&half)),
         };
         let near = TOUCHING * self.module;
         let may = |run: &Run| (run.center - point).norm_squared() < (run.radius + near).powi(2);
+        let mut found = None;
         mate.tree.any(&may, &mut |part| {
             let part = &mate.parts[part];
-            part.role == Role::Flank && part.clear_of(&point) < near && touches(part, &point)
-        })
+            let is_mate =
+                part.role == Role::Flank && part.clear_of(&point) < near && touches(part, &point);
+            if is_mate {
+                found = Some(part.owner);
+            }
+            is_mate
+        });
+        found
     }
 
-    /// Point at which an edge touches, on the driver: flanks at the law's angle are half the backlash apart.
-    fn touched(&self, edge: &Edge, member: Member) -> Vector {
+    /// Point at which an edge touches, on the driver.
+    fn touched(&self, edge: &Edge, member: Member, stand: Stand) -> Vector {
         match member {
             Member::Driver => edge.point.coords,
-            Member::Driven => edge.point.coords + edge.normal * (0.5 * self.pair.backlash()),
+            Member::Driven => edge.point.coords + edge.normal * self.off(stand),
+        }
+    }
+
+    /// Distance of flanks that would touch: at the law's angle they are half the backlash apart.
+    fn off(&self, stand: Stand) -> f64 {
+        match stand {
+            Stand::Law => 0.5 * self.pair.backlash(),
+            Stand::Seat(_) => 0.0,
         }
     }
 }

@@ -52,6 +52,8 @@ pub struct ContactExtremes {
     pub contacts: [Extreme; 2],
     /// Mean number of pairs of teeth in contact along the pitch curve, found in the same way.
     pub contact_ratio: f64,
+    /// Share of the cycle, by driver angle, over which no flanks carry, whichever way the driver pushes, found in the same way.
+    pub lost: f64,
 }
 
 /// A figure of one sample of a contact.
@@ -87,7 +89,8 @@ impl Contact {
             true => Vec::new(),
             false => search.meshing().edge_contacts(&walk, 1.0),
         };
-        let (counts, gaps) = search.counts(&edges, &walk);
+        let seats = search.seats();
+        let (counts, gaps, lost) = search.counts(&edges, &walk, &seats);
         // Flanks that carry the motion leave the driven gear at the law's angle, where an edge can be followed along a fillet.
         let sampled = self.fillet_clearance.iter().copied();
         let sampled = sampled.fold(f64::INFINITY, f64::min);
@@ -95,7 +98,7 @@ impl Contact {
             .carries
             .then(|| search.edges_to_fillets(walk, sampled));
         let nearest = nearest.flatten();
-        let suspects = search.suspects(gaps, nearest);
+        let suspects = search.suspects(gaps, nearest, &seats);
         let transmission_error = search.greatest(error, period, ROUNDING);
         let transmission_error = search.worst(error, transmission_error, &suspects);
         ContactExtremes {
@@ -124,6 +127,7 @@ impl Contact {
             sliding: search.fastest(&edges),
             contacts: counts.range,
             contact_ratio: counts.mean,
+            lost,
         }
     }
 
@@ -290,21 +294,19 @@ impl<'a> Search<'a> {
         &mut self,
         mut found: Vec<(f64, f64)>,
         nearest: Option<Extreme>,
+        seats: &[Walk],
     ) -> Vec<(f64, f64)> {
         if !self.carries {
             return found;
         }
         let reach = REACH * period(self.pair) / f64::from(self.pair.period());
-        if self.pair.backlash() == 0.0 {
+        if seats.is_empty() {
             let deepest = nearest.filter(|nearest| nearest.value < 0.0);
             found.extend(deepest.map(|found| (found.input, reach)));
             return found;
         }
-        // Pushed back it is the mirror image.
-        let stands = [1.0, -1.0].map(Stand::Seat);
-        for &stand in &stands[..if self.base.is_mirrored() { 1 } else { 2 }] {
-            let walk = Walk::new(self.pair, stand);
-            let deepest = self.meshing().edges_to_fillets(&walk, 0.0);
+        for walk in seats {
+            let deepest = self.meshing().edges_to_fillets(walk, 0.0);
             found.extend(deepest.map(|found| (found.input, reach)));
         }
         found
@@ -336,25 +338,52 @@ impl<'a> Search<'a> {
         worst
     }
 
-    /// Number of pairs of teeth in contact with the driver pushing on, and stretches over which no flanks are whichever way it
-    /// pushes.
-    fn counts(&mut self, edges: &[EdgeContact], walk: &Walk) -> (Counts, Vec<(f64, f64)>) {
-        let (contact, base) = (self.contact, self.base);
+    /// Walks of a pair with backlash whose flanks carry the motion, pushed on and, unless that is the mirror image, back.
+    fn seats(&self) -> Vec<Walk> {
+        let signs: &[f64] = match (self.carries, self.base.is_mirrored()) {
+            _ if self.pair.backlash() == 0.0 => &[],
+            (false, _) => &[],
+            (true, true) => &[1.0],
+            (true, false) => &[1.0, -1.0],
+        };
+        let stands = signs.iter().copied().map(Stand::Seat);
+        stands.map(|stand| Walk::new(self.pair, stand)).collect()
+    }
+
+    /// Number of pairs of teeth in contact with the driver pushing on, stretches over which no flanks are whichever way it pushes,
+    /// and the share of the cycle that they take, at most, with the driver pushing one way. With backlash the driven gear stands at its seat, where its edges come to the mate at other angles than by the law.
+    fn counts(
+        &mut self,
+        edges: &[EdgeContact],
+        law: &Walk,
+        seats: &[Walk],
+    ) -> (Counts, Vec<(f64, f64)>, f64) {
+        let (contact, base, period) = (self.contact, self.base, period(self.pair));
+        let off = contact.on_flanks.iter().filter(|on| !**on).count();
+        let off = off as f64 / contact.input.len() as f64;
         if !self.carries {
-            return (sampled(contact), Vec::new());
+            return (sampled(contact), Vec::new(), off);
         }
+        let share = |counts: &Counts| {
+            let halves = counts.gaps.iter().map(|(_, half)| half);
+            2.0 * halves.sum::<f64>() / period
+        };
         let meshing = self.meshing();
+        let seated = seats.first().map(|walk| meshing.edge_contacts(walk, 1.0));
+        let edges = seated.as_deref().unwrap_or(edges);
         let on = meshing.counts((&contact.input, &contact.contacts), &base, edges);
+        let mut lost = on.as_ref().map_or(off, share);
         let counts = on.unwrap_or_else(|| sampled(contact));
         let mut gaps = counts.gaps.clone();
         // Pushed back it is the mirror image.
         if !base.is_mirrored() {
-            let edges = meshing.edge_contacts(walk, -1.0);
+            let edges = meshing.edge_contacts(seats.get(1).unwrap_or(law), -1.0);
             let counted = (&contact.input[..], &contact.reverse_contacts[..]);
             let back = meshing.counts(counted, &base, &edges);
+            lost = lost.max(back.as_ref().map_or(off, share));
             gaps.extend(back.into_iter().flat_map(|counts| counts.gaps));
         }
-        (counts, gaps)
+        (counts, gaps, lost)
     }
 
     /// Sample that is a peak with those beside it.

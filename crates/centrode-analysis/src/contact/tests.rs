@@ -356,10 +356,17 @@ fn what_one_period_or_half_of_it_tells_is_what_the_whole_cycle_tells() {
 #[test]
 fn the_mean_of_contacts_of_a_circle_is_the_contact_ratio_of_the_standard() {
     // ISO 21771: the length of the path of contact over the base pitch.
-    for (z1, z2, module) in [(23.0, 23.0, 2.0), (40.0, 60.0, 1.5)] {
+    for (z1, z2, module, backlash) in [
+        (23.0, 23.0, 2.0, 0.0),
+        (40.0, 60.0, 1.5, 0.0),
+        // The driven gear is turned to its seat, and the path of contact stays.
+        (23.0, 23.0, 2.0, 0.05),
+        (40.0, 60.0, 1.5, 0.3),
+    ] {
         let (driver, ratio) = (z1 as u32, if z1 == z2 { "[1, 1]" } else { "[3, 2]" });
         let pair = pair_of(&format!(
-            "mean_ratio = {ratio}\n[pitch]\nkind = \"circle\"\nmodule = {module}\ntooth_count = {driver}\n"
+            "mean_ratio = {ratio}\n[pitch]\nkind = \"circle\"\nmodule = {module}\ntooth_count = {driver}\n\
+             [teeth]\nbacklash = {backlash}\n"
         ));
         let (sin, cos) = 20.0_f64.to_radians().sin_cos();
         let path = |z: f64| {
@@ -374,6 +381,59 @@ fn the_mean_of_contacts_of_a_circle_is_the_contact_ratio_of_the_standard() {
             found.contact_ratio
         );
         assert_eq!(found.contacts.map(|e| e.value), [1.0, 2.0]);
+    }
+}
+
+#[test]
+fn flanks_with_play_that_part_for_less_than_a_sample_are_found_apart() {
+    // Less than a base pitch of contact: edges drive in between, over the share that is missing.
+    let (addendum, module, teeth) = (0.5667, 2.0, 24.0);
+    let pair = pair_of(&format!(
+        "[pitch]\nkind = \"circle\"\nmodule = {module}\ntooth_count = {teeth}\n\
+         [tool]\nkind = \"rack\"\naddendum_coefficient = {addendum}\n[teeth]\nphase = \"tooth\"\nbacklash = 0.4\n"
+    ));
+    let (sin, cos) = 20.0_f64.to_radians().sin_cos();
+    let radius: f64 = 0.5 * module * teeth;
+    let path =
+        ((radius + addendum * module).powi(2) - (radius * cos).powi(2)).sqrt() - radius * sin;
+    let ratio = 2.0 * path / (std::f64::consts::PI * module * cos);
+    let found = Contact::analyse(&pair).extremes(&pair);
+    assert!(
+        (found.lost - (1.0 - ratio)).abs() < 1e-6,
+        "{} {ratio}",
+        found.lost
+    );
+    let inputs: Vec<f64> = (0..4000)
+        .map(|k| pair.cycle() / teeth * f64::from(k) / 4000.0)
+        .collect();
+    let seen = Contact::analyse_at(&pair, &inputs).transmission_error;
+    let greatest = seen
+        .iter()
+        .fold(0.0_f64, |most, error| most.max(error.abs()));
+    assert!(greatest > 5e-6, "{greatest}");
+    assert!(found.transmission_error.value >= greatest * (1.0 - 1e-9));
+    assert!(found.transmission_error.value < greatest * 1.01);
+}
+
+#[test]
+fn play_is_no_turn_where_the_normal_of_the_law_passes_by_the_axis() {
+    let pair = pair_of(
+        "[pitch]\nkind = \"polar\"\nexpression = \"1 + 0.1*cos(40*phi)\"\nmodule = 2\ntooth_count = 40\n\
+         [teeth]\naddendum = \"fitted\"\nbacklash = 0.05\n",
+    );
+    let contact = Contact::sampled(&pair, 48);
+    let errors = contact
+        .transmission_error
+        .iter()
+        .chain(&contact.reverse_transmission_error);
+    let angles = contact
+        .driven_angle
+        .iter()
+        .chain(&contact.reverse_driven_angle);
+    let laws = contact.law.iter().chain(&contact.law);
+    for ((error, angle), law) in errors.zip(angles).zip(laws) {
+        let most = 4.0 * pair.module() / pair.center_distance();
+        assert!((angle - law - error).abs() <= most, "{error}");
     }
 }
 

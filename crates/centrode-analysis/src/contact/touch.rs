@@ -74,6 +74,9 @@ impl Pose {
     }
 }
 
+/// Greatest way, modules at the centre distance, that backlash lets the driven gear turn.
+const FARTHEST: f64 = 4.0;
+
 /// Where the driven gear stands within its backlash.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Stand {
@@ -89,7 +92,13 @@ impl Stand {
         let law = point.driven_angle;
         match self {
             Self::Law => law,
-            Self::Seat(sign) => law - sign * 0.5 * pair.backlash() / lever(pair, point, sign),
+            Self::Seat(sign) => {
+                let turn = 0.5 * pair.backlash() / lever(pair, point, sign);
+                // Where the law's normal passes by the axis, no turn takes up the backlash.
+                let is_turn =
+                    turn >= 0.0 && turn * pair.center_distance() < FARTHEST * pair.module();
+                if is_turn { law - sign * turn } else { law }
+            }
         }
     }
 }

@@ -277,16 +277,15 @@ fn mesh(pair: &GearPair, contact: &Contact, report: &mut Report) {
         });
     }
     let worst = if error.0 >= reverse.0 { error } else { reverse };
-    let off = contact.on_flanks.iter().filter(|on| !**on).count();
+    let share = extremes.lost;
     // Where flanks carry everywhere, edges are early by no more than the play thins the teeth.
-    let allowed = if off == 0 {
+    let allowed = if share == 0.0 {
         LOST.max(thinned(pair))
     } else {
         LOST
     };
     // Gears that jam carry no motion at all.
     if worst.0.is_finite() && worst.0 > allowed && !is_jammed {
-        let share = off as f64 / contact.input.len() as f64;
         report.findings.push(Finding {
             rule: "contact-lost",
             remedy: remedy("contact-lost"),

@@ -14,6 +14,9 @@ pub const MOST_TEETH: u32 = 600;
 /// Overlap of the pitch curves, modules, above which no teeth are looked for.
 const OVERLAP: f64 = 0.5;
 
+/// Counts, from one that does not carry the motion to one that does, that are tried one by one.
+const SCANNED: u32 = 16;
+
 /// Tooth count at which teeth of a kind begin to carry the motion of a pair by their flanks alone, and the pair changed to it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PairRemedy {
@@ -32,8 +35,8 @@ pub struct PairRemedy {
 /// motion of a pair by their flanks alone.
 ///
 /// They do where flanks face each other as designed at all samples of [`Contact::analyse`], nothing penetrates, and the transmission
-/// error stays below 1e-9 rad, more only by what the play thins the flanks, by [`Contact::extremes`]. Counts grow by a quarter till one does and are halved between it and the greatest that does
-/// not: the count found carries the motion and the one below it does not, but a greater one may fail again. A kind of teeth that does not up to [`MOST_TEETH`]
+/// error stays below 1e-9 rad, more only by what the play thins the flanks (2e-5 rad at most), by [`Contact::extremes`]. Counts grow by a quarter from the one written till one does;
+/// between that and the first, where they are few, all are tried, and else they are halved: the count found carries the motion and the one below it does not, but a greater one may fail again, and a lesser one may carry. A kind of teeth that does not up to [`MOST_TEETH`]
 /// is left out. Each count tried costs a pair and its contact; a choice (`teeth.fit`) is looked for only where as many fitted
 /// teeth as written do not carry, up to the count from which they do and to twice the one written.
 #[must_use]
@@ -89,11 +92,12 @@ pub(crate) fn least_count(design: &GearPairDesign, written: u32, most: u32) -> O
     let carries = |steps: u32| is_carried(&design.with_tooth_count(steps * step));
     let first = (written / step).max(1);
     let (mut low, mut high) = (0, first);
-    if carries(first) {
+    let failed = if carries(first) {
         low = high * 2 / 3;
         while low > 0 && carries(low) {
             (low, high) = (low * 2 / 3, low);
         }
+        low
     } else {
         while low == 0 || !carries(high) {
             // The last one tried is the greatest there is.
@@ -102,6 +106,14 @@ pub(crate) fn least_count(design: &GearPairDesign, written: u32, most: u32) -> O
             }
             (low, high) = (high, (high + high.div_ceil(4)).min(most / step));
         }
+        first
+    };
+    // From some count on all carry, mostly; few are tried one by one.
+    if high - failed <= SCANNED {
+        return (failed + 1..high)
+            .find(|&steps| carries(steps))
+            .or(Some(high))
+            .map(|steps| steps * step);
     }
     while high - low > 1 {
         let middle = low + (high - low) / 2;
@@ -128,8 +140,12 @@ pub(crate) fn is_carried(design: &GearPairDesign) -> bool {
 
 /// Whether the flanks carry the motion, by the extremes of a contact.
 fn is_exact(pair: &GearPair, found: &Contact) -> bool {
-    let allowed = CARRIED.max(thinned(pair));
     let found = found.extremes(pair);
+    let allowed = if found.lost > 0.0 {
+        CARRIED
+    } else {
+        CARRIED.max(thinned(pair))
+    };
     let deepest = PENETRATION * pair.module();
     let errors = [found.transmission_error, found.reverse_transmission_error];
     errors.iter().all(|error| error.value <= allowed)
@@ -137,18 +153,22 @@ fn is_exact(pair: &GearPair, found: &Contact) -> bool {
         && found.clearance.value.min(found.fillet_clearance.value) >= -deepest
 }
 
-/// Whether the flanks carry the motion wherever a contact was looked at.
+/// Whether the flanks carry the motion wherever a contact was looked at: flanks that face each other as designed do, but for what
+/// play brings, and whatever leaves the driven gear on its law.
 fn is_sampled(pair: &GearPair, found: &Contact) -> bool {
-    let allowed = CARRIED.max(thinned(pair));
-    let errors = [&found.transmission_error, &found.reverse_transmission_error];
-    let mut errors = errors.into_iter().flatten();
+    let play = CARRIED.max(thinned(pair));
+    let errors = found.transmission_error.iter();
+    let mut errors = errors
+        .zip(&found.reverse_transmission_error)
+        .zip(&found.on_flanks);
     let deepest = PENETRATION * pair.module();
     let mut clear = found.clearance.iter().chain(&found.fillet_clearance);
-    found.on_flanks.iter().all(|&on| on)
-        && errors.all(|error| error.abs() <= allowed)
-        && found
-            .penetration
-            .iter()
-            .all(|&penetration| penetration <= deepest)
+    errors.all(|((on, back), &on_flanks)| {
+        let allowed = if on_flanks { play } else { CARRIED };
+        on.abs().max(back.abs()) <= allowed
+    }) && found
+        .penetration
+        .iter()
+        .all(|&penetration| penetration <= deepest)
         && clear.all(|&clear| clear >= -deepest)
 }

@@ -224,6 +224,10 @@ mean_ratio = [1, 1]"#,
 tool = { kind = "rack", pressure_angle_deg = 14.5, addendum_coefficient = 0.8701527138279792, dedendum_coefficient = 1.01634361303425, tip_radius_coefficient = 0.17090511361553734, profile_shift_coefficient = 0.0 }
 teeth = { addendum = "full", phase = -0.2857413704224736, backlash = 0.0, thickness_split = 0.4814649328961767 }
 mean_ratio = [2, 1]"#,
+        r#"pitch = { kind = "polar", expression = "1 + 0.14502241217744302*cos(5*phi) - 0.012244836335580378*sin(phi)", module = 3.184903230701943, tooth_count = 60 }
+tool = { kind = "rack", pressure_angle_deg = 14.5, addendum_coefficient = 1.0, dedendum_coefficient = 1.2139761926156627, tip_radius_coefficient = 0.1, profile_shift_coefficient = 0.0 }
+teeth = { addendum = "fitted", phase = -0.9958157188534333, backlash = 0.0, thickness_split = 0.5 }
+mean_ratio = [2, 1]"#,
     ];
     designs.into_iter().for_each(assert_simple_polygons);
 }
