@@ -82,6 +82,15 @@ def test_the_checker_accepts_the_proof_of_a_pair(file, design):
     assert "each error at every angle within 8.0e-10 rad" in answer
 
 
+@pytest.mark.parametrize("module", [1e-6, 1e6])
+def test_the_proof_of_a_pair_of_any_size_is_accepted(module, run, tmp_path):
+    design, path = tmp_path / "pair.toml", tmp_path / "pair.proof"
+    design.write_text(f'family = "gear-pair"\npitch = {{ kind = "circle", module = {module}, tooth_count = 24 }}\n')
+    run("prove", design, "-o", path)
+    status, answer = checked(path, design)
+    assert status == 0, answer
+
+
 @pytest.fixture(scope="module")
 def round_file(tmp_path_factory, run):
     path = tmp_path_factory.mktemp("round") / "pair.proof"

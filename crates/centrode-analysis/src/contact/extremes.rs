@@ -52,7 +52,8 @@ pub struct ContactExtremes {
     pub contacts: [Extreme; 2],
     /// Mean number of pairs of teeth in contact along the pitch curve, found in the same way.
     pub contact_ratio: f64,
-    /// Share of the cycle, by driver angle, over which no flanks carry, whichever way the driver pushes, found in the same way.
+    /// Share of the cycle, by driver angle, over which no flanks carry with the driver pushing one way, the worse one; found in the
+    /// same way.
     pub lost: f64,
 }
 
@@ -351,7 +352,8 @@ impl<'a> Search<'a> {
     }
 
     /// Number of pairs of teeth in contact with the driver pushing on, stretches over which no flanks are whichever way it pushes,
-    /// and the share of the cycle that they take, at most, with the driver pushing one way. With backlash the driven gear stands at its seat, where its edges come to the mate at other angles than by the law.
+    /// and the share of the cycle that they take, at most, with the driver pushing one way. With backlash the driven gear stands at
+    /// its seat, where its edges come to the mate at other angles than by the law.
     fn counts(
         &mut self,
         edges: &[EdgeContact],
