@@ -405,6 +405,15 @@ def test_the_checker_rejects_a_planted_defect(defect, proof, tmp_path):
     assert (status, answer.split(":")[0]) == (1, "rejected"), answer
 
 
+@pytest.mark.parametrize("defect", [corner, piece], ids=lambda defect: defect.__name__)
+def test_hints_of_what_is_not_there_are_refused_as_such(defect, proof, tmp_path):
+    defect(proof)
+    path = tmp_path / "spoilt.proof"
+    path.write_text(json.dumps(proof))
+    status, answer = checked(path)
+    assert (status, answer[:22]) == (1, "rejected: a meeting is"), answer
+
+
 def test_a_driven_gear_that_jumps_a_tooth_and_back_is_rejected(run, tmp_path):
     path, teeth = tmp_path / "circular-pair.proof", 36
     run("prove", DESIGNS / "circular-pair.toml", "-o", path)

@@ -341,11 +341,12 @@ impl<'a> Search<'a> {
 
     /// Walks of a pair with backlash whose flanks carry the motion, pushed on and, unless that is the mirror image, back.
     fn seats(&self) -> Vec<Walk> {
-        let signs: &[f64] = match (self.carries, self.base.is_mirrored()) {
-            _ if self.pair.backlash() == 0.0 => &[],
-            (false, _) => &[],
-            (true, true) => &[1.0],
-            (true, false) => &[1.0, -1.0],
+        if !self.carries || self.pair.backlash() == 0.0 {
+            return Vec::new();
+        }
+        let signs: &[f64] = match self.base.is_mirrored() {
+            true => &[1.0],
+            false => &[1.0, -1.0],
         };
         let stands = signs.iter().copied().map(Stand::Seat);
         stands.map(|stand| Walk::new(self.pair, stand)).collect()
