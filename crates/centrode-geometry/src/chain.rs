@@ -1,6 +1,6 @@
 //! Crossings of a closed chain of curves with itself, and the edge they leave.
 
-use std::cmp::Ordering;
+use std::{cmp::Ordering, collections::BTreeMap};
 
 use crate::{
     Bounds, Kept, LoopError, Point, Segment, Tolerance, Vector,
@@ -32,6 +32,10 @@ pub(crate) struct Passage {
 
 fn order(a: &Place, b: &Place) -> Ordering {
     a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
+}
+
+fn are_same(u: f64, v: f64) -> bool {
+    (u - v).abs() <= SAME
 }
 
 /// The other passage of each one's crossing.
@@ -145,7 +149,8 @@ impl<'a> Chain<'a> {
     /// Every passage through a crossing that is found, in order along the chain.
     fn found(&self) -> Result<Vec<Passage>, LoopError> {
         let count = self.segments.len();
-        let mut found: Vec<(Place, Place, i32)> = Vec::new();
+        // By their two segments: parameters on these, and the rise where the chain passes first.
+        let mut found: BTreeMap<[usize; 2], Vec<([f64; 2], i32)>> = BTreeMap::new();
         let mut add = |i: usize, j: usize, list: Result<Vec<(f64, f64)>, Unresolved>| {
             let segments = [i.min(j), i.max(j)];
             for (u, v) in list.map_err(|cause| LoopError::Unresolved { segments, cause })? {
@@ -154,7 +159,7 @@ impl<'a> Chain<'a> {
                 // Ends meet only within rounding after a cut.
                 let apart = (one.point - self.segments[i].end()).norm();
                 let joined = (i + 1) % count == j && apart <= 0.1 * self.tolerance.mm();
-                if joined || self.are_one(p, q) {
+                if joined || p.0 == q.0 && are_same(p.1, q.1) {
                     continue;
                 }
                 let rise = if one.first.perp(&other.first) < 0.0 {
@@ -162,19 +167,19 @@ impl<'a> Chain<'a> {
                 } else {
                     -1
                 };
-                let this = if order(&p, &q) == Ordering::Less {
+                let (first, second, rise) = if order(&p, &q) == Ordering::Less {
                     (p, q, rise)
                 } else {
                     (q, p, -rise)
                 };
+                let known = found.entry([first.0, second.0]).or_default();
                 // At a joint both segments tell of the crossing, or of a touch from one side.
-                let same = |f: &(Place, Place, i32)| {
-                    self.are_one(f.0, this.0) && self.are_one(f.1, this.1)
-                };
-                match found.iter().position(same) {
-                    Some(k) if found[k].2 == this.2 => {}
-                    Some(k) => drop(found.swap_remove(k)),
-                    None => found.push(this),
+                let same =
+                    |&([a, b], _): &([f64; 2], i32)| are_same(a, first.1) && are_same(b, second.1);
+                match known.iter().position(same) {
+                    Some(k) if known[k].1 == rise => {}
+                    Some(k) => drop(known.swap_remove(k)),
+                    None => known.push(([first.1, second.1], rise)),
                 }
             }
             Ok(())
@@ -189,16 +194,20 @@ impl<'a> Chain<'a> {
             let list = crossings(&self.segments[i], &self.segments[j], joined, self.tolerance);
             add(i, j, list)?;
         }
-        let mut passages: Vec<Passage> = Vec::with_capacity(2 * found.len());
-        for (crossing, (p, q, rise)) in found.into_iter().enumerate() {
-            for (place, rise) in [(p, rise), (q, -rise)] {
-                passages.push(Passage {
+        let found = found.into_iter().flat_map(|([i, j], known)| {
+            let places = known.into_iter();
+            places.map(move |([u, v], rise)| [((i, u), rise), ((j, v), -rise)])
+        });
+        let mut passages: Vec<Passage> = found
+            .enumerate()
+            .flat_map(|(crossing, both)| {
+                both.map(|(place, rise)| Passage {
                     place,
                     crossing,
                     rise,
-                });
-            }
-        }
+                })
+            })
+            .collect();
         passages.sort_by(|a, b| order(&a.place, &b.place));
         Ok(passages)
     }
@@ -234,10 +243,6 @@ impl<'a> Chain<'a> {
         } else {
             (index, if u <= -1.0 + SAME { -1.0 } else { u })
         }
-    }
-
-    fn are_one(&self, p: Place, q: Place) -> bool {
-        p.0 == q.0 && (p.1 - q.1).abs() <= SAME
     }
 
     /// Winding number on the left of the chain after each passage.

@@ -64,14 +64,14 @@ impl Contact {
     /// Extremes over one whole cycle: the peaks among samples of it are followed between these.
     ///
     /// The samples ascend in driver angle, as those of [`Contact::analyse`] do. A figure that has no number somewhere has there
-    /// its extreme. Of gears that jam ([`Self::is_jammed`]) they are those of the samples: there is no motion to follow.
+    /// its extreme. Of gears that jam or stray ([`Self::is_followed`]) they are those of the samples: there is no motion to follow.
     #[must_use]
     pub fn extremes(&self, pair: &GearPair) -> ContactExtremes {
         let mut search = Search {
             contact: self,
             pair,
             base: Base::new(self, pair),
-            is_jammed: self.is_jammed(pair),
+            is_followed: self.is_followed(pair),
             carries: self.carries(),
             meshing: None,
         };
@@ -86,9 +86,9 @@ impl Contact {
         let backlash: Figure = |c, k| c.backlash[k];
         let normal: Figure = |c, k| c.normal_backlash[k];
         let walk = Walk::new(pair, Stand::Law);
-        let edges = match search.is_jammed {
-            true => Vec::new(),
-            false => search.meshing().edge_contacts(&walk, 1.0),
+        let edges = match search.is_followed {
+            true => search.meshing().edge_contacts(&walk, 1.0),
+            false => Vec::new(),
         };
         let seats = search.seats();
         let (counts, gaps, lost) = search.counts(&edges, &walk, &seats);
@@ -184,8 +184,8 @@ pub(super) struct Search<'a> {
     pub(super) contact: &'a Contact,
     pub(super) pair: &'a GearPair,
     pub(super) base: Base,
-    /// Whether the gears have no room for each other: nothing is sought between the samples.
-    is_jammed: bool,
+    /// Whether anything is sought between the samples.
+    is_followed: bool,
     /// Whether the flanks carry the motion at every sample.
     pub(super) carries: bool,
     /// Made when it is first needed.
@@ -223,7 +223,7 @@ impl<'a> Search<'a> {
         rounding: f64,
     ) -> Extreme {
         let mut best = highest(&inputs[..among], &values[..among]);
-        if self.is_jammed || !best.value.is_finite() {
+        if !self.is_followed || !best.value.is_finite() {
             return best;
         }
         let mut peaks: Vec<Peak> = (0..among)

@@ -30,10 +30,11 @@ impl Contact {
     /// Places at which the driven angle jumps, greatest first, with the driver pushing on or back.
     ///
     /// From there on the driven gear has two ranges to stand in, one on either side of a tooth. Sought between those samples
-    /// whose difference stands out, so a jump beside an equally great one may be missed. None where there is no play.
+    /// whose difference stands out, so a jump beside an equally great one may be missed. None where there is no play, and none of
+    /// gears that are not followed ([`Self::is_followed`]).
     #[must_use]
     pub fn seat_jumps(&self, pair: &GearPair) -> Vec<SeatJump> {
-        if self.carries() || self.is_jammed(pair) {
+        if self.carries() || !self.is_followed(pair) {
             return Vec::new();
         }
         let mut meshing = Meshing::new(pair);

@@ -42,6 +42,7 @@ use meshing::Meshing;
 pub use proof::{Proof, ProofError, ProofMeeting, ProofStretch, prove};
 use rayon::prelude::{IntoParallelIterator, ParallelIterator};
 use sample::Sample;
+use std::f64::consts::TAU;
 
 use crate::progress::{Steps, filling};
 
@@ -65,6 +66,9 @@ const JAMMED: f64 = 0.05;
 
 /// Share of the samples at which gears that jam have no room.
 const JAMMED_SHARE: f64 = 0.02;
+
+/// Share of the samples off the law from which gears are taken not to run by their flanks.
+const STRAYED_SHARE: f64 = 0.5;
 
 /// The contact of a pair along one whole cycle, one value an input.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -115,16 +119,23 @@ fn is_whole(pair: &GearPair) -> bool {
 
 impl Contact {
     /// Analyses one whole cycle at four inputs a pitch, or at 48 where a tooth is not as the tool would make it or a
-    /// pitch curve is concave: contact can then be lost over a small part of a pitch. Gears that jam are looked at at four.
+    /// pitch curve is concave: contact can then be lost over a small part of a pitch. Gears that jam are looked at at four, those that
+    /// stray at one.
     #[must_use]
     pub fn analyse(pair: &GearPair) -> Self {
         if pair.teeth().addendum == Addendum::Full && is_whole(pair) {
             let found = filling([0.0, 0.1], || Self::sampled(pair, SAMPLES_PER_PITCH));
-            if found.is_off_by_less_than(TOUCHED) || found.is_jammed(pair) {
+            if found.is_off_by_less_than(TOUCHED) || !found.is_followed(pair) {
                 return found;
             }
-        } else if filling([0.0, 0.1], || Self::sampled(pair, 1)).is_jammed(pair) {
-            return filling([0.1, 1.0], || Self::sampled(pair, SAMPLES_PER_PITCH));
+        } else {
+            let found = filling([0.0, 0.1], || Self::sampled(pair, 1));
+            if found.is_jammed(pair) {
+                return filling([0.1, 1.0], || Self::sampled(pair, SAMPLES_PER_PITCH));
+            }
+            if found.strays(pair) {
+                return found;
+            }
         }
         filling([0.1, 1.0], || Self::sampled(pair, FINE_SAMPLES_PER_PITCH))
     }
@@ -136,6 +147,25 @@ impl Contact {
         let most = JAMMED * pair.module();
         let jammed = self.penetration.iter().filter(|p| **p > most).count();
         jammed as f64 > JAMMED_SHARE * self.input.len() as f64
+    }
+
+    /// Whether the gears run on their edges along pitch curves that swing too often for their teeth: at more than half of the samples
+    /// no flanks face each other as designed and the driven gear is off its law by more than 1e-6 rad, and the ratio rises and falls
+    /// once in two pitches or more often.
+    #[must_use]
+    pub fn strays(&self, pair: &GearPair) -> bool {
+        let errors = self.transmission_error.iter();
+        let errors = errors.zip(&self.reverse_transmission_error);
+        let off = errors
+            .zip(&self.on_flanks)
+            .filter(|&((on, back), &on_flanks)| !on_flanks && on.abs().max(back.abs()) > TOUCHED);
+        off.count() as f64 > STRAYED_SHARE * self.input.len() as f64 && swings(pair)
+    }
+
+    /// Whether there is a motion to follow between the samples: the gears neither jam nor stray.
+    #[must_use]
+    pub fn is_followed(&self, pair: &GearPair) -> bool {
+        !self.is_jammed(pair) && !self.strays(pair)
     }
 
     /// Analyses one whole cycle at `per_pitch` inputs a pitch or a little more, spaced evenly along the pitch curve and never in
@@ -184,6 +214,23 @@ impl Contact {
         };
         poses.iter().map(sample).collect()
     }
+}
+
+/// Whether the ratio rises and falls once in two pitches or more often, by more than rounding.
+fn swings(pair: &GearPair) -> bool {
+    const PLACES: u32 = 16;
+    const ROUNDING: f64 = 1e-9;
+    let teeth = pair.driver().tooth_count();
+    let count = PLACES * teeth;
+    let angle = |k: u32| TAU * f64::from(k) / f64::from(count);
+    let ratios: Vec<f64> = (0..count).map(|k| pair.rolling().ratio(angle(k))).collect();
+    let steps = ratios.windows(2).map(|r| r[1] - r[0]);
+    let rises: Vec<bool> = steps
+        .filter(|step| step.abs() > ROUNDING)
+        .map(|step| step > 0.0)
+        .collect();
+    let turns = rises.windows(2).filter(|pair| pair[0] != pair[1]).count();
+    turns >= teeth as usize
 }
 
 /// Where the pitch curves touch at a driver angle.

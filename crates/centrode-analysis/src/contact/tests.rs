@@ -213,6 +213,59 @@ fn gears_that_jam_are_told_by_few_samples() {
     }
 }
 
+/// Their tips come by the roundings of the roots, which are as large as that allows.
+#[test]
+fn fitted_teeth_of_circles_at_a_small_pressure_angle_carry() {
+    let kinds = ["kind = \"rack\"", "kind = \"shaper\"\ntooth_count = 24"];
+    for (z, kind) in [14, 16, 20, 21, 36, 40, 44, 60]
+        .map(|z| kinds.map(|kind| (z, kind)))
+        .concat()
+    {
+        for backlash in [0.0, 0.1] {
+            let text = format!(
+                "family = \"gear-pair\"\n[pitch]\nkind = \"polar\"\nmodule = 2\nexpression = \"1\"\ntooth_count = {z}\n[tool]\n{kind}\npressure_angle_deg = 14.5\n[teeth]\naddendum = \"fitted\"\nbacklash = {backlash}\n"
+            );
+            let design = GearPairDesign::from_toml(&text).expect("a design");
+            let pair = GearPair::resolve(&design).expect("a pair");
+            let found = Contact::analyse(&pair).extremes(&pair);
+            let error = found.transmission_error.value;
+            assert!(error < 1e-9, "z {z}, {kind}, {backlash}: {error:e}");
+            let deepest = found.penetration.value.max(-found.fillet_clearance.value);
+            assert!(deepest < 1e-6, "z {z}, {kind}, {backlash}: {deepest:e}");
+        }
+    }
+}
+
+#[test]
+fn gears_that_stray_are_told_by_few_samples() {
+    // A pitch curve that swings as often as there are teeth, and 25 times as often.
+    for (radius, teeth) in [("1+0.1*cos(40*phi)", 40), ("1+0.001*cos(1000*phi)", 40)] {
+        let text = format!(
+            "family = \"gear-pair\"\n[pitch]\nkind = \"polar\"\nmodule = 2\nexpression = \"{radius}\"\ntooth_count = {teeth}\n[teeth]\naddendum = \"fitted\"\nbacklash = 0.05\n"
+        );
+        let design = GearPairDesign::from_toml(&text).expect("a design");
+        let pair = GearPair::resolve(&design).expect("a pair");
+        let contact = Contact::analyse(&pair);
+        assert!(
+            contact.strays(&pair) && !contact.is_followed(&pair),
+            "{radius}"
+        );
+        assert!(contact.input.len() <= 40 + 2, "{}", contact.input.len());
+        assert!(contact.seat_jumps(&pair).is_empty());
+        let errors = contact.transmission_error.iter().map(|e| e.abs());
+        let greatest = errors.fold(0.0, f64::max);
+        let found = contact.extremes(&pair).transmission_error;
+        assert!(greatest > 1e-3 && found.value.to_bits() == greatest.to_bits());
+        let findings = crate::gear_pair::check(&pair).findings;
+        let lost = findings.iter().find(|f| f.rule == "contact-lost");
+        let message = &lost.expect("a finding").message;
+        assert!(message.contains("off by at least"), "{message}");
+    }
+    // A few degrees of the cycle on an edge are followed.
+    let pair = design("transplanter-pair-2021");
+    assert!(!Contact::analyse(&pair).strays(&pair));
+}
+
 #[test]
 fn a_corner_beside_a_sharp_bend_has_its_foot_there() {
     // Of the sun of this mechanism a flank bends by 4.8/mm where it meets its fillet.

@@ -295,12 +295,14 @@ fn mesh(pair: &GearPair, contact: &Contact, report: &mut Report) {
                 Severity::Note
             },
             message: format!(
-                "over {} % of the cycle the flanks do not carry the motion: a tooth edge does, and the driven angle is off by up to {:.3e} rad",
+                "over {} % of the cycle the flanks do not carry the motion: a tooth edge does, and the driven angle is off by {} {:.3e} rad",
                 match 100.0 * share {
                     percent if percent < 0.1 => "less than 0.1".to_owned(),
                     percent => format!("{percent:.1}"),
                 },
-                worst.0
+                // Of gears that stray nothing is followed between the samples.
+                if contact.strays(pair) { "at least" } else { "up to" },
+                worst.0,
             ),
             measured: Some(worst.0),
             required: Some(allowed),

@@ -8,7 +8,7 @@ use super::{
     pitch::gcd,
     profile::{FlankPlan, ToothPlan, Top},
     rolling::{Member, Rolling},
-    tool::{Corner, Tool},
+    tool::Tool,
     tooth_chords::circle,
     tooth_passage::{Candidate, Poses, Reaches, ToothPassage},
 };
@@ -16,12 +16,6 @@ use super::{
 /// Least share of a straight rack's flank speed kept at the end of a trimmed flank: below it the
 /// flank ends in a knife edge of no radius of curvature.
 const LEAST_SPEED: f64 = 0.05;
-
-/// Active depth of a flank over its mate's reach, so that the mate's tip edge clears the fillet.
-const SPARE: f64 = 1.02;
-
-/// Greatest rounding of a space's corner, as a share of its depth.
-const ROUNDEST: f64 = 0.8;
 
 /// Data of the trimming.
 #[derive(Clone, Copy, Debug)]
@@ -60,7 +54,7 @@ impl Meeting<'_> {
 }
 
 /// Roll length to a tip corner, and its normal height.
-type Tip = (f64, f64);
+pub(super) type Tip = (f64, f64);
 
 impl Fitting<'_> {
     /// Trims every tip of both gears and fits every space to the tips that enter it.
@@ -182,8 +176,21 @@ impl Fitting<'_> {
         let tips_2 = settled(Member::Driven, driven, reach_2);
         // Driven tooth k works in the driver's space after tooth k, driver tooth k + 1 in the driven
         // gear's.
-        self.serve(driver, &tips_2, 0, meshes as usize, space(Member::Driver));
-        self.serve(driven, &tips_1, 1, meshes as usize, space(Member::Driven));
+        let meshes = meshes as usize;
+        self.serve(
+            Member::Driver,
+            driver,
+            (&tips_2, 0, meshes),
+            lengths[0],
+            space(Member::Driver),
+        );
+        self.serve(
+            Member::Driven,
+            driven,
+            (&tips_1, 1, meshes),
+            lengths[1],
+            space(Member::Driven),
+        );
         patterns.driver.repeat(all_1, pitch);
         patterns.driven.repeat(all_2, pitch);
     }
@@ -228,50 +235,7 @@ impl Fitting<'_> {
         any
     }
 
-    /// The corner of a space of some depth beside a flank that a tip works on; none where it would cut into that flank.
-    fn corner_below(&self, depth: f64, tip: Tip, space: f64) -> Option<Corner> {
-        let end = SPARE * tip.0;
-        let found = corner(self.tool, depth, end, space);
-        (found.end <= end * (1.0 + 1e-9)).then_some(found)
-    }
-
-    /// Fits every space of a gear to the tips that enter it: the mates' tooth k + `ahead` enters the
-    /// space after tooth k. One depth a space, below the higher tip,
-    /// where the flanks bear it; a fillet below each flank.
-    fn serve(
-        &self,
-        teeth: &mut [ToothPlan],
-        mates: &[[Tip; 2]],
-        ahead: usize,
-        meshes: usize,
-        space: f64,
-    ) {
-        let clearance = self.tool.dedendum - self.tool.addendum;
-        let higher = |a: Tip, b: Tip| (a.0.max(b.0), a.1.max(b.1));
-        let count = teeth.len();
-        for k in 0..count {
-            checkpoint();
-            let none = ((0.0, 0.0), (0.0, 0.0));
-            let (before, after) = (k..meshes)
-                .step_by(count)
-                .fold(none, |(before, after), turn| {
-                    let mate = mates[(turn + ahead) % mates.len()];
-                    (higher(before, mate[0]), higher(after, mate[1]))
-                });
-            let depth = before.1.max(after.1) + clearance;
-            let settle = |flank: &mut FlankPlan, tip: Tip| {
-                // Where the shared depth would undercut the flank, the root rises to its own.
-                let shared = self.corner_below(depth, tip, space);
-                flank.corner = shared
-                    .unwrap_or_else(|| corner(self.tool, tip.1 + clearance, SPARE * tip.0, space));
-                flank.active_depth = tip.0;
-            };
-            settle(&mut teeth[k].trailing, before);
-            settle(&mut teeth[(k + 1) % count].leading, after);
-        }
-    }
-
-    fn flank(&self, member: Member, side: Side, crossing: f64) -> Flank<'_> {
+    pub(super) fn flank(&self, member: Member, side: Side, crossing: f64) -> Flank<'_> {
         Flank {
             rolling: self.rolling,
             member,
@@ -382,23 +346,4 @@ pub(crate) fn share_for_width(
     } else {
         bracketed_root(land, 0.0, 1.0, low, high)
     }
-}
-
-/// The corner of a space whose root is `depth` deep and whose flank is worked down to a roll `end`
-/// below its crossing: the largest rounding that starts there and fits a space `space` wide.
-pub(crate) fn corner(tool: &Tool, depth: f64, end: f64, space: f64) -> Corner {
-    // A centre on the pitch curve itself would cut the whole fillet in one instant.
-    let greatest = tool
-        .greatest_tip_radius(depth, space)
-        .clamp(0.0, ROUNDEST * depth);
-    let beyond = |radius: f64| tool.corner(depth, radius).end - end;
-    let (sharp, round) = (beyond(0.0), beyond(greatest));
-    let radius = if round >= 0.0 {
-        greatest
-    } else if sharp <= 0.0 {
-        0.0
-    } else {
-        bracketed_root(beyond, 0.0, greatest, sharp, round)
-    };
-    tool.corner(depth, radius)
 }

@@ -22,6 +22,14 @@ impl Side {
             Self::Trailing => 1.0,
         }
     }
+
+    /// The side that meshes with this one.
+    pub(crate) fn other(self) -> Self {
+        match self {
+            Self::Leading => Self::Trailing,
+            Self::Trailing => Self::Leading,
+        }
+    }
 }
 
 /// Greatest length rolled up to a height, by that of a rack.
@@ -143,15 +151,39 @@ impl Flank<'_> {
 
     /// Centre of the tool's rounding from the pitch point.
     fn corner_center(&self, corner: &Corner, frame: &Frame) -> Vector {
-        let ahead = self.crossing + self.side.sign() * corner.center - frame.arc;
+        let [ahead, above] = self.center_offset(corner, frame.arc).0;
+        frame.tangent * ahead + frame.normal * above
+    }
+
+    /// How far the centre of the tool's rounding is ahead and above the pitch point at an arc length, and the angle by which the tool
+    /// is turned there.
+    fn center_offset(&self, corner: &Corner, arc: f64) -> ([f64; 2], f64) {
+        let ahead = self.crossing + self.side.sign() * corner.center - arc;
         let straight = corner.depth - corner.radius;
         match self.tool.kind {
-            ToolKind::Rack => frame.tangent * ahead - frame.normal * straight,
+            ToolKind::Rack => ([ahead, -straight], 0.0),
             ToolKind::Shaper { radius } => {
-                let (sin, cos) = (ahead / radius).sin_cos();
+                let turn = ahead / radius;
+                let (sin, cos) = turn.sin_cos();
                 let center = radius + straight;
-                frame.tangent * (center * sin) + frame.normal * (radius - center * cos)
+                ([center * sin, radius - center * cos], turn)
             }
+        }
+    }
+
+    /// How far a point, so far ahead and above the pitch point, is beyond the rounding of the tool's corner, between the flank and the
+    /// tip of the tool; below nothing elsewhere.
+    pub(crate) fn beyond_corner(&self, corner: &Corner, arc: f64, point: [f64; 2]) -> f64 {
+        let (center, turn) = self.center_offset(corner, arc);
+        let offset = Vector::new(point[0] - center[0], point[1] - center[1]);
+        // As the tool stands with the centre below its axis, the flank on the left.
+        let (sin, cos) = turn.sin_cos();
+        let across = self.side.sign() * (cos * offset.x + sin * offset.y);
+        let below = sin * offset.x - cos * offset.y;
+        let (sin, cos) = self.tool.corner_angle(corner).sin_cos();
+        match across <= 0.0 && below >= 0.0 && across * sin + below * cos >= 0.0 {
+            true => offset.norm() - corner.radius,
+            false => -corner.radius,
         }
     }
 

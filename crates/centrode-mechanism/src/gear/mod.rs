@@ -14,6 +14,7 @@ mod pattern;
 pub mod pitch;
 mod profile;
 mod rolling;
+mod served;
 mod stage;
 mod teeth;
 mod thickness;

@@ -74,6 +74,17 @@ impl Tool {
         }
     }
 
+    /// Angle between the tool's flank where it goes over into the corner and the line to the tool's axis, rad.
+    pub(crate) fn corner_angle(&self, corner: &Corner) -> f64 {
+        match self.kind {
+            ToolKind::Rack => self.pressure_angle,
+            ToolKind::Shaper { radius } => {
+                let center = radius + corner.depth - corner.radius;
+                (radius * self.pressure_angle.cos() / center).acos()
+            }
+        }
+    }
+
     /// Greatest arc length the tool can generate on the addendum side of a crossing, mm: a shaper's
     /// flank starts at its base circle.
     pub(crate) fn addendum_reach(&self) -> f64 {
