@@ -52,8 +52,11 @@ const SAMPLES_PER_PITCH: u32 = 4;
 /// Samples a pitch where contact may be lost.
 const FINE_SAMPLES_PER_PITCH: u32 = 48;
 
-/// Samples that are analysed one after the other, each from what is known of the one before.
+/// Most samples that are analysed one after the other, each from what is known of the one before.
 const RUN: u32 = 512;
+
+/// Where there are more of them the number of runs is a multiple of this, so that the cores share them evenly.
+const SHARES: u32 = 4;
 
 /// Transmission error, rad, below which whole teeth at most graze a fillet: what few samples show is followed between them.
 const TOUCHED: f64 = 1e-6;
@@ -176,19 +179,22 @@ impl Contact {
     #[must_use]
     pub fn sampled(pair: &GearPair, per_pitch: u32) -> Self {
         let cycle = Cycle::new(pair, per_pitch);
-        let runs = cycle.analysed().div_ceil(RUN);
+        let runs = match cycle.analysed().div_ceil(RUN) {
+            few @ ..=1 => few,
+            many => many.next_multiple_of(SHARES),
+        };
         let cores = (rayon::current_num_threads() as u32).min(runs);
         let cancel = Cancel::current();
         let steps = Steps::new(cycle.analysed() as usize);
         if cores <= 1 {
             // Handing little work to another thread takes longer than doing it.
-            return cycle.whole(run_samples(pair, &cycle, 0..runs, &steps));
+            return cycle.whole(run_samples(pair, &cycle, (0..runs, runs), &steps));
         }
         let stretches = (0..cores).into_par_iter().panic_fuse();
         let samples = stretches.flat_map_iter(|core| {
             let _scope = cancel.enter();
             let [from, to] = [core, core + 1].map(|k| k * runs / cores);
-            run_samples(pair, &cycle, from..to, &steps)
+            run_samples(pair, &cycle, (from..to, runs), &steps)
         });
         cycle.whole(samples.collect())
     }
@@ -243,13 +249,22 @@ fn at_angle(pair: &GearPair, phi: f64) -> PitchContact {
 }
 
 /// Samples of runs of a cycle. Every run begins anew, so the figures do not depend on which are done together.
-fn run_samples(pair: &GearPair, cycle: &Cycle, runs: Range<u32>, steps: &Steps) -> Vec<Sample> {
+fn run_samples(
+    pair: &GearPair,
+    cycle: &Cycle,
+    (some, all): (Range<u32>, u32),
+    steps: &Steps,
+) -> Vec<Sample> {
     let rolling = pair.rolling();
     let mut meshing = Meshing::new(pair);
     let mut out = Vec::new();
-    for run in runs {
+    let first = |run: u32| {
+        let sample = u64::from(cycle.analysed()) * u64::from(run) / u64::from(all);
+        sample as u32
+    };
+    for run in some {
         meshing.begin();
-        for i in run * RUN..cycle.analysed().min((run + 1) * RUN) {
+        for i in first(run)..first(run + 1) {
             let point = rolling.pitch_contact(rolling.parameter(cycle.arc(i)));
             out.push(meshing.sample(&point));
             steps.step();

@@ -135,13 +135,17 @@ pub(crate) fn flank_tolerances(pair: &GearPair, member: Member) -> Vec<Datum> {
             ("Total profile", "FαT", local.total_profile()),
         ],
     );
+    let runout = match gear.body().bore > 0.0 {
+        true => "Runout to A, of M over pins",
+        false => "Runout of M over pins",
+    };
     say(
         whole,
         whole.diameter,
         "All round, by the number of teeth",
         &[
             ("Total pitch", "FpT", whole.total_pitch()),
-            ("Runout to A, of M over pins", "FrT", whole.runout()),
+            (runout, "FrT", whole.runout()),
         ],
     );
     data

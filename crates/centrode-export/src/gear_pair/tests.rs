@@ -393,3 +393,23 @@ fn a_centre_distance_without_backlash_may_only_be_longer() {
     let sine = 20_f64.to_radians().sin();
     assert!((half - 0.1 / (4.0 * sine)).abs() < 1e-12);
 }
+
+#[test]
+fn a_gear_without_a_bore_names_no_datum() {
+    let circle = Circle {
+        module: Some(2.0),
+        tooth_count: Some(40),
+        ..Circle::default()
+    };
+    let mut design = GearPairDesign::new(PitchSpec::Circle(circle));
+    (design.driver.width, design.driven.width) = (12.0, 12.0);
+    design.driver.bore = 12.0;
+    let pair = GearPair::resolve(&design).expect("a sound pair");
+    let runout = |member| {
+        let data = flank_tolerances(&pair, member);
+        let runout = data.into_iter().find(|datum| datum.symbol == "FrT");
+        runout.expect("a runout").name
+    };
+    assert_eq!(runout(Member::Driver), "Runout to A, of M over pins");
+    assert_eq!(runout(Member::Driven), "Runout of M over pins");
+}

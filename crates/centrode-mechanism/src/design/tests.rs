@@ -191,6 +191,11 @@ fn every_bad_line_is_named_with_key_and_place() {
             "line 19, column 1: driver.width: must be a finite number, not NaN",
         ),
         (
+            "width = 10",
+            "width = 1e308",
+            "line 19, column 1: driver.width: must be 0 to 1e12, not 1e308",
+        ),
+        (
             "bore = 12",
             "bore = 3",
             "line 21, column 12: driver.keyway.width: is 4 mm, but the bore is only 3 mm across",
@@ -437,6 +442,10 @@ fn pitch_curve_faults_name_their_line() {
         (
             "kind = \"polar\"\nexpression = \"10 + psi\"",
             "line 5, column 1: pitch.expression: unknown name \"psi\"",
+        ),
+        (
+            "kind = \"polar\"\nexpression = \"10 + log(phi + 1)\"",
+            "line 5, column 1: pitch.expression: unknown name \"log\", did you mean \"ln\"?",
         ),
         (
             "kind = \"polar\"\nexpression = \"10/(phi - phi)\"",

@@ -22,6 +22,16 @@ const FUNCTIONS: [(&str, Function); 12] = [
     ("sqrt", Function::Sqrt),
 ];
 
+/// Functions by the names they have elsewhere.
+const ELSEWHERE: [(&str, &str); 6] = [
+    ("log", "ln"),
+    ("arcsin", "asin"),
+    ("arccos", "acos"),
+    ("arctan", "atan"),
+    ("theta", "phi"),
+    ("t", "phi"),
+];
+
 /// Reason why a formula cannot be read.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[error("{reason} at character {column}")]
@@ -280,13 +290,14 @@ impl Parser<'_> {
 fn unknown(name: &str) -> String {
     let known = FUNCTIONS.iter().map(|(n, _)| *n).chain(["phi", "pi"]);
     let shown: String = name.chars().take(40).collect();
+    let elsewhere = ELSEWHERE.iter().find(|(other, _)| *other == shown);
     let near = known
         .clone()
         .map(|n| (strsim::damerau_levenshtein(&shown, n), n))
         .min()
         .filter(|(distance, n)| *distance <= 2 && *distance < n.len());
-    match near {
-        Some((_, n)) => format!("unknown name {shown:?}, did you mean {n:?}?"),
+    match elsewhere.map(|(_, n)| *n).or(near.map(|(_, n)| n)) {
+        Some(n) => format!("unknown name {shown:?}, did you mean {n:?}?"),
         None => format!(
             "unknown name {shown:?}; known are {}",
             known.collect::<Vec<_>>().join(", ")

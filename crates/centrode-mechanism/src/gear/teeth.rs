@@ -153,8 +153,7 @@ pub(crate) fn layout(
     let plan = |member: Member| -> Result<Vec<ToothPlan>, TeethError> {
         let depth = tool.dedendum - shift(member);
         let greatest = tool.greatest_tip_radius(depth, space(member));
-        let (sin, cos) = tool.pressure_angle.sin_cos();
-        let short = depth - 0.5 * space(member) * cos / sin;
+        let short = depth - tool.pointed_depth(space(member), depth);
         if greatest < 0.0 {
             return Err(TeethError::NoTip {
                 member,

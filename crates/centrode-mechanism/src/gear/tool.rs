@@ -94,6 +94,21 @@ impl Tool {
         }
     }
 
+    /// Depth, at most `deepest`, at which the tool comes to a point without any rounding, for a space of pitch-line width `space`, mm.
+    pub(crate) fn pointed_depth(&self, space: f64, deepest: f64) -> f64 {
+        match self.kind {
+            ToolKind::Rack => (0.5 * space / self.pressure_angle.tan()).min(deepest),
+            ToolKind::Shaper { .. } => {
+                let beyond = |depth: f64| self.corner(depth, 0.0).center - 0.5 * space;
+                let (flat, pointed) = (beyond(0.0), beyond(deepest));
+                match flat < 0.0 && pointed > 0.0 {
+                    true => bracketed_root(beyond, 0.0, deepest, flat, pointed),
+                    false => deepest,
+                }
+            }
+        }
+    }
+
     /// Greatest rounding that leaves the tool's tip a flat, for a space of pitch-line width `space`
     /// and `depth`, mm: the two roundings of a tool tooth meet at its middle. Not positive where the tip is
     /// pointed without any.
@@ -178,6 +193,24 @@ mod tests {
             let radius = tool.greatest_tip_radius(1.25, space);
             assert!((0.2..0.5).contains(&radius), "{kind:?}: {radius}");
             assert!((2.0 * tool.corner(1.25, radius).center - space).abs() < 1e-14);
+        }
+    }
+
+    #[test]
+    fn a_tool_as_deep_as_it_comes_to_a_point_bears_no_rounding() {
+        let space = 0.5 * std::f64::consts::PI;
+        // tan 20 deg of the depth on either side of a rack's middle.
+        let rack = tool(ToolKind::Rack);
+        assert!(
+            (rack.pointed_depth(space, 9.0) * rack.pressure_angle.tan() - 0.5 * space).abs()
+                < 1e-14
+        );
+        assert!(rack.pointed_depth(space, 1.0) <= 1.0);
+        for radius in [2.0, 10.0, 40.0] {
+            let shaper = tool(ToolKind::Shaper { radius });
+            let depth = shaper.pointed_depth(space, 9.0);
+            assert!(depth < rack.pointed_depth(space, 9.0), "{radius}");
+            assert!(shaper.greatest_tip_radius(depth, space).abs() < 1e-13);
         }
     }
 
