@@ -30,7 +30,7 @@ mod turning;
 mod walk;
 mod window;
 
-use std::ops::Range;
+use std::{f64::consts::TAU, ops::Range};
 
 use centrode_geometry::Cancel;
 use centrode_mechanism::gear::design::Addendum;
@@ -42,7 +42,6 @@ use meshing::Meshing;
 pub use proof::{Proof, ProofError, ProofMeeting, ProofStretch, prove};
 use rayon::prelude::{IntoParallelIterator, ParallelIterator};
 use sample::Sample;
-use std::f64::consts::TAU;
 
 use crate::progress::{Steps, filling};
 
@@ -122,8 +121,8 @@ fn is_whole(pair: &GearPair) -> bool {
 
 impl Contact {
     /// Analyses one whole cycle at four inputs a pitch, or at 48 where a tooth is not as the tool would make it or a
-    /// pitch curve is concave: contact can then be lost over a small part of a pitch. Gears that jam are looked at at four, those that
-    /// stray at one.
+    /// pitch curve is concave: contact can then be lost over a small part of a pitch. Gears that jam are looked at at four; those
+    /// that stray are told by the first look, at one input a pitch or, with full teeth, four.
     #[must_use]
     pub fn analyse(pair: &GearPair) -> Self {
         if pair.teeth().addendum == Addendum::Full && is_whole(pair) {

@@ -239,9 +239,9 @@ fn fitted_teeth_of_circles_at_a_small_pressure_angle_carry() {
 #[test]
 fn gears_that_stray_are_told_by_few_samples() {
     // A pitch curve that swings as often as there are teeth, and 25 times as often.
-    for (radius, teeth) in [("1+0.1*cos(40*phi)", 40), ("1+0.001*cos(1000*phi)", 40)] {
+    for radius in ["1+0.1*cos(40*phi)", "1+0.001*cos(1000*phi)"] {
         let text = format!(
-            "family = \"gear-pair\"\n[pitch]\nkind = \"polar\"\nmodule = 2\nexpression = \"{radius}\"\ntooth_count = {teeth}\n[teeth]\naddendum = \"fitted\"\nbacklash = 0.05\n"
+            "family = \"gear-pair\"\n[pitch]\nkind = \"polar\"\nmodule = 2\nexpression = \"{radius}\"\ntooth_count = 40\n[teeth]\naddendum = \"fitted\"\nbacklash = 0.05\n"
         );
         let design = GearPairDesign::from_toml(&text).expect("a design");
         let pair = GearPair::resolve(&design).expect("a pair");

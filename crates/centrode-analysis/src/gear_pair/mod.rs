@@ -137,7 +137,7 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
         value: steepest,
     } = pair.greatest_pressure_angle();
     report.values.insert("pressure_angle_max", steepest);
-    if steepest > PRESSURE_ANGLE * (1.0 + 1e-12) {
+    if steepest > PRESSURE_ANGLE {
         report.findings.push(Finding {
             rule: "pressure-angle",
             remedy: remedy("pressure-angle"),

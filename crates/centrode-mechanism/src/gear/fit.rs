@@ -201,11 +201,7 @@ impl Fits<'_> {
             }
         };
         let above = |flank: &ToothSide, side: Side, mate: &ToothSide| {
-            let other = match side {
-                Side::Leading => Side::Trailing,
-                Side::Trailing => Side::Leading,
-            };
-            rolls(flank, side).0.min(rolls(mate, other).1)
+            rolls(flank, side).0.min(rolls(mate, side.other()).1)
         };
         self.contact_ratios([&driver, &driven], above)
     }

@@ -23,7 +23,7 @@ impl Side {
         }
     }
 
-    /// The side that meshes with this one.
+    /// The other side, which meshes with this one.
     pub(crate) fn other(self) -> Self {
         match self {
             Self::Leading => Self::Trailing,

@@ -25,6 +25,9 @@ const PLACES: [u32; 2] = [8, 32];
 /// Nearness of a tip to the corner that so many places may miss, as a share of the depth times the square of their number.
 const BETWEEN: f64 = 1e-2;
 
+/// Place of a tip on that way: the arc length rolled, and how far the tip is ahead and above the point at which the pitch curves touch.
+type Place = (f64, [f64; 2]);
+
 impl Fitting<'_> {
     /// The corner of a space of some depth beside a flank that a tip works on; none where it would cut into that flank.
     pub(super) fn corner_below(&self, depth: f64, tip: Tip, space: f64) -> Option<Corner> {
@@ -67,14 +70,11 @@ impl Fitting<'_> {
                 let shared = self.corner_below(depth, tip, space);
                 let corner = shared
                     .unwrap_or_else(|| corner(self.tool, tip.1 + clearance, SPARE * tip.0, space));
-                let mates = entering.iter().map(|&(turns, tips)| {
-                    let reach = tips[usize::from(side == Side::Leading)].0;
-                    (
-                        self.flank(member, side, flank.crossing + rolled + turns),
-                        reach,
-                    )
+                let mate = usize::from(side == Side::Leading);
+                flank.corner = entering.iter().fold(corner, |corner, &(turns, tips)| {
+                    let flank = self.flank(member, side, flank.crossing + rolled + turns);
+                    self.clear_corner(corner, &flank, tips[mate].0)
                 });
-                flank.corner = self.clear_corner(corner, mates);
                 flank.active_depth = tip.0;
             };
             settle(&mut teeth[k].trailing, Side::Trailing, 0.0, before);
@@ -86,62 +86,55 @@ impl Fitting<'_> {
         }
     }
 
-    /// A corner with the rounding made as small as the tips need that come by it on their way from the flank to the root, as far as
-    /// the flank goes on above it: flanks and the rolls down to which the mates' tips work on them.
-    fn clear_corner<'f>(
-        &self,
-        corner: Corner,
-        mates: impl Iterator<Item = (Flank<'f>, f64)>,
-    ) -> Corner {
-        mates.fold(corner, |corner, (flank, rolled)| {
-            let beyond = |path: &[(f64, [f64; 2])], radius: f64| {
-                let corner = self.tool.corner(corner.depth, radius);
-                path.iter()
-                    .map(|&(arc, tip)| flank.beyond_corner(&corner, arc, tip))
-                    .fold(-radius, f64::max)
-                    + BETWEEN * corner.depth / (path.len() as f64).powi(2)
-            };
-            let mut path = Vec::new();
-            let mut round = 0.0;
-            for places in PLACES {
-                path = tip_path(&flank, rolled, places);
-                round = beyond(&path, corner.radius);
-                if round <= 0.0 || corner.radius == 0.0 {
-                    return corner;
-                }
+    /// A corner with the rounding made as small as the mate's tip needs, which comes by it on its way from the flank to the root, as
+    /// far as the flank goes on above it. The tip works on the flank down to a roll.
+    fn clear_corner(&self, corner: Corner, flank: &Flank<'_>, rolled: f64) -> Corner {
+        let beyond = |path: &[Place], radius: f64| {
+            let corner = self.tool.corner(corner.depth, radius);
+            path.iter()
+                .map(|&(arc, tip)| flank.beyond_corner(&corner, arc, tip))
+                .fold(-radius, f64::max)
+                + BETWEEN * corner.depth / (path.len() as f64).powi(2)
+        };
+        let mut path = Vec::new();
+        let mut round = 0.0;
+        for places in PLACES {
+            path = tip_path(flank, rolled, places);
+            round = beyond(&path, corner.radius);
+            if round <= 0.0 || corner.radius == 0.0 {
+                return corner;
             }
-            let beyond = |radius: f64| beyond(&path, radius);
-            let sharp = self.tool.corner(corner.depth, 0.0).end;
-            // The flank goes on as far as it moves on.
-            let [from, to] = [rolled, sharp].map(|roll| {
-                let arc = flank.crossing + flank.side.sign() * roll;
-                flank.rolling.parameter(arc)
-            });
-            let deepest = match flank.slower(SLOWEST, from, to) {
-                Some(t) => flank.side.sign() * (flank.rolling.arc_length(t) - flank.crossing),
-                None => sharp,
-            };
-            let ends = |radius: f64| self.tool.corner(corner.depth, radius).end - deepest;
-            let least = match ends(corner.radius) {
-                above if above >= 0.0 => return corner,
-                above if sharp > deepest => {
-                    bracketed_root(ends, 0.0, corner.radius, sharp - deepest, above)
-                }
-                _ => 0.0,
-            };
-            let small = beyond(least);
-            let radius = match small <= 0.0 {
-                true => bracketed_root(beyond, least, corner.radius, small, round),
-                false => least,
-            };
-            self.tool.corner(corner.depth, radius)
-        })
+        }
+        let beyond = |radius: f64| beyond(&path, radius);
+        let sharp = self.tool.corner(corner.depth, 0.0).end;
+        // The flank goes on as far as it moves on.
+        let [from, to] = [rolled, sharp].map(|roll| {
+            let arc = flank.crossing + flank.side.sign() * roll;
+            flank.rolling.parameter(arc)
+        });
+        let deepest = match flank.slower(SLOWEST, from, to) {
+            Some(t) => flank.side.sign() * (flank.rolling.arc_length(t) - flank.crossing),
+            None => sharp,
+        };
+        let ends = |radius: f64| self.tool.corner(corner.depth, radius).end - deepest;
+        let least = match ends(corner.radius) {
+            above if above >= 0.0 => return corner,
+            above if sharp > deepest => {
+                bracketed_root(ends, 0.0, corner.radius, sharp - deepest, above)
+            }
+            _ => 0.0,
+        };
+        let small = beyond(least);
+        let radius = match small <= 0.0 {
+            true => bracketed_root(beyond, least, corner.radius, small, round),
+            false => least,
+        };
+        self.tool.corner(corner.depth, radius)
     }
 }
 
-/// The way of a mate's tip from a flank, on which it works down to a roll below the crossing, to the root: arc lengths, and how far
-/// the tip is ahead and above the point at which the pitch curves touch.
-fn tip_path(flank: &Flank<'_>, rolled: f64, places: u32) -> Vec<(f64, [f64; 2])> {
+/// The way of a mate's tip from a flank, on which it works down to a roll below the crossing, to the root.
+fn tip_path(flank: &Flank<'_>, rolled: f64, places: u32) -> Vec<Place> {
     let cos = flank.tool.pressure_angle.cos();
     let mate = Flank {
         member: flank.member.mate(),

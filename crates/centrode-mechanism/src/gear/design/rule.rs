@@ -151,7 +151,7 @@ pub(crate) fn finite(key: &str, value: f64) -> Result<(), SpecError> {
 pub(crate) fn positive(key: &str, value: f64) -> Result<(), SpecError> {
     finite(key, value)?;
     if value > 0.0 {
-        of_this_world(key, value)
+        not_too_great(key, value)
     } else {
         broken(key, Rule::NotPositive(value))
     }
@@ -160,14 +160,14 @@ pub(crate) fn positive(key: &str, value: f64) -> Result<(), SpecError> {
 pub(crate) fn not_negative(key: &str, value: f64) -> Result<(), SpecError> {
     finite(key, value)?;
     if value >= 0.0 {
-        of_this_world(key, value)
+        not_too_great(key, value)
     } else {
         broken(key, Rule::Negative(value))
     }
 }
 
 /// Checks that a size is no greater than any part could be, so that what follows from it is a number.
-fn of_this_world(key: &str, value: f64) -> Result<(), SpecError> {
+fn not_too_great(key: &str, value: f64) -> Result<(), SpecError> {
     const GREATEST: f64 = 1e12;
     in_range(key, value, [0.0, GREATEST], "")
 }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use centrode_geometry::Outline;
 use nalgebra::Isometry2;
 
-use super::{Profile, ProfileError, Role, Side, Tooth, ToothCurve, ToothPlan, ToothSide};
+use super::{Profile, ProfileError, Role, Tooth, ToothCurve, ToothPlan, ToothSide};
 use crate::gear::pattern::{Image, Mating};
 
 /// Copies pieces of one place to the end of them, as those of its image.
@@ -32,10 +32,7 @@ impl ToothCurve {
         Self {
             poly: self.poly.mirrored().reversed(),
             span: (self.span.1, self.span.0),
-            side: match self.side {
-                Side::Leading => Side::Trailing,
-                Side::Trailing => Side::Leading,
-            },
+            side: self.side.other(),
             ..*self
         }
     }
