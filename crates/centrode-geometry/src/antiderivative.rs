@@ -4,6 +4,8 @@ use crate::bracketed_newton;
 const NODES: usize = 16;
 /// Relative size of the last two Chebyshev coefficients below which they are taken for rounding.
 const NOISE: f64 = 3e-14;
+/// Relative size of those above which a panel that is accepted as it is counts as unsettled.
+const UNSETTLED: f64 = 1e-9;
 /// Halvings after which a panel is accepted as it is: the integrand is then not analytic there.
 const DEEPEST: u32 = 12;
 
@@ -18,6 +20,7 @@ pub struct Antiderivative {
     ends: Vec<f64>,
     panels: Vec<Panel>,
     total: f64,
+    unsettled: usize,
 }
 
 #[derive(Clone, Debug)]
@@ -59,6 +62,7 @@ impl Antiderivative {
         let mut panels: Vec<Panel> = Vec::new();
         let mut before = 0.0;
         let mut lost = 0.0;
+        let mut unsettled = 0;
         while let Some((a, b, depth)) = pending.pop() {
             crate::checkpoint();
             let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
@@ -74,6 +78,7 @@ impl Antiderivative {
                 pending.push((a, middle, depth + 1));
                 continue;
             }
+            unsettled += usize::from(tail > UNSETTLED * size);
             let mut integral = [0.0; NODES + 1];
             for k in 1..=NODES {
                 let lower = if k == 1 {
@@ -111,6 +116,7 @@ impl Antiderivative {
             ends,
             panels,
             total: before,
+            unsettled,
         }
     }
 
@@ -118,6 +124,12 @@ impl Antiderivative {
     #[must_use]
     pub fn total(&self) -> f64 {
         self.total
+    }
+
+    /// Number of panels that were halved to the end and on which the series still had not decayed to a billionth.
+    #[must_use]
+    pub fn unsettled(&self) -> usize {
+        self.unsettled
     }
 
     /// Nodes and weights of Fejér's first rule on every panel: they integrate `f`, and functions like it, to the
@@ -273,6 +285,18 @@ mod tests {
         assert_eq!(calls.get(), NODES);
         let _ = Antiderivative::new(difference, &[0.0, 2.0]);
         assert!(calls.get() > 100 * NODES);
+    }
+
+    #[test]
+    fn panels_that_do_not_settle_are_counted() {
+        // A wave takes two panels or three; of half a million waves none is seen.
+        let waves =
+            |n: f64| Antiderivative::new(move |t: f64| 1.0 + 0.5 * (n * t).sin(), &[0.0, 6.0]);
+        assert_eq!(waves(500.0).unsettled(), 0);
+        assert_eq!(waves(5e5).unsettled(), 1 << DEEPEST);
+        // At a kink one.
+        let kink = Antiderivative::new(|t: f64| (t - 1.0).abs(), &[0.0, 6.0]);
+        assert_eq!(kink.unsettled(), 1);
     }
 
     #[test]

@@ -67,13 +67,22 @@ impl Contact {
     /// its extreme. Of gears that jam or stray ([`Self::is_followed`]) they are those of the samples: there is no motion to follow.
     #[must_use]
     pub fn extremes(&self, pair: &GearPair) -> ContactExtremes {
+        self.extremes_by(pair, None)
+    }
+
+    /// Extremes of a pair that was made ready before.
+    pub(crate) fn extremes_by<'a>(
+        &'a self,
+        pair: &'a GearPair,
+        ready: Option<Meshing<'a>>,
+    ) -> ContactExtremes {
         let mut search = Search {
             contact: self,
             pair,
             base: Base::new(self, pair),
             is_followed: self.is_followed(pair),
             carries: self.carries(),
-            meshing: None,
+            meshing: ready,
         };
         let a = pair.center_distance();
         let Base { period, half } = search.base;

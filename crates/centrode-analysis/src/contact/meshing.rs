@@ -46,7 +46,7 @@ const IDLE: f64 = 1e-3;
 
 /// Pair under analysis, pose by pose.
 #[derive(Debug)]
-pub(super) struct Meshing<'a> {
+pub(crate) struct Meshing<'a> {
     pub(super) pair: &'a GearPair,
     pub(super) driver: GearOutline<'a>,
     pub(super) driven: GearOutline<'a>,

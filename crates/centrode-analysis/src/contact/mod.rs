@@ -30,7 +30,7 @@ mod turning;
 mod walk;
 mod window;
 
-use std::{f64::consts::TAU, ops::Range};
+use std::ops::Range;
 
 use centrode_geometry::Cancel;
 use centrode_mechanism::gear::design::Addendum;
@@ -38,7 +38,7 @@ use centrode_mechanism::gear::{GearPair, PitchContact, Tooth, ToothSide};
 use cycle::Cycle;
 pub use extremes::ContactExtremes;
 pub use jumps::SeatJump;
-use meshing::Meshing;
+pub(crate) use meshing::Meshing;
 pub use proof::{Proof, ProofError, ProofMeeting, ProofStretch, prove};
 use rayon::prelude::{IntoParallelIterator, ParallelIterator};
 use sample::Sample;
@@ -70,7 +70,7 @@ const JAMMED: f64 = 0.05;
 const JAMMED_SHARE: f64 = 0.02;
 
 /// Share of the samples off the law from which gears are taken not to run by their flanks.
-const STRAYED_SHARE: f64 = 0.5;
+const STRAYED_SHARE: f64 = 0.2;
 
 /// The contact of a pair along one whole cycle, one value an input.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -123,23 +123,28 @@ impl Contact {
     /// Analyses one whole cycle at four inputs a pitch, or at 48 where a tooth is not as the tool would make it or a
     /// pitch curve is concave: contact can then be lost over a small part of a pitch. Gears that jam are looked at at four; those
     /// that stray are told by the first look, at one input a pitch or, with full teeth, four.
-    #[must_use]
     pub fn analyse(pair: &GearPair) -> Self {
+        Self::analysed(pair, &mut None)
+    }
+
+    /// The analysis of one whole cycle, which leaves the pair as it was made ready for it.
+    pub(crate) fn analysed<'a>(pair: &'a GearPair, ready: &mut Option<Meshing<'a>>) -> Self {
+        let mut sampled = |per_pitch| Self::sampled_by(pair, per_pitch, ready);
         if pair.teeth().addendum == Addendum::Full && is_whole(pair) {
-            let found = filling([0.0, 0.1], || Self::sampled(pair, SAMPLES_PER_PITCH));
+            let found = filling([0.0, 0.1], || sampled(SAMPLES_PER_PITCH));
             if found.is_off_by_less_than(TOUCHED) || !found.is_followed(pair) {
                 return found;
             }
         } else {
-            let found = filling([0.0, 0.1], || Self::sampled(pair, 1));
-            if found.is_jammed(pair) {
-                return filling([0.1, 1.0], || Self::sampled(pair, SAMPLES_PER_PITCH));
+            let found = filling([0.0, 0.1], || sampled(1));
+            if found.is_jammed(pair) && !swings(pair) {
+                return filling([0.1, 1.0], || sampled(SAMPLES_PER_PITCH));
             }
-            if found.strays(pair) {
+            if !found.is_followed(pair) {
                 return found;
             }
         }
-        filling([0.1, 1.0], || Self::sampled(pair, FINE_SAMPLES_PER_PITCH))
+        filling([0.1, 1.0], || sampled(FINE_SAMPLES_PER_PITCH))
     }
 
     /// Whether the gears cannot turn: over a fiftieth of the samples they penetrate each other by more than a twentieth of
@@ -151,7 +156,7 @@ impl Contact {
         jammed as f64 > JAMMED_SHARE * self.input.len() as f64
     }
 
-    /// Whether the gears run on their edges along pitch curves that swing too often for their teeth: at more than half of the samples
+    /// Whether the gears run on their edges along pitch curves that swing too often for their teeth: at more than a fifth of the samples
     /// no flanks face each other as designed and the driven gear is off its law by more than 1e-6 rad, and the ratio rises and falls
     /// once in two pitches or more often.
     #[must_use]
@@ -177,6 +182,11 @@ impl Contact {
     /// its own mirror image: what is known of one holds for all.
     #[must_use]
     pub fn sampled(pair: &GearPair, per_pitch: u32) -> Self {
+        Self::sampled_by(pair, per_pitch, &mut None)
+    }
+
+    /// Analyses one whole cycle like [`Self::sampled`]: on one thread with the pair made ready before, which is left so.
+    fn sampled_by<'a>(pair: &'a GearPair, per_pitch: u32, ready: &mut Option<Meshing<'a>>) -> Self {
         let cycle = Cycle::new(pair, per_pitch);
         let runs = match cycle.analysed().div_ceil(RUN) {
             few @ ..=1 => few,
@@ -187,13 +197,14 @@ impl Contact {
         let steps = Steps::new(cycle.analysed() as usize);
         if cores <= 1 {
             // Handing little work to another thread takes longer than doing it.
-            return cycle.whole(run_samples(pair, &cycle, (0..runs, runs), &steps));
+            let meshing = ready.get_or_insert_with(|| Meshing::new(pair));
+            return cycle.whole(run_samples(meshing, &cycle, (0..runs, runs), &steps));
         }
         let stretches = (0..cores).into_par_iter().panic_fuse();
         let samples = stretches.flat_map_iter(|core| {
             let _scope = cancel.enter();
             let [from, to] = [core, core + 1].map(|k| k * runs / cores);
-            run_samples(pair, &cycle, (from..to, runs), &steps)
+            run_samples(&mut Meshing::new(pair), &cycle, (from..to, runs), &steps)
         });
         cycle.whole(samples.collect())
     }
@@ -223,19 +234,7 @@ impl Contact {
 
 /// Whether the ratio rises and falls once in two pitches or more often, by more than rounding.
 fn swings(pair: &GearPair) -> bool {
-    const PLACES: u32 = 16;
-    const ROUNDING: f64 = 1e-9;
-    let teeth = pair.driver().tooth_count();
-    let count = PLACES * teeth;
-    let angle = |k: u32| TAU * f64::from(k) / f64::from(count);
-    let ratios: Vec<f64> = (0..count).map(|k| pair.rolling().ratio(angle(k))).collect();
-    let steps = ratios.windows(2).map(|r| r[1] - r[0]);
-    let rises: Vec<bool> = steps
-        .filter(|step| step.abs() > ROUNDING)
-        .map(|step| step > 0.0)
-        .collect();
-    let turns = rises.windows(2).filter(|pair| pair[0] != pair[1]).count();
-    turns >= teeth as usize
+    pair.rolling().turns() >= pair.driver().tooth_count() as usize
 }
 
 /// Where the pitch curves touch at a driver angle.
@@ -249,13 +248,12 @@ fn at_angle(pair: &GearPair, phi: f64) -> PitchContact {
 
 /// Samples of runs of a cycle. Every run begins anew, so the figures do not depend on which are done together.
 fn run_samples(
-    pair: &GearPair,
+    meshing: &mut Meshing<'_>,
     cycle: &Cycle,
     (some, all): (Range<u32>, u32),
     steps: &Steps,
 ) -> Vec<Sample> {
-    let rolling = pair.rolling();
-    let mut meshing = Meshing::new(pair);
+    let rolling = meshing.pair.rolling();
     let mut out = Vec::new();
     let first = |run: u32| {
         let sample = u64::from(cycle.analysed()) * u64::from(run) / u64::from(all);
@@ -269,5 +267,6 @@ fn run_samples(
             steps.step();
         }
     }
+    meshing.begin();
     out
 }

@@ -239,7 +239,7 @@ fn fitted_teeth_of_circles_at_a_small_pressure_angle_carry() {
 #[test]
 fn gears_that_stray_are_told_by_few_samples() {
     // A pitch curve that swings as often as there are teeth, and 25 times as often.
-    for radius in ["1+0.1*cos(40*phi)", "1+0.001*cos(1000*phi)"] {
+    for radius in ["1+0.02*cos(40*phi)", "1+0.00001*cos(1003*phi)"] {
         let text = format!(
             "family = \"gear-pair\"\n[pitch]\nkind = \"polar\"\nmodule = 2\nexpression = \"{radius}\"\ntooth_count = 40\n[teeth]\naddendum = \"fitted\"\nbacklash = 0.05\n"
         );
@@ -255,7 +255,7 @@ fn gears_that_stray_are_told_by_few_samples() {
         let errors = contact.transmission_error.iter().map(|e| e.abs());
         let greatest = errors.fold(0.0, f64::max);
         let found = contact.extremes(&pair).transmission_error;
-        assert!(greatest > 1e-3 && found.value.to_bits() == greatest.to_bits());
+        assert!(greatest > 1e-4 && found.value.to_bits() == greatest.to_bits());
         let findings = crate::gear_pair::check(&pair).findings;
         let lost = findings.iter().find(|f| f.rule == "contact-lost");
         let message = &lost.expect("a finding").message;

@@ -13,8 +13,9 @@ use centrode_mechanism::gear::{GearPair, Limits, Member, ToolKind};
 
 use self::remedy::remedy;
 use self::teeth::teeth;
+use crate::contact::Meshing;
 use crate::progress::filling;
-use crate::{Contact, Finding, Place, Report, Severity, Unit};
+use crate::{Contact, ContactExtremes, Finding, Place, Report, Severity, Unit};
 
 pub(crate) use figures::FIGURES;
 pub use remedies::{MOST_TEETH, PairRemedy, remedies};
@@ -33,13 +34,19 @@ pub(crate) const SLIGHT: f64 = 2e-5;
 /// over the whole cycle.
 #[must_use]
 pub fn check(pair: &GearPair) -> Report {
-    let contact = filling([0.0, 0.6], || Contact::analyse(pair));
-    filling([0.6, 1.0], || check_contact(pair, &contact))
+    let mut ready = None;
+    let contact = filling([0.0, 0.6], || Contact::analysed(pair, &mut ready));
+    filling([0.6, 1.0], || checked(pair, &contact, ready))
 }
 
 /// Checks a gear pair like [`check`], with a contact analysis made before.
 #[must_use]
 pub fn check_contact(pair: &GearPair, contact: &Contact) -> Report {
+    checked(pair, contact, None)
+}
+
+/// The check of a pair by an analysis of its contact, made ready for it or not.
+fn checked<'a>(pair: &'a GearPair, contact: &'a Contact, ready: Option<Meshing<'a>>) -> Report {
     let mut report = Report {
         groups: FIGURES.to_vec(),
         ..Report::default()
@@ -49,7 +56,8 @@ pub fn check_contact(pair: &GearPair, contact: &Contact) -> Report {
     for gear in [pair.driver(), pair.driven()] {
         teeth(pair, gear, &limits, &mut report);
     }
-    mesh(pair, contact, &mut report);
+    let extremes = contact.extremes_by(pair, ready);
+    mesh(pair, contact, &extremes, &mut report);
     report.worst_first();
     report
 }
@@ -195,9 +203,8 @@ pub(crate) fn thinned(pair: &GearPair) -> f64 {
     second.min(SLIGHT)
 }
 
-fn mesh(pair: &GearPair, contact: &Contact, report: &mut Report) {
+fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: &mut Report) {
     let module = pair.module();
-    let extremes = contact.extremes(pair);
     let pick = |found: Extreme| (found.value, found.input);
     let error = pick(extremes.transmission_error);
     let reverse = pick(extremes.reverse_transmission_error);

@@ -5,6 +5,8 @@ use crate::gear::profile::ProfileError;
 use crate::gear::rolling::{Member, RollingError};
 use crate::gear::teeth::TeethError;
 
+use super::follow::MOST_SWINGS;
+
 /// Reason why a design gives no gear pair.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -44,6 +46,20 @@ pub enum GearPairError {
         written: (u32, u32),
         /// Ratio of the law.
         implied: (u32, u32),
+    },
+    /// The pitch curve swings many times a tooth, on arcs too small for it.
+    #[error(
+        "the pitch curves rise and fall {swings} times for {teeth} teeth, on arcs of {radius:.4} mm: no tooth of module {module:.4} mm follows that; with arcs under half a module they may swing {MOST_SWINGS} times a tooth"
+    )]
+    Swings {
+        /// How often the radius rises and falls in a turn.
+        swings: usize,
+        /// Teeth of the driver.
+        teeth: u32,
+        /// Least radius of curvature of both pitch curves, mm.
+        radius: f64,
+        /// Module, mm.
+        module: f64,
     },
     /// The pitch curve has a corner, where there can be no tooth.
     #[error(
@@ -86,7 +102,7 @@ impl GearPairError {
             Self::Pitch(error) => format!("pitch.{}", error.key()),
             Self::Rolling(RollingError::MeanRatio { .. } | RollingError::NotPeriodic { .. })
             | Self::MeanRatio { .. } => "mean_ratio".into(),
-            Self::Rolling(_) | Self::Corner { .. } => "pitch".into(),
+            Self::Rolling(_) | Self::Corner { .. } | Self::Swings { .. } => "pitch".into(),
             Self::Teeth(TeethError::TipRadius { .. }) => "tool.tip_radius_coefficient".into(),
             Self::Teeth(TeethError::NoTip { .. }) => "tool.dedendum_coefficient".into(),
             // Without the backlash there would be a tooth.

@@ -1,5 +1,6 @@
 mod cutting;
 mod error;
+mod follow;
 mod gear;
 
 use std::f64::consts::{PI, TAU};
@@ -21,6 +22,7 @@ use super::{
 
 use cutting::Cutting;
 pub use error::GearPairError;
+use follow::follow;
 pub use gear::Gear;
 
 /// Greatest distance of a stored outline from the exact curve, as a share of the module.
@@ -75,6 +77,7 @@ impl GearPair {
                 .map_err(|_| GearPairError::DrivenTeeth { driver, ratio })?,
         };
         let module = rolling.pitch_length(Member::Driver) / (PI * f64::from(driver));
+        follow(&rolling, driver, module)?;
         let fits = Fits {
             rolling: &rolling,
             counts: &counts,

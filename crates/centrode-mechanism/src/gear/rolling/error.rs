@@ -12,6 +12,16 @@ pub enum RollingError {
         /// Polar angle swept in one round, rad.
         turned: f64,
     },
+    /// The pitch curve swings or kinks too often to be followed.
+    #[error(
+        "the pitch curve is not smooth even in {unsettled} pieces of 1/4096 of its parameter's range, or of the range between two ends that it gives; at most {most} may be so: it swings, or kinks, too often"
+    )]
+    Unsettled {
+        /// Pieces on which the curve's length is no polynomial to a billionth.
+        unsettled: usize,
+        /// Most such pieces.
+        most: usize,
+    },
     /// The mean ratio has no closed driven curve.
     #[error("mean ratio {}:{} needs a driver that repeats {} times a turn, but its radius differs by {difference:e} mm between repeats", ratio.0, ratio.1, ratio.1)]
     NotPeriodic {

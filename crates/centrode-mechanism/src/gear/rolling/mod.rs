@@ -88,6 +88,8 @@ pub struct Rolling {
     mean_ratio: (u32, u32),
     least: Extreme,
     greatest: Extreme,
+    /// How often the radius goes from rising to falling or back in a turn.
+    turns: usize,
     symmetry: Symmetry,
     /// Ranges of both curvatures, found when first needed.
     ranges: OnceLock<[CurvatureRange; 2]>,
@@ -156,6 +158,19 @@ impl Rolling {
                 self.center_distance - self.least.radius,
             ),
         }
+    }
+
+    /// How often the driver's radius goes from rising to falling, or back, in a turn, by more than rounding: an ellipse's about its
+    /// focus does twice.
+    #[must_use]
+    pub fn turns(&self) -> usize {
+        self.turns
+    }
+
+    /// Least radius of curvature of both pitch curves, mm, among the nodes of the arc length's pieces.
+    pub(crate) fn sharpest(&self) -> f64 {
+        let nodes = self.arc.nodes().flat_map(|(t, _)| self.curvatures(t));
+        1.0 / nodes.map(f64::abs).fold(0.0, f64::max)
     }
 
     /// Arc lengths at the least and the greatest driver radius, the first of each.

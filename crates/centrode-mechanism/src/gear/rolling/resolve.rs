@@ -6,6 +6,12 @@ use centrode_geometry::{Antiderivative, Curve, Point, bracketed_root};
 use super::{Extreme, Rolling, RollingError, SAME};
 use crate::gear::pitch::{Symmetry, gcd};
 
+/// Most pieces on which a pitch curve may not be smooth, as beside a kink.
+const MOST_UNSETTLED: usize = 64;
+
+/// Share of the greatest radius by which a radius that rises or falls changes at least.
+const RISES: f64 = 1e-9;
+
 impl Rolling {
     /// Finds the centre distance at which `curve` drives a closed conjugate curve at `mean_ratio`
     /// (turns of driver : turns of driven).
@@ -31,6 +37,12 @@ impl Rolling {
         breaks.push(start + period);
 
         let arc = Antiderivative::new(|t| curve.at(t).first.norm(), &breaks);
+        if arc.unsettled() > MOST_UNSETTLED {
+            return Err(RollingError::Unsettled {
+                unsettled: arc.unsettled(),
+                most: MOST_UNSETTLED,
+            });
+        }
         let nodes: Vec<(f64, f64)> = arc
             .nodes()
             .map(|(t, weight)| {
@@ -41,7 +53,7 @@ impl Rolling {
                 )
             })
             .collect();
-        let (least, greatest) = extremes(&*curve, &arc);
+        let (least, greatest, turns) = extremes(&*curve, &arc);
         let wanted = TAU * f64::from(ratio.1) / f64::from(ratio.0);
         let mut a = closure(&nodes, greatest.radius, wanted);
         let mut driven = driven_angle(&*curve, &breaks, a);
@@ -85,6 +97,7 @@ impl Rolling {
             mean_ratio: ratio,
             least,
             greatest,
+            turns,
             symmetry: Symmetry::NONE,
             ranges: OnceLock::new(),
         };
@@ -160,8 +173,9 @@ fn axis_crossings(curve: &dyn Curve, period: f64) -> Result<(f64, f64), RollingE
     }
 }
 
-/// Least and greatest radius, sharpened from the samples of the arc-length panels.
-fn extremes(curve: &dyn Curve, arc: &Antiderivative) -> (Extreme, Extreme) {
+/// Least and greatest radius, sharpened from the samples of the arc-length panels, and how often the radius goes from rising to
+/// falling or back in a turn.
+fn extremes(curve: &dyn Curve, arc: &Antiderivative) -> (Extreme, Extreme, usize) {
     let slope = |t: f64| {
         let jet = curve.at(t);
         jet.point.coords.dot(&jet.first)
@@ -184,7 +198,9 @@ fn extremes(curve: &dyn Curve, arc: &Antiderivative) -> (Extreme, Extreme) {
         if radius > greatest.radius {
             greatest = Extreme { at, radius };
         }
+        radius
     };
+    let mut radii = Vec::with_capacity(samples.len());
     let count = samples.len();
     for i in 0..count {
         let a = samples[i];
@@ -197,9 +213,24 @@ fn extremes(curve: &dyn Curve, arc: &Antiderivative) -> (Extreme, Extreme) {
         if (fa > 0.0) != (fb > 0.0) {
             take(bracketed_root(slope, a, b, fa, fb));
         }
-        take(a);
+        radii.push(take(a));
     }
-    (least, greatest)
+    let turns = turns(&radii, RISES * greatest.radius);
+    (least, greatest, turns)
+}
+
+/// How often a closed row of values goes from rising to falling or back, by more than a threshold.
+fn turns(values: &[f64], threshold: f64) -> usize {
+    let mut rises = Vec::new();
+    let mut from = values.first().copied().unwrap_or(0.0);
+    for &value in values {
+        if (value - from).abs() > threshold {
+            rises.push(value > from);
+            from = value;
+        }
+    }
+    let again = rises.iter().cycle().skip(1);
+    rises.iter().zip(again).filter(|(a, b)| a != b).count()
 }
 
 /// Newton's method kept above the greatest radius, where the driven angle falls from infinity to zero.

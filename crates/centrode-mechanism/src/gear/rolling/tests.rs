@@ -72,3 +72,41 @@ fn pitch_curves_touch_where_their_frames_have_it() {
         }
     }
 }
+
+/// Pitch curves of a radius by formula.
+fn polar(expression: &str) -> Result<Rolling, RollingError> {
+    let spec = PitchSpec::Polar(Polar {
+        expression: Some(expression.into()),
+        ..Polar::default()
+    });
+    Rolling::new(spec.resolve().expect("a curve").curve, (1, 1))
+}
+
+#[test]
+fn a_radius_turns_twice_a_wave() {
+    for (expression, turns) in [
+        ("30", 0),
+        ("30 + 0.00000001*cos(5*phi)", 0),
+        ("30 + cos(phi)", 2),
+        ("30 + 0.001*cos(200*phi)", 400),
+        ("30 + 6*cos(2*phi) + 2*sin(4*phi)", 4),
+    ] {
+        let found = polar(expression).expect("rolls").turns();
+        assert_eq!(found, turns, "{expression}");
+    }
+}
+
+#[test]
+fn a_pitch_curve_that_swings_too_often_to_be_followed_is_refused() {
+    assert!(polar("30 + 0.001*cos(1003*phi)").is_ok());
+    for waves in ["20001", "1000003"] {
+        let refused = polar(&format!("30 + 0.001*cos({waves}*phi)"));
+        let Err(RollingError::Unsettled { unsettled, most }) = refused else {
+            panic!("{waves}: {refused:?}");
+        };
+        assert!(unsettled > most, "{waves}: {unsettled}");
+    }
+    // A spike and a handful of kinks are.
+    assert!(polar("30 + 0.1*exp(-(1000*(phi - 2))^2)").is_ok());
+    assert!(polar("30 + 0.1*sqrt(sin(3*phi + 1)^2)").is_ok());
+}
