@@ -64,7 +64,7 @@ impl Contact {
     /// Extremes over one whole cycle: the peaks among samples of it are followed between these.
     ///
     /// The samples ascend in driver angle, as those of [`Contact::analyse`] do. A figure that has no number somewhere has there
-    /// its extreme. Of gears that jam or stray ([`Self::is_followed`]) they are those of the samples: there is no motion to follow.
+    /// its extreme. Of gears that are not followed ([`Self::is_followed`]) they are those of the samples.
     #[must_use]
     pub fn extremes(&self, pair: &GearPair) -> ContactExtremes {
         self.extremes_by(pair, None)

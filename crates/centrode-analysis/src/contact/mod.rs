@@ -72,6 +72,9 @@ const JAMMED_SHARE: f64 = 0.02;
 /// Share of the samples off the law from which gears are taken not to run by their flanks.
 const STRAYED_SHARE: f64 = 0.2;
 
+/// Swings a tooth of pitch curves, above which nothing is followed between samples: every wave has its peak.
+const FOLLOWED: usize = 2;
+
 /// The contact of a pair along one whole cycle, one value an input.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Contact {
@@ -122,7 +125,9 @@ fn is_whole(pair: &GearPair) -> bool {
 impl Contact {
     /// Analyses one whole cycle at four inputs a pitch, or at 48 where a tooth is not as the tool would make it or a
     /// pitch curve is concave: contact can then be lost over a small part of a pitch. Gears that jam are looked at at four; those
-    /// that stray are told by the first look, at one input a pitch or, with full teeth, four.
+    /// that stray are told by the first look, at one input a pitch or, with full teeth, four; those whose pitch curves swing more than
+    /// twice a tooth are looked at at four.
+    #[must_use]
     pub fn analyse(pair: &GearPair) -> Self {
         Self::analysed(pair, &mut None)
     }
@@ -137,11 +142,12 @@ impl Contact {
             }
         } else {
             let found = filling([0.0, 0.1], || sampled(1));
-            if found.is_jammed(pair) && !swings(pair) {
-                return filling([0.1, 1.0], || sampled(SAMPLES_PER_PITCH));
-            }
-            if !found.is_followed(pair) {
+            let is_hopeless = found.is_jammed(pair) || found.strays(pair);
+            if is_hopeless && swings(pair) {
                 return found;
+            }
+            if is_hopeless || is_restless(pair) {
+                return filling([0.1, 1.0], || sampled(SAMPLES_PER_PITCH));
             }
         }
         filling([0.1, 1.0], || sampled(FINE_SAMPLES_PER_PITCH))
@@ -169,10 +175,11 @@ impl Contact {
         off.count() as f64 > STRAYED_SHARE * self.input.len() as f64 && swings(pair)
     }
 
-    /// Whether there is a motion to follow between the samples: the gears neither jam nor stray.
+    /// Whether there is a motion to follow between the samples: the gears neither jam nor stray, and their pitch curves swing no more
+    /// than twice a tooth.
     #[must_use]
     pub fn is_followed(&self, pair: &GearPair) -> bool {
-        !self.is_jammed(pair) && !self.strays(pair)
+        !is_restless(pair) && !self.is_jammed(pair) && !self.strays(pair)
     }
 
     /// Analyses one whole cycle at `per_pitch` inputs a pitch or a little more, spaced evenly along the pitch curve and never in
@@ -232,7 +239,13 @@ impl Contact {
     }
 }
 
-/// Whether the ratio rises and falls once in two pitches or more often, by more than rounding.
+/// Whether the pitch curves swing more than twice a tooth.
+pub(crate) fn is_restless(pair: &GearPair) -> bool {
+    let teeth = pair.driver().tooth_count() as usize;
+    pair.rolling().turns() > 2 * FOLLOWED * teeth
+}
+
+/// Whether the pitch curves swing once in two pitches or more often, by more than rounding.
 fn swings(pair: &GearPair) -> bool {
     pair.rolling().turns() >= pair.driver().tooth_count() as usize
 }

@@ -238,8 +238,8 @@ fn fitted_teeth_of_circles_at_a_small_pressure_angle_carry() {
 
 #[test]
 fn gears_that_stray_are_told_by_few_samples() {
-    // A pitch curve that swings as often as there are teeth, and 25 times as often.
-    for radius in ["1+0.02*cos(40*phi)", "1+0.00001*cos(1003*phi)"] {
+    // A pitch curve that swings as often as there are teeth, and 24 times as often.
+    for radius in ["1+0.02*cos(40*phi)", "1+0.00001*cos(963*phi)"] {
         let text = format!(
             "family = \"gear-pair\"\n[pitch]\nkind = \"polar\"\nmodule = 2\nexpression = \"{radius}\"\ntooth_count = 40\n[teeth]\naddendum = \"fitted\"\nbacklash = 0.05\n"
         );

@@ -13,7 +13,7 @@ use centrode_mechanism::gear::{GearPair, Limits, Member, ToolKind};
 
 use self::remedy::remedy;
 use self::teeth::teeth;
-use crate::contact::Meshing;
+use crate::contact::{Meshing, is_restless};
 use crate::progress::filling;
 use crate::{Contact, ContactExtremes, Finding, Place, Report, Severity, Unit};
 
@@ -307,8 +307,8 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
                     percent if percent < 0.1 => "less than 0.1".to_owned(),
                     percent => format!("{percent:.1}"),
                 },
-                // Of gears that stray nothing is followed between the samples.
-                if contact.strays(pair) { "at least" } else { "up to" },
+                // Of some gears nothing is followed between the samples.
+                if contact.is_followed(pair) { "up to" } else { "at least" },
                 worst.0,
             ),
             measured: Some(worst.0),
@@ -318,6 +318,25 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
         });
     }
     report.findings.extend(seat_jump(pair, contact));
+    report.findings.extend(restless(pair, contact));
+}
+
+/// Pitch curves that swing so often that figures of the mesh are those of samples, as a finding.
+fn restless(pair: &GearPair, contact: &Contact) -> Option<Finding> {
+    let (swings, teeth) = (pair.rolling().turns() / 2, pair.driver().tooth_count());
+    is_restless(pair).then(|| Finding {
+        rule: "pitch-curve-swings",
+        remedy: remedy("pitch-curve-swings"),
+        severity: Severity::Note,
+        message: format!(
+            "the pitch curves swing {swings} times for {teeth} teeth: the figures of the mesh are the greatest and least at {} places, and others between them may go beyond",
+            contact.input.len()
+        ),
+        measured: Some(swings as f64),
+        required: Some(f64::from(2 * teeth)),
+        unit: Unit::Count,
+        place: Place::default(),
+    })
 }
 
 /// The greatest jump of a seat, as a finding.

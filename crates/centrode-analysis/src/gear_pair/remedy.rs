@@ -26,6 +26,7 @@ pub(crate) fn remedy(rule: &str) -> Option<&'static str> {
         "pressure-angle" => {
             "a pitch curve whose radius changes more slowly, or a smaller tool pressure angle"
         }
+        "pitch-curve-swings" => "a smoother law, or fewer points of it or more digits",
         "pitch-curves-overlap" => "a law whose ratio swings less, or swings fewer times a turn",
         "shaper-radius" => "a shaper of fewer teeth, or a pitch curve less concave",
         _ => return None,

@@ -5,7 +5,7 @@ use crate::gear::profile::ProfileError;
 use crate::gear::rolling::{Member, RollingError};
 use crate::gear::teeth::TeethError;
 
-use super::follow::MOST_SWINGS;
+use super::follow::{MOST_SWINGS, MOST_WORK};
 
 /// Reason why a design gives no gear pair.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -47,12 +47,22 @@ pub enum GearPairError {
         /// Ratio of the law.
         implied: (u32, u32),
     },
+    /// The pitch curve swings so often that the waves of a tooth cannot all be told from each other.
+    #[error(
+        "the pitch curves swing {swings} times for {teeth} teeth; swings times swings a tooth may be {MOST_WORK} at most: smooth the law, or give fewer points or more digits"
+    )]
+    Waves {
+        /// Waves of the radius in a turn.
+        swings: usize,
+        /// Teeth of the driver.
+        teeth: u32,
+    },
     /// The pitch curve swings many times a tooth, on arcs too small for it.
     #[error(
-        "the pitch curves rise and fall {swings} times for {teeth} teeth, on arcs of {radius:.4} mm: no tooth of module {module:.4} mm follows that; with arcs under half a module they may swing {MOST_SWINGS} times a tooth"
+        "the pitch curves swing {swings} times for {teeth} teeth, on arcs of {radius:.4} mm: no tooth of module {module:.4} mm follows that; with arcs under half a module they may swing {MOST_SWINGS} times a tooth: smooth the law, or give fewer points or more digits"
     )]
     Swings {
-        /// How often the radius rises and falls in a turn.
+        /// Waves of the radius in a turn.
         swings: usize,
         /// Teeth of the driver.
         teeth: u32,
@@ -102,7 +112,9 @@ impl GearPairError {
             Self::Pitch(error) => format!("pitch.{}", error.key()),
             Self::Rolling(RollingError::MeanRatio { .. } | RollingError::NotPeriodic { .. })
             | Self::MeanRatio { .. } => "mean_ratio".into(),
-            Self::Rolling(_) | Self::Corner { .. } | Self::Swings { .. } => "pitch".into(),
+            Self::Rolling(_) | Self::Corner { .. } | Self::Swings { .. } | Self::Waves { .. } => {
+                "pitch".into()
+            }
             Self::Teeth(TeethError::TipRadius { .. }) => "tool.tip_radius_coefficient".into(),
             Self::Teeth(TeethError::NoTip { .. }) => "tool.dedendum_coefficient".into(),
             // Without the backlash there would be a tooth.

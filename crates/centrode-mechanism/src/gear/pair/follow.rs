@@ -3,23 +3,30 @@
 use super::GearPairError;
 use crate::gear::Rolling;
 
-/// Least radius of curvature, modules, of pitch curves that may swing as often as they like.
+/// Swings a tooth of any pitch curve.
+const FREE: usize = 2;
+
+/// Greatest product of the swings in a turn and the swings a tooth: every wave of a flank may cross every other of the tooth, so
+/// the work goes with it.
+pub(super) const MOST_WORK: usize = 25_000;
+
+/// Least radius of curvature, modules, of pitch curves that swing as often as the work allows.
 const LEAST_ARC: f64 = 0.5;
 
 /// Most swings a tooth of sharper ones.
-pub(super) const MOST_SWINGS: u32 = 2;
+pub(super) const MOST_SWINGS: usize = 4;
 
 /// Checks that teeth can follow the pitch curves: these may swing often, and have small arcs, but not both.
-///
-/// What a tool leaves of such teeth are crossings of every wave of a flank with every other, which grow with the square of the
-/// waves a tooth.
 pub(super) fn follow(rolling: &Rolling, teeth: u32, module: f64) -> Result<(), GearPairError> {
-    let swings = rolling.turns() / 2;
-    if swings <= MOST_SWINGS as usize * teeth as usize {
+    let (swings, count) = (rolling.turns() / 2, teeth as usize);
+    if swings <= FREE * count {
         return Ok(());
     }
+    if swings * swings > MOST_WORK * count {
+        return Err(GearPairError::Waves { swings, teeth });
+    }
     let radius = rolling.sharpest();
-    if radius >= LEAST_ARC * module {
+    if swings <= MOST_SWINGS * count || radius >= LEAST_ARC * module {
         return Ok(());
     }
     Err(GearPairError::Swings {
@@ -67,13 +74,19 @@ mod tests {
             panic!("{error}");
         };
         assert_eq!((swings, teeth), (503, 40));
-        // Where the radius is least, a quarter of a wave on from where the pitch curve is steepest, the curvature is about
-        // (1 + e n^2)/r, and that of the mate the same with the other sign.
+        // Beside the waves the circle counts for nothing: their curvature is about e n^2/r, and that of the mate the same with the other
+        // sign. Their slope makes the pitch curve longer by a sixteenth.
         let r = 40.0 * module / (2.0 * 1.06);
         let expected = r / (1.0 + 0.001 * 503.0 * 503.0);
         assert!(
             (radius / expected - 1.0).abs() < 0.05,
             "{radius} {expected}"
         );
+        // Waves of a nanometre are no arcs to speak of, but too many.
+        let refused = resolved("1 + 0.00000001*cos(2003*phi)", 40);
+        let Err(GearPairError::Waves { swings, .. }) = refused else {
+            panic!("{refused:?}");
+        };
+        assert_eq!(swings, 2003);
     }
 }

@@ -14,7 +14,7 @@ pub enum RollingError {
     },
     /// The pitch curve swings or kinks too often to be followed.
     #[error(
-        "the pitch curve is not smooth even in {unsettled} pieces of 1/4096 of its parameter's range, or of the range between two ends that it gives; at most {most} may be so: it swings, or kinks, too often"
+        "the pitch curve swings, or kinks, too often: cut into 4096 pieces, between each two of its own joints, it is still not smooth in {unsettled} of them, of which {most} are let pass; smooth the law"
     )]
     Unsettled {
         /// Pieces on which the curve's length is no polynomial to a billionth.

@@ -88,7 +88,7 @@ pub struct Rolling {
     mean_ratio: (u32, u32),
     least: Extreme,
     greatest: Extreme,
-    /// How often the radius goes from rising to falling or back in a turn.
+    /// How often the slope of the radius goes from rising to falling or back in a turn.
     turns: usize,
     symmetry: Symmetry,
     /// Ranges of both curvatures, found when first needed.
@@ -160,8 +160,8 @@ impl Rolling {
         }
     }
 
-    /// How often the driver's radius goes from rising to falling, or back, in a turn, by more than rounding: an ellipse's about its
-    /// focus does twice.
+    /// How often the slope of the driver's radius goes from rising to falling, or back, in a turn, by more than rounding: twice a wave,
+    /// also of waves on a radius that rises or falls all along. That of an ellipse about its focus does twice.
     #[must_use]
     pub fn turns(&self) -> usize {
         self.turns

@@ -9,8 +9,8 @@ use crate::gear::pitch::{Symmetry, gcd};
 /// Most pieces on which a pitch curve may not be smooth, as beside a kink.
 const MOST_UNSETTLED: usize = 64;
 
-/// Share of the greatest radius by which a radius that rises or falls changes at least.
-const RISES: f64 = 1e-9;
+/// Share of the greatest radius, a radian, by which the slope of a radius that swings changes at least.
+const SWINGS: f64 = 1e-7;
 
 impl Rolling {
     /// Finds the centre distance at which `curve` drives a closed conjugate curve at `mean_ratio`
@@ -173,8 +173,8 @@ fn axis_crossings(curve: &dyn Curve, period: f64) -> Result<(f64, f64), RollingE
     }
 }
 
-/// Least and greatest radius, sharpened from the samples of the arc-length panels, and how often the radius goes from rising to
-/// falling or back in a turn.
+/// Least and greatest radius, sharpened from the samples of the arc-length panels, and how often the slope of the radius goes from
+/// rising to falling or back in a turn: a wave is seen on a radius that falls, too.
 fn extremes(curve: &dyn Curve, arc: &Antiderivative) -> (Extreme, Extreme, usize) {
     let slope = |t: f64| {
         let jet = curve.at(t);
@@ -198,9 +198,7 @@ fn extremes(curve: &dyn Curve, arc: &Antiderivative) -> (Extreme, Extreme, usize
         if radius > greatest.radius {
             greatest = Extreme { at, radius };
         }
-        radius
     };
-    let mut radii = Vec::with_capacity(samples.len());
     let count = samples.len();
     for i in 0..count {
         let a = samples[i];
@@ -213,20 +211,28 @@ fn extremes(curve: &dyn Curve, arc: &Antiderivative) -> (Extreme, Extreme, usize
         if (fa > 0.0) != (fb > 0.0) {
             take(bracketed_root(slope, a, b, fa, fb));
         }
-        radii.push(take(a));
+        take(a);
     }
-    let turns = turns(&radii, RISES * greatest.radius);
+    let rates = samples.iter().map(|&t| {
+        let jet = curve.at(t);
+        let p = jet.point.coords;
+        p.norm() * p.dot(&jet.first) / p.perp(&jet.first)
+    });
+    let turns = turns(rates, SWINGS * greatest.radius);
     (least, greatest, turns)
 }
 
 /// How often a closed row of values goes from rising to falling or back, by more than a threshold.
-fn turns(values: &[f64], threshold: f64) -> usize {
+fn turns(values: impl Iterator<Item = f64>, threshold: f64) -> usize {
     let mut rises = Vec::new();
-    let mut from = values.first().copied().unwrap_or(0.0);
-    for &value in values {
-        if (value - from).abs() > threshold {
-            rises.push(value > from);
-            from = value;
+    let mut from: Option<f64> = None;
+    for value in values {
+        let change = value - from.unwrap_or(value);
+        if change.abs() > threshold {
+            rises.push(change > 0.0);
+        }
+        if from.is_none() || change.abs() > threshold {
+            from = Some(value);
         }
     }
     let again = rises.iter().cycle().skip(1);

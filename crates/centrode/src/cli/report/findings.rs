@@ -150,6 +150,7 @@ fn causes(rule: &str) -> &'static [&'static str] {
         "interference" => &["tool.dedendum_coefficient", "teeth.backlash"],
         "pressure-angle" => &["pitch.eccentricity", "tool.pressure_angle_deg"],
         "shaper-radius" => &["tool.tooth_count"],
+        "pitch-curve-swings" => &["pitch.expression"],
         "pitch-curves-overlap" => &[
             "pitch.expression",
             "pitch.eccentricity",
