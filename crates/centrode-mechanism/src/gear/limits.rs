@@ -1,4 +1,4 @@
-use centrode_geometry::{Extreme, bracketed_root, checkpoint, greatest};
+use centrode_geometry::{Extreme, checkpoint, greatest};
 
 use super::{
     design::GearPairDesign,
@@ -139,15 +139,19 @@ impl GearPair {
                     land(&leading, &trailing, h).map_or(-1.0, |w| w - self.teeth().least_tip_width)
                 };
                 // Most teeth are wide enough at the height the others leave.
-                let above = spare(height);
-                if above >= 0.0 {
+                if spare(height) >= 0.0 {
                     continue;
                 }
-                let below = spare(0.0);
-                height = match below < 0.0 {
-                    true => 0.0,
-                    false => bracketed_root(spare, 0.0, height, below, above),
-                };
+                let (mut low, mut high) = (0.0, height);
+                while high - low > 1e-9 * self.module() {
+                    let middle = 0.5 * (low + high);
+                    if spare(middle) < 0.0 {
+                        high = middle;
+                    } else {
+                        low = middle;
+                    }
+                }
+                height = low;
             }
         }
         height
