@@ -72,9 +72,6 @@ const JAMMED_SHARE: f64 = 0.02;
 /// Share of the samples off the law from which gears are taken not to run by their flanks.
 const STRAYED_SHARE: f64 = 0.2;
 
-/// Swings a tooth of pitch curves, above which nothing is followed between samples: every wave has its peak.
-const FOLLOWED: usize = 2;
-
 /// The contact of a pair along one whole cycle, one value an input.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Contact {
@@ -241,13 +238,12 @@ impl Contact {
 
 /// Whether the pitch curves swing more than twice a tooth.
 pub(crate) fn is_restless(pair: &GearPair) -> bool {
-    let teeth = pair.driver().tooth_count() as usize;
-    pair.rolling().turns() > 2 * FOLLOWED * teeth
+    pair.rolling().is_restless(pair.driver().tooth_count())
 }
 
 /// Whether the pitch curves swing once in two pitches or more often, by more than rounding.
 fn swings(pair: &GearPair) -> bool {
-    pair.rolling().turns() >= pair.driver().tooth_count() as usize
+    2 * pair.rolling().swings() >= pair.driver().tooth_count() as usize
 }
 
 /// Where the pitch curves touch at a driver angle.

@@ -323,7 +323,7 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
 
 /// Pitch curves that swing so often that figures of the mesh are those of samples, as a finding.
 fn restless(pair: &GearPair, contact: &Contact) -> Option<Finding> {
-    let (swings, teeth) = (pair.rolling().turns() / 2, pair.driver().tooth_count());
+    let (swings, teeth) = (pair.rolling().swings(), pair.driver().tooth_count());
     is_restless(pair).then(|| Finding {
         rule: "pitch-curve-swings",
         remedy: remedy("pitch-curve-swings"),

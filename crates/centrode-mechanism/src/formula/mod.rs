@@ -140,10 +140,7 @@ impl Function {
             Self::Atan => a.atan(),
             Self::Sinh => a.sinh_cosh().0,
             Self::Cosh => a.sinh_cosh().1,
-            Self::Tanh => {
-                let (sinh, cosh) = a.sinh_cosh();
-                sinh / cosh
-            }
+            Self::Tanh => a.tanh(),
             Self::Exp => a.exp(),
             Self::Ln => a.ln(),
             Self::Sqrt => a.sqrt(),

@@ -159,6 +159,17 @@ impl<const ORDERS: usize> Taylor<ORDERS> {
         self.circular((self.0[0].sinh(), self.0[0].cosh()), 1.0)
     }
 
+    pub(crate) fn tanh(self) -> Self {
+        // Of a large argument sinh and cosh are beyond any float; that of a small one needs its last digits.
+        if self.0[0].abs() < 1.0 {
+            let (sinh, cosh) = self.sinh_cosh();
+            return sinh / cosh;
+        }
+        let sign = self.0[0].signum();
+        let (one, e) = (Self::constant(1.0), (self * (-2.0 * sign)).exp());
+        (one - e) / (one + e) * sign
+    }
+
     pub(crate) fn exp(self) -> Self {
         let mut e = [0.0; ORDERS];
         e[0] = self.0[0].exp();

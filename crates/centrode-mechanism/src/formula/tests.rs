@@ -21,6 +21,8 @@ fn precedence_is_that_of_written_mathematics() {
         ("sqrt(16) - ln(exp(1))", 3.0),
         ("asin(1) + acos(0) - 2*atan(1)", std::f64::consts::FRAC_PI_2),
         ("pi", std::f64::consts::PI),
+        ("tanh(1000) - 2*tanh(-1000)", 3.0),
+        ("tanh(2) - sinh(2)/cosh(2)", 0.0),
     ] {
         assert!((value(text, 0.3) - expected).abs() < 1e-14, "{text}");
     }
@@ -34,6 +36,7 @@ fn derivatives_agree_with_differences_for_every_function() {
         .split(' ')
         .map(|f| format!("{f}{inner}"))
         .collect();
+    texts.extend(["tanh(2 + phi)", "tanh(-3000*phi)"].map(str::to_owned));
     texts.extend(["^2", "^-3", "^2.5", "^phi"].map(|p| format!("{inner}{p}")));
     texts.push(format!("phi/{inner} - phi*{inner}"));
     let h = 1e-4;

@@ -1,5 +1,7 @@
 //! Addenda trimmed flank by flank to what the pitch curves let mesh.
 
+use std::collections::HashSet;
+
 use centrode_geometry::{Point, bracketed_root, checkpoint, shared_out};
 
 use super::{
@@ -36,20 +38,18 @@ struct Meeting<'a> {
 }
 
 impl Meeting<'_> {
-    /// Reaches at which the teeth penetrate nowhere.
-    fn clear(&self, (driver, driven): (Reaches, Reaches)) -> (Reaches, Reaches) {
-        // A flank is needed as far down as any mate reaches; the mates' own reach bounds it.
-        let candidate = |member, crossings, reaches, mates: Reaches| Candidate {
+    /// Both teeth. A flank is needed as far down as any mate reaches; the mates' own reach bounds it.
+    fn candidates(&self, (driver, driven): (Reaches, Reaches)) -> [Candidate; 2] {
+        let candidate = |member, reaches, mates: Reaches| Candidate {
             member,
-            crossings,
+            crossings: self.crossings[member as usize],
             reaches,
             depths: [mates[1], mates[0]],
         };
-        let [one, two] = self.crossings;
-        self.passage.clear(
-            &candidate(Member::Driver, one, driver, driven),
-            &candidate(Member::Driven, two, driven, driver),
-        )
+        [
+            candidate(Member::Driver, driver, driven),
+            candidate(Member::Driven, driven, driver),
+        ]
     }
 }
 
@@ -150,19 +150,35 @@ impl Fitting<'_> {
                     crossings,
                 }));
             }
-            // Few teeth are shortened: most of what is found side by side holds when its turn comes.
-            let before = (reach_1.clone(), reach_2.clone());
-            let known = |[i, j]: [usize; 2]| (before.0[i], before.1[j]);
-            let cleared = shared_out(&met, |meeting| meeting.clear(known(meeting.teeth)));
-            for (meeting, cleared) in met.iter().zip(cleared) {
-                let [i, j] = meeting.teeth;
-                let now = (reach_1[i], reach_2[j]);
-                let holds = now == known(meeting.teeth);
-                let cleared = if holds { cleared } else { meeting.clear(now) };
-                if cleared != now {
-                    changed = to;
+            let known = |[i, j]: [usize; 2]| (reach_1[i], reach_2[j]);
+            let are_foul = shared_out(&met, |meeting| {
+                let teeth = meeting.candidates(known(meeting.teeth));
+                meeting.passage.is_foul(&teeth)
+            });
+            // Teeth that are clear stay so when they are shortened.
+            let mut left: Vec<&Meeting> = (met.iter().zip(are_foul))
+                .filter_map(|(meeting, is_foul)| is_foul.then_some(meeting))
+                .collect();
+            while !left.is_empty() {
+                // Side by side go those of which no tooth is in one before.
+                let mut busy = HashSet::new();
+                let (first, later): (Vec<&Meeting>, _) = left.into_iter().partition(|meeting| {
+                    let teeth = meeting.teeth.into_iter().enumerate();
+                    teeth.fold(true, |free, tooth| busy.insert(tooth) && free)
+                });
+                left = later;
+                let known = |[i, j]: [usize; 2]| (reach_1[i], reach_2[j]);
+                let cleared = shared_out(&first, |meeting| {
+                    let teeth = meeting.candidates(known(meeting.teeth));
+                    meeting.passage.clear(&teeth)
+                });
+                for (meeting, cleared) in first.iter().zip(cleared) {
+                    let [i, j] = meeting.teeth;
+                    if cleared != (reach_1[i], reach_2[j]) {
+                        changed = to;
+                    }
+                    (reach_1[i], reach_2[j]) = cleared;
                 }
-                (reach_1[i], reach_2[j]) = cleared;
             }
         }
         let settled = |member: Member, teeth: &mut [ToothPlan], mut reaches: Vec<Reaches>| {

@@ -185,9 +185,18 @@ impl<'a> ToothPassage<'a> {
         })
     }
 
+    /// Whether two teeth penetrate each other at any pose.
+    pub(crate) fn is_foul(&self, teeth: &[Candidate; 2]) -> bool {
+        checkpoint();
+        let shape = |candidate| Rc::new(ToothChords::new((self.rolling, self.tool), candidate));
+        let teeth = teeth.each_ref().map(shape);
+        let mut poses = self.near.iter();
+        poses.any(|pose| penetrate(pose, &teeth, self.pitch))
+    }
+
     /// Shortens one tooth or the other, whichever costs less, or both, until they penetrate nowhere.
-    pub(crate) fn clear(&self, driver: &Candidate, driven: &Candidate) -> (Reaches, Reaches) {
-        let (driver, driven) = (Trimmed::new(driver), Trimmed::new(driven));
+    pub(crate) fn clear(&self, teeth: &[Candidate; 2]) -> (Reaches, Reaches) {
+        let [driver, driven] = teeth.each_ref().map(Trimmed::new);
         let shapes = |[first, second]: [f64; 2]| {
             checkpoint();
             [driver.shape(self, first), driven.shape(self, second)]

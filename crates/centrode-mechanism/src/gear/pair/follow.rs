@@ -3,9 +3,6 @@
 use super::GearPairError;
 use crate::gear::Rolling;
 
-/// Swings a tooth of any pitch curve.
-const FREE: usize = 2;
-
 /// Greatest product of the swings in a turn and the swings a tooth: every wave of a flank may cross every other of the tooth, so
 /// the work goes with it.
 pub(super) const MOST_WORK: usize = 25_000;
@@ -18,10 +15,10 @@ pub(super) const MOST_SWINGS: usize = 4;
 
 /// Checks that teeth can follow the pitch curves: these may swing often, and have small arcs, but not both.
 pub(super) fn follow(rolling: &Rolling, teeth: u32, module: f64) -> Result<(), GearPairError> {
-    let (swings, count) = (rolling.turns() / 2, teeth as usize);
-    if swings <= FREE * count {
+    if !rolling.is_restless(teeth) {
         return Ok(());
     }
+    let (swings, count) = (rolling.swings(), teeth as usize);
     if swings * swings > MOST_WORK * count {
         return Err(GearPairError::Waves { swings, teeth });
     }

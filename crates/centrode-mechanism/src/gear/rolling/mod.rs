@@ -88,8 +88,8 @@ pub struct Rolling {
     mean_ratio: (u32, u32),
     least: Extreme,
     greatest: Extreme,
-    /// How often the slope of the radius goes from rising to falling or back in a turn.
-    turns: usize,
+    /// How often the radius swings in a turn.
+    swings: usize,
     symmetry: Symmetry,
     /// Ranges of both curvatures, found when first needed.
     ranges: OnceLock<[CurvatureRange; 2]>,
@@ -160,11 +160,18 @@ impl Rolling {
         }
     }
 
-    /// How often the slope of the driver's radius goes from rising to falling, or back, in a turn, by more than rounding: twice a wave,
-    /// also of waves on a radius that rises or falls all along. That of an ellipse about its focus does twice.
+    /// How often the driver's radius swings in a turn, by more than rounding: once a wave, also of waves on a radius that rises or
+    /// falls all along. That of an ellipse about its focus does once.
     #[must_use]
-    pub fn turns(&self) -> usize {
-        self.turns
+    pub fn swings(&self) -> usize {
+        self.swings
+    }
+
+    /// Whether the pitch curves swing more than twice a tooth of a driver with `teeth`: every wave has its peak, and their teeth are
+    /// looked at at few places.
+    #[must_use]
+    pub fn is_restless(&self, teeth: u32) -> bool {
+        self.swings > 2 * teeth as usize
     }
 
     /// Least radius of curvature of both pitch curves, mm, among the nodes of the arc length's pieces.

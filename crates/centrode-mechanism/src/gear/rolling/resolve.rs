@@ -1,7 +1,7 @@
 use std::f64::consts::TAU;
 use std::sync::{Arc, OnceLock};
 
-use centrode_geometry::{Antiderivative, Curve, Point, bracketed_root};
+use centrode_geometry::{Antiderivative, Curve, Jet, Point, bracketed_root};
 
 use super::{Extreme, Rolling, RollingError, SAME};
 use crate::gear::pitch::{Symmetry, gcd};
@@ -43,17 +43,19 @@ impl Rolling {
                 most: MOST_UNSETTLED,
             });
         }
-        let nodes: Vec<(f64, f64)> = arc
+        let jets: Vec<(f64, f64, Jet)> = arc
             .nodes()
-            .map(|(t, weight)| {
-                let jet = curve.at(t);
-                (
-                    jet.point.coords.norm(),
-                    weight * jet.point.coords.perp(&jet.first),
-                )
-            })
+            .map(|(t, weight)| (t, weight, curve.at(t)))
             .collect();
-        let (least, greatest, turns) = extremes(&*curve, &arc);
+        let node = |&(_, weight, jet): &(f64, f64, Jet)| {
+            let p = jet.point.coords;
+            (p.norm(), weight * p.perp(&jet.first))
+        };
+        let nodes: Vec<(f64, f64)> = jets.iter().map(node).collect();
+        let mut samples: Vec<(f64, Jet)> = jets.iter().map(|&(t, _, jet)| (t, jet)).collect();
+        samples.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let [least, greatest] = extremes(&*curve, &samples);
+        let swings = swings(&samples, SWINGS * greatest.radius);
         let wanted = TAU * f64::from(ratio.1) / f64::from(ratio.0);
         let mut a = closure(&nodes, greatest.radius, wanted);
         let mut driven = driven_angle(&*curve, &breaks, a);
@@ -97,7 +99,7 @@ impl Rolling {
             mean_ratio: ratio,
             least,
             greatest,
-            turns,
+            swings,
             symmetry: Symmetry::NONE,
             ranges: OnceLock::new(),
         };
@@ -173,25 +175,14 @@ fn axis_crossings(curve: &dyn Curve, period: f64) -> Result<(f64, f64), RollingE
     }
 }
 
-/// Least and greatest radius, sharpened from the samples of the arc-length panels, and how often the slope of the radius goes from
-/// rising to falling or back in a turn: a wave is seen on a radius that falls, too.
-fn extremes(curve: &dyn Curve, arc: &Antiderivative) -> (Extreme, Extreme, usize) {
-    let slope = |t: f64| {
-        let jet = curve.at(t);
-        jet.point.coords.dot(&jet.first)
-    };
-    let mut samples: Vec<f64> = arc.nodes().map(|(t, _)| t).collect();
-    samples.sort_by(f64::total_cmp);
-    let mut least = Extreme {
-        at: 0.0,
-        radius: f64::INFINITY,
-    };
-    let mut greatest = Extreme {
-        at: 0.0,
-        radius: 0.0,
-    };
-    let mut take = |at: f64| {
-        let radius = curve.at(at).point.coords.norm();
+/// Least and greatest radius, sharpened from samples all along the curve.
+fn extremes(curve: &dyn Curve, samples: &[(f64, Jet)]) -> [Extreme; 2] {
+    let slope_of = |jet: &Jet| jet.point.coords.dot(&jet.first);
+    let slope = |t: f64| slope_of(&curve.at(t));
+    let extreme = |radius| Extreme { at: 0.0, radius };
+    let (mut least, mut greatest) = (extreme(f64::INFINITY), extreme(0.0));
+    let mut take = |at: f64, jet: &Jet| {
+        let radius = jet.point.coords.norm();
         if radius < least.radius {
             least = Extreme { at, radius };
         }
@@ -199,27 +190,29 @@ fn extremes(curve: &dyn Curve, arc: &Antiderivative) -> (Extreme, Extreme, usize
             greatest = Extreme { at, radius };
         }
     };
-    let count = samples.len();
-    for i in 0..count {
-        let a = samples[i];
-        let b = if i + 1 < count {
-            samples[i + 1]
-        } else {
-            samples[0] + curve.period()
+    for (i, (a, jet)) in samples.iter().enumerate() {
+        let (b, next) = match samples.get(i + 1) {
+            Some((b, next)) => (*b, next),
+            None => (samples[0].0 + curve.period(), &samples[0].1),
         };
-        let (fa, fb) = (slope(a), slope(b));
+        let (fa, fb) = (slope_of(jet), slope_of(next));
         if (fa > 0.0) != (fb > 0.0) {
-            take(bracketed_root(slope, a, b, fa, fb));
+            let at = bracketed_root(slope, *a, b, fa, fb);
+            take(at, &curve.at(at));
         }
-        take(a);
+        take(*a, jet);
     }
-    let rates = samples.iter().map(|&t| {
-        let jet = curve.at(t);
+    [least, greatest]
+}
+
+/// How often the radius swings in a turn: its slope goes from rising to falling and back by more than a threshold, which a wave on a
+/// radius that falls does, too.
+fn swings(samples: &[(f64, Jet)], threshold: f64) -> usize {
+    let slopes = samples.iter().map(|(_, jet)| {
         let p = jet.point.coords;
         p.norm() * p.dot(&jet.first) / p.perp(&jet.first)
     });
-    let turns = turns(rates, SWINGS * greatest.radius);
-    (least, greatest, turns)
+    turns(slopes, threshold) / 2
 }
 
 /// How often a closed row of values goes from rising to falling or back, by more than a threshold.
