@@ -2,12 +2,14 @@
 
 mod lanes;
 mod number;
+mod pace;
 mod parser;
 mod shortened;
 mod taylor;
 
 pub(crate) use lanes::{LANES, Lanes, groups};
 pub(crate) use number::Number;
+pub(crate) use pace::Steep;
 pub(crate) use parser::FormulaError;
 pub(crate) use taylor::Taylor;
 
@@ -74,11 +76,18 @@ impl Formula {
 
     /// Taylor coefficients of the formula around `phi`; not finite where it has no value.
     pub(crate) fn at(&self, phi: f64) -> Taylor {
+        self.run(phi, |_, _, _| ())
+    }
+
+    /// Evaluates the formula, and tells the value of each function, product, quotient and power by its place in the program, with
+    /// the argument of one that may change at once.
+    #[inline]
+    fn run(&self, phi: f64, mut seen: impl FnMut(usize, Option<&Taylor>, &Taylor)) -> Taylor {
         let mut stack = [Taylor::constant(0.0); DEEPEST];
         let mut top = 0;
         // Terms of a Fourier sum come in pairs.
         let mut wave = (f64::NAN, stack[0], stack[0]);
-        for step in &self.program {
+        for (place, step) in self.program.iter().enumerate() {
             match step {
                 Step::Constant(c) => {
                     stack[top] = Taylor::constant(*c);
@@ -102,11 +111,21 @@ impl Formula {
                 }
                 Step::Scale(c) => stack[top - 1] = stack[top - 1] * *c,
                 Step::Negate => stack[top - 1] = -stack[top - 1],
-                Step::PowerConstant(p) => stack[top - 1] = stack[top - 1].power(*p),
-                Step::Apply(f) => stack[top - 1] = f.of(stack[top - 1]),
+                Step::PowerConstant(p) => {
+                    stack[top - 1] = stack[top - 1].power(*p);
+                    seen(place, None, &stack[top - 1]);
+                }
+                Step::Apply(f) => {
+                    let of = stack[top - 1];
+                    stack[top - 1] = f.of(of);
+                    seen(place, f.is_quick().then_some(&of), &stack[top - 1]);
+                }
                 Step::Add | Step::Subtract | Step::Multiply | Step::Divide | Step::Power => {
                     top -= 1;
                     stack[top - 1] = step.combine(stack[top - 1], stack[top]);
+                    if !matches!(step, Step::Add | Step::Subtract) {
+                        seen(place, None, &stack[top - 1]);
+                    }
                 }
             }
         }
@@ -120,6 +139,10 @@ impl Step {
             Self::Add => a + b,
             Self::Subtract => a - b,
             Self::Multiply => a * b,
+            // Of a value in use beside what comes near the greatest float nothing is left.
+            Self::Divide if b.0[0].abs() > 1e200 && a.0.iter().all(|c| c.abs() < 1e100) => {
+                Taylor::constant(0.0)
+            }
             Self::Divide => a / b,
             _ => (a.ln() * b).exp(),
         }
@@ -127,6 +150,12 @@ impl Step {
 }
 
 impl Function {
+    /// Whether what changes within a step of its argument may lie next to nothing, as the foot of a bump; what changes at a
+    /// root or a pole is seen from afar.
+    fn is_quick(self) -> bool {
+        !matches!(self, Self::Ln | Self::Sqrt | Self::Asin | Self::Acos)
+    }
+
     fn of(self, a: Taylor) -> Taylor {
         match self {
             Self::Sin => a.sin_cos().0,

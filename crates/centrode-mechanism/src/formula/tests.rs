@@ -23,6 +23,8 @@ fn precedence_is_that_of_written_mathematics() {
         ("pi", std::f64::consts::PI),
         ("tanh(1000) - 2*tanh(-1000)", 3.0),
         ("tanh(2) - sinh(2)/cosh(2)", 0.0),
+        ("1 + 2/(1 + exp(800))", 1.0),
+        ("1 + 2/(1 + exp(700*cos(phi/300)))", 1.0),
     ] {
         assert!((value(text, 0.3) - expected).abs() < 1e-14, "{text}");
     }
@@ -55,6 +57,60 @@ fn derivatives_agree_with_differences_for_every_function() {
                 );
             }
         }
+    }
+}
+
+#[test]
+fn a_turn_is_parted_where_a_formula_has_what_is_narrow() {
+    let parts = |text: &str| {
+        Formula::read(text)
+            .expect(text)
+            .parts(std::f64::consts::TAU)
+    };
+    // Curves of pitch curves in use, with waves, and a sum that is one but for its rounding.
+    for text in [
+        "1 + 0.5*cos(3*phi)",
+        "20/(1 - 0.9*cos(phi))",
+        "1 + 0.00001*cos(963*phi)",
+        "sqrt(cos(phi)^2 + sin(phi)^2)",
+        "1 + 0.1*exp(-20*(1 - cos(2*phi)))",
+    ] {
+        assert_eq!(parts(text), Ok(Vec::new()), "{text}");
+    }
+    // Bumps 1/(5 sqrt(a)) wide, steps 1/(7 a) wide; the rate of a bump is exp(-1/2) over its width, that of a step half.
+    for (text, rate) in [
+        (
+            "1 + 0.0001*exp(-700*(1 - cos(5*phi)))",
+            5.0 * 700_f64.sqrt() * (-0.5_f64).exp(),
+        ),
+        (
+            "1 + exp(-20000*(1 - cos(5*phi - 0.3)))",
+            5.0 * 20_000_f64.sqrt() * (-0.5_f64).exp(),
+        ),
+        ("1 + 0.002*tanh(300*sin(7*phi))", 1050.0),
+        ("1/(1 + exp(600*(cos(phi) - 0.99)))", 40.0),
+    ] {
+        let found = parts(text).expect(text);
+        let wanted = std::f64::consts::TAU * rate / 24.0;
+        assert!(
+            found.len() as f64 + 1.0 >= wanted,
+            "{text}: {} {wanted}",
+            found.len()
+        );
+        assert!(
+            (found.len() as f64) < 2.0 * wanted + 60.0,
+            "{text}: {} {wanted}",
+            found.len()
+        );
+        assert_eq!((found.len() + 1) % 60, 0);
+    }
+    for text in [
+        "1 + 0.002*tanh(3000*sin(7*phi))",
+        "1 + 0.01*tanh(1e9*sin(2*phi))*cos(phi)",
+        "1 + 0.1*exp(-1e9*(1 - cos(5*phi - 0.3)))",
+    ] {
+        let steep = parts(text).expect_err(text);
+        assert!(steep.width < steep.least, "{text}: {steep:?}");
     }
 }
 

@@ -1,4 +1,4 @@
-use centrode_geometry::{Outline, PolySegment, Segment, Tolerance, bracketed_minimum};
+use centrode_geometry::{Outline, Point, PolySegment, Segment, Tolerance, bracketed_minimum};
 
 use super::GearPairError;
 use crate::bore;
@@ -48,6 +48,10 @@ impl Gear {
             teeth,
             body,
         };
+        if !gear.outline.contains(Point::origin()) {
+            let away = gear.radii.0;
+            return Err(ProfileError::AxisOutside { member, away }.into());
+        }
         gear.clears_bore()?;
         Ok(gear)
     }

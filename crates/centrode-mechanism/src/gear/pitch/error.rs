@@ -196,6 +196,18 @@ pub enum PitchError {
         /// The value.
         value: f64,
     },
+    /// A formula with features too narrow to be followed.
+    #[error(
+        "{key} changes within about {width:.1e} rad; what is narrower than {least:.1e} rad is not followed: take a gentler step, a wider bump or slower waves"
+    )]
+    Steep {
+        /// Key of the function.
+        key: &'static str,
+        /// About how wide the narrowest feature is, rad.
+        width: f64,
+        /// Width of those that can be followed, rad.
+        least: f64,
+    },
     /// The driven gear stops or turns back.
     #[error(
         "d driven / d driver falls to {ratio:.6} at phi = {angle:.3} deg; it must stay above 0"
@@ -265,6 +277,7 @@ impl PitchError {
             | Self::NotAroundAxis { key, .. }
             | Self::OpenCurve { key, .. }
             | Self::Undefined { key, .. }
+            | Self::Steep { key, .. }
             | Self::TooRough { key, .. }
             | Self::RatioNotPositive { key, .. }
             | Self::RatioNotRational { key, .. }

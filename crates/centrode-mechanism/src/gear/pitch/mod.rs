@@ -9,6 +9,8 @@ use centrode_geometry::{Antiderivative, Curve};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::digits;
+
 mod bezier;
 mod bspline;
 mod circle;
@@ -219,10 +221,13 @@ impl Draft {
         };
         let symmetry = self.curve.symmetry();
         let shape: Arc<dyn ScalableCurve> = Arc::from(self.curve);
-        let told = |value: f64| (value * 1e9).round() / 1e9;
+        let told = |value: f64| match value {
+            ..1e-3 => digits::told(value),
+            _ => ((value * 1e9).round() / 1e9).to_string(),
+        };
         self.definition += &match self.scaled {
             Scaled::Length(symbol, length) => format!(", {symbol} = {} mm", told(length * factor)),
-            Scaled::Written if told(factor) != 1.0 => format!(", times {}", told(factor)),
+            Scaled::Written if told(factor) != "1" => format!(", times {}", told(factor)),
             Scaled::Written | Scaled::Not => String::new(),
         };
         Ok(Pitch {

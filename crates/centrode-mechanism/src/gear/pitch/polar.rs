@@ -9,7 +9,7 @@ use super::plane::{Derivatives, Direction, PolarCurve, RadiusLaw};
 use super::size::{OwnSize, Size};
 use super::{Draft, PitchError, Symmetry};
 use crate::degrees;
-use crate::formula::{Formula, FormulaError};
+use crate::formula::{Formula, FormulaError, Steep};
 
 /// A radius as a function of the polar angle: a formula, a table or a Fourier series.
 ///
@@ -162,6 +162,12 @@ pub(crate) fn read_formula(key: &'static str, text: &str) -> Result<Formula, Pit
     })
 }
 
+/// Angles at which a formula is parted so that nothing narrow in it is stepped over.
+pub(crate) fn formula_parts(key: &'static str, formula: &Formula) -> Result<Vec<f64>, PitchError> {
+    let steep = |Steep { width, least }| PitchError::Steep { key, width, least };
+    formula.parts(TAU).map_err(steep)
+}
+
 #[derive(Debug)]
 struct FormulaLaw {
     formula: Formula,
@@ -186,10 +192,9 @@ impl FormulaLaw {
                 end: end[0],
             });
         }
-        Ok(Self {
-            formula,
-            breaks: seam(&start, &end),
-        })
+        let mut breaks = seam(&start, &end);
+        breaks.extend(formula_parts(key, &formula)?);
+        Ok(Self { formula, breaks })
     }
 }
 

@@ -515,21 +515,20 @@ fn a_definition_in_words_tells_the_size() {
     let told: f64 = words.trim_end_matches(" mm").parse().expect("a number");
     // The far apex lies A (1 + k) from the focus.
     assert!((told * 1.25 - far).abs() < 1e-8, "{}", pitch.definition);
-    let polar = |module| {
+    let polar = |expression: &str, module| {
         resolve(&PitchSpec::Polar(Polar {
-            expression: Some("30 + 2*cos(phi)".into()),
+            expression: Some(expression.into()),
             module,
             tooth_count: Some(20),
             ..Polar::default()
         }))
     };
-    let [written, scaled] = [polar(None), polar(Some(2.0))];
-    assert_eq!(written.definition, "polar, r = 30 + 2*cos(phi)");
-    let factor = scaled
-        .definition
-        .rsplit("times ")
-        .next()
-        .expect("its factor");
-    let factor: f64 = factor.parse().expect("a number");
-    assert!((factor - length(&scaled) / length(&written)).abs() < 1e-8);
+    for expression in ["30 + 2*cos(phi)", "3e10 + 2e9*cos(phi)"] {
+        let [written, scaled] = [None, Some(2.0)].map(|module| polar(expression, module));
+        assert_eq!(written.definition, format!("polar, r = {expression}"));
+        let factor = scaled.definition.rsplit("times ").next();
+        let factor: f64 = factor.expect("its factor").parse().expect("a number");
+        let ratio = length(&scaled) / length(&written);
+        assert!((factor / ratio - 1.0).abs() < 1e-8, "{factor} {ratio}");
+    }
 }

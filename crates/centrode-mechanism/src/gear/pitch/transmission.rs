@@ -8,7 +8,7 @@ use super::error::{finite, positive};
 use super::periodic::{Interpolation, Periodic};
 use super::plane::{Derivatives, Direction, PolarCurve, RadiusLaw};
 use super::points::count;
-use super::polar::{read_formula, seam};
+use super::polar::{formula_parts, read_formula, seam};
 use super::size::{OwnSize, Size};
 use super::{Draft, PitchError, Scaled};
 use crate::degrees;
@@ -244,9 +244,9 @@ fn draft(
             end: end[0],
         });
     }
-    let mut breaks = law.breaks();
-    if breaks.is_empty() {
-        breaks = seam(&start, &end);
+    let mut breaks = law.breaks(key)?;
+    if breaks.first().is_none_or(|&first| first > 0.0) {
+        breaks.splice(0..0, seam(&start, &end));
     }
     let mut ends = breaks.clone();
     ends.retain(|&t| t > 0.0);
@@ -321,10 +321,10 @@ impl RatioForm {
         }
     }
 
-    fn breaks(&self) -> Vec<f64> {
+    fn breaks(&self, key: &'static str) -> Result<Vec<f64>, PitchError> {
         match self {
-            Self::Driven(_) | Self::Ratio(_) => Vec::new(),
-            Self::Swing(_, p) | Self::Table(p) => p.breaks(),
+            Self::Driven(f) | Self::Ratio(f) => formula_parts(key, f),
+            Self::Swing(_, p) | Self::Table(p) => Ok(p.breaks()),
         }
     }
 }

@@ -46,6 +46,14 @@ pub enum ProfileError {
         /// Their teeth, counted from 0.
         teeth: [u32; 2],
     },
+    /// A contour that leaves its axis outside, so that nothing can carry it.
+    #[error("the {} has no profile: its axis lies outside its contour, {away:.6} mm from it, so the teeth are too large for the pitch curve", .member.name())]
+    AxisOutside {
+        /// Gear at fault.
+        member: Member,
+        /// Distance of the axis from the contour, mm.
+        away: f64,
+    },
     /// The contour does not close: a coordinate is not a number.
     #[error(transparent)]
     Open(#[from] OpenOutline),

@@ -234,12 +234,20 @@ mean_ratio = [2, 1]"#,
 
 #[test]
 fn tips_stand_over_their_own_tooth_and_not_once_more_round_a_small_gear() {
-    assert_simple_polygons(
-        r#"pitch = { kind = "limacon", mean_radius = 25.35913982516481, amplitude = 15.068077987954187, lobes = 4, module = 0.7291877141555998, tooth_count = 10 }
-tool = { kind = "rack", pressure_angle_deg = 14.5, addendum_coefficient = 1.0, dedendum_coefficient = 1.1269599827850645, tip_radius_coefficient = 0.19402206952829182, profile_shift_coefficient = -0.3567265487281023 }
-teeth = { addendum = "full", phase = -0.35802832874925206, backlash = 0.0, thickness_split = 0.5 }
-mean_ratio = [1, 2]"#,
-    );
+    let text = |amplitude: f64| {
+        format!(
+            r#"pitch = {{ kind = "limacon", mean_radius = 25.35913982516481, amplitude = {amplitude}, lobes = 4, module = 0.7291877141555998, tooth_count = 10 }}
+tool = {{ kind = "rack", pressure_angle_deg = 14.5, addendum_coefficient = 1.0, dedendum_coefficient = 1.1269599827850645, tip_radius_coefficient = 0.19402206952829182, profile_shift_coefficient = -0.3567265487281023 }}
+teeth = {{ addendum = "full", phase = -0.35802832874925206, backlash = 0.0, thickness_split = 0.5 }}
+mean_ratio = [1, 2]"#
+        )
+    };
+    assert_simple_polygons(&text(13.0));
+    // With more of a wave the roots go past the axis, and the contours are as simple.
+    let refused = read(&text(15.068077987954187));
+    let Err(GearPairError::Profile(ProfileError::AxisOutside { .. })) = refused else {
+        panic!("{refused:?}");
+    };
 }
 
 #[test]
@@ -254,4 +262,34 @@ fn curves_of_a_tooth_that_do_not_meet_are_no_profile_and_told_with_their_distanc
     };
     assert_eq!(roles, [Role::Flank, Role::Tip]);
     assert!(gap > 1e-6, "{gap}");
+}
+
+#[test]
+fn a_contour_that_leaves_its_axis_outside_is_refused() {
+    let read = |eccentricity: f64| {
+        pair(
+            &format!(
+                "kind = \"eccentric-circle\", eccentricity = {eccentricity}, module = 0.5, tooth_count = 11"
+            ),
+            "kind = \"rack\"",
+            "addendum = \"fitted\", backlash = 0.00929, thickness_split = 0.52",
+        )
+    };
+    let refused = read(0.796);
+    let Err(error) = refused else {
+        panic!("{refused:?}");
+    };
+    assert_eq!(error.key(), "tooth_count");
+    let GearPairError::Profile(ProfileError::AxisOutside { away, .. }) = error else {
+        panic!("{error}");
+    };
+    // A root goes 0.625 mm below a pitch radius of about 0.56 mm.
+    assert!(away > 0.01 && away < 0.1, "{away}");
+    let sound = read(0.7).expect("a pair");
+    assert!(
+        sound
+            .driver()
+            .outline()
+            .contains(centrode_geometry::Point::origin())
+    );
 }

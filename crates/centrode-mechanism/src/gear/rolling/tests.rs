@@ -98,6 +98,30 @@ fn a_radius_swings_once_a_wave() {
 }
 
 #[test]
+fn bumps_that_lie_between_the_nodes_of_a_whole_turn_count() {
+    let rolling = polar("1 + 0.0001*exp(-700*(1 - cos(5*phi)))").expect("rolls");
+    // Of the driver 5 bumps of the area of a bell, whose width is 1/(5 sqrt(700)): by a sum over even places, which is
+    // exact for what repeats.
+    let law = |phi: f64| 1.0 + 0.0001 * (-700.0 * (1.0 - (5.0 * phi).cos())).exp();
+    let slope = |phi: f64| {
+        -0.0001 * 3500.0 * (5.0 * phi).sin() * (-700.0 * (1.0 - (5.0 * phi).cos())).exp()
+    };
+    let places = 20_000;
+    let sum: f64 = (0..places)
+        .map(|k| std::f64::consts::TAU * f64::from(k) / f64::from(places))
+        .map(|phi| law(phi).hypot(slope(phi)))
+        .sum();
+    let length = sum * std::f64::consts::TAU / f64::from(places);
+    let found = rolling.pitch_length(Member::Driver) / rolling.radius(0.3) * law(0.3);
+    assert!((found / length - 1.0).abs() < 1e-13, "{found} {length}");
+    // The law keeps step: a fifth of a turn is one of the driven gear, too.
+    for fifth in 1..5 {
+        let phi = std::f64::consts::TAU * f64::from(fifth) / 5.0;
+        assert!((rolling.driven_angle(phi) - phi).abs() < 1e-13, "{fifth}");
+    }
+}
+
+#[test]
 fn a_pitch_curve_that_swings_too_often_to_be_followed_is_refused() {
     assert!(polar("30 + 0.001*cos(1003*phi)").is_ok());
     for waves in ["20001", "1000003"] {
