@@ -417,6 +417,18 @@ fn bad_shafts_are_refused_by_name() {
 }
 
 #[test]
+fn short_bursts_of_speed_between_even_places_count() {
+    let law = law(&SpeedLaw::Formula(SpeedFormula {
+        expression: "1 + 0.5*exp(-700*(1 - cos(5*phi)))".into(),
+    }));
+    for fifth in 1..5 {
+        let way = law.at(TAU * f64::from(fifth) / 5.0).position;
+        let expected = LEAD * f64::from(fifth) / 5.0;
+        assert!((way - expected).abs() < 1e-13 * LEAD, "{fifth}: {way}");
+    }
+}
+
+#[test]
 fn both_schemes_together_are_their_chain() {
     let mut design = MovingBoxDesign {
         scheme: Scheme::Both,

@@ -9,7 +9,7 @@ use crate::degrees;
 use crate::formula::{Formula, Taylor};
 use crate::gear::design::rule::{Rule, SpecError, positive};
 use crate::gear::pitch::periodic::Periodic;
-use crate::gear::pitch::polar::read_formula;
+use crate::gear::pitch::polar::{formula_parts, read_formula};
 use crate::gear::pitch::{Interpolation, PitchError};
 use crate::shaft::ShaftError;
 use crate::transmission::{MotionJet, Transmission};
@@ -58,7 +58,10 @@ enum Speed {
         law: Law,
     },
     Table(Periodic),
-    Formula(Formula),
+    Formula {
+        formula: Formula,
+        parts: Vec<f64>,
+    },
 }
 
 impl Speed {
@@ -66,7 +69,7 @@ impl Speed {
     fn at(&self, theta: f64) -> Taylor {
         match self {
             Self::Table(table) => table.at(theta),
-            Self::Formula(formula) => formula.at(theta),
+            Self::Formula { formula, .. } => formula.at(theta),
             Self::Knots { angle, speed, law } => {
                 let count = angle.len();
                 let after = angle.partition_point(|&a| a <= theta);
@@ -89,7 +92,7 @@ impl Speed {
     fn breaks(&self) -> Vec<f64> {
         match self {
             Self::Table(table) => table.breaks(),
-            Self::Formula(_) => Vec::new(),
+            Self::Formula { parts, .. } => parts.clone(),
             Self::Knots { angle, law, .. } => {
                 let inner = law.breaks();
                 let count = angle.len();
@@ -224,6 +227,7 @@ impl SpeedFormula {
                 end: end[0],
             }));
         }
-        Resolved::new(Speed::Formula(formula), lead)
+        let parts = formula_parts(key, &formula)?;
+        Resolved::new(Speed::Formula { formula, parts }, lead)
     }
 }
