@@ -208,30 +208,34 @@ pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut 
 #[cfg(test)]
 mod tests {
     use centrode_mechanism::gear::design::GearPairDesign;
-    use centrode_mechanism::gear::pitch::{Ellipse, PitchSpec};
+    use centrode_mechanism::gear::pitch::{Ellipse, PitchSpec, Polar};
 
     use super::*;
 
     #[test]
     fn a_module_of_no_use_is_not_told_as_a_remedy() {
-        let told = |eccentricity| {
-            let pair = GearPair::resolve(&GearPairDesign::new(PitchSpec::Ellipse(Ellipse {
-                eccentricity,
-                module: Some(2.0),
-                tooth_count: Some(21),
-                ..Ellipse::default()
-            })))
-            .expect("a pair");
+        let told = |pitch| {
+            let pair = GearPair::resolve(&GearPairDesign::new(pitch)).expect("a pair");
             let mut report = Report::default();
             teeth(&pair, pair.driver(), &pair.limits(), &mut report);
             let messages: Vec<String> = report.findings.into_iter().map(|f| f.message).collect();
-            (messages.join("\n"), 0.5 * pair.center_distance())
+            (messages.join("\n"), pair.rolling().radii(Member::Driver).1)
         };
-        let (mild, _) = told(0.6);
+        let (mild, _) = told(PitchSpec::Ellipse(Ellipse {
+            eccentricity: 0.6,
+            module: Some(2.0),
+            tooth_count: Some(21),
+            ..Ellipse::default()
+        }));
         assert!(mild.contains("the largest module without it is"), "{mild}");
-        // The ends of this ellipse have the radius a (1 - e^2).
-        let (sharp, a) = told(0.99);
-        let radius = format!("bend to a radius of {:.4} mm", a * (1.0 - 0.99 * 0.99));
+        let (sharp, greatest) = told(PitchSpec::Polar(Polar {
+            module: Some(2.0),
+            tooth_count: Some(21),
+            ..Polar::expression("1 + 0.01*exp(-1000*(1 - cos(phi)))")
+        }));
+        // On top of the bump the second derivative of the radius is -10.
+        let radius = greatest / (1.0 + 10.0 / 1.01);
+        let radius = format!("bend to a radius of {radius:.4} mm");
         assert!(sharp.contains(&radius), "{radius}: {sharp}");
         assert!(!sharp.contains("largest module"), "{sharp}");
     }
