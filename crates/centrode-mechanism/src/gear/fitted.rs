@@ -163,8 +163,11 @@ impl Fitting<'_> {
                 // Side by side go those of which no tooth is in one before.
                 let mut busy = HashSet::new();
                 let (first, later): (Vec<&Meeting>, _) = left.into_iter().partition(|meeting| {
-                    let teeth = meeting.teeth.into_iter().enumerate();
-                    teeth.fold(true, |free, tooth| busy.insert(tooth) && free)
+                    let [driver, driven] = meeting.teeth;
+                    // Both are busy from here on, whichever was before.
+                    let is_free = [(Member::Driver, driver), (Member::Driven, driven)]
+                        .map(|tooth| busy.insert(tooth));
+                    is_free == [true, true]
                 });
                 left = later;
                 let known = |[i, j]: [usize; 2]| (reach_1[i], reach_2[j]);
