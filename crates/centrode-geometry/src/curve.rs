@@ -30,7 +30,8 @@ pub trait Curve: std::fmt::Debug + Send + Sync {
     /// Length of one turn in parameter units.
     fn period(&self) -> f64;
 
-    /// Parameters in `[0, period)` where a derivative may jump, ascending. Empty for an analytic curve.
+    /// Parameters in `[0, period)` where a derivative may jump, and others that part a curve of narrow features so that none is
+    /// stepped over, ascending. Empty for an analytic curve without such.
     fn breaks(&self) -> Vec<f64> {
         Vec::new()
     }

@@ -89,7 +89,7 @@ pub(crate) trait RadiusLaw: std::fmt::Debug + Send + Sync {
         Symmetry::NONE
     }
 
-    /// Angles in `[0, 2 pi)` where a derivative may jump, ascending.
+    /// Angles in `[0, 2 pi)` where a derivative may jump, and others that part a law of narrow features, ascending.
     fn breaks(&self) -> Vec<f64> {
         Vec::new()
     }
