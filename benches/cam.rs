@@ -9,7 +9,7 @@ use centrode_mechanism::cam::design::{
     TranslatingRoller, Travel, Turn,
 };
 use centrode_mechanism::cam::law::LawSpec;
-use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use criterion::{BenchmarkId, Criterion, criterion_group};
 
 fn motion(stroke: f64, swings: bool) -> MotionSpec {
     let travel = |degrees: f64, law: LawSpec| Travel {
@@ -93,4 +93,3 @@ fn bench(c: &mut Criterion) {
 }
 
 criterion_group!(benches, bench);
-criterion_main!(benches);

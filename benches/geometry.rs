@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::hint::black_box;
 
 use centrode_geometry::{Antiderivative, Point, PolySegment, Tolerance};
-use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use criterion::{BenchmarkId, Criterion, criterion_group};
 
 /// Focal ellipse of the 2018 pair, mm.
 fn ellipse(phi: f64) -> Point {
@@ -41,4 +41,3 @@ fn fit(c: &mut Criterion) {
 }
 
 criterion_group!(benches, primitive, fit);
-criterion_main!(benches);

@@ -12,7 +12,7 @@ use centrode_mechanism::arm::{ArmBody, ArmBodySpec};
 use centrode_mechanism::gear::pitch::{Bspline, PitchSpec};
 use centrode_mechanism::three_arm::ThreeArm;
 use centrode_mechanism::three_arm::design::{ArmSpec, ThreeArmDesign};
-use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use criterion::{BenchmarkId, Criterion, criterion_group};
 
 fn tolerance(mm: f64) -> Tolerance {
     Tolerance::new(mm).expect("positive")
@@ -136,4 +136,3 @@ fn published(c: &mut Criterion) {
 }
 
 criterion_group!(benches, arms, published);
-criterion_main!(benches);

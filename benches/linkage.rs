@@ -7,7 +7,7 @@ use centrode_analysis::optimise::six_bar::{PUBLISHED_BOUNDS, WantedSwing};
 use centrode_analysis::optimise::{Method, Settings, minimise};
 use centrode_geometry::Point;
 use centrode_mechanism::linkage::{Branch, FourBar, LinkId, Linkage, SixBar};
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group};
 
 const PIVOT: Point = Point::new(100.0, 67.0);
 
@@ -108,4 +108,3 @@ fn search(c: &mut Criterion) {
 }
 
 criterion_group!(benches, positions, search);
-criterion_main!(benches);

@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 use centrode::FAMILIES;
 use centrode::family::Mechanism;
-use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use criterion::{BenchmarkId, Criterion, criterion_group};
 
 /// Designs from the lightest to the heaviest of those shipped.
 const DESIGNS: [&str; 4] = [
@@ -55,5 +55,4 @@ fn edit_to_picture(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(page, edit_to_picture);
-criterion_main!(page);
+criterion_group!(benches, edit_to_picture);

@@ -7,7 +7,7 @@ use centrode_geometry::Tolerance;
 use centrode_mechanism::gear::GearPair;
 use centrode_mechanism::gear::design::{Addendum, GearPairDesign};
 use centrode_mechanism::gear::pitch::{Bspline, Circle, EccentricCircle, Ellipse, PitchSpec};
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group};
 
 fn elliptic(tooth_count: u32) -> GearPairDesign {
     GearPairDesign::new(PitchSpec::Ellipse(Ellipse {
@@ -123,5 +123,4 @@ fn against_tolerance(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(pair, whole, against_tooth_count, against_tolerance);
-criterion_main!(pair);
+criterion_group!(benches, whole, against_tooth_count, against_tolerance);

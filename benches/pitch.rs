@@ -1,7 +1,7 @@
 //! Cost of resolving a pitch curve: proof that it goes round, and scaling to a module.
 
 use centrode_mechanism::gear::pitch::{Bspline, Ellipse, LobedEllipse, PitchSpec};
-use criterion::{Criterion, criterion_group, criterion_main};
+use criterion::{Criterion, criterion_group};
 
 fn specs() -> [(&'static str, PitchSpec); 3] {
     let ellipse = Ellipse {
@@ -45,4 +45,3 @@ fn resolve(c: &mut Criterion) {
 }
 
 criterion_group!(benches, resolve);
-criterion_main!(benches);

@@ -4,7 +4,7 @@ use std::hint::black_box;
 
 use centrode_geometry::Point;
 use centrode_mechanism::reverse::{AxisMap, AxisRange, Split, SplitKind, TwoBar, WantedPath};
-use criterion::{Criterion, criterion_group, criterion_main};
+use criterion::{Criterion, criterion_group};
 
 /// A path drawn by hand, mm.
 const DRAWN: [[f64; 2]; 13] = [
@@ -67,4 +67,3 @@ fn one_axis(c: &mut Criterion) {
 }
 
 criterion_group!(benches, map, one_axis);
-criterion_main!(benches);

@@ -6,7 +6,7 @@ use centrode_export::{step, stl};
 use centrode_geometry::Tolerance;
 use centrode_mechanism::shaft::{SpiralShaft, SpiralShaftDesign};
 use centrode_mechanism::transmission::Transmission;
-use criterion::{BenchmarkId, Criterion, criterion_group, criterion_main};
+use criterion::{BenchmarkId, Criterion, criterion_group};
 
 /// Inputs over the whole way out and back.
 const INPUTS: u32 = 10_000;
@@ -86,4 +86,3 @@ fn mesh(c: &mut Criterion) {
 }
 
 criterion_group!(benches, cycle, mesh);
-criterion_main!(benches);

@@ -10,7 +10,7 @@ use centrode_mechanism::design::DesignSpec as _;
 use centrode_mechanism::gear::pitch::PitchSpec;
 use centrode_mechanism::three_arm::design::ThreeArmDesign;
 use centrode_mechanism::three_arm::{Sweep, ThreeArm};
-use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
+use criterion::{BenchmarkId, Criterion, Throughput, criterion_group};
 
 fn template() -> ThreeArmDesign {
     ThreeArmDesign::from_toml(ThreeArmDesign::TEMPLATE).expect("a good design")
@@ -134,4 +134,3 @@ fn check(c: &mut Criterion) {
 }
 
 criterion_group!(benches, sweep, resolve, tip, evaluate, check);
-criterion_main!(benches);

@@ -32,7 +32,7 @@ INPUTS = 1000
 
 def ours(group):
     """Seconds and what it counts (positions, evaluations) of an iteration of every benchmark of a group, by name."""
-    command = ["cargo", "bench", "--workspace", "--bench", "linkage", "--", f"linkage/{group}"]
+    command = ["cargo", "bench", "-p", "centrode-benches", "--", f"linkage/{group}"]
     environment = os.environ | {"RAYON_NUM_THREADS": "1"}
     subprocess.run(command, check=True, cwd=ROOT, env=environment, capture_output=True)
     folder = ROOT / "target" / "criterion" / f"linkage_{group}"
