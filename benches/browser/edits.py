@@ -160,8 +160,8 @@ def busy(session):
     return next(metric["value"] for metric in metrics if metric["name"] == "TaskDuration")
 
 
-def steady(browser, design, edits):
-    """Prints memory along many edits, and what is done in ten seconds of rest."""
+def steady(browser, design, edits, rest):
+    """Prints memory along many edits, and what is done in some seconds of rest."""
     with opened(browser, design) as (page, server, _):
         session = page.context.new_cdp_session(page)
         session.send("Performance.enable")
@@ -176,9 +176,9 @@ def steady(browser, design, edits):
                 edited(page, key_of(design), number)
         page.wait_for_timeout(2000)
         before = processor(server), busy(session)
-        page.wait_for_timeout(10_000)
+        page.wait_for_timeout(1000 * rest)
         took = processor(server) - before[0], busy(session) - before[1]
-        print(f"in 10 s of rest: program {took[0]:.2f} s of processor, page {took[1]:.3f} s", flush=True)
+        print(f"in {rest:g} s of rest: program {took[0]:.2f} s of processor, page {took[1]:.3f} s", flush=True)
 
 
 def main():
@@ -187,6 +187,7 @@ def main():
     parser.add_argument("designs", nargs="*", type=Path, help="design files (every shipped one)")
     parser.add_argument("--edits", type=int, default=50, help="edits of each design (50)")
     parser.add_argument("--steady", type=int, metavar="N", help="memory over so many edits instead of times")
+    parser.add_argument("--rest", type=float, default=10, help="seconds of rest after them (10)")
     options = parser.parse_args()
     designs = options.designs or sorted((ROOT / "tests" / "designs").glob("*.toml"))
     chromium = next(filter(None, map(shutil.which, ["chromium-headless-shell", "chromium", "google-chrome"])), None)
@@ -197,7 +198,7 @@ def main():
         browser = playwright.chromium.launch(executable_path=chromium, args=FLAGS)
         for design in designs:
             if options.steady:
-                steady(browser, design, options.steady)
+                steady(browser, design, options.steady, options.rest)
             else:
                 measure(browser, design, options.edits)
         browser.close()

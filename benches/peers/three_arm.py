@@ -6,8 +6,6 @@ from functools import partial
 from pathlib import Path
 
 import centrode as ct
-import coal
-import fcl
 import numpy as np
 import numpy_three_arm
 import shapely
@@ -56,6 +54,8 @@ def spatial(rows):
 
 
 def sampled_by_fcl(mesh, placed):
+    import fcl
+
     model = fcl.BVHModel()
     corners, faces = mesh
     model.beginModel(len(corners), len(faces))
@@ -78,6 +78,8 @@ def sampled_by_fcl(mesh, placed):
 
 
 def sampled_by_coal(mesh, placed):
+    import coal
+
     model = coal.BVHModelOBBRSS()
     corners, faces = mesh
     model.beginModel(len(faces), len(corners))

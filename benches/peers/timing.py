@@ -28,6 +28,8 @@ def worked(action, span=1.0):
 
 
 def seconds(value):
+    if value is None:
+        return "-"
     return f"{value * 1e3:.3g} ms" if value < 1 else f"{value:.2f} s"
 
 

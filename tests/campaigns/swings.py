@@ -51,8 +51,10 @@ def seconds(command: str, text: str, folder: Path) -> tuple[float, str]:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--command", default=os.environ.get("CENTRODE_BIN", "centrode"))
-    command = parser.parse_args().command
-    kinds = [(z, n, s, a) for z in TEETH for n in SWINGS for s in SHARPNESS for a in ("full", "fitted")]
+    parser.add_argument("--teeth", type=int, nargs="+", default=TEETH, help="tooth counts")
+    options = parser.parse_args()
+    command = options.command
+    kinds = [(z, n, s, a) for z in options.teeth for n in SWINGS for s in SHARPNESS for a in ("full", "fitted")]
     times = []
     with tempfile.TemporaryDirectory() as folder:
         for kind in kinds:
