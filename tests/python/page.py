@@ -36,9 +36,10 @@ CIRCLE = ROOT / "tests" / "designs" / "circular-pair.toml"
 
 def settled(page, patience=30_000):
     """Waits until every change has been drawn, and its checks have been heard; `patience` (ms) is for each."""
-    expect(page.locator("#findings h2")).to_be_attached(timeout=patience)
+    # Not by `expect`, which reads the whole page for its message at each try.
+    page.locator("#findings h2").wait_for(state="attached", timeout=patience)
     # A change just made has marked nothing stale: it is on its way.
-    expect(page.locator("#verdict:not(.stale, [aria-busy=true])")).to_be_attached(timeout=patience)
+    page.locator("#verdict:not(.stale, [aria-busy=true])").wait_for(state="attached", timeout=patience)
 
 
 def until(page, expression, arg=None, patience=PATIENCE):

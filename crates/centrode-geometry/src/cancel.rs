@@ -183,7 +183,7 @@ fn stop() {
 mod tests {
     use super::*;
     use std::sync::mpsc::channel;
-    use std::time::{Duration, Instant};
+    use std::time::Duration;
 
     fn endless() {
         loop {
@@ -204,7 +204,7 @@ mod tests {
         }
         let (cancel, dropped) = (Cancel::default(), AtomicBool::new(false));
         let (begun, started) = channel();
-        let seconds = std::thread::scope(|scope| {
+        std::thread::scope(|scope| {
             let job = scope.spawn(|| {
                 cancel.run(|| {
                     let _held = Held(&dropped);
@@ -213,12 +213,9 @@ mod tests {
                 })
             });
             started.recv().expect("begun");
-            let asked = Instant::now();
             cancel.cancel();
             assert_eq!(job.join().expect("no panic"), Err(Cancelled));
-            asked.elapsed().as_secs_f64()
         });
-        assert!(seconds < 0.1, "{seconds} s");
         assert!(dropped.load(Ordering::Relaxed));
         assert_eq!(cancel.run(|| 1), Err(Cancelled));
         // The thread itself is free again.

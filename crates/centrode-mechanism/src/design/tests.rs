@@ -539,7 +539,8 @@ fn bytes_that_are_no_design_are_refused_at_once() {
     assert!(message(tables.as_bytes()).starts_with("line 2"));
     let long = format!("{GOOD}\n[pitch.{}]\n", "x".repeat(900_000));
     assert!(message(long.as_bytes()).contains("unknown key"));
-    assert!(begun.elapsed().as_secs_f64() < 5.0);
+    // A hundred times what it takes.
+    assert!(begun.elapsed().as_secs_f64() < 60.0);
 }
 
 #[test]

@@ -12,10 +12,11 @@ fn refused(design: &[u8], words: &[&str], line: usize) {
     let out = folder.path().join("out");
     fs::write(&file, design).expect("written");
     let [file, to] = [&file, &out].map(|path| path.display().to_string());
+    // A design that takes a hundred times as long as any of these does is hung.
     let start = Instant::now();
     let done = centrode(&["export", &file, "--to", &to]);
     let shown = String::from_utf8_lossy(&design[..design.len().min(300)]);
-    assert!(start.elapsed() < Duration::from_secs(1), "slow: {shown}");
+    assert!(start.elapsed() < Duration::from_secs(20), "hung: {shown}");
     let message = text(&done.stderr);
     assert_eq!(done.status.code(), Some(2), "{shown}{message}");
     assert!(done.stdout.is_empty(), "{shown}");

@@ -237,11 +237,10 @@ mod tests {
             .build()
             .expect("a runtime");
         let done = runtime.block_on(task);
-        // A thread that still computes would be waited for here: minutes, where one that stops takes a tenth of a second
-        // on a machine that has nothing else to do.
+        // A thread that still computes would be waited for here: minutes, where one that stops takes a tenth of a second.
         let ended = Instant::now();
         drop(runtime);
-        assert!(ended.elapsed() < Duration::from_secs(2));
+        assert!(ended.elapsed() < Duration::from_secs(10));
         done
     }
 
@@ -263,7 +262,7 @@ mod tests {
             assert!(quick.expect("the latest").contains("family"));
             let overtaken = ours.await.expect("no panic");
             assert!(matches!(overtaken, Err(Unsolved::Overtaken)));
-            assert!(asked.elapsed() < Duration::from_secs(2));
+            assert!(asked.elapsed() < Duration::from_secs(10));
             // A request that was held up on its way takes nobody's place.
             let latest = slow(PAGE);
             tokio::time::sleep(Duration::from_millis(50)).await;
