@@ -363,9 +363,9 @@ impl GearPair {
     /// looked for only where as many fitted teeth as there are do not. Takes seconds.
     ///
     /// >>> import centrode as ct
-    /// >>> pitch = ct.pitch.from_ratio("1 + 0.45*cos(2*phi)", module=2, tooth_count=24)
+    /// >>> pitch = ct.pitch.from_ratio("1 + 0.4*cos(phi)", module=2, tooth_count=8)
     /// >>> [(found.addendum, len(found.fit), found.least_tooth_count) for found in ct.GearPair(pitch).remedies()]
-    /// [('fitted', 0, 27), ('fitted', 3, 24)]
+    /// [('full', 0, 12), ('fitted', 0, 10), ('fitted', 3, 9)]
     fn remedies<'py>(&self, py: Python<'py>) -> Answer<Bound<'py, PyTuple>> {
         let pair = Arc::clone(&self.0);
         let found = wait(py, move || remedies(&pair))?;

@@ -37,6 +37,7 @@ def rest(polygons, phi, psi, sense):
     return free
 
 
+@pytest.mark.campaign
 def test_edges_and_trimmed_teeth_seat_as_their_polygons_do():
     pair = ct.load(ROOT / "tests" / "designs" / "transplanter-pair-2021.toml")
     inputs = np.append(np.linspace(3.82, 3.98, 33), [3.876, 3.880, 3.888, 3.900, 3.5343])

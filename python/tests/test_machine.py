@@ -224,6 +224,7 @@ circle = { center = [0, 62], radius = 3 }
 """
 
 
+@pytest.mark.campaign
 def test_clearances_are_those_of_the_drawing_over_the_cycle_and_at_inputs():
     machine = ct.Machine.from_toml(CLEAR)
     least, phi = machine.clearance("disc", "ground", tolerance=1e-6)

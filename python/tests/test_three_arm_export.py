@@ -145,6 +145,7 @@ def test_yourdfpy_reads_the_machine(arms, folder):
             assert np.abs(at[:2] - ours).max() < 1e-9
 
 
+@pytest.mark.campaign
 def test_teeth_alone_carry_a_chain_of_the_design_that_meets_all_goals(tmp_path):
     pytest.importorskip("mujoco")
     text = (DESIGN.parent / "three-arm-all-goals.toml").read_text()

@@ -6,7 +6,10 @@ mod entities;
 
 use std::collections::BTreeMap;
 use std::fs;
+use std::iter;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::{AtomicUsize, Ordering};
+use std::thread;
 
 use centrode::FAMILIES;
 use centrode::family::Mechanism;
@@ -66,6 +69,28 @@ fn outcome(name: &str) -> Value {
         outcome["tables"][table.name] = figures["tables"][i]["rows"].clone();
     }
     outcome
+}
+
+/// Outcomes of designs, in their order, on every core.
+fn outcomes(designs: &[String]) -> Vec<Value> {
+    let next = AtomicUsize::new(0);
+    let cores = thread::available_parallelism().map_or(1, usize::from);
+    let mut outcomes: Vec<(usize, Value)> = thread::scope(|scope| {
+        let worker = || {
+            let numbers = iter::repeat_with(|| next.fetch_add(1, Ordering::Relaxed));
+            let designs = numbers.map_while(|number| Some((number, designs.get(number)?)));
+            designs
+                .map(|(number, name)| (number, outcome(name)))
+                .collect::<Vec<_>>()
+        };
+        let workers: Vec<_> = (0..cores).map(|_| scope.spawn(worker)).collect();
+        workers
+            .into_iter()
+            .flat_map(|worker| worker.join().expect("an outcome"))
+            .collect()
+    });
+    outcomes.sort_by_key(|(number, _)| *number);
+    outcomes.into_iter().map(|(_, outcome)| outcome).collect()
 }
 
 /// The files of a mechanism and what is in them.
@@ -151,8 +176,7 @@ fn every_design_is_as_it_was() {
     let designs = stems(&folder("designs"), "toml");
     assert!(!designs.is_empty(), "no design in tests/designs");
     let mut found = Vec::new();
-    for name in &designs {
-        let now = outcome(name);
+    for (name, now) in designs.iter().zip(outcomes(&designs)) {
         let file = goldens.join(format!("{name}.json"));
         if update {
             fs::write(&file, format!("{now:#}\n")).expect("written");

@@ -11,6 +11,7 @@ import pytest
 from conftest import ROOT
 from ezdxf.math import bulge_to_arc
 from reading import polygon
+from sample import sampled
 from shapely.geometry import Polygon
 
 DESIGNS = sorted(file.stem for file in (ROOT / "tests" / "designs").glob("*.toml"))
@@ -47,7 +48,7 @@ def rectangle(polygon):
     return sides.max(), sides.min()
 
 
-@pytest.mark.parametrize("name", DESIGNS)
+@pytest.mark.parametrize("name", sampled(DESIGNS))
 def test_blanks_are_the_least_that_the_contours_need(name, shipped):
     folder = shipped(name, "csv,dxf,sheet")
     with (folder / "parts.csv").open(newline="") as lines:

@@ -16,6 +16,7 @@ import shapely
 import trimesh
 import yourdfpy
 from reading import contours, rows, texts
+from sample import sampled
 from scipy.optimize import fsolve
 
 DESIGNS = Path(__file__).resolve().parents[1] / "designs"
@@ -27,7 +28,7 @@ PARTS = ["frame", "crank", "coupler", "rocker", "effector", "slider"]
 JOINTS = ["crank", "coupler", "rocker", "effector"]
 
 
-@pytest.fixture(scope="module", params=LENGTHS)
+@pytest.fixture(scope="module", params=sampled(LENGTHS))
 def feeder(request, run, tmp_path_factory):
     folder = tmp_path_factory.mktemp(request.param)
     done = run(

@@ -11,6 +11,7 @@ from axe_playwright_python.sync_playwright import Axe
 from conftest import centrode
 from page import ARMS, BOX, CIRCLE, FEEDER, POINTS, curves_of, field, opened, settled, shown
 from playwright.sync_api import expect
+from sample import looks
 from studio import studio
 
 # Every canvas keeps the words written on it, and the lines drawn, since it was last cleared.
@@ -286,8 +287,7 @@ def test_a_report_has_the_charts_as_files(browser, tmp_path):
         expect(page.locator("#charts .pointed span").first).to_have_text(re.compile(r"^1(79|80)\.\d°$"))
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("width", [1440, 1024, 390])
+@pytest.mark.parametrize(("width", "scheme"), looks(1440, 1024, 390))
 def test_charts_are_read_by_everybody(browser, tmp_path, width, scheme):
     with opened(browser, tmp_path, POINTS, color_scheme=scheme) as (page, _):
         page.set_viewport_size({"width": width, "height": 900})

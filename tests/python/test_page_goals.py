@@ -8,9 +8,13 @@ import pytest
 from conftest import ROOT, centrode
 from page import ARMS, drag, field, opened, settled, until
 from playwright.sync_api import Error, expect
+from sample import sampled
 
 FEEDER = ROOT / "tests" / "designs" / "feeder-2022.toml"
-HANDLES = [(ARMS, "point 2 of the pitch curve"), (FEEDER, "end of the crank")]
+HANDLES = [
+    (ARMS, "point 2 of the pitch curve"),
+    pytest.param(FEEDER, "end of the crank", marks=pytest.mark.campaign),
+]
 
 
 @contextmanager
@@ -113,7 +117,9 @@ def test_goals_of_another_state_are_told_to_be_that(browser, tmp_path):
         expect(page.locator("#verdict")).not_to_contain_text("of the design before")
 
 
-@pytest.mark.parametrize("design", [ARMS, FEEDER], ids=lambda path: path.stem)
+@pytest.mark.parametrize(
+    "design", sampled([ARMS, FEEDER], of=["feeder-2022", "feeder-widened"]), ids=lambda path: path.stem
+)
 def test_goals_are_there_before_the_checks_of_a_page_just_opened(browser, tmp_path, design):
     def ready(page):
         expect(page.locator("#goals h2")).to_have_text(re.compile(r"^Goals: \d+ of \d+ reached"))

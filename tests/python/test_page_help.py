@@ -5,6 +5,7 @@ from axe_playwright_python.sync_playwright import Axe
 from conftest import centrode
 from page import FEEDER, POINTS, field, opened, settled, shown
 from playwright.sync_api import expect
+from sample import looks
 from studio import studio
 
 
@@ -51,7 +52,7 @@ def test_keys_of_the_list_do_what_it_says(points):
     expect(page.locator(".handle")).to_have_count(handles)
 
 
-@pytest.mark.parametrize(("width", "scheme"), [(1440, "light"), (1440, "dark"), (390, "light")])
+@pytest.mark.parametrize(("width", "scheme"), looks(1440, 390))
 def test_the_tour_has_six_steps_and_comes_once(browser, tmp_path, width, scheme):
     copy = tmp_path / FEEDER.name
     copy.write_text(FEEDER.read_text())

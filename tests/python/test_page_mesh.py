@@ -98,6 +98,7 @@ MESHES = [
 ]
 
 
+@pytest.mark.campaign
 def test_the_meshes_of_three_arms_are_looked_at_one_after_the_other(browser, tmp_path):
     with opened(browser, tmp_path, ARMS, color_scheme="light") as (page, _):
         before, mesh = drawing(page), page.locator("#mesh")

@@ -393,6 +393,7 @@ def test_a_machine_of_the_path_as_it_is_drawn_is_that_of_the_command_line(runnin
     assert made["text"] == design.read_text()
 
 
+@pytest.mark.campaign
 def test_the_search_for_teeth_is_cancelled_and_where_none_will_do_the_path_eased(page, running):
     before = set(running.folder.iterdir())
     make, dialog = page.get_by_role("button", name="Make the machine"), page.locator("#dialog")
@@ -421,6 +422,7 @@ def test_the_search_for_teeth_is_cancelled_and_where_none_will_do_the_path_eased
     assert set(running.folder.iterdir()) == before
 
 
+@pytest.mark.campaign
 def test_key_poses_are_dragged_by_place_and_direction_and_a_machine_found(page, running):
     field(page, "wanted.given").select_option("poses")
     counted(page, 4)
@@ -463,6 +465,7 @@ def test_key_poses_are_dragged_by_place_and_direction_and_a_machine_found(page, 
     assert (folder / "from-poses.toml").read_text() == (folder / "posed.toml").read_text()
 
 
+@pytest.mark.campaign
 def test_the_return_of_a_stroke_is_found(page, running):
     field(page, "wanted.given").select_option("stroke")
     counted(page, 5)
@@ -539,6 +542,7 @@ def test_directions_at_points_are_dragged_typed_and_told(page, running):
     expect(field(page, "path.direction_deg-9")).to_have_value("-140")
 
 
+@pytest.mark.campaign
 def test_shapes_to_keep_out_of_are_added_dragged_and_deleted(page, running):
     page.get_by_role("button", name="Circle").focus()
     page.keyboard.press("Enter")
@@ -617,6 +621,7 @@ clearance = 2
 """
 
 
+@pytest.mark.campaign
 def test_a_machine_with_wishes_is_that_of_the_command_and_its_search_is_cancelled(page, running):
     folder = running.folder
     (folder / "wanted.toml").write_text(WANTED)
@@ -653,6 +658,7 @@ def test_a_machine_with_wishes_is_that_of_the_command_and_its_search_is_cancelle
     assert all(words.removeprefix("✓ ") in told for words in found)
 
 
+@pytest.mark.campaign
 def test_what_is_out_of_reach_is_told_with_the_miss(page, running):
     page.locator("summary", has_text="Bounds, clamp, turn").click()
     typed(page, "axis.x", "345.5876")

@@ -9,6 +9,7 @@ from axe_playwright_python.sync_playwright import Axe
 from conftest import ROOT, centrode
 from page import ARMS, POINTS, drawing, field, opened, settled, shown
 from playwright.sync_api import expect
+from sample import looks
 
 PLANE = ROOT / "tests" / "designs" / "quintic-pair.toml"
 RADII = tomllib.loads(POINTS.read_text())["pitch"]["radius"]
@@ -285,8 +286,7 @@ def test_the_arms_have_the_table_too_and_a_report_shows_it_fixed(browser, tmp_pa
         expect(field(page, "pitch.radius")).to_be_disabled()
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("width", [1440, 1024, 390])
+@pytest.mark.parametrize(("width", "scheme"), looks(1440, 1024, 390))
 def test_points_are_for_everybody(browser, tmp_path, width, scheme):
     with opened(browser, tmp_path, POINTS, color_scheme=scheme) as (page, _):
         page.set_viewport_size({"width": width, "height": 900})

@@ -1,5 +1,6 @@
 """Slow answers and searches on the design page: what they may change, and what they leave behind."""
 
+import pytest
 from page import ARMS, POINTS, SLOW, field, opened, settled, shown, until
 from playwright.sync_api import expect
 from studio import studio
@@ -74,6 +75,7 @@ def test_a_design_that_comes_ends_the_search_for_the_old_one(arms):
     expect(page.locator("#search")).to_be_hidden()
 
 
+@pytest.mark.campaign
 def test_the_end_of_a_search_that_is_heard_late_leaves_the_next_one(arms):
     page, _ = arms
     searched(page, goals(page))

@@ -13,6 +13,7 @@ from conftest import centrode
 from page import ARMS, CHROMIUM, CIRCLE, FEEDER, FLAGS, SHAFT, field, opened
 from PIL import Image, ImageChops
 from playwright.sync_api import expect
+from sample import looks, sampled
 
 DRAWS = re.compile(r"bodies, [\d,]+ triangles")
 # Chromium says of its own software that it is slow.
@@ -193,8 +194,7 @@ def test_a_change_brings_its_own_meshes(drawer, tmp_path):
         assert read(response.value.body())[2] != first
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("width", [1440, 390])
+@pytest.mark.parametrize(("width", "scheme"), looks(1440, 390))
 def test_the_view_passes_axe(drawer, tmp_path, scheme, width):
     with opened(drawer, tmp_path, CIRCLE, color_scheme=scheme, size=(width, 900)) as (page, _):
         space(page)
@@ -220,7 +220,7 @@ def turned(page):
     return differing.histogram()[255] / (differing.width * differing.height)
 
 
-@pytest.mark.parametrize("design", [ARMS, FEEDER], ids=lambda design: design.stem)
+@pytest.mark.parametrize("design", sampled([ARMS, FEEDER], of=["feeder-widened"]), ids=lambda design: design.stem)
 def test_what_stands_still_does_not_hide_what_moves(drawer, tmp_path, design):
     with opened(drawer, tmp_path, design) as (page, _):
         space(page)

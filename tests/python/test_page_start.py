@@ -7,6 +7,7 @@ from axe_playwright_python.sync_playwright import Axe
 from conftest import centrode
 from page import ARMS, POINTS, SHIPPED, field, settled, shown
 from playwright.sync_api import expect
+from sample import looks, sampled
 from studio import studio
 
 FAMILIES = ["gear-pair", "three-arm", "spiral-shaft", "moving-box", "feeder", "machine"]
@@ -62,7 +63,7 @@ def test_the_gallery_has_a_picture_of_every_shipped_design_and_family(start):
     assert min(page.locator(".card canvas").evaluate_all(colours)) > 20
 
 
-@pytest.mark.parametrize("design", SHIPPED, ids=lambda path: path.stem)
+@pytest.mark.parametrize("design", sampled(SHIPPED), ids=lambda path: path.stem)
 def test_a_picture_of_the_gallery_is_that_of_the_design_page(served, design):
     running, folder = served
     (folder / design.name).write_text(design.read_text())
@@ -236,8 +237,7 @@ def test_who_asks_for_less_motion_gets_none(browser, served):
         assert set(inputs(page)) <= {None, "0"}
 
 
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-@pytest.mark.parametrize("width", [1440, 1024, 390])
+@pytest.mark.parametrize(("width", "scheme"), looks(1440, 1024, 390))
 def test_the_start_page_is_for_everybody(browser, served, width, scheme):
     running, folder = served
     (folder / POINTS.name).write_text(POINTS.read_text())

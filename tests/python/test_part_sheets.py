@@ -28,6 +28,7 @@ from OCP.TopAbs import TopAbs_EDGE, TopAbs_FACE
 from OCP.TopExp import TopExp_Explorer
 from OCP.TopoDS import TopoDS
 from reading import texts
+from sample import sampled
 from shapely import STRtree
 from shapely.affinity import rotate, translate
 from shapely.geometry import Point, Polygon, box
@@ -73,7 +74,7 @@ def family(name):
     return tomllib.loads((ROOT / "tests" / "designs" / f"{name}.toml").read_text())["family"]
 
 
-@pytest.mark.parametrize("name", [*DESIGNS, *TEMPLATES])
+@pytest.mark.parametrize("name", sampled([*DESIGNS, *TEMPLATES]))
 def test_every_made_part_has_a_drawing_a_solid_a_sheet_a_material_and_a_mass(name, exported):
     folder = exported(name)
     with (folder / "parts.csv").open(newline="") as lines:
@@ -110,7 +111,7 @@ GIVEN = {
 FITTED = re.compile(r"Ø[\d.]+ [a-zA-Z]+\d+|two flakes [\d.]+ apart")
 
 
-@pytest.mark.parametrize("name", [*DESIGNS, *TEMPLATES])
+@pytest.mark.parametrize("name", sampled([*DESIGNS, *TEMPLATES]))
 def test_parts_that_are_neither_made_nor_bought_are_few_and_tell_what_they_must_fit(name, exported):
     with (exported(name) / "parts.csv").open(newline="") as lines:
         given = [row for row in csv.DictReader(lines) if row["supply"] == "given"]
@@ -121,7 +122,7 @@ def test_parts_that_are_neither_made_nor_bought_are_few_and_tell_what_they_must_
         assert (row["mass_kg"] == "") == (row["part"] != "Box with its rail"), row
 
 
-@pytest.mark.parametrize("name", [name for name in [*DESIGNS, *TEMPLATES] if family(name) == "gear-pair"])
+@pytest.mark.parametrize("name", sampled(name for name in [*DESIGNS, *TEMPLATES] if family(name) == "gear-pair"))
 def test_a_gear_on_a_given_shaft_tells_its_size_class_and_keyway(name, exported):
     folder = exported(name)
     with (folder / "parts.csv").open(newline="") as lines:
@@ -137,7 +138,7 @@ def test_a_gear_on_a_given_shaft_tells_its_size_class_and_keyway(name, exported)
         assert bool(re.search(r"with a keyway \d+ N9 \(", text)) == bool(keys)
 
 
-@pytest.mark.parametrize("name", [name for name in [*DESIGNS, *TEMPLATES] if family(name) in FLAT])
+@pytest.mark.parametrize("name", sampled(name for name in [*DESIGNS, *TEMPLATES] if family(name) in FLAT))
 def test_every_part_that_is_made_or_bought_has_its_number_in_a_view_or_section(name, exported):
     folder = exported(name)
     with (folder / "parts.csv").open(newline="") as lines:
@@ -158,7 +159,7 @@ def named_files(folder):
                 yield sheet.name, file
 
 
-@pytest.mark.parametrize("name", [*DESIGNS, *TEMPLATES])
+@pytest.mark.parametrize("name", sampled([*DESIGNS, *TEMPLATES]))
 def test_every_file_named_on_a_sheet_exists(name, exported):
     folder = exported(name)
     named = list(named_files(folder))
@@ -251,7 +252,7 @@ def thickness(shape):
     return bounds.CornerMax().Z() - bounds.CornerMin().Z()
 
 
-@pytest.mark.parametrize("name", [name for name in [*DESIGNS, *TEMPLATES] if family(name) in FLAT])
+@pytest.mark.parametrize("name", sampled(name for name in [*DESIGNS, *TEMPLATES] if family(name) in FLAT))
 def test_a_plate_made_from_its_sheet_alone_is_its_solid(name, exported):
     assert plates_made_from_their_sheets(exported(name))
 
@@ -408,7 +409,7 @@ def drawn(shipped, tmp_path_factory, run):
     return folder
 
 
-@pytest.mark.parametrize("name", [*DESIGNS, *TEMPLATES])
+@pytest.mark.parametrize("name", sampled([*DESIGNS, *TEMPLATES]))
 def test_no_words_overlap_others_and_nothing_leaves_the_frame(name, drawn):
     sheets = sorted(drawn(name).glob("*.pdf"))
     assert sheets
@@ -446,7 +447,7 @@ def strokes(page):
             last = at
 
 
-@pytest.mark.parametrize("name", [*DESIGNS, *TEMPLATES])
+@pytest.mark.parametrize("name", sampled([*DESIGNS, *TEMPLATES]))
 def test_no_line_runs_through_words(name, drawn):
     for sheet in sorted(drawn(name).glob("*.pdf")):
         for number, page in enumerate(pypdfium2.PdfDocument(sheet)):
@@ -533,7 +534,7 @@ def boundary_tree(flat):
     return STRtree(np.concatenate([shapely.linestrings(np.stack([r[:-1], r[1:]], axis=1)) for r in rings]))
 
 
-@pytest.mark.parametrize("name", [*DESIGNS, *TEMPLATES])
+@pytest.mark.parametrize("name", sampled([*DESIGNS, *TEMPLATES]))
 def test_a_gear_or_cam_made_from_its_sheet_and_the_file_it_names_is_its_solid(name, exported):
     folder = exported(name)
     made = 0
@@ -566,7 +567,7 @@ def test_a_gear_or_cam_made_from_its_sheet_and_the_file_it_names_is_its_solid(na
     assert made or family(name) in ("machine", "spiral-shaft"), name
 
 
-@pytest.mark.parametrize("name", ["spiral-shaft-2018", "moving-box-2018", "spiral-shaft", "moving-box"])
+@pytest.mark.parametrize("name", sampled(["spiral-shaft-2018", "moving-box-2018", "spiral-shaft", "moving-box"]))
 def test_the_slider_made_from_its_sheet_alone_is_its_solid(name, exported):
     folder = exported(name)
     texts = words(folder, "slider")
@@ -587,7 +588,7 @@ def test_the_slider_made_from_its_sheet_alone_is_its_solid(name, exported):
     assert abs(cut_area(folder / "slider.dxf") - area) < 1e-2
 
 
-@pytest.mark.parametrize("name", [*DESIGNS, *TEMPLATES])
+@pytest.mark.parametrize("name", sampled([*DESIGNS, *TEMPLATES]))
 def test_every_file_of_a_package_is_the_same_bytes_again(name, exported, tmp_path, run):
     folder = exported(name)
     run("export", design_file(name, folder), "--to", tmp_path, "--format", "csv,dxf,sheet,step", check=False)
@@ -597,7 +598,7 @@ def test_every_file_of_a_package_is_the_same_bytes_again(name, exported, tmp_pat
         assert (tmp_path / file).read_bytes() == (folder / file).read_bytes(), file
 
 
-@pytest.mark.parametrize("name", ["spiral-shaft-2018", "moving-box-2018", "spiral-shaft", "moving-box"])
+@pytest.mark.parametrize("name", sampled(["spiral-shaft-2018", "moving-box-2018", "spiral-shaft", "moving-box"]))
 def test_the_turned_shaft_has_the_diameters_and_lengths_of_its_sheet(name, exported):
     folder = exported(name)
     texts = words(folder, "shaft")
@@ -734,7 +735,7 @@ def walls(shape):
             yield surface.Cylinder().Radius(), *ends
 
 
-@pytest.mark.parametrize("name", [*DESIGNS, *TEMPLATES])
+@pytest.mark.parametrize("name", sampled([*DESIGNS, *TEMPLATES]))
 def test_a_turned_part_made_from_its_sheet_alone_is_its_solid(name, exported):
     folder = exported(name)
     for row in parts(folder):
@@ -835,7 +836,7 @@ HELD = {
 }
 
 
-@pytest.mark.parametrize("name", [name for name in [*DESIGNS, *TEMPLATES] if family(name) in HELD])
+@pytest.mark.parametrize("name", sampled(name for name in [*DESIGNS, *TEMPLATES] if family(name) in HELD))
 def test_what_rings_hold_has_play_along_the_axis_whatever_the_tolerances_make_of_it(name, exported):
     """Least play from the sheets alone: the shortest room between rings in their grooves, less the thickest parts."""
     folder = exported(name)

@@ -13,6 +13,7 @@ from conftest import design_file
 from OCP.BRepAlgoAPI import BRepAlgoAPI_Common
 from OCP.TopAbs import TopAbs_SOLID
 from reading import contours, texts
+from sample import sampled
 from shapely.affinity import affine_transform, translate
 from shapely.geometry import Point
 from test_assembly_step import Assembly, box, cylinders, every, moved, volume
@@ -44,7 +45,7 @@ def places(folder, part, words):
             yield float(at[1]), float(at[2])
 
 
-@pytest.mark.parametrize("name", [*ARMS, *FEEDERS])
+@pytest.mark.parametrize("name", sampled([*ARMS, *FEEDERS]))
 def test_every_screw_goes_through_a_hole_into_a_thread_and_its_head_lies_on_the_plate(name, shipped):
     folder = shipped(name, "csv,step")
     assembly = Assembly(folder / "assembly.step")
@@ -91,7 +92,7 @@ def test_every_screw_goes_through_a_hole_into_a_thread_and_its_head_lies_on_the_
         assert into[0] > diameter * (1 - 1e-9), product
 
 
-@pytest.mark.parametrize("name", ARMS)
+@pytest.mark.parametrize("name", sampled(ARMS))
 def test_screws_are_clear_of_gears_and_arms_and_of_what_moves_in_them(name, shipped):
     folder = shipped(name, "csv,dxf,sheet,step")
     kinds = list(listed(folder))
@@ -146,7 +147,7 @@ def test_screws_are_clear_of_gears_and_arms_and_of_what_moves_in_them(name, ship
                 assert there.distance(disc) > 0.4, (link, turn)
 
 
-@pytest.mark.parametrize("name", FEEDERS)
+@pytest.mark.parametrize("name", sampled(FEEDERS))
 def test_spacers_of_a_feeder_are_clear_of_all_links_in_every_place(name, shipped):
     folder = shipped(name, "csv,dxf,sheet,step")
     ((diameter, _, links, number),) = listed(folder)

@@ -225,6 +225,7 @@ def test_driven_by_forces_the_box_is_where_the_table_has_it(machines, name):
         assert found == pytest.approx(10.0 * of(rows["acceleration_mm_per_s2"]) * 1e-3, rel=2e-3)
 
 
+@pytest.mark.campaign
 def test_turned_by_the_teeth_alone_the_box_follows(machines):
     result = played(machines / "moving-box", "--contact")
     # The shaft is not put where it is: it stays behind by the play of the teeth, which do touch.

@@ -9,6 +9,7 @@ import mujoco
 import numpy as np
 import pytest
 from conftest import BINARY, ROOT
+from sample import sampled
 
 SHIPPED = sorted(path.stem for path in (ROOT / "tests" / "designs").glob("*.toml"))
 FAMILIES = ["gear-pair", "three-arm", "moving-box", "spiral-shaft", "feeder"]
@@ -17,7 +18,7 @@ MOST_FACES = 100_000
 DEEPEST = 3e-6
 
 
-@pytest.fixture(scope="module", params=[*SHIPPED, *(f"new {family}" for family in FAMILIES)])
+@pytest.fixture(scope="module", params=sampled([*SHIPPED, *(f"new {family}" for family in FAMILIES)]))
 def folder(request, tmp_path_factory):
     """The models of a design, and what they show, exported as the command does by itself."""
     folder = tmp_path_factory.mktemp("start")

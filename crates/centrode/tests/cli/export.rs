@@ -300,7 +300,7 @@ fn a_read_only_folder_is_left_alone() {
 /// Kills the program while it writes: a file is then there whole or not at all.
 #[test]
 fn a_killed_export_leaves_no_half_file() {
-    let more = ["--tolerance", "0.00001"];
+    let more = ["--tolerance", "0.0001"];
     let folder = tempfile::tempdir().expect("a place to write");
     let whole = folder.path().join("whole");
     assert_eq!(export(&whole, &more).status.code(), Some(0));

@@ -337,19 +337,19 @@ fn the_figures_that_goals_can_name_are_listed_with_their_extremes() {
 
 #[test]
 fn a_remedy_is_a_design_that_mends_what_the_check_finds() {
-    let weak = b"family = \"gear-pair\"\npitch = { kind = \"ratio\", expression = \"1 + 0.45*cos(2*phi)\", module = 2, tooth_count = 24 }\n";
+    let weak = b"family = \"gear-pair\"\npitch = { kind = \"ratio\", expression = \"1 + 0.35*cos(2*phi)\", module = 2, tooth_count = 14 }\n";
     let found = fed(&["check", "--remedy", "-"], weak);
     assert_eq!(found.status.code(), Some(0), "{}", text(&found.stderr));
     let design = text(&found.stdout);
     assert!(
-        design.starts_with("# fitted teeth carry the motion by their flanks alone with 27 teeth of the driver (not with 26; a greater number may fail again: check the one you choose): of module 1.7778 mm on these pitch curves, or of 2.0000 mm on curves 1.1250 times as large\n"),
+        design.starts_with("# fitted teeth carry the motion by their flanks alone with 17 teeth of the driver (not with 16; a greater number may fail again: check the one you choose): of module 1.6471 mm on these pitch curves, or of 2.0000 mm on curves 1.2143 times as large\n"),
         "{design}"
     );
     let mended = fed(&["check", "--json", "-"], design.as_bytes());
     assert_eq!(mended.status.code(), Some(0), "{}", text(&mended.stdout));
     let report: serde_json::Value = serde_json::from_slice(&mended.stdout).expect("JSON");
     assert!(report["values"]["transmission_error_max"].as_f64() < Some(1e-9));
-    assert_eq!(report["values"]["driver_tooth_count"], 27.0);
+    assert_eq!(report["values"]["driver_tooth_count"], 17.0);
     let json = fed(&["check", "--remedy", "--json", "-"], weak);
     let json: serde_json::Value = serde_json::from_slice(&json.stdout).expect("JSON");
     let told = json["remedies"][0]["design"].as_str().expect("a design");

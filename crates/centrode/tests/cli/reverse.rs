@@ -662,7 +662,7 @@ fn arms_that_collide_are_told_as_the_check_tells_them() {
         text(&run.stdout)
     };
     assert!(!run("1", 0).contains("collide"));
-    let told = run("8", 1);
+    let told = run("6", 1);
     let line = told.lines().find(|line| line.starts_with("gears-collide"));
     let line = line.unwrap_or_else(|| panic!("{told}"));
     let check = centrode(&["check", &to, "--json"]);

@@ -20,14 +20,29 @@ fn dyads(text: &str) -> Vec<(String, String)> {
 }
 
 #[test]
+fn dyads_become_those_of_other_types_and_stay_a_mechanism() {
+    every_dyad(5);
+}
+
+#[test]
+#[ignore = "a campaign"]
 fn every_dyad_becomes_one_of_every_type_and_stays_a_mechanism() {
+    every_dyad(1);
+}
+
+/// Changes the type of every dyad twice, to one of `stride` pairs of types.
+fn every_dyad(stride: usize) {
     let mut ways = 0;
     let mut wrong = Vec::new();
-    for (design, text) in designs() {
+    for (number, (design, text)) in designs().into_iter().enumerate() {
         for (name, own) in dyads(&text) {
-            for first in TYPES {
+            for (i, first) in TYPES.into_iter().enumerate() {
                 let one = retyped(&text, &name, first);
-                for then in TYPES {
+                for then in TYPES
+                    .into_iter()
+                    .skip((number + i) % stride)
+                    .step_by(stride)
+                {
                     let two = retyped(&one, &name, then);
                     let types = dyads(&two);
                     assert!(types.contains(&(name.clone(), then.to_owned())), "{two}");
@@ -45,7 +60,7 @@ fn every_dyad_becomes_one_of_every_type_and_stays_a_mechanism() {
             }
         }
     }
-    assert!(ways > 200, "{ways}");
+    assert!(ways > 200 / stride, "{ways}");
     assert!(
         wrong.len() * 25 < ways,
         "{} of {ways}:\n{}",
