@@ -15,6 +15,11 @@ def advice(report):
     return f"{reason}: {INSTALL}" if reason.startswith("could not import") else reason
 
 
+def pytest_collection_modifyitems(items):
+    """Long files first: a worker that took one last would run alone."""
+    items.sort(key=lambda item: item.path.parent.name == "tests")
+
+
 @pytest.hookimpl(wrapper=True)
 def pytest_runtest_makereport(item, call):
     report = yield
