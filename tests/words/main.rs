@@ -99,3 +99,28 @@ fn replaced_words_stay_gone() -> io::Result<()> {
     );
     Ok(())
 }
+
+/// Names of rules that findings of a source have, as literals.
+fn rules(text: &str) -> impl Iterator<Item = &str> {
+    let starts = ["rule: \"", "add(\n        \"", "about_gears(\"", "about_gears(\n            \""];
+    starts.into_iter().flat_map(move |start| {
+        let found = text.split(start).skip(1);
+        found.filter_map(|rest| rest.split('"').next())
+    })
+}
+
+#[test]
+fn every_rule_of_a_finding_is_in_the_table_of_severities() -> io::Result<()> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let table = fs::read_to_string(root.join("docs/findings.md"))?;
+    let sources = sources()?;
+    let own = sources.iter().filter(|(name, _)| !name.contains("test"));
+    let rules: std::collections::BTreeSet<&str> = own.flat_map(|(_, text)| rules(text)).collect();
+    assert!(rules.len() > 45, "only {rules:?}");
+    let missing: Vec<_> = rules
+        .into_iter()
+        .filter(|rule| !table.contains(&format!("`{rule}`")))
+        .collect();
+    assert!(missing.is_empty(), "not in docs/findings.md: {missing:?}");
+    Ok(())
+}

@@ -32,7 +32,7 @@ impl CheckedCam<'_> {
         if limits.regularity.value <= 0.0 {
             report.findings.push(Finding {
                 rule: "cam-undercut",
-                severity: Severity::Warning,
+                severity: Severity::Error,
                 message: self.undercut,
                 measured: Some(limits.least_radius.value),
                 required: Some(0.0),
@@ -46,7 +46,7 @@ impl CheckedCam<'_> {
             let degrees = pressure.value.to_degrees();
             report.findings.push(Finding {
                 rule: "cam-pressure-angle",
-                severity: Severity::Note,
+                severity: Severity::of_pressure_angle(pressure.value),
                 message: format!("{before} {degrees:.1} deg {behind}"),
                 measured: Some(pressure.value),
                 required: Some(self.pressure_angle),

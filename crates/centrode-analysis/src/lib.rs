@@ -16,6 +16,7 @@ pub mod optimise;
 mod progress;
 mod report;
 mod response;
+mod severity;
 mod shaft;
 mod side_by_side;
 mod three_arm;
@@ -37,8 +38,9 @@ pub use gear_pair::{MOST_TEETH, PairRemedy, check, check_contact, pitch_overlap,
 pub use goal::Goal;
 pub use intermittent_contact::IntermittentContact;
 pub use progress::Progress;
-pub use report::{Finding, FlankPlace, Place, Report, ReportFile, Severity, Table};
+pub use report::{Finding, FlankPlace, Place, Report, ReportFile, Table};
 pub use response::{Answer, Response};
+pub use severity::Severity;
 pub use shaft::{check_moving_box, check_shaft};
 pub use three_arm::{
     ArmClearance, ArmClearanceCourse, ArmClearanceError, TrainTeeth, Variants, VariantsError,

@@ -4,19 +4,7 @@ use std::collections::BTreeMap;
 use schemars::{JsonSchema, generate::SchemaSettings};
 use serde::Serialize;
 
-use crate::{FigureGroup, Goal, JsonNumber, Unit, figure};
-
-/// Severity of a finding.
-#[derive(Clone, Copy, Debug, Eq, JsonSchema, Ord, PartialEq, PartialOrd, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Severity {
-    /// Worth knowing; the part works as asked.
-    Note,
-    /// The part works, but worse than a good one.
-    Warning,
-    /// The part does not fulfil its purpose.
-    Error,
-}
+use crate::{FigureGroup, Goal, JsonNumber, Severity, Unit, figure, severity};
 
 /// Place in the mechanism and its cycle at which a finding was made.
 #[derive(Clone, Debug, Default, JsonSchema, PartialEq, Serialize)]
@@ -142,10 +130,9 @@ impl Report {
             .collect()
     }
 
-    /// Puts the worst findings first.
+    /// Puts the worst findings first, and causes before their consequences.
     pub(crate) fn worst_first(&mut self) {
-        let severity = |finding: &Finding| std::cmp::Reverse(finding.severity);
-        self.findings.sort_by_key(severity);
+        severity::worst_first(&mut self.findings);
     }
 
     /// A finding for each goal that is missed: the mechanism does not do what it is asked to. `about` has the place, the

@@ -119,13 +119,18 @@ pub(super) fn forces(
     let meshes = machine.meshes.iter().enumerate();
     rows.extend(meshes.map(|(index, mesh)| (pair(mesh.links), ComposedFigure::MeshForce(index))));
     let keys = keys::under_load(composed);
-    let found = loaded.greatest(rows.len() + 2 + keys.len(), |forces, input| {
+    let arms = arms(composed, machine);
+    let found = loaded.greatest(rows.len() + 3 + keys.len(), |forces, input| {
         let figures = rows.iter().map(|(_, figure)| part(forces, figure));
         let torque = forces.input_torque;
         let keys = keys
             .iter()
             .map(|key| Some(key.torque(composed, forces, input)));
-        let all = figures.chain([Some(-torque), Some(torque)]).chain(keys);
+        let of_links = forces.loads.iter().zip(&arms);
+        let load = of_links.fold(0.0, |most: f64, (load, arm)| {
+            most.max(load.force).max(load.torque / arm)
+        });
+        let all = figures.chain([-torque, torque, load].map(Some)).chain(keys);
         all.map(|value| value.unwrap_or(f64::NAN)).collect()
     });
     let (low, high) = (-found[rows.len()].value, found[rows.len() + 1].value);
@@ -149,7 +154,8 @@ pub(super) fn forces(
     values.insert("input_torque_min", low);
     values.insert("input_torque_max", high);
     values.insert("input_torque_mean", mean);
-    keys::check(composed, &keys, &found[rows.len() + 2..], report);
+    excessive(&rows, &found, report);
+    keys::check(composed, &keys, &found[rows.len() + 3..], report);
     let row = |((name, _), extreme): (&(String, ComposedFigure), &Extreme)| {
         (extreme.value >= 0.0).then(|| (name.clone(), vec![extreme.value]))
     };
@@ -173,11 +179,75 @@ pub(super) fn forces(
     }
 }
 
-/// A note that the forces are not known.
+/// Arm of a torque on each link, mm: the minimum pitch radius of its gears, or else the length of the shortest bar.
+fn arms(composed: &Composed, machine: &Machine) -> Vec<f64> {
+    let pins = machine.closures.iter().map(|pin| pin.at);
+    let ends = machine.joints.iter().map(|joint| joint.origin).chain(pins);
+    let bars = ends.map(|[x, y, _]| x.hypot(y));
+    let shortest = bars.filter(|bar| *bar > 0.0).fold(f64::INFINITY, f64::min);
+    let mut arms = vec![f64::INFINITY; machine.links.len()];
+    for gear in composed.gears() {
+        if let Some(body) = composed.body_named(gear.body_name()) {
+            let radius = gear.pair.rolling().radii(gear.member).0;
+            arms[body] = arms[body].min(radius);
+        }
+    }
+    for arm in arms.iter_mut().filter(|arm| arm.is_infinite()) {
+        *arm = shortest;
+    }
+    arms
+}
+
+/// Force of a joint, pin or mesh, by the largest load, above which the machine cannot be driven: a thousandth of friction or
+/// of an error in a length takes the whole load there. Ten times less would refuse toggle presses.
+const EXCESSIVE: f64 = 1e3;
+
+/// Reports the largest force where it is out of all proportion to the loads, which follow the forces in `found`.
+fn excessive(rows: &[(String, ComposedFigure)], found: &[Extreme], report: &mut Report) {
+    let load = found[rows.len() + 2].value;
+    let largest = rows.iter().zip(found);
+    let largest = largest.max_by(|a, b| a.1.value.total_cmp(&b.1.value));
+    let Some(((name, figure), force)) = largest.filter(|(_, force)| force.value > EXCESSIVE * load)
+    else {
+        return;
+    };
+    if load > 0.0 {
+        let kind = match figure {
+            ComposedFigure::MeshForce(_) => "mesh",
+            ComposedFigure::PinForce(_) => "pin",
+            _ => "joint",
+        };
+        report.findings.push(Finding {
+            rule: "excessive-force",
+            severity: Severity::Error,
+            message: format!(
+                "the force of {kind} {name} reaches {:.3e} N, {:.0} times the largest load of {load:.4} N: the machine nearly locks there",
+                force.value,
+                force.value / load
+            ),
+            measured: Some(force.value),
+            required: Some(EXCESSIVE * load),
+            unit: Unit::Newton,
+            remedy: Some(
+                "other lengths, another pressure angle or a gentler ratio, so that the driving force acts along the motion",
+            ),
+            place: Place {
+                part: Some(name.clone()),
+                input: Some(force.input),
+                ..Place::default()
+            },
+        });
+    }
+}
+
+/// Reports why the forces are not known: a dead position, where they grow beyond bounds, is an error.
 fn undetermined(error: &ForcesError, report: &mut Report) {
     report.findings.push(Finding {
         rule: "forces-undetermined",
-        severity: Severity::Note,
+        severity: match error {
+            ForcesError::Dead { .. } => Severity::Error,
+            _ => Severity::Note,
+        },
         message: format!("there are no forces: {error}"),
         measured: None,
         required: None,

@@ -39,11 +39,12 @@ pub(super) fn collisions(
     (ends, tolerance): (&[f64], Tolerance),
     report: &mut Report,
 ) {
+    let is_decided = composed.design().describes_plates();
     let turned = on_axes(composed, machine);
     let mut kinds = Vec::new();
     let mut pieces = Vec::new();
     for round in &turned {
-        let all = round.surfaces.iter().collect();
+        let all = (round.surfaces.iter().collect(), is_decided);
         if let Some(piece) = PartSurfaces::new(&round.name, round.link, all, tolerance) {
             let (axis, is_roller) = (round.axis, round.is_roller);
             kinds.push(Kind::Turned { axis, is_roller });
@@ -52,7 +53,8 @@ pub(super) fn collisions(
     }
     let parts = parts(composed, machine);
     for (name, link, surface, kind) in &parts {
-        if let Some(piece) = PartSurfaces::new(name, *link, vec![surface], tolerance) {
+        let own = (vec![surface], is_decided || !matches!(kind, Kind::Plate(_)));
+        if let Some(piece) = PartSurfaces::new(name, *link, own, tolerance) {
             kinds.push(*kind);
             pieces.push(piece);
         }

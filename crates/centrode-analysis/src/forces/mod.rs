@@ -31,10 +31,29 @@ pub struct Forces {
     pub contacts: Vec<Vector3<f64>>,
     /// Forces of each guide.
     pub guides: Vec<GuideForce>,
+    /// What loads each link, in the order of the machine's.
+    pub loads: Vec<LinkLoad>,
     /// Kinetic energy, N mm.
     pub kinetic_energy: f64,
     /// Potential energy in the field of gravity, N mm.
     pub potential_energy: f64,
+}
+
+/// Largest single load on a link: one of the design's, or the weight and inertia of a mass.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct LinkLoad {
+    /// Force, N.
+    pub force: f64,
+    /// Torque, N mm.
+    pub torque: f64,
+}
+
+impl LinkLoad {
+    /// Takes the larger of this load and another.
+    fn raise(&mut self, force: f64, torque: f64) {
+        self.force = self.force.max(force);
+        self.torque = self.torque.max(torque);
+    }
 }
 
 /// Force in a joint.

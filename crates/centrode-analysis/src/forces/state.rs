@@ -6,7 +6,7 @@ use super::elimination::eliminated;
 use super::motion::LinkMotion;
 use super::ready::{Balance, Follower, Step};
 use super::tie::{Lines, Tie, TieKind};
-use super::{Forces, ForcesError, JointForce, Reaction, ToothForce};
+use super::{Forces, ForcesError, JointForce, LinkLoad, Reaction, ToothForce};
 
 /// Millimetres in a metre: kg mm/s² are thousandths of a newton.
 const MM: f64 = 1000.0;
@@ -48,6 +48,7 @@ struct State<'a> {
     axes: Vec<Vector3<f64>>,
     passed: Vec<Wrench>,
     drives: Vec<f64>,
+    loads: Vec<LinkLoad>,
     /// Kinetic and potential energy, N mm.
     energy: [f64; 2],
 }
@@ -77,6 +78,7 @@ impl Balance {
             meshes: vec![tooth; machine.meshes.len()],
             contacts: count(machine.contacts.len()),
             guides: vec![GuideForce::new(0.0, 0.0, 0.0, 0.0); machine.guides.len()],
+            loads: std::mem::take(&mut state.loads),
             kinetic_energy: state.energy[0],
             potential_energy: state.energy[1],
         };
@@ -142,6 +144,7 @@ impl<'a> State<'a> {
             axes: vec![Vector3::zeros(); joints],
             passed: vec![Wrench::zero(); joints],
             drives: vec![0.0; joints],
+            loads: vec![LinkLoad::default(); machine.links.len()],
             energy: [0.0; 2],
         };
         for &joint in &balance.order {
@@ -179,7 +182,9 @@ impl<'a> State<'a> {
             let swirl = inertia(&spin);
             let force = (bend * speed - gravity) * (mass.mass / MM);
             let mut wrench = Wrench::new(at, force);
-            wrench.moment += (inertia(&spin_up) * speed + spin.cross(&swirl)) / MM;
+            let moment = (inertia(&spin_up) * speed + spin.cross(&swirl)) / MM;
+            wrench.moment += moment;
+            self.loads[mass.link].raise(force.norm(), moment.norm());
             if let Some(carrier) = balance.carrier[mass.link] {
                 self.passed[carrier].add(1.0, &wrench);
             }
@@ -193,10 +198,17 @@ impl<'a> State<'a> {
         let values = |of: &[Quantity; 3]| {
             Vector3::from([0, 1, 2].map(|k| self.machine.value(&of[k], input)))
         };
-        let (link, wrench) = match load {
+        let (link, wrench, torque) = match load {
             Load::Mass { .. } => return,
             Load::Joint { joint, effort } => {
-                self.drives[*joint] -= self.machine.value(effort, input);
+                let size = self.machine.value(effort, input);
+                self.drives[*joint] -= size;
+                let joint = &self.machine.joints[*joint];
+                let [force, torque] = match joint.kind {
+                    JointKind::Turning => [0.0, size.abs()],
+                    _ => [size.abs(), 0.0],
+                };
+                self.loads[joint.child].raise(force, torque);
                 return;
             }
             Load::Force {
@@ -210,14 +222,16 @@ impl<'a> State<'a> {
                 (
                     *link,
                     Wrench::new(at, in_world(motion, values(force), *axes)),
+                    0.0,
                 )
             }
             Load::Torque { link, torque, axes } => {
                 let moment = in_world(&self.links[*link], values(torque), *axes);
                 let force = Vector3::zeros();
-                (*link, Wrench { force, moment })
+                (*link, Wrench { force, moment }, moment.norm())
             }
         };
+        self.loads[link].raise(wrench.force.norm(), torque);
         if let Some(carrier) = balance.carrier[link] {
             self.passed[carrier].add(-1.0, &wrench);
         }

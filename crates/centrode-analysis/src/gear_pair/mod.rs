@@ -149,7 +149,7 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
         report.findings.push(Finding {
             rule: "pressure-angle",
             remedy: remedy("pressure-angle"),
-            severity: Severity::Note,
+            severity: Severity::of_pressure_angle(steepest),
             message: format!(
                 "the force on the driven gear stands up to {:.1} deg off its direction of turning",
                 steepest.to_degrees()
@@ -178,7 +178,7 @@ pub fn pitch_overlap(pair: &GearPair) -> Option<Finding> {
     Some(Finding {
         rule: "pitch-curves-overlap",
         remedy: remedy("pitch-curves-overlap"),
-        severity: Severity::Error,
+        severity: Severity::of_overlap(value),
         message: format!(
             "away from the point at which they roll the pitch curves overlap by up to {value:.4} mm: teeth of any size meet there"
         ),
@@ -191,6 +191,9 @@ pub fn pitch_overlap(pair: &GearPair) -> Option<Finding> {
         },
     })
 }
+
+/// Share of the cycle without contact of flanks above which the pair does not work.
+const CARRIED: f64 = 0.5;
 
 /// Pressure angle above which friction is commonly considered a danger, rad.
 const PRESSURE_ANGLE: f64 = 50.0 * PI / 180.0;
@@ -266,7 +269,7 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
         report.findings.push(Finding {
             rule: "interference",
             remedy: remedy("interference"),
-            severity: Severity::Error,
+            severity: Severity::of_overlap(deepest.0),
             message: match is_jammed {
                 true => format!(
                     "the gears jam: they penetrate each other by {:.3e} mm or more",
@@ -296,10 +299,10 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
         report.findings.push(Finding {
             rule: "contact-lost",
             remedy: remedy("contact-lost"),
-            severity: if worst.0 > SLIGHT {
-                Severity::Warning
+            severity: if share > CARRIED {
+                Severity::Error
             } else {
-                Severity::Note
+                Severity::of_deviation(worst.0 * pair.rolling().radii(Member::Driven).1)
             },
             message: format!(
                 "over {} % of the cycle the flanks do not carry the motion: a tooth edge does, and the driven angle is off by {} {:.3e} rad",
@@ -352,7 +355,7 @@ fn seat_jump(pair: &GearPair, contact: &Contact) -> Option<Finding> {
     Some(Finding {
         rule: "seat-jump",
         remedy: remedy("seat-jump"),
-        severity: Severity::Warning,
+        severity: Severity::of_deviation(greatest.turn * pair.rolling().radii(Member::Driven).1),
         message: format!(
             "tooth {driver} of the driver meets tooth {driven} of the driven gear in the play: the driven gear pushed {pushed} jumps by {:.3e} rad, and may be caught on either side of that tooth{others}",
             greatest.turn

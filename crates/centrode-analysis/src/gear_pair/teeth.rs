@@ -114,7 +114,7 @@ pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut 
     });
     add(
         "undercut",
-        Severity::Warning,
+        Severity::of_deviation(undercut.1),
         undercut,
         Some(0.0),
         Unit::Millimetre,
@@ -134,7 +134,7 @@ pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut 
     });
     add(
         "short-tooth",
-        Severity::Warning,
+        Severity::of_deviation(short.1),
         short,
         Some(0.0),
         Unit::Millimetre,

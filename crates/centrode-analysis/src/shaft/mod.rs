@@ -122,7 +122,7 @@ fn schedule(shaft: &SpiralShaft, schedule: &Schedule, report: &mut Report) {
         let severity = if misplacement.abs() > limit {
             Severity::Error
         } else {
-            Severity::Note
+            Severity::of_deviation(misplacement.abs())
         };
         report.findings.push(Finding {
             rule: "misplaced-hole",

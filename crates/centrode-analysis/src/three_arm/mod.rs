@@ -212,7 +212,7 @@ fn crowded(arms: Option<&ArmClearance>, report: &mut Report) {
     report.findings.push(Finding {
         rule: "unpicked-seedlings",
         // Stems in a tray are held by their plugs and spring back.
-        severity: Severity::Note,
+        severity: Severity::of_deviation(-found.least),
         message: "an arm bends stems of the rows still in the tray".into(),
         measured: Some(found.least),
         required: Some(0.0),
@@ -364,7 +364,7 @@ fn tooth_findings(teeth: &[FlankCount; 2], report: &mut Report) {
         }
         report.findings.push(Finding {
             rule: "full-teeth",
-            severity: Severity::Note,
+            severity: Severity::Warning,
             message: format!(
                 "of {} flanks of each of the {part}, {} are undercut and {} short of the full addendum at this module",
                 sound.flanks, sound.undercut, sound.short

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::design::FRAME;
 use super::points::ROLLER;
-use super::{Composed, ComposedDesign, ComposedError};
+use super::{Composed, ComposedBodySpec, ComposedDesign, ComposedError};
 use crate::bore;
 use crate::gear::design::BodySpec;
 use crate::gear::design::SpecError;
@@ -72,6 +72,23 @@ impl Default for ComposedPlatesSpec {
             pin_heat_treatment: String::new(),
             density: 7850.0,
         }
+    }
+}
+
+impl ComposedDesign {
+    /// Whether the design says anything of its plates and pins: `plates` other than the default, or a body with a layer, an
+    /// outline, a circle or a size. Otherwise plates and pins are a proposal of the program.
+    #[must_use]
+    pub fn describes_plates(&self) -> bool {
+        let describes = |body: &ComposedBodySpec| {
+            body.layer.is_some()
+                || !body.outline.is_empty()
+                || body.corner_radius.is_some()
+                || body.circle.is_some()
+                || body.width.is_some()
+                || body.thickness.is_some()
+        };
+        self.plates != ComposedPlatesSpec::default() || self.bodies.values().any(describes)
     }
 }
 

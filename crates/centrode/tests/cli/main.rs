@@ -7,6 +7,7 @@ mod export;
 mod parts;
 mod reverse;
 mod search;
+mod severity;
 
 use std::io::Write as _;
 use std::path::PathBuf;

@@ -159,7 +159,7 @@ fn apart(mechanism: &ThreeArm, pair: &GearPair, report: &mut Report) {
     };
     report.findings.push(Finding {
         rule: "gears-collide",
-        severity: Severity::Error,
+        severity: Severity::of_overlap(-found.least),
         message: format!(
             "{} and {} run into each other",
             least.pair[0], least.pair[1]
