@@ -102,7 +102,12 @@ fn replaced_words_stay_gone() -> io::Result<()> {
 
 /// Names of rules that findings of a source have, as literals.
 fn rules(text: &str) -> impl Iterator<Item = &str> {
-    let starts = ["rule: \"", "add(\n        \"", "about_gears(\"", "about_gears(\n            \""];
+    let starts = [
+        "rule: \"",
+        "add(\n        \"",
+        "about_gears(\"",
+        "about_gears(\n            \"",
+    ];
     starts.into_iter().flat_map(move |start| {
         let found = text.split(start).skip(1);
         found.filter_map(|rest| rest.split('"').next())

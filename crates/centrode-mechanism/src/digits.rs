@@ -10,6 +10,37 @@ pub(crate) fn told(value: f64) -> String {
     }
 }
 
+/// A text whose numbers have the digits that mean something: those of [`told`] where there are more than ten.
+pub(crate) fn shortened(text: &str) -> String {
+    let is_word = |c: char| c.is_alphanumeric() || "_\"'".contains(c);
+    let mut short = String::with_capacity(text.len());
+    let mut rest = text;
+    while let Some(start) = rest.find(|c: char| c.is_ascii_digit()) {
+        let (before, number) = rest.split_at(start);
+        let (number, after) = number.split_at(length(number));
+        let in_word = before.ends_with(is_word) || after.starts_with(is_word);
+        let digits = number.bytes().take_while(|c| *c != b'e').count();
+        let value = number.parse().ok().filter(|_| digits > 10 && !in_word);
+        short.push_str(before);
+        short.push_str(&value.map_or_else(|| number.to_owned(), told));
+        rest = after;
+    }
+    short + rest
+}
+
+/// Length of the number with which a text begins.
+fn length(text: &str) -> usize {
+    let digits = |text: &str| text.bytes().take_while(u8::is_ascii_digit).count();
+    let mut length = digits(text);
+    for mark in [".", "e", "e-"] {
+        if let Some(rest) = text[length..].strip_prefix(mark) {
+            let more = digits(rest);
+            length += if more > 0 { mark.len() + more } else { 0 };
+        }
+    }
+    length
+}
+
 /// Millimetres to a thousandth, without zeros at the end.
 pub(crate) fn thousandths(mm: f64) -> String {
     told((1e3 * mm).round() / 1e3)
@@ -17,7 +48,35 @@ pub(crate) fn thousandths(mm: f64) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::told;
+    use super::{shortened, told};
+
+    #[test]
+    fn numbers_in_a_text_have_the_digits_that_mean_something() {
+        for (text, words) in [
+            ("54.000000000000014 mm", "54 mm"),
+            (
+                "(0.5774011647378556, -1.439239460421746) mm",
+                "(0.5774011647, -1.43923946) mm",
+            ),
+            ("at 119.99999999999999.", "at 120."),
+            ("at 119.99999999999999 deg", "at 120 deg"),
+            (
+                "arm-2 at 12.5, \"part123456789012\"",
+                "arm-2 at 12.5, \"part123456789012\"",
+            ),
+            (
+                "must be 0.1 to 1e9, not 5.3e-14",
+                "must be 0.1 to 1e9, not 5.3e-14",
+            ),
+            ("5.299999493450935e0 mm", "5.299999493 mm"),
+            ("2.220446049250313e-16", "2.220446049e-16"),
+            ("123456789012345", "1.23456789e14"),
+            ("", ""),
+            ("no number", "no number"),
+        ] {
+            assert_eq!(shortened(text), words);
+        }
+    }
 
     #[test]
     fn digits_are_those_that_mean_something() {

@@ -53,6 +53,9 @@ pub fn files(
     options: &Options,
 ) -> Result<Bundle, ExportError> {
     let design = composed.design();
+    if let Some(overlap) = composed.overlapping_holes() {
+        return Err(ExportError::missing_at("plates.pin_diameter", overlap));
+    }
     let made = machine(composed)?;
     let named = [design.name.as_str(), design.title.as_str()];
     let mut package = Package::new("a composed machine", named, formats, options);

@@ -158,6 +158,17 @@ class Machine:
         """Depth of the deepest contact, mm."""
         return 1e3 * max(0.0, *(-self.data.contact.dist), 0.0)
 
+    def gap(self):
+        """Largest distance of the two sides of a closed loop's pin, mm; 0 without loops."""
+        model, data = self.model, self.data
+        gaps = [0.0]
+        for loop in np.flatnonzero(model.eq_type == mujoco.mjtEq.mjEQ_CONNECT):
+            bodies = model.eq_obj1id[loop], model.eq_obj2id[loop]
+            anchors = model.eq_data[loop, :3], model.eq_data[loop, 3:6]
+            at = [data.xpos[b] + data.xmat[b].reshape(3, 3) @ a for b, a in zip(bodies, anchors, strict=True)]
+            gaps.append(float(np.linalg.norm(at[0] - at[1])))
+        return 1e3 * max(gaps)
+
     def point(self, point, travel):
         """Where a point of a link is at a travel, m."""
         self.place(travel)
@@ -190,12 +201,12 @@ def check(machine, options):
     # Rows enough to see every tooth.
     stride = max(1, steps // 20000)
     names = list(machine.off())
-    rows, penetration, pushes = [], 0.0, {name: [0.0, 0.0] for name in machine.joints}
+    rows, penetration, gap, pushes = [], 0.0, 0.0, {name: [0.0, 0.0] for name in machine.joints}
     for step in range(before + steps):
         machine.advance()
         if step < before or step % stride:
             continue
-        penetration = max(penetration, machine.penetration())
+        penetration, gap = max(penetration, machine.penetration()), max(gap, machine.gap())
         off, row = machine.off(), [machine.travelled]
         for name in names:
             row += [off[name], machine.rate(name) - law.rate(name, machine.travelled)]
@@ -214,6 +225,8 @@ def check(machine, options):
         }
         if machine.mode == "drive":
             result["joints"][name]["force_range"] = pushes[name]
+    if machine.mode == "contact":
+        result["gap_max_mm"] = gap
     result |= {"penetration_max_mm": penetration, "seconds": machine.data.time}
     if machine.mode == "law":
         result["point_off_max_m"] = law.check(machine.point)

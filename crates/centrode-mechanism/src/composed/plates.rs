@@ -9,6 +9,7 @@ use super::design::FRAME;
 use super::points::ROLLER;
 use super::{Composed, ComposedBodySpec, ComposedDesign, ComposedError};
 use crate::bore;
+use crate::digits::thousandths;
 use crate::gear::design::BodySpec;
 use crate::gear::design::SpecError;
 use crate::gear::design::rule::{
@@ -186,6 +187,29 @@ impl Composed {
     pub fn pin_holes(&self, body: usize) -> Option<Vec<PinHole>> {
         let holes = self.hole_places(body)?.into_iter();
         Some(holes.map(|place| self.hole(body, place)).collect())
+    }
+
+    /// Two holes of one plate that overlap, as words for a message; `None` if there are none.
+    #[must_use]
+    pub fn overlapping_holes(&self) -> Option<String> {
+        self.bodies.iter().enumerate().find_map(|(index, body)| {
+            let holes = self.pin_holes(index)?;
+            let mut pairs = (0..holes.len()).flat_map(|k| (0..k).map(move |i| (i, k)));
+            let (apart, one, other) = pairs.find_map(|(i, k)| {
+                let (one, other) = (&holes[i], &holes[k]);
+                let apart = (one.at - other.at).norm();
+                let overlap = apart < 0.5 * (one.hub.bore + other.hub.bore);
+                overlap.then_some((apart, one, other))
+            })?;
+            let [first, second] = [one, other].map(|hole| thousandths(hole.hub.bore));
+            Some(format!(
+                "axes {} and {} of body {} are {} mm apart, but their holes of {first} and {second} mm overlap: take thinner pins",
+                one.name,
+                other.name,
+                body.name,
+                thousandths(apart),
+            ))
+        })
     }
 
     /// Whether a body is fixed to another at the pin on which that one turns, so that its plate is on the shaft there.

@@ -2,6 +2,7 @@ use std::error;
 
 use thiserror::Error;
 
+use crate::digits::shortened;
 use crate::gear::design::{Rule, SpecError};
 
 /// Error of a design file: the fault and its place.
@@ -144,7 +145,7 @@ fn in_words(keys: &[String]) -> String {
 
 /// A key and what is wrong with it.
 fn named(key: &str, fault: &DesignFault) -> String {
-    let fault = fault.to_string();
+    let fault = shortened(&fault.to_string());
     let (tables, last) = match key.rfind('.') {
         Some(dot) => key.split_at(dot + 1),
         None => ("", key),
@@ -168,7 +169,7 @@ pub(super) fn nearest(word: &str, known: &[String]) -> Option<String> {
     known
         .iter()
         .map(|k| (strsim::damerau_levenshtein(&short, k), k))
-        .filter(|(distance, k)| *distance <= 1 + k.len() / 4)
+        .filter(|(distance, k)| *distance <= (k.len() / 4).max(1))
         .min()
         .map(|(_, k)| k.clone())
 }

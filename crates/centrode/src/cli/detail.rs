@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::page::{Edit, Table, edited, tables};
 use crate::analysis::{Finding, Place, Report, Severity, Unit};
 use crate::family::{FAMILIES, Mechanism};
-use crate::mechanism::design::DesignError;
+use crate::mechanism::design::{DesignError, DesignFault};
 
 /// Greatest number of details that are left out of one design.
 const MOST: usize = 6;
@@ -81,6 +81,10 @@ fn resolved(text: &str) -> Result<Arc<dyn Mechanism>, DesignError> {
 
 /// Mechanism of a design without the details that are at fault, and the keys left out; `None` where the fault is in anything else.
 fn without_details(text: &str, error: &DesignError) -> Option<(Arc<dyn Mechanism>, Vec<String>)> {
+    // A key that means nothing is no detail: who wrote it meant something else.
+    if matches!(error.fault, DesignFault::UnknownKey { .. }) {
+        return None;
+    }
     let mut text = text.to_owned();
     let mut left_out = Vec::new();
     let mut blamed = error.key.clone();
@@ -175,6 +179,8 @@ mod tests {
         for (old, new) in [
             ("module = 2", "module = -2"),
             ("tooth_count = 24", "tooth_count = 0"),
+            ("bore = 14", "bore = 14\ninternal = true"),
+            ("bore = 14", "bores = 14"),
             (
                 "mean_ratio = [3, 2]",
                 "mean_ratio = [3, 2]\ncenter_distance = 1",

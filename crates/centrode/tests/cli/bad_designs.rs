@@ -234,3 +234,61 @@ fn three_arm_mechanisms_that_cannot_be_are_refused() {
     );
     refused(crossing.as_bytes(), &["pitch.x"], 10);
 }
+
+#[test]
+fn a_key_that_means_nothing_is_refused_also_in_what_is_only_a_detail() {
+    let known = "unknown key; known are width, bore";
+    for key in ["internal", "inner", "ring", "helix_deg", "bores_extra"] {
+        for body in ["driver", "driven"] {
+            let design = format!("{}[{body}]\n{key} = 1\n", sized("circle", ""));
+            refused(design.as_bytes(), &[&format!("{body}.{key}: {known}")], 8);
+        }
+    }
+    let near = format!("{}[driven]\nbores = 1\n", sized("circle", ""));
+    refused(near.as_bytes(), &["did you mean \"bore\"?"], 8);
+}
+
+#[test]
+fn axes_nearer_than_their_pins_are_named_with_the_key() {
+    let folder = tempfile::tempdir().expect("a place to write");
+    let to = folder.path().join("out");
+    for (ground, crank, pin, overlap) in [
+        ("1", "0.5", "", "axes A and D of body frame are 1 mm apart"),
+        (
+            "2.9",
+            "1",
+            "",
+            "axes A and D of body frame are 2.9 mm apart",
+        ),
+        ("12", "2", "", "axes A and B of body crank are 2 mm apart"),
+        ("12", "2", "pin_diameter = 1.9", ""),
+        ("1", "0.5", "pin_diameter = 0.4\nwidth = 0.6", ""),
+        ("20", "10", "pin_diameter = 7", ""),
+        (
+            "20",
+            "6",
+            "pin_diameter = 7",
+            "but their holes of 7 and 7 mm overlap",
+        ),
+    ] {
+        let [a, b]: [f64; 2] = [ground, crank].map(|number| number.parse().expect("a number"));
+        let (coupler, rocker) = (1.2 * a, a - 0.4 * b);
+        let design = format!(
+            "family = \"machine\"\n[frame.points]\nA = [0, 0]\nD = [{ground}, 0]\n\
+             [bodies.crank]\non = \"frame.A\"\nlaw = {{ ratio = 1 }}\npoints = {{ B = [{crank}, 0] }}\n\
+             [dyads.loop]\ntype = \"RRR\"\nfrom = \"crank.B\"\nto = \"frame.D\"\nlengths = [{coupler}, {rocker}]\n\
+             side = \"left\"\nbodies = [\"coupler\", \"rocker\"]\njoint = \"C\"\n[plates]\n{pin}\n"
+        );
+        let arguments = ["export", "-", "--format", "dxf", "--to"];
+        let to = to.display().to_string();
+        let done = crate::fed(&[&arguments[..], &[&to]].concat(), design.as_bytes());
+        let message = text(&done.stderr);
+        if overlap.is_empty() {
+            assert_ne!(done.status.code(), Some(2), "{message}");
+        } else {
+            assert_eq!(done.status.code(), Some(2), "{ground} {crank}");
+            assert!(message.contains("plates.pin_diameter: "), "{message}");
+            assert!(message.contains(overlap), "{message}");
+        }
+    }
+}

@@ -15,21 +15,22 @@ pub fn axis_at_border(axis: Point, room: &Bounds) -> Option<Finding> {
         ("y", axis.y, room.min.y),
         ("y", axis.y, room.max.y),
     ];
-    let off = |(_, at, side): &(&str, f64, f64)| (at - side).abs();
-    let nearest = sides.into_iter().min_by(|a, b| off(a).total_cmp(&off(b)))?;
-    let (name, at, side) = nearest;
-    if off(&nearest) > near {
-        return None;
-    }
-    let mm = |x: f64| Unit::Millimetre.tell(x);
+    let met = sides.into_iter();
+    let met = met.filter(|(_, at, side)| (at - side).abs() <= near);
+    let met: Vec<_> = met.collect();
+    let &(_, at, side) = met.first()?;
+    let ends = met.iter();
+    let ends =
+        ends.map(|(name, _, side)| format!("{name} ends at {}", Unit::Millimetre.tell(*side)));
+    let ends: Vec<String> = ends.collect();
     Some(Finding {
         rule: "axis-at-border",
         severity: Severity::Note,
         message: format!(
-            "the axis found, ({:.4}, {:.4}) mm, stands at the border of the box in which it was sought, whose {name} ends at {}: beyond it there may be a better one",
+            "the axis found, ({:.4}, {:.4}) mm, is at the border of the box that was searched, where {}: there may be a better one outside",
             axis.x,
             axis.y,
-            mm(side)
+            ends.join(" and ")
         ),
         measured: Some(at),
         required: Some(side),
@@ -53,10 +54,14 @@ mod tests {
         assert_eq!(axis_at_border(Point::new(40.0, 20.0), &room), None);
         assert_eq!(axis_at_border(Point::new(-9.5, 20.0), &room), None);
         for (axis, words) in [
-            (Point::new(-10.0, 20.0), "whose x ends at -10"),
-            (Point::new(89.95, 20.0), "whose x ends at 90"),
-            (Point::new(40.0, 0.01), "whose y ends at 0"),
-            (Point::new(40.0, 50.0), "whose y ends at 50"),
+            (Point::new(-10.0, 20.0), "where x ends at -10"),
+            (Point::new(89.95, 20.0), "where x ends at 90"),
+            (Point::new(40.0, 0.01), "where y ends at 0"),
+            (Point::new(40.0, 50.0), "where y ends at 50"),
+            (
+                Point::new(90.0, 50.0),
+                "where x ends at 90.0000 mm and y ends at 50",
+            ),
         ] {
             let found = axis_at_border(axis, &room).expect("a finding");
             assert!(found.message.contains(words), "{}", found.message);

@@ -31,9 +31,7 @@ pub(super) fn mesh(design: &ThreeArmDesign) -> Option<[Goal; 2]> {
         .filter(|f| f.severity >= Severity::Warning);
     // Lost contact, and what comes of it, counts as transmission error; the pressure angle is the pitch curve's.
     let other = ["contact-lost", "seat-jump", "pressure-angle"];
-    let against = worse
-        .filter(|f| !other.contains(&f.rule))
-        .count();
+    let against = worse.filter(|f| !other.contains(&f.rule)).count();
     Some([
         Goal::new(
             (0, "transmission-error", "transmission error of full teeth"),

@@ -118,9 +118,12 @@ pub enum Rule {
 
 /// A range in words, one without an end by where it begins.
 fn range(least: f64, greatest: f64) -> String {
-    match greatest.is_finite() {
-        true => format!("{} to {}", told(least), told(greatest)),
-        false => format!("at least {}", told(least)),
+    if greatest <= least {
+        told(least)
+    } else if greatest.is_finite() {
+        format!("{} to {}", told(least), told(greatest))
+    } else {
+        format!("at least {}", told(least))
     }
 }
 
