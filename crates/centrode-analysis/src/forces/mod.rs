@@ -31,7 +31,7 @@ pub struct Forces {
     pub contacts: Vec<Vector3<f64>>,
     /// Forces of each guide.
     pub guides: Vec<GuideForce>,
-    /// What loads each link, in the order of the machine's.
+    /// Largest load on each link, in the order of the machine's.
     pub loads: Vec<LinkLoad>,
     /// Kinetic energy, N mm.
     pub kinetic_energy: f64,
