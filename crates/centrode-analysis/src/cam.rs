@@ -2,6 +2,7 @@
 
 use centrode_mechanism::cam::Limits;
 
+use crate::rounding::exceeds;
 use crate::{Finding, Place, Report, Severity, Unit};
 
 /// A cam of a machine and the words in which its findings are told.
@@ -41,7 +42,7 @@ impl CheckedCam<'_> {
                 place: place(limits.regularity.input),
             });
         }
-        if pressure.value > self.pressure_angle {
+        if exceeds(pressure.value, self.pressure_angle) {
             let [before, behind] = self.pushes;
             let degrees = pressure.value.to_degrees();
             report.findings.push(Finding {

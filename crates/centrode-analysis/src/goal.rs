@@ -3,6 +3,7 @@ use std::borrow::Cow;
 use schemars::JsonSchema;
 use serde::Serialize;
 
+use crate::rounding::ROUNDING;
 use crate::{JsonNumber, Unit, figure};
 
 /// Goal of a mechanism: a figure and the range in which it is wanted.
@@ -85,7 +86,11 @@ impl Goal {
     pub fn with(self, value: f64) -> Self {
         let above = self.wanted[0].map_or(f64::INFINITY, |least| value - least);
         let below = self.wanted[1].map_or(f64::INFINITY, |greatest| greatest - value);
-        let margin = above.min(below);
+        let margin = match above.min(below) {
+            // At its limit but for rounding: the goal is met.
+            margin if margin.abs() <= ROUNDING * value.abs().min(f64::MAX).max(self.scale) => 0.0,
+            margin => margin,
+        };
         let miss = (-margin).max(0.0) / self.scale;
         Self {
             value: Some(value),
@@ -130,6 +135,27 @@ mod tests {
             let progress = goal(15.0 + f64::from(i)).progress.expect("a figure");
             assert!(progress <= before && progress > 0.0 && (i == 0) == (progress == 1.0));
             before = progress;
+        }
+    }
+
+    #[test]
+    fn a_figure_at_its_limit_but_for_rounding_meets_it() {
+        for figure in [
+            15.0 + 2e-15,
+            15.0 + 1e-10,
+            -5.0 - 1e-15,
+            -5.0 - 1e-10,
+            15.0,
+            -5.0,
+        ] {
+            let goal = goal(figure);
+            assert_eq!(
+                (goal.margin, goal.met(), goal.progress),
+                (Some(0.0), Some(true), Some(1.0))
+            );
+        }
+        for figure in [15.0 + 1e-6, -5.0 - 1e-6, f64::INFINITY, f64::NEG_INFINITY] {
+            assert_eq!(goal(figure).met(), Some(false), "{figure}");
         }
     }
 

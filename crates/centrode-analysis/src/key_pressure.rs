@@ -2,6 +2,7 @@ use centrode_geometry::Extreme;
 use centrode_mechanism::gear::design::Keyway;
 use centrode_mechanism::machine::{Key, allowed_pressure};
 
+use crate::rounding::exceeds;
 use crate::{Finding, Place, Report, Severity, Unit};
 
 /// A key that carries a torque from a shaft to a hub.
@@ -39,7 +40,7 @@ impl LoadedKey<'_> {
         };
         let allowed = allowed.into_iter().fold(f64::INFINITY, f64::min);
         let pressure = self.pressure();
-        if pressure <= allowed {
+        if !exceeds(pressure, allowed) {
             return;
         }
         let (name, part) = (self.key.name(), self.part);

@@ -16,6 +16,7 @@ pub mod optimise;
 mod progress;
 mod report;
 mod response;
+mod rounding;
 mod severity;
 mod shaft;
 mod side_by_side;

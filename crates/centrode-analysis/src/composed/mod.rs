@@ -31,6 +31,7 @@ pub use self::sound_teeth::{NoSoundTeeth, SoundTeeth, with_sound_teeth};
 use crate::forces::ForcesError;
 use crate::progress::filling;
 use crate::report::Missed;
+use crate::rounding::exceeds;
 use crate::side_by_side::both;
 use crate::{Finding, Goal, Place, Report, Severity, Table, Unit};
 
@@ -213,7 +214,7 @@ fn dyads(composed: &Composed, motion: &Motion, report: &mut Report) {
         let worst = worst.unwrap_or(f64::INFINITY).min(low.value);
         report.values.insert("transmission_angle_min", worst);
         let degrees = low.value.to_degrees();
-        if degrees < HOLDS_BADLY {
+        if exceeds(HOLDS_BADLY, degrees) {
             report.findings.push(Finding {
                 rule: "transmission-angle",
                 severity: Severity::Warning,

@@ -23,6 +23,7 @@ pub use swing_spread::{SixBarTolerances, SwingSpread};
 use self::figures::FIGURES;
 use crate::no_screws::no_screws;
 use crate::progress::filling;
+use crate::rounding::exceeds;
 use crate::{Finding, Place, Report, Severity, Table, Unit};
 
 /// Number of random six-bars, Monte Carlo samples within the tolerances.
@@ -169,7 +170,7 @@ fn spread(feeder: &Feeder, report: &mut Report) {
     values.insert("swing_first_order_max", spread.first_order_greatest);
     let goals = &feeder.design().goals;
     let miss = (spread.greatest - goals.swing).max(goals.swing - spread.least);
-    if miss > goals.swing_tolerance {
+    if exceeds(miss, goals.swing_tolerance) {
         report.findings.push(Finding {
             rule: "swing-spread",
             severity: Severity::Warning,

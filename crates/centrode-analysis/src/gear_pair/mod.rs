@@ -15,6 +15,7 @@ use self::remedy::remedy;
 use self::teeth::teeth;
 use crate::contact::{Meshing, is_restless};
 use crate::progress::filling;
+use crate::rounding::exceeds;
 use crate::{Contact, ContactExtremes, Finding, Place, Report, Severity, Unit};
 
 pub(crate) use figures::FIGURES;
@@ -145,7 +146,7 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
         value: steepest,
     } = pair.greatest_pressure_angle();
     report.values.insert("pressure_angle_max", steepest);
-    if steepest > PRESSURE_ANGLE {
+    if exceeds(steepest, PRESSURE_ANGLE) {
         report.findings.push(Finding {
             rule: "pressure-angle",
             remedy: remedy("pressure-angle"),

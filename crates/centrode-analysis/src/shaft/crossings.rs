@@ -1,6 +1,7 @@
 use centrode_mechanism::shaft::{ClearOffset, Crossing, ShaftError, SpiralShaft};
 
 use super::{at, from_turn};
+use crate::rounding::exceeds;
 use crate::{Finding, Place, Report, Severity, Unit};
 
 pub(super) fn crossings(shaft: &SpiralShaft, report: &mut Report) {
@@ -12,8 +13,8 @@ pub(super) fn crossings(shaft: &SpiralShaft, report: &mut Report) {
     report.values.insert("crossing_gap_max", longest);
     report.values.insert("crossing_gap_min", shortest);
     let length = shaft.slider().length;
-    if longest >= length {
-        let open = all.iter().filter(|c| c.gap >= length).count();
+    if !exceeds(length, longest) {
+        let open = all.iter().filter(|c| !exceeds(length, c.gap)).count();
         report.findings.push(Finding {
             rule: "slider-length",
             severity: Severity::Error,
@@ -36,7 +37,7 @@ pub(super) fn crossings(shaft: &SpiralShaft, report: &mut Report) {
     let in_window = |c: &&Crossing| {
         [c.out, c.back]
             .iter()
-            .any(|theta| from_turn(theta - design.pick) <= 0.5 * design.window)
+            .any(|theta| !exceeds(from_turn(theta - design.pick), 0.5 * design.window))
     };
     let picked = all.iter().filter(in_window).count();
     report
@@ -70,7 +71,7 @@ pub(super) fn crossings(shaft: &SpiralShaft, report: &mut Report) {
 fn tilt(shaft: &SpiralShaft, gap: f64, report: &mut Report) {
     let length = shaft.slider().length;
     report.values.insert("slider_length_free_on_pin", 2.0 * gap);
-    if length >= 2.0 * gap {
+    if !exceeds(2.0 * gap, length) {
         return;
     }
     report.findings.push(Finding {

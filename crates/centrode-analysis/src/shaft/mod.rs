@@ -13,6 +13,7 @@ use centrode_mechanism::shaft::{Pick, Schedule, SpiralShaft};
 use self::crossings::crossings;
 use self::figures::FIGURES;
 use crate::key_pressure::LoadedKey;
+use crate::rounding::{ROUNDING, exceeds};
 use crate::{Finding, Place, Report, Severity, Unit};
 
 pub use moving_box::check_moving_box;
@@ -66,7 +67,7 @@ fn moved(shaft: &SpiralShaft, moved: f64, picks: &Schedule, report: &mut Report)
     report.values.insert("moved_distance_plain", plain);
     report.values.insert("moved_distance_limit", limit);
     report.values.insert("moved_distance_of_cycle_max", most);
-    if most > limit {
+    if exceeds(most, limit) {
         report.findings.push(Finding {
             rule: "moved-distance",
             severity: Severity::Error,
@@ -119,7 +120,7 @@ fn schedule(shaft: &SpiralShaft, schedule: &Schedule, report: &mut Report) {
     }) = schedule.worst()
         && misplacement.abs() > MET
     {
-        let severity = if misplacement.abs() > limit {
+        let severity = if exceeds(misplacement.abs(), limit) {
             Severity::Error
         } else {
             Severity::of_deviation(misplacement.abs())
@@ -171,7 +172,7 @@ fn groove(shaft: &SpiralShaft, report: &mut Report) {
     values.insert("pressure_angle_max", steepest.value);
     values.insert("bend_radius_min", 1.0 / groove.tightest().value);
     values.insert("wall_deviation_max", groove.wall_deviation());
-    if steepest.value > PRESSURE_ANGLE {
+    if exceeds(steepest.value, PRESSURE_ANGLE) {
         report.findings.push(Finding {
             rule: "pressure-angle",
             severity: Severity::Warning,
@@ -198,7 +199,7 @@ fn slider(shaft: &SpiralShaft, report: &mut Report) {
     let slider = shaft.slider();
     let needed = slider.needed_clearance(shaft.groove());
     report.values.insert("slider_clearance_min", needed);
-    if needed > slider.clearance {
+    if exceeds(needed, slider.clearance) {
         report.findings.push(Finding {
             rule: "slider-clearance",
             severity: Severity::Warning,
@@ -217,7 +218,7 @@ fn slider(shaft: &SpiralShaft, report: &mut Report) {
     report.values.insert("slider_guided_length", guided);
     let gaps = shaft.groove().crossings().into_iter().map(|c| c.gap);
     let longest = gaps.fold(0.0, f64::max);
-    if guided <= longest && slider.length > longest {
+    if !exceeds(guided, longest) && exceeds(slider.length, longest) {
         report.findings.push(Finding {
             rule: "flat-slider",
             severity: Severity::Warning,
@@ -260,15 +261,15 @@ fn forces(shaft: &SpiralShaft, report: &mut Report) {
     };
     key(shaft, torque, report);
     let values = &mut report.values;
-    let limit = load.contact_limit_rpm(range.deceleration.value);
+    let limit = contact_limit(shaft, range.deceleration.value);
     values.insert("contact_limit_rpm", limit);
     values.insert(
         "contact_limit_cycle_rpm",
-        load.contact_limit_rpm(range.deceleration_of_cycle.value),
+        contact_limit(shaft, range.deceleration_of_cycle.value),
     );
     contact(limit, load.speed_rpm, report);
     let steepest = shaft.groove().steepest();
-    if steepest.value >= load.jamming_angle() {
+    if !exceeds(load.jamming_angle(), steepest.value) {
         report.findings.push(Finding {
             rule: "jamming",
             severity: Severity::Error,
@@ -311,18 +312,33 @@ fn key(shaft: &SpiralShaft, torque: Extreme, report: &mut Report) {
     loaded.check(report);
 }
 
+/// Speed up to which the slider stays on one wall for a maximum deceleration (mm/rad^2), r/min. A deceleration of rounding is none.
+fn contact_limit(shaft: &SpiralShaft, deceleration: f64) -> f64 {
+    let is_even = deceleration <= ROUNDING * shaft.law().mean_speed();
+    let deceleration = if is_even { 0.0 } else { deceleration };
+    shaft.load().contact_limit_rpm(deceleration)
+}
+
 fn contact(limit: f64, speed: f64, report: &mut Report) {
-    if speed > limit {
+    if exceeds(speed, limit) {
         report.findings.push(Finding {
             rule: "contact-lost",
             severity: Severity::Warning,
-            message: format!(
-                "at {speed} r/min the box runs ahead and the slider changes walls on the stroke; it stays on one up to {limit:.2} r/min"
-            ),
+            message: if limit > 0.0 {
+                format!(
+                    "at {speed} r/min the box runs ahead and the slider changes walls on the stroke; it stays on one up to {limit:.2} r/min"
+                )
+            } else {
+                "without friction on the rails the box runs ahead, and the slider changes walls on the stroke at any speed".into()
+            },
             measured: Some(speed),
             required: Some(limit),
             unit: Unit::TurnsPerMinute,
-            remedy: Some("a lower speed, a smaller amplitude, or fewer waves a turn"),
+            remedy: Some(if limit > 0.0 {
+                "a lower speed, a smaller amplitude, or fewer waves a turn"
+            } else {
+                "friction on the rails, rail_friction, or a box that moves evenly"
+            }),
             place: Place {
                 part: Some("slider".into()),
                 ..Place::default()

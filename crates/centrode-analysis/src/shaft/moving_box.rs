@@ -4,7 +4,7 @@ use centrode_mechanism::machine::Key;
 use centrode_mechanism::shaft::{EllipticDrive, MovingBox};
 use centrode_mechanism::transmission::Transmission;
 
-use super::{check_shaft, contact, moved, tables};
+use super::{check_shaft, contact, contact_limit, moved, tables};
 use crate::key_pressure::LoadedKey;
 use crate::{Finding, Place, Report, Severity, Unit, gear_pair};
 
@@ -42,7 +42,7 @@ pub fn check_moving_box(machine: &MovingBox) -> Report {
     values.insert("box_acceleration_max", speeding.max(-braking));
     let metres = 1e-3 * load.speed() * load.speed();
     values.insert("box_acceleration_max_m_s2", metres * speeding.max(-braking));
-    let limit = load.contact_limit_rpm(-braking);
+    let limit = contact_limit(machine.shaft(), -braking);
     values.insert("box_contact_limit_rpm", limit);
     let radius = machine.shaft().groove().radius();
     let [least, greatest] = over(&|input| {

@@ -383,3 +383,179 @@ fn keys_of_shaft_and_gears_are_pressed_by_the_torques_they_carry() {
     parts.sort_unstable();
     assert_eq!(parts, ["driven", "driver"]);
 }
+
+/// A plain shaft moves the box by `lead window / 2 pi`; a sixth of the pot is allowed.
+#[test]
+fn figures_equal_to_their_limits_but_for_rounding_keep_them() {
+    // Lead, holes, radius, window in sixths of a turn.
+    let neighbours = [
+        (18.0, 16, 20.0, 1.0),
+        (20.0, 14, 15.0, 1.0),
+        (7.0, 5, 15.0, 1.0),
+        (11.0, 9, 17.3, 1.0),
+        (13.7, 12, 25.0, 1.0),
+        (17.1, 3, 12.9, 1.0),
+        (19.0, 8, 20.0, 1.5),
+        (23.0, 10, 31.0, 0.7),
+        (29.9, 6, 18.1, 1.3),
+        (33.3, 4, 22.0, 0.9),
+        (14.1, 20, 16.0, 1.1),
+        (12.3, 11, 19.0, 0.3),
+    ];
+    let mut rounded_up = 0;
+    for (lead, holes, radius, sixths) in neighbours {
+        let mut design = SpiralShaftDesign {
+            lead,
+            holes,
+            radius,
+            window: f64::to_radians(60.0 * sixths),
+            pot_width: lead * sixths,
+            ..SpiralShaftDesign::default()
+        };
+        design.groove.width = 4.0;
+        design.slider.pin_diameter = 3.0;
+        let even = report(&design);
+        let [moved, limit] =
+            ["moved_distance_of_cycle_max", "moved_distance_limit"].map(|key| even.values[key]);
+        rounded_up += u32::from(moved > limit);
+        assert!((moved / (lead * sixths / 6.0) - 1.0).abs() < 1e-12);
+        assert!(
+            !rules(&even).contains(&"moved-distance"),
+            "{lead} {moved} {limit}"
+        );
+        design.pot_width *= 1.0 - 1e-7;
+        assert!(
+            rules(&report(&design)).contains(&"moved-distance"),
+            "{lead}"
+        );
+    }
+    assert!(rounded_up > 1, "no neighbour is rounded up: {rounded_up}");
+}
+
+/// The verdict at a limit, and a hair to either side of it; the limits are the figures that the report gives.
+#[test]
+fn a_hair_of_rounding_changes_no_verdict() {
+    let figure = |key: &str| report(&published()).values[key];
+    let [length, speed, clearance] = [
+        "crossing_gap_max",
+        "contact_limit_rpm",
+        "slider_clearance_min",
+    ]
+    .map(figure);
+    type Set = fn(&mut SpiralShaftDesign, f64);
+    let rows: [(&str, Set, f64, bool); 4] = [
+        ("slider-length", |d, x| d.slider.length = x, length, true),
+        (
+            "slider-tilts",
+            |d, x| d.slider.length = x,
+            2.0 * length,
+            false,
+        ),
+        ("contact-lost", |d, x| d.load.speed_rpm = x, speed, false),
+        (
+            "slider-clearance",
+            |d, x| d.slider.clearance = x,
+            clearance,
+            false,
+        ),
+    ];
+    for (rule, set, limit, at_limit) in rows {
+        for hair in [-3e-15, -4e-16, 0.0, 4e-16, 3e-15] {
+            let mut design = published();
+            set(&mut design, limit * (1.0 + hair));
+            assert_eq!(
+                rules(&report(&design)).contains(&rule),
+                at_limit,
+                "{rule} {hair}"
+            );
+        }
+        let verdicts = [-1e-6, 1e-6].map(|step| {
+            let mut design = published();
+            set(&mut design, limit * (1.0 + step));
+            rules(&report(&design)).contains(&rule)
+        });
+        assert_ne!(verdicts[0], verdicts[1], "{rule}");
+    }
+}
+
+/// The sine law decelerates by its amplitude at most, the gears of eccentricity k not at all for k = 0.
+#[test]
+fn the_limit_of_the_speed_is_a_value_with_friction_and_without() {
+    let sine = |amplitude: f64| {
+        SpeedLaw::Sine(centrode_mechanism::shaft::Sine {
+            amplitude,
+            ..Default::default()
+        })
+    };
+    // Amplitude of the groove, eccentricity of the gears, friction of the rails.
+    let neighbours = [
+        (0.0, Some(0.268), 0.0),
+        (0.0, None, 0.0),
+        (1.0, None, 0.0),
+        (0.5, Some(0.1), 0.0),
+        (0.0, Some(0.0), 0.0),
+        (1e-18, None, 0.0),
+        (0.0, None, 0.15),
+        (0.0, Some(0.0), 1e-12),
+        (1.0, None, 0.15),
+        (2.0, None, 1e-9),
+        (0.3, Some(0.2), 0.4),
+        (1e-15, None, 1e-30),
+        (0.7, Some(0.0), 0.05),
+    ];
+    for (amplitude, eccentricity, friction) in neighbours {
+        let mut shaft = SpiralShaftDesign {
+            law: sine(amplitude),
+            ..SpiralShaftDesign::default()
+        };
+        shaft.load.rail_friction = friction;
+        let machine = MovingBox::resolve(&MovingBoxDesign {
+            scheme: match (eccentricity, amplitude) {
+                (None, _) => Scheme::Shaft,
+                (_, 0.0) => Scheme::EllipticGear,
+                _ => Scheme::Both,
+            },
+            gears: eccentricity.map(|eccentricity| EllipticGears {
+                eccentricity: Some(eccentricity),
+                ..EllipticGears::default()
+            }),
+            shaft,
+            ..MovingBoxDesign::default()
+        })
+        .expect("resolves");
+        let report = check_moving_box(&machine);
+        let case = format!("{amplitude} {eccentricity:?} {friction}");
+        for (key, value) in &report.values {
+            assert!(!value.is_nan(), "{key} of {case}");
+        }
+        let figures = report
+            .tables
+            .iter()
+            .flat_map(|t| t.rows.iter().flat_map(|row| &row.1));
+        assert!(figures.copied().all(|x| !x.is_nan()), "{case}");
+        let is_even = amplitude < 1e-12;
+        let limit = report.values["contact_limit_rpm"];
+        if is_even {
+            assert_eq!(limit, f64::INFINITY, "{case}");
+        } else {
+            let closed = (9.81 * friction * 1e3 / amplitude).sqrt() * 60.0 / TAU;
+            assert!(
+                (limit - closed).abs() <= 1e-9 * closed,
+                "{case}: {limit} {closed}"
+            );
+        }
+        if let Some(k) = eccentricity {
+            let limit = report.values["box_contact_limit_rpm"];
+            assert_eq!(limit == f64::INFINITY, is_even && k == 0.0, "{case}");
+            assert_eq!(
+                limit == 0.0,
+                friction == 0.0 && !(is_even && k == 0.0),
+                "{case}"
+            );
+        }
+        let at_any_speed = report.findings.iter().find(|f| f.rule == "contact-lost");
+        let at_any_speed = at_any_speed.is_some_and(|f| f.message.contains("at any speed"));
+        let is_even = is_even && eccentricity.unwrap_or_default() == 0.0;
+        assert_eq!(at_any_speed, friction == 0.0 && !is_even, "{case}");
+    }
+}

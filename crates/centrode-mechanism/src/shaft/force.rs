@@ -75,10 +75,14 @@ impl Load {
     }
 
     /// Speed of the shaft, turns a minute, above which a motion whose deceleration along its way is at most
-    /// `deceleration` (mm/rad^2) leaves the driving wall: `omega^2 = g mu / deceleration`.
+    /// `deceleration` (mm/rad^2) leaves the driving wall: `omega^2 = g mu / deceleration`. A motion that never slows down
+    /// stays on its wall at any speed: infinite, with friction on the rails and without.
     #[must_use]
     pub fn contact_limit_rpm(&self, deceleration: f64) -> f64 {
-        (GRAVITY * self.rail_friction * 1e3 / deceleration.max(0.0)).sqrt() * 60.0 / TAU
+        if deceleration <= 0.0 {
+            return f64::INFINITY;
+        }
+        (GRAVITY * self.rail_friction * 1e3 / deceleration).sqrt() * 60.0 / TAU
     }
 
     /// Lead angle, rad, at which the shaft can no longer move the slider, whatever its torque.
