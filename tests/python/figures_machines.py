@@ -122,6 +122,13 @@ def locked():
     return [(found.required - 1e-4) / 2, found.measured]
 
 
+def slot():
+    """Clearance of a pin at rest along its line from the driver's axis, mm: m 3, 40 to 30, backlash 0.1, pins at 45 deg."""
+    a, r, p, w = 105, 45, 0.75 * 45, radians(45)
+    turned = 0.1 / 2 / (r * cos(radians(20)))
+    return turned * p * a * sin(w) / hypot(a - p * cos(w), p * sin(w))
+
+
 def rates():
     """Cycles and cuttings a minute: a motor, a chain, five slots."""
     return [30 / 2.7, 5 * 30 / 2.7]
@@ -183,6 +190,8 @@ FEEDER = [
     Said("the backlash of 0.1 mm alone is {} rad", lambda: 0.1 / 2 / (105 * 30 / 70 * cos(radians(20)))),
     Said("holds the crank within {} rad", lambda: locked()[0]),
     Said("within {<} rad in its first and last degrees", lambda: locked()[1]),
+    Said("In the published design that is {} mm", lambda: slot()),
+    Said("here {} mm. Below zero", lambda: values("feeder-2022")["gear_pin_clearance_min"]),
     Said("{} N/mm² in the published design", lambda: values("feeder-2022")["crank_key_pressure_max"]),
     Said("with round ends it would be {} N/mm²", lambda: 8 / 3 * values("feeder-2022")["crank_key_pressure_max"]),
     Said("Of 30 driven pitches {} teeth", lambda: values("feeder-2022")["gear_teeth"]),

@@ -1,7 +1,9 @@
 use std::f64::consts::{PI, TAU};
 
-use centrode_geometry::{Outline, Point, Tolerance, Vector, checkpoint};
-use centrode_mechanism::gear::IntermittentPair;
+use centrode_geometry::{
+    Extreme, Outline, Point, SampledPiece, Tolerance, Vector, bracketed_minimum_below, checkpoint,
+};
+use centrode_mechanism::gear::{Cam, IntermittentPair, Member};
 use centrode_mechanism::transmission::Transmission;
 use nalgebra::Isometry2;
 
@@ -13,6 +15,8 @@ const FREE: f64 = 0.5;
 const ROUNDING: f64 = 1e-12;
 /// Corners of a pin.
 const PIN_CORNERS: u32 = 240;
+/// Steps in which the path of a pin along its cam is sampled, per step of the free angle: a distance is quick to compute.
+const PIN_STEPS: usize = 6;
 
 /// Contact analysis of a finished intermittent gear pair: the free angle of the driven gear either way at each input.
 ///
@@ -30,15 +34,22 @@ pub struct IntermittentContact {
     pub back: Vec<f64>,
     /// Deepest penetration along the driven gear's turning, mm.
     pub penetration: Vec<f64>,
+    /// Maximum free angle either way while the driven gear moves and while it rests, rad, each with its input: local maxima of
+    /// the columns are followed between the samples, and at the start and end of the motion both sides count.
+    pub free: [Extreme; 2],
+    /// Minimum distance between a cam and a pin of nominal size, mm, with its input; `None` without cams.
+    pub pin_clearance: Option<Extreme>,
+    /// Maximum penetration, mm, with its input, followed like the free angles.
+    pub deepest: Extreme,
 }
 
 impl IntermittentContact {
-    /// Analyses one turn of the driver at so many even inputs, never in step with the teeth.
+    /// Analyses one turn of the driver at `count` inputs or a few more, never in step with the teeth, and follows the maxima
+    /// between them.
     ///
     /// Contours are taken as polygons nowhere farther off than the tolerance.
     #[must_use]
     pub fn analyse(pair: &IntermittentPair, count: u32, tolerance: Tolerance) -> Self {
-        let motion = pair.law().motion_angle();
         let mut layers = vec![(
             Wheel::star(pair.driver(), tolerance),
             vec![Wheel::star(pair.driven(), tolerance)],
@@ -47,12 +58,7 @@ impl IntermittentContact {
             let pins = cam.pins.iter().map(|&p| Wheel::pin(p, cam.pin_radius));
             layers.push((Wheel::star(&cam.outline, tolerance), pins.collect()));
         }
-        let mut out = Self::default();
-        let steps = Steps::new(count as usize);
-        for i in 0..count {
-            checkpoint();
-            steps.step();
-            let input = TAU * (f64::from(i) + 0.37) / f64::from(count);
+        let room = |input: f64| {
             let turned = pair.law().at(input).position;
             // The driver's axes seen from the driven gear's.
             let placed = Isometry2::new(Vector::new(pair.center_distance(), 0.0), turned);
@@ -63,12 +69,60 @@ impl IntermittentContact {
                     room.narrow(wheel, &driver, mate);
                 }
             }
-            out.input.push(input);
-            out.moving.push(input < motion);
-            out.ahead.push(room.ahead);
-            out.back.push(room.back);
-            out.penetration.push(room.penetration);
+            room
+        };
+        let parts = parts(pair, count as usize);
+        let motion = pair.law().motion_angle();
+        let mut out = Self::default();
+        let steps = Steps::new(parts.iter().map(|part| part.steps + 1).sum());
+        for part in &parts {
+            for i in 0..=part.steps {
+                checkpoint();
+                steps.step();
+                let input = part.at(i);
+                let room = room(input);
+                out.input.push(input);
+                out.moving.push(input < motion);
+                out.ahead.push(room.ahead);
+                out.back.push(room.back);
+                out.penetration.push(room.penetration);
+            }
         }
+        // A peak by less than the contours are off is none.
+        let exact = pair.accuracy().mm() * TAU / pair.pair().rolling().pitch_length(Member::Driven);
+        let (moves, rests): (Vec<_>, Vec<_>) = parts.iter().partition(|part| part.from < motion);
+        let start_of_rest = out.moving.iter().filter(|moving| **moving).count();
+        out.free = [
+            (0..start_of_rest, moves),
+            (start_of_rest..out.input.len(), rests),
+        ]
+        .map(|(samples, parts)| {
+            let follow = |column: &[f64], of: fn(&Room) -> f64| {
+                let f = |input| of(&room(input));
+                maximum(&column[samples.clone()], f, exact, &parts)
+            };
+            let [ahead, back] = [
+                follow(&out.ahead, |room| room.ahead),
+                follow(&out.back, |room| room.back),
+            ];
+            if ahead.value >= back.value {
+                ahead
+            } else {
+                back
+            }
+        });
+        let depth = |input| room(input).penetration;
+        out.deepest = maximum(&out.penetration, depth, pair.accuracy().mm(), &parts);
+        let clearances =
+            pair.cams()
+                .iter()
+                .zip(layers.iter().skip(1))
+                .flat_map(|(cam, (wheel, _))| {
+                    cam.pins
+                        .iter()
+                        .map(|&pin| pin_clearance(pair, cam, wheel, pin, &parts))
+                });
+        out.pin_clearance = clearances.min_by(|a, b| a.value.total_cmp(&b.value));
         out
     }
 
@@ -78,11 +132,101 @@ impl IntermittentContact {
         let of = column.iter().zip(&self.moving).filter(|c| *c.1 == moving);
         of.map(|c| *c.0).fold(f64::NEG_INFINITY, f64::max)
     }
+}
 
-    /// Deepest penetration of all, mm.
-    #[must_use]
-    pub fn deepest(&self) -> f64 {
-        self.penetration.iter().copied().fold(0.0, f64::max)
+/// Pieces of a driver turn in which the law is smooth, with `count` steps or a few more in all: whole pitches and one step, so
+/// that the samples of a row of teeth are never in step with it.
+fn parts(pair: &IntermittentPair, count: usize) -> Vec<SampledPiece> {
+    let mut ends = pair.law().breaks();
+    ends.push(TAU);
+    let pitches = pair.pair().driver().tooth_count() as usize;
+    let piece = |ends: &[f64]| {
+        let steps = (count as f64 * (ends[1] - ends[0]) / TAU).ceil() as usize;
+        SampledPiece {
+            from: ends[0],
+            to: ends[1],
+            steps: steps + 1 + (pitches - steps % pitches) % pitches,
+        }
+    };
+    ends.windows(2).map(piece).collect()
+}
+
+/// Maximum of a function whose samples are known, those of each piece after those of the piece before. Its local maxima are followed
+/// between the samples as far as they can exceed the maximum so far by more than `exact`.
+fn maximum(samples: &[f64], f: impl Fn(f64) -> f64, exact: f64, parts: &[SampledPiece]) -> Extreme {
+    let inputs = parts
+        .iter()
+        .flat_map(|part| (0..=part.steps).map(|i| part.at(i)));
+    let known = inputs.zip(samples.iter().copied());
+    let mut best = known.max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or_default();
+    let mut rest = samples;
+    for part in parts {
+        let (own, after) = rest.split_at(part.steps + 1);
+        rest = after;
+        let sampled: Vec<_> = own
+            .iter()
+            .enumerate()
+            .map(|(i, &value)| (part.at(i), value))
+            .collect();
+        // An end is no peak to both sides: a point next to it shows whether the function rises from there.
+        let [first, .., last] = [&sampled[..2], &sampled[sampled.len() - 2..]].map(|ends| {
+            let middle = 0.5 * (ends[0].0 + ends[1].0);
+            [ends[0], (middle, f(middle)), ends[1]]
+        });
+        let inner = sampled
+            .windows(3)
+            .map(|three| [three[0], three[1], three[2]]);
+        for [low, middle, high] in inner.chain([first, last]) {
+            let above = 2.0 * middle.1 - low.1 - high.1;
+            let is_peak = middle.1 >= low.1 && middle.1 >= high.1;
+            if is_peak && middle.1 + above > best.1 + exact {
+                let three = [low, middle, high].map(|(input, value)| (input, -value));
+                let (input, value) = bracketed_minimum_below(|x| -f(x), three, -best.1, exact);
+                if -value > best.1 {
+                    best = (input, -value);
+                }
+            }
+        }
+    }
+    Extreme {
+        input: best.0,
+        value: best.1,
+    }
+}
+
+/// Minimum distance of a pin from its cam, mm, negative where they overlap, with its input.
+fn pin_clearance(
+    pair: &IntermittentPair,
+    cam: &Cam,
+    wheel: &Wheel,
+    pin: Point,
+    parts: &[SampledPiece],
+) -> Extreme {
+    let clearance = |input: f64| {
+        let placed = Isometry2::new(
+            Vector::new(pair.center_distance(), 0.0),
+            pair.law().at(input).position,
+        );
+        wheel.distance(Isometry2::rotation(input) * placed * pin) - cam.pin_radius
+    };
+    let parts: Vec<_> = parts
+        .iter()
+        .map(|&part| SampledPiece {
+            steps: PIN_STEPS * part.steps,
+            ..part
+        })
+        .collect();
+    let overlap = |input: f64| -clearance(input);
+    let inputs = parts
+        .iter()
+        .flat_map(|part| (0..=part.steps).map(|i| part.at(i)));
+    let samples: Vec<f64> = inputs.map(overlap).collect();
+    // A thousandth of what the contours are off: a distance is quick to compute.
+    let exact = 1e-3 * pair.accuracy().mm();
+    let Extreme { input, value } = maximum(&samples, overlap, exact, &parts);
+    Extreme {
+        input,
+        value: -value,
     }
 }
 
@@ -136,6 +280,23 @@ impl Wheel {
         let a = self.corners[self.directions[(after + count - 1) % count].1];
         let b = self.corners[self.directions[after % count].1];
         (b - a).perp(&(point - a)) > 0.0
+    }
+
+    /// Distance of a point from the polygon, negative inside; of a point farther off than the polygon reaches from its origin, a
+    /// lower bound.
+    fn distance(&self, point: Point) -> f64 {
+        let beyond = point.coords.norm() - self.reach;
+        if beyond > self.reach {
+            return beyond;
+        }
+        let next = self.corners.iter().cycle().skip(1);
+        let squared = self.corners.iter().zip(next).map(|(a, b)| {
+            let (way, to) = (b - a, point - a);
+            let along = (to.dot(&way) / way.norm_squared()).clamp(0.0, 1.0);
+            (to - way * along).norm_squared()
+        });
+        let off = squared.fold(f64::INFINITY, f64::min).sqrt();
+        if self.holds(point) { -off } else { off }
     }
 }
 
@@ -260,120 +421,4 @@ fn near_edges(corners: &[Point], from: Point, reach: f64) -> Vec<Edge> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use centrode_mechanism::gear::design::GearPairDesign;
-    use centrode_mechanism::gear::pitch::{Circle, PitchSpec, Polar};
-    use centrode_mechanism::gear::{IntermittentPairSpec, Member};
-
-    use crate::optimise::Random;
-
-    fn spec(driver: u32, mean_ratio: [u32; 2], teeth: u32, entry: f64) -> IntermittentPairSpec {
-        let mut pair = GearPairDesign::new(PitchSpec::Circle(Circle {
-            module: Some(3.0),
-            tooth_count: Some(driver),
-            ..Circle::default()
-        }));
-        pair.mean_ratio = mean_ratio;
-        (pair.driver.bore, pair.driven.bore) = (16.0, 16.0);
-        IntermittentPairSpec::new(pair, teeth, entry)
-    }
-
-    fn contact(spec: &IntermittentPairSpec) -> (IntermittentPair, IntermittentContact) {
-        let pair = IntermittentPair::resolve(spec).expect("a pair");
-        let tolerance = Tolerance::new(1e-4).expect("positive");
-        let contact = IntermittentContact::analyse(&pair, 360, tolerance);
-        (pair, contact)
-    }
-
-    /// Angular backlash of a tooth on the driven gear, rad.
-    fn backlash(pair: &IntermittentPair) -> f64 {
-        let length = pair.pair().rolling().pitch_length(Member::Driven);
-        0.05 / (length / TAU * 20_f64.to_radians().cos())
-    }
-
-    /// Guards that nothing penetrates, and that the driven gear is held all the way, moving or not.
-    fn held(spec: &IntermittentPairSpec) {
-        let (pair, contact) = contact(spec);
-        assert!(contact.deepest() < 1e-3, "{spec:?}: {}", contact.deepest());
-        let most = 1.1 * backlash(&pair);
-        for column in [&contact.ahead, &contact.back] {
-            for moving in [false, true] {
-                let loose = contact.greatest(column, moving);
-                assert!(loose < most, "{spec:?}: {loose}, {most} allowed");
-            }
-        }
-    }
-
-    #[test]
-    fn a_pair_with_cams_is_held_all_the_way() {
-        let spec = spec(40, [3, 4], 30, 20_f64.to_radians());
-        held(&spec);
-        let (pair, contact) = contact(&spec);
-        let least = contact.ahead.iter().chain(&contact.back).copied();
-        let least = least.fold(f64::INFINITY, f64::min);
-        assert!(least > 0.95 * backlash(&pair), "{least}");
-    }
-
-    #[test]
-    fn random_pairs_are_held_too() {
-        let mut random = Random::new(3, 0);
-        for (stops, ratios) in [(1, [[3, 4], [2, 3]]), (2, [[1, 1], [4, 5]])] {
-            let mean_ratio = ratios[usize::from(random.between(0.0, 1.0) > 0.5)];
-            let [n1, n2] = mean_ratio;
-            let driver = n2 * (random.between(28.0, 44.0) as u32 / n2) * 2;
-            let driven = driver * n1 / n2;
-            let entry = random.between(0.2, 0.4);
-            held(&spec(driver, mean_ratio, driven / stops, entry));
-        }
-    }
-
-    #[test]
-    fn a_pair_of_waves_is_held_too() {
-        let mut spec = spec(40, [3, 4], 30, 0.35);
-        spec.pair.pitch = PitchSpec::Polar(Polar {
-            expression: Some("1 + 0.03*cos(4*phi)".into()),
-            module: Some(3.0),
-            tooth_count: Some(40),
-            ..Polar::default()
-        });
-        held(&spec);
-    }
-
-    #[test]
-    fn without_cams_the_lock_holds_and_the_start_is_a_shock() {
-        let (pair, contact) = contact(&spec(40, [3, 4], 30, 0.0));
-        assert!(contact.deepest() < 1e-3, "{}", contact.deepest());
-        assert!((pair.shock() - 4.0 / 3.0).abs() < 1e-9 && pair.cams().is_empty());
-        let locked = pair.locked_backlash();
-        let motion = pair.law().motion_angle();
-        let ends = 0.25 * (TAU - motion);
-        // Where the locking arc's ends come to the notch they hold less well; cams do it better.
-        for (i, &input) in contact.input.iter().enumerate() {
-            let loose = contact.ahead[i].max(contact.back[i]);
-            if input > motion + ends && input < TAU - ends {
-                assert!(
-                    (loose / locked - 1.0).abs() < 0.02,
-                    "{loose} of {locked} while locked at {input}"
-                );
-            }
-            assert!(input < motion || loose < 0.02, "{loose} at {input}");
-        }
-    }
-
-    #[test]
-    fn a_gear_turned_too_far_penetrates() {
-        let (pair, contact) = contact(&spec(40, [3, 4], 30, 0.35));
-        let tolerance = Tolerance::new(1e-4).expect("positive");
-        let [driver, driven] = [pair.driver(), pair.driven()].map(|o| Wheel::star(o, tolerance));
-        let input = contact.input[200];
-        for (off, free) in [(0.0, true), (0.01, false), (-0.01, false)] {
-            let turned = pair.law().at(input).position + off;
-            let placed = Isometry2::new(Vector::new(pair.center_distance(), 0.0), turned);
-            let place = placed.inverse() * Isometry2::rotation(-input);
-            let mut room = Room::default();
-            room.narrow(&driver, &place, &driven);
-            assert_eq!(room.penetration == 0.0, free, "{off}");
-        }
-    }
-}
+mod tests;

@@ -1,7 +1,7 @@
 use crate::bracketed_minimum;
 
 /// A greatest or least value of a function and where it is.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Extreme {
     /// Argument of the function.
     pub input: f64,

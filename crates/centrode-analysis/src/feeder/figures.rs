@@ -67,6 +67,7 @@ pub(crate) const FIGURES: &[FigureGroup] = &[
             row("centre distance", &["gear_center_distance"], Millimetre),
             row("radius of the locking arc", &["gear_lock_radius"], Millimetre),
             row("penetration", &["gear_penetration_max"], Millimetre),
+            row("clearance of the cams, pins at the upper limit", &["gear_pin_clearance_min"], Millimetre),
         ],
     },
 ];

@@ -2,7 +2,9 @@ use std::sync::Arc;
 
 use centrode_geometry::{Recent, Tolerance};
 use centrode_mechanism::feeder::{Feeder, GearsSpec};
+use centrode_mechanism::machine::limits_of_size;
 
+use crate::rounding::exceeds;
 use crate::{Finding, IntermittentContact, Place, Report, Severity, Unit};
 
 /// Number of inputs at which the intermittent gears are held against each other.
@@ -21,7 +23,7 @@ static PROVEN: Recent<GearsSpec, Arc<IntermittentContact>> = Recent::new();
 /// free by no more than the backlash asked for.
 pub(super) fn gears(feeder: &Feeder, report: &mut Report) {
     let about_gears =
-        |rule, severity, message, [measured, required]: [Option<f64>; 2], unit| Finding {
+        |rule, severity, message, [measured, required]: [Option<f64>; 2], unit, input| Finding {
             rule,
             severity,
             message,
@@ -31,6 +33,7 @@ pub(super) fn gears(feeder: &Feeder, report: &mut Report) {
             remedy: None,
             place: Place {
                 part: Some("gears".into()),
+                input,
                 ..Place::default()
             },
         };
@@ -41,7 +44,14 @@ pub(super) fn gears(feeder: &Feeder, report: &mut Report) {
         Err(error) => {
             let message = error.to_string();
             let none = [None, None];
-            let finding = about_gears("no-gears", Severity::Error, message, none, Unit::Count);
+            let finding = about_gears(
+                "no-gears",
+                Severity::Error,
+                message,
+                none,
+                Unit::Count,
+                None,
+            );
             report.findings.push(finding);
             return;
         }
@@ -52,33 +62,56 @@ pub(super) fn gears(feeder: &Feeder, report: &mut Report) {
     let contact = PROVEN.get(spec, || {
         Arc::new(IntermittentContact::analyse(&pair, GEAR_LOOKS, tolerance))
     });
-    let most = |moving| {
-        let [ahead, back] = [&contact.ahead, &contact.back];
-        contact
-            .greatest(ahead, moving)
-            .max(contact.greatest(back, moving))
-    };
-    let (moving, resting, penetration) = (most(true), most(false), contact.deepest());
+    let ([moving, resting], penetration) = (contact.free, contact.deepest);
     let values = &mut report.values;
     values.insert("gear_center_distance", pair.center_distance());
     values.insert("gear_teeth", f64::from(pair.teeth()));
     values.insert("gear_lock_radius", pair.lock_radius());
-    values.insert("gear_play_moving_max", moving);
-    values.insert("gear_play_resting_max", resting);
-    values.insert("gear_penetration_max", penetration);
+    values.insert("gear_play_moving_max", moving.value);
+    values.insert("gear_play_resting_max", resting.value);
+    values.insert("gear_penetration_max", penetration.value);
     let limit = PENETRATION * spec.module;
-    if penetration > limit {
-        let message = format!("the intermittent gears penetrate each other by {penetration:.4} mm");
-        let figures = [Some(penetration), Some(limit)];
+    if exceeds(penetration.value, limit) {
+        let message = format!(
+            "the intermittent gears penetrate each other by {:.4} mm",
+            penetration.value
+        );
+        let figures = [Some(penetration.value), Some(limit)];
         report.findings.push(about_gears(
             "gears-penetrate",
             Severity::Error,
             message,
             figures,
             Unit::Millimetre,
+            Some(penetration.input),
         ));
     }
-    let loose = moving.max(resting);
+    if let Some(nominal) = contact.pin_clearance {
+        let (size, [_, class]) = (spec.cam_pin(), Feeder::CAM_PIN_FIT);
+        let upper = limits_of_size(size, class).map_or(0.0, |[_, upper]| upper);
+        let clearance = nominal.value - 0.5 * upper;
+        report.values.insert("gear_pin_clearance_min", clearance);
+        if clearance < 0.0 {
+            let mut finding = about_gears(
+                "cam-pin-clearance",
+                Severity::Error,
+                format!(
+                    "a pin of diameter {size} mm {class} at its upper limit overlaps its cam by {:.4} mm",
+                    -clearance
+                ),
+                [Some(clearance), Some(0.0)],
+                Unit::Millimetre,
+                Some(nominal.input),
+            );
+            finding.remedy = Some("more backlash, a larger pin_angle_deg, or smaller pins");
+            report.findings.push(finding);
+        }
+    }
+    let loose = if moving.value >= resting.value {
+        moving
+    } else {
+        resting
+    };
     let pitch = 0.5 * spec.module * f64::from(spec.driven_pitches);
     let asked = 0.5 * spec.backlash / pitch;
     // Pins on cams hold it as closely as teeth do.
@@ -88,18 +121,19 @@ pub(super) fn gears(feeder: &Feeder, report: &mut Report) {
         asked
     };
     let allowed = LOOSE * asked + 1e-4;
-    if loose > allowed {
+    if exceeds(loose.value, allowed) {
         let message = format!(
             "the intermittent gears leave the crank free by {:.3} deg",
-            loose.to_degrees()
+            loose.value.to_degrees()
         );
-        let figures = [Some(loose), Some(allowed)];
+        let figures = [Some(loose.value), Some(allowed)];
         let mut finding = about_gears(
             "gears-loose",
             Severity::Warning,
             message,
             figures,
             Unit::Angle,
+            Some(loose.input),
         );
         finding.remedy =
             Some("an entry angle, for which cams are made, or pins nearer the line of centres");

@@ -219,3 +219,46 @@ fn a_key_that_is_pressed_too_hard_is_found() {
         .collect();
     assert_eq!(parts, ["gear-driven", "gear-driver"]);
 }
+
+/// The upper limit of a pin m6 up to 6 and 10 mm is 12 and 15 um (ISO 286-1); at rest the backlash leaves it
+/// `(b/2 r_b) c a sin(w)/l`, with its circle's radius c, the centre distance a and its distance l from the driver's axis.
+#[test]
+fn a_pin_at_its_upper_limit_must_clear_its_cam() {
+    // Backlash, diameter of the pins, their angle, and the upper deviation, um.
+    for (backlash, diameter, angle, upper) in [
+        (0.1, None, 45.0, 15.0),
+        (0.1, Some(6.0), 45.0, 12.0),
+        (0.0, None, 45.0, 15.0),
+        (0.01, None, 45.0, 15.0),
+        (0.02, Some(6.0), 45.0, 12.0),
+        (0.03, None, 30.0, 15.0),
+        (0.05, Some(10.0), 50.0, 15.0),
+        (0.1, None, 8.0, 15.0),
+        (0.015, Some(6.0), 60.0, 12.0),
+        (0.025, Some(8.0), 55.0, 15.0),
+    ] {
+        let mut design = feeder([77.0, 147.0, 127.0, 105.0], [106.83, 67.05])
+            .design()
+            .clone();
+        design.gears.backlash = backlash;
+        design.gears.pin_diameter = diameter;
+        design.gears.pin_angle = f64::to_radians(angle);
+        let mut report = Report::default();
+        gears::gears(&Feeder::resolve(&design).expect("resolves"), &mut report);
+        let (base, circle, a) = (45.0 * f64::cos(f64::to_radians(20.0)), 33.75, 105.0);
+        let (sin, cos) = f64::to_radians(angle).sin_cos();
+        let at_rest = f64::hypot(a - circle * cos, circle * sin);
+        let clearance = 0.5 * backlash / base * circle * a * sin / at_rest - 5e-4 * upper;
+        let found = report.values["gear_pin_clearance_min"];
+        assert!(
+            (found - clearance).abs() < 1e-3,
+            "{backlash} {angle}: {found} {clearance}"
+        );
+        let finding = report
+            .findings
+            .iter()
+            .find(|f| f.rule == "cam-pin-clearance");
+        assert_eq!(finding.is_some(), found < 0.0, "{backlash} {angle}");
+        assert!(finding.is_none_or(|f| f.measured == Some(found) && f.place.input.is_some()));
+    }
+}

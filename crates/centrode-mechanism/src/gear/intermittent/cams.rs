@@ -21,7 +21,7 @@ fn pin(center: Point, radius: f64) -> Vec<Point> {
 /// Cam beside the driver's teeth, and the pins by which it holds the driven gear while that starts or stops.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cam {
-    /// The cam in the driver's axes.
+    /// The cam in the driver's axes: it clears a pin of nominal size along the whole path by what the backlash leaves at rest.
     pub outline: Outline,
     /// The pins in the driven gear's axes, one for each stop.
     pub pins: Vec<Point>,
@@ -34,6 +34,8 @@ const PIN_CORNERS: u32 = 96;
 
 impl IntermittentPair {
     /// Cuts the cams of entry and exit, one on each side of the teeth: on one the pins of the other would be in the way.
+    ///
+    /// A pin has the same clearance along the normal of its path everywhere, or more: that of the backlash (rad) at rest.
     pub(super) fn cut_cams(
         &self,
         pins: &Pins,
@@ -48,6 +50,10 @@ impl IntermittentPair {
         if nearest <= hub {
             return Err(IntermittentPairError::PinMeetsHub { nearest, hub });
         }
+        // The backlash of a pin at rest, along its line from the driver's axis: square to the cam.
+        let at_rest =
+            (self.center_distance() - circle * pins.angle.cos()).hypot(circle * pins.angle.sin());
+        let clearance = backlash * circle * self.center_distance() * pins.angle.sin() / at_rest;
         let (entry, motion) = (self.law().entry, self.law().motion_angle());
         // Entry pins lie below the line of centres, where the driver's surface comes from; exit pins above.
         let ends = [(1.0, entry), (-1.0, motion - entry)];
@@ -59,12 +65,16 @@ impl IntermittentPair {
                     Point::new(direction.cos(), direction.sin()) * circle
                 })
                 .collect();
-            let bodies: Vec<Vec<Point>> = places.iter().map(|&at| pin(at, radius)).collect();
+            let bodies = |radius: f64| -> Vec<Vec<Point>> {
+                places.iter().map(|&at| pin(at, radius)).collect()
+            };
             // The cam reaches as far as its pin when the teeth take over.
             let at = self.mate(handed_over, self.law().at(handed_over).position) * places[0];
             let mut blank = Radial::unbounded();
             blank.limit(at.coords.norm());
-            let cam = self.swept(blank, &bodies, backlash, true);
+            let turned = self.swept(blank, &bodies(radius), backlash, true);
+            // As a pin crosses the line of centres, turning the driven gear moves it along its path: there a wider pin clears it.
+            let cam = self.swept(turned, &bodies(radius + clearance), 0.0, true);
             Cam {
                 outline: Outline::polygon(&cam.polygon(accuracy)),
                 pins: places,
