@@ -77,6 +77,20 @@ pub struct GuidedSearch {
     log: Vec<GuidedStep>,
     #[serde(default)]
     history: Vec<Progress>,
+    /// Where a run ended, to go on from there; `None` before the first run, and where every goal is met.
+    #[serde(default)]
+    under_way: Option<UnderWay>,
+}
+
+/// Place in a guided search at which it can break off.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
+struct UnderWay {
+    /// Index of the goal under way; their number where no step helps any more.
+    goal: usize,
+    /// Step tried next for it, as a share of the bounds.
+    step: f64,
+    /// Steps made before this round over the goals.
+    before: usize,
 }
 
 /// Evaluation of a point: the goals, and by what share of its scale each is missed.
@@ -134,6 +148,7 @@ impl GuidedSearch {
             misses: Vec::new(),
             log: Vec::new(),
             history: Vec::new(),
+            under_way: None,
         }
     }
 
@@ -172,7 +187,8 @@ impl GuidedSearch {
         }
     }
 
-    /// Steps until every goal is met, no step helps any more, the evaluations are used up, or `observe` breaks off.
+    /// Steps until every goal is met, no step helps any more, the evaluations are used up, or `observe` breaks off. Another
+    /// run goes on as if there had been no break.
     pub fn run(
         &mut self,
         problem: &dyn DesignProblem,
@@ -182,23 +198,30 @@ impl GuidedSearch {
         let Some(mut seen) = Seen::new(problem, &self.point) else {
             return Ended::Stuck;
         };
-        self.evaluations += 1;
+        let mut broken_off = self.under_way.take();
+        // After a break the point is evaluated once more, which does not count.
         if self.history.is_empty() {
+            self.evaluations += 1;
             self.misses.clone_from(&seen.misses);
             self.history.push(self.progress());
         }
         loop {
-            let before = self.log.len();
-            for goal in 0..seen.goals.len() {
-                let mut step = FIRST_STEP;
+            let resumed = broken_off.take();
+            let before = resumed.map_or(self.log.len(), |at| at.before);
+            let first = resumed.map_or(0, |at| at.goal);
+            for goal in first..seen.goals.len() {
+                let at_goal = resumed.filter(|at| at.goal == goal);
+                let mut step = at_goal.map_or(FIRST_STEP, |at| at.step);
                 while seen.misses[goal] > 0.0 && step >= LEAST_STEP {
                     self.misses.clone_from(&seen.misses);
+                    self.under_way = Some(UnderWay { goal, step, before });
                     if observe(self).is_break() {
                         return Ended::Stopped;
                     }
                     if self.evaluations >= evaluations {
                         return Ended::Evaluations;
                     }
+                    self.under_way = None;
                     match self.best_step(problem, &seen, goal, step) {
                         Some((candidate, helpful)) => {
                             self.record(problem, &seen, &candidate, goal, helpful);
@@ -216,6 +239,12 @@ impl GuidedSearch {
                 return Ended::Target;
             }
             if self.log.len() == before {
+                // Another run has no goal left to try.
+                self.under_way = Some(UnderWay {
+                    goal: seen.goals.len(),
+                    step: FIRST_STEP,
+                    before,
+                });
                 return Ended::Stuck;
             }
         }
@@ -344,3 +373,6 @@ impl GuidedSearch {
         });
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -180,6 +180,10 @@ impl Path {
         // Driven angles from parameter zero, on both sides.
         self.sun
             .map::<C, _>(driven, machine.met(0.0), &mut self.met);
+        // The lanes beyond the last target have its value: nothing of the design before.
+        let count = self.x.len();
+        let last = self.met[count - 1];
+        self.met[count..].fill(last);
         if !self.planet.find::<C, _>(driven, &self.met) {
             return false;
         }

@@ -138,3 +138,39 @@ fn a_sharp_crest_beside_a_flat_one_is_found() {
     let mut sweep = Sweep::like(&design, 360).expect("of the kind");
     agree(&design, &mut sweep, 1e-7);
 }
+
+/// A sweep that other designs went through before gives every digit of a new one.
+#[test]
+fn the_figures_of_a_design_do_not_depend_on_the_design_before() {
+    let designs: Vec<ThreeArmDesign> = (0..24)
+        .map(|i| {
+            let x = f64::from(i);
+            let mut design = published();
+            if let PitchSpec::Bspline(spline) = &mut design.pitch {
+                for (k, radius) in (0..).zip(&mut spline.radius) {
+                    *radius *= 1.0 + 0.2 * (1.7 * x + f64::from(k)).sin();
+                }
+            }
+            design.bend += (0.3 * x).sin();
+            design.carrier_start += 0.2 * x;
+            design
+        })
+        .collect();
+    for inputs in [32, 120, 360] {
+        let fresh = |design: &ThreeArmDesign| {
+            let mut sweep = Sweep::like(design, inputs).expect("of the kind");
+            let figures = sweep.figures(design);
+            (
+                figures,
+                sweep.tips().collect::<Vec<_>>(),
+                sweep.curvatures(),
+            )
+        };
+        let mut used = Sweep::like(&designs[0], inputs).expect("of the kind");
+        for (i, design) in designs.iter().chain(designs.iter().rev()).enumerate() {
+            let figures = used.figures(design);
+            let again = (figures, used.tips().collect::<Vec<_>>(), used.curvatures());
+            assert_eq!(again, fresh(design), "{inputs} {i}");
+        }
+    }
+}
