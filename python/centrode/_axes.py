@@ -25,7 +25,10 @@ class AxisMap:
     ratios: NDArray[float64]
     """Least and greatest ratio of the total law along the last axis of the array."""
     least_radius: NDArray[float64]
-    """Least convex radius of the four pitch curves by powers, mm; of a path of more than 64 pieces 64 are looked at."""
+    """Minimum convex radius of the four pitch curves by powers, mm, mostly within 5 % of the gears as they are written.
+
+    Up to 40 % more where the law has a narrow peak. Of a path of more than 64 pieces 64 are sampled.
+    """
     shaft_distance: NDArray[float64]
     """Least distance of the tip from the axis, mm."""
 

@@ -124,10 +124,10 @@ impl Reversed {
         (least.value, greatest.value)
     }
 
-    /// Least radius of curvature of the four pitch curves of the split by powers where they are convex, mm.
+    /// Minimum radius of curvature of the pitch curves where they are convex, mm, of the gears as they are written.
     #[getter]
     fn least_radius(&self) -> f64 {
-        self.chain.least_radius(self.bend_deg.to_radians())
+        self.made.minimum_radius()
     }
 
     /// Least distance of the tip from the carrier's axis, mm.

@@ -123,7 +123,7 @@ def locked():
 
 
 def slot():
-    """Clearance of a pin at rest along its line from the driver's axis, mm: m 3, 40 to 30, backlash 0.1, pins at 45 deg."""
+    """Clearance of a pin at rest along its line from the driver's axis, mm: 40 to 30, m 3, pins at 45 deg."""
     a, r, p, w = 105, 45, 0.75 * 45, radians(45)
     turned = 0.1 / 2 / (r * cos(radians(20)))
     return turned * p * a * sin(w) / hypot(a - p * cos(w), p * sin(w))

@@ -130,7 +130,7 @@ fn with_pins(
     spec
 }
 
-/// Distance of the pins' path from the cams at even inputs, by the angles of the law alone: the least, and that of the line from
+/// Distance of the pins' path from the cams at even inputs, by the angles of the law alone: the minimum, and that of the line from
 /// the driver's axis at rest by hand.
 fn slots(spec: &IntermittentPairSpec, pair: &IntermittentPair) -> (f64, f64) {
     const COUNT: u32 = 9000;

@@ -134,6 +134,13 @@ impl ReversedMachine {
         preferred_size(PLATE[1] * leg(carrier, bend))
     }
 
+    /// Minimum radius of curvature of its pitch curves where they are convex, mm.
+    #[must_use]
+    pub fn minimum_radius(&self) -> f64 {
+        let radii = self.least_radii.iter().flatten();
+        radii.fold(f64::INFINITY, |minimum, radius| minimum.min(*radius))
+    }
+
     fn of_steps(
         chain: &TwoBar,
         split: &Split,

@@ -43,7 +43,8 @@ pub struct PossibleAxis {
     pub shaft_distance: f64,
     /// Greatest curvature of the four pitch curves of the split by powers, as a multiple of one over the centre distance.
     ///
-    /// Exact where the path has up to 64 pieces; of a path of more pieces 64 are looked at, evenly spread.
+    /// Averaged over a 180th of a turn, as in the gears that are written: mostly within 5 % of theirs, up to 40 % blunter where
+    /// the law has a narrow peak. Of a path of more than 64 pieces 64 are sampled, evenly spread.
     pub sharpness: f64,
 }
 
@@ -69,7 +70,7 @@ impl From<&TwoBar> for PossibleAxis {
             arm: chain.arm(),
             ratios: chain.ratios().map(|ratio| ratio.value),
             shaft_distance: chain.shaft_distance(),
-            sharpness: chain.sharpness_sampled().value,
+            sharpness: chain.sharpness_sampled(),
         }
     }
 }

@@ -10,6 +10,8 @@ use super::split::SHARE;
 
 /// Most pieces of the path that a map looks at: of more it takes as many, evenly spread.
 const MOST_PIECES: usize = 64;
+/// Steps of a turn over each of which a map averages a curvature: those of the tables in which most laws are written.
+pub(super) const AVERAGED: f64 = 180.0;
 
 impl TwoBar {
     /// Centre distance of the gears, mm: length of both legs of the carrier. `bend` is the angle from the first to the second, rad.
@@ -19,10 +21,11 @@ impl TwoBar {
     }
 
     /// Greatest curvature of the four pitch curves of the split by powers, as a multiple of one over the centre distance, and the
-    /// path's parameter there: exact to the float limit.
+    /// path's parameter there: exact to the float limit, of the law itself. Gears are written from a table of the law, and may be
+    /// less sharp: [`ReversedMachine::minimum_radius`](super::ReversedMachine::minimum_radius).
     #[must_use]
     pub fn sharpness(&self) -> Extreme {
-        self.greatest_bend(usize::MAX, |[a, b, c, d]| a.max(b).max(c.max(d)))
+        self.greatest_bend(|[a, b, c, d]| a.max(b).max(c.max(d)))
     }
 
     /// Greatest convex and greatest concave curvature of the four pitch curves of the split by powers, 1/mm: they bound the
@@ -33,30 +36,56 @@ impl TwoBar {
         let greatest = |sign: f64| {
             let most =
                 |curvatures: [f64; 4]| curvatures.iter().fold(0.0_f64, |s, c| s.max(sign * c));
-            self.greatest_bend(usize::MAX, most).value / leg
+            self.greatest_bend(most).value / leg
         };
         [greatest(1.0), greatest(-1.0)]
     }
 
-    /// Least radius of curvature of the four pitch curves of the split by powers where they are convex, mm; `bend` is the angle
-    /// from the carrier's first leg to its second, rad.
+    /// Least radius of curvature of the four pitch curves of the split by powers where they are convex, mm, of the law itself as
+    /// for [`sharpness`](Self::sharpness); `bend` is the angle from the carrier's first leg to its second, rad.
     #[must_use]
     pub fn least_radius(&self, bend: f64) -> f64 {
         self.center_distance(bend) / self.sharpness().value
     }
 
-    /// The sharpness on as many pieces of the path as a map looks at.
-    pub(super) fn sharpness_sampled(&self) -> Extreme {
-        self.greatest_bend(MOST_PIECES, |[a, b, c, d]| a.max(b).max(c.max(d)))
+    /// The sharpness at samples of as many pieces of the path as a map looks at, averaged over a step of a table.
+    ///
+    /// Where two pieces of the path join near a place at which the bars are stretched or folded, the law has a peak of curvature:
+    /// the nearer, the higher and narrower. A table of the law does not have it, nor do the gears.
+    pub(super) fn sharpness_sampled(&self) -> f64 {
+        let looks = PathSamples::new(self.path(), MOST_PIECES);
+        let speeds = self.speeds_of(&looks);
+        let scale = self.scale(&looks.samples, &speeds);
+        let mut rest = &speeds[..];
+        let mut sharpest = 0.0_f64;
+        for piece in &looks.pieces {
+            let (own, after) = rest.split_at(piece.steps + 1);
+            rest = after;
+            let step = (piece.to - piece.from) / piece.steps as f64;
+            let span = (self.path().period() / AVERAGED / step).ceil() as usize;
+            let span = span.clamp(1, piece.steps);
+            let laws: Vec<[f64; 3]> = own.iter().map(|speeds| law(*speeds)).collect();
+            for (i, [w, slope, _]) in laws.iter().enumerate() {
+                let low = i.saturating_sub(span / 2).min(piece.steps - span);
+                let bend = (laws[low + span][1] - laws[low][1]) / (span as f64 * step);
+                let curvatures = by_powers(scale, own[i], [*w, *slope, bend]);
+                sharpest = curvatures.into_iter().fold(sharpest, f64::max);
+            }
+        }
+        sharpest
+    }
+
+    fn speeds_of(&self, looks: &PathSamples) -> Vec<[Series; 2]> {
+        let jets = looks.samples.iter();
+        jets.map(|s| self.speed_series(s.at, &s.jet)).collect()
     }
 
     /// Greatest value of a measure of the four curvatures, times the centre distance.
-    fn greatest_bend(&self, most: usize, of: impl Fn([f64; 4]) -> f64) -> Extreme {
-        let looks = PathSamples::new(self.path(), most);
-        let jets = looks.samples.iter();
-        let speeds: Vec<[Series; 2]> = jets.map(|s| self.speed_series(s.at, &s.jet)).collect();
+    fn greatest_bend(&self, of: impl Fn([f64; 4]) -> f64) -> Extreme {
+        let looks = PathSamples::new(self.path(), usize::MAX);
+        let speeds = self.speeds_of(&looks);
         let scale = self.scale(&looks.samples, &speeds);
-        let sharpest = |speeds: [Series; 2]| of(by_powers(scale, speeds));
+        let sharpest = |speeds: [Series; 2]| of(by_powers(scale, speeds, law(speeds)));
         let samples: Vec<f64> = speeds.iter().map(|speeds| sharpest(*speeds)).collect();
         let at = |t: f64| sharpest(self.speed_series(t, &self.path().at(t)));
         greatest_sampled(&samples, at, rounding, &looks.pieces)
@@ -90,9 +119,14 @@ pub(crate) fn leg(carrier: f64, bend: f64) -> f64 {
     0.5 * carrier / (0.5 * bend).cos()
 }
 
-/// Curvatures of the pitch curves of both stages, times the centre distance, from the speeds of carrier and planet.
-fn by_powers(scale: f64, [carrier, planet]: [Series; 2]) -> [f64; 4] {
+/// Logarithm of the ratio with two derivatives by the path's parameter, from the speeds of carrier and planet.
+fn law([carrier, planet]: [Series; 2]) -> [f64; 3] {
     let [w, slope, bend, _] = (planet / carrier).ln().derivatives();
+    [w, slope, bend]
+}
+
+/// Curvatures of the pitch curves of both stages, times the centre distance, from the speeds of carrier and planet and the law.
+fn by_powers(scale: f64, [carrier, planet]: [Series; 2], [w, slope, bend]: [f64; 3]) -> [f64; 4] {
     // Derivatives by the driver's own angle.
     let by = |driver: Series, share: f64| {
         let [speed, change, ..] = driver.derivatives();

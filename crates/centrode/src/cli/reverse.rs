@@ -82,7 +82,7 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
         line(out, &name, &words)?;
     }
     findings(&found.findings, out)?;
-    chosen((design.arms, bend_deg), &found, &split, out)?;
+    chosen((design.arms, bend_deg), &found, (&split, &made), out)?;
     gears(&made, out)?;
     if let Some(map) = map(&asked, &found) {
         possible(&map, out)?;
@@ -181,7 +181,7 @@ fn source(command: &Reverse) -> Result<Source, Failure> {
 fn chosen(
     (arms, bend): (u32, f64),
     found: &Found,
-    split: &Split,
+    (split, made): (&Split, &ReversedMachine),
     out: &mut impl Write,
 ) -> std::io::Result<()> {
     let (chain, why) = (&found.chain, &found.why);
@@ -191,7 +191,7 @@ fn chosen(
     for (name, words) in words::bars(chain) {
         line(out, name, &words)?;
     }
-    let (name, words) = words::least_radius(chain, split.bend());
+    let (name, words) = words::least_radius(made);
     line(out, name, &words)?;
     let shaft = Unit::Millimetre.tell(chain.shaft_distance());
     line(out, "tip passes the shaft at", &shaft)?;
@@ -252,12 +252,8 @@ fn others(chain: &TwoBar, kind: SplitKind, bend: f64, out: &mut impl Write) -> s
 pub(crate) fn sharpest(chain: &TwoBar, split: &Split) -> String {
     match ReversedMachine::new(chain, split, 1, None) {
         Ok(made) => {
-            let radii = made.least_radii.iter().flatten();
-            let least = radii.fold(f64::INFINITY, |least, radius| least.min(*radius));
-            format!(
-                "possible, least convex radius {}",
-                Unit::Millimetre.tell(least)
-            )
+            let least = Unit::Millimetre.tell(made.minimum_radius());
+            format!("possible, least convex radius {least}")
         }
         Err(error) => error.to_string(),
     }

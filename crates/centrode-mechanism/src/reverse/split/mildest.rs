@@ -4,8 +4,9 @@ use centrode_geometry::checkpoint;
 
 use super::powers::Bow;
 use super::{Split, SplitError, SplitKind, powers};
-use crate::reverse::TwoBar;
 use crate::reverse::curvature::curvatures;
+use crate::reverse::sharpness::AVERAGED;
+use crate::reverse::{ReversedMachine, TwoBar};
 use crate::transmission::Transmission as _;
 
 /// Places of a turn at which the curvatures are looked at.
@@ -18,7 +19,8 @@ const SHARPNESS: [f64; 8] = [8.0, 16.0, 32.0, 64.0, 128.0, 256.0, 512.0, 1024.0]
 const STEPS: u32 = 60;
 
 /// Splits by `f' = c (G')^(1/2) e^s`, g = f o G^-1, with s a sum of eight harmonics of the carrier's direction such that the
-/// greatest curvature of the four pitch curves is least.
+/// greatest curvature of the four pitch curves is least, averaged over a step of a table. Where the gears written by powers are
+/// milder after all, s is zero.
 ///
 /// With w the logarithm of a stage's ratio by its driver's angle, `p = 1/(1 + e^-w)` and `q = 1 - p`, the pitch curves of a stage
 /// of centre distance 1 have the curvatures `(1 + q (w'^2 - w''))/(p D)` and `(1 + w'' q^2/p)/(q D)`, `D = (1 + q^2 w'^2)^(3/2)`.
@@ -26,13 +28,19 @@ const STEPS: u32 = 60;
 /// from powers on.
 pub(super) fn split(chain: &TwoBar, bend: f64) -> Result<Split, SplitError> {
     let law = chain.law()?;
+    let slope = |psi: f64| {
+        let jet = law.at(psi);
+        jet.acceleration / jet.velocity
+    };
+    let step = TAU / AVERAGED;
     let places = (0..PLACES).map(|i| {
         let psi = TAU * i as f64 / PLACES as f64;
         let jet = law.at(psi);
-        let slope = jet.acceleration / jet.velocity;
-        let bend = jet.jerk / jet.velocity - slope * slope;
+        let slope_here = jet.acceleration / jet.velocity;
+        // Averaged over a step of a table: a narrower peak of the law is not in the gears.
+        let bend = (slope(psi + 0.5 * step) - slope(psi - 0.5 * step)) / step;
         Place {
-            total: [jet.velocity.ln(), slope, bend],
+            total: [jet.velocity.ln(), slope_here, bend],
             waves: waves(psi),
         }
     });
@@ -49,11 +57,25 @@ pub(super) fn split(chain: &TwoBar, bend: f64) -> Result<Split, SplitError> {
             best = (greatest, bow);
         }
     }
-    let bow: Bow = Box::new(move |psi| {
-        let waves = waves(psi).map(|[wave, ..]| wave);
-        waves.iter().zip(&best.1).map(|(wave, a)| wave * a).sum()
-    });
-    powers::split_with(chain, SplitKind::Mildest, bend, bow)
+    let with = |amplitudes: Amplitudes| {
+        let bow: Bow = Box::new(move |psi| {
+            let waves = waves(psi).map(|[wave, ..]| wave);
+            waves
+                .iter()
+                .zip(&amplitudes)
+                .map(|(wave, a)| wave * a)
+                .sum()
+        });
+        powers::split_with(chain, SplitKind::Mildest, bend, bow)
+    };
+    let [found, powers] = [with(best.1)?, with([0.0; 2 * HARMONICS])?];
+    // The gears as they are written decide: no split by powers is milder.
+    let radius = |split: &Split| {
+        let made = ReversedMachine::new(chain, split, 1, None);
+        made.map_or(0.0, |made| made.minimum_radius())
+    };
+    let is_milder = radius(&found) >= radius(&powers);
+    Ok(if is_milder { found } else { powers })
 }
 
 type Amplitudes = [f64; 2 * HARMONICS];

@@ -216,7 +216,7 @@ fn the_map_of_the_drawn_path_has_both_kinds_of_axes() {
             turns_one_way(&path, range.axis(n as u32 % 33, n as u32 / 33));
         }
     }
-    // In the map as at the place itself: the path has few pieces.
+    // In the map nearly as at the place itself: there averaged over a step of a table.
     for (x, y) in [(15, 20), (30, 18), (32, 18)] {
         let axis = range.axis(x, y);
         let found = &map.found()[(y * 33 + x) as usize];
@@ -224,7 +224,7 @@ fn the_map_of_the_drawn_path_has_both_kinds_of_axes() {
             continue;
         };
         let [one, other] = [found.least_radius(0.7), chain.least_radius(0.7)];
-        assert!((one - other).abs() < 1e-12 * other, "{one} {other}");
+        assert!((one / other - 1.0).abs() < 0.05, "{one} {other}");
     }
     let mildest = map.mildest(&path).expect("a chain");
     let of_grid = map.found().iter().flatten();

@@ -3,7 +3,10 @@ use std::f64::consts::{PI, TAU};
 use centrode_geometry::Point;
 
 use super::{drawn, published, published_path};
-use crate::reverse::{ReversedMachine, Split, SplitError, SplitKind, TwoBar};
+use crate::gear::{GearPair, Member};
+use crate::reverse::{
+    PossibleAxis, ReversedMachine, Split, SplitError, SplitKind, TwoBar, WantedPath,
+};
 use crate::transmission::Transmission as _;
 
 #[test]
@@ -151,5 +154,136 @@ fn one_pair_is_refused_at_and_near_fractions() {
     assert_eq!((numerator, denominator), (7, 20));
     for bend in [f64::NAN, 171.0, -1e9] {
         assert!(matches!(split(bend), Err(SplitError::Bend { .. })));
+    }
+}
+
+/// Minimum convex radius of the four pitch curves of the split by powers, of a carrier that turns evenly under an arm of the
+/// direction `swing sin p`: the ratio is `1 - swing cos p`. By circles through three points of each curve.
+fn closed_form(leg: f64, swing: f64) -> f64 {
+    const COUNT: usize = 20_000;
+    let step = TAU / COUNT as f64;
+    let ratio = |i: usize| 1.0 - swing * (step * i as f64).cos();
+    let mean = (0..COUNT).map(|i| ratio(i).sqrt()).sum::<f64>() / COUNT as f64;
+    let mut driven = vec![0.0];
+    for i in 0..=COUNT {
+        let middle = 1.0 - swing * (step * (i as f64 + 0.5)).cos();
+        driven.push(driven[i] + middle.sqrt() / mean * step);
+    }
+    let polar = |r: f64, angle: f64| [r * angle.cos(), r * angle.sin()];
+    let places = |i: usize| {
+        let p = step * i as f64;
+        let planet = p - swing * p.sin();
+        let [one, two] = [ratio(i).sqrt() / mean, 1.0 / ratio(i).sqrt() / mean];
+        [
+            polar(leg * one / (1.0 + one), p),
+            polar(leg / (1.0 + one), driven[i]),
+            polar(leg * two / (1.0 + two), planet),
+            polar(leg / (1.0 + two), driven[i]),
+        ]
+    };
+    let mut sharpest = 0.0_f64;
+    for i in 1..COUNT {
+        let three = [i - 1, i, i + 1].map(places);
+        for k in 0..4 {
+            let [a, b, c] = three.map(|all| all[k]);
+            let side = |p: [f64; 2], q: [f64; 2]| (p[0] - q[0]).hypot(p[1] - q[1]);
+            let area = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+            sharpest = sharpest.max(2.0 * area / (side(a, b) * side(b, c) * side(a, c)));
+        }
+    }
+    1.0 / sharpest
+}
+
+/// Minimum radius of the circles through three points of the pitch curves of a machine, where they are convex.
+fn rolled_radius(made: &ReversedMachine) -> f64 {
+    const COUNT: usize = 20_000;
+    let mut sharpest = 0.0_f64;
+    for pair in made.design.pairs.values() {
+        let (_, rolling) = GearPair::roll(pair).expect("pitch curves");
+        let period = rolling.curve().period();
+        for member in [Member::Driver, Member::Driven] {
+            let at = |i: usize| {
+                rolling
+                    .frame(member, period * i as f64 / COUNT as f64)
+                    .point
+            };
+            let points: Vec<Point> = (0..COUNT + 2).map(at).collect();
+            let turned: f64 = points
+                .windows(2)
+                .map(|p| p[0].coords.perp(&p[1].coords))
+                .sum();
+            for three in points.windows(3) {
+                let [a, b, c] = [three[0], three[1], three[2]];
+                let area = (b - a).perp(&(c - a)) * turned.signum();
+                let sides = (b - a).norm() * (c - b).norm() * (c - a).norm();
+                sharpest = sharpest.max(2.0 * area / sides);
+            }
+        }
+    }
+    1.0 / sharpest
+}
+
+/// Near the place where its bars are stretched a spline through points has a law with a peak of curvature, which no gear has.
+#[test]
+fn the_radius_is_that_of_the_gears_written_and_no_mildest_split_is_sharper() {
+    // Points, bars, swing of the arm, its direction, the carrier's, and the bend, deg.
+    let neighbours = [
+        (12, [90.0, 140.0], 0.2, 2.0, 0.1, 50.0),
+        (12, [90.0, 140.0], 0.2, 2.0, 0.05, 50.0),
+        (16, [90.0, 140.0], 0.2, 2.0, 0.1, 50.0),
+        (24, [90.0, 140.0], 0.2, 2.0, 0.1, 50.0),
+        (36, [90.0, 140.0], 0.2, 2.0, 0.1, 40.0),
+        (48, [90.0, 140.0], 0.2, 2.0, 0.1, 50.0),
+        (720, [90.0, 140.0], 0.2, 2.0, 0.1, 50.0),
+        (12, [140.0, 90.0], 0.15, 1.5, 0.4, 60.0),
+        (14, [70.0, 100.0], 0.1, 0.7, -0.3, 30.0),
+        (18, [120.0, 60.0], 0.2, 2.6, 0.2, 20.0),
+        (20, [100.0, 150.0], 0.12, 1.1, 0.9, -40.0),
+        (30, [80.0, 130.0], 0.18, 2.0, 0.0, 70.0),
+    ];
+    for (count, [carrier, arm], swing, direction, start, bend) in neighbours {
+        let case = format!("{count} {carrier} {arm} {swing} {direction} {start} {bend}");
+        // Rounded points near each other are no longer those of a smooth path.
+        let digits = if count < 48 { 1e3 } else { 1e9 };
+        let rounded = |x: f64| (digits * x).round() / digits;
+        let points = (0..count).map(|k| {
+            let p = TAU * f64::from(k) / f64::from(count);
+            let d = swing * p.sin() + direction;
+            let (x, y) = (p + start).sin_cos();
+            let (x, y) = (carrier * y + arm * d.cos(), carrier * x + arm * d.sin());
+            Point::new(rounded(x), rounded(y))
+        });
+        let path = WantedPath::through(&points.collect::<Vec<_>>()).expect("a path");
+        let chain = TwoBar::new(&path, Point::origin(), None).expect("a chain");
+        let bend = f64::to_radians(bend);
+        let made = |kind| {
+            let split = Split::new(&chain, kind, bend).expect("a split");
+            ReversedMachine::new(&chain, &split, 1, None).expect("a machine")
+        };
+        let [powers, mildest] = [SplitKind::Powers, SplitKind::Mildest].map(made);
+        let [written, milder] = [&powers, &mildest].map(ReversedMachine::minimum_radius);
+        let closed = closed_form(0.5 * carrier / (0.5 * bend).cos(), swing);
+        let on_map = PossibleAxis::from(&chain).least_radius(bend);
+        for (made, radius) in [(&powers, written), (&mildest, milder)] {
+            let rolled = rolled_radius(made);
+            assert!(
+                (radius / rolled - 1.0).abs() < 1e-3,
+                "{case}: {radius} {rolled}"
+            );
+        }
+        // Many points are the machine's own path; through a few the spline is another.
+        if count >= 720 {
+            for radius in [written, on_map] {
+                assert!(
+                    (radius / closed - 1.0).abs() < 1e-4,
+                    "{case}: {radius} {closed}"
+                );
+            }
+        }
+        assert!(
+            (on_map / written - 1.0).abs() < 0.4,
+            "{case}: {on_map} {written}"
+        );
+        assert!(milder >= written, "{case}: {milder} {written}");
     }
 }

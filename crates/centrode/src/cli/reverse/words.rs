@@ -34,10 +34,9 @@ pub(crate) fn bars(chain: &TwoBar) -> [(&'static str, String); 3] {
     ]
 }
 
-/// Line on the sharpest convex place of the split by powers.
-pub(crate) fn least_radius(chain: &TwoBar, bend: f64) -> (&'static str, String) {
-    let radius = mm(chain.least_radius(bend));
-    ("least convex radius", format!("{radius} by powers"))
+/// Line on the minimum convex radius of the gears that are written.
+pub(crate) fn least_radius(made: &ReversedMachine) -> (&'static str, String) {
+    ("least convex radius", mm(made.minimum_radius()))
 }
 
 /// Line on the least convex radii of a pair's pitch curves.

@@ -188,10 +188,9 @@ fn figures(chain: &TwoBar, bend: Option<f64>) -> Vec<Figure> {
         mm(chain.shaft_distance()),
     ));
     if let Some(bend) = bend {
-        let (name, words) = words::least_radius(chain, bend);
         let module = Limits::largest_full_module(chain.curvatures(bend));
         let full = format!("surely sound up to module {} by powers", mm(module));
-        found.extend([figure(name, words), figure("full teeth", full)]);
+        found.push(figure("full teeth", full));
     }
     found
 }
@@ -200,9 +199,11 @@ fn figures(chain: &TwoBar, bend: Option<f64>) -> Vec<Figure> {
 fn rested(chain: &TwoBar, split: &Split, design: &PathDesign) -> Result<Vec<Figure>, String> {
     let made = ReversedMachine::new(chain, split, design.arms, design.steps);
     let made = made.map_err(|error| error.to_string())?;
+    let (name, words) = words::least_radius(&made);
+    let mut found = vec![figure(name, words)];
     let pairs = made.design.pairs.keys().zip(&made.least_radii);
     let pairs = pairs.map(|(name, radii)| words::least_radii(name, *radii));
-    let mut found: Vec<Figure> = pairs.map(|(name, words)| figure(&name, words)).collect();
+    found.extend(pairs.map(|(name, words)| figure(&name, words)));
     let (name, words) = words::tip_error(&made);
     found.push(figure(name, words));
     if split.kind() == SplitKind::OnePair {
