@@ -83,8 +83,16 @@ impl Law {
         Rows(inputs.map(|x| row(&self.law.at(x))).collect())
     }
 
-    /// Peaks of the derivatives: "velocity" Cv, "acceleration" Ca, "jerk" Cj (infinite where the
-    /// acceleration jumps inside the law), and "torque", that of velocity times acceleration.
+    /// Peaks of the derivatives between two rests, as in VDI 2143: "velocity" Cv, "acceleration" Ca,
+    /// "jerk" Cj, and "torque" CM, that of velocity times acceleration. Where a derivative jumps, inside
+    /// the law or at rest, the next one is infinite: "velocity_jump" and "acceleration_jump" are the
+    /// maximum jumps, 0 if there are none, "acceleration_inside" and "jerk_inside" the peaks between them.
+    /// A polynomial joins the derivatives given for its ends instead of rest.
+    ///
+    /// >>> import centrode as ct
+    /// >>> peaks = ct.cam.law("harmonic").characteristic_values
+    /// >>> [round(peaks[key], 4) for key in ["jerk", "jerk_inside", "acceleration_jump"]]
+    /// [inf, 15.5031, 4.9348]
     #[getter]
     fn characteristic_values(&self) -> BTreeMap<&'static str, f64> {
         let values = self.law.characteristic_values();
@@ -93,6 +101,10 @@ impl Law {
             ("acceleration", values.acceleration),
             ("jerk", values.jerk),
             ("torque", values.torque),
+            ("acceleration_inside", values.acceleration_inside),
+            ("jerk_inside", values.jerk_inside),
+            ("velocity_jump", values.velocity_jump),
+            ("acceleration_jump", values.acceleration_jump),
         ])
     }
 

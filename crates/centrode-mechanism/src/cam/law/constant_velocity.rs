@@ -3,7 +3,8 @@ use crate::formula::Taylor;
 
 /// Straight line (Gerade): `s = x`.
 ///
-/// Cv = 1, Ca = Cj = 0; its ends must join a motion of the same velocity.
+/// Cv = 1; the velocity jumps where it meets a dwell, so Ca and Cj are infinite, and 0 inside. Its ends must join a motion of the
+/// same velocity.
 #[derive(Debug)]
 pub(super) struct ConstantVelocity;
 

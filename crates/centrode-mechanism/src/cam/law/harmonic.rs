@@ -5,7 +5,7 @@ use crate::formula::Taylor;
 
 /// Simple harmonic (einfache Sinuslinie): `s = (1 - cos(pi x)) / 2`.
 ///
-/// Cv = pi / 2, Ca = pi^2 / 2, Cj = pi^3 / 2 inside; the acceleration jumps where it meets a dwell.
+/// Cv = pi / 2, Ca = pi^2 / 2; the acceleration jumps by Ca where it meets a dwell, so Cj is infinite, and pi^3 / 2 inside.
 #[derive(Debug)]
 pub(super) struct Harmonic;
 

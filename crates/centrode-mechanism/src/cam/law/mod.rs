@@ -124,8 +124,21 @@ impl LawSpec {
             Self::Polynomial4567 => Arc::new(polynomial_4567::Polynomial4567),
             Self::Polynomial(polynomial) => Arc::new(polynomial.coefficients()),
         };
+        let outside = match self {
+            Self::Polynomial(polynomial) => {
+                [&polynomial.start, &polynomial.end].map(|derivatives| {
+                    let given = |k: usize| derivatives.get(k).copied().unwrap_or(0.0);
+                    [given(0), given(1)]
+                })
+            }
+            _ => [[0.0; 2]; 2],
+        };
         let name = self.name();
-        Ok(Law { form, name })
+        Ok(Law {
+            form,
+            name,
+            outside,
+        })
     }
 }
 
@@ -169,11 +182,6 @@ trait Form: fmt::Debug + Send + Sync {
     fn breaks(&self) -> Vec<f64> {
         Vec::new()
     }
-
-    /// Whether the acceleration jumps at a break.
-    fn jerks(&self) -> bool {
-        false
-    }
 }
 
 /// A normalised motion law `s(x)`: `s(0) = 0`, `s(1) = 1`.
@@ -181,22 +189,38 @@ trait Form: fmt::Debug + Send + Sync {
 pub struct Law {
     form: Arc<dyn Form>,
     name: &'static str,
+    /// Velocity and acceleration of the motion that the law joins at its start and at its end: those given for a polynomial,
+    /// else rest.
+    outside: [[f64; 2]; 2],
 }
 
-/// Characteristic values of a law: peaks of its derivatives.
+/// Jump of a derivative that is rounding, as a share of its peak.
+const ROUNDING: f64 = 1e-9;
+
+/// Characteristic values of a law between two rests, as in VDI 2143: peaks of its derivatives.
 ///
 /// A follower with the lift h over the cam angle B has the peak velocity `Cv h / B`, the peak
-/// acceleration `Ca h / B^2` and the peak jerk `Cj h / B^3` per radian of cam angle.
+/// acceleration `Ca h / B^2` and the peak jerk `Cj h / B^3` per radian of cam angle. Where a derivative jumps, inside the law or
+/// at its ends, the next one is infinite. A polynomial joins the derivatives given for its ends instead of rest.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct CharacteristicValues {
-    /// `Cv`, greatest |s'|: also the static torque for a constant load.
+    /// `Cv`, maximum |s'|: also the static torque for a constant load.
     pub velocity: f64,
-    /// `Ca`, greatest |s''|.
+    /// `Ca`, maximum |s''|; infinite if the velocity jumps.
     pub acceleration: f64,
-    /// `Cj`, greatest |s'''| inside the law; infinite where the acceleration jumps there.
+    /// `Cj`, maximum |s'''|; infinite if the acceleration or the velocity jumps.
     pub jerk: f64,
-    /// `CM`, greatest |s' s''|: the dynamic torque of a mass.
+    /// `CM`, maximum |s' s''|: the dynamic torque of a mass; infinite if the velocity jumps.
     pub torque: f64,
+    /// Maximum |s''| between jumps.
+    pub acceleration_inside: f64,
+    /// Maximum |s'''| between jumps.
+    pub jerk_inside: f64,
+    /// Maximum jump of s', in `h / B`; 0 if there is none.
+    pub velocity_jump: f64,
+    /// Maximum jump of s'', in `h / B^2`; 0 if there is none.
+    pub acceleration_jump: f64,
 }
 
 impl Law {
@@ -218,7 +242,7 @@ impl Law {
         self.form.breaks()
     }
 
-    /// Peaks of the derivatives, to the float limit.
+    /// Peaks and jumps of the derivatives, to the float limit.
     #[must_use]
     pub fn characteristic_values(&self) -> CharacteristicValues {
         let mut ends = vec![0.0];
@@ -228,15 +252,34 @@ impl Law {
             let Extreme { value, .. } = greatest(|x| of(self.at(x)).abs(), &ends);
             value
         };
+        let [start, end] = self.outside;
+        let both = |s: MotionJet| [s.velocity, s.acceleration];
+        let mut sides = vec![(start, both(self.at(0.0))), (both(self.at(1.0)), end)];
+        let breaks = self.breaks().into_iter();
+        sides.extend(breaks.map(|x| (both(self.at(x.next_down())), both(self.at(x)))));
+        let jump = |k: usize, peak: f64| {
+            let jumps = sides
+                .iter()
+                .map(|(before, after)| (after[k] - before[k]).abs());
+            let jump = jumps.fold(0.0, f64::max);
+            if jump > ROUNDING * peak { jump } else { 0.0 }
+        };
+        let velocity = peak(&|s| s.velocity);
+        let acceleration_inside = peak(&|s| s.acceleration);
+        let jerk_inside = peak(&|s| s.jerk);
+        let torque = peak(&|s| s.velocity * s.acceleration);
+        let velocity_jump = jump(0, velocity);
+        let acceleration_jump = jump(1, acceleration_inside);
+        let unless = |jumps: bool, inside: f64| if jumps { f64::INFINITY } else { inside };
         CharacteristicValues {
-            velocity: peak(&|s| s.velocity),
-            acceleration: peak(&|s| s.acceleration),
-            jerk: if self.form.jerks() {
-                f64::INFINITY
-            } else {
-                peak(&|s| s.jerk)
-            },
-            torque: peak(&|s| s.velocity * s.acceleration),
+            velocity,
+            acceleration: unless(velocity_jump > 0.0, acceleration_inside),
+            jerk: unless(velocity_jump + acceleration_jump > 0.0, jerk_inside),
+            torque: unless(velocity_jump > 0.0, torque),
+            acceleration_inside,
+            jerk_inside,
+            velocity_jump,
+            acceleration_jump,
         }
     }
 

@@ -101,8 +101,4 @@ impl Form for SineCosine {
         breaks.dedup();
         breaks
     }
-
-    fn jerks(&self) -> bool {
-        self.fall == 0.0
-    }
 }

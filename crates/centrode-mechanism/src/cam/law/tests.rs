@@ -79,33 +79,105 @@ fn dwelling_laws_rest_at_both_ends() {
     assert_eq!(LawSpec::named("sudden"), None);
 }
 
+/// Compares `Cv`, `Ca`, `Cj`, the peaks of acceleration and jerk inside, and the jumps of velocity and acceleration.
+fn compare(law: &Law, expected: [f64; 7], name: &str) {
+    let found = law.characteristic_values();
+    for (value, expected) in [
+        found.velocity,
+        found.acceleration,
+        found.jerk,
+        found.acceleration_inside,
+        found.jerk_inside,
+        found.velocity_jump,
+        found.acceleration_jump,
+    ]
+    .into_iter()
+    .zip(expected)
+    {
+        let same = value == expected || (value - expected).abs() < 1e-11 * expected.max(1e-2);
+        assert!(same, "{name}: {value} {expected}");
+    }
+    assert_eq!(found.torque.is_infinite(), found.velocity_jump > 0.0);
+}
+
+/// A polynomial joins what is given for its ends; what is not given is rest.
+#[test]
+fn polynomials_jump_where_their_ends_are_free() {
+    let inf = f64::INFINITY;
+    for (start, end, expected) in [
+        // s = x.
+        (vec![], vec![], [1.0, inf, inf, 0.0, 0.0, 1.0, 0.0]),
+        (vec![1.0], vec![1.0], [1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]),
+        // s = 3 x^2 - 2 x^3.
+        (vec![0.0], vec![0.0], [1.5, 6.0, inf, 6.0, 12.0, 0.0, 6.0]),
+        (
+            vec![0.0, 6.0],
+            vec![0.0, -6.0],
+            [1.5, 6.0, 12.0, 6.0, 12.0, 0.0, 0.0],
+        ),
+        // s = x^2.
+        (vec![0.0], vec![2.0], [2.0, 2.0, inf, 2.0, 0.0, 0.0, 2.0]),
+        (vec![0.0], vec![], [2.0, inf, inf, 2.0, 0.0, 2.0, 2.0]),
+        (
+            vec![0.0, 2.0],
+            vec![2.0, 2.0],
+            [2.0, 2.0, 0.0, 2.0, 0.0, 0.0, 0.0],
+        ),
+        // s = x^3.
+        (vec![0.0, 0.0], vec![], [3.0, inf, inf, 6.0, 6.0, 3.0, 6.0]),
+        (
+            vec![0.0, 0.0],
+            vec![3.0],
+            [3.0, 6.0, inf, 6.0, 6.0, 0.0, 6.0],
+        ),
+        (
+            vec![0.0, 0.0],
+            vec![3.0, 6.0],
+            [3.0, 6.0, 6.0, 6.0, 6.0, 0.0, 0.0],
+        ),
+    ] {
+        let name = format!("{start:?} {end:?}");
+        let law = LawSpec::Polynomial(Polynomial { start, end });
+        compare(&law.resolve().expect("sound"), expected, &name);
+    }
+}
+
 #[test]
 fn characteristic_values_are_the_closed_forms() {
     let sine = 4.0 * PI * PI / (4.0 + PI);
     let trapezoid = 8.0 * PI / (2.0 + PI);
+    let (none, inf) = (0.0, f64::INFINITY);
+    let soft = |v: f64, a: f64, j: f64| [v, a, j, a, j, none, none];
+    let harmonic = PI * PI / 2.0;
     let known = [
-        ("constant-velocity", [1.0, 0.0, 0.0]),
-        ("parabolic", [2.0, 4.0, f64::INFINITY]),
-        ("harmonic", [PI / 2.0, PI * PI / 2.0, PI.powi(3) / 2.0]),
-        ("cycloidal", [2.0, 2.0 * PI, 4.0 * PI * PI]),
-        ("modified-sine", [sine / PI, sine, 4.0 * PI * sine]),
-        ("modified-trapezoid", [2.0, trapezoid, 4.0 * PI * trapezoid]),
-        ("polynomial-345", [1.875, 10.0 / 3.0_f64.sqrt(), 60.0]),
+        ("constant-velocity", [1.0, inf, inf, none, none, 1.0, none]),
+        ("parabolic", [2.0, 4.0, inf, 4.0, none, none, 8.0]),
+        (
+            "harmonic",
+            [
+                PI / 2.0,
+                harmonic,
+                inf,
+                harmonic,
+                PI * harmonic,
+                none,
+                harmonic,
+            ],
+        ),
+        ("cycloidal", soft(2.0, 2.0 * PI, 4.0 * PI * PI)),
+        ("modified-sine", soft(sine / PI, sine, 4.0 * PI * sine)),
+        (
+            "modified-trapezoid",
+            soft(2.0, trapezoid, 4.0 * PI * trapezoid),
+        ),
+        ("polynomial-345", soft(1.875, 10.0 / 3.0_f64.sqrt(), 60.0)),
         (
             "polynomial-4567",
-            [2.1875, 84.0 * 5.0_f64.sqrt() / 25.0, 52.5],
+            soft(2.1875, 84.0 * 5.0_f64.sqrt() / 25.0, 52.5),
         ),
     ];
-    for (name, [velocity, acceleration, jerk]) in known {
-        let found = law(name).characteristic_values();
-        for (value, expected) in [
-            (found.velocity, velocity),
-            (found.acceleration, acceleration),
-            (found.jerk, jerk),
-        ] {
-            let same = value == expected || (value - expected).abs() < 1e-11 * expected;
-            assert!(same, "{name}: {value} {expected}");
-        }
+    for (name, values) in known {
+        compare(&law(name), values, name);
     }
     // The figures as they are usually printed, and the dynamic torque of two of them.
     let printed = |name: &str, figures: [f64; 2]| {
