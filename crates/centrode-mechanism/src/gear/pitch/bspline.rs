@@ -61,16 +61,30 @@ impl Default for Bspline {
 }
 
 impl Bspline {
-    pub(crate) fn draft(&self) -> Result<Draft, PitchError> {
-        let degree = in_range("degree", self.degree, 1, HIGHEST_DEGREE as u32)? as usize;
-        let lists = Lists {
+    /// Checks the points by the rules of a design file.
+    pub(crate) fn check(&self) -> Result<(), PitchError> {
+        self.lists().check(self.fewest())
+    }
+
+    fn lists(&self) -> Lists<'_> {
+        Lists {
             plane: self.plane,
             radius: &self.radius,
             angle: &self.angle,
             x: &self.x,
             y: &self.y,
-        };
-        let points = lists.points((degree + 1).max(3))?;
+        }
+    }
+
+    /// Minimum number of points.
+    fn fewest(&self) -> usize {
+        (self.degree as usize + 1).max(3)
+    }
+
+    pub(crate) fn draft(&self) -> Result<Draft, PitchError> {
+        let degree = in_range("degree", self.degree, 1, HIGHEST_DEGREE as u32)? as usize;
+        let lists = self.lists();
+        let points = lists.points(self.fewest())?;
         let (points, [before, after]) = if self.interpolate {
             let controls = points
                 .periodic()

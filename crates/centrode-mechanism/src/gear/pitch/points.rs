@@ -46,7 +46,7 @@ impl Lists<'_> {
     }
 
     /// Checks the points: as many as needed, finite, in the polar plane in order round the axis.
-    pub(crate) fn points(&self, least: usize) -> Result<Points, PitchError> {
+    pub(crate) fn check(&self, least: usize) -> Result<(), PitchError> {
         let stray = |key, list: &[f64], rule| {
             if list.is_empty() {
                 Ok(())
@@ -64,12 +64,7 @@ impl Lists<'_> {
                 for &r in self.radius {
                     positive("radius", r)?;
                 }
-                angles_in_order(self.angle)?;
-                let list = self.angle.iter().zip(self.radius);
-                Ok(Points {
-                    coordinates: Coordinates::Polar,
-                    list: list.map(|(&a, &r)| [a, r]).collect(),
-                })
+                angles_in_order(self.angle)
             }
             Plane::Cartesian => {
                 stray("radius", self.radius, polar)?;
@@ -79,12 +74,23 @@ impl Lists<'_> {
                     finite("x", x)?;
                     finite("y", y)?;
                 }
-                Ok(Points {
-                    coordinates: Coordinates::Cartesian,
-                    list: self.x.iter().zip(self.y).map(|(&x, &y)| [x, y]).collect(),
-                })
+                Ok(())
             }
         }
+    }
+
+    /// The points, checked.
+    pub(crate) fn points(&self, least: usize) -> Result<Points, PitchError> {
+        self.check(least)?;
+        let (coordinates, first, second) = match self.plane {
+            Plane::Polar => (Coordinates::Polar, self.angle, self.radius),
+            Plane::Cartesian => (Coordinates::Cartesian, self.x, self.y),
+        };
+        let list = first.iter().zip(second).map(|(&a, &b)| [a, b]);
+        Ok(Points {
+            coordinates,
+            list: list.collect(),
+        })
     }
 }
 

@@ -61,6 +61,11 @@ pub enum SweepError {
         /// Number in the design.
         found: usize,
     },
+    /// Radii of control points that are not above zero, or angles that do not increase within a turn.
+    #[error(
+        "radii of control points must be greater than 0 mm, and their angles must increase within one turn"
+    )]
+    ControlPoints,
     /// The pitch curve does not wind once round the sun's axis.
     #[error("the pitch curve does not go round the axis once, in order")]
     NotAroundAxis,
@@ -105,6 +110,7 @@ impl Sweep {
     pub fn figures(&mut self, design: &ThreeArmDesign) -> Result<Figures, SweepError> {
         let spline = spline_of(design)?;
         self.stage.load(spline)?;
+        spline.check().map_err(|_| SweepError::ControlPoints)?;
         let machine = path::Machine::new(design, &self.stage);
         self.path.follow(&self.stage, &machine)?;
         let [below, above] =

@@ -118,6 +118,38 @@ fn what_is_no_mechanism_is_refused() {
     agree(&good, &mut sweep, 1e-9);
 }
 
+/// A variant that a design file would not be let through with has no figures either.
+#[test]
+fn control_points_are_refused_like_those_of_a_file() {
+    let good = published();
+    let mut sweep = Sweep::like(&good, 360).expect("of the kind");
+    let degrees = f64::to_radians;
+    let cases: [(&str, &dyn Fn(&mut Bspline), bool); 14] = [
+        ("r1 = 0", &|s| s.radius[0] = 0.0, false),
+        ("r1 = -5", &|s| s.radius[0] = -5.0, false),
+        ("r1 = -1e-9", &|s| s.radius[0] = -1e-9, false),
+        ("r8 = -0.0", &|s| s.radius[7] = -0.0, false),
+        ("r8 = -2", &|s| s.radius[7] = -2.0, false),
+        ("theta2 = theta1", &|s| s.angle[1] = s.angle[0], false),
+        ("theta2 = 19", &|s| s.angle[1] = degrees(19.0), false),
+        ("theta5 = 104.9", &|s| s.angle[4] = degrees(104.9), false),
+        ("theta12 = 381", &|s| s.angle[11] = degrees(381.0), false),
+        ("r1 = 1e-6", &|s| s.radius[0] = 1e-6, true),
+        ("r1 = 5", &|s| s.radius[0] = 5.0, true),
+        ("r8 = 11", &|s| s.radius[7] = 11.0, true),
+        ("theta2 = 44", &|s| s.angle[1] = degrees(44.0), true),
+        ("theta12 = 350", &|s| s.angle[11] = degrees(350.0), true),
+    ];
+    for (words, change, sound) in cases {
+        let mut design = good.clone();
+        if let PitchSpec::Bspline(spline) = &mut design.pitch {
+            change(spline);
+        }
+        assert_eq!(sweep.figures(&design).is_ok(), sound, "{words}");
+        assert_eq!(ThreeArm::resolve(&design).is_ok(), sound, "{words}");
+    }
+}
+
 #[test]
 fn a_sharp_crest_beside_a_flat_one_is_found() {
     let mut design = published();
