@@ -11,6 +11,7 @@ use super::{
     Composed, ComposedBodySpec, ComposedDesign, ComposedError, ComposedMeshSpec, GearRole, Mount,
 };
 use crate::gear::design::GearPairDesign;
+use crate::gear::pitch::gcd;
 use crate::gear::{Gear, GearPair, Member, Role};
 use crate::machine::{Line, LineRole, Surface};
 
@@ -345,6 +346,13 @@ impl Builder<'_> {
         };
         let [one, other] = [self.gear_angle(driver), self.gear_angle(driven)];
         let rolling = pair.shared_rolling();
+        // Parts by which each gear repeats, over a cycle of the pair; after some of the driver's the driven gear repeats, too.
+        let (n1, n2) = pair.mean_ratio();
+        let [driver_parts, driven_parts] =
+            [(n1, Member::Driver), (n2, Member::Driven)].map(|(n, m)| n * pair.repeats(m));
+        let common = gcd(driver_parts, driven_parts);
+        let [driver_part, driven_part] =
+            [Member::Driver, Member::Driven].map(|m| TAU / f64::from(pair.repeats(m)));
         let count = LOOKS * self.design.input.turns;
         let mut worst = (0.0, 0.0);
         for i in 0..count {
@@ -369,12 +377,12 @@ impl Builder<'_> {
                 rolling: Arc::clone(&rolling),
                 lambda: Angle::default().plus(way.y.atan2(way.x)),
             };
-            // A driver of several turns a cycle may be in any of them.
-            let off = (0..pair.mean_ratio().0).map(|turn| {
+            // Teeth meet other spaces as well where both gears are as before.
+            let off = (0..driver_parts / common).map(|part| {
                 let mut at = one.at(input);
-                at.position -= TAU * f64::from(turn);
+                at.position -= driver_part * f64::from(part);
                 let off = other.at(input).position - mesh.driven(&at, input).position;
-                (off - TAU * (off / TAU).round()).abs()
+                (off - driven_part * (off / driven_part).round()).abs()
             });
             let off = off.fold(f64::INFINITY, f64::min);
             if off > worst.0 {

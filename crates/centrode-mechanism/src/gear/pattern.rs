@@ -44,6 +44,11 @@ pub(crate) struct Image {
 }
 
 impl Pattern {
+    /// Equal parts of a turn after which the gear is as before.
+    pub(crate) fn repeats(&self) -> u32 {
+        self.count / self.period
+    }
+
     /// Image that a place is; none for a place that others are images of.
     pub(crate) fn image(&self, place: u32) -> Option<Image> {
         let period = i64::from(self.period);

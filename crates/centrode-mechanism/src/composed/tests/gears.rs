@@ -109,6 +109,98 @@ fn a_loop_of_meshes_closes_or_is_refused_with_its_gears_and_the_mismatch() {
     assert!(found.contains(told), "{found}");
 }
 
+/// Four equal gears with their axes on a rhomb of this angle, deg, of a pitch curve.
+fn rhomb(pitch: &str, degrees: f64) -> String {
+    let next = |name: &str, role: &str, with: &str, direction: f64| {
+        format!(
+            "[gears.{name}]\npair = \"round\"\nrole = \"{role}\"\non = \"{name}-body\"\n[bodies.{name}-body]\non = \"frame\"\nmesh = {{ gear = \"{name}\", with = \"{with}\", direction_deg = {direction} }}\n"
+        )
+    };
+    format!(
+        "family = \"machine\"\n[frame.points]\nA = [0, 0]\n[pairs.round]\npitch = {pitch}\n[gears.a]\npair = \"round\"\nrole = \"driver\"\non = \"a-body\"\n[bodies.a-body]\non = \"frame.A\"\nlaw = {{ ratio = 1 }}\n{}{}{}[meshes.close]\ngears = [\"a\", \"d\"]\n",
+        next("b", "driven", "a", 0.0),
+        next("c", "driver", "b", degrees),
+        next("d", "driven", "c", 180.0),
+    )
+}
+
+/// With lambda the directions along the sides, teeth meet spaces at each if the sum of the two gears' phases there is the same,
+/// so that a loop of four is off by twice the sum of the directions with alternating signs: four times its angle, up to pitches.
+#[test]
+fn a_loop_of_round_gears_may_be_off_by_whole_pitches() {
+    for (teeth, degrees) in [
+        (20, 72.0),
+        (20, 76.5),
+        (20, 67.5),
+        (20, 90.0),
+        (20, 81.0),
+        (20, 108.0),
+        (24, 75.0),
+        (24, 63.75),
+        (25, 72.0),
+        (31, 90.0 - 90.0 / 31.0 / 2.0),
+        (20, 70.0),
+        (20, 72.3),
+        (20, 74.25),
+        (24, 72.0),
+        (25, 75.0),
+        (31, 90.0),
+    ] {
+        let pitch = format!("{{ kind = \"circle\", module = 2, tooth_count = {teeth} }}");
+        let text = rhomb(&pitch, degrees);
+        let part = 360.0 / f64::from(teeth);
+        let off = 4.0 * degrees / part;
+        let off = (off - off.round()).abs() * part;
+        if off < 1e-9 {
+            let made = Composed::resolve(&read(&text));
+            assert!(made.is_ok(), "{teeth} {degrees}: {made:?}");
+        } else {
+            let found = refused(&text);
+            let told = format!("gears a and d are {off:.6} deg off their mesh");
+            assert!(found.contains(&told), "{teeth} {degrees}: {found}");
+        }
+    }
+}
+
+/// A gear that repeats after part of a turn only meshes there, not a pitch farther.
+#[test]
+fn a_loop_of_lobed_gears_may_be_off_by_whole_lobes_only() {
+    let ellipse = "{ kind = \"ellipse\", eccentricity = 0.3, module = 2, tooth_count = 23 }";
+    let lobed = |lobes: u32, teeth: u32| {
+        format!(
+            "{{ kind = \"lobed-ellipse\", lobes = {lobes}, eccentricity = 0.1, module = 2, tooth_count = {teeth} }}"
+        )
+    };
+    for (pitch, parts, teeth) in [
+        (ellipse.to_owned(), 1, 23),
+        (lobed(2, 40), 2, 40),
+        (lobed(2, 24), 2, 24),
+        (lobed(3, 30), 3, 30),
+        (lobed(3, 31), 1, 31),
+        (lobed(4, 48), 4, 48),
+    ] {
+        // The last gear turned on its body by whole pitches, and by a part of one.
+        let with = |mount: f64| {
+            let text = rhomb(&pitch, 60.0).replace(
+                "[meshes.close]\ngears = [\"a\", \"d\"]",
+                &format!(
+                    "[gears.e]\npair = \"round\"\nrole = \"driven\"\non = \"b-body\"\nmount_deg = {mount}\n[meshes.close]\ngears = [\"a\", \"e\"]"
+                ),
+            );
+            Composed::resolve(&read(&text))
+        };
+        let pitches = 360.0 / f64::from(teeth);
+        for part in -parts..=parts {
+            let turned = 360.0 * f64::from(part) / f64::from(parts);
+            let made = with(turned);
+            assert!(made.is_ok(), "{pitch} {turned}: {made:?}");
+            for more in [pitches, 0.5 * pitches, 1e-3] {
+                assert!(with(turned + more).is_err(), "{pitch} {turned} {more}");
+            }
+        }
+    }
+}
+
 #[test]
 fn bad_gears_are_told_by_their_key() {
     for (from, to, told) in [

@@ -348,6 +348,13 @@ impl GearPair {
         })
     }
 
+    /// Equal parts of a turn by which a gear's teeth repeat as far as the form of the pitch curve tells: the tooth count for round
+    /// gears, 1 for a gear without such a symmetry.
+    #[must_use]
+    pub fn repeats(&self, member: Member) -> u32 {
+        self.patterns.of(member).repeats()
+    }
+
     /// Driver angle of a whole cycle, after which both gears are as they were, rad.
     #[must_use]
     pub fn cycle(&self) -> f64 {
