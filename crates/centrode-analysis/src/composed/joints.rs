@@ -71,6 +71,29 @@ pub(super) fn joints(composed: &Composed, motion: &Motion, report: &mut Report) 
     );
 }
 
+/// How every table of angles is read: the turn of the body over it, and the steps that show this turn.
+pub(super) fn tables(composed: &Composed, report: &mut Report) {
+    let bodies = composed.whole().bodies.iter();
+    let read = bodies.filter_map(|(name, body)| {
+        let reading = body.law.as_ref()?.table_reading()?;
+        let turned = TAU * f64::from(reading.turns);
+        let row = vec![turned, reading.largest_step, reading.last_step];
+        Some((name.clone(), row))
+    });
+    let rows: Vec<_> = read.collect();
+    if !rows.is_empty() {
+        report.tables.push(Table {
+            name: "table-readings",
+            title: "Table of angles of body",
+            unit: Unit::Angle,
+            columns: ["turn over the table", "largest step", "last step"]
+                .map(String::from)
+                .into(),
+            rows,
+        });
+    }
+}
+
 /// Input at which a motion stands in an extreme: where its speed is zero, and in the first turn of several alike.
 fn dead_centre(law: &dyn Transmission, found: &Extreme, (stroke, period): (f64, f64)) -> f64 {
     let alike = |input: &f64| {

@@ -98,6 +98,7 @@ fn checked(made: &Made<'_>, motion: Motion, depth: Depth) -> Report {
     joints::joints(composed, &motion, &mut report);
     joints::four_bars(composed, &mut report);
     if is_whole {
+    joints::tables(composed, &mut report);
         cams::cams(composed, &mut report);
     }
     points(composed, motion, &mut report);

@@ -68,6 +68,114 @@ fn a_crank_rocker_has_the_figures_of_its_closed_forms() {
     assert_eq!(table(&report, "grashof").rows[0].1, [margin]);
 }
 
+/// A four-bar of a crank, coupler, rocker and frame.
+fn four_bar([crank, coupler, rocker, frame]: [f64; 4], side: &str) -> Composed {
+    composed(&format!(
+        "family = \"machine\"\n[frame.points]\nA = [0, 0]\nD = [{frame}, 0]\n[bodies.crank]\non = \"frame.A\"\nlaw = {{ ratio = 1 }}\npoints = {{ B = [{crank}, 0] }}\n[dyads.loop]\ntype = \"RRR\"\nfrom = \"crank.B\"\nto = \"frame.D\"\nlengths = [{coupler}, {rocker}]\nside = \"{side}\"\nbodies = [\"coupler\", \"rocker\"]\njoint = \"C\"\n"
+    ))
+}
+
+/// The angle at the joint by the cosine rule, at the shortest and the longest distance of the bars' other ends.
+#[test]
+fn the_transmission_angle_of_two_bars_is_not_folded() {
+    for lengths in [
+        [0.5, 1.2, 0.8, 1.0],
+        [77.0, 147.0, 127.0, 105.0],
+        [30.0, 80.0, 90.0, 100.0],
+        [20.0, 40.0, 90.0, 100.0],
+        [60.0, 80.0, 90.0, 40.0],
+        [105.0, 147.0, 127.0, 77.0],
+        [10.0, 100.0, 60.0, 120.0],
+        [10.0, 50.0, 50.0, 80.0],
+        [25.0, 60.0, 70.0, 40.0],
+        [5.0, 60.0, 61.0, 119.0],
+        [5.0, 60.0, 61.0, 8.0],
+    ] {
+        for side in ["left", "right"] {
+            let [crank, coupler, rocker, frame] = lengths;
+            let angle = |distance: f64| {
+                let squares = coupler * coupler + rocker * rocker - distance * distance;
+                (squares / (2.0 * coupler * rocker)).acos()
+            };
+            let low = angle((frame - crank).abs());
+            let high = angle(frame + crank);
+            let report = check_composed(&four_bar(lengths, side));
+            let (_, row) = &table(&report, "transmission-angles").rows[0];
+            assert!((row[0] - low).abs() < 1e-9, "{lengths:?}: {row:?} {low}");
+            assert!((row[2] - high).abs() < 1e-9, "{lengths:?}: {row:?} {high}");
+            assert!((row[1] / PI).fract().abs() < 1e-6, "{lengths:?}: {row:?}");
+            assert!((row[3] - PI).abs() < 1e-6, "{lengths:?}: {row:?}");
+            let held = low.min(PI - high);
+            let found = report.values["transmission_angle_min"];
+            assert!((found - held).abs() < 1e-9, "{lengths:?}: {found} {held}");
+            let warned = report
+                .findings
+                .iter()
+                .find(|f| f.rule == "transmission-angle");
+            assert_eq!(warned.is_some(), held.to_degrees() < 30.0, "{lengths:?}");
+            if let Some(finding) = warned {
+                let obtuse = PI - high < low;
+                assert_eq!(
+                    finding.message.contains("rises to"),
+                    obtuse,
+                    "{}",
+                    finding.message
+                );
+                let at = finding.place.input.expect("an input");
+                assert!((at - row[if obtuse { 3 } else { 1 }]).abs() < 1e-9);
+            }
+        }
+    }
+}
+
+#[test]
+fn the_readings_of_tables_are_reported() {
+    let read = |law: &str| {
+        composed(&format!(
+            "family = \"machine\"\n[frame.points]\nW = [0, 0]\n[bodies.wheel]\non = \"frame.W\"\nlaw = {{ {law} }}\n"
+        ))
+    };
+    for (law, expected) in [
+        (
+            "table_deg = [0, 45, 90, 135, 180, 225, 270, 315]",
+            [360.0, 45.0, 45.0],
+        ),
+        (
+            "table_deg = [0, 50, 100, 150, 200, 100]",
+            [0.0, 100.0, -100.0],
+        ),
+        (
+            "table_deg = [0, 40, 80, 120, 160, 200], turns = 1",
+            [360.0, 40.0, 160.0],
+        ),
+        (
+            "table_deg = [0, 40, 80, 120, 160, 200], turns = 0",
+            [0.0, 40.0, -200.0],
+        ),
+        (
+            "table_deg = [0, -60, -120, -180, -240, -300]",
+            [-360.0, 60.0, -60.0],
+        ),
+    ] {
+        let report = check_composed(&read(law));
+        let (name, row) = &table(&report, "table-readings").rows[0];
+        assert_eq!(name, "wheel");
+        for (value, expected) in row.iter().zip(expected) {
+            assert!(
+                (value.to_degrees() - expected).abs() < 1e-9,
+                "{law}: {row:?}"
+            );
+        }
+    }
+    let report = check_composed(&read("ratio = 1"));
+    assert!(
+        report
+            .tables
+            .iter()
+            .all(|table| table.name != "table-readings")
+    );
+}
+
 #[test]
 fn a_slider_crank_has_its_stroke_between_its_dead_centres() {
     let report = check_composed(&composed(MACHINE));

@@ -6,16 +6,16 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::course::expression;
+use super::table::{self, TableReading};
 use super::{IntermittentSpec, TraverseSpec};
 use crate::cam::design::MotionSpec;
 use crate::cam::{Motion, MotionError};
 use crate::degrees;
+use crate::digits::told;
 use crate::gear::design::SpecError;
 use crate::gear::design::rule::{Rule, broken, finite, in_range};
-use crate::gear::pitch::Interpolation;
-use crate::gear::pitch::periodic::Periodic;
 use crate::machine::Linear;
-use crate::transmission::{Chain, FromFn, MotionJet, Transmission, TransmissionError};
+use crate::transmission::{Chain, FromFn, Transmission, TransmissionError};
 
 /// Greatest difference of a law's ends over a period that is rounding, as a share of its size or of 1 rad or mm.
 pub(super) const ROUNDING: f64 = 1e-9;
@@ -61,6 +61,10 @@ pub struct ComposedLawSpec {
     )]
     #[schemars(with = "Vec<f64>")]
     pub table_angles: Vec<f64>,
+    /// Whole turns of the body over `table_deg`: 1 turns on through 360 degrees, 0 swings back, -1 turns clockwise. By default
+    /// those that make the last step small, at most twice the largest step of the table.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub turns: Option<i32>,
     /// Places at equal steps of the period, between which a smooth curve runs, mm.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub table: Vec<f64>,
@@ -98,8 +102,19 @@ pub enum ComposedLawError {
     #[error(transparent)]
     Cam(#[from] MotionError),
     /// A table that makes no curve.
-    #[error("{0}")]
-    Table(String),
+    #[error("{why}")]
+    Table {
+        /// Key of the table.
+        key: &'static str,
+        /// The rule broken.
+        why: String,
+    },
+    /// A table of angles that can be read as turning on or as swinging back.
+    #[error(
+        "its last step is not clear next to its largest step of {} deg: {}, {}; set law.turns to one of them",
+        told(.0[0].largest_step.to_degrees()), .0[0].words(), .0[1].words()
+    )]
+    UnclearTable([TableReading; 2]),
     /// An intermittent drive or a groove that cannot be.
     #[error("{why}")]
     Drive {
@@ -162,8 +177,9 @@ impl ComposedLawError {
         match self {
             Self::Formula(_) | Self::NoValue { .. } | Self::Open { .. } => "expression".into(),
             Self::Cam(error) => format!("cam.{}", error.key()),
-            Self::Table(_) => "table".into(),
-            Self::Drive { key, .. }
+            Self::UnclearTable(_) => "table_deg".into(),
+            Self::Table { key, .. }
+            | Self::Drive { key, .. }
             | Self::TooFast { key, .. }
             | Self::NoWholeTurns { key, .. } => (*key).into(),
             Self::By(_) => "by".into(),
@@ -228,6 +244,12 @@ impl ComposedLawSpec {
             };
             return broken(key, Rule::Unused(only));
         }
+        if let Some(turns) = self.turns {
+            if self.table_angles.is_empty() {
+                return broken("turns", Rule::Unused("without table_deg"));
+            }
+            in_range("turns", turns.into(), [-1e3, 1e3], "")?;
+        }
         for value in [self.start_angle, self.start].into_iter().flatten() {
             finite(if slides { "start" } else { "start_deg" }, value)?;
         }
@@ -254,6 +276,13 @@ impl ComposedLawSpec {
             }
             _ => Ok(()),
         }
+    }
+
+    /// Reading of its table of angles; `None` if it has none, or one that is not clear.
+    #[must_use]
+    pub fn table_reading(&self) -> Option<TableReading> {
+        let given = !self.table_angles.is_empty();
+        given.then(|| TableReading::of(&self.table_angles, self.turns).ok())?
     }
 
     /// Whether it moves the body by the input.
@@ -338,24 +367,19 @@ impl ComposedLawSpec {
     /// The law by its own input over so many turns of that.
     fn motion(&self, turns: u32) -> Result<Arc<dyn Transmission>, ComposedLawError> {
         let start = self.offset();
-        let table = match (&self.table[..], &self.table_angles[..]) {
-            ([], angles) => angles,
-            (places, _) => places,
-        };
         let drive = |key: &'static str| move |why: String| ComposedLawError::Drive { key, why };
         if let Some(text) = &self.expression {
             return expression(text, start, TAU * f64::from(turns));
         }
-        if !table.is_empty() {
-            let samples: Vec<f64> = table.iter().map(|value| start + value).collect();
-            let curve = Periodic::even("table", &samples, Interpolation::Quintic);
-            let curve = curve.map_err(|e| ComposedLawError::Table(e.to_string()))?;
-            let scale = 1.0 / f64::from(turns);
-            let jumps = curve.breaks().into_iter().map(|b| b / scale).collect();
-            let at = move |input: f64| {
-                stretched(&MotionJet::from_series(&curve.at(input * scale)), scale)
-            };
-            return Ok(Arc::new(FromFn::new(TAU / scale, 0.0, jumps, at)));
+        let shifted = |values: &[f64]| -> Vec<f64> { values.iter().map(|v| start + v).collect() };
+        let period = TAU * f64::from(turns);
+        if !self.table.is_empty() {
+            return table::through("table", &shifted(&self.table), period, 0.0);
+        }
+        if !self.table_angles.is_empty() {
+            let reading = TableReading::of(&self.table_angles, self.turns);
+            let advance = TAU * f64::from(reading.map_err(ComposedLawError::UnclearTable)?.turns);
+            return table::through("table_deg", &shifted(&self.table_angles), period, advance);
         }
         let moved: Arc<dyn Transmission> = if let Some(cam) = &self.cam {
             Arc::new(Motion::resolve(cam)?)
@@ -387,14 +411,5 @@ fn least_turns(law: &dyn Transmission) -> Option<u32> {
     (1..=MOST).find(|&turns| {
         let repeats = TAU * f64::from(turns) / law.period();
         whole(repeats) && whole(repeats * law.advance() / TAU)
-    })
-}
-
-/// A jet by an input of which its own is `scale` times.
-fn stretched(jet: &MotionJet, scale: f64) -> MotionJet {
-    jet.after(&MotionJet {
-        position: 0.0,
-        velocity: scale,
-        ..MotionJet::default()
     })
 }

@@ -43,6 +43,7 @@ mod seating;
 mod shaft_parts;
 mod shafts;
 mod spacing;
+mod table;
 #[cfg(test)]
 mod tests;
 mod touching;
@@ -79,6 +80,7 @@ pub use plates::{ComposedPlatesSpec, PinHole};
 pub use reversed::{MachineError, ReversedMachine};
 pub(crate) use reversed::{free_backlash, free_body};
 pub use shafts::{ComposedShaft, Hold, ShaftPart};
+pub use table::TableReading;
 
 use self::expansion::Expansion;
 use self::gearing::Meshing;

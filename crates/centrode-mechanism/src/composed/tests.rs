@@ -11,6 +11,7 @@ mod gears;
 mod limits;
 mod random;
 mod shafts;
+mod tables;
 mod trains;
 
 fn read(text: &str) -> ComposedDesign {
