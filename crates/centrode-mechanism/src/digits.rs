@@ -2,7 +2,13 @@
 
 /// A number in as many digits as mean something: ten at most, and in powers of ten where it is very large or small.
 pub(crate) fn told(value: f64) -> String {
-    let short = format!("{value:.9e}").parse().unwrap_or(value);
+    digits(value, 10)
+}
+
+/// A number in at most `count` significant digits, in powers of ten if it is very large or small.
+pub(crate) fn digits(value: f64, count: usize) -> String {
+    let decimals = count.saturating_sub(1);
+    let short = format!("{value:.decimals$e}").parse().unwrap_or(value);
     if short == 0.0 || (1e-7..1e10).contains(&short.abs()) {
         format!("{short}")
     } else {
@@ -43,7 +49,13 @@ fn length(text: &str) -> usize {
 
 /// Millimetres to a thousandth, without zeros at the end.
 pub(crate) fn thousandths(mm: f64) -> String {
-    told((1e3 * mm).round() / 1e3)
+    rounded(mm, 3)
+}
+
+/// A number to so many decimals, without zeros at the end.
+pub(crate) fn rounded(value: f64, decimals: i32) -> String {
+    let scale = 10.0_f64.powi(decimals);
+    told((scale * value).round() / scale)
 }
 
 #[cfg(test)]

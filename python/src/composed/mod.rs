@@ -253,7 +253,11 @@ impl Machine {
         slf.as_super().forces_by(py, phi, speed, Names::OF_BODIES)
     }
 
-    /// Transmission angle of a dyad at inputs, rad: 0 where it is stretched or folded, a right angle where it holds best.
+    /// Transmission angle of a dyad at inputs, rad: a right angle where it holds best, 0 where it is stretched or folded.
+    ///
+    /// Of a dyad RRR it is the angle between the bars at their joint, from 0 to pi; of the others an angle between two
+    /// lines, from 0 to pi / 2. The figure ``transmission_angle_min`` of a check, and goals, count an angle above pi / 2
+    /// by what it is short of pi.
     ///
     /// Raises:
     ///     DesignError: There is no such dyad.

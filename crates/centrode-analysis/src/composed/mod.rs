@@ -15,9 +15,10 @@ mod sound_teeth;
 mod tests;
 mod through;
 
+use std::f64::consts::PI;
 use std::sync::{Arc, OnceLock};
 
-use centrode_geometry::pieces;
+use centrode_geometry::{Extreme, pieces};
 use centrode_mechanism::composed::Composed;
 use centrode_mechanism::machine::Machine;
 
@@ -39,6 +40,8 @@ use crate::{Finding, Goal, Place, Report, Severity, Table, Unit};
 const PARTS: u32 = 16;
 /// Transmission angle below which a dyad holds badly, degrees: friction may lock it.
 const HOLDS_BADLY: f64 = 30.0;
+/// Input, rad, below which an extreme is at the start of the cycle: it is found to the square root of rounding.
+const NEAR: f64 = 1e-7;
 
 /// Checks a composed machine: how well its dyads hold, where joints reverse, how far points go and how fast.
 ///
@@ -95,10 +98,10 @@ fn checked(made: &Made<'_>, motion: Motion, depth: Depth) -> Report {
     values.insert("gravity", x.hypot(y));
     let is_whole = depth == Depth::Whole;
     dyads(composed, &motion, &mut report);
+    joints::tables(composed, &mut report);
     joints::joints(composed, &motion, &mut report);
     joints::four_bars(composed, &mut report);
     if is_whole {
-    joints::tables(composed, &mut report);
         cams::cams(composed, &mut report);
     }
     points(composed, motion, &mut report);
@@ -209,27 +212,38 @@ fn within(composed: &Composed, from: f64, to: f64) -> Vec<f64> {
 fn dyads(composed: &Composed, motion: &Motion, report: &mut Report) {
     let mut rows = Vec::new();
     for (dyad, &[low, high]) in composed.dyads().iter().zip(&motion.angles) {
-        let row = vec![low.value, low.input, high.value, high.input];
+        let at = |end: &Extreme| if end.input < NEAR { 0.0 } else { end.input };
+        let row = vec![low.value, at(&low), high.value, at(&high)];
         rows.push((dyad.name.clone(), row));
+        // Bars hold as badly at 150 degrees as at 30.
+        let obtuse = PI - high.value < low.value;
+        let (end, held) = match obtuse {
+            true => (high, PI - high.value),
+            false => (low, low.value),
+        };
         let worst = report.values.get("transmission_angle_min").copied();
-        let worst = worst.unwrap_or(f64::INFINITY).min(low.value);
+        let worst = worst.unwrap_or(f64::INFINITY).min(held);
         report.values.insert("transmission_angle_min", worst);
-        let degrees = low.value.to_degrees();
-        if exceeds(HOLDS_BADLY, degrees) {
+        if exceeds(HOLDS_BADLY, held.to_degrees()) {
+            let (reaches, limit) = match obtuse {
+                true => ("rises", format!("above {:.0}", 180.0 - HOLDS_BADLY)),
+                false => ("falls", format!("below {HOLDS_BADLY}")),
+            };
+            let degrees = end.value.to_degrees();
             report.findings.push(Finding {
                 rule: "transmission-angle",
                 severity: Severity::Warning,
                 message: format!(
-                    "the transmission angle of dyad {} falls to {degrees:.2} deg: below {HOLDS_BADLY} deg friction may lock it",
+                    "the transmission angle of dyad {} {reaches} to {degrees:.2} deg: {limit} deg friction may lock it",
                     dyad.name
                 ),
-                measured: Some(low.value),
+                measured: Some(held),
                 required: Some(HOLDS_BADLY.to_radians()),
                 unit: Unit::Angle,
                 remedy: Some("longer bars against the motion that drives them, or other pins"),
                 place: Place {
                     part: Some(dyad.name.clone()),
-                    input: Some(low.input),
+                    input: Some(end.input),
                     ..Place::default()
                 },
             });

@@ -64,11 +64,7 @@ impl Motion {
             let k = k - 2 * (dyads + bodies);
             of_points(&points[k / OF_POINT..][..1], input)[0][k % OF_POINT]
         };
-        // An angle by its sine, which loses half its digits near a right one.
-        let noise = |k: usize, value: f64| match k / 2 < dyads {
-            true => rounding(1.0) / value.cos().max(f64::EPSILON.sqrt()),
-            false => rounding(value),
-        };
+        let noise = |_: usize, value: f64| rounding(value);
         let first = 2 * (dyads + bodies);
         let count = first + OF_POINT * points.len();
         let mut found = greatest_of(count, all, one, noise, ends);

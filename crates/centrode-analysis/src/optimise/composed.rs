@@ -96,8 +96,12 @@ impl Problem for ComposedProblem {
                 let miss = |goal: &Goal| goal.margin.map_or(NO_MACHINE, |m| -m / goal.scale);
                 goals_of(&machine).iter().map(miss).collect()
             }
-            Some(Err(ComposedError::DoesNotClose { missing, .. })) if missing.is_finite() => {
-                vec![NO_MACHINE + missing]
+            Some(Err(ComposedError::DoesNotClose { dyads })) => {
+                // That of the first one: the others may close as soon as it does.
+                let missing = dyads
+                    .first()
+                    .map_or(f64::INFINITY, |(_, found)| found.missing);
+                vec![(NO_MACHINE + missing).min(f64::MAX)]
             }
             _ => vec![f64::MAX],
         };

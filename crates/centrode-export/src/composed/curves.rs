@@ -1,4 +1,5 @@
 use std::borrow::Cow;
+use std::f64::consts::PI;
 
 use centrode_mechanism::composed::{Composed, ComposedBody};
 use centrode_mechanism::machine::JointKind;
@@ -73,6 +74,7 @@ fn row(composed: &Composed, input: f64) -> Vec<f64> {
     }));
     if !composed.dyads().is_empty() {
         let angles = composed.transmission_angles(input).into_iter();
+        let angles = angles.map(|angle| angle.min(PI - angle));
         row.push(angles.fold(f64::INFINITY, f64::min).to_degrees());
     }
     row

@@ -3,9 +3,10 @@ use thiserror::Error;
 use super::ComposedLawError;
 use crate::cam::CamError;
 use crate::design::MechanismError;
+use crate::digits::{digits, rounded};
 use crate::gear::GearPairError;
 use crate::gear::design::SpecError;
-use crate::linkage::LinkageError;
+use crate::linkage::{LinkageError, NotClosing};
 
 /// Error of a composed machine that cannot be.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -112,17 +113,11 @@ pub enum ComposedError {
         /// Why.
         error: ComposedLawError,
     },
-    /// A dyad that does not close over the whole cycle.
-    #[error("dyad {dyad:?} {}: at {:.4} deg {}", closes(.open), input.to_degrees(), short(*missing))]
+    /// Dyads that do not close over the whole cycle, or that have change points.
+    #[error("{}", dyads.iter().map(not_closing).collect::<Vec<_>>().join("; "))]
     DoesNotClose {
-        /// The dyad.
-        dyad: String,
-        /// Inputs at which it closes, rad.
-        open: Vec<(f64, f64)>,
-        /// Input at which most is missing, rad.
-        input: f64,
-        /// Distance between its ends there, mm.
-        missing: f64,
+        /// Their names, in the order of building, and where they close.
+        dyads: Vec<(String, NotClosing)>,
     },
     /// A joint whose motion has a pole.
     #[error("the direction of body {body:?} is not defined near an input of {:.4} deg", input.to_degrees())]
@@ -232,27 +227,51 @@ pub enum ComposedError {
     },
 }
 
-/// Missing length, in words; none where the dyad only just reaches.
-fn short(missing: f64) -> String {
-    if missing > 0.0 && missing < 1e9 {
-        format!("{missing:.4} mm are missing")
-    } else if missing >= 1e9 {
-        format!("{missing:.4e} mm are missing")
-    } else {
-        "it is stretched or folded, and has no side".into()
+/// An input, rad, in degrees to four decimals.
+fn degrees(input: f64) -> String {
+    rounded(input.to_degrees(), 4)
+}
+
+/// Words joined as a list.
+fn listed(words: &[String]) -> String {
+    match words {
+        [first @ .., last] if !first.is_empty() => format!("{} and {last}", first.join(", ")),
+        _ => words.concat(),
     }
 }
 
-/// Inputs at which a dyad closes, in words.
-fn closes(open: &[(f64, f64)]) -> String {
-    if open.is_empty() {
-        return "closes nowhere".into();
-    }
-    let range = |(low, high): &(f64, f64)| {
-        format!("{:.4} to {:.4} deg", low.to_degrees(), high.to_degrees())
+/// Where a dyad does not close or changes its branch, in words.
+fn not_closing((name, found): &(String, NotClosing)) -> String {
+    let ranges = found.open.iter();
+    let ranges = ranges.map(|&(low, high)| format!("{} to {}", degrees(low), degrees(high)));
+    let ranges = listed(&ranges.collect::<Vec<_>>());
+    let points = found.change_points.iter().map(|&input| degrees(input));
+    let points = listed(&points.collect::<Vec<_>>());
+    let flat = "its links lie in one line and both its branches meet: change a length or a pin";
+    let at = degrees(found.input);
+    let missing = match found.missing {
+        m if m.is_infinite() => format!("at {at} deg its guides are parallel"),
+        0.0 => format!("at {at} deg its links lie in one line"),
+        m => format!("at {at} deg {} mm are missing", digits(m, 6)),
     };
-    let ranges: Vec<String> = open.iter().map(range).collect();
-    format!("closes only for inputs of {}", ranges.join(", "))
+    let change = match found.change_points.len() {
+        0 => String::new(),
+        1 => format!("a change point at {points} deg, where {flat}"),
+        _ => format!("change points at {points} deg, where {flat}"),
+    };
+    match (
+        found.missing == 0.0 && !change.is_empty(),
+        found.open.is_empty(),
+    ) {
+        (true, _) => format!("dyad {name:?} has {change}"),
+        (_, true) => format!("dyad {name:?} closes nowhere: {missing}"),
+        _ if change.is_empty() => {
+            format!("dyad {name:?} closes only for inputs of {ranges} deg: {missing}")
+        }
+        _ => format!(
+            "dyad {name:?} closes only for inputs of {ranges} deg: {missing}; it has {change}"
+        ),
+    }
 }
 
 /// Names that wait for each other, in words.
@@ -294,7 +313,10 @@ impl ComposedError {
             Self::Cam { cam, error } => format!("cams.{cam}.{}", error.key()),
             Self::Loose { body } => format!("bodies.{body}"),
             Self::Law { body, error } => format!("bodies.{body}.law.{}", error.key()),
-            Self::DoesNotClose { dyad, .. } => format!("dyads.{dyad}"),
+            Self::DoesNotClose { dyads } => {
+                let first = dyads.first().map_or("", |(name, _)| name);
+                format!("dyads.{first}")
+            }
         }
     }
 }

@@ -1,3 +1,5 @@
+use std::f64::consts::PI;
+
 use centrode_geometry::Point;
 
 use super::clearance_end::ClearanceEnd;
@@ -96,7 +98,7 @@ pub enum ComposedFigure {
     Swing(usize),
     /// Coordinate of the slide that carries a body, mm.
     Travel(usize),
-    /// Transmission angle of a dyad, rad; its number in the order of closing.
+    /// Angle between the lines of a dyad's two bodies, from 0 to a right angle, rad; its number in the order of closing.
     Transmission(usize),
     /// Distance of two points, mm: of each the index of its body and the place in its axes.
     Distance([(usize, Point); 2]),
@@ -330,7 +332,10 @@ impl Composed {
             ComposedFigure::Angle(body) => self.angle(body, input).position,
             ComposedFigure::AngularSpeed(body) => self.angle(body, input).velocity * speed,
             ComposedFigure::Swing(body) | ComposedFigure::Travel(body) => coordinate(body)?,
-            ComposedFigure::Transmission(dyad) => *self.transmission_angles(input).get(dyad)?,
+            ComposedFigure::Transmission(dyad) => {
+                let angle = *self.transmission_angles(input).get(dyad)?;
+                angle.min(PI - angle)
+            }
             ComposedFigure::Distance(ends) => {
                 let [p, q] = ends.map(|(body, at)| self.place(body, at, input));
                 (p - q).norm()

@@ -392,11 +392,10 @@ impl Composed {
         }
     }
 
-    /// Transmission angles of the dyads, in their order, at an input, rad: 0 where a dyad is stretched or folded, a right
-    /// angle where it holds best.
+    /// Transmission angles of the dyads, in their order, at an input, rad: a right angle where a dyad holds best; see
+    /// [`Linkage::transmission_angles`].
     #[must_use]
     pub fn transmission_angles(&self, input: f64) -> Vec<f64> {
-        let holds = self.linkage.holds(input).into_iter();
-        holds.map(|sine| sine.min(1.0).asin()).collect()
+        self.linkage.transmission_angles(input)
     }
 }

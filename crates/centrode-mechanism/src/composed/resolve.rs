@@ -324,19 +324,12 @@ impl<'a> Builder<'a> {
 
     /// Follows the joints of the dyads over the cycle, over which all of them must close.
     pub(super) fn follow(&mut self) -> Result<(), ComposedError> {
-        if let Some(NotClosing {
-            dyad,
-            open,
-            input,
-            missing,
-        }) = self.linkage.not_closing()
-        {
-            return Err(ComposedError::DoesNotClose {
-                dyad: self.dyads[dyad].name.clone(),
-                open,
-                input,
-                missing,
-            });
+        let dyads = self.linkage.not_closing().into_iter();
+        let dyads: Vec<(String, NotClosing)> = dyads
+            .map(|found| (self.dyads[found.dyad].name.clone(), found))
+            .collect();
+        if !dyads.is_empty() {
+            return Err(ComposedError::DoesNotClose { dyads });
         }
         for (body, of, key) in std::mem::take(&mut self.followed) {
             let found = self.linkage.coordinate(of);

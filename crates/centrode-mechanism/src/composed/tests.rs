@@ -301,16 +301,15 @@ side = "forward"
 bodies = ["rod", "ram"]
 joint = "B"
 "#;
-    let Err(ComposedError::DoesNotClose {
-        dyad,
-        open,
-        input,
-        missing,
-    }) = Composed::resolve(&read(text))
-    else {
+    let Err(ComposedError::DoesNotClose { dyads }) = Composed::resolve(&read(text)) else {
         panic!("the rod is too short");
     };
+    let [(dyad, found)] = &dyads[..] else {
+        panic!("one dyad");
+    };
     assert_eq!(dyad, "ram");
+    let (open, input, missing) = (&found.open, found.input, found.missing);
+    assert_eq!(open.len(), 3);
     let limit = (20.0_f64 / 30.0).asin();
     let expected = [
         (0.0, limit),
@@ -325,6 +324,110 @@ joint = "B"
     }
     assert!((missing - 10.0).abs() < 1e-12, "{missing}");
     assert!((input.sin().abs() - 1.0).abs() < 1e-12);
+    let told = "dyads.ram: dyad \"ram\" closes only for inputs of 0 to 41.8103, 138.1897 to 221.8103 and 318.1897 to 360 deg: at 90 deg 10 mm are missing";
+    let found = refused(text);
+    assert!(found.contains(told), "{found}");
+}
+
+/// A four-bar with a crank of this length and phase on a frame of this length, with a second one of other lengths.
+fn four_bars(lengths: [f64; 4], phase: f64, more: &str) -> String {
+    let [crank, coupler, rocker, frame] = lengths;
+    format!(
+        "family = \"machine\"\n[frame.points]\nA = [0, 0]\nD = [{frame}, 0]\n[bodies.crank]\non = \"frame.A\"\nlaw = {{ ratio = 1, start_deg = {phase} }}\npoints = {{ B = [{crank}, 0] }}\n[dyads.loop]\ntype = \"RRR\"\nfrom = \"crank.B\"\nto = \"frame.D\"\nlengths = [{coupler}, {rocker}]\nside = \"left\"\nbodies = [\"coupler\", \"rocker\"]\njoint = \"C\"\n{more}"
+    )
+}
+
+#[test]
+fn change_points_and_gaps_are_told_with_the_digits_that_matter() {
+    let second = |lengths: [f64; 2]| {
+        let [one, other] = lengths;
+        format!(
+            "[dyads.more]\ntype = \"RRR\"\nfrom = \"crank.B\"\nto = \"frame.D\"\nlengths = [{one}, {other}]\nside = \"right\"\nbodies = [\"link\", \"arm\"]\njoint = \"E\"\n"
+        )
+    };
+    let flat = "where its links lie in one line and both its branches meet";
+    for (lengths, phase, more, words) in [
+        (
+            [40.0, 80.0, 60.0, 100.0],
+            0.0,
+            String::new(),
+            vec![format!(
+                "dyad \"loop\" has a change point at 180 deg, {flat}"
+            )],
+        ),
+        (
+            [40.0, 80.0, 60.0, 100.0],
+            37.5,
+            String::new(),
+            vec![format!("has a change point at 142.5 deg, {flat}")],
+        ),
+        (
+            [40.0, 120.0, 40.0, 120.0],
+            0.0,
+            String::new(),
+            vec![format!("has change points at 0 and 180 deg, {flat}")],
+        ),
+        (
+            [40.0, 120.0, 40.0, 120.0],
+            90.0,
+            String::new(),
+            vec!["has change points at 90 and 270 deg".into()],
+        ),
+        (
+            [0.1, 0.2, 0.15, 0.25],
+            0.0,
+            String::new(),
+            vec!["has a change point at 180 deg".into()],
+        ),
+        (
+            [40.0, 120.0, 60.0, 100.0],
+            0.0,
+            String::new(),
+            vec!["has a change point at 0 deg".into()],
+        ),
+        (
+            [40.0, 80.0, 59.99999, 100.0],
+            0.0,
+            String::new(),
+            vec![
+                "closes only for inputs of 0 to 179.9521 and 180.0479 to 360 deg".into(),
+                "at 180 deg 0.00001 mm are missing".into(),
+            ],
+        ),
+        (
+            [40.0, 1.0, 2.0, 100.0],
+            0.0,
+            String::new(),
+            vec!["closes nowhere: at 180 deg 137 mm are missing".into()],
+        ),
+        (
+            [40.0, 80.0, 60.0, 100.0],
+            0.0,
+            second([70.0, 60.0]),
+            vec![
+                "dyad \"loop\" has a change point at 180 deg".into(),
+                "; dyad \"more\" closes only for inputs of 0 to".into(),
+                "at 180 deg 10 mm are missing".into(),
+            ],
+        ),
+        (
+            [40.0, 80.0, 50.0, 100.0],
+            0.0,
+            second([70.0, 50.0]),
+            vec![
+                "dyad \"loop\" closes only".into(),
+                "180 deg 10 mm".into(),
+                "dyad \"more\" closes only".into(),
+                "180 deg 20 mm".into(),
+            ],
+        ),
+    ] {
+        let found = refused(&four_bars(lengths, phase, &more));
+        for word in words {
+            assert!(found.contains(&word), "{lengths:?}: {found}\n  {word}");
+        }
+        assert!(!found.contains(" 0.0000 "), "{found}");
+    }
 }
 
 #[test]

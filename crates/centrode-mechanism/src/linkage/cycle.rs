@@ -18,7 +18,8 @@ impl Linkage {
     /// The angle of a link as a function of the input, without jumps.
     ///
     /// # Errors
-    /// [`LinkageError::DoesNotClose`] with the limit of the crank where it cannot turn;
+    /// [`LinkageError::DoesNotClose`] with the limit of the crank if it cannot turn; [`LinkageError::Flat`] with its first change
+    /// point if it has one;
     /// [`LinkageError::NoDirection`] where a guided link's block passes its pivot.
     pub fn transmission(&self, link: LinkId) -> Result<LinkTransmission, LinkageError> {
         match self.limit() {

@@ -1,3 +1,5 @@
+use crate::digits::digits;
+
 /// Reason why a linkage cannot be built or posed.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
@@ -32,13 +34,13 @@ pub enum LinkageError {
     #[error("the linkage has its crank already: one input moves it")]
     SecondCrank,
     /// A dyad does not reach.
-    #[error("dyad {dyad} cannot close at the input {input} rad: {missing} mm are missing")]
+    #[error("dyad {dyad} cannot close {}", not_closing(*input, *missing))]
     DoesNotClose {
         /// Its number, from 0 in the order of building.
         dyad: usize,
         /// The input, rad.
         input: f64,
-        /// Distance between its ends, mm; for two parallel guides not finite.
+        /// Distance between its ends, mm: 0 at the limit of the crank; for two parallel guides not finite.
         missing: f64,
     },
     /// A dyad only just closes, and velocities have no finite value.
@@ -59,4 +61,14 @@ pub enum LinkageError {
         /// The input, rad.
         input: f64,
     },
+}
+
+/// Where a dyad cannot close, in words.
+fn not_closing(input: f64, missing: f64) -> String {
+    let input = digits(input, 6);
+    match missing {
+        0.0 => format!("past the input {input} rad, where its links lie in one line"),
+        m if m.is_infinite() => format!("at the input {input} rad: its guides are parallel"),
+        m => format!("at the input {input} rad: {} mm are missing", digits(m, 6)),
+    }
 }

@@ -69,7 +69,18 @@ pub enum FourBarError {
         /// The limit of the crank, from 0 to pi either side of the frame line, rad.
         limit: f64,
     },
+    /// Coupler and rocker lie in one line, where the crank can go on.
+    #[error(
+        "coupler and rocker lie in one line at the crank angle {input} rad, a change point: both branches meet there"
+    )]
+    ChangePoint {
+        /// Crank angle, rad.
+        input: f64,
+    },
 }
+
+/// Difference of lengths that is rounding, as a share of the longest one.
+const ROUNDING: f64 = 1e-12;
 
 /// The positions at which crank and coupler lie in one line: the rocker's ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -143,7 +154,8 @@ impl FourBar {
         let lengths = self.lengths();
         let shortest = lengths.into_iter().fold(f64::INFINITY, f64::min);
         let room = self.grashof_margin();
-        if room == 0.0 {
+        let longest = lengths.into_iter().fold(0.0, f64::max);
+        if room.abs() <= ROUNDING * longest {
             Grashof::ChangePoint
         } else if room < 0.0 {
             Grashof::TripleRocker
@@ -184,11 +196,34 @@ impl FourBar {
         (near >= -1.0 && far <= 1.0).then(|| (near.min(1.0).acos(), far.max(-1.0).acos()))
     }
 
+    /// Crank angles, 0 and pi, at which coupler and rocker lie in one line while the crank can go on; empty for most lengths.
+    #[must_use]
+    pub fn change_points(&self) -> Vec<f64> {
+        let [a, b, c, d] = self.lengths();
+        // The shortest diagonal folds them, the longest one stretches them.
+        let ends = [
+            (0.0, (d - a).abs() - (b - c).abs()),
+            (PI, (d + a) - (b + c)),
+        ];
+        let rounding = ROUNDING * (a + d).max(b + c);
+        let found = ends.into_iter().filter(|(_, room)| room.abs() <= rounding);
+        found.map(|(input, _)| input).collect()
+    }
+
     fn limit(&self, input: f64) -> FourBarError {
         let (low, high) = self.crank_limits().unwrap_or((f64::NAN, f64::NAN));
         let off = super::cycle::wrapped(input).abs();
-        let limit = if off < low { low } else { high };
-        FourBarError::DoesNotClose { input, limit }
+        let limit = if (off - low).abs() < (off - high).abs() {
+            low
+        } else {
+            high
+        };
+        // An angle at the frame line is known to the square root of rounding.
+        let mut flat = self.change_points().into_iter();
+        match flat.find(|point| (point - limit).abs() <= ROUNDING.sqrt()) {
+            Some(input) => FourBarError::ChangePoint { input },
+            None => FourBarError::DoesNotClose { input, limit },
+        }
     }
 
     /// B, C and their motion, per radian of crank angle.
@@ -339,12 +374,13 @@ impl FourBar {
     /// The rocker's angle as a function of the crank angle.
     ///
     /// # Errors
-    /// [`FourBarError::DoesNotClose`] where the crank cannot turn.
+    /// [`FourBarError::DoesNotClose`] if the crank cannot turn; [`FourBarError::ChangePoint`] if it passes one.
     pub fn transmission(&self) -> Result<impl Transmission + use<>, FourBarError> {
         if !self.grashof().crank_turns() {
-            let limits = self.crank_limits();
-            let input = limits.map_or(0.0, |(low, high)| if low > 0.0 { 0.0 } else { high });
-            return Err(self.limit(input));
+            let flat = self.change_points().first().copied();
+            let (low, high) = self.crank_limits().unwrap_or_default();
+            let past = if low > 0.0 { 0.0 } else { high };
+            return Err(self.limit(flat.unwrap_or(past)));
         }
         let four_bar = *self;
         let advance = if self.grashof() == Grashof::DoubleCrank {

@@ -69,26 +69,37 @@ impl<const N: usize, T: Number> Series<N, T> {
 }
 
 impl<const N: usize> Series<N> {
-    /// Sine of the angle at which a dyad holds: 0 where it is stretched or folded, 1 where it holds best.
-    pub(super) fn hold(&self, step: &Step) -> Option<f64> {
-        let unit = |v: PointSeries<N>| v.unit_now();
-        let sine = |a: PointSeries<N>, b: PointSeries<N>| unit(a).cross(unit(b)).0[0].abs();
-        let cosine = |a: PointSeries<N>, b: PointSeries<N>| unit(a).dot(unit(b)).0[0].abs();
+    /// Angle at which a dyad holds, rad: 0 or pi where it is stretched or folded, a right angle where it holds best.
+    pub(super) fn holding_angle(&self, step: &Step) -> Option<f64> {
+        let parts = |a: PointSeries<N>, b: PointSeries<N>| (a.cross(b).0[0].abs(), a.dot(b).0[0]);
+        let between = |a, b| {
+            let (across, along) = parts(a, b);
+            across.atan2(along)
+        };
+        // Lines have no direction: from 0 to a right angle.
+        let of_lines = |a, b| {
+            let (across, along) = parts(a, b);
+            across.atan2(along.abs())
+        };
+        let from_normal = |a, b| {
+            let (across, along) = parts(a, b);
+            along.abs().atan2(across)
+        };
         Some(match step {
             Step::Rrr { p, q, joint, .. } => {
                 let at = self.joints[*joint];
-                sine(at.minus(self.joints[*p]), at.minus(self.joints[*q]))
+                between(at.minus(self.joints[*p]), at.minus(self.joints[*q]))
             }
-            Step::Rrp { p, line, joint, .. } => cosine(
+            Step::Rrp { p, line, joint, .. } => from_normal(
                 self.joints[*joint].minus(self.joints[*p]),
                 self.line(line).1,
             ),
             Step::Rpr { p, q, link, .. } => {
                 let (_, axis) = self.frames[*link];
-                cosine(self.joints[*p].minus(self.joints[*q]), axis)
+                from_normal(self.joints[*p].minus(self.joints[*q]), axis)
             }
-            Step::Prp { lines } => sine(self.line(&lines.0).1, self.line(&lines.1).1),
-            Step::Rpp { slot, .. } => slot.sin().abs(),
+            Step::Prp { lines } => of_lines(self.line(&lines.0).1, self.line(&lines.1).1),
+            Step::Rpp { slot, .. } => slot.sin().abs().atan2(slot.cos().abs()),
             _ => return None,
         })
     }

@@ -8,6 +8,8 @@ use super::{
 };
 use crate::transmission::{MotionJet, Transmission};
 
+mod closing;
+
 const PUBLISHED: [f64; 4] = [77.0, 147.0, 127.0, 105.0];
 const SIDES: [Branch; 2] = [Branch::Upper, Branch::Lower];
 
