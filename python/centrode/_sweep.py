@@ -56,7 +56,8 @@ def sweep(
 
     Many designs: each is checked as a whole; the answer has the figures of each by name, goals and report alike, in
     order, and None where there is no mechanism. One three-arm design with `over`: its variants in these parameters,
-    about twenty microseconds each; the answer is that of `ThreeArm.sweep`.
+    about twenty microseconds each; the answer is that of `ThreeArm.sweep`, with NaN for a variant whose numbers a
+    design file may not have.
 
     The numbers are those of one process, whatever the executor and the chunk. Each chunk's answer is kept as it comes:
     where an executor breaks, such as a process pool of which a worker was killed, only the chunks without an answer are

@@ -27,6 +27,8 @@ def cam(follower=None, stroke=None, drop=1.2, **keywords):
         ("modified-trapezoid", 2, 4.8881, 61.4258),
         ("polynomial-345", 1.875, 5.7735, 60),
         ("polynomial-4567", 2.1875, 7.5132, 52.5),
+        ("harmonic", math.pi / 2, math.pi**2 / 2, math.inf),
+        ("parabolic", 2, 4, math.inf),
     ],
 )
 def test_laws_have_their_characteristic_values(name, velocity, acceleration, jerk):
@@ -34,6 +36,9 @@ def test_laws_have_their_characteristic_values(name, velocity, acceleration, jer
     peaks = law.characteristic_values
     found = [peaks["velocity"], peaks["acceleration"], peaks["jerk"]]
     np.testing.assert_allclose(found, [velocity, acceleration, jerk], rtol=1e-5)
+    assert (peaks["acceleration_jump"] > 0) == (jerk == math.inf)
+    assert peaks["acceleration_inside"] == peaks["acceleration"]
+    assert peaks["velocity_jump"] == 0
     x = np.linspace(0, 1, 4001)
     s, v, a, _ = law.at(x).T
     np.testing.assert_allclose(np.gradient(s, x)[1:-1], v[1:-1], atol=1e-5)

@@ -109,10 +109,31 @@ def test_a_transmission_angle_is_that_of_the_bars():
     bars = machine.point("crank.A", PHI), machine.point("upper-rod.B", PHI), machine.point("frame.P", PHI)
     one, other = bars[0] - bars[1], bars[2] - bars[1]
     cosine = (one * other).sum(axis=1) / np.hypot(*one.T) / np.hypot(*other.T)
-    angle = np.arccos(np.abs(cosine))
+    angle = np.arccos(cosine)
     np.testing.assert_allclose(machine.transmission_angle("knee", PHI), angle, atol=1e-7)
-    table = {t.name: t for t in machine.check().tables}["transmission-angles"]
-    assert dict(table.rows)["knee"][0] <= angle.min() + 1e-12
+    report = machine.check()
+    table = {t.name: t for t in report.tables}["transmission-angles"]
+    least, _, greatest, _ = dict(table.rows)["knee"]
+    assert least <= angle.min() + 1e-12 < angle.max() - 1e-12 <= greatest
+    others = [np.array([row[0], math.pi - row[2]]).min() for row in table.rows.values()]
+    assert report.values["transmission_angle_min"] == pytest.approx(min(others), abs=1e-12)
+
+
+def test_a_table_of_angles_that_turns_on_is_read_as_it_is_written():
+    def wheel(law):
+        return ct.Machine.from_toml(
+            'family = "machine"\n[frame.points]\nW = [0, 0]\n[bodies.wheel]\non = "frame.W"\n' + f"law = {{ {law} }}\n"
+        )
+
+    turning = wheel("table_deg = [0, 45, 90, 135, 180, 225, 270, 315]")
+    np.testing.assert_allclose(turning.body("wheel", PHI)[:, 2], PHI, atol=1e-12)
+    (table,) = [t for t in turning.check().tables if t.name == "table-readings"]
+    np.testing.assert_allclose(table.rows["wheel"], [2 * math.pi, math.pi / 4, math.pi / 4], atol=1e-12)
+    with pytest.raises(ct.DesignError, match="turns = 1 turns on, with a last step of 160 deg, turns = 0 swings back"):
+        wheel("table_deg = [0, 40, 80, 120, 160, 200]")
+    for turns in [-1, 0, 1, 2]:
+        given = wheel(f"table_deg = [0, 40, 80, 120, 160, 200], turns = {turns}")
+        assert np.diff(given.body("wheel", np.array([0, 2 * math.pi]))[:, 2]) == pytest.approx(2 * math.pi * turns)
 
 
 GOALS = """

@@ -142,6 +142,17 @@ def test_variants_are_those_of_the_designs() -> None:
     assert list(arms.sweep({})["trajectory-height"].round(4)) == [370.8206]
 
 
+def test_variants_with_numbers_that_no_file_may_hold_have_no_figures() -> None:
+    text = ct.template("three-arm")
+    radii = [0.0, -5.0, -1e-9, 1e-9, 5.0]
+    sound = [math.isfinite(height) for height in ct.sweep(text, over={"r1": radii})["trajectory-height"]]
+    files = ct.sweep([text.replace("radius = [21,", f"radius = [{r},") for r in radii])
+    assert sound == [figures is not None for figures in files] == [False, False, False, True, True]
+    angles = [19.0, 20.0, 20.001, 44.0, 76.0]
+    sound = [math.isfinite(height) for height in ct.sweep(text, over={"theta2": angles})["trajectory-height"]]
+    assert sound == [False, False, True, True, False]
+
+
 def test_variants_are_the_same_on_any_executor() -> None:
     text, over = ct.template("three-arm"), grid(1000)
     alone = ct.sweep(text, over=over)

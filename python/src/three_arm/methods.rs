@@ -278,8 +278,8 @@ impl ThreeArm {
     }
 
     /// Figures of many variants of this mechanism, about twenty microseconds each: goals 2 to 4 and 6 to 8, centre distance and
-    /// length of the pitch curves, by name; NaN where a variant is no mechanism. `centrode.sweep` spreads more of them over
-    /// an executor.
+    /// length of the pitch curves, by name; NaN where a variant is no mechanism, as with numbers that a design file may not
+    /// have. `centrode.sweep` spreads more of them over an executor.
     ///
     /// Args:
     ///     parameters: Values by the parameter's name: "r1" to "r99" and "theta1" to "theta99" for radius and polar angle of a
