@@ -212,8 +212,11 @@ fn within(composed: &Composed, from: f64, to: f64) -> Vec<f64> {
 fn dyads(composed: &Composed, motion: &Motion, report: &mut Report) {
     let mut rows = Vec::new();
     for (dyad, &[low, high]) in composed.dyads().iter().zip(&motion.angles) {
-        let at = |end: &Extreme| if end.input < NEAR { 0.0 } else { end.input };
-        let row = vec![low.value, at(&low), high.value, at(&high)];
+        let [low, high] = [low, high].map(|end| Extreme {
+            input: if end.input < NEAR { 0.0 } else { end.input },
+            ..end
+        });
+        let row = vec![low.value, low.input, high.value, high.input];
         rows.push((dyad.name.clone(), row));
         // Bars hold as badly at 150 degrees as at 30.
         let obtuse = PI - high.value < low.value;
