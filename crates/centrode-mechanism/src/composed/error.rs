@@ -259,6 +259,9 @@ fn not_closing((name, found): &(String, NotClosing)) -> String {
         1 => format!("a change point at {points} deg, where {flat}"),
         _ => format!("change points at {points} deg, where {flat}"),
     };
+    if found.missing.is_infinite() && !change.is_empty() {
+        return format!("the guides of dyad {name:?} are parallel at {points} deg");
+    }
     match (
         found.missing == 0.0 && !change.is_empty(),
         found.open.is_empty(),

@@ -338,7 +338,7 @@ fn four_bars(lengths: [f64; 4], phase: f64, more: &str) -> String {
 }
 
 #[test]
-fn change_points_and_gaps_are_told_with_the_digits_that_matter() {
+fn change_points_and_gaps_are_reported_with_the_digits_that_matter() {
     let second = |lengths: [f64; 2]| {
         let [one, other] = lengths;
         format!(
@@ -428,6 +428,44 @@ fn change_points_and_gaps_are_told_with_the_digits_that_matter() {
         }
         assert!(!found.contains(" 0.0000 "), "{found}");
     }
+}
+
+#[test]
+fn guides_that_become_parallel_are_named_as_such() {
+    let text = |law: &str, dyad: &str| {
+        format!(
+            "family = \"machine\"\n[frame.points]\nO = [0, 0]\nP = [5, 0]\n[bodies.crank]\non = \"frame.O\"\nlaw = {{ {law} }}\npoints = {{ A = [30, 0] }}\n[dyads.slides]\n{dyad}"
+        )
+    };
+    let blocks = "type = \"PRP\"\nline = \"crank.A\"\nline_deg = 20\nsecond_line = \"frame.P\"\nsecond_line_deg = 0\nbodies = [\"one\", \"other\"]\njoint = \"B\"\n";
+    let yoke = "type = \"RPP\"\nfrom = \"crank.A\"\nline = \"frame.O\"\nline_deg = 0\nslot_deg = 0\nbodies = [\"block\", \"yoke\"]\n";
+    for (law, dyad, words) in [
+        (
+            "ratio = 1",
+            blocks,
+            "closes only for inputs of 0 to 160 and 340 to 360 deg: at ",
+        ),
+        (
+            "expression = \"0.5*(1 - cos(phi))\", start_deg = -20",
+            blocks,
+            "the guides of dyad \"slides\" are parallel at 0 deg",
+        ),
+        (
+            "expression = \"0.5*(1 + cos(phi))\", start_deg = -20",
+            blocks,
+            "the guides of dyad \"slides\" are parallel at 180 deg",
+        ),
+        (
+            "ratio = 1",
+            yoke,
+            "dyad \"slides\" closes nowhere: at 0 deg its guides are parallel",
+        ),
+    ] {
+        let found = refused(&text(law, dyad));
+        assert!(found.contains(words), "{law}: {found}");
+        assert!(!found.contains("inf"), "{found}");
+    }
+    assert!(Composed::resolve(&read(&text("expression = \"0.3*sin(phi)\"", blocks))).is_ok());
 }
 
 #[test]

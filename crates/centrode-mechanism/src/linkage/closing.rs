@@ -27,7 +27,8 @@ pub struct NotClosing {
     pub dyad: usize,
     /// Inputs at which it closes, as intervals, ascending, rad; of a dyad that depends on another one, where that closes.
     pub open: Vec<(f64, f64)>,
-    /// Change points: inputs at which its links lie in one line and both its branches meet, while it closes on either side, rad.
+    /// Change points: inputs at which its links lie in one line and both its branches meet, or its two guides are parallel, while
+    /// it closes on either side, rad.
     pub change_points: Vec<f64>,
     /// Input at which most is missing, or the first change point if nothing is, rad.
     pub input: f64,
@@ -83,16 +84,21 @@ impl Linkage {
             }
         });
         let first = closing.change_points.first().copied().unwrap_or(0.0);
+        let is_of_guides = missing(first).is_infinite();
         let worst = worst.unwrap_or(Extreme {
             input: first,
-            value: 0.0,
+            value: missing(first),
         });
         NotClosing {
             dyad,
             open: closing.open,
             change_points: closing.change_points,
             input: worst.input,
-            missing: if closing.misses { worst.value } else { 0.0 },
+            missing: if closing.misses || is_of_guides {
+                worst.value
+            } else {
+                0.0
+            },
         }
     }
 
@@ -107,7 +113,7 @@ impl Linkage {
             let before = before.filter(|(_, number)| needed.has(SeriesItem::Step(**number)));
             let whole = vec![(0.0, self.period)];
             let given = before.fold(whole, |given, (dyad, _)| common(&given, &dyad.open));
-            let level = self.level(step, &needed, &given);
+            let level = self.level(step, &needed);
             let mut closing = Closing {
                 given,
                 ..Closing::default()
@@ -126,12 +132,7 @@ impl Linkage {
 
     /// How far a dyad closes at an input: the square of the sine of its transmission angle, below zero where it does not close;
     /// of two guides, the sine of their angle, above zero on the side on which the cycle begins.
-    fn level<'a>(
-        &'a self,
-        step: &'a Step,
-        needed: &'a Needed,
-        given: &[(f64, f64)],
-    ) -> impl Fn(f64) -> f64 + use<'a> {
+    fn level<'a>(&'a self, step: &'a Step, needed: &'a Needed) -> impl Fn(f64) -> f64 + use<'a> {
         let series = |input: f64| {
             let mut series = Series::<1>::default();
             self.find(input, |part| needed.has(part), &mut series);
@@ -139,14 +140,17 @@ impl Linkage {
         };
         // Of the dyads that are needed it is the last.
         let room = |series: &Series<1>| series.room.last().copied().unwrap_or(f64::NAN);
-        let start = given.first().map_or(0.0, |(low, _)| *low);
-        let side = slant(step, &series(start)).map_or(1.0, f64::signum);
+        let inputs = || (0..LOOKS).map(|i| self.period * f64::from(i) / f64::from(LOOKS));
+        // Guides that are parallel at the start are on the side to which they go.
+        let mut slants = inputs().map_while(|input| slant(step, &series(input)));
+        let side = slants
+            .find(|slant| slant.abs() > FLAT)
+            .map_or(1.0, f64::signum);
         let scale = match step {
             Step::Rrr { lengths, .. } => 4.0 * (lengths.0 * lengths.1).powi(2),
             Step::Rrp { length, .. } => length * length,
             Step::Rpr { offset, .. } => {
-                let inputs = (0..LOOKS).map(|i| self.period * f64::from(i) / f64::from(LOOKS));
-                let reach = inputs.map(|input| room(&series(input)));
+                let reach = inputs().map(|input| room(&series(input)));
                 offset * offset + reach.fold(0.0, f64::max)
             }
             _ => 1.0,

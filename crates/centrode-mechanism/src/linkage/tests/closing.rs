@@ -4,7 +4,7 @@ use super::super::NotClosing;
 use super::super::four_bar::FourBarError;
 use super::*;
 
-/// Change points and gaps of a four-bar by the triangle inequality at its crank angles; an angle is looked for in steps and halved.
+/// Change points and gaps of a four-bar by the triangle inequality at its crank angles; a limit is found in steps and by halving.
 fn brute([a, b, c, d]: [f64; 4], phase: f64) -> (Vec<f64>, Vec<(f64, f64)>) {
     let room = |input: f64| {
         let diagonal = (a * a + d * d - 2.0 * a * d * (input + phase).cos()).sqrt();
@@ -223,9 +223,9 @@ fn every_kind_of_dyad_has_its_change_points_and_every_dyad_is_named() {
     assert_eq!((&found[4].open[..], found[4].missing), (&[][..], 0.0));
 }
 
-/// What depends on a dyad that does not close is looked at where that closes; what does not, over the whole cycle.
+/// A dyad that depends on one that does not close is checked where that one closes, any other over the whole cycle.
 #[test]
-fn a_dyad_after_one_that_does_not_close_is_looked_at_where_that_one_does() {
+fn a_dyad_after_one_that_does_not_close_is_checked_where_that_one_does() {
     let mut linkage = Linkage::new();
     let pivot = fixed(&mut linkage, 0.0, 0.0);
     let (_, pin) = linkage.crank(pivot, 30.0, 0.0).expect("a length");
