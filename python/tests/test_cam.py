@@ -28,7 +28,6 @@ def cam(follower=None, stroke=None, drop=1.2, **keywords):
         ("polynomial-345", 1.875, 5.7735, 60),
         ("polynomial-4567", 2.1875, 7.5132, 52.5),
         ("harmonic", math.pi / 2, math.pi**2 / 2, math.inf),
-        ("parabolic", 2, 4, math.inf),
     ],
 )
 def test_laws_have_their_characteristic_values(name, velocity, acceleration, jerk):
@@ -45,6 +44,15 @@ def test_laws_have_their_characteristic_values(name, velocity, acceleration, jer
     np.testing.assert_allclose(np.gradient(v, x)[1:-1], a[1:-1], atol=2e-2)
     assert (s[0], s[-1]) == (0, 1)
     assert law == ct.cam.law(name) != ct.cam.polynomial(end=[1])
+
+
+def test_a_jump_at_rest_or_inside_makes_the_next_derivative_infinite():
+    peaks = {name: ct.cam.law(name).characteristic_values for name in ["constant-velocity", "parabolic", "harmonic"]}
+    jumps = {name: (of["velocity_jump"], of["acceleration_jump"]) for name, of in peaks.items()}
+    assert jumps == {"constant-velocity": (1, 0), "parabolic": (0, 8), "harmonic": (0, pytest.approx(math.pi**2 / 2))}
+    assert [of["acceleration"] for of in peaks.values()] == [math.inf, 4, pytest.approx(math.pi**2 / 2)]
+    assert [of["jerk"] for of in peaks.values()] == [math.inf] * 3
+    assert [of["jerk_inside"] for of in peaks.values()] == [0, 0, pytest.approx(math.pi**3 / 2)]
 
 
 @pytest.mark.parametrize("rotation", ["counter-clockwise", "clockwise"])
