@@ -181,7 +181,7 @@ impl Linkage {
     pub(super) fn limit(&self) -> Option<LinkageError> {
         let limits = self.not_closing().into_iter().map(|found| {
             let stop = match found.open.first() {
-                Some(&(low, high)) if low == 0.0 => high,
+                Some(&(0.0, high)) => high,
                 _ => 0.0,
             };
             let flat = found.change_points.first().copied();

@@ -118,13 +118,16 @@ fn what_is_no_mechanism_is_refused() {
     agree(&good, &mut sweep, 1e-9);
 }
 
-/// A variant that a design file would not be let through with has no figures either.
+/// Change of the control points of a pitch curve.
+type Change<'a> = &'a dyn Fn(&mut Bspline);
+
+/// A variant whose numbers a design file may not have has no figures either.
 #[test]
 fn control_points_are_refused_like_those_of_a_file() {
     let good = published();
     let mut sweep = Sweep::like(&good, 360).expect("of the kind");
     let degrees = f64::to_radians;
-    let cases: [(&str, &dyn Fn(&mut Bspline), bool); 14] = [
+    let cases: [(&str, Change<'_>, bool); 14] = [
         ("r1 = 0", &|s| s.radius[0] = 0.0, false),
         ("r1 = -5", &|s| s.radius[0] = -5.0, false),
         ("r1 = -1e-9", &|s| s.radius[0] = -1e-9, false),
