@@ -262,7 +262,7 @@ fn gaps(intervals: &Intervals, open: &Intervals) -> Intervals {
     gaps
 }
 
-/// What is found of a dyad in an interval.
+/// Closing of a dyad in an interval.
 #[derive(Default)]
 struct Found {
     open: Intervals,
@@ -361,7 +361,7 @@ fn dips(level: &dyn Fn(f64) -> f64, looks: &[(f64, f64)]) -> Vec<(f64, f64)> {
 }
 
 impl Found {
-    /// The same of a cycle that was gone through from another input than 0.
+    /// Shifts a cycle that was gone through from another input than 0 into `[0, period]`.
     fn within(mut self, period: f64) -> Self {
         let parts = self.open.into_iter().flat_map(|(low, high)| {
             [
