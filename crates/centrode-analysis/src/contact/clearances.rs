@@ -45,7 +45,7 @@ impl Search<'_> {
         let carries = self.carries;
         let meshing = self.meshing();
         // Without penetration the driven gear stays where flanks that carry the motion have it.
-        let at_law = carries.then(|| meshing.at_law(&point).gaps).flatten();
+        let at_law = carries.then(|| meshing.gaps_at_law(&point)).flatten();
         at_law.unwrap_or_else(|| {
             let sample = meshing.sample(&point);
             [sample.clearance, sample.fillet_clearance]

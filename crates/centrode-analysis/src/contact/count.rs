@@ -3,12 +3,7 @@
 use centrode_geometry::Extreme;
 use centrode_mechanism::gear::GearPair;
 
-use super::{
-    Contact,
-    cycle::{Base, period},
-    edges::EdgeContact,
-    meshing::Meshing,
-};
+use super::{Contact, cycle::period, edges::EdgeContact, meshing::Meshing};
 
 /// Share of a pitch beside a change within which a sample may count either way: there the edge still is within a seated gap.
 const UNSURE: f64 = 0.02;
@@ -24,7 +19,7 @@ const LASTING: f64 = 1e-9;
 pub(super) struct Counts {
     /// Least and greatest.
     pub(super) range: [Extreme; 2],
-    /// Mean along the pitch curve.
+    /// Mean along the pitch curve; an edge that carries alone counts as none.
     pub(super) mean: f64,
     /// Stretches of the driver angle, by middle and half length, over which no flanks are in contact: an edge is.
     pub(super) gaps: Vec<(f64, f64)>,
@@ -92,81 +87,116 @@ fn of_steps(steps: impl Iterator<Item = (Extreme, f64)>) -> Counts {
     }
 }
 
-impl Meshing<'_> {
-    /// Counts of a pair whose flanks carry the motion, from the counts at its samples with the driver pushing one way and the edges
-    /// that drive then; nothing where they do not agree.
-    pub(super) fn counts(
-        &self,
-        (inputs, counted): (&[f64], &[u32]),
-        base: &Base,
-        edges: &[EdgeContact],
-    ) -> Option<Counts> {
-        let pair = self.pair;
-        let (angle, pitches) = (period(pair), f64::from(pair.period()));
+/// Driver angles of a period at which a contact comes to the end of a flank.
+pub(super) struct Changes<'a> {
+    pair: &'a GearPair,
+    /// In order.
+    list: Vec<Change>,
+    /// Count after each of them, above that at the start of the period.
+    above: Vec<i32>,
+}
+
+impl<'a> Changes<'a> {
+    /// The changes at edges that drive one way; `None` if contacts begin and end unequally often.
+    pub(super) fn new(meshing: &Meshing<'a>, edges: &[EdgeContact]) -> Option<Self> {
+        let pair = meshing.pair;
         let changes = edges.iter().filter_map(|edge| {
             Some(Change {
                 input: edge.at.input,
                 by: if edge.begins { 1 } else { -1 },
-                teeth: self.touching_teeth(edge)?,
+                teeth: meshing.touching_teeth(edge)?,
             })
         });
-        let changes = of_teeth(changes.collect(), BOTH * angle / pitches);
-        if changes.is_empty() || changes.iter().map(|c| c.by).sum::<i32>() != 0 {
-            return None;
-        }
-        // Above the count at the start of the period.
-        let above: Vec<i32> = changes
+        let list = of_teeth(changes.collect(), BOTH * pitch(pair));
+        let above: Vec<i32> = list
             .iter()
             .scan(0, |count, change| {
                 *count += change.by;
                 Some(*count)
             })
             .collect();
-        let count_at = |input: f64| match changes.partition_point(|c| c.input <= input) {
-            0 => 0,
-            k => above[k - 1],
+        (above.last() == Some(&0)).then_some(Self { pair, list, above })
+    }
+
+    /// Driver angle of each change and of the next one.
+    fn steps(&self) -> impl Iterator<Item = (f64, f64)> + Clone {
+        let ends = self.list.iter().skip(1).map(|change| change.input);
+        let last = self.list[0].input + period(self.pair);
+        self.list
+            .iter()
+            .map(|change| change.input)
+            .zip(ends.chain([last]))
+    }
+
+    /// Driver angles between two changes that are so far apart that the count there is sure.
+    pub(super) fn middles(&self) -> impl Iterator<Item = f64> {
+        let unsure = UNSURE * pitch(self.pair);
+        let long = self
+            .steps()
+            .filter(move |(from, to)| to - from > 2.0 * unsure);
+        long.map(|(from, to)| 0.5 * (from + to))
+    }
+
+    /// Whether a driver angle is so far from all changes that the count there is sure.
+    fn is_sure(&self, input: f64) -> bool {
+        let (angle, last) = (period(self.pair), self.list.len());
+        let next = self.list.partition_point(|c| c.input < input);
+        let beside = [(next + last - 1) % last, next % last].map(|k| {
+            let off = (input - self.list[k].input).rem_euclid(angle);
+            off.min(angle - off)
+        });
+        beside[0].min(beside[1]) > UNSURE * pitch(self.pair)
+    }
+
+    /// Counts over the period, by those at some driver angles; `None` if they do not agree with the changes.
+    pub(super) fn counts(&self, seen: &[(f64, u32)]) -> Option<Counts> {
+        let angle = period(self.pair);
+        let count_at = |input: f64| {
+            let input = input.rem_euclid(angle);
+            match self.list.partition_point(|c| c.input <= input) {
+                0 => 0,
+                k => self.above[k - 1],
+            }
         };
-        let unsure = UNSURE * angle / pitches;
-        let is_sure = |input: f64| {
-            let next = changes.partition_point(|c| c.input < input);
-            let last = changes.len();
-            let [before, after] = [(next + last - 1) % last, next % last].map(|k| changes[k].input);
-            let beside = |other: f64| {
-                let off = (input - other).rem_euclid(angle);
-                off.min(angle - off)
-            };
-            beside(before).min(beside(after)) > unsure
-        };
-        let samples = inputs.iter().zip(counted);
-        let mut first = samples
-            .take(base.period)
-            .filter(|(input, _)| is_sure(**input))
-            .map(|(&input, &count)| count as i32 - count_at(input));
+        let mut first = seen
+            .iter()
+            .filter(|(input, _)| self.is_sure(input.rem_euclid(angle)))
+            .map(|&(input, count)| count as i32 - count_at(input));
         let start = first.next()?;
         if first.any(|count| count != start) {
             return None;
         }
-        let arc = |input: f64| arc_length(pair, input);
-        let ends = changes[1..].iter().map(|change| change.input);
-        let ends = ends.chain([changes[0].input + angle]);
-        let steps = changes.iter().zip(&above).zip(ends);
-        let gaps = steps.clone().filter(|((_, above), _)| start + **above < 1);
-        let gaps = gaps.map(|((change, _), end)| {
-            let (from, to) = (change.input, end);
-            (0.5 * (from + to), 0.5 * (to - from))
-        });
+        let steps = self.steps().zip(&self.above);
+        let steps = steps.map(|((from, to), above)| (from, to, start + above));
+        let gaps = steps.clone().filter(|(.., count)| *count < 1);
+        let gaps = gaps.map(|(from, to, _)| (0.5 * (from + to), 0.5 * (to - from)));
         let gaps = gaps.collect();
-        let steps = steps.map(|((change, above), end)| {
+        let arc = |input: f64| arc_length(self.pair, input);
+        let lasting = LASTING * arc(angle) / f64::from(self.pair.period());
+        let steps = steps.map(|(from, to, count)| {
             let step = Extreme {
-                input: change.input,
-                value: f64::from((start + above).max(1)),
+                input: from,
+                value: f64::from(count),
             };
-            (step, arc(end) - arc(change.input))
+            (step, arc(to) - arc(from))
         });
-        let lasting = LASTING * arc(angle) / pitches;
         let counts = of_steps(steps.filter(|(_, length)| *length > lasting));
-        Some(Counts { gaps, ..counts })
+        // An edge that carries alone is a contact.
+        let range = counts.range.map(|count| Extreme {
+            value: count.value.max(1.0),
+            ..count
+        });
+        Some(Counts {
+            gaps,
+            range,
+            ..counts
+        })
     }
+}
+
+/// Driver angle of a mean pitch, rad.
+fn pitch(pair: &GearPair) -> f64 {
+    period(pair) / f64::from(pair.period())
 }
 
 /// Arc length of roll at a driver angle, mm.

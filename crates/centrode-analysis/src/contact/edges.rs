@@ -1,12 +1,13 @@
 //! Driver angles at which a contact reaches the end of a flank.
 
-use centrode_geometry::{Point, Vector};
+use centrode_geometry::{Point, SegmentJet, Vector};
 use centrode_mechanism::gear::{Member, PitchContact, Role};
 
 use super::{
     body::{GearOutline, OutlinePart},
     cycle::period,
     meshing::Meshing,
+    places::Kind,
     touch::{Pose, Stand, foot},
     tree::Run,
     walk::Walk,
@@ -17,6 +18,10 @@ const TOUCHING: f64 = 1e-3;
 
 /// Distance, modules, of an edge from the end of a flank's part within which it touches it.
 const ROUNDING: f64 = 1e-6;
+
+/// Cosine of the angle between the normals of an edge and of the flank that it touches: they are opposite but for the backlash, which
+/// turns them by less than 0.1 rad. Flanks that an edge passes without touching them are turned by more.
+const FACING: f64 = -0.99;
 
 /// Passage of the pitch point through the normal of a flank at its edge: there the contact, by the law of gearing, comes to the
 /// edge or leaves it.
@@ -140,18 +145,62 @@ impl Meshing<'_> {
 
     /// The teeth of driver and driven gear that touch where the mate has a flank for an edge.
     pub(super) fn touching_teeth(&self, contact: &EdgeContact) -> Option<(u32, u32)> {
-        // Seats are known to the first order of the backlash: an edge may stand off its mate's flank, beyond the normals of both
-        // parts of it at a joint.
-        let (play, a) = (self.pair.backlash(), self.pair.center_distance());
-        let off = ROUNDING * self.module + 2.0 * play * play / a;
+        // An edge may be off its mate's flank, beyond the normals of both parts of it at a joint.
+        let off = self.unsure();
+        let pose = Pose::at(self.pair, &contact.at, contact.stand);
+        let normal = match contact.member {
+            Member::Driver => pose.turn_back(&contact.edge.normal),
+            Member::Driven => pose.turn(&contact.edge.normal),
+        };
+        // Beyond the base circle an edge passes a flank that it does not face.
+        let faces = |(_, jet): (f64, SegmentJet)| {
+            let outward = Vector::new(jet.first.y, -jet.first.x).normalize();
+            outward.dot(&normal) < FACING
+        };
         let mate = self.mate(contact, |part, point| {
             let at_end = |end: &Point| (end - point).norm() < off;
-            foot(part, point).is_some() || part.ends.iter().any(at_end)
+            foot(part, point).is_some_and(faces) || part.ends.iter().any(at_end)
         })?;
         Some(match contact.member {
             Member::Driver => (contact.edge.owner, mate),
             Member::Driven => (mate, contact.edge.owner),
         })
+    }
+
+    /// Number of pairs of teeth whose flanks face each other as designed where the pitch curves touch, with the driver pushing on
+    /// (`sign` 1) or back (-1).
+    pub(super) fn facing_teeth(&mut self, point: &PitchContact, stand: Stand, sign: f64) -> u32 {
+        self.begin();
+        let pose = Pose::at(self.pair, point, stand);
+        let mut candidates = self.candidates(&pose);
+        let places = self.places(&mut candidates, &pose);
+        let near = self.unsure();
+        let off = self.off(stand);
+        let mut teeth: Vec<(u32, u32)> = places
+            .iter()
+            .filter(|p| {
+                p.kind == Kind::Flanks
+                    && p.corner.is_none()
+                    && sign * p.touch.lever > 0.0
+                    && (p.touch.gap - off).abs() < near
+                    && p.touch.is_on_both()
+            })
+            .map(|p| {
+                (
+                    self.driver.parts[p.parts.0].owner,
+                    self.driven.parts[p.parts.1].owner,
+                )
+            })
+            .collect();
+        teeth.sort_unstable();
+        teeth.dedup();
+        teeth.len() as u32
+    }
+
+    /// Distance, mm, within which flanks that touch as designed are known: seats are so to the first order of the backlash.
+    pub(super) fn unsure(&self) -> f64 {
+        let (play, a) = (self.pair.backlash(), self.pair.center_distance());
+        ROUNDING * self.module + 2.0 * play * play / a
     }
 
     /// The tooth of the mate with a flank where an edge would touch it.

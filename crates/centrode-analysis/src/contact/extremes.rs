@@ -5,7 +5,7 @@ use centrode_mechanism::gear::GearPair;
 
 use super::{
     CARRIED, Contact, at_angle, clearances,
-    count::{Counts, sampled},
+    count::{Changes, Counts, sampled},
     cycle::{Base, period},
     edges::EdgeContact,
     meshing::Meshing,
@@ -25,8 +25,12 @@ const BESIDE: f64 = 2.5e-10;
 /// Pitches on either side of where an edge comes deepest into a fillet within which the gears are farthest off their law.
 const REACH: f64 = 1.0 / 16.0;
 
-/// Share of a speed by which the contact beside an edge may be slower than at it.
-const ENDED: f64 = 1e-8;
+/// Distance from an edge's contact, pitches, within which the contact ends with the driven gear at its seat: where, is known to the
+/// first order of the backlash. Ten times less misses ends at a large backlash, ten times more takes other contacts for it.
+const ENDED: f64 = 1e-2;
+
+/// Share of the sliding speed that is lost, at least, where the fastest contact ends, and by which it changes within [`ENDED`].
+const ENDING: f64 = 0.05;
 
 /// Figures of a contact that change steadily along the cycle, where they are greatest and least.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,15 +49,18 @@ pub struct ContactExtremes {
     pub clearance: Extreme,
     /// Least clearance from a fillet, mm; infinite where nothing is near.
     pub fillet_clearance: Extreme,
-    /// Greatest sliding speed of flanks in contact per driver speed, mm/rad.
+    /// Maximum sliding speed of teeth in contact per driver speed, mm/rad, with the driver pushing on. Of circular gears it does not
+    /// depend on the backlash.
     pub sliding: Extreme,
-    /// Fewest and most pairs of teeth in contact with the driver pushing on. Where the flanks carry the motion they follow from the
-    /// driver angles at which contacts come to the ends of flanks; elsewhere they are those of the samples.
+    /// Minimum and maximum number of pairs of teeth in contact with the driver pushing on. They follow from the driver angles at
+    /// which contacts come to the ends of flanks; of gears that are not followed they are those of the samples. An edge that
+    /// carries alone counts as one.
     pub contacts: [Extreme; 2],
-    /// Mean number of pairs of teeth in contact along the pitch curve, found in the same way.
+    /// Contact ratio: mean number of pairs of flanks in contact along the pitch curve, not over the angle, found in the same way.
+    /// An edge that carries alone counts as none. Of circular gears it is the transverse contact ratio of ISO 21771.
     pub contact_ratio: f64,
-    /// Share of the cycle, by driver angle, over which no flanks carry with the driver pushing one way, the worse one; found in the
-    /// same way.
+    /// Share of the cycle, by driver angle, over which no flanks are in contact with the driver pushing one way, the worse of both
+    /// ways; found in the same way.
     pub lost: f64,
 }
 
@@ -95,11 +102,13 @@ impl Contact {
         let backlash: Figure = |c, k| c.backlash[k];
         let normal: Figure = |c, k| c.normal_backlash[k];
         let walk = Walk::new(pair, Stand::Law);
+        let seats = search.seats();
         let edges = match search.is_followed {
-            true => search.meshing().edge_contacts(&walk, 1.0),
+            true => search
+                .meshing()
+                .edge_contacts(seats.first().unwrap_or(&walk), 1.0),
             false => Vec::new(),
         };
-        let seats = search.seats();
         let (counts, gaps, lost) = search.counts(&edges, &walk, &seats);
         // Flanks that carry the motion leave the driven gear at the law's angle, where an edge can be followed along a fillet.
         let sampled = self.fillet_clearance.iter().copied();
@@ -262,19 +271,18 @@ impl<'a> Search<'a> {
         best
     }
 
-    /// Greatest sliding speed: flanks slide faster the farther they touch from the pitch point, so fastest where the contact
-    /// reaches an edge. Where an edge carries the motion itself, the samples tell.
+    /// Maximum sliding speed: flanks slide faster the farther they touch from the pitch point, so fastest where the contact
+    /// reaches an edge. Where an edge carries the motion itself, the samples show it.
     fn fastest(&mut self, edges: &[EdgeContact]) -> Extreme {
         let contact = self.contact;
         let mut best = highest(&contact.input, &contact.sliding);
         let (pair, carries) = (self.pair, self.carries);
-        // Speed at edges at which the contact was seen to end, just beside which nothing is slower by more than rounding.
+        let pitch = period(pair) / f64::from(pair.period());
+        // Speed at edges at which the contact was seen to end: no others as fast are followed.
         let mut ended: f64 = 0.0;
-        let beside = BESIDE * period(pair) / f64::from(pair.period());
         for edge in edges {
-            let known = best.value.max(ended) * (1.0 + SAME);
             let speed = edge.sliding;
-            if speed <= known {
+            if speed <= best.value.max(ended) * (1.0 + SAME) {
                 break;
             }
             let meshing = self.meshing();
@@ -282,13 +290,25 @@ impl<'a> Search<'a> {
             if carries && !meshing.has_mate(edge) {
                 continue;
             }
-            for phi in [edge.at.input - beside, edge.at.input + beside] {
-                let point = at_angle(pair, phi);
-                let facing = meshing.at_law(&point).sliding;
-                let value = facing.unwrap_or_else(|| meshing.sample(&point).loaded[0].sliding);
-                if value >= speed * (1.0 - ENDED) {
-                    ended = ended.max(speed);
+            let mut value = |phi: f64| meshing.sample(&at_angle(pair, phi)).loaded[0].sliding;
+            let off = if pair.backlash() > 0.0 { ENDED } else { BESIDE };
+            let off = pitch * if edge.begins { off } else { -off };
+            let [mut inside, mut outside] = [off, -off].map(|off| edge.at.input + off);
+            let [mut found, mut other] = [inside, outside].map(&mut value);
+            let is_edge = (found - speed).abs() < ENDING * speed;
+            if is_edge && other < found * (1.0 - ENDING) {
+                while (inside - outside).abs() > 2.5 * BESIDE * pitch {
+                    let middle = 0.5 * (inside + outside);
+                    let at_middle = value(middle);
+                    if at_middle > found * (1.0 - ENDING) {
+                        (inside, found) = (middle, at_middle);
+                    } else {
+                        (outside, other) = (middle, at_middle);
+                    }
                 }
+                ended = ended.max(speed);
+            }
+            for (phi, value) in [(inside, found), (outside, other)] {
                 if value > best.value {
                     let input = phi.rem_euclid(pair.cycle());
                     best = Extreme { input, value };
@@ -307,7 +327,7 @@ impl<'a> Search<'a> {
         seats: &[Walk],
     ) -> Vec<(f64, f64)> {
         if !self.carries {
-            return found;
+            return Vec::new();
         }
         let reach = REACH * period(self.pair) / f64::from(self.pair.period());
         if seats.is_empty() {
@@ -348,9 +368,9 @@ impl<'a> Search<'a> {
         worst
     }
 
-    /// Walks of a pair with backlash whose flanks carry the motion, pushed on and, unless that is the mirror image, back.
+    /// Walks of a pair with backlash, pushed on and, unless that is the mirror image, back.
     fn seats(&self) -> Vec<Walk> {
-        if !self.carries || self.pair.backlash() == 0.0 {
+        if !self.is_followed || self.pair.backlash() == 0.0 {
             return Vec::new();
         }
         let signs: &[f64] = match self.base.is_mirrored() {
@@ -362,7 +382,7 @@ impl<'a> Search<'a> {
     }
 
     /// Number of pairs of teeth in contact with the driver pushing on, stretches over which no flanks are whichever way it pushes,
-    /// and the share of the cycle that they take, at most, with the driver pushing one way. With backlash the driven gear stands at
+    /// and the share of the cycle that they take, at most, with the driver pushing one way. With backlash the driven gear is at
     /// its seat, where its edges come to the mate at other angles than by the law.
     fn counts(
         &mut self,
@@ -370,32 +390,57 @@ impl<'a> Search<'a> {
         law: &Walk,
         seats: &[Walk],
     ) -> (Counts, Vec<(f64, f64)>, f64) {
-        let (contact, base, period) = (self.contact, self.base, period(self.pair));
-        let off = contact.on_flanks.iter().filter(|on| !**on).count();
-        let off = off as f64 / contact.input.len() as f64;
-        if !self.carries {
-            return (sampled(contact), Vec::new(), off);
+        let (contact, period) = (self.contact, period(self.pair));
+        let missing = |on_flanks: &[bool]| {
+            let off = on_flanks.iter().filter(|on| !**on).count();
+            off as f64 / on_flanks.len() as f64
+        };
+        let [off, reverse_off] =
+            [&contact.on_flanks, &contact.reverse_on_flanks].map(|on| missing(on));
+        if !self.is_followed {
+            return (sampled(contact), Vec::new(), off.max(reverse_off));
         }
         let share = |counts: &Counts| {
             let halves = counts.gaps.iter().map(|(_, half)| half);
             2.0 * halves.sum::<f64>() / period
         };
-        let meshing = self.meshing();
-        let seated = seats.first().map(|walk| meshing.edge_contacts(walk, 1.0));
-        let edges = seated.as_deref().unwrap_or(edges);
-        let on = meshing.counts((&contact.input, &contact.contacts), &base, edges);
+        let on = self.flank_counts(edges, 1.0);
         let mut lost = on.as_ref().map_or(off, share);
         let counts = on.unwrap_or_else(|| sampled(contact));
         let mut gaps = counts.gaps.clone();
         // Pushed back it is the mirror image.
-        if !base.is_mirrored() {
-            let edges = meshing.edge_contacts(seats.get(1).unwrap_or(law), -1.0);
-            let counted = (&contact.input[..], &contact.reverse_contacts[..]);
-            let back = meshing.counts(counted, &base, &edges);
-            lost = lost.max(back.as_ref().map_or(off, share));
+        if !self.base.is_mirrored() {
+            let edges = self
+                .meshing()
+                .edge_contacts(seats.get(1).unwrap_or(law), -1.0);
+            let back = self.flank_counts(&edges, -1.0);
+            lost = lost.max(back.as_ref().map_or(reverse_off, share));
             gaps.extend(back.into_iter().flat_map(|counts| counts.gaps));
         }
         (counts, gaps, lost)
+    }
+
+    /// Counts by the ends of the flanks, with the driver pushing on (`sign` 1) or back (-1): `None` if they disagree with the counts
+    /// of the samples or, where an edge may carry the motion at these, with the flanks that face each other between two ends.
+    fn flank_counts(&mut self, edges: &[EdgeContact], sign: f64) -> Option<Counts> {
+        let (pair, contact, base, carries) = (self.pair, self.contact, self.base, self.carries);
+        let meshing = self.meshing();
+        let changes = Changes::new(meshing, edges)?;
+        let seen: Vec<(f64, u32)> = if carries {
+            let counted = if sign > 0.0 {
+                &contact.contacts
+            } else {
+                &contact.reverse_contacts
+            };
+            let samples = contact.input.iter().copied().zip(counted.iter().copied());
+            samples.take(base.period).collect()
+        } else {
+            let stand = Stand::of(pair, sign);
+            let middles = changes.middles();
+            let count = |phi| (phi, meshing.facing_teeth(&at_angle(pair, phi), stand, sign));
+            middles.map(count).collect()
+        };
+        changes.counts(&seen)
     }
 
     /// Sample that is a peak with those beside it.

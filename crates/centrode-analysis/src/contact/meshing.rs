@@ -4,7 +4,6 @@ use centrode_geometry::{Point, Vector, checkpoint};
 use centrode_mechanism::gear::{GearPair, PitchContact};
 
 use super::{
-    at_law::sliding,
     body::GearOutline,
     hit::Hit,
     places::{Candidates, Kind, Place, gaps},
@@ -114,25 +113,14 @@ impl<'a> Meshing<'a> {
                 fillet_clearance: f64::INFINITY,
             };
         };
-        let ratio = point.ratio();
         let half = 0.5 * self.pair.backlash();
-        let loaded = |seat: &Seat, sign: f64, lever: f64| {
-            // Flanks that stand as designed slide on each other where they face each other at the law's angle; where none do, an
-            // edge slides where it touches.
-            let facing = self.fastest(&places, point, sign);
-            let touching = || {
-                let speeds = seat.touches.iter();
-                let speeds = speeds.map(|&(at, normal)| sliding(at, normal, phi, a, ratio));
-                speeds.reduce(f64::max)
-            };
-            Loaded {
-                on_flanks: facing.is_some(),
-                angle: seat.angle,
-                error: seat.angle - self.ideal(&places, point, sign * half),
-                contacts: seat.contacts,
-                sliding: facing.or_else(touching).map_or(0.0, |speed| speed.max(0.0)),
-                lever,
-            }
+        let loaded = |seat: &Seat, sign: f64, lever: f64| Loaded {
+            on_flanks: self.designed(&places, sign).any(|p| p.touch.is_on_both()),
+            angle: seat.angle,
+            error: seat.angle - self.ideal(&places, point, sign * half),
+            contacts: seat.contacts,
+            sliding: self.sliding(&places, point, sign, seat),
+            lever,
         };
         let loaded = [
             loaded(forward, 1.0, levers[0]),
@@ -246,15 +234,15 @@ impl<'a> Meshing<'a> {
 
     /// Points where two flanks face each other, sought from where they did: on these parts, on their neighbours of the
     /// same flanks, or beyond the ends of the flanks.
-    fn along_flanks(
+    pub(super) fn along_flanks(
         &self,
         (i, j): (usize, usize),
         at: (f64, f64),
         pose: &Pose,
     ) -> Option<((usize, usize), Touch)> {
         let facing = |i: usize, j: usize, at: (f64, f64)| {
-            let touch = touch::parts(&self.driver.parts[i], &self.driven.parts[j], pose, at)?;
-            Some(((i, j), touch))
+            let touch = touch::parts(&self.driver.parts[i], &self.driven.parts[j], pose, at);
+            Some(((i, j), touch.or_else(|| self.facing_sharply((i, j), pose))?))
         };
         facing(i, j, at).or_else(|| {
             let near = [self.driver.along_flank(i), self.driven.along_flank(j)];

@@ -7,6 +7,8 @@
 mod at_law;
 mod body;
 mod clearances;
+#[cfg(test)]
+pub(crate) mod closed_forms;
 mod count;
 mod cycle;
 mod edges;
@@ -20,6 +22,7 @@ mod places;
 mod proof;
 mod sample;
 mod seat;
+mod sliding;
 mod span;
 mod stretch;
 #[cfg(test)]
@@ -96,9 +99,11 @@ pub struct Contact {
     pub contacts: Vec<u32>,
     /// Pairs of teeth in contact when the driver pushes the driven gear back.
     pub reverse_contacts: Vec<u32>,
-    /// Whether flanks that face each other as designed are there to carry the load, whichever way the driver pushes; if not, an edge
-    /// carries it.
+    /// Whether flanks that face each other as designed are there to carry the load when the driver pushes the driven gear on; if not,
+    /// an edge carries it.
     pub on_flanks: Vec<bool>,
+    /// Whether such flanks are there when the driver pushes the driven gear back.
+    pub reverse_on_flanks: Vec<bool>,
     /// Deepest penetration of the two outlines with the driven gear seated, mm.
     pub penetration: Vec<f64>,
     /// Least distance of a tip from a root with the driven gear at the law's angle, in the middle of its play, mm; infinite where none
@@ -106,7 +111,8 @@ pub struct Contact {
     pub clearance: Vec<f64>,
     /// Least clearance from a fillet there, mm; infinite where nothing is near.
     pub fillet_clearance: Vec<f64>,
-    /// Greatest sliding speed in the contact per driver speed, mm/rad.
+    /// Maximum sliding speed in the contacts of the driven gear pushed on per driver speed, mm/rad: that of the flanks in contact or,
+    /// where none are, of the edges.
     pub sliding: Vec<f64>,
 }
 
@@ -167,9 +173,15 @@ impl Contact {
         let errors = self.transmission_error.iter();
         let errors = errors.zip(&self.reverse_transmission_error);
         let off = errors
-            .zip(&self.on_flanks)
-            .filter(|&((on, back), &on_flanks)| !on_flanks && on.abs().max(back.abs()) > TOUCHED);
+            .zip(self.on_flanks_both_ways())
+            .filter(|&((on, back), on_flanks)| !on_flanks && on.abs().max(back.abs()) > TOUCHED);
         off.count() as f64 > STRAYED_SHARE * self.input.len() as f64 && swings(pair)
+    }
+
+    /// Whether flanks that face each other as designed are there at each sample, whichever way the driver pushes.
+    pub(crate) fn on_flanks_both_ways(&self) -> impl Iterator<Item = bool> {
+        let both = self.on_flanks.iter().zip(&self.reverse_on_flanks);
+        both.map(|(on, back)| *on && *back)
     }
 
     /// Whether there is a motion to follow between the samples: the gears neither jam nor stray, and their pitch curves swing no more

@@ -115,15 +115,11 @@ impl Meshing<'_> {
                 && self.driver.curvature(i).1 + self.driven.curvature(j).1 > 0.0
             {
                 let known = self.memory.iter().find(|m| (m.0, m.1) == (i, j));
-                let is_sharp = || {
-                    let bends = [self.driver.curvature(i).1, self.driven.curvature(j).1];
-                    bends[0].max(bends[1]) * module > SHARP
-                };
                 // Where the sample before is far off, what is known from it may lead nowhere.
                 let touch = known
                     .and_then(|m| touch::parts(a, b, pose, m.2))
                     .or_else(|| touch::parts(a, b, pose, stretch.facing(mate)))
-                    .or_else(|| is_sharp().then(|| touch::sharp_parts(a, b, pose)).flatten());
+                    .or_else(|| self.facing_sharply((i, j), pose));
                 keep(touch, kind, (i, j), None);
             }
             let near_corner =
@@ -173,6 +169,14 @@ impl Meshing<'_> {
         }
         self.memory = memory;
         out
+    }
+
+    /// Points at which two parts face each other of which one is a sharp bend; `None` if none is.
+    pub(super) fn facing_sharply(&self, (i, j): (usize, usize), pose: &Pose) -> Option<Touch> {
+        let bends = [self.driver.curvature(i).1, self.driven.curvature(j).1];
+        let is_sharp = bends[0].max(bends[1]) * self.module > SHARP;
+        let find = || touch::sharp_parts(&self.driver.parts[i], &self.driven.parts[j], pose);
+        is_sharp.then(find).flatten()
     }
 
     /// Whether two points that face each other are nearer than a limit and neither lies on the far side of a tooth.

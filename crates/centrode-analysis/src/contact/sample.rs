@@ -101,7 +101,8 @@ impl FromIterator<Sample> for Contact {
             out.normal_backlash.push(sample.backlash * on.lever);
             out.contacts.push(on.contacts);
             out.reverse_contacts.push(back.contacts);
-            out.on_flanks.push(on.on_flanks && back.on_flanks);
+            out.on_flanks.push(on.on_flanks);
+            out.reverse_on_flanks.push(back.on_flanks);
             out.penetration.push(sample.penetration);
             out.clearance.push(sample.clearance);
             out.fillet_clearance.push(sample.fillet_clearance);
@@ -126,6 +127,7 @@ impl Contact {
             contacts: Vec::with_capacity(count),
             reverse_contacts: Vec::with_capacity(count),
             on_flanks: Vec::with_capacity(count),
+            reverse_on_flanks: Vec::with_capacity(count),
             penetration: list(),
             clearance: list(),
             fillet_clearance: list(),

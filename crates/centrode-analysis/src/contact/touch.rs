@@ -87,6 +87,15 @@ pub(super) enum Stand {
 }
 
 impl Stand {
+    /// Where flanks touch as designed, with the driver pushing on (`sign` 1) or back (-1).
+    pub(super) fn of(pair: &GearPair, sign: f64) -> Self {
+        if pair.backlash() > 0.0 {
+            Self::Seat(sign)
+        } else {
+            Self::Law
+        }
+    }
+
     /// Driven angle, rad.
     pub(super) fn angle(self, pair: &GearPair, point: &PitchContact) -> f64 {
         let law = point.driven_angle;

@@ -160,10 +160,10 @@ fn is_sampled(pair: &GearPair, found: &Contact) -> bool {
     let errors = found.transmission_error.iter();
     let mut errors = errors
         .zip(&found.reverse_transmission_error)
-        .zip(&found.on_flanks);
+        .zip(found.on_flanks_both_ways());
     let deepest = PENETRATION * pair.module();
     let mut clear = found.clearance.iter().chain(&found.fillet_clearance);
-    errors.all(|((on, back), &on_flanks)| {
+    errors.all(|((on, back), on_flanks)| {
         let allowed = if on_flanks { play } else { CARRIED };
         on.abs().max(back.abs()) <= allowed
     }) && found
