@@ -69,7 +69,8 @@ impl Loaded {
     }
 }
 
-/// A figure of the forces of a state, N or N mm; none where it is none of theirs or not determined.
+/// A figure of the forces of a state, N or N mm; none where it is none of theirs or not determined. Forces in joints and pins are
+/// sizes; that of a mesh has the sign of [`crate::forces::ToothForce`].
 pub(super) fn part(forces: &Forces, figure: &ComposedFigure) -> Option<f64> {
     match *figure {
         ComposedFigure::InputTorque => Some(forces.input_torque),
@@ -78,7 +79,7 @@ pub(super) fn part(forces: &Forces, figure: &ComposedFigure) -> Option<f64> {
             Some(reaction.force.xy().norm())
         }
         ComposedFigure::PinForce(pin) => Some(forces.closures.get(pin)?.xy().norm()),
-        ComposedFigure::MeshForce(mesh) => Some(forces.meshes.get(mesh)?.normal?.abs()),
+        ComposedFigure::MeshForce(mesh) => forces.meshes.get(mesh)?.normal,
         _ => None,
     }
 }
@@ -89,7 +90,8 @@ fn returns_all_work(machine: &Machine) -> bool {
     machine.loads.iter().all(masses) && machine.guides.is_empty()
 }
 
-/// Torque of the input, the greatest force of every joint, pin and mesh, and the pressure on the keys of shafts.
+/// Torque of the input, the maximum force of every joint and pin, minimum and maximum of that of every mesh, and the pressure on
+/// the keys of shafts.
 pub(super) fn forces(
     loaded: &Result<Loaded, ForcesError>,
     composed: &Composed,
@@ -120,9 +122,13 @@ pub(super) fn forces(
     rows.extend(meshes.map(|(index, mesh)| (pair(mesh.links), ComposedFigure::MeshForce(index))));
     let keys = keys::under_load(composed);
     let arms = arms(composed, machine);
-    let found = loaded.greatest(rows.len() + 3 + keys.len(), |forces, input| {
+    let signed = rows.len() - joints + 1;
+    let found = loaded.greatest(rows.len() + signed + 2 + keys.len(), |forces, input| {
         let figures = rows.iter().map(|(_, figure)| part(forces, figure));
-        let torque = forces.input_torque;
+        let figures: Vec<Option<f64>> = figures.chain([Some(forces.input_torque)]).collect();
+        let minima = figures[joints..]
+            .iter()
+            .map(|value| value.map(|value| -value));
         let keys = keys
             .iter()
             .map(|key| Some(key.torque(composed, forces, input)));
@@ -130,17 +136,21 @@ pub(super) fn forces(
         let load = of_links.fold(0.0, |most: f64, (load, arm)| {
             most.max(load.force).max(load.torque / arm)
         });
-        let all = figures.chain([-torque, torque, load].map(Some)).chain(keys);
+        let figures_and_load = figures.iter().copied().chain(minima).chain([Some(load)]);
+        let all = figures_and_load.chain(keys);
         all.map(|value| value.unwrap_or(f64::NAN)).collect()
     });
-    let (low, high) = (-found[rows.len()].value, found[rows.len() + 1].value);
+    let (found, of_keys) = found.split_at(rows.len() + signed + 1);
+    let (found, minima) = found.split_at(rows.len() + 1);
+    let (low, high) = (-minima[signed - 1].value, found[rows.len()].value);
     let mean = if returns_all_work(machine) {
         0.0
     } else {
         let torque = |input: f64| loaded.value(&ComposedFigure::InputTorque, input);
         // The rounding of the torque, that of the moments of all forces, need not be followed.
-        let force = found[..rows.len()].iter().map(|found| found.value);
-        let force = force.fold(0.0, f64::max);
+        let forces = found[..rows.len()].iter().map(|found| found.value);
+        let minima = minima[..signed - 1].iter().map(|found| found.value);
+        let force = forces.chain(minima).fold(0.0, f64::max);
         let arms = machine.joints.iter().map(|joint| joint.origin);
         let arm = arms.map(|[x, y, _]| x.hypot(y)).fold(0.0, f64::max);
         let size = ROUNDING * high.abs().max(low.abs()).max(force * arm);
@@ -154,25 +164,48 @@ pub(super) fn forces(
     values.insert("input_torque_min", low);
     values.insert("input_torque_max", high);
     values.insert("input_torque_mean", mean);
-    excessive(&rows, &found, report);
-    keys::check(composed, &keys, &found[rows.len() + 3..], report);
-    let row = |((name, _), extreme): (&(String, ComposedFigure), &Extreme)| {
-        (extreme.value >= 0.0).then(|| (name.clone(), vec![extreme.value]))
-    };
-    let mut all = rows.iter().zip(&found);
-    let of_joints = all.by_ref().take(joints).filter_map(row).collect();
-    let of_meshes = all.filter_map(row).collect();
-    for (name, title, rows) in [
-        ("joint-forces", "Greatest force of joint", of_joints),
-        ("mesh-forces", "Greatest force of mesh", of_meshes),
+    let largest = rows[joints..].iter().zip(minima).zip(&found[joints..]);
+    let of_meshes = largest.map(|(((name, _), low), high)| {
+        let largest = if low.value > high.value { low } else { high };
+        (name, "mesh", *largest)
+    });
+    let of_joints = rows[..joints].iter().zip(found);
+    let of_joints = of_joints.map(|((name, figure), found)| match figure {
+        ComposedFigure::PinForce(_) => (name, "pin", *found),
+        _ => (name, "joint", *found),
+    });
+    excessive(of_joints.chain(of_meshes), of_keys[0].value, report);
+    keys::check(composed, &keys, &of_keys[1..], report);
+    // What is not determined is minus infinity.
+    let of_joints = rows[..joints].iter().zip(found);
+    let of_joints = of_joints.map(|((name, _), found)| (name.clone(), vec![found.value]));
+    let of_meshes = rows[joints..].iter().zip(minima).zip(&found[joints..]);
+    let of_meshes =
+        of_meshes.map(|(((name, _), low), high)| (name.clone(), vec![-low.value, high.value]));
+    for (name, title, columns, rows) in [
+        (
+            "joint-forces",
+            "Greatest force of joint",
+            &["force"][..],
+            of_joints.collect::<Vec<_>>(),
+        ),
+        (
+            "mesh-forces",
+            "Force of mesh, with its sign",
+            &["minimum", "maximum"],
+            of_meshes.collect(),
+        ),
     ] {
-        let rows: Vec<(String, Vec<f64>)> = rows;
+        let rows: Vec<(String, Vec<f64>)> = rows
+            .into_iter()
+            .filter(|(_, values)| values.iter().all(|value| value.is_finite()))
+            .collect();
         if !rows.is_empty() {
             report.tables.push(Table {
                 name,
                 title,
                 unit: Unit::Newton,
-                columns: vec!["force".into()],
+                columns: columns.iter().map(|&column| column.into()).collect(),
                 rows,
             });
         }
@@ -202,21 +235,18 @@ fn arms(composed: &Composed, machine: &Machine) -> Vec<f64> {
 /// of an error in a length takes the whole load there. Ten times less would refuse toggle presses.
 const EXCESSIVE: f64 = 1e3;
 
-/// Reports the largest force where it is out of all proportion to the loads, which follow the forces in `found`.
-fn excessive(rows: &[(String, ComposedFigure)], found: &[Extreme], report: &mut Report) {
-    let load = found[rows.len() + 2].value;
-    let largest = rows.iter().zip(found);
-    let largest = largest.max_by(|a, b| a.1.value.total_cmp(&b.1.value));
-    let Some(((name, figure), force)) = largest.filter(|(_, force)| force.value > EXCESSIVE * load)
+/// Reports the largest force, by name and kind of what it is in, where it is out of all proportion to the largest load, N.
+fn excessive<'a>(
+    forces: impl Iterator<Item = (&'a String, &'static str, Extreme)>,
+    load: f64,
+    report: &mut Report,
+) {
+    let largest = forces.max_by(|a, b| a.2.value.total_cmp(&b.2.value));
+    let Some((name, kind, force)) = largest.filter(|(.., force)| force.value > EXCESSIVE * load)
     else {
         return;
     };
     if load > 0.0 {
-        let kind = match figure {
-            ComposedFigure::MeshForce(_) => "mesh",
-            ComposedFigure::PinForce(_) => "pin",
-            _ => "joint",
-        };
         report.findings.push(Finding {
             rule: "excessive-force",
             severity: Severity::Error,

@@ -110,7 +110,8 @@ pub enum ComposedFigure {
     JointForce(usize),
     /// Force in the pin that closes a loop, N; its index among the closures of the machine.
     PinForce(usize),
-    /// Force along the normal of a mesh, N; its index among the meshes of the machine.
+    /// Force along the normal of a mesh, N, positive on the flanks that drive with a counter-clockwise torque on the driven gear; its
+    /// index among the meshes of the machine.
     MeshForce(usize),
     /// A figure of the check of a gear pair, which does not change with the input.
     OfPair {

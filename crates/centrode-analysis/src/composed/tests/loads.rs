@@ -3,6 +3,7 @@ use std::f64::consts::TAU;
 use centrode_geometry::greatest;
 
 use super::*;
+use crate::contact::closed_forms::mean_ratio;
 
 /// A slider-crank without masses: crank 30, rod 100 mm.
 const SLIDER_CRANK: &str = r#"
@@ -237,4 +238,83 @@ fn keys_pass_on_the_torque_of_the_teeth() {
     let text = GEARED.replace(", keyway = { width = 3, depth = 1.4 }", "");
     let bonded = check_composed(&composed(&text.replace("TORQUE", "1000.0")));
     assert!(!bonded.values.contains_key("key_pressure_max"));
+}
+
+/// Torque of the load, teeth of both gears, module, pressure angle in degrees.
+const LOADED_GEARS: [(f64, [u32; 2], f64, f64); 12] = [
+    (500.0, [40, 40], 2.0, 20.0),
+    (-500.0, [40, 40], 2.0, 20.0),
+    (80.0, [54, 18], 1.5, 20.0),
+    (-80.0, [54, 18], 1.5, 20.0),
+    (1.0, [25, 25], 1.0, 20.0),
+    (-1.0, [25, 25], 1.0, 25.0),
+    (3000.0, [40, 20], 3.0, 20.0),
+    (-3000.0, [60, 20], 3.0, 22.5),
+    (120.0, [40, 20], 1.0, 22.5),
+    (-120.0, [40, 20], 1.0, 22.5),
+    (1e4, [36, 36], 2.0, 17.5),
+    (-0.5, [32, 32], 0.5, 20.0),
+];
+
+/// At rest the teeth hold the load: T / (r2 cos alpha), along the flanks that turn the driven gear against it.
+#[test]
+fn the_force_of_a_mesh_has_the_sign_of_its_flanks_in_goals_and_tables() {
+    for (torque, [z1, z2], module, alpha) in LOADED_GEARS {
+        let ratio = mean_ratio([z1, z2]);
+        let made = composed(&format!(
+            r#"family = "machine"
+[frame.points]
+O = [0, 0]
+[bodies.shaft]
+on = "frame.O"
+law = {{ ratio = 1 }}
+[bodies.wheel]
+on = "frame"
+mesh = {{ gear = "big", with = "small", direction_deg = 0 }}
+[pairs.drive]
+mean_ratio = {ratio}
+pitch = {{ kind = "circle", module = {module}, tooth_count = {z1} }}
+tool = {{ kind = "rack", pressure_angle_deg = {alpha}, tip_radius_coefficient = 0.2 }}
+driver = {{ width = 5, bore = 4 }}
+driven = {{ width = 5, bore = 4 }}
+[gears.small]
+pair = "drive"
+role = "driver"
+on = "shaft"
+[gears.big]
+pair = "drive"
+role = "driven"
+on = "wheel"
+[loads.brake]
+on = "wheel"
+torque = {torque}
+[goals.most]
+figure = "mesh(wheel).force"
+over = "greatest"
+at_least = 0
+[goals.least]
+figure = "mesh(wheel).force"
+over = "least"
+at_least = 0
+[goals.here]
+figure = "mesh(wheel).force"
+at_deg = 33
+at_least = 0
+"#
+        ));
+        let radius = 0.5 * module * f64::from(z2);
+        let expected = -torque / (radius * alpha.to_radians().cos());
+        let report = check_composed(&made);
+        let values = report.goals.iter().map(|goal| goal.value.expect("known"));
+        let [(_, columns)] = &table(&report, "mesh-forces").rows[..] else {
+            panic!("one mesh");
+        };
+        for value in values.chain(columns.iter().copied()) {
+            assert!(
+                (value - expected).abs() < 1e-6 * expected.abs(),
+                "{torque}: {value} {expected}"
+            );
+        }
+        assert_eq!(columns.len(), 2);
+    }
 }
