@@ -133,7 +133,9 @@ impl GearPair {
                 implied,
             });
         }
-        let rolling = Rolling::new(pitch.curve, ratio)?.with_symmetry(pitch.symmetry);
+        let rolling = Rolling::new(pitch.curve, ratio)?
+            .with_symmetry(pitch.symmetry)
+            .with_sampled_corners(pitch.corners);
         if let Some((turn, angle)) = rolling.corner() {
             return Err(GearPairError::Corner { turn, angle });
         }

@@ -5,7 +5,7 @@ use super::error::in_range;
 use super::piecewise::{HIGHEST_DEGREE, PiecewiseCurve, Polynomial};
 use super::points::{Lists, Plane, Points};
 use super::size::{OwnSize, Size};
-use super::{Draft, PitchError};
+use super::{Draft, PitchError, sampled};
 use crate::degrees;
 
 /// A closed uniform B-spline, from control points or through given points.
@@ -85,6 +85,11 @@ impl Bspline {
         let degree = in_range("degree", self.degree, 1, HIGHEST_DEGREE as u32)? as usize;
         let lists = self.lists();
         let points = lists.points(self.fewest())?;
+        // Control points make no corner, and a spline of degree 1 has its own.
+        let corners = match self.interpolate && degree > 1 {
+            true => sampled::of_radii(&points.polar()),
+            false => Vec::new(),
+        };
         let (points, [before, after]) = if self.interpolate {
             let controls = points
                 .periodic()
@@ -107,7 +112,7 @@ impl Bspline {
             points.len()
         );
         let curve = PiecewiseCurve::new(points.coordinates, pieces(&points, degree));
-        Draft::new(lists.key(), curve, size, definition)
+        Ok(Draft::new(lists.key(), curve, size, definition)?.with_corners(corners))
     }
 }
 

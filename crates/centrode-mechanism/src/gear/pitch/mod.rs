@@ -24,6 +24,7 @@ mod plane;
 mod points;
 pub(crate) mod polar;
 mod proof;
+mod sampled;
 mod size;
 mod symmetry;
 mod transmission;
@@ -38,6 +39,7 @@ pub use limacon::Limacon;
 pub use periodic::Interpolation;
 pub use points::Plane;
 pub use polar::Polar;
+pub use sampled::SampledCorner;
 pub use transmission::{Ratio, Transmission};
 
 pub(crate) use bspline::{basis as spline_basis, closed_spline};
@@ -89,6 +91,8 @@ pub struct Pitch {
     pub definition: String,
     /// Turns of driver and driven gear that the description asks for, in lowest terms.
     pub implied_ratio: Option<(u32, u32)>,
+    /// Corners of the law that samples follow; the curve through them rounds these.
+    pub corners: Vec<SampledCorner>,
     pub(crate) symmetry: Symmetry,
 }
 
@@ -179,6 +183,7 @@ pub(crate) struct Draft {
     definition: String,
     scaled: Scaled,
     implied_ratio: Option<(u32, u32)>,
+    corners: Vec<SampledCorner>,
 }
 
 impl Draft {
@@ -197,12 +202,18 @@ impl Draft {
             definition,
             scaled: Scaled::Written,
             implied_ratio: None,
+            corners: Vec::new(),
         })
     }
 
     /// Its definition tells how it is scaled.
     fn scaled(self, scaled: Scaled) -> Self {
         Self { scaled, ..self }
+    }
+
+    /// Its samples follow a law with these corners.
+    fn with_corners(self, corners: Vec<SampledCorner>) -> Self {
+        Self { corners, ..self }
     }
 
     fn finish(mut self) -> Result<Pitch, PitchError> {
@@ -236,6 +247,7 @@ impl Draft {
             module,
             definition: self.definition,
             implied_ratio: self.implied_ratio,
+            corners: self.corners,
             symmetry,
         })
     }

@@ -165,6 +165,17 @@ impl Points {
         }
     }
 
+    /// Polar angle and radius of every point, in order of the angle.
+    pub(crate) fn polar(&self) -> Vec<[f64; 2]> {
+        let polar = |&[a, b]: &[f64; 2]| match self.coordinates {
+            Coordinates::Polar => [a, b],
+            Coordinates::Cartesian => [b.atan2(a), a.hypot(b)],
+        };
+        let mut list: Vec<[f64; 2]> = self.list.iter().map(polar).collect();
+        list.sort_by(|p, q| p[0].total_cmp(&q[0]));
+        list
+    }
+
     /// Part of the coordinates that repeats: in the polar plane without the even turn.
     pub(crate) fn periodic(&self) -> [Vec<f64>; 2] {
         let step = self.even_turn();

@@ -7,7 +7,7 @@ use super::error::finite;
 use super::periodic::{Fourier, Interpolation, Periodic};
 use super::plane::{Derivatives, Direction, PolarCurve, RadiusLaw};
 use super::size::{OwnSize, Size};
-use super::{Draft, PitchError, Symmetry};
+use super::{Draft, PitchError, Symmetry, sampled};
 use crate::degrees;
 use crate::formula::{Formula, FormulaError, Steep};
 
@@ -100,7 +100,24 @@ impl Polar {
         }
         let (table, kind) = self.table()?;
         let definition = format!("polar, {kind} through {} radii", self.radius.len());
-        Draft::new("radius", PolarCurve::new(TableLaw(table)), size, definition)
+        let corners = sampled::of_radii(&self.samples());
+        let draft = Draft::new("radius", PolarCurve::new(TableLaw(table)), size, definition)?;
+        Ok(draft.with_corners(corners))
+    }
+
+    /// Polar angle and radius of every sample, in order of the angle.
+    fn samples(&self) -> Vec<[f64; 2]> {
+        let radii = self.radius.iter().copied();
+        match self.angle.is_empty() {
+            true => even_steps(&self.radius),
+            false => self
+                .angle
+                .iter()
+                .copied()
+                .zip(radii)
+                .map(Into::into)
+                .collect(),
+        }
     }
 
     fn table(&self) -> Result<(Periodic, &'static str), PitchError> {
@@ -141,6 +158,13 @@ impl Polar {
             None => Ok(()),
         }
     }
+}
+
+/// Samples over equal steps of one turn, each with its angle.
+pub(super) fn even_steps(values: &[f64]) -> Vec<[f64; 2]> {
+    let step = TAU / values.len() as f64;
+    let values = values.iter().enumerate();
+    values.map(|(k, &value)| [step * k as f64, value]).collect()
 }
 
 impl Interpolation {

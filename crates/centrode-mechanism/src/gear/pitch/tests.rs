@@ -532,3 +532,177 @@ fn a_definition_in_words_tells_the_size() {
         assert!((factor / ratio - 1.0).abs() < 1e-8, "{factor} {ratio}");
     }
 }
+
+/// Radius of three arcs `1 / (1 + e cos(n (phi - c)))`, scaled to meet each other, and the corners between them by closed form.
+///
+/// The slope of ln r is `n e sin / (1 + e cos)`.
+fn joined(corners: [f64; 3], e: [f64; 3], n: f64) -> (impl Fn(f64) -> f64, Vec<SampledCorner>) {
+    let corners = corners.map(f64::to_radians);
+    let center = [1.9_f64, 0.4, 3.3];
+    let shape = move |k: usize, phi: f64| 1.0 / (1.0 + e[k] * (n * (phi - center[k])).cos());
+    let slope = move |k: usize, phi: f64| {
+        let (sin, cos) = (n * (phi - center[k])).sin_cos();
+        n * e[k] * sin / (1.0 + e[k] * cos)
+    };
+    let end = |k: usize| corners[(k + 1) % 3] + if k == 2 { std::f64::consts::TAU } else { 0.0 };
+    // The last arc meets the first one by a factor that grows with the angle; its slope is a constant of ln r.
+    let at = |k: usize| {
+        if k == 2 {
+            corners[0] + std::f64::consts::TAU
+        } else {
+            corners[k + 1]
+        }
+    };
+    let mut size = [1.0; 3];
+    for k in 0..2 {
+        size[k + 1] = size[k] * shape(k, at(k)) / shape(k + 1, at(k));
+    }
+    let growth =
+        (size[0] * shape(0, corners[0]) / (size[2] * shape(2, at(2)))).ln() / (end(2) - corners[2]);
+    let radius = move |phi: f64| {
+        let turned = (phi - corners[0]).rem_euclid(std::f64::consts::TAU) + corners[0];
+        let k = (1..3).rev().find(|&k| turned >= corners[k]).unwrap_or(0);
+        let grown = if k == 2 {
+            (growth * (turned - corners[2])).exp()
+        } else {
+            1.0
+        };
+        40.0 * size[k] * shape(k, turned) * grown
+    };
+    let slopes = [
+        (slope(2, at(2)) + growth, slope(0, corners[0])),
+        (slope(0, corners[1]), slope(1, corners[1])),
+        (slope(1, corners[2]), slope(2, corners[2]) + growth),
+    ];
+    let list = slopes
+        .iter()
+        .zip(corners)
+        .map(|(&(before, after), angle)| SampledCorner {
+            angle,
+            turn: before.atan() - after.atan(),
+        });
+    (radius, list.collect())
+}
+
+#[test]
+fn corners_of_samples_are_found_where_pieces_meet() {
+    use std::f64::consts::TAU;
+    // Corners at samples, between them and at the start of the turn; coarse and fine steps; convex and concave.
+    for (corners, e, n, count) in [
+        ([75.0, 135.0, 240.0], [0.1, -0.1, 0.05], 2.0, 72),
+        ([75.0, 135.0, 240.0], [0.1, -0.1, 0.05], 2.0, 360),
+        ([0.0, 90.0, 200.0], [0.2, 0.1, -0.1], 1.0, 72),
+        ([0.0, 120.0, 240.0], [0.15, 0.0, 0.15], 2.0, 180),
+        ([33.3, 151.7, 290.2], [0.1, 0.2, -0.2], 1.0, 120),
+        ([10.0, 60.0, 300.0], [0.05, 0.1, 0.0], 3.0, 144),
+        ([47.1, 171.9, 222.2], [0.3, 0.05, 0.1], 1.0, 200),
+        ([20.0, 140.0, 260.0], [0.0, 0.2, 0.1], 2.0, 90),
+        ([100.0, 190.0, 310.0], [0.1, 0.15, 0.0], 2.0, 1000),
+        ([5.0, 125.0, 245.0], [0.25, -0.25, 0.1], 1.0, 96),
+    ] {
+        let (radius, expected) = joined(corners, e, n);
+        let angles: Vec<f64> = (0..count)
+            .map(|k| TAU * f64::from(k) / f64::from(count))
+            .collect();
+        let radii: Vec<f64> = angles.iter().map(|&phi| radius(phi)).collect();
+        let even = Polar {
+            radius: radii.clone(),
+            ..Polar::default()
+        };
+        let uneven = Polar {
+            angle: angles.clone(),
+            ..even.clone()
+        };
+        // A ratio has the pitch curve r = a q / (1 + q).
+        let ratio = Ratio {
+            ratio: radii.iter().map(|r| r / (100.0 - r)).collect(),
+            center_distance: Some(100.0),
+            ..Ratio::default()
+        };
+        let points = Bspline {
+            plane: Plane::Cartesian,
+            interpolate: true,
+            x: angles
+                .iter()
+                .zip(&radii)
+                .map(|(a, r)| r * a.cos())
+                .collect(),
+            y: angles
+                .iter()
+                .zip(&radii)
+                .map(|(a, r)| r * a.sin())
+                .collect(),
+            ..Bspline::default()
+        };
+        let of_kinds = [even.draft(), uneven.draft(), points.draft()];
+        // The mean ratio need not be one of small numbers.
+        let of_ratio = sampled::of_ratios(&polar::even_steps(&ratio.ratio));
+        let drafts = of_kinds
+            .into_iter()
+            .map(|draft| draft.expect("a curve").corners);
+        // Coarse samples show strong corners alone.
+        let weak = if count < 100 { 0.05 } else { 0.01 };
+        let significant: Vec<&SampledCorner> =
+            expected.iter().filter(|c| c.turn.abs() > weak).collect();
+        for found in drafts.chain([of_ratio]) {
+            assert_eq!(
+                found.len(),
+                significant.len(),
+                "{corners:?} {count}: {found:?} {expected:?}"
+            );
+            for (one, other) in found.iter().zip(&significant) {
+                let off = (one.angle - other.angle + 1.0).rem_euclid(TAU) - 1.0;
+                assert!(
+                    off.abs() < 0.03 * TAU / f64::from(count),
+                    "{corners:?}: {one:?} {other:?}"
+                );
+                assert!(
+                    (one.turn - other.turn).abs() < 0.02 * other.turn.abs() + 2e-4,
+                    "{one:?} {other:?}"
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn samples_of_smooth_laws_have_no_corner() {
+    use std::f64::consts::TAU;
+    type Radius = fn(f64) -> f64;
+    let laws: [Radius; 12] = [
+        |_| 40.0,
+        |t| 40.0 + 8.0 * t.cos(),
+        |t| 40.0 + 4.0 * (5.0 * t).sin(),
+        |t| 40.0 / (1.0 + 0.6 * t.cos()),
+        |t| 40.0 / (1.0 - 0.4 * (2.0 * t).cos()),
+        |t| 40.0 + 4.0 * (10.0 * (3.0 * t).sin()).tanh(),
+        |t| 40.0 + 6.0 * (-8.0 * (1.0 - t.cos())).exp(),
+        |t| 40.0 * (0.3 * (t + 0.4 * t.sin()).cos()).exp(),
+        |t| 40.0 + 2.0 * (3.0 * t).cos() + 1.5 * (7.0 * t + 1.0).sin(),
+        |t| (40.0 + 8.0 * t.cos() * (2.0 * t).sin()).sqrt(),
+        // Written with three decimals.
+        |t| (1e3 * (40.0 + 8.0 * t.cos())).round() / 1e3,
+        |t| (1e3 * (40.0 + 4.0 * (5.0 * t).sin())).round() / 1e3,
+    ];
+    for (k, law) in laws.iter().enumerate() {
+        for count in [6, 15, 36, 72, 90, 180, 360] {
+            // Fewer show no more of ten waves in a turn than their sharpness.
+            if k == 5 && count < 180 {
+                continue;
+            }
+            let angles = (0..count).map(|k| TAU * f64::from(k) / f64::from(count));
+            let radius: Vec<f64> = angles.map(law).collect();
+            let draft = Polar {
+                radius,
+                ..Polar::default()
+            }
+            .draft()
+            .expect("a curve");
+            assert!(
+                draft.corners.is_empty(),
+                "law {k}, {count}: {:?}",
+                draft.corners
+            );
+        }
+    }
+}

@@ -8,9 +8,9 @@ use super::error::{finite, positive};
 use super::periodic::{Interpolation, Periodic};
 use super::plane::{Derivatives, Direction, PolarCurve, RadiusLaw};
 use super::points::count;
-use super::polar::{formula_parts, read_formula, seam};
+use super::polar::{even_steps, formula_parts, read_formula, seam};
 use super::size::{OwnSize, Size};
-use super::{Draft, PitchError, Scaled};
+use super::{Draft, PitchError, Scaled, sampled};
 use crate::degrees;
 use crate::formula::{Formula, Taylor};
 
@@ -97,14 +97,26 @@ impl Transmission {
             }
             None => self.sampled()?,
         };
-        draft(
+        let size = self.size()?;
+        let corners = sampled::of_ratios(&self.mean_ratios());
+        let draft = draft(
             law,
             key,
             Some(total),
             definition,
-            self.size()?,
+            size,
             self.center_distance,
-        )
+        )?;
+        Ok(draft.with_corners(corners))
+    }
+
+    /// Mean ratio of every step of the samples, at its middle.
+    fn mean_ratios(&self) -> Vec<[f64; 2]> {
+        let step = TAU / self.driven_angle.len().saturating_sub(1) as f64;
+        let steps = self.driven_angle.windows(2).enumerate();
+        steps
+            .map(|(k, ends)| [step * (k as f64 + 0.5), (ends[1] - ends[0]) / step])
+            .collect()
     }
 
     fn sampled(&self) -> Result<(RatioForm, &'static str, f64, String), PitchError> {
@@ -179,7 +191,9 @@ impl Ratio {
             interpolation.name(),
             self.ratio.len()
         );
-        draft(law, "ratio", None, definition, size, self.center_distance)
+        let corners = sampled::of_ratios(&even_steps(&self.ratio));
+        let draft = draft(law, "ratio", None, definition, size, self.center_distance)?;
+        Ok(draft.with_corners(corners))
     }
 }
 

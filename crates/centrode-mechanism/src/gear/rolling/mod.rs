@@ -12,7 +12,7 @@ use centrode_geometry::{Antiderivative, Curve, Jet, Point, Vector, pieces};
 pub use error::RollingError;
 pub use pitch_contact::{CurvatureRange, PitchContact};
 
-use super::pitch::Symmetry;
+use super::pitch::{SampledCorner, Symmetry};
 
 /// Even parts of a turn in each of which a pitch curve has few extremes.
 const PIECES: u32 = 8;
@@ -91,6 +91,7 @@ pub struct Rolling {
     /// How often the radius swings in a turn.
     swings: usize,
     symmetry: Symmetry,
+    sampled_corners: Vec<SampledCorner>,
     /// Ranges of both curvatures, found when first needed.
     ranges: OnceLock<[CurvatureRange; 2]>,
 }
@@ -112,6 +113,23 @@ impl Rolling {
     /// Pitch curves whose driver is known to have a symmetry about its own angle zero.
     pub(crate) fn with_symmetry(self, symmetry: Symmetry) -> Self {
         Self { symmetry, ..self }
+    }
+
+    /// Pitch curves whose driver goes through samples of a law with corners.
+    pub(crate) fn with_sampled_corners(self, sampled_corners: Vec<SampledCorner>) -> Self {
+        Self {
+            sampled_corners,
+            ..self
+        }
+    }
+
+    /// Corners of the law that samples of the driver's pitch curve follow, by polar angle. The pitch curve rounds them.
+    ///
+    /// A corner is where the polynomials through five samples before and after it meet at different slopes. At least 16 samples
+    /// are needed, five of them between two corners; corners below 4e-3 rad are not reported.
+    #[must_use]
+    pub fn sampled_corners(&self) -> &[SampledCorner] {
+        &self.sampled_corners
     }
 
     /// Symmetry of the driver's pitch curve, as far as it is known.

@@ -101,6 +101,7 @@ impl Rolling {
             greatest,
             swings,
             symmetry: Symmetry::NONE,
+            sampled_corners: Vec::new(),
             ranges: OnceLock::new(),
         };
         rolling.knots = rolling.knots_at(&breaks);
