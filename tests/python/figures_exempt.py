@@ -85,6 +85,7 @@ EXEMPT = {
     "docs/how-to/shop.md": {
         INPUT: (r"release 12", r"than 0\.01", r"of 1/"),
         FORMULA: (r"a - j / \(2 sin .\)",),
+        LIMIT: (r"contact ratio of 1\.1",),
         RUST: (r"18 \+ the accuracy class: 26h for class 8",),
     },
     "docs/how-to/simulation.md": {
@@ -195,7 +196,7 @@ EXEMPT = {
     },
     "docs/theory/contact.md": {
         FORMULA: (r"rate 1 \+",),
-        LIMIT: (r"and 48 where", r"at 25 angles or more"),
+        LIMIT: (r"and 48 where", r"at 25 angles or more", r"It is 0 where"),
     },
     "docs/theory/feeder.md": {
         FORMULA: (r"</sub>, 0\)", r"from 0 to"),
@@ -209,6 +210,7 @@ EXEMPT = {
         FORMULA: (r"is 0/0 when",),
     },
     "docs/theory/pitch-curves.md": {
+        LIMIT: (r"more than 16 times", r"needs 16 samples", r"below 0\.23 deg"),
         FORMULA: (
             r"is 1/2, as",
             r"i = 1/&phi;",

@@ -124,15 +124,6 @@ impl Unit {
             .trim_end()
             .to_owned()
     }
-
-    /// The unit in which an angle so small still has digits: rad below 1e-3.
-    #[must_use]
-    pub fn for_size(self, value: f64) -> Self {
-        match self {
-            Self::Angle if value.abs() <= 1e-3 => Self::Radian,
-            other => other,
-        }
-    }
 }
 
 impl fmt::Display for Unit {

@@ -1,9 +1,12 @@
 //! Check of a gear pair.
 
+mod circular;
 mod figures;
 mod remedies;
 mod remedy;
 mod teeth;
+#[cfg(test)]
+mod tests;
 
 use std::f64::consts::PI;
 
@@ -37,16 +40,22 @@ pub(crate) const SLIGHT: f64 = 2e-5;
 pub fn check(pair: &GearPair) -> Report {
     let mut ready = None;
     let contact = filling([0.0, 0.6], || Contact::analysed(pair, &mut ready));
-    filling([0.6, 1.0], || checked(pair, &contact, ready))
+    filling([0.6, 1.0], || {
+        let mut report = checked(pair, &contact, ready);
+        circular::name_remedy(pair, &mut report);
+        report
+    })
 }
 
 /// Checks a gear pair like [`check`], with a contact analysis made before.
 #[must_use]
 pub fn check_contact(pair: &GearPair, contact: &Contact) -> Report {
-    checked(pair, contact, None)
+    let mut report = checked(pair, contact, None);
+    circular::name_remedy(pair, &mut report);
+    report
 }
 
-/// The check of a pair by an analysis of its contact, made ready for it or not.
+/// The check of a pair by an analysis of its contact, made ready for it or not, with usual remedies.
 fn checked<'a>(pair: &'a GearPair, contact: &'a Contact, ready: Option<Meshing<'a>>) -> Report {
     let mut report = Report {
         groups: FIGURES.to_vec(),
@@ -141,6 +150,7 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
         }
     }
     report.findings.extend(pitch_overlap(pair));
+    report.findings.extend(sampled_corners(pair));
     let Extreme {
         input,
         value: steepest,
@@ -170,6 +180,31 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
     report
         .values
         .insert("largest_addendum", limits.largest_addendum);
+}
+
+/// The corners of the law that the samples of the pitch curve follow, as findings.
+fn sampled_corners(pair: &GearPair) -> impl Iterator<Item = Finding> {
+    pair.rolling().sampled_corners().iter().map(|corner| {
+        let unit = Unit::Angle;
+        Finding {
+            rule: "pitch-curve-corner",
+            remedy: remedy("pitch-curve-corner"),
+            severity: Severity::Warning,
+            message: format!(
+                "the samples of the pitch curve have a corner of {} at {}: the curve through them rounds it",
+                unit.tell(corner.turn.abs()),
+                unit.tell(corner.angle)
+            ),
+            measured: Some(corner.turn.abs()),
+            required: Some(0.0),
+            unit,
+            place: Place {
+                part: Some(Member::Driver.name().into()),
+                input: Some(corner.angle),
+                ..Place::default()
+            },
+        }
+    })
 }
 
 /// The overlap of the pitch curves away from the point at which they roll, as a finding; none where they only roll.
@@ -257,35 +292,39 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
         });
     }
     let is_jammed = contact.is_jammed(pair);
-    // Clearance below zero is a penetration that no turning of the driven gear removes.
-    let deepest = [
-        (penetration.0, penetration.1),
-        (-clearance.0, clearance.1),
-        (-fillet.0, fillet.1),
-    ]
-    .into_iter()
-    .max_by(|a, b| a.0.total_cmp(&b.0))
-    .unwrap_or((0.0, 0.0));
+    let mm = |depth: f64| Unit::Millimetre.tell(depth);
+    let overlap = |rule, (depth, input): (f64, f64), message: String| Finding {
+        rule,
+        remedy: remedy(rule),
+        severity: Severity::of_overlap(depth),
+        message,
+        measured: Some(depth),
+        required: Some(0.0),
+        unit: Unit::Millimetre,
+        place: place(input),
+    };
+    if penetration.0 > PENETRATION * module {
+        let words = if is_jammed { "the gears jam: " } else { "" };
+        let message = format!(
+            "{words}there is no room for the teeth: the flanks on both sides of them overlap by {}",
+            mm(penetration.0)
+        );
+        report
+            .findings
+            .push(overlap("interference", penetration, message));
+    }
+    // With the driven gear in the middle of its backlash: no turn of it makes room.
+    let (gap, part) = if clearance.0 < fillet.0 {
+        (clearance, "root")
+    } else {
+        (fillet, "fillet")
+    };
+    let deepest = (-gap.0, gap.1);
     if deepest.0 > PENETRATION * module {
-        report.findings.push(Finding {
-            rule: "interference",
-            remedy: remedy("interference"),
-            severity: Severity::of_overlap(deepest.0),
-            message: match is_jammed {
-                true => format!(
-                    "the gears jam: they penetrate each other by {:.3e} mm or more",
-                    deepest.0
-                ),
-                false => format!(
-                    "the gears penetrate each other by up to {:.3e} mm",
-                    deepest.0
-                ),
-            },
-            measured: Some(deepest.0),
-            required: Some(0.0),
-            unit: Unit::Millimetre,
-            place: place(deepest.1),
-        });
+        let message = format!("a tip overlaps the {part} of the mate by {}", mm(deepest.0));
+        report
+            .findings
+            .push(overlap("tip-interference", deepest, message));
     }
     let worst = if error.0 >= reverse.0 { error } else { reverse };
     let share = extremes.lost;
@@ -306,14 +345,14 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
                 Severity::of_deviation(worst.0 * pair.rolling().radii(Member::Driven).1)
             },
             message: format!(
-                "over {} % of the cycle the flanks do not carry the motion: a tooth edge does, and the driven angle is off by {} {:.3e} rad",
+                "for {} % of the cycle contact is on a tooth edge, not on the flanks; the driven gear is {} {} off",
                 match 100.0 * share {
                     percent if percent < 0.1 => "less than 0.1".to_owned(),
                     percent => format!("{percent:.1}"),
                 },
                 // Of some gears nothing is followed between the samples.
                 if contact.is_followed(pair) { "up to" } else { "at least" },
-                worst.0,
+                Unit::Angle.tell(worst.0),
             ),
             measured: Some(worst.0),
             required: Some(allowed),
@@ -351,15 +390,15 @@ fn seat_jump(pair: &GearPair, contact: &Contact) -> Option<Finding> {
     let pushed = if greatest.is_reverse { "back" } else { "on" };
     let others = match jumps.len() - 1 {
         0 => String::new(),
-        others => format!("; {others} more of such places"),
+        others => format!("; so it does at {others} more inputs"),
     };
     Some(Finding {
         rule: "seat-jump",
         remedy: remedy("seat-jump"),
         severity: Severity::of_deviation(greatest.turn * pair.rolling().radii(Member::Driven).1),
         message: format!(
-            "tooth {driver} of the driver meets tooth {driven} of the driven gear in the play: the driven gear pushed {pushed} jumps by {:.3e} rad, and may be caught on either side of that tooth{others}",
-            greatest.turn
+            "driver tooth {driver} hits driven tooth {driven} within the backlash: the driven gear pushed {pushed} can jump by {} or jam{others}",
+            Unit::Angle.tell(greatest.turn)
         ),
         measured: Some(greatest.turn),
         required: Some(0.0),

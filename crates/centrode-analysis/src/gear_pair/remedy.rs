@@ -10,6 +10,26 @@ pub(super) fn remedy_of_teeth(rule: &str, addendum: Addendum) -> Option<&'static
     }
 }
 
+/// Whether a rule is about the teeth or their mesh: of circular gears its remedy is tried.
+pub(super) fn is_of_teeth(rule: &str) -> bool {
+    let of_teeth = [
+        "cut-through",
+        "undercut",
+        "short-tooth",
+        "pointed",
+        "thin-tip",
+        "no-flank",
+    ];
+    let of_mesh = [
+        "disengaged",
+        "contact-lost",
+        "seat-jump",
+        "interference",
+        "tip-interference",
+    ];
+    of_teeth.contains(&rule) || of_mesh.contains(&rule)
+}
+
 /// Usual remedy against a finding of a rule.
 pub(crate) fn remedy(rule: &str) -> Option<&'static str> {
     Some(match rule {
@@ -22,7 +42,9 @@ pub(crate) fn remedy(rule: &str) -> Option<&'static str> {
         "no-flank" | "disengaged" | "contact-lost" | "seat-jump" => {
             "a pitch curve of gentler curvature, or more teeth of a smaller module"
         }
-        "interference" => "more tip clearance or backlash, or a smaller module",
+        "interference" => "more backlash, or a smaller module",
+        "tip-interference" => "more tip clearance, or a smaller module",
+        "pitch-curve-corner" => "samples that go round the corner over a pitch or more",
         "pressure-angle" => {
             "a pitch curve whose radius changes more slowly, or a smaller tool pressure angle"
         }

@@ -106,7 +106,14 @@ pub(crate) fn check_gear_train(mechanism: &ThreeArm, teeth: &TrainTeeth, report:
             report.values.insert(name, *figure);
         }
     }
-    let of_mesh = ["interference", "disengaged", "contact-lost", "seat-jump"];
+    let of_mesh = [
+        "pitch-curve-corner",
+        "interference",
+        "tip-interference",
+        "disengaged",
+        "contact-lost",
+        "seat-jump",
+    ];
     let found = checked.findings.iter().cloned();
     report
         .findings

@@ -77,8 +77,7 @@ pub(crate) fn words(finding: &Finding) -> Words {
         about.push(format!("input at {degrees:.2} deg"));
     }
     let figures = finding.measured.map_or_else(String::new, |measured| {
-        let unit = finding.unit.for_size(measured);
-        let show = |value: f64| unit.tell(value);
+        let show = |value: f64| finding.unit.tell(value);
         let required = finding
             .required
             .map(|required| format!(", required {}", show(required)));
@@ -147,7 +146,8 @@ fn causes(rule: &str) -> &'static [&'static str] {
         "no-flank" | "disengaged" | "contact-lost" | "seat-jump" => {
             &["pitch.module", "tooth_count", "pitch.tooth_count"]
         }
-        "interference" => &["tool.dedendum_coefficient", "teeth.backlash"],
+        "interference" | "tip-interference" => &["tool.dedendum_coefficient", "teeth.backlash"],
+        "pitch-curve-corner" => &["pitch.radius", "pitch.ratio", "pitch.driven_angle_deg"],
         "pressure-angle" => &["pitch.eccentricity", "tool.pressure_angle_deg"],
         "shaper-radius" => &["tool.tooth_count"],
         "pitch-curve-swings" => &["pitch.expression"],
@@ -202,6 +202,34 @@ mod tests {
             ranges(&[0, 1, 2, 5, 8, 9, 12, 13, 14, 15]),
             "0-2, 5, 8, 9, 12-15"
         );
+    }
+
+    #[test]
+    fn an_angle_is_in_degrees_whatever_its_size() {
+        for (measured, figures) in [
+            (2e-9, "measured 1.1e-7 deg, required 0 deg"),
+            (1e-6, "measured 5.7e-5 deg, required 0 deg"),
+            (6.235e-6, "measured 3.6e-4 deg, required 0 deg"),
+            (8.7e-5, "measured 5.0e-3 deg, required 0 deg"),
+            (9.9e-4, "measured 0.0567 deg, required 0 deg"),
+            (1e-3, "measured 0.0573 deg, required 0 deg"),
+            (1.01e-3, "measured 0.0579 deg, required 0 deg"),
+            (-5e-4, "measured -0.0286 deg, required 0 deg"),
+            (0.0, "measured 0 deg, required 0 deg"),
+            (1.6, "measured 91.6732 deg, required 0 deg"),
+        ] {
+            let finding = Finding {
+                rule: "contact-lost",
+                severity: Severity::Note,
+                message: String::new(),
+                measured: Some(measured),
+                required: Some(0.0),
+                unit: Unit::Angle,
+                remedy: None,
+                place: Place::default(),
+            };
+            assert_eq!(words(&finding).figures.replace('\u{a0}', " "), figures);
+        }
     }
 
     #[test]

@@ -1,0 +1,230 @@
+//! Remedies of circular gears: one change of the design that was made and checked.
+
+use centrode_mechanism::gear::GearPair;
+use centrode_mechanism::gear::design::{Addendum, GearPairDesign, ToolSpec};
+use centrode_mechanism::gear::pitch::{Circle, PitchSpec};
+
+use super::{checked, remedy::is_of_teeth};
+use crate::{Contact, Report, Severity};
+
+/// Difference of the radii of a pitch curve, as a share of them, below which it is a circle.
+const ROUND: f64 = 1e-12;
+
+/// Contact ratio from which a changed pair is a remedy: gears with less are sensitive to errors of the centre distance.
+const CONTACT_RATIO: f64 = 1.1;
+
+/// Values of a key, each with the words that name it.
+macro_rules! values {
+    ($key:literal: $($value:literal)*) => {
+        [$(($value, concat!($key, " = ", $value))),*]
+    };
+}
+
+/// Profile shifts tried, the smallest first: of the driver, against those of the driven gear.
+#[rustfmt::skip]
+const SHIFTS: [(f64, &str); 16] = values!("tool.profile_shift_coefficient":
+    0.1 -0.1 0.2 -0.2 0.3 -0.3 0.4 -0.4 0.5 -0.5 0.6 -0.6 0.7 -0.7 0.8 -0.8);
+
+/// Pressure angles of usual tools, in degrees.
+const ANGLES: [(f64, &str); 6] = values!("tool.pressure_angle_deg": 17.5 20.0 22.5 25.0 28.0 30.0);
+
+/// Names in the findings about teeth and mesh of circular gears the first change of the design with which the check finds nothing
+/// more than notes, or nothing if there is none.
+///
+/// Tried are a profile shift, a greater pressure angle, fitted addenda and more teeth of a smaller module, in this order.
+pub(super) fn name_remedy(pair: &GearPair, report: &mut Report) {
+    let (low, high) = pair.rolling().radii(pair.driver().member());
+    let of_teeth = report
+        .findings
+        .iter()
+        .any(|finding| is_of_teeth(finding.rule));
+    if high - low > ROUND * high || !of_teeth {
+        return;
+    }
+    let found = remedy(pair);
+    let of_teeth = report.findings.iter_mut();
+    for finding in of_teeth.filter(|finding| is_of_teeth(finding.rule)) {
+        finding.remedy = found;
+    }
+}
+
+/// The first change of circular gears that helps.
+fn remedy(pair: &GearPair) -> Option<&'static str> {
+    let mut written = pair.settled_design();
+    let teeth = pair.driver().tooth_count();
+    written.pitch = PitchSpec::Circle(Circle {
+        module: Some(pair.module()),
+        tooth_count: Some(teeth),
+        ..Circle::default()
+    });
+    let with = |change: &dyn Fn(&mut GearPairDesign)| {
+        let mut design = written.clone();
+        change(&mut design);
+        design
+    };
+    // Profile shift and pressure angle of a tool.
+    let with_tool = |change: &dyn Fn([&mut f64; 2])| {
+        with(&|design| match &mut design.tool {
+            ToolSpec::Rack(rack) => change([
+                &mut rack.profile_shift_coefficient,
+                &mut rack.pressure_angle,
+            ]),
+            ToolSpec::Shaper(tool) => change([
+                &mut tool.profile_shift_coefficient,
+                &mut tool.pressure_angle,
+            ]),
+            _ => {}
+        })
+    };
+    let shifted = SHIFTS.map(|(x, words)| (with_tool(&|[shift, _]| *shift = x), words));
+    let own = pair.teeth().tool.pressure_angle;
+    let steeper = ANGLES.map(|(angle, words)| (angle.to_radians(), words));
+    let steeper = steeper.into_iter().filter(|(angle, _)| *angle > own);
+    let steeper = steeper.map(|(alpha, words)| (with_tool(&|[_, angle]| *angle = alpha), words));
+    let fitted = with(&|design| design.teeth.addendum = Addendum::Fitted);
+    let fitted = [(fitted, "teeth.addendum = \"fitted\"")];
+    // Full teeth of a rack are undercut below 2 / sin^2(alpha).
+    let full = 2.0 / own.sin().powi(2);
+    let fewest = f64::from(teeth.min(pair.driven().tooth_count()));
+    let step = pair.mean_ratio().1;
+    let more = (f64::from(teeth) * full / fewest / f64::from(step)).ceil() as u32 * step;
+    let more = (more > teeth).then(|| {
+        (
+            written.with_tooth_count(more),
+            "more teeth of a smaller module",
+        )
+    });
+    let mut all = shifted.into_iter().chain(steeper).chain(fitted).chain(more);
+    all.find(|(design, _)| helps(design))
+        .map(|(_, words)| words)
+}
+
+/// Whether a design makes gears of which the check finds nothing more than notes, with a good contact ratio.
+fn helps(design: &GearPairDesign) -> bool {
+    GearPair::resolve(design).is_ok_and(|pair| {
+        let contact = Contact::analyse(&pair);
+        let report = checked(&pair, &contact, None);
+        let ratio = report.values.get("contact_ratio_mean");
+        report
+            .findings
+            .iter()
+            .all(|finding| finding.severity == Severity::Note)
+            && ratio.is_some_and(|ratio| *ratio >= CONTACT_RATIO)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::PI;
+
+    use centrode_mechanism::design::DesignSpec as _;
+    use centrode_mechanism::gear::Member;
+
+    use super::*;
+    use crate::check;
+    use crate::contact::closed_forms::mean_ratio;
+
+    /// Circular gears by teeth, pressure angle in degrees and further lines of the tool and teeth.
+    fn gears([z1, z2]: [u32; 2], alpha: f64, shift: f64, teeth: &str) -> GearPair {
+        let text = format!(
+            "family = \"gear-pair\"\nmean_ratio = {}\n[pitch]\nkind = \"circle\"\nmodule = 3\ntooth_count = {z1}\n\
+             [tool]\nkind = \"rack\"\npressure_angle_deg = {alpha}\nprofile_shift_coefficient = {shift}\n[teeth]\n{teeth}\n",
+            mean_ratio([z1, z2])
+        );
+        let design = GearPairDesign::from_toml(&text).expect("a design");
+        GearPair::resolve(&design).expect("a pair")
+    }
+
+    #[test]
+    fn a_remedy_of_circular_gears_makes_gears_that_run() {
+        let mut named = Vec::new();
+        for (z, alpha, teeth) in [
+            ([8, 8], 20.0, "backlash = 0"),
+            ([20, 8], 14.5, "backlash = 0"),
+            ([8, 8], 14.5, "backlash = 0"),
+            ([8, 40], 20.0, "backlash = 0.1"),
+            ([12, 60], 20.0, "backlash = 0.05"),
+            ([60, 12], 20.0, "backlash = 0.05"),
+            ([10, 10], 14.5, "backlash = 0.2"),
+            ([13, 13], 20.0, "backlash = 0"),
+            ([9, 27], 17.5, "backlash = 0"),
+            ([15, 45], 14.5, "backlash = 0.1"),
+            ([20, 20], 14.5, "backlash = 0.05"),
+            ([6, 6], 20.0, "backlash = 0"),
+        ] {
+            let report = check(&gears(z, alpha, 0.0, teeth));
+            let of_teeth = report
+                .findings
+                .iter()
+                .filter(|f| f.severity > Severity::Note);
+            let remedies: Vec<_> = of_teeth.map(|finding| finding.remedy).collect();
+            assert!(!remedies.is_empty(), "{z:?}");
+            assert!(
+                remedies.iter().all(|remedy| *remedy == remedies[0]),
+                "{remedies:?}"
+            );
+            named.push(remedies[0]);
+            let Some(remedy) = remedies[0] else { continue };
+            assert!(!remedy.contains("pitch curve"), "{remedy}");
+            let value = |key: &str| {
+                Some(
+                    remedy
+                        .strip_prefix(key)?
+                        .strip_prefix(" = ")?
+                        .parse::<f64>()
+                        .expect("a number"),
+                )
+            };
+            let shift = value("tool.profile_shift_coefficient").unwrap_or(0.0);
+            let angle = value("tool.pressure_angle_deg").unwrap_or(alpha);
+            if shift == 0.0 && angle == alpha {
+                continue;
+            }
+            // Both gears by closed forms, without the check: flanks from the undercut's end to the tip, and the land at the tip.
+            let pair = gears(z, angle, shift, teeth);
+            let angle = angle.to_radians();
+            let ends = [
+                (Member::Driver, z[0], shift),
+                (Member::Driven, z[1], -shift),
+            ]
+            .map(|(member, z, x)| {
+                let r = 1.5 * f64::from(z);
+                // Undercut begins below x = 1 - z sin^2(alpha) / 2.
+                assert!(
+                    x >= 1.0 - 0.5 * f64::from(z) * angle.sin().powi(2) - 1e-9,
+                    "{member:?} {z} {x}"
+                );
+                let (tip, base) = (r + 3.0 * (1.0 + x), r * angle.cos());
+                let inv = |a: f64| a.tan() - a;
+                let half = (0.5 * PI + 2.0 * x * angle.tan()) / f64::from(z) + inv(angle)
+                    - inv((base / tip).acos());
+                // Backlash takes up to 0.2 mm of the thickness.
+                assert!(2.0 * half * tip > 0.6 - 0.25, "{member:?} {z} {x}: {half}");
+                assert!(pair.gear(member).tooth_count() == z);
+                (tip * tip - base * base).sqrt() - r * angle.sin()
+            });
+            let ratio = ends.iter().sum::<f64>() / (3.0 * PI * angle.cos());
+            assert!(ratio > 1.1, "{z:?} {remedy}: {ratio}");
+        }
+        // The shift that 8 teeth need makes them pointed, and so does every angle of a usual tool: they need smaller teeth.
+        let more = Some("more teeth of a smaller module");
+        assert_eq!(named[..3], [more; 3]);
+        let is_named = |key: &str| named.iter().flatten().any(|remedy| remedy.contains(key));
+        assert!(
+            is_named("profile_shift") && is_named("pressure_angle"),
+            "{named:?}"
+        );
+    }
+
+    #[test]
+    fn other_gears_keep_their_usual_remedies() {
+        let text = "family = \"gear-pair\"\n[pitch]\nkind = \"ellipse\"\neccentricity = 0.6\nmodule = 2\ntooth_count = 21\n";
+        let design = GearPairDesign::from_toml(text).expect("a design");
+        let report = check(&GearPair::resolve(&design).expect("a pair"));
+        let undercut = report
+            .findings
+            .iter()
+            .find(|finding| finding.rule == "undercut");
+        assert!(undercut.and_then(|finding| finding.remedy).is_some());
+    }
+}
