@@ -53,8 +53,8 @@ pub struct ContactExtremes {
     /// depend on the backlash.
     pub sliding: Extreme,
     /// Minimum and maximum number of pairs of teeth in contact with the driver pushing on. They follow from the driver angles at
-    /// which contacts come to the ends of flanks; of gears that are not followed they are those of the samples. An edge that
-    /// carries alone counts as one.
+    /// which contacts come to the ends of flanks. Of gears that are not followed, and where these ends disagree with the flanks
+    /// that face each other between them, they are those of the samples. An edge that carries alone counts as one.
     pub contacts: [Extreme; 2],
     /// Contact ratio: mean number of pairs of flanks in contact along the pitch curve, not over the angle, found in the same way.
     /// An edge that carries alone counts as none. Of circular gears it is the transverse contact ratio of ISO 21771.
