@@ -40,7 +40,8 @@ use crate::{Finding, Goal, Place, Report, Severity, Table, Unit};
 const PARTS: u32 = 16;
 /// Transmission angle below which a dyad holds badly, degrees: friction may lock it.
 const HOLDS_BADLY: f64 = 30.0;
-/// Input, rad, below which an extreme is at the start of the cycle: it is found to the square root of rounding.
+/// Distance, rad, from the start or the end of the cycle at which an extreme is at its start: it is found to the square root of
+/// rounding.
 const NEAR: f64 = 1e-7;
 
 /// Checks a composed machine: how well its dyads hold, where joints reverse, how far points go and how fast.
@@ -213,7 +214,10 @@ fn dyads(composed: &Composed, motion: &Motion, report: &mut Report) {
     let mut rows = Vec::new();
     for (dyad, &[low, high]) in composed.dyads().iter().zip(&motion.angles) {
         let [low, high] = [low, high].map(|end| Extreme {
-            input: if end.input < NEAR { 0.0 } else { end.input },
+            input: match end.input.min(composed.period() - end.input) < NEAR {
+                true => 0.0,
+                false => end.input,
+            },
             ..end
         });
         let row = vec![low.value, low.input, high.value, high.input];
