@@ -7,8 +7,6 @@
 mod at_law;
 mod body;
 mod clearances;
-#[cfg(test)]
-pub(crate) mod closed_forms;
 mod count;
 mod cycle;
 mod edges;
@@ -26,7 +24,7 @@ mod sliding;
 mod span;
 mod stretch;
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;
 mod touch;
 mod tree;
 mod turning;

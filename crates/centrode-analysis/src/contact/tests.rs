@@ -1,3 +1,5 @@
+pub(crate) mod closed_forms;
+
 use centrode_mechanism::design::DesignSpec as _;
 use centrode_mechanism::gear::GearPair;
 use centrode_mechanism::gear::design::{Addendum, GearPairDesign};

@@ -79,7 +79,7 @@ pub(super) fn gears(feeder: &Feeder, report: &mut Report) {
         let figures = [Some(penetration.value), Some(limit)];
         report.findings.push(about_gears(
             "gears-penetrate",
-            Severity::Error,
+            Severity::of_overlap(penetration.value),
             message,
             figures,
             Unit::Millimetre,
@@ -94,7 +94,7 @@ pub(super) fn gears(feeder: &Feeder, report: &mut Report) {
         if clearance < 0.0 {
             let mut finding = about_gears(
                 "cam-pin-clearance",
-                Severity::Error,
+                Severity::of_overlap(-clearance),
                 format!(
                     "a pin of diameter {size} mm {class} at its upper limit overlaps its cam by {:.4} mm",
                     -clearance

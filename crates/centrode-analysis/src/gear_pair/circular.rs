@@ -122,7 +122,7 @@ mod tests {
 
     use super::*;
     use crate::check;
-    use crate::contact::closed_forms::mean_ratio;
+    use crate::contact::tests::closed_forms::mean_ratio;
 
     /// Circular gears by teeth, pressure angle in degrees and further lines of the tool and teeth.
     fn gears([z1, z2]: [u32; 2], alpha: f64, shift: f64, teeth: &str) -> GearPair {

@@ -169,7 +169,11 @@ pub(super) fn nearest(word: &str, known: &[String]) -> Option<String> {
     known
         .iter()
         .map(|k| (strsim::damerau_levenshtein(&short, k), k))
-        .filter(|(distance, k)| *distance <= (k.len() / 4).max(1))
+        // A word of the same first letter may be one step farther.
+        .filter(|(distance, k)| {
+            let starts_alike = k.chars().next() == short.chars().next();
+            *distance <= (k.len() / 4).max(1) + usize::from(starts_alike)
+        })
         .min()
         .map(|(_, k)| k.clone())
 }

@@ -329,7 +329,8 @@ fn the_figures_that_goals_can_name_are_listed_with_their_extremes() {
         ("joint(crank).force", "crank"),
         ("mesh(crank).force", "shaft-crank"),
     ] {
-        assert_eq!(row(&listed, named)[1..], row(&checked, told)[..], "{named}");
+        let ends = row(&checked, told);
+        assert_eq!(row(&listed, named)[2 - ends.len()..], ends, "{named}");
     }
     let none = centrode(&["check", "--figures", &shipped("feeder-2022.toml")]);
     assert_eq!(none.status.code(), Some(2));

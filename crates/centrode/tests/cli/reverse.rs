@@ -543,7 +543,7 @@ fn an_axis_at_the_border_of_its_box_is_told_with_the_side() {
     let line = told.lines().find(|line| line.starts_with("axis-at-border"));
     let line = line.unwrap_or_else(|| panic!("{told}"));
     assert!(
-        line.contains("whose x ends at 240.0000 mm") || line.contains("whose y ends at 150"),
+        line.contains("where x ends at 240.0000 mm and y ends at 150.0000 mm:"),
         "{line}"
     );
     assert!(line.contains("what helps: a wider box"), "{line}");

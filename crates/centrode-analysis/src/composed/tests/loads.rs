@@ -3,7 +3,7 @@ use std::f64::consts::TAU;
 use centrode_geometry::greatest;
 
 use super::*;
-use crate::contact::closed_forms::mean_ratio;
+use crate::contact::tests::closed_forms::mean_ratio;
 
 /// A slider-crank without masses: crank 30, rod 100 mm.
 const SLIDER_CRANK: &str = r#"

@@ -6,7 +6,7 @@ use centrode_mechanism::design::DesignSpec as _;
 use centrode_mechanism::gear::design::GearPairDesign;
 use centrode_mechanism::gear::{GearPair, Member, Side};
 
-use super::{Contact, ContactExtremes};
+use crate::{Contact, ContactExtremes};
 
 fn resolved(text: &str) -> GearPair {
     let design = GearPairDesign::from_toml(&format!("family = \"gear-pair\"\n{text}"));
