@@ -445,7 +445,8 @@ def cam_radius():
 
 
 THREE_ARM = [
-    Said("{} degrees for the published set, unless", reference),
+    Said("For the published set it is {} degrees; against the frame", reference),
+    Said("the gear turns |gamma_0| more, {} degrees", lambda: 53 + reference()),
     Said(
         "reaches {} mm into the row above in the published set, {} degrees of carrier turn after picking, and {} mm in",
         lambda: [

@@ -53,9 +53,10 @@ impl Severity {
 }
 
 /// Every rule whose findings cause others, before the rules of its consequences; rules that are not listed come after these.
-const CAUSES: [&str; 22] = [
+const CAUSES: [&str; 24] = [
     "detail",
     "pitch-curves-overlap",
+    "pitch-curve-corner",
     "shaper-radius",
     "pressure-angle",
     "teeth",
@@ -69,6 +70,7 @@ const CAUSES: [&str; 22] = [
     "disengaged",
     "contact-lost",
     "interference",
+    "tip-interference",
     "seat-jump",
     "cam-undercut",
     "cam-pressure-angle",

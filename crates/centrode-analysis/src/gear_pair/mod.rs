@@ -274,12 +274,13 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
         input: Some(input),
         ..Place::default()
     };
-    let loose = contact
-        .backlash
-        .iter()
-        .zip(&contact.input)
-        .find(|(b, _)| !b.is_finite());
-    if let Some((_, &input)) = loose {
+    // Between samples the extremes find a gap that no sample does.
+    let samples = contact.backlash.iter().zip(&contact.input);
+    let of_samples = samples.map(|(&backlash, &input)| (backlash, input));
+    let loose = of_samples
+        .chain([error, reverse, pick(extremes.backlash[1])])
+        .find(|(figure, _)| !figure.is_finite());
+    if let Some((_, input)) = loose {
         report.findings.push(Finding {
             rule: "disengaged",
             remedy: remedy("disengaged"),

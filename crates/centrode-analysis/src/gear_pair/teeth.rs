@@ -79,7 +79,12 @@ pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut 
             remedy: remedy_of_teeth(rule, pair.teeth().addendum),
             severity,
             message: say(&who, worst),
-            measured: Some(worst),
+            // Of a thin tip the worst is what is missing.
+            measured: Some(if rule == "thin-tip" {
+                least - worst
+            } else {
+                worst
+            }),
             required,
             unit,
             place: Place {

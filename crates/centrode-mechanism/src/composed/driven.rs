@@ -162,7 +162,11 @@ impl GearDrive {
         let composed = Composed::resolve(design).map_err(Box::new)?;
         let (output, turns, sections) = wanted::wanted(&composed)?;
         let left_alone = wanted::left_alone(&composed);
-        let timing = Timing::new(output, &sections)?;
+        let timing = Timing::new(output, &sections);
+        let timing = match wanted::is_of_angle(&composed) {
+            true => timing.map_err(TimingError::in_degrees)?,
+            false => timing?,
+        };
         let [low, high] = timing.places();
         let enough = NEAR_ENOUGH * (high - low);
         let of_steps = |steps| {

@@ -245,7 +245,23 @@ fn not_closing((name, found): &(String, NotClosing)) -> String {
     let ranges = found.open.iter();
     let ranges = ranges.map(|&(low, high)| format!("{} to {}", degrees(low), degrees(high)));
     let ranges = listed(&ranges.collect::<Vec<_>>());
-    let points = found.change_points.iter().map(|&input| degrees(input));
+    let is_of_guides = found.missing.is_infinite();
+    let mut points = found.change_points.clone();
+    if is_of_guides {
+        // Guides are parallel where they change sides: at the ends of the ranges, apart from those of the cycle.
+        let mut ends: Vec<f64> = found
+            .open
+            .iter()
+            .flat_map(|&(low, high)| [low, high])
+            .collect();
+        if ends.first() == Some(&0.0) {
+            ends.remove(0);
+            ends.pop();
+        }
+        points.extend(ends);
+        points.sort_by(f64::total_cmp);
+    }
+    let points = points.into_iter().map(degrees);
     let points = listed(&points.collect::<Vec<_>>());
     let flat = "its links lie in one line and both its branches meet: change a length or a pin";
     let at = degrees(found.input);
@@ -259,7 +275,7 @@ fn not_closing((name, found): &(String, NotClosing)) -> String {
         1 => format!("a change point at {points} deg, where {flat}"),
         _ => format!("change points at {points} deg, where {flat}"),
     };
-    if found.missing.is_infinite() && !change.is_empty() {
+    if is_of_guides && !points.is_empty() {
         return format!("the guides of dyad {name:?} are parallel at {points} deg");
     }
     match (

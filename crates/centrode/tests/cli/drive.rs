@@ -66,6 +66,54 @@ fn the_machine_written_meets_the_goals_that_it_missed_before() {
 }
 
 #[test]
+fn angles_of_an_output_are_reported_in_the_degrees_of_the_file() {
+    let rocker = |keys: &str| {
+        let dyad = SLIDER.split("[dyads.ram]").next().expect("the crank");
+        format!(
+            "{}\n[dyads.loop]\ntype = \"RRR\"\nfrom = \"crank.A\"\nto = \"frame.D\"\nlengths = [90, 60]\nside = \"left\"\n\
+             bodies = [\"coupler\", \"rocker\"]\njoint = \"C\"\n[goals.even]\nfigure = \"rocker.angle\"\n{keys}\n",
+            dyad.replace("O = [0, 0]", "O = [0, 0], D = [100, 0]")
+        )
+    };
+    // By the cosine rule the rocker is 100 from O to D, and 90 + 30 and 90 - 30 from O to C at its ends.
+    let end = |bar: f64| {
+        let cosine: f64 = (100.0 * 100.0 + 60.0 * 60.0 - bar * bar) / (2.0 * 100.0 * 60.0);
+        180.0 - cosine.acos().to_degrees()
+    };
+    let ends = [end(120.0), end(60.0)].map(|end| format!("{end:.6}"));
+    for course in [
+        "20, 140", "90, 150", "10, 20", "-30, 100", "86, 120", "120, 86",
+    ] {
+        let keys = format!(
+            "over = \"departure\"\nwithin_deg = [30, 150]\ncourse = [{course}]\nat_most = 0.1"
+        );
+        let run = fed(
+            &["drive", "-", "--center-distance", "130"],
+            rocker(&keys).as_bytes(),
+        );
+        let message = text(&run.stderr);
+        let from = format!("evenly from {},", course.replace(", ", " to "));
+        assert!(message.contains(&from), "{course}: {message}");
+        for end in &ends {
+            assert!(message.contains(&end[..7]), "{end}: {message}");
+        }
+    }
+    for (band, words) in [
+        ("40", "a rest within 40 of"),
+        ("35", "a rest within 35 of"),
+        ("1e-9", "a rest within 1e-9 of"),
+    ] {
+        let keys = format!("over = \"span\"\nwithin_deg = [30, 90]\nat_most = {band}");
+        let run = fed(
+            &["drive", "-", "--center-distance", "130"],
+            rocker(&keys).as_bytes(),
+        );
+        let message = text(&run.stderr);
+        assert!(message.contains(words), "{band}: {message}");
+    }
+}
+
+#[test]
 fn what_cannot_be_driven_is_refused_with_the_reason_and_nothing_is_written() {
     let folder = tempfile::tempdir().expect("a folder");
     let shown = folder.path().join("press.toml").display().to_string();

@@ -104,6 +104,17 @@ fn what_cannot_work_is_an_error_and_what_nobody_can_measure_is_a_note() {
         (steep("0.09"), 0, "warning pressure-angle"),
         (round(3), 1, "error contact-lost"),
         (round(4), 1, "error contact-lost"),
+        (round(4) + "addendum = \"fitted\"\n", 1, "error disengaged"),
+        (
+            round(24) + "[tool]\naddendum_coefficient = 0.01\n",
+            1,
+            "error disengaged",
+        ),
+        (
+            round(24).replace("0.05", "1.5") + "[tool]\naddendum_coefficient = 0.03\n",
+            1,
+            "error disengaged",
+        ),
         (oval("0.15", "0.0"), 0, "note contact-lost"),
         (cam(60.0), 1, "error cam-undercut"),
         (cam(80.0), 1, "error cam-undercut"),

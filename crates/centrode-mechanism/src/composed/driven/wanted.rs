@@ -62,6 +62,12 @@ fn is_angle(figure: &ComposedFigure) -> bool {
     matches!(figure, ComposedFigure::Angle(_) | ComposedFigure::Swing(_))
 }
 
+/// Whether the goals of the output are of an angle.
+pub(super) fn is_of_angle(composed: &Composed) -> bool {
+    let mut goals = composed.design().goals.values().zip(composed.figures());
+    goals.any(|(goal, figure)| is_angle(figure) && section(goal, figure).is_some())
+}
+
 /// Section of the input over which a goal wants something of the output.
 fn section(goal: &ComposedGoalSpec, figure: &ComposedFigure) -> Option<([f64; 2], Wanted)> {
     let [from, to] = goal.within[..] else {

@@ -164,7 +164,7 @@ pub enum TimingError {
     },
     /// Too far to go between two sections.
     #[error(
-        "between {from} and {to} the crank would have to turn by {turn} deg over {room} deg of the input, and no smooth law does: leave more room"
+        "between {from} and {to} the crank would have to turn by {turn:.4} deg over {room:.4} deg of the input, and no smooth law does: leave more room"
     )]
     Abrupt {
         /// Section before.
@@ -176,6 +176,34 @@ pub enum TimingError {
         /// Room, degrees.
         room: f64,
     },
+}
+
+impl TimingError {
+    /// The error of an output that is an angle, in the degrees of a design file instead of rad.
+    pub(crate) fn in_degrees(mut self) -> Self {
+        let places = match &mut self {
+            Self::Advances { advance } => vec![advance],
+            Self::Beyond {
+                from,
+                to,
+                least,
+                greatest,
+                ..
+            } => vec![from, to, least, greatest],
+            Self::Stands { place, .. } => vec![place],
+            Self::Band {
+                band,
+                stroke,
+                least,
+                ..
+            } => vec![band, stroke, least],
+            _ => Vec::new(),
+        };
+        for place in places {
+            *place = degrees::rounded(*place);
+        }
+        self
+    }
 }
 
 impl Timing {
