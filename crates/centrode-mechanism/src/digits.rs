@@ -26,7 +26,9 @@ pub(crate) fn shortened(text: &str) -> String {
         let (number, after) = number.split_at(length(number));
         let in_word = before.ends_with(is_word) || after.starts_with(is_word);
         let digits = number.bytes().take_while(|c| *c != b'e').count();
-        let value = number.parse().ok().filter(|_| digits > 10 && !in_word);
+        // A count is written out, unless nobody could read it.
+        let is_long = digits > if number.contains('.') { 10 } else { 20 };
+        let value = number.parse().ok().filter(|_| is_long && !in_word);
         short.push_str(before);
         short.push_str(&value.map_or_else(|| number.to_owned(), told));
         rest = after;
@@ -82,7 +84,8 @@ mod tests {
             ),
             ("5.299999493450935e0 mm", "5.299999493 mm"),
             ("2.220446049250313e-16", "2.220446049e-16"),
-            ("123456789012345", "1.23456789e14"),
+            ("123456789012345", "123456789012345"),
+            ("123456789012345678901234567890", "1.23456789e29"),
             ("", ""),
             ("no number", "no number"),
         ] {

@@ -443,7 +443,7 @@ fn guides_that_become_parallel_are_named_as_such() {
         (
             "ratio = 1",
             blocks,
-            "closes only for inputs of 0 to 160 and 340 to 360 deg: at ",
+            "the guides of dyad \"slides\" are parallel at 160 and 340 deg",
         ),
         (
             "expression = \"0.5*(1 - cos(phi))\", start_deg = -20",
