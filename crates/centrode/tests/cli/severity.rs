@@ -105,13 +105,10 @@ fn what_cannot_work_is_an_error_and_what_nobody_can_measure_is_a_note() {
         (round(3), 1, "error contact-lost"),
         (round(4), 1, "error contact-lost"),
         (round(4) + "addendum = \"fitted\"\n", 1, "error disengaged"),
+        // Teeth that all but fail to reach each other, with much backlash.
         (
-            round(24) + "[tool]\naddendum_coefficient = 0.01\n",
-            1,
-            "error disengaged",
-        ),
-        (
-            round(24).replace("0.05", "1.5") + "[tool]\naddendum_coefficient = 0.03\n",
+            round(24).replace("0.05", "1.5")
+                + "[tool]\nkind = \"rack\"\naddendum_coefficient = 0.03\ndedendum_coefficient = 0.28\ntip_radius_coefficient = 0.2\n",
             1,
             "error disengaged",
         ),
