@@ -189,7 +189,7 @@ pub(super) fn findings<'a>(
         .chain(left)
 }
 
-/// Severity of an overlap by a depth, mm: at most a warning where a part is a proposal, which another layer mends.
+/// Severity of an overlap by a depth, mm: at most a warning where a part is a proposal, which another layer fixes.
 fn severity(pair: &[&PartSurfaces<'_>; 2], depth: f64) -> Severity {
     let severity = Severity::of_overlap(depth);
     match pair.iter().all(|part| part.is_decided) {

@@ -51,7 +51,7 @@ impl Linkage {
     /// Inputs in `[0, period]` at which the linkage closes, as intervals, ascending; the whole cycle for a crank that turns.
     ///
     /// An end that is a limit of the crank is exact to the float limit. Gaps and islands narrower than
-    /// half a degree are found where the room of a dyad has its least or greatest value there. A change point, where both
+    /// half a degree are found where the room of a dyad has its minimum or maximum there. A change point, where both
     /// branches of a dyad meet, is no gap: see [`not_closing`](Self::not_closing).
     #[must_use]
     pub fn closing_inputs(&self) -> Vec<(f64, f64)> {

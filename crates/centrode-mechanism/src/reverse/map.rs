@@ -55,7 +55,7 @@ impl PossibleAxis {
         self.ratios[1].ln().max(-self.ratios[0].ln())
     }
 
-    /// Least radius of curvature of the four pitch curves of the split by powers where they are convex, mm; `bend` is the angle
+    /// Minimum radius of curvature of the four pitch curves of the split by powers where they are convex, mm; `bend` is the angle
     /// from the carrier's first leg to its second, rad.
     #[must_use]
     pub fn least_radius(&self, bend: f64) -> f64 {

@@ -41,7 +41,7 @@ impl TwoBar {
         [greatest(1.0), greatest(-1.0)]
     }
 
-    /// Least radius of curvature of the four pitch curves of the split by powers where they are convex, mm, of the law itself as
+    /// Minimum radius of curvature of the four pitch curves of the split by powers where they are convex, mm, of the law itself as
     /// for [`sharpness`](Self::sharpness); `bend` is the angle from the carrier's first leg to its second, rad.
     #[must_use]
     pub fn least_radius(&self, bend: f64) -> f64 {
@@ -80,7 +80,7 @@ impl TwoBar {
         jets.map(|s| self.speed_series(s.at, &s.jet)).collect()
     }
 
-    /// Greatest value of a measure of the four curvatures, times the centre distance.
+    /// Maximum of a measure of the four curvatures, times the centre distance.
     fn greatest_bend(&self, of: impl Fn([f64; 4]) -> f64) -> Extreme {
         let looks = PathSamples::new(self.path(), usize::MAX);
         let speeds = self.speeds_of(&looks);

@@ -350,7 +350,7 @@ impl GearPair {
         })
     }
 
-    /// Equal parts of a turn by which a gear's teeth repeat as far as the form of the pitch curve tells: the tooth count for round
+    /// Equal parts of a turn by which a gear's teeth repeat as far as the form of the pitch curve shows: the tooth count for round
     /// gears, 1 for a gear without such a symmetry.
     #[must_use]
     pub fn repeats(&self, member: Member) -> u32 {

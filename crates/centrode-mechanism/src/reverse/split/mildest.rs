@@ -19,7 +19,7 @@ const SHARPNESS: [f64; 8] = [8.0, 16.0, 32.0, 64.0, 128.0, 256.0, 512.0, 1024.0]
 const STEPS: u32 = 60;
 
 /// Splits by `f' = c (G')^(1/2) e^s`, g = f o G^-1, with s a sum of eight harmonics of the carrier's direction such that the
-/// greatest curvature of the four pitch curves is least, averaged over a step of a table. Where the gears written by powers are
+/// maximum curvature of the four pitch curves is smallest, averaged over a step of a table. Where the gears written by powers are
 /// milder after all, s is zero.
 ///
 /// With w the logarithm of a stage's ratio by its driver's angle, `p = 1/(1 + e^-w)` and `q = 1 - p`, the pitch curves of a stage
