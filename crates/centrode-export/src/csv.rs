@@ -2,6 +2,9 @@
 
 use thiserror::Error;
 
+/// Characters with which a spreadsheet begins a formula, and those that it skips before one.
+const FORMULA: [char; 9] = ['=', '+', '-', '@', '\t', '＝', '＋', '－', '＠'];
+
 /// One column of a table.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Column {
@@ -16,7 +19,7 @@ pub struct Column {
 pub enum Values {
     /// Numbers, written with the fewest digits that read back to the same number.
     Numbers(Vec<f64>),
-    /// Words without commas, quotes or line ends.
+    /// Words without commas, double quotes or line ends. A word that a spreadsheet would run is written with an apostrophe before it.
     Words(Vec<String>),
 }
 
@@ -81,6 +84,9 @@ impl Column {
 
 /// A comma-separated table: one heading row, a decimal point, lines ended by `\n`.
 ///
+/// No word runs as a formula in a spreadsheet: one that begins with `=`, `+`, `-`, `@` or a tab and is no number gets an
+/// apostrophe before it. So does the part after a semicolon or a tab, which some spreadsheets take for the next cell.
+///
 /// # Errors
 /// [`TableError`] where columns differ in length, a number is not finite or a word holds a separator.
 pub fn write(columns: &[Column]) -> Result<Vec<u8>, TableError> {
@@ -100,12 +106,29 @@ pub fn write(columns: &[Column]) -> Result<Vec<u8>, TableError> {
             match &column.values {
                 // Adding zero turns -0 into 0.
                 Values::Numbers(numbers) => text.push_str(&format!("{:?}", numbers[row] + 0.0)),
-                Values::Words(words) => text.push_str(&words[row]),
+                Values::Words(words) => text.push_str(&inert(&words[row])),
             }
         }
         text.push('\n');
     }
     Ok(text.into_bytes())
+}
+
+/// A word as a spreadsheet reads it without running it.
+fn inert(word: &str) -> String {
+    if word.parse::<f64>().is_ok_and(f64::is_finite) {
+        return word.to_owned();
+    }
+    let mut cell = String::with_capacity(word.len());
+    let mut is_start = true;
+    for c in word.chars() {
+        if is_start && FORMULA.contains(&c) {
+            cell.push('\'');
+        }
+        cell.push(c);
+        is_start = matches!(c, ';' | '\t');
+    }
+    cell
 }
 
 fn check(column: &Column, rows: usize) -> Result<(), TableError> {
@@ -189,5 +212,37 @@ mod tests {
         ));
         let comma = Column::words("role", ["a,b".to_owned()]);
         assert!(matches!(write(&[comma]), Err(TableError::Separator { .. })));
+    }
+
+    #[test]
+    fn no_word_runs_in_a_spreadsheet() {
+        for (word, cell) in [
+            ("=cmd|' /C calc'!A0", "'=cmd|' /C calc'!A0"),
+            ("+1+1", "'+1+1"),
+            ("-2+3", "'-2+3"),
+            ("@SUM(A1:A9)", "'@SUM(A1:A9)"),
+            ("\t=1+1", "'\t'=1+1"),
+            ("＝1+1", "'＝1+1"),
+            ("＠x", "'＠x"),
+            ("steel;=1+1", "steel;'=1+1"),
+            ("steel\t-1+1;+2+2", "steel\t'-1+1;'+2+2"),
+            ("=", "'="),
+            ("--", "'--"),
+            ("-inf", "'-inf"),
+            ("-1e5x", "'-1e5x"),
+            // Numbers and words that begin otherwise stay as they are.
+            ("-12.5", "-12.5"),
+            ("+3", "+3"),
+            ("-1e-5", "-1e-5"),
+            ("16MnCr5", "16MnCr5"),
+            ("1.7225 = 42CrMo4", "1.7225 = 42CrMo4"),
+            ("'=1", "'=1"),
+            ("bore 8; +0.02", "bore 8; +0.02"),
+            ("", ""),
+        ] {
+            let table = write(&[Column::words("material", [word.to_owned()])]).expect("a table");
+            let text = String::from_utf8(table).expect("text");
+            assert_eq!(text, format!("material\n{cell}\n"));
+        }
     }
 }

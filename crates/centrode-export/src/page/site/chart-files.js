@@ -14,8 +14,11 @@ const MEDIA = { CSV: "text/csv", SVG: "image/svg+xml" };
 /** A limit in words. */
 export const bound = ({ value, least }) => `${least ? "at least" : "at most"} ${Number(value.toPrecision(4))}`;
 
+/** Text that no spreadsheet runs as a formula. */
+const inert = (text) => (/^[=+\-@\t＝＋－＠]/.test(text) ? `'${text}` : text);
+
 /** A cell as CSV has it. */
-const cell = (text) => (/[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
+const cell = (text) => (/[",\n]/.test(text) ? `"${inert(text).replaceAll('"', '""')}"` : inert(text));
 
 /** A number with all digits that mean something. */
 const digits = (value) => (value === null || value === undefined ? "" : String(Number(value.toPrecision(12))));
