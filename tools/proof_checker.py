@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks a proof of `centrode prove`: that two gears hold each other at every angle of the driver, and never overlap.
+"""Checks a proof of `centrode prove`: that its two contours hold each other at every driver angle, and never overlap.
 
     proof_checker.py pair.proof [pair.toml]
 
@@ -23,15 +23,19 @@ Its seat `on` is the least psi of its backlash, `back` the greatest. With w the 
 
 Both seats go on from stretch to stretch and at the end of the cycle as at its start, within 2 w.
 
-So each seat lies within w of its series in the file; the transmission error, seat less law, in an interval 2 w wide.
+So each seat lies within w of its series in the file. The transmission error is the seat less the law in the file. At
+each angle it lies in an interval 2 w wide.
 Where there is no backlash, nothing lies between on + w and back - w; then 1 says that the flanks of either side are
 apart when the driven gear is turned by w off its seat on that side: they overlap by no more than w times the radius.
 
 Where contours and law come again in equal sectors of the cycle, a sector is checked: the contours of the others lie
 within `slack` of those of the first, turned, and every bound keeps so much more.
 
-Not shown: that the contours are those of the design, that neither crosses itself, and that the law's pieces are the
-design's law; the file says how near it is by measurement. Joints closed but for rounding count as closed.
+Every key of the file is checked, but for `pair`, a label, `law.breaks`, which nothing uses, and `design`, which is
+compared with the design file if one is given. A file with another key is rejected.
+
+Not shown: that the contours are those of the design, that neither crosses itself, and that the law in the file is the
+design's law. Joints closed but for rounding count as closed.
 """
 
 import json
@@ -56,6 +60,11 @@ from proof.box import Box, settle
 from proof.contour import Contour
 from proof.law import Law
 
+#: Keys of a file. A file with another key is rejected, because nothing checks it.
+KEYS = {
+    *("format", "version", "design", "pair", "center_distance", "cycle", "law", "half_width"),
+    *("driver", "driven", "sectors", "stretches"),
+}
 #: Stretches checked in one go.
 RUN = 16
 #: Half length of the shortest piece over which a polynomial is looked at, of a stretch from -1 to 1.
@@ -66,8 +75,10 @@ class Pair:
     """What the file says of the pair, in balls."""
 
     def __init__(self, proof):
-        if proof["format"] != "centrode-proof" or proof["version"] != 2:
-            raise RejectedError("the file is no proof of version 2")
+        if proof["format"] != "centrode-proof" or proof["version"] != 3:
+            raise RejectedError("the file is no proof of version 3: write it again with centrode prove")
+        if unknown := sorted(set(proof) - KEYS):
+            raise RejectedError(f"the file has the key {unknown[0]!r}, which nothing checks")
         self.width, self.distance = arb(proof["half_width"]), arb(proof["center_distance"])
         if not (0 < self.width < 1e-3 and self.distance > 0):
             raise RejectedError("the half width or the centre distance means nothing")
@@ -217,8 +228,8 @@ def run(path, design, workers, tells):
     ranges = [(min(r[i][0] for _, r in found), max(r[i][1] for _, r in found)) for i in range(3)]
     turns, width = round(PAIR.cycle / tau), 2 * proof["half_width"]
     cycle = "one turn" if turns == 1 else f"{turns} turns"
-    print(f"proved: the gears of {proof['pair']!r} hold each other at every angle of {cycle} of the driver,")
-    print("and keep apart within their backlash")
+    print(f"proved: the contours in the file hold each other at every angle of {cycle} of the driver,")
+    print("and keep apart within their backlash; errors are relative to the law in the file")
     for name, (least, greatest) in zip(("error pushed on", "error pushed back", "backlash"), ranges, strict=True):
         print(f"{name}: {least:.4e} to {greatest:.4e} rad")
     print(f"each error at every angle within {width:.1e} rad; {count} stretches, {sum(n for n, _ in found)} boxes")

@@ -161,6 +161,56 @@ def test_a_part_that_all_but_stands_still_has_no_strip():
     assert contour.part(1, -1.0, 1.0).along is not None
 
 
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [
+        ("module", 2.0),
+        ("law_rounding", 1e-15),
+        ("law_rounding", 0),
+        ("tooth_count", 16),
+        ("Driver", []),
+        ("driver ", []),
+        ("", 1),
+        ("comment", "checked by hand"),
+        ("certified", True),
+        ("format2", None),
+    ],
+)
+def test_a_key_that_nothing_checks_is_rejected(key, value, proof, tmp_path):
+    path = tmp_path / "more.proof"
+    path.write_text(json.dumps({**proof, key: value}))
+    assert checked(path) == (1, f"rejected: the file has the key {key!r}, which nothing checks\n")
+
+
+def test_a_file_holds_what_the_checker_knows_and_no_more(proof):
+    assert set(proof) == proof_checker.KEYS
+
+
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [
+        ("format", "proof"),
+        ("version", 2),
+        ("center_distance", 32.001),
+        ("center_distance", 0),
+        ("cycle", 6.2831),
+        ("half_width", 1e-2),
+        ("half_width", 0),
+        ("sectors", 2),
+        ("stretches", []),
+        ("driver", []),
+        ("driven", []),
+        ("law", {}),
+    ],
+)
+def test_a_wrong_value_of_a_key_is_rejected(key, value, proof, tmp_path):
+    path = tmp_path / "other.proof"
+    assert proof[key] != value
+    path.write_text(json.dumps({**proof, key: value}))
+    status, answer = checked(path)
+    assert (status, answer[:10]) == (1, "rejected: ")
+
+
 def test_a_proof_is_of_one_design(file, design):
     other = design.with_name("other.toml")
     other.write_text(DESIGN.format(backlash=0.05))
@@ -205,7 +255,8 @@ def test_the_proof_of_a_pair_of_a_machine_is_accepted(run, tmp_path):
     run("prove", design, "--pair", "advance", "-o", file)
     status, answer = checked(file, design)
     assert status == 0, answer
-    assert answer.startswith("proved: the gears of 'advance' hold each other")
+    assert answer.startswith("proved: the contours in the file hold each other at every angle of ")
+    assert "errors are relative to the law in the file\n" in answer
 
 
 def test_a_pair_that_is_not_there_is_told(run, tmp_path):

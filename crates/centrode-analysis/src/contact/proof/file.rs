@@ -2,9 +2,8 @@
 
 use centrode_geometry::{Point, Segment};
 use centrode_mechanism::design::DesignError;
-use centrode_mechanism::gear::{Gear, GearPair, Member};
+use centrode_mechanism::gear::{Gear, Member};
 use centrode_mechanism::machine::Piecewise;
-use centrode_mechanism::transmission::Transmission;
 use schemars::JsonSchema;
 use serde::Serialize;
 
@@ -23,14 +22,10 @@ pub struct Proof {
     pub pair: String,
     /// Centre distance, mm.
     pub center_distance: f64,
-    /// Module, mm.
-    pub module: f64,
     /// Driver angle of a whole cycle, rad.
     pub cycle: f64,
-    /// Driven angle by driver angle in pieces.
+    /// Driven angle by driver angle in pieces: the law to which every error in this file is relative.
     pub law: Piecewise,
-    /// Greatest distance of these pieces from the law, rad, as measured between the places where they agree.
-    pub law_rounding: f64,
     /// Half of the width of the interval in which every seat lies, rad.
     pub half_width: f64,
     /// The driver's contour, counter-clockwise: of each piece the coefficients in u from -1 to 1, constant first, [x, y] in mm.
@@ -166,18 +161,4 @@ pub(super) fn contour(gear: &Gear, member: Member) -> Result<Vec<Vec<[f64; 2]>>,
         Segment::Arc(_) => Err(ProofError::Arc { member, piece }),
     };
     segments.map(coefficients).collect()
-}
-
-/// Greatest distance of the pieces from the law where they are farthest from agreeing: between their nodes.
-pub(super) fn rounding(law: &Piecewise, pair: &GearPair) -> f64 {
-    let off = |phi: f64| (law.at(phi).position - pair.driven_angle(phi)).abs();
-    let between = |ends: &[f64]| {
-        let (from, to) = (ends[0], ends[1]);
-        (0..=16).map(move |i| from + (to - from) * f64::from(i) / 16.0)
-    };
-    law.ends()
-        .windows(2)
-        .flat_map(between)
-        .map(off)
-        .fold(0.0, f64::max)
 }

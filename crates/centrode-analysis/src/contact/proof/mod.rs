@@ -22,8 +22,8 @@ use centrode_mechanism::machine::Piecewise;
 use centrode_mechanism::transmission::Transmission;
 
 use super::{meshing::Meshing, touch::Pose};
+use file::contour;
 pub use file::{Proof, ProofError, ProofMeeting, ProofStretch};
-use file::{contour, rounding};
 pub(super) use meeting::{Feature, Meeting};
 use track::{Sample, Side, Track};
 
@@ -75,13 +75,11 @@ pub fn prove(pair: &GearPair) -> Result<Proof, ProofError> {
     let stretches = prover.out;
     Ok(Proof {
         format: "centrode-proof".to_owned(),
-        version: 2,
+        version: 3,
         design: pair.design().to_toml()?,
         pair: pair.name().to_owned(),
         center_distance: pair.center_distance(),
-        module: pair.module(),
         cycle: pair.cycle(),
-        law_rounding: rounding(&law, pair),
         half_width: HALF_WIDTH,
         driver,
         driven,
