@@ -1,4 +1,4 @@
-use centrode_geometry::{LoopError, Segment, Unresolved};
+use centrode_geometry::{LoopError, Point, Segment, Tolerance, Unresolved};
 use centrode_mechanism::design::{Design, DesignSpec};
 use centrode_mechanism::gear::design::{Addendum, GearPairDesign};
 use centrode_mechanism::gear::pitch::{Bspline, PitchSpec};
@@ -196,6 +196,87 @@ proptest! {
                 ),
                 "{error}"
             );
+        }
+    }
+}
+
+/// Distance of a point from a closed polygon.
+fn off(polygon: &[Point], p: Point) -> f64 {
+    let sides = polygon.iter().zip(polygon.iter().cycle().skip(1));
+    let from = sides.map(|(a, b)| {
+        let side = b - a;
+        let share = ((p - a).dot(&side) / side.norm_squared()).clamp(0.0, 1.0);
+        (a + side * share - p).norm()
+    });
+    from.fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn a_fitted_tip_stays_above_the_root_of_its_mate() {
+    // Pitch curve, tool, dedendum and profile shift, both in modules.
+    let circle = |teeth: u32| format!("kind = \"circle\"\ntooth_count = {teeth}");
+    let ellipse = "kind = \"ellipse\"\neccentricity = 0.3\ntooth_count = 29".to_owned();
+    let lobed = "kind = \"lobed-ellipse\"\nlobes = 2\neccentricity = 0.3\ntooth_count = 30";
+    let limacon =
+        "kind = \"limacon\"\nmean_radius = 16\namplitude = 0.5\nlobes = 1\ntooth_count = 16";
+    let rack = |addendum: f64| format!("kind = \"rack\"\naddendum_coefficient = {addendum}");
+    let blunt = "dedendum_coefficient = 0.4\ntip_radius_coefficient = 0.1";
+    let shaper = "kind = \"shaper\"\ntooth_count = 20\naddendum_coefficient = 3";
+    let cases = [
+        (circle(29), rack(3.0), 1.25, 0.0),
+        (circle(29), rack(1.3), 1.25, 0.0),
+        (
+            circle(29),
+            rack(2.0) + "\npressure_angle_deg = 14.5",
+            1.25,
+            0.0,
+        ),
+        (circle(12), rack(3.0), 1.25, 0.0),
+        (
+            circle(80),
+            rack(2.2) + "\npressure_angle_deg = 25\ntip_radius_coefficient = 0.1",
+            1.25,
+            0.0,
+        ),
+        (
+            circle(29),
+            rack(3.0) + "\nprofile_shift_coefficient = 0.5",
+            1.25,
+            0.5,
+        ),
+        (
+            circle(29),
+            rack(3.0) + "\nprofile_shift_coefficient = -0.3",
+            1.25,
+            0.3,
+        ),
+        (circle(29), rack(1.0) + "\n" + blunt, 0.4, 0.0),
+        (circle(29), shaper.to_owned(), 1.25, 0.0),
+        (ellipse.clone(), rack(2.8), 1.25, 0.0),
+        (ellipse.clone(), rack(3.0), 1.25, 0.0),
+        (ellipse, rack(2.0) + "\n" + blunt, 0.4, 0.0),
+        (lobed.to_owned(), rack(2.4), 1.25, 0.0),
+        (limacon.to_owned(), rack(2.6), 1.25, 0.0),
+    ];
+    for (pitch, tool, dedendum, shift) in cases {
+        let text = format!(
+            "family = \"gear-pair\"\n[pitch]\nmodule = 2\n{pitch}\n[tool]\n{tool}\n[teeth]\naddendum = \"fitted\"\n"
+        );
+        let design = GearPairDesign::from_toml(&text).expect("a design");
+        let pair = GearPair::resolve(&design).unwrap_or_else(|e| panic!("{e}\n{text}"));
+        let rolling = pair.rolling();
+        for gear in [pair.driver(), pair.driven()] {
+            let length = rolling.pitch_length(gear.member());
+            let at = |i: u32| rolling.parameter(length * f64::from(i) / 1000.0);
+            let frame = |i: u32| rolling.frame(gear.member(), at(i)).point;
+            let curve: Vec<Point> = (0..1000).map(frame).collect();
+            let outline = gear
+                .outline()
+                .flatten(Tolerance::new(2e-2).expect("positive"));
+            let farthest = outline.iter().map(|&p| off(&curve, p)).fold(0.0, f64::max);
+            // Chords of the pitch curve take a little.
+            let most = 2.0 * (dedendum + shift) + 1e-3;
+            assert!(farthest <= most, "{farthest} of {most} mm\n{text}");
         }
     }
 }

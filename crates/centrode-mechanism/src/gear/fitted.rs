@@ -239,7 +239,7 @@ impl Fitting<'_> {
     /// Where that depth would cut into the flank that the lower side works on, the root has a step; the tip goes to and fro above it,
     /// and is clear of it wherever it stands if its higher side would be clear of the lower root.
     fn level(&self, tips: &[[Tip; 2]], reaches: &mut [Reaches], space: f64) -> bool {
-        let clearance = self.tool.dedendum - self.tool.addendum;
+        let clearance = self.tool.clearance();
         let mut any = false;
         for (tip, reach) in tips.iter().zip(reaches) {
             for (low, high) in [(0, 1), (1, 0)] {

@@ -47,7 +47,7 @@ impl Fitting<'_> {
         length: f64,
         space: f64,
     ) {
-        let clearance = self.tool.dedendum - self.tool.addendum;
+        let clearance = self.tool.clearance();
         let higher = |a: Tip, b: Tip| (a.0.max(b.0), a.1.max(b.1));
         let count = teeth.len();
         for k in 0..count {

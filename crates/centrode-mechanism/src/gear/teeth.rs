@@ -150,6 +150,11 @@ pub(crate) fn layout(
         Member::Driver => counts.driver,
         Member::Driven => counts.driven,
     };
+    // A tip that is fitted stays above the root of its mate.
+    let addendum = match parameters.addendum {
+        Addendum::Full => tool.addendum,
+        Addendum::Fitted => tool.addendum.min(tool.dedendum),
+    };
     let plan = |member: Member| -> Result<Vec<ToothPlan>, TeethError> {
         let depth = tool.dedendum - shift(member);
         let greatest = tool.greatest_tip_radius(depth, space(member));
@@ -175,7 +180,7 @@ pub(crate) fn layout(
         let corner = tool.corner(depth, tool.tip_radius);
         let flank = |k: u32, side: Side| FlankPlan {
             crossing: crossing(member, k, side),
-            top: Top::Height(tool.addendum + shift(member)),
+            top: Top::Height(addendum + shift(member)),
             corner,
             active_depth: corner.end,
         };

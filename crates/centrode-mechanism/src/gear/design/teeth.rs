@@ -65,7 +65,7 @@ pub enum Addendum {
     /// Full height, as the tool's data asks.
     #[default]
     Full,
-    /// Trimmed tooth by tooth to what works.
+    /// Trimmed tooth by tooth to what works, at most to the dedendum.
     Fitted,
 }
 
