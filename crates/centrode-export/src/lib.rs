@@ -30,6 +30,7 @@ pub mod three_arm;
 pub mod threemf;
 mod turned;
 pub mod urdf;
+mod xml;
 
 pub use bundle::{Bundle, BundleError, write_file};
 pub use error::ExportError;

@@ -3,6 +3,7 @@
 use crate::{
     drawing::{Anchor, Color, Drawing, EntityShape, LineType, Text},
     sheet::{Sheet, lettering},
+    xml::escaped,
 };
 use centrode_geometry::{Arc, Outline, Point, Segment, Tolerance, Vector};
 use std::{collections::BTreeSet, fmt::Write};
@@ -255,13 +256,6 @@ fn paint(color: Color) -> &'static str {
         Color::Magenta => "#ad1457",
         Color::Gray => "#8a8a8a",
     }
-}
-
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-        .replace('"', "&quot;")
 }
 
 #[cfg(test)]

@@ -10,6 +10,7 @@ use std::{
 use thiserror::Error;
 
 use crate::sheet::number;
+use crate::xml::escaped;
 use zip::{CompressionMethod, DateTime, ZipWriter, write::SimpleFileOptions};
 
 /// Reason why a package could not be made.
@@ -204,22 +205,6 @@ fn single_precision(mesh: &Mesh) -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
         .filter(|[a, b, c]| a != b && b != c && c != a)
         .collect();
     (vertices, faces)
-}
-
-/// Text with characters that XML reserves replaced, and those it cannot hold left out.
-fn escaped(text: &str) -> String {
-    let mut out = String::with_capacity(text.len());
-    for c in text.chars() {
-        match c {
-            '&' => out.push_str("&amp;"),
-            '<' => out.push_str("&lt;"),
-            '>' => out.push_str("&gt;"),
-            '"' => out.push_str("&quot;"),
-            c if c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}') => out.push(' '),
-            c => out.push(c),
-        }
-    }
-    out
 }
 
 #[cfg(test)]

@@ -1,6 +1,7 @@
 //! URDF robot descriptions.
 
 use crate::model::{JointKind, Model, ModelLink};
+use crate::xml::comment;
 use thiserror::Error;
 use urdf_rs::{
     Axis, Collision, Geometry, Inertia, Inertial, Joint, JointLimit, JointType, LinkName, Mass,
@@ -77,8 +78,7 @@ fn with_note(xml: &str, note: &str) -> String {
     let note = if note.is_empty() {
         String::new()
     } else {
-        // Two hyphens would end the comment.
-        format!("\n  <!-- {} -->", note.replace("--", "- -"))
+        format!("\n  <!-- {} -->", comment(note))
     };
     format!("{}{note}{FOLDERS}{}", &xml[..end], &xml[end..])
 }

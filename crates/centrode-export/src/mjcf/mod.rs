@@ -1,6 +1,7 @@
 //! MJCF, the model files of `MuJoCo`.
 
 use crate::model::{Convex, JointKind, Model, ModelJoint, ModelLink};
+use crate::xml::{comment, escaped};
 use centrode_geometry::MassProperties;
 use centrode_mechanism::machine::loose_link;
 use nalgebra::UnitQuaternion;
@@ -93,9 +94,11 @@ pub fn write_closed(model: &Model, closures: &[Closure]) -> Result<Vec<u8>, Mjcf
     }
     let mut xml = format!("<mujoco model={}>\n", quoted(&model.name));
     if !model.note.is_empty() {
-        // Two hyphens would end the comment.
-        let note = model.note.replace("--", "- -");
-        line(&mut xml, 1, format_args!("<!-- {note} -->"));
+        line(
+            &mut xml,
+            1,
+            format_args!("<!-- {} -->", comment(&model.note)),
+        );
     }
     xml.push_str(OPTIONS);
     xml.push_str("  <asset>\n");
@@ -329,11 +332,7 @@ fn numbers(values: impl IntoIterator<Item = f64>) -> String {
 
 /// Words as the value of an attribute.
 fn quoted(words: &str) -> String {
-    let words = words
-        .replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('"', "&quot;");
-    format!("\"{words}\"")
+    format!("\"{}\"", escaped(words))
 }
 
 #[cfg(test)]

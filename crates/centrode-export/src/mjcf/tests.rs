@@ -60,7 +60,7 @@ fn sample() -> Model {
 fn lengths_are_metres_and_text_is_escaped() {
     let text = String::from_utf8(write(&sample()).expect("written")).expect("text");
     for part in [
-        r#"<mujoco model="&quot;a&quot; &amp; &lt;b>">"#,
+        r#"<mujoco model="&quot;a&quot; &amp; &lt;b&gt;">"#,
         "<!-- law - - in motion.csv -->",
         r#"<mesh name="driven" file="driven.stl" scale="0.001 0.001 0.001"/>"#,
         r#"vertex="0.0 0.0 -0.004 0.002 0.0 -0.004 0.0 0.002 -0.004 0.0 0.0 0.0 "#,

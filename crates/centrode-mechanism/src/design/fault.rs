@@ -2,6 +2,7 @@ use std::error;
 
 use thiserror::Error;
 
+use super::visible;
 use crate::digits::shortened;
 use crate::gear::design::{Rule, SpecError};
 
@@ -143,12 +144,13 @@ fn in_words(keys: &[String]) -> String {
     }
 }
 
-/// A key and what is wrong with it.
+/// A key and what is wrong with it, without characters that cannot be seen.
 fn named(key: &str, fault: &DesignFault) -> String {
-    let fault = shortened(&fault.to_string());
+    let key = &visible(key);
+    let fault = visible(&shortened(&fault.to_string()));
     let (tables, last) = match key.rfind('.') {
         Some(dot) => key.split_at(dot + 1),
-        None => ("", key),
+        None => ("", key.as_str()),
     };
     // Some rules begin with their key already.
     let named = fault

@@ -9,6 +9,7 @@ mod number;
 mod path;
 mod reader;
 mod schema;
+mod text;
 
 pub use drawing::{DrawingSpec, Projection, SheetSize};
 pub use family::{Design, DesignFamily, DesignSpec};
@@ -17,6 +18,7 @@ pub use file::DesignFile;
 pub use number::NumberedDesign;
 pub(crate) use number::numbers_of;
 pub use schema::json_schema;
+pub use text::{is_control, visible};
 
 #[cfg(test)]
 mod tests;

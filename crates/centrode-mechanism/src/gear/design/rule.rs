@@ -1,5 +1,6 @@
 use thiserror::Error;
 
+use crate::design::is_control;
 use crate::digits::told;
 use crate::machine::{Screw, is_class};
 
@@ -67,12 +68,12 @@ pub enum Rule {
     Name(String),
     /// Words that do not fit one line of a drawing.
     #[error(
-        "must be one line of at most {most} characters, not {count} with {controls} control characters"
+        "must be one line of at most {most} characters, not {count} with {controls} control characters (U+FFFE and U+FFFF count as such)"
     )]
     Line {
         /// Characters given.
         count: usize,
-        /// Control characters among them: line ends, tabs and the like.
+        /// Control characters among them, U+FFFE and U+FFFF: line ends, tabs and the like.
         controls: usize,
         /// Most characters allowed.
         most: usize,
@@ -200,7 +201,7 @@ pub(crate) fn file_name(key: &str, name: &str) -> Result<(), SpecError> {
 pub(crate) fn single_line(key: &str, words: &str) -> Result<(), SpecError> {
     const MOST: usize = 80;
     let count = words.chars().count();
-    let controls = words.chars().filter(|c| c.is_control()).count();
+    let controls = words.chars().filter(|&c| is_control(c)).count();
     if count <= MOST && controls == 0 {
         return Ok(());
     }

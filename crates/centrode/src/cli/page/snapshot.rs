@@ -4,7 +4,7 @@ use crate::analysis::Report;
 use crate::export::page::{Curve, CurveList, Picture};
 use crate::family::{FAMILIES, Limit, Mechanism};
 use crate::geometry::together;
-use crate::mechanism::design::DesignError;
+use crate::mechanism::design::{DesignError, visible};
 use serde::Serialize;
 
 use super::field::{Table, tables};
@@ -84,7 +84,7 @@ impl From<&DesignError> for Fault {
             line: error.line,
             column: error.column,
             message: error.message(),
-            rule: error.fault.to_string(),
+            rule: visible(&error.fault.to_string()),
         }
     }
 }
