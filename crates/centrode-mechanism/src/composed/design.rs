@@ -21,6 +21,9 @@ pub(super) const FRAME: &str = "frame";
 /// Most turns of the input in a period.
 const MOST_TURNS: u32 = 60;
 
+/// Maximum number of bodies. The time of a check grows with the square of it or more: 400 take 7 s, 800 take 43 s.
+const MOST_BODIES: f64 = 400.0;
+
 /// A planar machine composed of bodies that turn, slide or are tied by dyads.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
@@ -140,6 +143,13 @@ impl DesignSpec for ComposedDesign {
 }
 
 impl ComposedDesign {
+    /// Number of bodies next to the frame: those of their own, two per dyad, and all copies.
+    fn body_count(&self) -> usize {
+        let copies = self.copies.values();
+        let copied = copies.map(|c| c.bodies.len() * c.count.saturating_sub(1) as usize);
+        self.bodies.len() + 2 * self.dyads.len() + copied.sum::<usize>()
+    }
+
     /// Checks the rules that need no geometry.
     ///
     /// # Errors
@@ -149,6 +159,8 @@ impl ComposedDesign {
         single_line("title", &self.title)?;
         positive("input.speed_rpm", self.input.speed_rpm)?;
         count_in_range("input.turns", self.input.turns, 1, MOST_TURNS)?;
+        let count = self.body_count() as f64;
+        in_range("bodies", count, [0.0, MOST_BODIES], "")?;
         self.frame.validate().map_err(|e| e.inside(FRAME))?;
         for (name, body) in &self.bodies {
             let key = format!("bodies.{name}");

@@ -71,3 +71,53 @@ fn a_search_moves_numbers_of_the_machine_alone() {
     assert_eq!(design.check_vary(), Ok(()));
     assert!(Design::numbered(&design, known).is_ok());
 }
+
+/// A machine of so many bodies: of their own, of a dyad each two, and copies of one body in so many pieces each.
+fn of_bodies(own: usize, dyads: usize, copies: &[u32]) -> String {
+    let mut text = String::from("family = \"machine\"\nname = \"m\"\n[frame.points]\nO = [0, 0]\n");
+    for i in 0..own {
+        text += &format!("[bodies.b{i}]\non = \"frame.O\"\nlaw = {{ expression = \"phi\" }}\n");
+    }
+    for i in 0..dyads {
+        text += &format!(
+            "[dyads.d{i}]\ntype = \"RRR\"\nfrom = \"frame.O\"\nto = \"b0.P\"\nlengths = [60, 25]\nbodies = [\"l{i}\", \"r{i}\"]\n"
+        );
+    }
+    for (i, count) in copies.iter().enumerate() {
+        text += &format!("[copies.c{i}]\nbodies = [\"b{i}\"]\ncount = {count}\n");
+    }
+    text
+}
+
+#[test]
+fn more_than_400_bodies_are_refused() {
+    for (own, dyads, copies) in [
+        (401, 0, &[][..]),
+        (402, 0, &[]),
+        (800, 0, &[]),
+        (5000, 0, &[]),
+        (1, 200, &[]),
+        (399, 1, &[]),
+        (400, 1, &[]),
+        (400, 0, &[2]),
+        (342, 0, &[60]),
+        (10, 0, &[60, 60, 60, 60, 60, 60, 60]),
+        (1, 300, &[]),
+        (341, 1, &[59]),
+    ] {
+        let count = own + 2 * dyads + copies.iter().map(|n| *n as usize - 1).sum::<usize>();
+        let refused = ComposedDesign::from_toml(&of_bodies(own, dyads, copies));
+        let message = refused.expect_err("too many").message();
+        assert_eq!(message, format!("bodies: must be 0 to 400, not {count}"));
+    }
+    for (own, dyads, copies) in [
+        (400, 0, &[][..]),
+        (2, 199, &[]),
+        (398, 1, &[]),
+        (341, 0, &[60]),
+        (399, 0, &[2]),
+    ] {
+        let read = ComposedDesign::from_toml(&of_bodies(own, dyads, copies));
+        assert!(read.is_ok(), "{}", read.expect_err("a fault"));
+    }
+}

@@ -12,6 +12,8 @@ use crate::reverse::path::FARTHEST;
 /// Most pieces of a path, and most nodes of a file.
 const MOST_PIECES: usize = 10_000;
 const MOST_NODES: u32 = 1_000_000;
+/// Most attributes of an element. The reader compares each with all before it: 100,000 take 15 s, 1000 some milliseconds.
+const MOST_ATTRIBUTES: usize = 1000;
 /// Share of its radius within which cubics follow an arc.
 const ARC: f64 = 1e-10;
 /// Share of the drawing within which height and width may tell other scales, and a path is closed.
@@ -28,6 +30,7 @@ pub(super) fn closed_path(text: &str) -> Result<Vec<PathSeg>, DrawingError> {
         nodes_limit: MOST_NODES,
         ..ParsingOptions::default()
     };
+    few_attributes(text)?;
     let document = Document::parse_with_options(text, options);
     let document = document.map_err(|error| DrawingError::Xml {
         why: error.to_string(),
@@ -63,6 +66,23 @@ pub(super) fn closed_path(text: &str) -> Result<Vec<PathSeg>, DrawingError> {
     }
     let segments: Vec<PathSeg> = drawn.segments().filter(|s| !is_point(s)).collect();
     closed(segments, &drawn)
+}
+
+/// Refuses elements with more than [`MOST_ATTRIBUTES`], before the file is read as XML.
+fn few_attributes(text: &str) -> Result<(), DrawingError> {
+    // No attribute holds a raw `<`, and every one has a quote after its `=`.
+    let attributes = |element: &str| {
+        let values = element.split('=').skip(1);
+        values
+            .filter(|rest| rest.trim_start().starts_with(['"', '\'']))
+            .count()
+    };
+    match text.split('<').map(attributes).max() {
+        Some(count) if count > MOST_ATTRIBUTES => Err(DrawingError::Xml {
+            why: format!("an element has {count} attributes; at most {MOST_ATTRIBUTES} are read"),
+        }),
+        _ => Ok(()),
+    }
 }
 
 /// The pieces, where they end where they begin.

@@ -208,3 +208,54 @@ fn a_drawing_that_gives_no_path_is_refused_with_the_reason() {
         Err(PathError::Drawing(DrawingError::Within { .. }))
     ));
 }
+
+#[test]
+fn an_element_of_very_many_attributes_is_refused_at_once() {
+    let many = |count: usize, sign: &str| -> String {
+        (0..count).map(|i| format!(" a{i}{sign}")).collect()
+    };
+    let path = |words: &str| page(&format!("<path d=\"{ELLIPSE}\"{words}/>"));
+    for text in [
+        path(&many(1000, "=\"\"")),
+        path(&many(1001, "=\"\"")),
+        path(&many(100_000, "=\"\"")),
+        path(&many(100_000, "='1'")),
+        path(&many(5000, " = \"x\"")),
+        path(&many(5000, "=\n\t'x'")),
+        page(&format!(
+            "<g{}><path d=\"{ELLIPSE}\"/></g>",
+            many(3000, "=\"\"")
+        )),
+        page(&format!(
+            "<path d=\"{ELLIPSE}\"/><desc{}/>",
+            many(2000, "=\"\"")
+        )),
+        format!(
+            "<svg{} xmlns=\"http://www.w3.org/2000/svg\"/>",
+            many(50_000, "=\"\"")
+        ),
+        path(&many(200_000, "=\">\"")),
+    ] {
+        let why = fault(&text).to_string();
+        assert!(why.contains("attributes; at most 1000 are read"), "{why}");
+    }
+    // Few on each of many elements, and equals signs that are no attribute's.
+    for text in [
+        path(&many(990, "=\"\"")),
+        path(""),
+        page(&format!(
+            "<path d=\"{ELLIPSE}\"/>{}",
+            "<g a=\"1\" b='2'/>".repeat(2000)
+        )),
+        page(&format!(
+            "<!-- {} --><path d=\"{ELLIPSE}\"/>",
+            "= ".repeat(5000)
+        )),
+        page(&format!(
+            "<desc>{}</desc><path d=\"{ELLIPSE}\"/>",
+            "a=b ".repeat(5000)
+        )),
+    ] {
+        assert!(DrawnPath::from_svg(text.as_bytes(), 1e-3).is_ok());
+    }
+}
