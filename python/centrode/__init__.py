@@ -41,7 +41,17 @@ from ._clearance import Clearance
 from ._contact import Contact
 from ._design import load, schema
 from ._drawn import drawn_path
-from ._error import CamError, DesignError, Error, ExportError, GearPairError, LinkageError, MechanismError, PitchError
+from ._error import (
+    CamError,
+    DesignError,
+    Error,
+    ExportError,
+    GearPairError,
+    InternalError,
+    LinkageError,
+    MechanismError,
+    PitchError,
+)
 from ._forces import Forces
 from ._goal import Goal
 from ._link import Joint, Link, Mounted
@@ -81,6 +91,7 @@ __all__ = [
     "GearPair",
     "GearPairError",
     "Goal",
+    "InternalError",
     "Joint",
     "Keyway",
     "Link",

@@ -1,5 +1,5 @@
 class Error(Exception):
-    """There is no mechanism, or no file of it: base of every error of this package."""
+    """There is no mechanism, there is no file of it, or the program failed: base of every error of this package."""
 
     __module__ = "centrode"
 
@@ -71,5 +71,11 @@ class MechanismError(DesignError):
 
 class ExportError(Error):
     """A file that cannot be made or written; the system's reason, if any, is the cause."""
+
+    __module__ = "centrode"
+
+
+class InternalError(Error, RuntimeError):
+    """A fault of centrode, not of the input: please report it, with the input. Standard error has the details."""
 
     __module__ = "centrode"

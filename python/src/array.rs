@@ -14,7 +14,7 @@ use pyo3::types::{PyDict, PyDictMethods};
 use rayon::prelude::{IndexedParallelIterator, ParallelIterator, ParallelSlice, ParallelSliceMut};
 
 use crate::error::{Answer, Raised, finite};
-use crate::wait::{wait, wait_here};
+use crate::wait::{at_once, wait, wait_here};
 
 /// Numbers in an array of any shape, or a single one: whatever `NumPy` makes real numbers of.
 #[derive(Clone, Debug)]
@@ -238,13 +238,13 @@ impl<'py> IntoPyObject<'py> for Course {
             Answers::Blocks(f) => {
                 let mut found = vec![0.0; given.len() * each];
                 if is_one {
-                    f(&given, &mut found);
+                    at_once(|| f(&given, &mut found))?;
                 } else {
                     wait_here(py, || f(&given, &mut found))?;
                 }
                 found
             }
-            Answers::All(f) if is_one => f(&given)?,
+            Answers::All(f) if is_one => at_once(|| f(&given))??,
             Answers::All(f) => wait(py, move || f(&given))??,
         };
         if let ([], &[number]) = (&shape[..], &found[..]) {

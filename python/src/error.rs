@@ -24,7 +24,7 @@ use pyo3::exceptions::PyOSError;
 use pyo3::prelude::{PyErr, Python};
 
 /// The exceptions, as the Python part of the package defines them.
-mod class {
+pub(crate) mod class {
     pyo3::import_exception!(centrode._error, DesignError);
     pyo3::import_exception!(centrode._error, PitchError);
     pyo3::import_exception!(centrode._error, GearPairError);
@@ -32,6 +32,7 @@ mod class {
     pyo3::import_exception!(centrode._error, LinkageError);
     pyo3::import_exception!(centrode._error, MechanismError);
     pyo3::import_exception!(centrode._error, ExportError);
+    pyo3::import_exception!(centrode._error, InternalError);
 }
 
 /// An exception to raise: whatever goes wrong in the crates becomes one.

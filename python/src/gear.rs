@@ -151,7 +151,7 @@ impl Gear {
     /// 51.9968 51.9222
     fn pin_limits<'py>(&self, py: Python<'py>) -> Answer<Option<Vec<Bound<'py, PyAny>>>> {
         let (pair, member) = (self.pair.clone(), self.member);
-        let limits = py.detach(move || pair.pin_limits(member))?;
+        let limits = wait(py, move || pair.pin_limits(member))??;
         let Some(limits) = limits else {
             return Ok(None);
         };

@@ -67,6 +67,7 @@ mod _centrode {
         six_bar::SixBar,
         three_arm::ThreeArm,
         tool::{Rack, Shaper},
+        wait::_panic,
     };
 
     #[pymodule_init]

@@ -1,11 +1,13 @@
-use std::panic::resume_unwind;
 use std::sync::mpsc::{Receiver, RecvTimeoutError, Sender, channel};
 use std::thread::{self, Builder, scope};
 use std::time::Duration;
 
+use centrode::InternalFault;
 use centrode_geometry::{Cancel, Cancelled};
 use pyo3::exceptions::PyRuntimeError;
-use pyo3::prelude::{PyErr, PyResult, Python};
+use pyo3::prelude::{PyErr, PyResult, Python, pyfunction};
+
+use crate::error::class;
 
 /// Interval at which a waiting call checks for Ctrl-C.
 const PATIENCE: Duration = Duration::from_millis(25);
@@ -56,6 +58,22 @@ pub(crate) fn wait_here<T: Send>(py: Python<'_>, job: impl FnOnce() -> T + Send)
     })
 }
 
+/// Does a job that takes no time on the calling thread.
+pub(crate) fn at_once<T>(job: impl FnOnce() -> T) -> PyResult<T> {
+    InternalFault::catch(job).map_err(|fault| raised(&fault))
+}
+
+/// Panics in a job that is done by `wait`, `wait_here` or `at_once`. For tests only.
+#[pyfunction]
+pub(crate) fn _panic(py: Python<'_>, by: &str) -> PyResult<()> {
+    let panics = || panic!("a test");
+    match by {
+        "wait" => wait(py, panics),
+        "wait_here" => wait_here(py, panics),
+        _ => at_once(panics),
+    }
+}
+
 /// Heeds the news of a job till it has ended.
 fn hear<N: Send>(
     py: Python<'_>,
@@ -83,8 +101,13 @@ fn outcome<T>(joined: thread::Result<Result<T, Cancelled>>) -> PyResult<T> {
     match joined {
         Ok(Ok(answer)) => Ok(answer),
         Ok(Err(cancelled)) => Err(PyRuntimeError::new_err(cancelled.to_string())),
-        Err(panic) => resume_unwind(panic),
+        Err(_) => Err(raised(&InternalFault)),
     }
+}
+
+/// The exception of a panic.
+fn raised(fault: &InternalFault) -> PyErr {
+    class::InternalError::new_err(fault.to_string())
 }
 
 /// Waits for news with other Python threads running.

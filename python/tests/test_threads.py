@@ -4,7 +4,9 @@ import subprocess
 import sys
 import threading
 
+import centrode as ct
 import pytest
+from centrode._centrode import _panic
 
 
 def test_other_threads_run_while_a_call_takes_its_time(pair, turns_meanwhile):
@@ -20,6 +22,18 @@ def test_many_threads_share_a_pair(pair):
         thread.join()
     assert len(answers) == 4
     assert all(answer == answers[0] for answer in answers)
+
+
+@pytest.mark.parametrize("by", ["wait", "wait_here", "at_once"])
+def test_a_panic_is_an_ordinary_exception_of_the_package(by):
+    with pytest.raises(ct.InternalError, match="fault of centrode, not of the input") as caught:
+        _panic(by)
+    assert isinstance(caught.value, Exception)
+    assert isinstance(caught.value, ct.Error)
+    message = str(caught.value).lower()
+    assert not any(word in message for word in ("panic", "rust", "thread", "unwrap", "a test"))
+    # Nothing is left half done.
+    assert ct.pitch.circle(module=1, tooth_count=20).module == 1
 
 
 INTERRUPTED = """

@@ -10,8 +10,10 @@ pub use centrode_mechanism as mechanism;
 #[cfg(feature = "cli")]
 pub mod cli;
 pub mod family;
+mod internal_fault;
 
 pub use family::FAMILIES;
+pub use internal_fault::InternalFault;
 
 use export::gear_pair::contact_data;
 use mechanism::machine::Datum;

@@ -1,7 +1,8 @@
 use std::io::{self, Write};
 
+use crate::InternalFault;
 use crate::export::{BundleError, ExportError};
-use crate::mechanism::design::DesignError;
+use crate::mechanism::design::{DesignError, visible};
 use anstyle::{AnsiColor, Style};
 
 /// Longest part of a line shown below an error, in characters.
@@ -29,6 +30,8 @@ pub(crate) enum Failure {
     Files(Box<dyn std::error::Error + Send + Sync>),
     /// Ctrl-C was pressed.
     Interrupted,
+    /// The program is at fault.
+    Internal(InternalFault),
     /// A word on the command line has no meaning.
     Usage(String),
 }
@@ -57,7 +60,7 @@ impl Failure {
         write!(out, "{ERROR}error{ERROR:#}: ")?;
         match self {
             Self::Design { name, text, error } => at_line(out, name, text, error),
-            other => writeln!(out, "{}", printable(&without_code(&other.to_string()))),
+            other => writeln!(out, "{}", shown(&without_code(&other.to_string()))),
         }
     }
 }
@@ -72,6 +75,7 @@ impl std::fmt::Display for Failure {
             Self::Serve(error) => write!(out, "cannot serve the page: {error}"),
             Self::Files(error) => write!(out, "{error}"),
             Self::Interrupted => write!(out, "interrupted"),
+            Self::Internal(fault) => write!(out, "{fault}"),
             Self::Usage(message) => write!(out, "{message}"),
         }
     }
@@ -81,12 +85,13 @@ fn at_line(out: &mut impl Write, name: &str, text: &str, error: &DesignError) ->
     let DesignError {
         key, line, column, ..
     } = error;
-    writeln!(out, "{}", printable(&error.message()))?;
+    writeln!(out, "{}", shown(&error.message()))?;
     let gutter = line.to_string().len();
     writeln!(
         out,
-        "{MARGIN}{:gutter$}-->{MARGIN:#} {name}:{line}:{column}",
-        ""
+        "{MARGIN}{:gutter$}-->{MARGIN:#} {}:{line}:{column}",
+        "",
+        shown(name)
     )?;
     let Some(written) = text.lines().nth(line - 1) else {
         return Ok(());
@@ -97,25 +102,23 @@ fn at_line(out: &mut impl Write, name: &str, text: &str, error: &DesignError) ->
     } else {
         0
     };
-    let shown: String = written.chars().skip(first).take(WIDEST).collect();
-    let before = column - 1 - first;
-    let name = key.rsplit('.').next().unwrap_or_default();
-    let marked = if !name.is_empty()
-        && written
-            .chars()
-            .skip(column - 1)
-            .collect::<String>()
-            .starts_with(name)
-    {
-        name.chars().count().min(WIDEST - before)
-    } else {
-        1
+    let excerpt: Vec<char> = written.chars().skip(first).take(WIDEST).collect();
+    let (before, from) = excerpt.split_at((column - 1 - first).min(excerpt.len()));
+    let name: Vec<char> = key.rsplit('.').next().unwrap_or_default().chars().collect();
+    let marked = match !name.is_empty() && from.starts_with(&name[..name.len().min(from.len())]) {
+        true => name.len().min(from.len()),
+        false => from.len().min(1),
     };
+    // A character that is escaped takes more room than one.
+    let line_part = |part: &[char]| shown(&part.iter().collect::<String>().replace('\t', " "));
+    let room = |part: &[char]| line_part(part).chars().count();
+    let before_width = room(before);
+    let marked = room(&from[..marked]).max(1);
     writeln!(out, "{MARGIN}{:gutter$} |{MARGIN:#}", "")?;
-    writeln!(out, "{MARGIN}{line} |{MARGIN:#} {}", printable(&shown))?;
+    writeln!(out, "{MARGIN}{line} |{MARGIN:#} {}", line_part(&excerpt))?;
     writeln!(
         out,
-        "{MARGIN}{:gutter$} |{MARGIN:#} {:before$}{ERROR}{}{ERROR:#}",
+        "{MARGIN}{:gutter$} |{MARGIN:#} {:before_width$}{ERROR}{}{ERROR:#}",
         "",
         "",
         "^".repeat(marked)
@@ -139,11 +142,9 @@ fn without_code(text: &str) -> String {
     kept
 }
 
-/// The text with control characters replaced, so that a file cannot steer the terminal.
-fn printable(text: &str) -> String {
-    let visible = |c: char| if c.is_control() { '\u{fffd}' } else { c };
-    let shown: String = text.chars().take(600).map(visible).collect();
-    shown
+/// The first part of a text, as a message shows it.
+fn shown(text: &str) -> String {
+    visible(&text.chars().take(600).collect::<String>())
 }
 
 #[cfg(test)]
@@ -168,7 +169,7 @@ mod tests {
         assert_eq!(without_code(kept), "left (os error two) alone, and on");
     }
 
-    fn shown(text: &str) -> String {
+    fn shown_error(text: &str) -> String {
         let error = FAMILIES.read(text.as_bytes()).expect_err("a bad design");
         let failure = Failure::Design {
             name: "pair.toml".into(),
@@ -184,7 +185,7 @@ mod tests {
     fn the_line_and_the_key_are_shown() {
         let text = "family = \"gear-pair\"\n[pitch]\nkind = \"circle\"\nradius = 9\n[teeth]\nbacklsh = 1\n";
         assert_eq!(
-            shown(text),
+            shown_error(text),
             "error: teeth.backlsh: unknown key, did you mean \"backlash\"?; known are addendum, fit, \
              phase, backlash, backlash_angle_deg, thickness_split, least_tip_width_coefficient, thickness_deviations, pin_diameter\n \
              --> pair.toml:6:1\n  |\n6 | backlsh = 1\n  | ^^^^^^^\n"
@@ -194,8 +195,55 @@ mod tests {
     #[test]
     fn a_long_line_and_control_characters_stay_on_screen() {
         let text = format!("family = \"gear-pair\"\n{}\u{1b}[2J = 1", "x".repeat(5000));
-        let message = shown(&text);
+        let message = shown_error(&text);
         assert!(!message.contains('\u{1b}'), "{message:?}");
         assert!(message.lines().all(|line| line.chars().count() < 700));
+    }
+
+    #[test]
+    fn characters_that_cannot_be_seen_are_shown_by_number() {
+        for c in [
+            '\u{202a}', '\u{202b}', '\u{202c}', '\u{202d}', '\u{202e}', '\u{2066}', '\u{2067}',
+            '\u{2068}', '\u{2069}', '\u{200e}', '\u{200f}', '\u{61c}', '\u{7f}', '\u{85}',
+            '\u{fffe}', '\u{ffff}',
+        ] {
+            // In TOML DEL is written as an escape alone.
+            let written = if c == '\u{7f}' {
+                r"\u007f".into()
+            } else {
+                c.to_string()
+            };
+            let number = format!("\\u{{{:x}}}", u32::from(c));
+            let message = shown_error(&format!(
+                "family = \"gear-pair\"\n\"a{written}b\" = 1 # {written}\n"
+            ));
+            assert!(!message.contains(c), "{message:?}");
+            let lines: Vec<&str> = message.lines().collect();
+            assert!(
+                lines[0].starts_with(&format!("error: a{number}b: unknown key")),
+                "{message}"
+            );
+            let excerpt = lines[3].strip_prefix("2 | ").expect("the line");
+            assert_eq!(excerpt.contains(&number), c != '\u{7f}', "{message}");
+            // A word and a syntax error show them no more than a key.
+            for text in [
+                format!("family = \"gear{written}-pair\"\n"),
+                format!("family = \"gear-pair\"\nb{c} = 1\n"),
+                format!("family = \"gear-pair\"\n[pitch]\nkind = \"{written}\"\n"),
+            ] {
+                let message = shown_error(&text);
+                assert!(!message.contains(c), "{message:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn marks_are_below_what_they_mark_after_escapes_and_tabs() {
+        let text = "family = \"gear-pair\"\n\t\"\u{202e}\" = { }\n";
+        let message = shown_error(text);
+        let lines: Vec<&str> = message.lines().collect();
+        assert_eq!(lines[3], r#"2 |  "\u{202e}" = { }"#);
+        let (mark, place) = (lines[4].find('^'), lines[3].find(['"', '\\']));
+        assert_eq!(mark, place, "{message}");
     }
 }

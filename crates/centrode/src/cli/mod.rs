@@ -31,6 +31,7 @@ use std::io::Write as _;
 
 use clap::Parser as _;
 
+use crate::InternalFault;
 use args::{Arguments, Command};
 use failure::Failure;
 
@@ -52,11 +53,14 @@ impl Status {
 /// Runs the program with its arguments, its own name not among them, and gives its exit status.
 ///
 /// The status is 0 if all is good, 1 for a finding of severity error, 2 if there is no mechanism, a file cannot be read
-/// or written or the usage is bad, and 130 after Ctrl-C in a command that ends its work first. All that was printed has
-/// been written when it returns.
+/// or written or the usage is bad, 101 if the program is at fault, and 130 after Ctrl-C in a command that ends its work first.
+/// All that was printed has been written when it returns.
 #[must_use]
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
-    let status = command(arguments);
+    let status = InternalFault::catch(|| command(arguments)).unwrap_or_else(|fault| {
+        let _ = Failure::Internal(fault).write(&mut anstream::stderr());
+        101
+    });
     // A line not ended is held back; where nobody reads it any more, nothing is lost.
     let _ = std::io::stdout().flush();
     status

@@ -2,10 +2,10 @@ use std::convert::Infallible;
 use std::sync::Arc;
 use std::time::Duration;
 
-use crate::FAMILIES;
 use crate::analysis::optimise::{NotSearched, Strategy};
 use crate::export::page;
 use crate::geometry::Cancel;
+use crate::{FAMILIES, InternalFault};
 use axum::body::{Body, Bytes};
 use axum::extract::{Path, State};
 use axum::http::{StatusCode, header};
@@ -198,9 +198,9 @@ pub(crate) struct Text {
 }
 
 /// Reason why a text does not read as a design; null where it does.
-async fn fault(Json(ask): Json<Text>) -> Response {
-    let fault = FAMILIES.read(ask.text.as_bytes()).err();
-    Json(json!({ "fault": fault.as_ref().map(Fault::from) })).into_response()
+async fn fault(Json(ask): Json<Text>) -> Result<Response, Refused> {
+    let fault = apart(move || FAMILIES.read(ask.text.as_bytes()).err()).await?;
+    Ok(Json(json!({ "fault": fault.as_ref().map(Fault::from) })).into_response())
 }
 
 #[derive(Deserialize)]
@@ -262,7 +262,7 @@ pub(crate) async fn apart<T: Send + 'static>(
     job: impl FnOnce() -> T + Send + 'static,
 ) -> Result<T, Refused> {
     let done = tokio::task::spawn_blocking(job).await;
-    done.map_err(|error| Refused::because(StatusCode::INTERNAL_SERVER_ERROR, error))
+    done.map_err(|_| Refused::because(StatusCode::INTERNAL_SERVER_ERROR, InternalFault))
 }
 
 /// Guard that cancels when it is dropped: nobody waits for the answer any more.
@@ -338,4 +338,24 @@ async fn choices(Json(ask): Json<Text>) -> Result<Response, Refused> {
         })
     });
     Ok(Json(found.await?).into_response())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_in_a_request_is_answered_in_plain_words() {
+        let runtime = tokio::runtime::Builder::new_current_thread().build();
+        runtime.expect("a runtime").block_on(async {
+            let refused = |done: Result<(), Refused>| done.expect_err("refused");
+            for Refused(status, body) in [
+                refused(apart(|| panic!("index out of bounds")).await),
+                refused(computed(|| panic!("min > max")).await),
+            ] {
+                assert_eq!(status, StatusCode::INTERNAL_SERVER_ERROR);
+                assert_eq!(body, json!({ "message": InternalFault.to_string() }));
+            }
+        });
+    }
 }

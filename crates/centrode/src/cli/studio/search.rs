@@ -4,9 +4,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-use crate::FAMILIES;
 use crate::analysis::Goal;
 use crate::analysis::optimise::{DesignProblem, DesignSearch, Ended, Progress, Settings, Strategy};
+use crate::{FAMILIES, InternalFault};
 use serde::{Deserialize, Serialize};
 
 use crate::cli::optimise::better;
@@ -69,6 +69,13 @@ struct Run {
 }
 
 impl Run {
+    /// Ends a search that panicked; the best design so far stays.
+    fn fail(&self, fault: InternalFault) {
+        let mut state = self.state();
+        state.running = false;
+        state.remark = Some(fault.to_string());
+    }
+
     fn state(&self) -> MutexGuard<'_, State> {
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
@@ -129,9 +136,16 @@ impl Searching {
             }),
         });
         let own = Arc::clone(&run);
-        let thread: io::Result<_> = std::thread::Builder::new()
-            .name("search".into())
-            .spawn(move || work(&own, &ask.text, problem.as_ref(), search));
+        let thread: io::Result<_> =
+            std::thread::Builder::new()
+                .name("search".into())
+                .spawn(move || {
+                    let done =
+                        InternalFault::catch(|| work(&own, &ask.text, problem.as_ref(), search));
+                    if let Err(fault) = done {
+                        own.fail(fault);
+                    }
+                });
         thread.map_err(|error| error.to_string())?;
         *self.run() = Some(run);
         Ok(())

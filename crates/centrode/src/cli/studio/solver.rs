@@ -1,8 +1,9 @@
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 
+use crate::InternalFault;
 use crate::analysis::Progress;
-use crate::geometry::Cancel;
+use crate::geometry::{Cancel, Cancelled};
 use serde::Deserialize;
 use serde_json::json;
 use tokio::sync::mpsc::{UnboundedReceiver, unbounded_channel};
@@ -51,6 +52,8 @@ pub(crate) enum Unsolved {
     Overtaken,
     #[error("solving this design has failed: {0}")]
     Fault(String),
+    #[error(transparent)]
+    Internal(#[from] InternalFault),
 }
 
 /// Answer to a page, whose parts are told as soon as they are known: one JSON value in all.
@@ -137,13 +140,11 @@ impl Solver {
         let progress = wait.progress.clone();
         let (teller, mut later) = unbounded_channel();
         let job = move || {
-            // Nobody may be there any more.
-            let tell = |part| drop(teller.send(part));
-            let told = || solver.tell(text, depth, &|part| tell(Ok(part)));
-            match progress.during(|| cancel.run(told)) {
-                Ok(Ok(())) => {}
-                Ok(Err(error)) => tell(Err(Unsolved::Fault(error.to_string()))),
-                Err(_) => tell(Err(Unsolved::Overtaken)),
+            let parts = teller.clone();
+            let told = || solver.tell(text, depth, &|part| drop(parts.send(Ok(part))));
+            if let Err(error) = outcome(|| progress.during(|| cancel.run(told))) {
+                // Nobody may be there any more.
+                drop(teller.send(Err(error)));
             }
         };
         let task = tokio::task::spawn_blocking(job);
@@ -153,10 +154,10 @@ impl Solver {
                 later,
                 _wait: wait,
             }),
-            None => Err(Unsolved::Fault(match task.await {
-                Ok(()) => "there is no answer".into(),
-                Err(fault) => fault.to_string(),
-            })),
+            None => Err(match task.await {
+                Ok(()) => Unsolved::Fault("there is no answer".into()),
+                Err(_) => InternalFault.into(),
+            }),
         }
     }
 
@@ -191,6 +192,16 @@ impl Solver {
             Depth::Checks => tell(subject.checked().json()?),
         }
         Ok(())
+    }
+}
+
+/// Outcome of a solve that may be cancelled, fail or panic.
+fn outcome(
+    solve: impl FnOnce() -> Result<serde_json::Result<()>, Cancelled>,
+) -> Result<(), Unsolved> {
+    match InternalFault::catch(solve)? {
+        Ok(told) => told.map_err(|error| Unsolved::Fault(error.to_string())),
+        Err(Cancelled) => Err(Unsolved::Overtaken),
     }
 }
 
@@ -275,6 +286,54 @@ mod tests {
             others.abort();
             left.abort();
         });
+    }
+
+    #[test]
+    fn a_panic_is_reported_in_plain_words_also_after_a_first_part() {
+        // Whatever was thrown.
+        let panics: [fn(); 5] = [
+            || panic!("{}", 1),
+            || panic!("thread 'main' panicked"),
+            || assert!(std::env::args().count() > 999),
+            || std::panic::panic_any(7),
+            || std::panic::resume_unwind(Box::new("called `Option::unwrap()`")),
+        ];
+        for panic in panics {
+            let fault = outcome(|| {
+                panic();
+                Ok(Ok(()))
+            });
+            let fault = fault.expect_err("a panic");
+            assert_eq!(fault.to_string(), InternalFault.to_string());
+            assert_eq!(InternalFault::catch(panic), Err(InternalFault));
+            block_on(async {
+                let solver = Arc::new(Solver::default());
+                let (teller, later) = unbounded_channel();
+                let wait = Wait::begin(&solver, PAGE, 1).expect("the first");
+                let first = Some("{\"picture\":{}".to_owned());
+                let mut answer = Answer {
+                    first,
+                    later,
+                    _wait: wait,
+                };
+                teller.send(Err(fault)).expect("heard");
+                drop(teller);
+                let mut whole = String::new();
+                while let Some(part) = answer.next().await {
+                    whole += &part;
+                }
+                let whole: Value = serde_json::from_str(&whole).expect("JSON");
+                assert_eq!(whole["message"], InternalFault.to_string());
+            });
+        }
+        for word in ["panic", "thread", "unwrap", "rust"] {
+            assert!(!InternalFault.to_string().contains(word));
+        }
+        assert!(matches!(
+            outcome(|| Err(Cancelled)),
+            Err(Unsolved::Overtaken)
+        ));
+        assert!(outcome(|| Ok(Ok(()))).is_ok());
     }
 
     #[test]

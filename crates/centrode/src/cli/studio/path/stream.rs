@@ -11,6 +11,8 @@ use serde::Serialize;
 use serde_json::json;
 use tokio::sync::mpsc::unbounded_channel;
 
+use crate::InternalFault;
+
 use super::super::routes::Wait;
 use super::told;
 
@@ -36,10 +38,11 @@ pub(super) fn streamed<T: Serialize>(
             }
             ControlFlow::Continue(())
         };
-        let answer = cancel.run(|| told(job(&mut observe)));
+        let answer = InternalFault::catch(|| cancel.run(|| told(job(&mut observe))));
         let line = match answer {
-            Ok(answer) => json!({ "answer": answer }),
-            Err(cancelled) => json!({ "answer": { "refused": cancelled.to_string() } }),
+            Ok(Ok(answer)) => json!({ "answer": answer }),
+            Ok(Err(cancelled)) => json!({ "answer": { "refused": cancelled.to_string() } }),
+            Err(fault) => json!({ "answer": { "refused": fault.to_string() } }),
         };
         // Nobody may be there any more.
         let _ = told_so_far.send(line.to_string());
@@ -51,4 +54,21 @@ pub(super) fn streamed<T: Serialize>(
     });
     let kind = [(header::CONTENT_TYPE, "application/x-ndjson")];
     (kind, Body::from_stream(lines)).into_response()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_panic_ends_the_lines_with_an_answer_in_plain_words() {
+        let runtime = tokio::runtime::Builder::new_current_thread().build();
+        runtime.expect("a runtime").block_on(async {
+            let response = streamed::<u32>(|_| panic!("min > max"));
+            let body = axum::body::to_bytes(response.into_body(), 10_000).await;
+            let line = serde_json::from_slice::<serde_json::Value>(&body.expect("a line"));
+            let refused = json!({ "answer": { "refused": InternalFault.to_string() } });
+            assert_eq!(line.expect("JSON"), refused);
+        });
+    }
 }
