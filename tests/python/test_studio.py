@@ -59,6 +59,29 @@ def test_strangers_are_refused(served, headers):
 
 
 @pytest.mark.parametrize(
+    ("more", "is_let_in"),
+    [
+        ("", True),
+        ("Host: {own}", False),
+        ("Host: example.org", False),
+        ("HOST: localhost:1", False),
+        ("Host:", False),
+        ("Origin: http://{own}\r\nOrigin: http://{own}", False),
+    ],
+    ids=["one host", "the same twice", "another", "another port", "an empty one", "two origins"],
+)
+def test_a_second_host_or_origin_is_refused(served, more, is_let_in):
+    own = f"127.0.0.1:{served.port}"
+    for lines in (f"Host: {own}\r\n{more}", f"{more}\r\nHost: {own}"):
+        head = "".join(f"{line}\r\n" for line in lines.format(own=own).split("\r\n") if line)
+        with socket.create_connection(("127.0.0.1", served.port), timeout=20) as client:
+            client.sendall(f"GET {served.base} HTTP/1.1\r\n{head}Connection: close\r\n\r\n".encode())
+            status = client.makefile("rb").readline().split()[1]
+        assert (status == b"200") == is_let_in, head
+        assert is_let_in or status in (b"400", b"403")
+
+
+@pytest.mark.parametrize(
     "path",
     ["/", "/design", "/{base}/../design", "/wrong/design", "//design", "/%2e%2e/design", "/../../etc/passwd"],
 )

@@ -1,4 +1,4 @@
-use super::hash;
+use super::{bundle, hash};
 
 /// A file of the page.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
@@ -142,20 +142,15 @@ pub fn asset(name: &str) -> Option<&'static Asset> {
         .find(|asset| asset.name == name)
 }
 
-/// The script that starts the page.
-const STARTER: &str = "import \"page/main.js\";";
-
-/// Only what is in the file: no request leaves a report, and what runs in it is named by its hash. The other modules come
-/// as `data:` addresses from the import map, which has a hash, too.
-fn policy(imports: &str) -> String {
+/// Only what is in the file: no request leaves a report, and its script and styles are named by their hashes.
+fn policy(script: &str) -> String {
     let styles: Vec<String> = STYLES
         .iter()
         .map(|a| hash::source(&inline(a.text)))
         .collect();
     format!(
-        "default-src 'none'; script-src {} {} data:; style-src {}; img-src data: blob:",
-        hash::source(imports),
-        hash::source(STARTER),
+        "default-src 'none'; script-src {}; style-src {}; img-src data: blob:",
+        hash::source(script),
         styles.join(" ")
     )
 }
@@ -174,22 +169,11 @@ pub fn report(title: &str, snapshot: &str) -> String {
         .iter()
         .map(|a| format!("<style>{}</style>\n", inline(a.text)))
         .collect();
-    let imports: Vec<String> = SCRIPTS
-        .iter()
-        .map(|a| {
-            format!(
-                "\"page/{}\":\"data:text/javascript,{}\"",
-                a.name,
-                percent(&bare(a.text))
-            )
-        })
-        .collect();
-    let imports = format!("{{\"imports\":{{{}}}}}", imports.join(",\n"));
-    let policy = policy(&imports);
+    let script = bundle::script("main.js", &SCRIPTS);
+    let policy = policy(&script);
     let script = format!(
-        "<script type=\"importmap\">{imports}</script>\n\
-         <script type=\"application/json\" id=\"snapshot\">{}</script>\n\
-         <script type=\"module\">{STARTER}</script>\n",
+        "<script type=\"application/json\" id=\"snapshot\">{}</script>\n\
+         <script type=\"module\">{script}</script>\n",
         snapshot.replace('<', "\\u003c"),
     );
     let policy = format!("<meta http-equiv=\"Content-Security-Policy\" content=\"{policy}\">\n");
@@ -211,25 +195,6 @@ fn between(text: &str, open: &str, close: &str, new: &str) -> String {
     format!("{before}{open}{new}{close}{after}")
 }
 
-/// Imports by the names of the import map: a data URL has no neighbours.
-fn bare(script: &str) -> String {
-    script.replace("from \"./", "from \"page/")
-}
-
-/// The text as the rest of a `data:` URL inside a JSON string.
-fn percent(text: &str) -> String {
-    let mut out = String::with_capacity(text.len() + text.len() / 4);
-    for byte in text.bytes() {
-        match byte {
-            b' ' | b'!' | b'\'' | b'('..=b';' | b'=' | b'?'..=b'[' | b']'..=b'_' | b'a'..=b'~' => {
-                out.push(char::from(byte));
-            }
-            _ => out.push_str(&format!("%{byte:02X}")),
-        }
-    }
-    out
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -247,10 +212,34 @@ mod tests {
         }
         for script in SCRIPTS {
             assert!(
-                html.contains(&format!("\"page/{}\"", script.name)),
+                html.contains(&format!("\nmodules[\"{}\"] = ", script.name)),
                 "{}",
                 script.name
             );
+        }
+    }
+
+    #[test]
+    fn a_report_runs_one_script_and_loads_none() {
+        let html = report("pair", r#"{"title":"a"}"#);
+        let between = |open: &str, close: &str| {
+            let (_, rest) = html.split_once(open).expect(open);
+            rest.split_once(close).expect(close).0
+        };
+        let policy = between("http-equiv=\"Content-Security-Policy\" content=\"", "\"");
+        let rule = |name: &str| policy.split("; ").find(|rule| rule.starts_with(name));
+        let script = between("<script type=\"module\">", "</script>");
+        assert_eq!(
+            rule("script-src"),
+            Some(&*format!("script-src {}", hash::source(script)))
+        );
+        assert_eq!(rule("default-src"), Some("default-src 'none'"));
+        assert!(
+            !script.contains("<!--"),
+            "it would hide the end of the script"
+        );
+        for line in script.lines() {
+            assert!(!line.starts_with("import "), "{line}");
         }
     }
 
@@ -265,29 +254,5 @@ mod tests {
         for name in ["../Cargo.toml", "", "index.html", "main.js/", "/main.js"] {
             assert!(asset(name).is_none(), "{name}");
         }
-    }
-
-    #[test]
-    fn escaped_scripts_read_back() {
-        let text = "a\"\\#%\n\tπ <&> `~` {}|^";
-        let escaped = percent(text);
-        assert!(
-            escaped.chars().all(|c| c.is_ascii_graphic() || c == ' '),
-            "{escaped}"
-        );
-        assert!(!escaped.contains(['"', '\\', '#', '<']), "{escaped}");
-        let mut bytes = Vec::new();
-        let mut rest = escaped.as_bytes();
-        while let [first, after @ ..] = rest {
-            if *first == b'%' {
-                let hex = std::str::from_utf8(&after[..2]).expect("text");
-                bytes.push(u8::from_str_radix(hex, 16).expect("hex"));
-                rest = &after[2..];
-            } else {
-                bytes.push(*first);
-                rest = after;
-            }
-        }
-        assert_eq!(String::from_utf8(bytes).expect("text"), text);
     }
 }

@@ -4,6 +4,7 @@
 //! lines and arcs, the pose of every link along the cycle. The same assets show it in the local program
 //! and in the self-contained report.
 
+mod bundle;
 mod curves;
 mod hash;
 mod html;

@@ -61,6 +61,11 @@ impl Guard {
 
     /// Reason why a request is refused, if it is.
     fn refusal(&self, method: &Method, path: &str, headers: &HeaderMap) -> Option<&'static str> {
+        // A second value could be the one that another reader of the request takes.
+        let is_single = |name| headers.get_all(name).iter().count() < 2;
+        if !(is_single(header::HOST) && is_single(header::ORIGIN)) {
+            return Some("host or origin is given twice");
+        }
         let names = ["127.0.0.1", "localhost"].map(|name| format!("{name}:{}", self.port));
         let host = headers.get(header::HOST).and_then(|h| h.to_str().ok());
         // A foreign page would reach us through a foreign name that leads here.
@@ -122,11 +127,11 @@ mod tests {
             port: 4711,
             token: "secret".into(),
         };
-        let headers = headers
-            .iter()
-            .map(|(n, v)| (n.clone(), HeaderValue::from_static(v)))
-            .collect();
-        guard.refusal(&method, path, &headers).is_none()
+        let mut map = HeaderMap::new();
+        for (name, value) in headers {
+            map.append(name, HeaderValue::from_static(value));
+        }
+        guard.refusal(&method, path, &map).is_none()
     }
 
     #[test]
@@ -199,6 +204,35 @@ mod tests {
             "/secret/keep",
             std::slice::from_ref(&host)
         ));
+    }
+
+    #[test]
+    fn a_host_or_origin_given_twice_is_refused() {
+        let (good, other) = ("127.0.0.1:4711", "localhost:4711");
+        let own = "http://127.0.0.1:4711";
+        let table: [(&[&str], &[&str], bool); 12] = [
+            (&[good], &[own], true),
+            (&[other], &[own], true),
+            (&[good, good], &[own], false),
+            (&[good, other], &[own], false),
+            (&[good, "example.org"], &[own], false),
+            (&["example.org", good], &[own], false),
+            (&[good, ""], &[own], false),
+            (&["", good], &[own], false),
+            (&[good, good, good], &[own], false),
+            (&[good, "127.0.0.1"], &[own], false),
+            (&[good], &[own, own], false),
+            (&[good], &[own, "http://example.org"], false),
+        ];
+        for (hosts, origins, is_let_in) in table {
+            let hosts = hosts.iter().map(|&host| (header::HOST, host));
+            let origins = origins.iter().map(|&origin| (header::ORIGIN, origin));
+            let headers: Vec<_> = hosts.chain(origins).collect();
+            for method in [Method::GET, Method::POST] {
+                let path = "/secret/save";
+                assert_eq!(answer(method, path, &headers), is_let_in, "{headers:?}");
+            }
+        }
     }
 
     #[test]
