@@ -10,7 +10,7 @@ use centrode_export::{BundleError, ExportError};
 use centrode_geometry::{BadTolerance, SolidError, Tolerance};
 use centrode_mechanism::arm::ArmError;
 use centrode_mechanism::cam::CamError;
-use centrode_mechanism::design::{DesignError, DesignFault, MechanismError};
+use centrode_mechanism::design::{DesignError, DesignFault, MechanismError, shortened};
 use centrode_mechanism::gear::GearPairError;
 use centrode_mechanism::gear::design::SpecError;
 use centrode_mechanism::gear::pitch::PitchError;
@@ -59,7 +59,7 @@ macro_rules! raised {
     ($($error:ty { $($case:pat => $class:ident($key:expr),)* })*) => {
         $(impl From<$error> for Raised {
             fn from(error: $error) -> Self {
-                let message = error.to_string();
+                let message = shortened(&error.to_string());
                 Self(match error {
                     $($case => class::$class::new_err((message, String::from($key))),)*
                 })

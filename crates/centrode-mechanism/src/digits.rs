@@ -16,8 +16,9 @@ pub(crate) fn digits(value: f64, count: usize) -> String {
     }
 }
 
-/// A text whose numbers have the digits that mean something: those of [`told`] where there are more than ten.
-pub(crate) fn shortened(text: &str) -> String {
+/// A message with numbers of at most ten digits, in powers of ten if they are very large or small.
+#[must_use]
+pub fn shortened(text: &str) -> String {
     let is_word = |c: char| c.is_alphanumeric() || "_\"'".contains(c);
     let mut short = String::with_capacity(text.len());
     let mut rest = text;

@@ -109,7 +109,7 @@ pub(crate) fn reverse(
         axis_box,
         ..PathDesign::default()
     };
-    design.check_axes()?;
+    design.check_axes(&points)?;
     let easing = eased::asked(
         band,
         module,

@@ -33,8 +33,10 @@ const LENGTHS: [&str; 19] = [
     "thickness",
     "width",
 ];
-/// Files beside those of the parts.
-const OWN_FILES: [&str; 2] = ["assembly", "assembly-sheet"];
+/// Files of the whole machine.
+const OWN_FILES: [&str; 2] = ["assembly", "sheets"];
+/// Tables of the whole machine: gears and cams have tables, too.
+const OWN_TABLES: [&str; 2] = ["motion", "parts"];
 /// Names that Windows keeps for devices.
 const DEVICES: [&str; 4] = ["aux", "con", "nul", "prn"];
 /// Tables whose numbers say what is wanted, not what the machine is.
@@ -82,21 +84,27 @@ impl Composed {
         let design = &self.written;
         let mut stems: Vec<(String, String)> = Vec::new();
         stems.extend(design.bodies.keys().map(|name| named("bodies", name)));
-        stems.extend(design.gears.keys().map(|name| named("gears", name)));
+        for name in design.gears.keys() {
+            let (key, name) = named("gears", name);
+            stems.push((key.clone(), format!("{name}-pins")));
+            stems.push((key, name));
+        }
         for name in design.cams.keys() {
             let (key, name) = named("cams", name);
             stems.push((key.clone(), format!("{name}-assembly")));
             stems.push((key, name));
         }
         let mut taken: BTreeMap<String, String> = BTreeMap::new();
-        for (key, stem) in stems {
+        for (key, stem) in &stems {
             let refused = |why: String| {
                 let key = key.clone();
                 Err(ComposedError::Refused { key, why })
             };
             // File systems may take small and capital letters for one.
             let small = stem.to_ascii_lowercase();
-            if OWN_FILES.contains(&small.as_str()) {
+            let is_tabled = !key.starts_with("bodies.");
+            let is_table = is_tabled && OWN_TABLES.contains(&small.as_str());
+            if OWN_FILES.contains(&without_sheet(&small)) || is_table {
                 return refused(format!(
                     "a file of the whole machine is named {small}: give the part another name"
                 ));
@@ -105,11 +113,31 @@ impl Composed {
                 return refused("is no name for a file: give the part another one".into());
             }
             if let Some(other) = taken.insert(small, key.clone()) {
-                return refused(format!(
-                    "the files of {key} and {other} would have one name: give one of them another"
-                ));
+                return refused(one_name(key, &other));
+            }
+        }
+        for (key, stem) in stems {
+            let small = stem.to_ascii_lowercase();
+            let part = without_sheet(&small);
+            if let Some(other) = taken.get(part).filter(|_| part != small) {
+                let why = one_name(&key, other);
+                return Err(ComposedError::Refused { key, why });
             }
         }
         Ok(())
     }
+}
+
+fn one_name(key: &str, other: &str) -> String {
+    format!("the files of {key} and {other} would have one name: give one of them another")
+}
+
+/// The name of the part whose drawing sheet a name could be: `a` for `a-sheet` and `a-sheet-2`.
+fn without_sheet(name: &str) -> &str {
+    let numbered = name
+        .trim_end_matches(|c: char| c.is_ascii_digit())
+        .strip_suffix('-');
+    let is_sheet = |name: &&str| name.ends_with("-sheet");
+    let sheet = numbered.filter(is_sheet).unwrap_or(name);
+    sheet.strip_suffix("-sheet").unwrap_or(name)
 }

@@ -11,6 +11,7 @@ mod reader;
 mod schema;
 mod text;
 
+pub use crate::digits::shortened;
 pub use drawing::{DrawingSpec, Projection, SheetSize};
 pub use family::{Design, DesignFamily, DesignSpec};
 pub use fault::{DesignError, DesignFault, MechanismError};

@@ -5,10 +5,38 @@ use centrode_geometry::Point;
 use super::path::text;
 use super::{PathError, WantedDirection};
 
-/// Headings of the columns of tolerances, of directions and of how far these may be off.
-const TOLERANCE: &[&str] = &["tolerance", "tolerance_mm"];
-const DIRECTION: &[&str] = &["direction_deg"];
-const DIRECTION_TOLERANCE: &[&str] = &["direction_tolerance_deg"];
+/// Columns that a file may have.
+struct Layout {
+    /// Headings of each column; a file without headings has the first `needed` columns.
+    headings: &'static [&'static [&'static str]],
+    /// Number of columns that every file must have.
+    needed: usize,
+    /// The needed columns in words.
+    words: &'static str,
+}
+
+const PATH: Layout = Layout {
+    headings: &[
+        &["x", "x_mm"],
+        &["y", "y_mm"],
+        &["tolerance", "tolerance_mm"],
+        &["direction_deg"],
+        &["direction_tolerance_deg"],
+    ],
+    needed: 2,
+    words: "x and y in mm",
+};
+
+const POSES: Layout = Layout {
+    headings: &[&["x", "x_mm"], &["y", "y_mm"], &["direction_deg"]],
+    needed: 3,
+    words: "x and y in mm and the direction in degrees",
+};
+
+/// Numbers of the optional columns of a path.
+const TOLERANCE: usize = 2;
+const DIRECTION: usize = 3;
+const DIRECTION_TOLERANCE: usize = 4;
 
 /// Points that a path is wanted to pass.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,16 +56,13 @@ impl WantedPoints {
     /// # Errors
     /// [`PathError`] with the line; a tolerance is zero or more.
     pub fn from_csv(bytes: &[u8]) -> Result<Self, PathError> {
-        let table = Table::read(bytes)?;
+        let table = Table::read(bytes, &PATH)?;
         let points = table.rows()?.into_iter().map(|row: [f64; 2]| row.into());
-        let column = |names: &[&str]| {
-            let is_one = |word: &&str| names.contains(&word.to_lowercase().as_str());
-            table.headings.iter().position(is_one)
-        };
-        let tolerances = column(TOLERANCE);
-        let tolerances = tolerances.map(|column| table.column(column)).transpose()?;
-        let directions = column(DIRECTION);
-        let off = column(DIRECTION_TOLERANCE);
+        let [tolerances, directions, off] =
+            [TOLERANCE, DIRECTION, DIRECTION_TOLERANCE].map(|k| table.columns[k]);
+        let tolerances = tolerances
+            .map(|column| table.tolerances(column))
+            .transpose()?;
         let directions = directions.map(|column| table.directions(column, off));
         Ok(Self {
             points: points.collect(),
@@ -47,14 +72,16 @@ impl WantedPoints {
     }
 }
 
-/// Numbers at the head of every line of a CSV file, as [`WantedPath::from_csv`](super::WantedPath::from_csv) reads it.
-pub(super) fn rows<const N: usize>(bytes: &[u8]) -> Result<Vec<[f64; N]>, PathError> {
-    Table::read(bytes)?.rows()
+/// x, y and direction of every line of a CSV file of key poses.
+pub(super) fn poses(bytes: &[u8]) -> Result<Vec<[f64; 3]>, PathError> {
+    Table::read(bytes, &POSES)?.rows()
 }
 
 /// Lines of a CSV file, in words.
 struct Table<'a> {
-    headings: Vec<&'a str>,
+    layout: &'static Layout,
+    /// Position in a line of each column of the layout.
+    columns: Vec<Option<usize>>,
     lines: Vec<Line<'a>>,
 }
 
@@ -66,7 +93,7 @@ struct Line<'a> {
 }
 
 impl<'a> Table<'a> {
-    fn read(bytes: &'a [u8]) -> Result<Self, PathError> {
+    fn read(bytes: &'a [u8], layout: &'static Layout) -> Result<Self, PathError> {
         let text = text(bytes)?;
         // Old programs end a line by a carriage return alone.
         let end = if text.contains('\n') { '\n' } else { '\r' };
@@ -76,20 +103,54 @@ impl<'a> Table<'a> {
         let mut lines: Vec<Line<'_>> = written.map(|(i, line)| Line::new(i, line)).collect();
         let is_heading =
             |line: &Line<'_>| (0..2.min(line.words.len())).any(|k| line.number_at(k).is_err());
-        let headings = match lines.first() {
-            Some(first) if is_heading(first) => lines.remove(0).words,
-            _ => Vec::new(),
+        let columns = match lines.first() {
+            Some(first) if is_heading(first) => layout.columns(&lines.remove(0))?,
+            _ => (0..layout.headings.len())
+                .map(|k| (k < layout.needed).then_some(k))
+                .collect(),
         };
-        Ok(Self { headings, lines })
+        let table = Self {
+            layout,
+            columns,
+            lines,
+        };
+        table.lines.iter().try_for_each(|line| table.check(line))?;
+        Ok(table)
     }
 
-    /// The first numbers of every line.
+    /// Refuses a line that has too few values, or one in a column without a name.
+    fn check(&self, line: &Line<'_>) -> Result<(), PathError> {
+        let needed = &self.columns[..self.layout.needed];
+        let is_short = needed.iter().flatten().any(|k| *k >= line.words.len());
+        if is_short {
+            line.number_at(0)?;
+        }
+        let is_named = |k: usize| self.columns.contains(&Some(k));
+        let mut words = line.words.iter().enumerate();
+        if is_short || words.any(|(k, word)| !word.is_empty() && !is_named(k)) {
+            return Err(PathError::Columns {
+                line: line.number,
+                count: line.words.len(),
+                wanted: self.layout.words,
+            });
+        }
+        Ok(())
+    }
+
+    /// The needed numbers of every line.
     fn rows<const N: usize>(&self) -> Result<Vec<[f64; N]>, PathError> {
-        self.lines.iter().map(Line::row).collect()
+        let row = |line: &Line<'_>| {
+            let mut row = [0.0; N];
+            for (value, column) in row.iter_mut().zip(self.columns.iter().flatten()) {
+                *value = line.number_at(*column)?;
+            }
+            Ok(row)
+        };
+        self.lines.iter().map(row).collect()
     }
 
     /// Tolerances of every line.
-    fn column(&self, column: usize) -> Result<Vec<f64>, PathError> {
+    fn tolerances(&self, column: usize) -> Result<Vec<f64>, PathError> {
         let lines = self.lines.iter();
         lines.map(|line| line.tolerance(column)).collect()
     }
@@ -114,6 +175,42 @@ impl<'a> Table<'a> {
             })
         };
         given.map(direction).collect()
+    }
+}
+
+impl Layout {
+    /// Position in a line of each column, by the line of headings.
+    fn columns(&self, line: &Line<'_>) -> Result<Vec<Option<usize>>, PathError> {
+        let refused = |fault: String| {
+            let known: Vec<&str> = self.headings.iter().map(|names| names[0]).collect();
+            Err(PathError::Headings {
+                line: line.number,
+                fault,
+                known: known.join(", "),
+            })
+        };
+        let mut columns = vec![None; self.headings.len()];
+        for (position, word) in line.words.iter().enumerate() {
+            let name = word.trim_matches('"').trim().to_lowercase();
+            if name.is_empty() {
+                continue;
+            }
+            let is_one = |names: &&[&str]| names.contains(&name.as_str());
+            match self.headings.iter().position(|names| is_one(&names)) {
+                None => {
+                    let word: String = word.chars().take(40).collect();
+                    return refused(format!("unknown column {word:?}"));
+                }
+                Some(k) if columns[k].is_some() => {
+                    return refused(format!("column {} is given twice", self.headings[k][0]));
+                }
+                Some(k) => columns[k] = Some(position),
+            }
+        }
+        match columns.iter().take(self.needed).position(Option::is_none) {
+            Some(k) => refused(format!("column {} is missing", self.headings[k][0])),
+            None => Ok(columns),
+        }
     }
 }
 
@@ -150,25 +247,5 @@ impl<'a> Line<'a> {
                 value,
             }),
         }
-    }
-
-    fn row<const N: usize>(&self) -> Result<[f64; N], PathError> {
-        let mut row = [0.0; N];
-        if self.words.len() < N {
-            self.number_at(0)?;
-            return Err(PathError::Columns {
-                line: self.number,
-                count: self.words.len(),
-                wanted: if N == 2 {
-                    "x and y in mm"
-                } else {
-                    "x and y in mm and the direction in degrees"
-                },
-            });
-        }
-        for (column, value) in row.iter_mut().enumerate() {
-            *value = self.number_at(column)?;
-        }
-        Ok(row)
     }
 }

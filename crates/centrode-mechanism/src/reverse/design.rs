@@ -1,9 +1,10 @@
 //! A path and what is wanted of its machine, as a design file.
 
+use centrode_geometry::{Bounds, Point};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::path::FARTHEST;
+use super::path::{FARTHEST, FARTHEST_AXIS};
 use super::{AxisRange, SplitKind, WantedPath, Wishes};
 use crate::degrees;
 use crate::design::DesignSpec;
@@ -139,7 +140,8 @@ impl DesignSpec for PathDesign {
     fn rules(&self) -> Result<(), SpecError> {
         file_name("name", &self.name)?;
         single_line("title", &self.title)?;
-        self.check_axes()?;
+        let points: Vec<Point> = self.path.points.iter().map(|&p| p.into()).collect();
+        self.check_axes(&points)?;
         finite("bend_deg", self.bend)?;
         count_in_range("arms", self.arms, 1, 12)?;
         let count = self.path.validate().map_err(|e| e.inside("path"))?;
@@ -167,11 +169,12 @@ impl Default for PathDesign {
 }
 
 impl PathDesign {
-    /// Checks axis and box.
+    /// Checks axis and box; of a path whose points are in a file, `points` may be empty until it is read.
     ///
     /// # Errors
-    /// [`SpecError`] with the key at fault: both are given, a number is none, or the box has no room.
-    pub fn check_axes(&self) -> Result<(), SpecError> {
+    /// [`SpecError`] with the key at fault: both are given, a number is none, the box has no room, or it reaches more than 1000
+    /// times the size of the path beyond it.
+    pub fn check_axes(&self, points: &[Point]) -> Result<(), SpecError> {
         for x in self.axis.iter().flatten() {
             finite("axis", *x)?;
         }
@@ -179,8 +182,14 @@ impl PathDesign {
             if self.axis.is_some() {
                 return broken("axis_box", Rule::Excludes("axis"));
             }
-            for x in corners.iter().flatten() {
+            let bounds: Bounds = points.iter().copied().collect();
+            let room = FARTHEST_AXIS * bounds.diagonal();
+            for (k, x) in corners.iter().flat_map(|corner| corner.iter().enumerate()) {
                 in_range("axis_box", *x, [-FARTHEST, FARTHEST], " mm")?;
+                if room.is_finite() && room > 0.0 {
+                    let limits = [bounds.min[k] - room, bounds.max[k] + room];
+                    in_range("axis_box", *x, limits.map(f64::round), " mm")?;
+                }
             }
             let [[x, y], [u, v]] = corners;
             if x == u || y == v {

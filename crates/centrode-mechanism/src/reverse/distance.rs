@@ -1,7 +1,7 @@
 use centrode_geometry::{Jet, Point, bracketed_minimum, bracketed_root};
 
 use super::limit::{Limit, squares};
-use super::path::{FARTHEST, Sample};
+use super::path::{FARTHEST, FARTHEST_AXIS, Sample};
 use super::{AxisFault, WantedPath};
 use crate::formula::Taylor;
 
@@ -53,6 +53,11 @@ impl Distance {
             (low.min(u), high.max(u))
         });
         let distance = greatest.sqrt();
+        let limit = FARTHEST_AXIS * path.bounds().diagonal();
+        if least.sqrt() > limit {
+            let distance = least.sqrt();
+            return Err(AxisFault::TooFar { distance, limit });
+        }
         if (greatest - least) <= SAME * greatest {
             return Err(AxisFault::Circle { distance });
         }

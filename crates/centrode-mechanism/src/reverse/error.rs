@@ -12,7 +12,7 @@ pub enum PathError {
     #[error(transparent)]
     Drawing(#[from] DrawingError),
     /// A coordinate is NaN or infinite.
-    #[error("point {number} of the path is ({x}, {y}): both must be finite numbers")]
+    #[error("point {number} of the path is ({x}, {y}): both must be finite numbers", x = told(*x), y = told(*y))]
     NotFinite {
         /// Number of the point, from one.
         number: usize,
@@ -23,7 +23,7 @@ pub enum PathError {
     },
     /// A coordinate so large that its powers are lost.
     #[error(
-        "point {number} of the path is ({x:e}, {y:e}) mm: coordinates may be up to {limit:e} mm"
+        "point {number} of the path is ({}, {}) mm: coordinates may be up to {limit:e} mm", told(*x), told(*y)
     )]
     TooFar {
         /// Number of the point, from one.
@@ -60,7 +60,7 @@ pub enum PathError {
         limit: usize,
     },
     /// Two neighbouring points are one.
-    #[error("points {first} and {second} of the path are both ({x}, {y}) mm: leave one out")]
+    #[error("points {first} and {second} of the path are both ({x}, {y}) mm: leave one out", x = told(*x), y = told(*y))]
     Twice {
         /// Number of the first, from one.
         first: usize,
@@ -104,7 +104,7 @@ pub enum PathError {
         line: usize,
     },
     /// A tolerance that is none.
-    #[error("line {line}: the tolerance of a point is zero or more, in mm, not {value}")]
+    #[error("line {line}: the tolerance of a point is zero or more, in mm, not {}", told(*value))]
     Tolerance {
         /// Line, from one.
         line: usize,
@@ -121,8 +121,20 @@ pub enum PathError {
         /// The word found.
         found: String,
     },
-    /// A line of too few values.
-    #[error("line {line} has {count} values; it must hold {wanted}, separated by a comma")]
+    /// A line of headings that names no columns.
+    #[error("line {line}: {fault}; known columns are {known}")]
+    Headings {
+        /// Line, from one.
+        line: usize,
+        /// The heading at fault.
+        fault: String,
+        /// Headings of the columns that a file may have.
+        known: String,
+    },
+    /// A line of too few values, or of values in columns without a heading.
+    #[error(
+        "line {line} has {count} values; it must hold {wanted}, separated by a comma, and further columns need a heading"
+    )]
     Columns {
         /// Line, from one.
         line: usize,
@@ -138,13 +150,21 @@ pub enum PathError {
 #[non_exhaustive]
 pub enum AxisFault {
     /// The place is no point.
-    #[error("the axis ({x}, {y}) must be two finite numbers within {limit:e} mm")]
+    #[error("the axis ({}, {}) must be two finite numbers within {limit:e} mm", told(*x), told(*y))]
     NotFinite {
         /// Its x, mm.
         x: f64,
         /// Its y, mm.
         y: f64,
         /// Greatest coordinate, mm.
+        limit: f64,
+    },
+    /// An axis so far from the path that the tip's position is lost in rounding.
+    #[error("the axis is {} mm from the path: it may be up to {} mm away, 1000 times the size of the path", told(distance.round()), told(limit.round()))]
+    TooFar {
+        /// Minimum distance of the path from the axis, mm.
+        distance: f64,
+        /// Maximum allowed, mm.
         limit: f64,
     },
     /// The distance from the axis has several greatest or least places.
@@ -217,6 +237,7 @@ impl AxisFault {
     pub fn name(&self) -> &'static str {
         match self {
             Self::NotFinite { .. } => "not-finite",
+            Self::TooFar { .. } => "too-far",
             Self::Extremes { .. } => "extremes",
             Self::Circle { .. } => "circle",
             Self::OnAxis { .. } => "on-axis",

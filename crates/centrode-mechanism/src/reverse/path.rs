@@ -14,6 +14,9 @@ const FEWEST: usize = 4;
 const MOST: usize = 50_000;
 /// Greatest coordinate, mm.
 pub(super) const FARTHEST: f64 = 1e9;
+/// Maximum distance of the axis from the path as a multiple of the path's size. The laws bring the tip within 1e-7 of its
+/// distance from the axis, here 1e-4 of the path's size; ten times farther, tables of the laws lose all digits.
+pub(super) const FARTHEST_AXIS: f64 = 1e3;
 /// Least size of a path as a share of its distance from the origin: a smaller one has lost the digits that its law needs.
 const SMALLEST: f64 = 1e-6;
 /// Greatest distance of the last point from the first, as a multiple of the greatest of two other neighbours.
@@ -180,8 +183,9 @@ impl WantedPath {
 
     /// Reads points from a CSV file: x and y in mm, a point a line, in order.
     ///
-    /// Columns are separated by commas, or by semicolons or tabs, and then a decimal comma is read, too. Further columns, empty
-    /// lines, lines that begin with `#` and one line of headings are skipped.
+    /// Columns are separated by commas, or by semicolons or tabs, and then a decimal comma is read, too. Empty lines and lines
+    /// that begin with `#` are skipped. A line of headings names the columns in any order: `x`, `y`, `tolerance`,
+    /// `direction_deg`, `direction_tolerance_deg`. Other columns are refused.
     ///
     /// # Errors
     /// [`PathError`] with the line, and as [`through`](Self::through).

@@ -64,7 +64,7 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
     let bend_deg = asked.bend_deg(command);
     progress.step("splitting the motion");
     let split = Split::new(chain, kind, bend)
-        .map_err(|error| Failure::Usage(format!("--bend {bend_deg}: {error}")))?;
+        .map_err(|error| asked.blame(command.bend.is_some(), ["--bend", "bend_deg"], error))?;
     progress.step("rolling the pitch curves");
     let made = made::rolled(design, chain, &split);
     let made = made.map_err(|error| Failure::Files(Box::new(error)))?;
@@ -147,14 +147,17 @@ fn refused(command: &Reverse, asked: &Asked, error: NotFound) -> Failure {
         NotFound::Crossing(error) => {
             let name = asked.source.name();
             Failure::Usage(format!(
-                "{name}: {error} With --crossing such a path is taken."
+                "{name}: {error} Such a path is taken with {}.",
+                asked.spelled(["--crossing", "path.crossing = true"])
             ))
         }
-        NotFound::Axis { at: [x, y], fault } => Failure::Usage(format!("--axis {x},{y}: {fault}")),
+        NotFound::Axis { fault, .. } => {
+            asked.blame(command.axis.is_some(), ["--axis", "axis"], fault)
+        }
         NotFound::Easing(EasingError::Module { .. }) => {
             let module = command.module.unwrap_or_default();
             Failure::Usage(format!(
-                "--module is greater than zero, in mm, not {module}"
+                "--module is greater than zero, in mm, not {module:?}"
             ))
         }
         error @ NotFound::NoAxis { .. } => Failure::Usage(error.to_string()),

@@ -60,7 +60,7 @@ fn poses() -> String {
 
 #[test]
 fn key_poses_are_met_and_bad_ones_refused() {
-    let csv = format!("x,y,direction\n{}", poses());
+    let csv = format!("x,y,direction_deg\n{}", poses());
     let run = fed(&["reverse", "-", "--poses", "--bend", "40"], csv.as_bytes());
     let told = text(&run.stdout);
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
@@ -153,7 +153,7 @@ fn a_bad_path_is_refused_with_the_reason_and_nothing_is_written() {
         ("0,0\n1,NaN\n1,1\n0,1\n", "0,0", "point 2 of the path"),
         ("0,0\n1,b\n1,1\n0,1\n", "0,0", "line 2"),
         (&large, "0,0", "the limit is"),
-        (DRAWN, "60,200", "--axis 60,200"),
+        (DRAWN, "60,200", "--axis: "),
         (DRAWN, "1,2,3", "--axis"),
         (DRAWN, "1e300,0", "--axis"),
     ] {
@@ -604,6 +604,200 @@ fn an_axis_at_the_border_of_its_box_is_told_with_the_side() {
         told.contains("axis_box: cannot be given together with axis") && told.contains("input:5:"),
         "{told}"
     );
+}
+
+#[test]
+fn a_message_names_the_key_of_the_file_or_the_option_and_has_few_digits() {
+    let folder = tempfile::tempdir().expect("a folder");
+    written(folder.path(), "path.csv", DRAWN);
+    let tolerances = DRAWN.lines().enumerate();
+    let tolerances: String = tolerances
+        .map(|(i, line)| format!("{line},{}\n", if i == 0 { "tolerance" } else { "1" }))
+        .collect();
+    written(folder.path(), "bands.csv", &tolerances);
+    let eight = "x,y\n0,0\n50,50\n100,0\n100,50\n50,0\n0,50\n";
+    written(folder.path(), "eight.csv", eight);
+    let design = |keys: &str, file: &str, more: &str| {
+        let text = format!("family = \"path\"\n{keys}\n[path]\nfile = \"{file}.csv\"\n{more}\n");
+        written(folder.path(), "path.toml", &text)
+    };
+    let csv = |name: &str| folder.path().join(name).display().to_string();
+    let far = "1".repeat(300);
+    let far_box = format!("-{far},0,{far},9");
+    let big = "-1e9,-1e9,1e9,1e9";
+    for (keys, file, more, options, words) in [
+        (
+            "axis = [60, 200]",
+            "path",
+            "",
+            &[][..],
+            "error: axis: the distance",
+        ),
+        (
+            "axis = [1e300, 0]",
+            "path",
+            "",
+            &[],
+            "error: axis: the axis (1e300, 0) must",
+        ),
+        (
+            "axis = [1e8, 0]",
+            "path",
+            "",
+            &[],
+            "error: axis: the axis is 99999738 mm from",
+        ),
+        (
+            "axis_box = [[0, 0], [1e9, 1e9]]",
+            "path",
+            "",
+            &[],
+            "error: axis_box: must be -",
+        ),
+        (
+            "axis_box = [[0, 0], [1e300, 9]]",
+            "path",
+            "",
+            &[],
+            "error: axis_box: must be -1000000000 to 1000000000 mm, not 1e300 mm",
+        ),
+        (
+            "bend_deg = 1e300",
+            "path",
+            "",
+            &[],
+            "error: bend_deg: the bend must be at most",
+        ),
+        (
+            "bend_deg = -179.5",
+            "path",
+            "",
+            &[],
+            "error: bend_deg: the bend must be at most",
+        ),
+        (
+            "",
+            "path",
+            "module = 1",
+            &[],
+            "error: path.module: it eases a path: say by how much with path.band",
+        ),
+        (
+            "",
+            "bands",
+            "band = 2",
+            &[],
+            "error: path.band: the file of points has a tolerance",
+        ),
+        (
+            "axis = [60, 200]",
+            "path",
+            "",
+            &["--axis", "50,200"],
+            "error: --axis: the distance",
+        ),
+        (
+            "",
+            "bands",
+            "",
+            &["--band", "2"],
+            "error: --band: the file of points has",
+        ),
+        (
+            "",
+            "path",
+            "",
+            &["--bend", "1e300"],
+            "error: --bend: the bend must be at most",
+        ),
+        (
+            "",
+            "path",
+            "",
+            &["--module", "1"],
+            "error: --module: it eases a path: say by how much with --band",
+        ),
+        (
+            "",
+            "path",
+            "",
+            &["--axis-box", big],
+            "error: --axis-box: must be -",
+        ),
+        (
+            "axis = [60, 200]",
+            "path",
+            "",
+            &["--axis-box", &far_box],
+            "error: --axis-box: must be -1000000000 to 1000000000 mm, not -1.111111111e299 mm",
+        ),
+        (
+            "",
+            "eight",
+            "",
+            &[],
+            "Such a path is taken with path.crossing = true.",
+        ),
+    ] {
+        let path = design(keys, file, more);
+        let run = centrode(&[&["reverse", &path], options].concat());
+        let message = text(&run.stderr);
+        assert_eq!(
+            run.status.code(),
+            Some(2),
+            "{keys} {more} {options:?} {message}"
+        );
+        assert!(
+            message.contains(words),
+            "{keys} {more} {options:?}: {message}"
+        );
+        // A key of the file is shown at its line.
+        let is_key = !(words.contains("--") || file == "eight");
+        assert_eq!(message.contains("path.toml:"), is_key, "{message}");
+        assert!(
+            message.lines().next().expect("a line").len() < 250,
+            "{message}"
+        );
+    }
+    for (name, options, words) in [
+        (
+            "path.csv",
+            &["--axis", "60,200"][..],
+            "error: --axis: the distance",
+        ),
+        (
+            "path.csv",
+            &["--axis-box", big],
+            "error: --axis-box: must be -",
+        ),
+        (
+            "path.csv",
+            &["--axis-box", "1e9,1e9,2e9,2e9", "--band", "2"],
+            "error: --axis-box: must be -",
+        ),
+        (
+            "path.csv",
+            &["--axis-box", "0,0,6e5,6e5"],
+            "error: --axis-box: must be -",
+        ),
+        (
+            "path.csv",
+            &["--axis", "1e9,0"],
+            "error: --axis: the axis is 999999738 mm from",
+        ),
+        (
+            "path.csv",
+            &["--bend", "175"],
+            "error: --bend: the bend must be at most",
+        ),
+        ("eight.csv", &[], "Such a path is taken with --crossing."),
+    ] {
+        let run = centrode(&[&["reverse", &csv(name)], options].concat());
+        let message = text(&run.stderr);
+        assert_eq!(run.status.code(), Some(2), "{options:?} {message}");
+        assert!(message.contains(words), "{options:?}: {message}");
+        assert!(message.len() < 300, "{message}");
+    }
 }
 
 #[test]

@@ -9,7 +9,7 @@ pub enum EasingError {
     #[error(transparent)]
     Path(#[from] PathError),
     /// A band that is none.
-    #[error("the band of point {number} is zero or more, in mm, not {band}")]
+    #[error("the band of point {number} is zero or more, in mm, not {band:?}")]
     Band {
         /// Number of the point, from one.
         number: usize,
@@ -46,7 +46,7 @@ pub enum EasingError {
     #[error("wishes.{0}")]
     Wish(#[from] SpecError),
     /// A module that is none.
-    #[error("the module wanted is greater than zero, in mm, not {module}")]
+    #[error("the module wanted is greater than zero, in mm, not {module:?}")]
     Module {
         /// Module given, mm.
         module: f64,

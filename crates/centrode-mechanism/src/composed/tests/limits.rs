@@ -46,11 +46,44 @@ fn parts_whose_files_would_have_one_name_are_refused() {
         ("Crank", "would have one name"),
         ("assembly", "a file of the whole machine is named assembly"),
         ("con", "is no name for a file"),
+        ("sheets", "a file of the whole machine is named sheets"),
+        ("Sheets", "a file of the whole machine is named sheets"),
+        (
+            "assembly-sheet",
+            "a file of the whole machine is named assembly-sheet",
+        ),
+        (
+            "assembly-sheet-2",
+            "a file of the whole machine is named assembly-sheet-2",
+        ),
+        (
+            "sheets-sheet",
+            "a file of the whole machine is named sheets-sheet",
+        ),
+        (
+            "crank-sheet",
+            "the files of bodies.crank-sheet and bodies.crank would have one name",
+        ),
+        (
+            "CRANK-SHEET-12",
+            "the files of bodies.CRANK-SHEET-12 and bodies.crank would have one name",
+        ),
     ] {
         let found = refused(&more(name));
         assert!(found.contains(told), "{found}");
     }
-    made(&more("winch"));
+    for name in [
+        "winch",
+        "sheet",
+        "sheets-2",
+        "crank-sheets",
+        "crank-2",
+        "winch-sheet",
+        "motion",
+        "parts",
+    ] {
+        made(&more(name));
+    }
 }
 
 #[test]

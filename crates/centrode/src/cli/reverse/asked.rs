@@ -2,7 +2,7 @@ use std::path::Path;
 
 use crate::analysis::Unit;
 use crate::geometry::Point;
-use crate::mechanism::design::{DesignFamily, DesignFile};
+use crate::mechanism::design::{DesignFamily, DesignFile, MechanismError};
 use crate::mechanism::gear::design::SpecError;
 use crate::mechanism::reverse::{
     Aim, DrawnPath, PathDesign, PathError, SplitKind, WantedPath, WantedPoints,
@@ -24,43 +24,49 @@ pub(super) struct Asked {
     pub(super) source: Source,
     /// Words on a drawing.
     pub(super) drawing: Option<String>,
+    /// The design file, if there is one.
+    file: Option<(Source, DesignFile)>,
 }
+
+/// Words of an error.
+#[derive(Debug, thiserror::Error)]
+#[error("{0}")]
+struct Sentence(&'static str);
 
 impl Asked {
     pub(super) fn read(command: &Reverse) -> Result<Self, Failure> {
         let source = super::source(command)?;
-        let (mut design, file) = match path_design(&source)? {
-            Some((design, file)) => (design, Some(file)),
+        let (design, file) = match path_design(&source)? {
+            Some((design, file)) => (design, Some((source.clone(), file))),
             None => (PathDesign::default(), None),
         };
-        let points = design.path.points.iter().map(|&p| p.into()).collect();
-        let mut asked = match (&file, &design.path.file) {
-            (None, _) => Self::of_points(PathDesign::default(), source, command)?,
-            (Some(file), Some(name)) => {
+        let name = design.path.file.clone();
+        let mut asked = Self {
+            points: design.path.points.iter().map(|&p| p.into()).collect(),
+            design,
+            source,
+            drawing: None,
+            file,
+        };
+        match (asked.file.is_some(), name) {
+            (false, _) => asked.take_points(command)?,
+            (true, Some(name)) => {
                 let folder = command.path.as_deref().and_then(Path::parent);
                 let path = folder.unwrap_or(Path::new("")).join(name);
-                let points = Source::open_up_to(&path, WantedPath::LARGEST)?;
-                let wishes = design.wishes.clone();
-                let design = std::mem::take(&mut design);
-                let asked = Self::of_points(design, points, command)?;
+                asked.source = Source::open_up_to(&path, WantedPath::LARGEST)?;
+                let wishes = asked.design.wishes.clone();
+                asked.take_points(command)?;
                 // A number of a point stands in the design, and not in the file that holds too few of them.
                 let count = asked.points.len();
                 let is_closed = count > 1 && asked.points.first() == asked.points.last();
                 let checked = wishes.validate(count - usize::from(is_closed));
                 checked.map_err(|error| {
                     let key = format!("wishes.{}", error.key);
-                    let error = SpecError { key, ..error };
-                    source.blame(file.blame(error.into()))
+                    asked.refused(SpecError { key, ..error }.into())
                 })?;
-                asked
             }
-            (Some(_), None) => Self {
-                design,
-                points,
-                source,
-                drawing: None,
-            },
-        };
+            (true, None) => {}
+        }
         asked.take(command)?;
         if asked.design.path.control {
             asked.points = WantedPath::knots(&asked.points);
@@ -75,52 +81,72 @@ impl Asked {
             points: Vec::new(),
             source,
             drawing: None,
+            file: None,
         };
         asked.take(command)?;
         Ok(asked)
     }
 
-    /// Points of a CSV or SVG file.
-    fn of_points(
-        mut design: PathDesign,
-        source: Source,
-        command: &Reverse,
-    ) -> Result<Self, Failure> {
-        let drawn = drawn(source.bytes(), command.within.unwrap_or(WITHIN));
-        if let Some(drawn) = drawn.map_err(|error| source.refused(&error))? {
+    /// Takes the points of a CSV or SVG file.
+    fn take_points(&mut self, command: &Reverse) -> Result<(), Failure> {
+        let bytes = self.source.bytes();
+        let drawn = drawn(bytes, command.within.unwrap_or(WITHIN));
+        if let Some(drawn) = drawn.map_err(|error| self.source.refused(&error))? {
             let off = Unit::Millimetre.tell(drawn.deviation.value);
             let points = drawn.points.len();
-            return Ok(Self {
-                design,
-                points: drawn.points,
-                source,
-                drawing: Some(format!(
-                    "through {points} points, within {off} of the drawing"
-                )),
-            });
+            self.points = drawn.points;
+            self.drawing = Some(format!(
+                "through {points} points, within {off} of the drawing"
+            ));
+            return Ok(());
         }
-        let wanted = WantedPoints::from_csv(source.bytes());
-        let wanted = wanted.map_err(|error| source.refused(&error))?;
+        let wanted = WantedPoints::from_csv(bytes);
+        let wanted = wanted.map_err(|error| self.source.refused(&error))?;
         if let Some(tolerances) = wanted.tolerances {
-            if command.band.is_some() || design.path.band.is_some() {
-                let words = "the file has a tolerance for each point: leave out --band";
-                return Err(Failure::Usage(words.into()));
+            if command.band.is_some() || self.design.path.band.is_some() {
+                let words = "the file of points has a tolerance for each point: remove this one";
+                let is_option = command.band.is_some();
+                return Err(self.blame(is_option, ["--band", "path.band"], Sentence(words)));
             }
-            design.path.tolerance = tolerances;
+            self.design.path.tolerance = tolerances;
         }
-        design.wishes.directions.extend(wanted.directions);
-        Ok(Self {
-            design,
-            points: wanted.points,
-            source,
-            drawing: None,
-        })
+        self.design.wishes.directions.extend(wanted.directions);
+        self.points = wanted.points;
+        Ok(())
+    }
+
+    /// The option or, if there is a design file, the key.
+    pub(super) fn spelled<'a>(&self, [option, key]: [&'a str; 2]) -> &'a str {
+        if self.file.is_some() { key } else { option }
+    }
+
+    /// Failure of a value that is an option of the command line or, if the option is not given, a key of the design file.
+    pub(super) fn blame(
+        &self,
+        is_option: bool,
+        [option, key]: [&'static str; 2],
+        error: impl std::error::Error + Send + Sync + 'static,
+    ) -> Failure {
+        let key = match is_option {
+            true => option,
+            false => self.spelled([option, key]),
+        };
+        self.refused(MechanismError::new(key.into(), error))
+    }
+
+    /// Failure of an error, at the line of the design file with its key, unless the key is an option.
+    fn refused(&self, error: MechanismError) -> Failure {
+        match &self.file {
+            Some((source, file)) if !error.key.starts_with("--") => source.blame(file.blame(error)),
+            _ => Failure::Usage(error.message()),
+        }
     }
 
     /// Takes what the command line says, before what the file does.
     fn take(&mut self, command: &Reverse) -> Result<(), Failure> {
         let design = &mut self.design;
-        if command.axis.is_some() || command.axis_box.is_some() {
+        let is_axis_option = command.axis.is_some() || command.axis_box.is_some();
+        if is_axis_option {
             (design.axis, design.axis_box) = (command.axis, command.axis_box);
         }
         if let Some(bend) = command.bend {
@@ -143,10 +169,25 @@ impl Asked {
         let path = &design.path;
         let is_eased = path.band.is_some() || !path.tolerance.is_empty() || path.open;
         if path.module.is_some() && !is_eased {
-            let words = "--module eases a path: say by how much with --band, or by a column headed tolerance in the file";
-            return Err(Failure::Usage(words.into()));
+            let is_option = command.module.is_some() || self.file.is_none();
+            let words = Sentence(match is_option {
+                true => {
+                    "it eases a path: say by how much with --band, or by a column headed tolerance in the file"
+                }
+                false => {
+                    "it eases a path: say by how much with path.band, path.tolerance or a column headed tolerance"
+                }
+            });
+            return Err(self.blame(is_option, ["--module", "path.module"], words));
         }
-        Ok(())
+        let checked = self.design.check_axes(&self.points);
+        checked.map_err(|error| {
+            let key = match is_axis_option {
+                true => format!("--{}", error.key.replace('_', "-")),
+                false => error.key,
+            };
+            self.refused(SpecError { key, ..error }.into())
+        })
     }
 
     /// Angle from the carrier's first leg to its second, degrees, as it was given.

@@ -4,8 +4,8 @@ use crate::analysis::optimise::{EasedPath, Easing, EasingError, EasingSpec, axis
 use crate::analysis::{Finding, Goal, Unit};
 use crate::geometry::{Bounds, Point};
 use crate::mechanism::reverse::{
-    Aim, AxisFault, AxisMap, KeyPose, KeyPoses, PathDesign, PathError, PoseError, TwoBar,
-    WantedPath,
+    Aim, AxisFault, AxisMap, AxisRange, KeyPose, KeyPoses, PathDesign, PathError, PoseError,
+    TwoBar, WantedPath,
 };
 
 use super::words::{self, Labelled};
@@ -66,11 +66,9 @@ impl Found {
         observe: &mut dyn FnMut(u64) -> ControlFlow<()>,
     ) -> Result<Self, NotFound> {
         let axis = design.axis.map(Point::from);
-        let path = WantedPath::through(points).ok();
-        let axes = path.filter(|_| design.axis_box.is_some());
         let spec = EasingSpec {
             axis,
-            axes: axes.map(|path| design.axes(&path)),
+            axes: design.axis_box.map(AxisRange::between),
             aim: design.aim.unwrap_or_default(),
             wishes: design.wishes.clone(),
             ..EasingSpec::new(bands, design.bend)
