@@ -124,7 +124,7 @@ impl Bundle {
     /// All contents are first written and flushed in hidden folders, then renamed: a file is there whole or, after an
     /// error, as it was before; nothing else is left behind. Remains of a killed program are cleared by the next one that
     /// writes there; several may write at the same time. A file written over keeps its permissions, and links to it still
-    /// lead there; what is no regular file is not written over. Cancelled by [`Cancel`](centrode_geometry::Cancel) it leaves
+    /// lead there; what is no regular file, or read-only, is not written over. Cancelled by [`Cancel`](centrode_geometry::Cancel) it leaves
     /// no new file.
     ///
     /// # Errors
@@ -166,15 +166,46 @@ impl Bundle {
 /// [`BundleError::Name`] if the path does not end in a plain file name, [`BundleError::Disk`] with the
 /// system's reason.
 pub fn write_file(path: &Path, bytes: Vec<u8>) -> Result<(), BundleError> {
+    let (folder, name) = split(path)?;
+    let mut bundle = Bundle::default();
+    bundle.add(name, bytes)?;
+    bundle.write_to(folder)?;
+    Ok(())
+}
+
+/// Writes a new file whole or, after an error, none; a file that is there stays as it is.
+///
+/// # Errors
+/// [`BundleError::Name`] if the path does not end in a plain file name, [`BundleError::Disk`] with the
+/// system's reason, of kind [`AlreadyExists`](io::ErrorKind::AlreadyExists) if the name is taken.
+pub fn write_new_file(path: &Path, bytes: &[u8]) -> Result<(), BundleError> {
+    let (folder, name) = split(path)?;
+    Bundle::default().add(name, Vec::new())?;
+    let made = Stage::open(folder).and_then(|stage| {
+        let place = stage.place(name);
+        put(bytes, &place, path)?;
+        match fs::hard_link(&place, path) {
+            // A file system without links: only another program could take the name in between.
+            Err(error)
+                if error.kind() != io::ErrorKind::AlreadyExists
+                    && fs::symlink_metadata(path).is_err() =>
+            {
+                fs::rename(&place, path)
+            }
+            linked => linked,
+        }
+    });
+    made.map_err(failed("make", path))
+}
+
+/// Folder and name of a file.
+fn split(path: &Path) -> Result<(&Path, &str), BundleError> {
     let name = path.file_name().and_then(OsStr::to_str);
     let name = name.ok_or_else(|| BundleError::Name {
         name: path.display().to_string(),
     })?;
-    let mut bundle = Bundle::default();
-    bundle.add(name, bytes)?;
     let folder = path.parent().filter(|folder| *folder != Path::new(""));
-    bundle.write_to(folder.unwrap_or(Path::new(".")))?;
-    Ok(())
+    Ok((folder.unwrap_or(Path::new(".")), name))
 }
 
 /// Whether a name stays inside its folder, and is visible, on every system.

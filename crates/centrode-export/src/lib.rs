@@ -1,6 +1,6 @@
 //! One writer for each file format: DXF, SVG, PDF, STL, STEP, 3MF, CSV, URDF, MJCF.
 //!
-//! Writers are pure: they turn a plain value into bytes. Only [`Bundle`] and [`write_file`] touch the disk.
+//! Writers are pure: they turn a plain value into bytes. Only [`Bundle`], [`write_file`] and [`write_new_file`] touch the disk.
 
 mod bundle;
 pub mod cam;
@@ -32,7 +32,7 @@ mod turned;
 pub mod urdf;
 mod xml;
 
-pub use bundle::{Bundle, BundleError, write_file};
+pub use bundle::{Bundle, BundleError, write_file, write_new_file};
 pub use error::ExportError;
 pub use format::{Format, UnknownFormat};
 pub use options::{Options, SheetOptions};

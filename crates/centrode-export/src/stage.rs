@@ -65,6 +65,10 @@ pub(crate) fn destination(target: &Path) -> io::Result<PathBuf> {
     match fs::metadata(target) {
         Ok(there) if there.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
         Ok(there) if !there.is_file() => Err(io::Error::other("it is no regular file")),
+        Ok(there) if there.permissions().readonly() => Err(io::Error::new(
+            io::ErrorKind::PermissionDenied,
+            "it is read-only",
+        )),
         Ok(_) if target.is_symlink() => target.canonicalize(),
         // Links to what is still to be made.
         Err(error) if error.kind() == io::ErrorKind::NotFound && target.is_symlink() => {
@@ -93,11 +97,18 @@ pub(crate) fn put(bytes: &[u8], place: &Path, target: &Path) -> io::Result<()> {
     file.sync_all()
 }
 
-/// File by which a stage is locked; made where it is missing.
+/// File by which a stage is locked; made if it is missing, but never through a symbolic link.
 fn lock_of(stage: &Path) -> io::Result<File> {
-    let mut options = File::options();
-    options.create(true).truncate(false).write(true);
-    options.open(stage.join(LOCK))
+    let path = stage.join(LOCK);
+    match File::create_new(&path) {
+        Err(taken)
+            if taken.kind() == io::ErrorKind::AlreadyExists
+                && fs::symlink_metadata(&path)?.is_file() =>
+        {
+            File::options().write(true).open(path)
+        }
+        made => made,
+    }
 }
 
 /// Removes the stages in a folder whose writers have ended without doing so.
@@ -109,6 +120,7 @@ fn clear(folder: &Path) {
             .and_then(|name| name.strip_prefix(NAME[0])?.strip_suffix(NAME[1]));
         let ours = number.is_some_and(|n| n.len() == 16 && u64::from_str_radix(n, 16).is_ok());
         if ours
+            && entry.file_type().is_ok_and(|kind| kind.is_dir())
             && let Ok(lock) = lock_of(&entry.path())
             && lock.try_lock().is_ok()
         {
@@ -128,6 +140,42 @@ mod tests {
             .collect();
         names.sort();
         names
+    }
+
+    /// Folders that look like stages and lead elsewhere: nothing is made or removed there.
+    #[cfg(unix)]
+    #[test]
+    fn a_lock_is_never_made_through_a_symbolic_link() {
+        use std::os::unix::fs::symlink;
+
+        let [root, other] = [(); 2].map(|()| tempfile::tempdir().expect("a place to write"));
+        let stage = |number: u32| root.path().join(format!(".centrode-{number:016x}.part"));
+        let elsewhere = |name: &str| other.path().join(name);
+        fs::write(elsewhere("full"), b"kept").expect("written");
+        fs::create_dir(elsewhere("folder")).expect("a folder");
+        for (number, target) in ["missing", "full", "folder", "no/such/folder"]
+            .into_iter()
+            .enumerate()
+        {
+            let stage = stage(number as u32);
+            fs::create_dir(&stage).expect("a folder");
+            symlink(elsewhere(target), stage.join(LOCK)).expect("linked");
+        }
+        fs::create_dir(stage(4)).expect("a folder");
+        symlink("lock", stage(4).join(LOCK)).expect("a link to itself");
+        fs::create_dir(stage(5)).expect("a folder");
+        symlink(stage(5).join("chain"), stage(5).join(LOCK)).expect("linked");
+        symlink(elsewhere("end"), stage(5).join("chain")).expect("linked");
+        for (number, target) in ["folder", "gone", "full"].into_iter().enumerate() {
+            symlink(elsewhere(target), stage(6 + number as u32)).expect("linked");
+        }
+        fs::create_dir_all(stage(9).join(LOCK)).expect("a folder instead of a lock");
+        let before = names(root.path());
+        drop(Stage::open(root.path()).expect("a stage"));
+        assert_eq!(names(root.path()), before, "none is a stage");
+        assert_eq!(names(other.path()), ["folder", "full"]);
+        assert_eq!(names(&elsewhere("folder")), [""; 0]);
+        assert_eq!(fs::read(elsewhere("full")).expect("there"), b"kept");
     }
 
     #[test]

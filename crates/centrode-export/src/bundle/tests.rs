@@ -202,3 +202,98 @@ fn names_that_lead_elsewhere_or_repeat_are_refused() {
         Err(BundleError::Twice { .. })
     ));
 }
+
+#[test]
+fn a_new_file_is_there_whole_and_none_is_replaced() {
+    let root = tempfile::tempdir().expect("a place to write");
+    let names = || fs::read_dir(root.path()).expect("readable").count();
+    for (number, bytes) in [&b""[..], b"a", &[0; 70_000], "\u{3c0}".as_bytes()]
+        .into_iter()
+        .enumerate()
+    {
+        let path = root.path().join(format!("{number}.toml"));
+        write_new_file(&path, bytes).expect("written");
+        assert_eq!(fs::read(&path).expect("there"), bytes);
+        let error = write_new_file(&path, b"other").expect_err("taken");
+        let BundleError::Disk { source, .. } = error else {
+            panic!("{error}");
+        };
+        assert_eq!(source.kind(), std::io::ErrorKind::AlreadyExists);
+        assert_eq!(fs::read(&path).expect("there"), bytes);
+        assert_eq!(names(), number + 1, "nothing is left behind");
+    }
+    fs::create_dir(root.path().join("folder")).expect("a folder");
+    let bad = [
+        "folder",
+        "",
+        ".hidden",
+        "..",
+        "no/such/a.toml",
+        "0.toml/a.toml",
+    ];
+    for name in bad {
+        assert!(
+            write_new_file(&root.path().join(name), b"a").is_err(),
+            "{name}"
+        );
+    }
+    #[cfg(unix)]
+    for (name, target) in [("dead", "nowhere"), ("alive", "0.toml"), ("self", "self")] {
+        std::os::unix::fs::symlink(target, root.path().join(name)).expect("linked");
+        assert!(
+            write_new_file(&root.path().join(name), b"a").is_err(),
+            "{name}"
+        );
+    }
+    assert!(!root.path().join("nowhere").exists());
+}
+
+#[cfg(unix)]
+#[test]
+fn a_read_only_file_and_all_others_of_its_set_stay_as_they_were() {
+    use std::os::unix::fs::PermissionsExt as _;
+
+    let root = tempfile::tempdir().expect("a place to write");
+    let [old, new] = ["old", "new"].map(|text| {
+        let mut bundle = Bundle::default();
+        for name in ["a.txt", "b.txt", "sub/c.txt"] {
+            bundle.add(name, text.into()).expect("a name");
+        }
+        bundle
+    });
+    old.write_to(root.path()).expect("written");
+    let path = |name: &str| root.path().join(name);
+    let read = |name: &str| fs::read_to_string(path(name)).expect("there");
+    let set = |name: &str, mode: u32| {
+        fs::set_permissions(path(name), fs::Permissions::from_mode(mode)).expect("set");
+    };
+    std::os::unix::fs::symlink("b.txt", path("link.txt")).expect("linked");
+    let mut linked = Bundle::default();
+    linked.add("link.txt", b"new".to_vec()).expect("a name");
+    for mode in [0o444, 0o400, 0o555, 0o440, 0o404] {
+        for name in ["a.txt", "b.txt", "sub/c.txt"] {
+            set(name, mode);
+            let error = new
+                .write_to(root.path())
+                .expect_err("read-only")
+                .to_string();
+            assert!(
+                error.contains(name) && error.contains("read-only"),
+                "{error}"
+            );
+            assert_eq!(linked.write_to(root.path()).is_err(), name == "b.txt");
+            assert_eq!(["a.txt", "sub/c.txt"].map(read), ["old"; 2]);
+            set(name, 0o644);
+            old.write_to(root.path()).expect("written");
+        }
+    }
+    for mode in [0o644, 0o600, 0o755, 0o200, 0o660] {
+        set("a.txt", mode);
+        new.write_to(root.path()).expect("written");
+        let kept = fs::metadata(path("a.txt"))
+            .expect("there")
+            .permissions()
+            .mode();
+        assert_eq!(kept & 0o777, mode);
+    }
+}

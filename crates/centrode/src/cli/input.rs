@@ -1,13 +1,42 @@
-use std::fs::File;
+use std::fs::{self, File};
 use std::io::{self, Read};
 use std::path::Path;
 
 use crate::family::{FAMILIES, OpenDesign};
-use crate::mechanism::design::{DesignError, DesignFile};
+use crate::mechanism::design::{DesignError, DesignFile, shortened};
 
 use crate::cli::failure::Failure;
 
+/// Reads a file up to one byte more than a limit. A named pipe is refused: without a writer it would never be read.
+pub(crate) fn read(path: &Path, limit: usize) -> io::Result<Vec<u8>> {
+    // A pipe of the shell, as in `<(...)`, has no name that leads to it.
+    if let Ok(there) = path.canonicalize().and_then(fs::metadata)
+        && is_pipe(there.file_type())
+    {
+        let words = "it is a named pipe: read it as standard input, by -";
+        return Err(io::Error::other(words));
+    }
+    up_to(File::open(path)?, limit)
+}
+
+fn up_to(from: impl Read, limit: usize) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    from.take(limit as u64 + 1).read_to_end(&mut bytes)?;
+    Ok(bytes)
+}
+
+#[cfg(unix)]
+fn is_pipe(kind: fs::FileType) -> bool {
+    std::os::unix::fs::FileTypeExt::is_fifo(&kind)
+}
+
+#[cfg(not(unix))]
+fn is_pipe(_: fs::FileType) -> bool {
+    false
+}
+
 /// Text of a design file, kept for its errors.
+#[derive(Clone)]
 pub(crate) struct Source {
     name: String,
     bytes: Vec<u8>,
@@ -27,15 +56,13 @@ impl Source {
         } else {
             path.display().to_string()
         };
-        let mut bytes = Vec::new();
-        let limit = limit as u64 + 1;
         let read = if standard {
-            io::stdin().lock().take(limit).read_to_end(&mut bytes)
+            up_to(io::stdin().lock(), limit)
         } else {
-            File::open(path).and_then(|file| file.take(limit).read_to_end(&mut bytes))
+            read(path, limit)
         };
         match read {
-            Ok(_) => Ok(Self { name, bytes }),
+            Ok(bytes) => Ok(Self { name, bytes }),
             Err(error) => Err(Failure::Input { name, error }),
         }
     }
@@ -52,7 +79,7 @@ impl Source {
 
     /// Failure of an error that tells its place in the file itself.
     pub(crate) fn refused(&self, error: &dyn std::error::Error) -> Failure {
-        Failure::Usage(format!("{}: {error}", self.name))
+        Failure::Usage(format!("{}: {}", self.name, shortened(&error.to_string())))
     }
 
     /// Refuses to write over the design.
@@ -105,5 +132,65 @@ impl Source {
             text: String::from_utf8_lossy(&self.bytes).into_owned(),
             error: Box::new(error),
         }
+    }
+}
+
+#[cfg(all(test, unix))]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_named_pipe_is_refused_at_once_and_other_files_are_read() {
+        let folder = tempfile::tempdir().expect("a place to write");
+        let at = |name: &str| folder.path().join(name);
+        let made = std::process::Command::new("mkfifo")
+            .arg(at("pipe.toml"))
+            .status();
+        assert!(made.expect("mkfifo runs").success());
+        fs::write(at("file.toml"), "a = 1\n").expect("written");
+        fs::create_dir(at("folder")).expect("a folder");
+        for (name, target) in [
+            ("to-pipe", "pipe.toml"),
+            ("to-link", "to-pipe"),
+            ("to-file", "file.toml"),
+            ("to-nothing", "missing"),
+            ("folder/to-pipe", "../pipe.toml"),
+        ] {
+            std::os::unix::fs::symlink(target, at(name)).expect("linked");
+        }
+        for name in [
+            "pipe.toml",
+            "to-pipe",
+            "to-link",
+            "folder/to-pipe",
+            "folder/../pipe.toml",
+        ] {
+            let error = read(&at(name), 10).expect_err(name);
+            assert!(error.to_string().contains("named pipe"), "{name}: {error}");
+            assert!(Source::open(&at(name)).is_err());
+        }
+        for name in ["file.toml", "to-file", "folder/../file.toml"] {
+            assert_eq!(read(&at(name), 10).expect(name), b"a = 1\n");
+        }
+        assert_eq!(
+            read(&at("file.toml"), 2).expect("read"),
+            b"a =",
+            "one byte more"
+        );
+        for name in ["to-nothing", "folder", "missing", "file.toml/a"] {
+            assert!(read(&at(name), 10).is_err(), "{name}");
+        }
+        assert!(read(Path::new("/dev/null"), 10).expect("read").is_empty());
+    }
+
+    #[test]
+    fn a_pipe_of_the_shell_is_read() {
+        use std::os::fd::AsRawFd as _;
+
+        let (from, mut to) = io::pipe().expect("a pipe");
+        io::Write::write_all(&mut to, b"a = 1\n").expect("written");
+        drop(to);
+        let path = format!("/dev/fd/{}", from.as_raw_fd());
+        assert_eq!(read(Path::new(&path), 10).expect("read"), b"a = 1\n");
     }
 }

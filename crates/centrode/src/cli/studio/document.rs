@@ -8,7 +8,7 @@ use crate::mechanism::design::DesignFile;
 use serde::Serialize;
 
 use crate::cli::failure::Failure;
-use crate::cli::input::Source;
+use crate::cli::input::{self, Source};
 
 /// Design file of a page, and its autosaves beside it: nothing else is ever written.
 pub(crate) struct Document {
@@ -170,7 +170,7 @@ impl Document {
         files
             .into_iter()
             .filter_map(|file| {
-                let bytes = fs::read(self.folder.join(&file)).ok()?;
+                let bytes = input::read(&self.folder.join(&file), DesignFile::LARGEST).ok()?;
                 let text = String::from_utf8_lossy(&bytes).into_owned();
                 (text != *known).then_some(Recovered { text, file })
             })
@@ -191,7 +191,7 @@ impl Document {
 
     /// Content of the autosave, if there is one.
     fn kept(&self) -> Option<Vec<u8>> {
-        fs::read(self.folder.join(self.autosave())).ok()
+        input::read(&self.folder.join(self.autosave()), DesignFile::LARGEST).ok()
     }
 
     /// Whether this is the name of an autosave, or of an earlier one that has been set aside.
@@ -230,8 +230,9 @@ impl Document {
                 "has {} bytes on disk; a design file has at most {most}",
                 meta.len()
             )),
-            Ok(_) => match fs::read(&path) {
-                Ok(bytes) => Disk::Text(String::from_utf8_lossy(&bytes).into_owned()),
+            Ok(_) => match input::read(&path, most).map(String::from_utf8) {
+                Ok(Ok(text)) => Disk::Text(text),
+                Ok(Err(_)) => Disk::Missing("is not text in UTF-8 on disk".into()),
                 Err(error) => Disk::Missing(format!("cannot be read: {error}")),
             },
             Err(_) => Disk::Missing("has been deleted or moved".into()),
@@ -292,6 +293,41 @@ mod tests {
         fs::write(&path, vec![b' '; DesignFile::LARGEST + 1]).expect("written");
         let refused = document.reread().expect_err("too large");
         assert!(refused.to_string().contains("bytes"), "{refused}");
+    }
+
+    #[test]
+    fn a_file_that_is_not_text_is_neither_read_nor_written_over() {
+        let (folder, path, document) = opened();
+        let refused = |bytes: &[u8]| {
+            fs::write(&path, bytes).expect("written");
+            let reread = document.reread().expect_err("no text").to_string();
+            assert_eq!(
+                reread, "pair.toml is not text in UTF-8 on disk",
+                "{bytes:?}"
+            );
+            assert!(matches!(document.disk(), Disk::Missing(_)));
+            assert!(document.save("a = 2\n", "a = 1\n", false).is_err());
+            assert_eq!(fs::read(&path).expect("there"), bytes);
+            assert_eq!(document.text(), "a = 1\n");
+        };
+        refused(b"\xff");
+        refused(b"a = 1\n\xff");
+        refused(b"title = \"\xe9\"\n");
+        refused(b"\xc0\x80");
+        refused(b"\xed\xa0\x80");
+        refused(b"a = 1\n\xe2\x82");
+        refused(b"\xff\xfea\0 \0=\0");
+        refused(b"\xf8\x88\x80\x80\x80");
+        for good in [
+            "",
+            "a = 1\n",
+            "title = \"\u{e9}\u{1f600}\u{fffd}\"\n",
+            "\u{feff}a = 1\n",
+        ] {
+            fs::write(&path, good).expect("written");
+            assert_eq!(document.reread().expect("text"), good);
+        }
+        assert_eq!(fs::read_dir(folder.path()).expect("readable").count(), 1);
     }
 
     fn texts(document: &Document) -> Vec<String> {

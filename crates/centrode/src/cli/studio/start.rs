@@ -1,5 +1,5 @@
 use std::fs;
-use std::io::{self, Write as _};
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
@@ -12,7 +12,7 @@ use super::document::Document;
 use super::shipped::{SHIPPED, shipped};
 use crate::FAMILIES;
 use crate::cli::failure::Failure;
-use crate::export::Bundle;
+use crate::export::{BundleError, write_new_file};
 use crate::mechanism::design::DesignFile;
 
 /// Most designs of the folder that are listed.
@@ -183,16 +183,13 @@ impl StartPage {
         let path = self.place(path)?;
         let name = path.file_name().and_then(|name| name.to_str());
         let name = name.ok_or(OpenError::Ending)?.to_owned();
-        Bundle::default()
-            .add(&name, Vec::new())
-            .map_err(|error| OpenError::Open(error.to_string()))?;
-        let made = fs::File::create_new(&path).and_then(|mut file| file.write_all(text.as_bytes()));
-        match made {
+        match write_new_file(&path, text.as_bytes()) {
             Ok(()) => self.open(&path),
-            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {
-                Err(OpenError::Taken { name })
-            }
-            Err(error) => Err(OpenError::Make { name, error }),
+            Err(BundleError::Disk { source: error, .. }) => Err(match error.kind() {
+                io::ErrorKind::AlreadyExists => OpenError::Taken { name },
+                _ => OpenError::Make { name, error },
+            }),
+            Err(error) => Err(OpenError::Open(error.to_string())),
         }
     }
 
