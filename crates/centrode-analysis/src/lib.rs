@@ -43,6 +43,7 @@ pub use report::{Finding, FlankPlace, Place, Report, ReportFile, Table};
 pub use response::{Answer, Response};
 pub use severity::Severity;
 pub use shaft::{check_moving_box, check_shaft};
+pub use side_by_side::prepare_threads;
 pub use three_arm::{
     ArmClearance, ArmClearanceCourse, ArmClearanceError, TrainTeeth, Variants, VariantsError,
     arm_clearance_course, between_arms, carrier_turn, check_arms, check_three_arm,

@@ -1,6 +1,20 @@
-use centrode_geometry::{Cancel, shared_out};
+use centrode_geometry::{Cancel, shared_out, stay_on_one_thread};
+use rayon::ThreadPoolBuilder;
 
 use crate::progress::Part;
+
+/// Prepares all computations for a system that starts no threads: then the calling thread does everything.
+///
+/// A program calls it once, on its main thread, and not if its other threads wait for computations.
+pub fn prepare_threads() {
+    // The threads of the program cannot be tried twice: others are, as many of them.
+    if ThreadPoolBuilder::new().build().is_err() {
+        let one = ThreadPoolBuilder::new().num_threads(1).use_current_thread();
+        if one.build_global().is_ok() {
+            stay_on_one_thread();
+        }
+    }
+}
 
 /// Results of two jobs that run side by side where a core is free, both under the token of the calling thread; what either tells of
 /// its progress is told as there.

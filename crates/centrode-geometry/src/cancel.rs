@@ -1,10 +1,21 @@
 use std::cell::RefCell;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::thread::ScopedJoinHandle;
 
 thread_local! {
     static CURRENT: RefCell<Option<Cancel>> = const { RefCell::new(None) };
+}
+
+/// Whether no thread is started any more.
+static ALONE: AtomicBool = AtomicBool::new(false);
+
+/// From now on every job of [`together`] and [`shared_out`] runs on the thread that calls them.
+///
+/// For a program that cannot start threads: work that is handed to another thread could wait for one that never comes.
+pub fn stay_on_one_thread() {
+    ALONE.store(true, Ordering::Relaxed);
 }
 
 /// Token that stops a long computation from another thread, by cooperative unwinding.
@@ -112,6 +123,8 @@ pub fn checkpoint() {
 
 /// Results of two jobs that run side by side, each on a thread of its own, both under the token of the calling thread.
 ///
+/// A job whose thread cannot be started runs on the calling thread.
+///
 /// ```
 /// assert_eq!(centrode_geometry::together(|| 6, || 7), (6, 7));
 /// ```
@@ -120,27 +133,54 @@ pub fn together<A: Send, B: Send>(
     other: impl FnOnce() -> B + Send,
 ) -> (A, B) {
     let cancel = Cancel::current();
+    let (one, other) = (Mutex::new(Some(one)), Mutex::new(Some(other)));
     std::thread::scope(|scope| {
         // The caller waits: a single new thread beside one that works is often left on the same core, for some milliseconds.
-        let one = started(scope, &cancel, one);
-        let other = started(scope, &cancel, other);
-        match (one.join(), other.join()) {
+        let started = (
+            started(scope, &cancel, &one),
+            started(scope, &cancel, &other),
+        );
+        match (finished(started.0, &one), finished(started.1, &other)) {
             (Ok(one), Ok(other)) => (one, other),
             (Err(unwound), _) | (_, Err(unwound)) => resume_unwind(unwound),
         }
     })
 }
 
-/// A job that has begun on a thread of its own under a token.
-fn started<'scope, T: Send + 'scope>(
+/// A job, until a thread takes it.
+type Waiting<F> = Mutex<Option<F>>;
+
+/// Thread of a job under a token; `None` if it cannot be started, and the job still waits.
+fn started<'scope, T: Send + 'scope, F: FnOnce() -> T + Send + 'scope>(
     scope: &'scope std::thread::Scope<'scope, '_>,
     cancel: &'scope Cancel,
-    job: impl FnOnce() -> T + Send + 'scope,
-) -> std::thread::ScopedJoinHandle<'scope, T> {
-    scope.spawn(move || {
+    job: &'scope Waiting<F>,
+) -> Option<ScopedJoinHandle<'scope, Option<T>>> {
+    if ALONE.load(Ordering::Relaxed) {
+        return None;
+    }
+    let run = move || {
         let _scope = cancel.enter();
-        job()
-    })
+        taken(job).map(|job| job())
+    };
+    std::thread::Builder::new().spawn_scoped(scope, run).ok()
+}
+
+/// Result of a job: that of its thread or, if it still waits, that of the calling thread.
+fn finished<T, F: FnOnce() -> T>(
+    thread: Option<ScopedJoinHandle<'_, Option<T>>>,
+    job: &Waiting<F>,
+) -> std::thread::Result<T> {
+    let ended = thread.and_then(|thread| thread.join().transpose());
+    match (ended, taken(job)) {
+        (Some(result), _) => result,
+        (None, Some(job)) => Ok(job()),
+        (None, None) => Err(Box::new("a job is gone")),
+    }
+}
+
+fn taken<F>(job: &Waiting<F>) -> Option<F> {
+    job.lock().unwrap_or_else(PoisonError::into_inner).take()
 }
 
 /// Results for each of several things, in their order, worked out by two threads: each takes the next that is left.
@@ -190,6 +230,33 @@ mod tests {
             checkpoint();
             std::thread::sleep(Duration::from_micros(50));
         }
+    }
+
+    #[test]
+    fn a_job_without_a_thread_runs_once_on_the_calling_thread() {
+        let own = std::thread::current().id();
+        for number in 0..10 {
+            let runs = AtomicUsize::new(0);
+            let job = Mutex::new(Some(|| {
+                runs.fetch_add(1, Ordering::Relaxed);
+                (number, std::thread::current().id())
+            }));
+            let found = finished(None, &job).expect("it runs");
+            assert_eq!(found, (number, own));
+            assert_eq!(runs.into_inner(), 1);
+            assert!(finished(None, &job).is_err(), "it is gone");
+        }
+        let job = Mutex::new(Some(|| std::thread::current().id()));
+        let cancel = Cancel::default();
+        let elsewhere = std::thread::scope(|scope| {
+            let thread = started(scope, &cancel, &job);
+            assert!(thread.is_some());
+            finished(thread, &job).expect("it runs")
+        });
+        assert_ne!(elsewhere, own);
+        let job = Mutex::new(Some(endless));
+        cancel.cancel();
+        assert_eq!(cancel.run(|| finished(None, &job).is_ok()), Err(Cancelled));
     }
 
     #[test]

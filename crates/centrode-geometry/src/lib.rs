@@ -50,7 +50,7 @@ mod untangle;
 pub use antiderivative::Antiderivative;
 pub use bezier_fit::BezierFit;
 pub use bounds::Bounds;
-pub use cancel::{Cancel, Cancelled, Scope, checkpoint, shared_out, together};
+pub use cancel::{Cancel, Cancelled, Scope, checkpoint, shared_out, stay_on_one_thread, together};
 pub use chebyshev::{CHEBYSHEV_TERMS, chebyshev_roots, chebyshev_series};
 pub use convex::{ConvexPieces, convex_hull, convex_pieces};
 pub use crossing::Crossing;

@@ -10,38 +10,59 @@ pub(crate) struct Interrupt {
     runtime: Option<tokio::runtime::Runtime>,
 }
 
+/// File descriptors that must be free before a signal is watched, twice as many as the watch takes: the others are for the work.
+/// With fewer the library of the watch ends the program.
+const DESCRIPTORS: usize = 16;
+
+/// Whether the system gives the descriptors that a watch takes.
+pub(crate) fn has_descriptors() -> bool {
+    let pipes = (0..DESCRIPTORS / 2).map(|_| io::pipe());
+    pipes.collect::<io::Result<Vec<_>>>().is_ok()
+}
+
+/// Whether the system starts another thread.
+fn has_threads() -> bool {
+    let thread = std::thread::Builder::new().spawn(|| ());
+    thread.is_ok_and(|thread| thread.join().is_ok())
+}
+
 impl Interrupt {
-    /// Starts the watch.
-    pub(crate) fn watch() -> io::Result<Self> {
-        let runtime = tokio::runtime::Builder::new_multi_thread()
-            .worker_threads(1)
-            .enable_all()
-            .build()?;
+    /// Starts the watch; without threads or descriptors for it Ctrl-C ends the program at once, as it does before the watch.
+    pub(crate) fn watch() -> Self {
         let cancel = Cancel::default();
-        let told = cancel.clone();
-        // Heard from here on, not only once the task runs.
-        let mut presses = {
-            let _inside = runtime.enter();
-            presses()?
-        };
-        runtime.spawn(async move {
-            if presses.recv().await.is_none() {
-                return;
-            }
-            told.cancel();
-            if presses.recv().await.is_some() {
-                std::process::exit(130);
-            }
-        });
-        Ok(Self {
+        let can_watch = has_descriptors() && has_threads();
+        let runtime = can_watch.then(|| watched(cancel.clone()));
+        Self {
             cancel,
-            runtime: Some(runtime),
-        })
+            runtime: runtime.and_then(Result::ok),
+        }
     }
 
     pub(crate) fn came(&self) -> bool {
         self.cancel.is_cancelled()
     }
+}
+
+fn watched(told: Cancel) -> io::Result<tokio::runtime::Runtime> {
+    let runtime = tokio::runtime::Builder::new_multi_thread()
+        .worker_threads(1)
+        .enable_all()
+        .build()?;
+    // Heard from here on, not only once the task runs.
+    let mut presses = {
+        let _inside = runtime.enter();
+        presses()?
+    };
+    runtime.spawn(async move {
+        if presses.recv().await.is_none() {
+            return;
+        }
+        told.cancel();
+        if presses.recv().await.is_some() {
+            std::process::exit(130);
+        }
+    });
+    Ok(runtime)
 }
 
 #[cfg(unix)]

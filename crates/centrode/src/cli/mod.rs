@@ -79,6 +79,10 @@ fn command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     #[cfg(unix)]
     // Without it such a write ends the program: no reason not to begin.
     let _ = output::heed_file_limit();
+    // The page's requests wait on threads of their own.
+    if !matches!(arguments.command, Command::Studio(_)) {
+        crate::analysis::prepare_threads();
+    }
     let mut out = std::io::BufWriter::new(anstream::stdout());
     let result = match &arguments.command {
         Command::New(command) => new::run(command, &mut out),

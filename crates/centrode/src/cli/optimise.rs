@@ -114,7 +114,7 @@ fn watched(
     search: &mut DesignSearch,
     stored: &Stored,
 ) -> Result<(Ended, f64), Failure> {
-    let interrupt = Interrupt::watch().map_err(Failure::Serve)?;
+    let interrupt = Interrupt::watch();
     let bar = ProgressBar::with_draw_target(Some(search.allowed()), target());
     let style = "{bar:24} {pos}/{len} {msg} {elapsed}, {eta} to go";
     if let Ok(style) = ProgressStyle::with_template(style) {

@@ -4,11 +4,11 @@ use std::path::{Path, PathBuf};
 use crate::export::Bundle;
 
 use crate::cli::failure::Failure;
-use crate::cli::interrupt::Interrupt;
+use crate::cli::interrupt::{Interrupt, has_descriptors};
 
 /// Writes files into a folder, each whole or not at all; Ctrl-C before the last is written leaves no new one.
 pub(crate) fn write(bundle: &Bundle, folder: &Path) -> Result<Vec<PathBuf>, Failure> {
-    let interrupt = Interrupt::watch().map_err(Failure::Serve)?;
+    let interrupt = Interrupt::watch();
     let written = interrupt.cancel.run(|| bundle.write_to(folder));
     Ok(written.map_err(|_| Failure::Interrupted)??)
 }
@@ -40,6 +40,9 @@ pub(crate) fn heed_file_limit() -> std::io::Result<()> {
 
     /// Number of the signal on Linux, macOS and the BSDs.
     const SIGXFSZ: i32 = 25;
+    if !has_descriptors() {
+        return Err(std::io::ErrorKind::QuotaExceeded.into());
+    }
     let runtime = tokio::runtime::Builder::new_current_thread()
         .enable_io()
         .build()?;

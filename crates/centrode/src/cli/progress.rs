@@ -31,11 +31,12 @@ impl Progress {
         }
         let (done, finished) = channel();
         let shown = bar.clone();
-        let watch = std::thread::spawn(move || show_late(&shown, &finished));
+        // Without a thread for it there is no bar.
+        let watch = std::thread::Builder::new().spawn(move || show_late(&shown, &finished));
         Self {
             bar,
             done: Some(done),
-            watch: Some(watch),
+            watch: watch.ok(),
         }
     }
 

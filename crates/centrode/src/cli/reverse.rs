@@ -122,8 +122,7 @@ fn sought(
         true => "seeking the path",
         false => "trying axes",
     });
-    let interrupt = is_searched.then(Interrupt::watch).transpose();
-    let interrupt = interrupt.map_err(Failure::Serve)?;
+    let interrupt = is_searched.then(Interrupt::watch);
     let came = || interrupt.as_ref().is_some_and(Interrupt::came);
     let mut evaluations = 0;
     let found = Found::by_path(&asked.design, &asked.points, &mut |done| {

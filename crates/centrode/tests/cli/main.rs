@@ -6,6 +6,8 @@ mod drive;
 mod export;
 mod parts;
 mod reverse;
+#[cfg(unix)]
+mod scarce;
 mod search;
 mod severity;
 
