@@ -1,5 +1,5 @@
-use super::{LEG, made, read, refused};
-use crate::design::Design;
+use super::{ComposedDesign, LEG, made, read, refused};
+use crate::design::{Design, DesignSpec as _};
 
 #[test]
 fn numbers_beyond_any_machine_are_refused_by_key() {
