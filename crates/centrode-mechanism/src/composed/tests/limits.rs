@@ -113,7 +113,7 @@ fn of_bodies(own: usize, dyads: usize, copies: &[u32]) -> String {
     }
     for i in 0..dyads {
         text += &format!(
-            "[dyads.d{i}]\ntype = \"RRR\"\nfrom = \"frame.O\"\nto = \"b0.P\"\nlengths = [60, 25]\nbodies = [\"l{i}\", \"r{i}\"]\n"
+            "[dyads.d{i}]\ntype = \"RRR\"\nfrom = \"frame.O\"\nto = \"b0.P\"\nlengths = [60, 25]\njoint = \"A\"\nside = \"left\"\nbodies = [\"l{i}\", \"r{i}\"]\n"
         );
     }
     for (i, count) in copies.iter().enumerate() {
