@@ -3,6 +3,7 @@
 import json
 import tempfile
 from functools import cache
+from itertools import pairwise
 from math import degrees, pi, sqrt
 from pathlib import Path
 
@@ -42,7 +43,7 @@ def proof(name):
 def law_error(law, pair):
     """Maximum distance of the pieces of a law in a certificate from the law of the pair, rad."""
     places, errors = np.linspace(-1, 1, 17), []
-    for low, high, series in zip(law["ends"], law["ends"][1:], law["pieces"], strict=True):
+    for (low, high), series in zip(pairwise(law["ends"]), law["pieces"], strict=True):
         phi = (low + high) / 2 + places * (high - low) / 2
         angle = phi * (law["advance"] / law["period"]) + np.polynomial.chebyshev.chebval(places, series)
         errors.append(np.abs(angle - pair.driven_angle(phi)).max())

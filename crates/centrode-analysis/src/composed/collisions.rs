@@ -1,6 +1,6 @@
 //! Plates and gears that collide.
 
-use centrode_geometry::{Bounds, Point, Tolerance, greatest_of};
+use centrode_geometry::{Bounds, Point, Tolerance, Vector, greatest_of};
 use centrode_mechanism::composed::{Composed, ComposedDesign};
 use centrode_mechanism::machine::{JointKind, Machine, Surface};
 
@@ -125,10 +125,12 @@ pub(super) fn overlaps<'a>(
     (pieces, may_collide): (&'a [PartSurfaces<'a>], impl Fn([usize; 2]) -> bool),
     (ends, tolerance): (&[f64], Tolerance),
 ) -> Overlaps<'a> {
-    let numbers = 0..pieces.len();
-    let pairs = numbers.flat_map(|i| (i + 1..pieces.len()).map(move |k| [i, k]));
-    let pairs: Vec<[usize; 2]> = pairs.filter(|pair| may_collide(*pair)).collect();
     let centers: Vec<(usize, Point)> = pieces.iter().map(|p| (p.link, p.center)).collect();
+    let pairs = meeting(&swept(composed, pieces, &centers, ends));
+    let pairs: Vec<[usize; 2]> = pairs
+        .into_iter()
+        .filter(|pair| may_collide(*pair))
+        .collect();
     let together = |input: f64, values: &mut Vec<f64>| {
         let places = composed.moving(&centers, input);
         let near = |&[i, k]: &[usize; 2]| -(places[i].0 - places[k].0).norm();
@@ -159,6 +161,50 @@ pub(super) fn overlaps<'a>(
         found: found.take(MOST).collect(),
         left: rest.len(),
     }
+}
+
+/// Samples of the path of a part's circle between two ends of the parts of a cycle.
+const SAMPLES: u32 = 24;
+
+/// Box that each part stays in over the cycle: around the samples of its circle, larger by the longest step between two.
+fn swept(
+    composed: &Composed,
+    pieces: &[PartSurfaces<'_>],
+    centers: &[(usize, Point)],
+    ends: &[f64],
+) -> Vec<Bounds> {
+    let inputs = ends.windows(2).flat_map(|ends| {
+        let step = (ends[1] - ends[0]) / f64::from(SAMPLES);
+        (0..=SAMPLES).map(move |k| ends[0] + step * f64::from(k))
+    });
+    let places = composed.places_each(centers, &inputs.collect::<Vec<_>>());
+    let own = pieces.iter().enumerate().map(|(number, piece)| {
+        let path = places.iter().skip(number).step_by(centers.len());
+        let path = path.map(|at| Point::from(*at));
+        let steps = path.clone().zip(path.clone().skip(1));
+        let longest = steps.map(|(a, b)| (b - a).norm()).fold(0.0, f64::max);
+        let (around, margin) = (path.collect::<Bounds>(), piece.radius + longest);
+        Bounds {
+            min: around.min - Vector::repeat(margin),
+            max: around.max + Vector::repeat(margin),
+        }
+    });
+    own.collect()
+}
+
+/// Pairs of boxes that meet, in the order of their numbers.
+fn meeting(boxes: &[Bounds]) -> Vec<[usize; 2]> {
+    let mut order: Vec<usize> = (0..boxes.len()).collect();
+    order.sort_by(|&a, &b| boxes[a].min.x.total_cmp(&boxes[b].min.x));
+    let mut found = Vec::new();
+    for (rank, &one) in order.iter().enumerate() {
+        let later = order[rank + 1..].iter();
+        let later = later.take_while(|&&other| boxes[other].min.x <= boxes[one].max.x);
+        let met = later.filter(|&&other| boxes[one].meets(&boxes[other]));
+        found.extend(met.map(|&other| [one.min(other), one.max(other)]));
+    }
+    found.sort_unstable();
+    found
 }
 
 /// Findings of parts of a kind that overlap: rule, words for them, and remedy.

@@ -1,7 +1,7 @@
 //! Pins and shafts that run into parts through which they have no hole, and cams and gears that run into what is at their height.
 
 use centrode_geometry::{Outline, Point, Solid, Tolerance};
-use centrode_mechanism::composed::Composed;
+use centrode_mechanism::composed::{Composed, Frames};
 use centrode_mechanism::machine::{Form, Machine, SpacerKind, Surface, TurnedPiece, TurnedPieces};
 
 use super::collisions::{PartSurfaces, findings, overlaps};
@@ -66,6 +66,7 @@ pub(super) fn collisions(
             others.any(|b| a.span[0] < b.span[1] && b.span[0] < a.span[1])
         })
     };
+    let frames = composed.frames(&Composed::SHARES.map(|share| share * composed.period()));
     // Turned parts come first.
     let pins_may = |[one, other]: [usize; 2]| {
         let Kind::Turned { axis, is_roller } = kinds[one] else {
@@ -73,11 +74,11 @@ pub(super) fn collisions(
         };
         let own = (pieces[one].link, axis);
         let is_free = || match kinds[other] {
-            Kind::Turned { axis, .. } => !is_one(composed, own, (pieces[other].link, axis)),
+            Kind::Turned { axis, .. } => !is_one(&frames, own, (pieces[other].link, axis)),
             // A roller touches its cam, and goes through no hole of a pin.
-            Kind::Cam(solid) => !is_roller && !is_in_hole(composed, own, pieces[other].link, solid),
+            Kind::Cam(solid) => !is_roller && !is_in_hole(&frames, own, pieces[other].link, solid),
             Kind::Plate(solid) | Kind::Gear(solid) => {
-                is_roller || !is_in_hole(composed, own, pieces[other].link, solid)
+                is_roller || !is_in_hole(&frames, own, pieces[other].link, solid)
             }
         };
         is_level([one, other]) && is_free()
@@ -186,20 +187,13 @@ fn parts<'a>(
     found
 }
 
-/// Places of an axis over the cycle in the axes of a body.
-fn seen(composed: &Composed, own: (usize, Point), body: usize) -> [Point; 4] {
-    Composed::SHARES.map(|share| composed.seen_from(body, own, share * composed.period()))
-}
-
 /// Whether two axes are one all through the cycle.
-fn is_one(composed: &Composed, own: (usize, Point), (body, axis): (usize, Point)) -> bool {
-    let places = seen(composed, own, body);
-    places.iter().all(|at| (at - axis).norm() < LEVEL)
+fn is_one(frames: &Frames, own: (usize, Point), (body, axis): (usize, Point)) -> bool {
+    frames.path(body, own).all(|at| (at - axis).norm() < LEVEL)
 }
 
 /// Whether the axis of a pin lies in one hole of a part all through the cycle.
-fn is_in_hole(composed: &Composed, own: (usize, Point), link: usize, solid: &Solid) -> bool {
-    let places = seen(composed, own, link);
+fn is_in_hole(frames: &Frames, own: (usize, Point), link: usize, solid: &Solid) -> bool {
     let mut holes = solid.holes().iter();
-    holes.any(|hole| places.iter().all(|at| hole.contains(*at)))
+    holes.any(|hole| frames.path(link, own).all(|at| hole.contains(at)))
 }

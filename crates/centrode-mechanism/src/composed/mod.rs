@@ -80,12 +80,14 @@ pub use plates::{ComposedPlatesSpec, PinHole};
 pub use reversed::{MachineError, ReversedMachine};
 pub(crate) use reversed::{free_backlash, free_body};
 pub use shafts::{ComposedShaft, Hold, ShaftPart};
+pub use spacing::Frames;
 pub use table::TableReading;
 
 use self::expansion::Expansion;
 use self::gearing::Meshing;
 use self::load::ComposedLoad;
 use self::points::BodyPoints;
+use self::spacing::Passage;
 use crate::linkage::{Line, LinkId, Linkage};
 use crate::machine::{JointKind, TurnedPieces};
 use crate::transmission::{MotionJet, Transmission};
@@ -112,6 +114,7 @@ pub struct Composed {
     obstacles: Vec<ComposedObstacle>,
     shafts: OnceLock<Vec<ComposedShaft>>,
     turned: OnceLock<Vec<TurnedPieces>>,
+    passage: OnceLock<Passage>,
 }
 
 /// A body of a composed machine.

@@ -226,15 +226,22 @@ impl Composed {
             && drawn.is_none_or(|outline| outline.contains(Point::origin()))
     }
 
+    /// Whether a body has a plate.
+    pub(super) fn has_plate(&self, body: usize) -> bool {
+        let name = self.bodies.get(body).map(|body| &body.name);
+        name.is_some_and(|name| {
+            let spec = self.design.bodies.get(name);
+            self.points.contains_key(name) && spec.is_none_or(|body| body.has_plate())
+        })
+    }
+
     /// Names and places of the holes in a body's plate, in its axes.
     pub(super) fn hole_places(&self, body: usize) -> Option<Vec<(String, Point)>> {
-        let own = self.bodies.get(body)?;
-        let name = &own.name;
-        let points = self.points.get(name)?;
-        let spec = self.design.bodies.get(name);
-        if spec.is_some_and(|body| !body.has_plate()) {
+        if !self.has_plate(body) {
             return None;
         }
+        let name = &self.bodies[body].name;
+        let (points, spec) = (self.points.get(name)?, self.design.bodies.get(name));
         let meshed = spec.is_some_and(|body| body.mesh.is_some());
         let pinned = self.pinned();
         let pins = points

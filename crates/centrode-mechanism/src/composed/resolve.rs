@@ -153,6 +153,7 @@ impl<'a> Builder<'a> {
             obstacles: Vec::new(),
             shafts: OnceLock::new(),
             turned: OnceLock::new(),
+            passage: OnceLock::new(),
         }
     }
 

@@ -16,9 +16,11 @@ impl Composed {
     #[must_use]
     pub fn turned_shafts(&self) -> Vec<TurnedPieces> {
         let mut found: Vec<(&str, TurnedPieces)> = Vec::new();
+        // A frame's plate on one axis alone is held by its shaft, not the shaft by it.
+        let is_held = self.hole_places(0).is_some_and(|at| at.len() == 1);
         for shaft in self.shafts() {
             let name = self.original(&shaft.name);
-            let made = self.turned_shaft(shaft);
+            let made = self.turned_shaft(shaft, is_held && shaft.body == 0);
             match found.iter_mut().find(|(known, _)| *known == name) {
                 Some((_, known)) => known.pieces.extend(made.pieces),
                 None => found.push((name, made)),
@@ -27,7 +29,7 @@ impl Composed {
         found.into_iter().map(|(_, made)| made).collect()
     }
 
-    fn turned_shaft(&self, shaft: &ComposedShaft) -> TurnedPieces {
+    fn turned_shaft(&self, shaft: &ComposedShaft, stands_alone: bool) -> TurnedPieces {
         let (hub, spec) = (&shaft.hub, &self.design.plates);
         let on_it = shaft.parts.iter();
         let on_it = on_it.filter(|part| part.hold.is_fixed() || part.hold == Hold::Turning);
@@ -51,8 +53,6 @@ impl Composed {
             ),
         };
         let (is_lowest, is_highest) = (low <= deepest + ROUNDING, high >= highest - ROUNDING);
-        // A frame's plate on one axis alone is held by its shaft, not the shaft by it.
-        let stands_alone = shaft.body == 0 && self.hole_places(0).is_some_and(|at| at.len() == 1);
         let end = match (shaft.is_driven || stands_alone) && is_lowest {
             true => FREE_END * hub.bore,
             false => 0.0,
@@ -227,7 +227,7 @@ impl Composed {
 
     /// Lowest and highest face of all plates, gears and cams, mm.
     fn extent(&self) -> [f64; 2] {
-        let plates = (0..self.bodies.len()).filter(|&body| self.hole_places(body).is_some());
+        let plates = (0..self.bodies.len()).filter(|&body| self.has_plate(body));
         let plates = plates.map(|body| {
             let bottom = self.bottom(body);
             [bottom, bottom + self.thickness(body)]

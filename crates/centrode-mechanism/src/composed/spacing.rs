@@ -1,7 +1,6 @@
 //! Rings in the gaps between parts on pins and shafts.
 
-use centrode_geometry::{Outline, Point, Tolerance};
-use nalgebra::Rotation2;
+use centrode_geometry::{Outline, Point, Tolerance, Vector};
 
 use super::Composed;
 use super::shafts::ROUNDING;
@@ -12,14 +11,71 @@ const STEPS: u32 = 360;
 /// Distance from their contours within which the corners of what passes are, mm.
 const FINE: f64 = 1e-2;
 
-/// A plate, gear, cam or roller that may pass a ring: its body, its corners there and its heights.
+/// A plate, gear, cam or roller that may pass a ring: its body, its heights and its corners there.
+#[derive(Clone, Debug)]
 struct Passing {
     body: usize,
+    span: [f64; 2],
     corners: Vec<Point>,
     outline: Outline,
+    /// Distance of its farthest point from the origin of the body, mm.
+    reach: f64,
+}
+
+/// Parts that may pass a ring, and the motion of all bodies.
+#[derive(Clone, Debug)]
+pub(super) struct Passage {
+    parts: Vec<Passing>,
+    frames: Frames,
+}
+
+/// Positions of all bodies at several inputs.
+#[derive(Clone, Debug)]
+pub struct Frames {
+    /// Origin of every body and the point at 1 mm on its first axis, mm, input by input.
+    places: Vec<[f64; 2]>,
+    bodies: usize,
+}
+
+impl Frames {
+    /// Path of a point of a body in the axes of another, mm: one point per input.
+    ///
+    /// # Panics
+    /// If a body is not one of the machine's.
+    pub fn path(
+        &self,
+        body: usize,
+        (own, at): (usize, Point),
+    ) -> impl Iterator<Item = Point> + Clone {
+        let frame = |places: &[[f64; 2]], body: usize| {
+            let [origin, unit] = [2 * body, 2 * body + 1].map(|k| Point::from(places[k]));
+            (origin, unit - origin)
+        };
+        self.places.chunks(2 * self.bodies).map(move |places| {
+            let (origin, axis) = frame(places, own);
+            let at = origin + axis * at.x + Vector::new(-axis.y, axis.x) * at.y;
+            let (origin, axis) = frame(places, body);
+            let at = at - origin;
+            Point::new(axis.dot(&at), axis.perp(&at))
+        })
+    }
 }
 
 impl Composed {
+    /// Positions of all bodies at several inputs, rad.
+    #[must_use]
+    pub fn frames(&self, inputs: &[f64]) -> Frames {
+        let bodies = self.bodies.len();
+        let ends = [Point::origin(), Point::new(1.0, 0.0)];
+        let points: Vec<(usize, Point)> = (0..bodies)
+            .flat_map(|body| ends.map(|at| (body, at)))
+            .collect();
+        Frames {
+            places: self.places_each(&points, inputs),
+            bodies,
+        }
+    }
+
     /// Rings in the gaps between parts, given by their faces (mm), on an axis at a place of a body, with the height of
     /// the lower face of each. None in a gap that another part reaches into, or where one passes closer than the plates' gap.
     pub(super) fn spacers(
@@ -54,66 +110,69 @@ impl Composed {
 
     /// Whether all parts keep farther from an axis than a radius and the plates' gap, mm, between two heights.
     pub(super) fn is_clear(&self, own: (usize, Point), radius: f64, gap: [f64; 2]) -> bool {
-        let passing = self.passing(gap);
-        if passing.is_empty() {
-            return true;
-        }
-        let step = self.period() / f64::from(STEPS);
-        let inputs: Vec<f64> = (0..=STEPS).map(|k| f64::from(k) * step).collect();
-        let least = radius + self.design.plates.gap;
-        passing.iter().all(|part| {
-            let mut before: Option<(Point, f64)> = None;
-            inputs.iter().all(|&input| {
-                let at = self.seen_from(part.body, own, input);
-                let near = part.distance(at);
-                // Between two steps it comes nearer by no more than half the way.
-                let way = before.map_or(0.0, |(last, _)| (at - last).norm());
-                let nearest = before.map_or(near, |(_, last)| last.min(near)) - 0.5 * way;
-                before = Some((at, near));
-                nearest > least
-            })
+        let passage = self.passage.get_or_init(|| {
+            let step = self.period() / f64::from(STEPS);
+            let inputs: Vec<f64> = (0..=STEPS).map(|k| f64::from(k) * step).collect();
+            Passage {
+                parts: self.passing(),
+                frames: self.frames(&inputs),
+            }
+        });
+        let required = radius + self.design.plates.gap;
+        let reaches_into =
+            |part: &&Passing| part.span[0] < gap[1] - ROUNDING && part.span[1] > gap[0] + ROUNDING;
+        passage.parts.iter().filter(reaches_into).all(|part| {
+            let path = passage.frames.path(part.body, own);
+            // Between two steps the axis comes nearer by at most half the distance between them.
+            let keeps_away = |distance: &dyn Fn(Point) -> f64| {
+                let mut before: Option<(Point, f64)> = None;
+                path.clone().all(|at| {
+                    let near = distance(at);
+                    let step = before.map_or(0.0, |(last, _)| (at - last).norm());
+                    let nearest = before.map_or(near, |(_, last)| last.min(near)) - 0.5 * step;
+                    before = Some((at, near));
+                    nearest > required
+                })
+            };
+            keeps_away(&|at| at.coords.norm() - part.reach) || keeps_away(&|at| part.distance(at))
         })
     }
 
-    /// Place of a point of a body in the axes of another, mm.
-    #[must_use]
-    pub fn seen_from(&self, body: usize, (own, at): (usize, Point), input: f64) -> Point {
-        let at = self.place(own, at, input);
-        let origin = self.place(body, Point::origin(), input);
-        let turn = Rotation2::new(-self.angle(body, input).position);
-        Point::from(turn * (at - origin))
-    }
-
-    /// Plates, gears, cams and rollers that reach between two heights.
-    fn passing(&self, [low, high]: [f64; 2]) -> Vec<Passing> {
-        let between =
-            |bottom: f64, thick: f64| bottom < high - ROUNDING && bottom + thick > low + ROUNDING;
-        let bodies = (0..self.bodies.len())
-            .filter(|&body| between(self.bottom(body), self.thickness(body)))
-            .filter_map(|body| Some((body, self.contours(body)?.0)));
+    /// Plates, gears, cams and rollers.
+    fn passing(&self) -> Vec<Passing> {
         let round = |body: &str, at: Point, outline: &Outline| {
             let reach = outline.farthest(Point::origin());
             Some((self.body_named(body)?, Outline::circle(at, reach)))
         };
+        let plates = (0..self.bodies.len()).filter_map(|body| {
+            let span = (self.bottom(body), self.thickness(body));
+            Some((span, (body, self.contours(body)?.0)))
+        });
         let gears = self.gears.iter().filter_map(|gear| {
-            let width = gear.gear().body().width;
-            let is_there = between(self.gear_bottom(gear), width);
-            is_there.then(|| round(&gear.body_name, gear.at, gear.gear().outline()))?
+            let span = (self.gear_bottom(gear), gear.gear().body().width);
+            Some((
+                span,
+                round(&gear.body_name, gear.at, gear.gear().outline())?,
+            ))
         });
         let cams = self.cams.iter().filter_map(|cam| {
-            let is_there = between(self.cam_bottom(cam), cam.part.body().width);
-            is_there.then(|| round(&cam.body_name, cam.at, cam.part.profile().outline()))?
+            let span = (self.cam_bottom(cam), cam.part.body().width);
+            Some((
+                span,
+                round(&cam.body_name, cam.at, cam.part.profile().outline())?,
+            ))
         });
-        let rollers = self.rollers().into_iter();
-        let rollers = rollers.filter(|(.., (roller, low))| between(*low, roller.length));
-        let rollers =
-            rollers.map(|(body, at, (roller, _))| (body, Outline::circle(at, 0.5 * roller.outer)));
-        let all = bodies.chain(gears).chain(cams).chain(rollers);
-        all.filter_map(|(body, outline)| {
-            let corners = outline.flatten(Tolerance::new(FINE).ok()?);
+        let rollers = self.rollers().into_iter().map(|(body, at, (roller, low))| {
+            let outline = Outline::circle(at, 0.5 * roller.outer);
+            ((low, roller.length), (body, outline))
+        });
+        let all = plates.chain(gears).chain(cams).chain(rollers);
+        all.filter_map(|((low, thick), (body, outline))| {
             Some(Passing {
                 body,
-                corners,
+                span: [low, low + thick],
+                corners: outline.flatten(Tolerance::new(FINE).ok()?),
+                reach: outline.farthest(Point::origin()),
                 outline,
             })
         })

@@ -137,7 +137,7 @@ fn what_is_no_band_is_told() {
     let points: Vec<Point> = DRAWN.iter().map(|&p| p.into()).collect();
     let fault =
         |bands: &[f64]| Easing::new(&points, &EasingSpec::new(bands, 1.0)).expect_err("no bands");
-    let told = "the band of point 1 is zero or more, in mm, not -1";
+    let told = "the band of point 1 is zero or more, in mm, not -1.0";
     assert_eq!(fault(&[-1.0]).to_string(), told);
     let told = "there are 2 bands for 13 points: give one for each, or one for all";
     assert_eq!(fault(&[1.0, 2.0]).to_string(), told);
