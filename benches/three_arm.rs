@@ -133,4 +133,26 @@ fn check(c: &mut Criterion) {
     group.finish();
 }
 
-criterion_group!(benches, sweep, resolve, tip, evaluate, check);
+/// Machines of bodies that turn on pins of the frame of their own: the time per body must hardly grow with their number.
+fn bodies(c: &mut Criterion) {
+    let mut group = c.benchmark_group("machine/bodies");
+    group.sample_size(10);
+    for count in [50_u32, 100, 200, 400] {
+        let mut text = "family = \"machine\"\nname = \"pins\"\n[frame.points]\n".to_owned();
+        for i in 0..count {
+            text += &format!("P{i} = [{}, {}]\n", i % 20 * 100, i / 20 * 100);
+        }
+        for i in 0..count {
+            text += &format!("[bodies.b{i}]\non = \"frame.P{i}\"\npoints = {{ T = [20, 0] }}\n");
+            text += "law = { expression = \"phi\" }\n";
+        }
+        let design = ComposedDesign::from_toml(&text).expect("a good design");
+        group.throughput(Throughput::Elements(count.into()));
+        group.bench_function(count.to_string(), |b| {
+            b.iter(|| check_composed(&Composed::resolve(&design).expect("a machine")));
+        });
+    }
+    group.finish();
+}
+
+criterion_group!(benches, sweep, resolve, tip, evaluate, check, bodies);

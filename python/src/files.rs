@@ -60,9 +60,14 @@ pub(crate) fn contents<'py>(py: Python<'py>, bundle: &Bundle) -> PyResult<Bound<
     Ok(files)
 }
 
-/// Writes the files into a directory; gives their paths.
-pub(crate) fn written(py: Python<'_>, bundle: Bundle, directory: PathBuf) -> Answer<Vec<PathBuf>> {
-    Ok(wait(py, move || bundle.write_to(&directory))??)
+/// Exports the files into a directory; gives their paths.
+pub(crate) fn written(
+    py: Python<'_>,
+    bundle: Bundle,
+    directory: PathBuf,
+    force: bool,
+) -> Answer<Vec<PathBuf>> {
+    Ok(wait(py, move || bundle.export_to(&directory, force))??)
 }
 
 /// Writes one file whole or not at all; gives its path.

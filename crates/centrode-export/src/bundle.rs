@@ -1,4 +1,5 @@
 mod kept;
+mod manifest;
 
 use centrode_geometry::{Solid, checkpoint};
 use std::{
@@ -10,6 +11,7 @@ use std::{
 use thiserror::Error;
 use zip::{CompressionMethod, DateTime, ZipWriter, write::SimpleFileOptions};
 
+use self::manifest::MANIFEST;
 use crate::stage::{Stage, destination, put};
 
 /// Files ready to be written: names and contents, in order.
@@ -34,6 +36,17 @@ pub enum BundleError {
     Twice {
         /// The name.
         name: String,
+    },
+    /// Files that no export wrote, or that were changed since, would be replaced.
+    #[error(
+        "{} has files that no export wrote, or that were changed since: {files}; choose another folder, or replace them with force",
+        folder.display()
+    )]
+    Foreign {
+        /// Names of the files.
+        files: String,
+        /// The folder.
+        folder: PathBuf,
     },
     /// The archive would be larger than the format holds.
     #[error("the archive cannot be made: {0}")]
@@ -118,6 +131,20 @@ impl Bundle {
         Ok(archive.finish()?.into_inner())
     }
 
+    /// Writes every file as [`write_to`](Self::write_to), but replaces no file that no export wrote into this directory, or that
+    /// was changed since, unless `force` is set. The hidden file `.centrode-files` there lists the written files.
+    ///
+    /// # Errors
+    /// [`BundleError::Foreign`] if such a file would be replaced, [`BundleError::Disk`] with the path and the system's reason.
+    pub fn export_to(&self, directory: &Path, force: bool) -> Result<Vec<PathBuf>, BundleError> {
+        let manifest = self.manifest(directory, force)?;
+        let mut files = vec![(MANIFEST.to_owned(), manifest)];
+        files.extend(self.files.iter().cloned());
+        let mut written = write_all(&files, directory)?;
+        written.remove(0);
+        Ok(written)
+    }
+
     /// Writes every file into a directory, which is made if it is missing, as are folders in it.
     /// Returns the paths.
     ///
@@ -130,34 +157,39 @@ impl Bundle {
     /// # Errors
     /// [`BundleError::Disk`] with the path and the system's reason.
     pub fn write_to(&self, directory: &Path) -> Result<Vec<PathBuf>, BundleError> {
-        fs::create_dir_all(directory).map_err(failed("create the directory", directory))?;
-        let mut stages: Vec<(PathBuf, Stage)> = Vec::new();
-        let mut staged = Vec::with_capacity(self.files.len());
-        for (name, bytes) in &self.files {
-            checkpoint();
-            let target = directory.join(name);
-            let real = destination(&target).map_err(failed("write", &target))?;
-            let folder = real.parent().unwrap_or(directory);
-            if !stages.iter().any(|(of, _)| of == folder) {
-                fs::create_dir_all(folder).map_err(failed("create the directory", folder))?;
-                let stage = Stage::open(folder).map_err(failed("create a file in", folder))?;
-                stages.push((folder.to_owned(), stage));
-            }
-            let Some((_, stage)) = stages.iter().find(|(of, _)| of == folder) else {
-                continue;
-            };
-            let file = real.file_name().unwrap_or_default();
-            let place = stage.place(&file.to_string_lossy());
-            put(bytes, &place, &real).map_err(failed("write", &target))?;
-            staged.push((place, real, target));
-        }
-        let mut written = Vec::with_capacity(self.files.len());
-        for (place, real, target) in staged {
-            fs::rename(place, &real).map_err(failed("write", &target))?;
-            written.push(target);
-        }
-        Ok(written)
+        write_all(&self.files, directory)
     }
+}
+
+/// Writes files into a directory: all contents first, then all names in their order.
+fn write_all(files: &[(String, Vec<u8>)], directory: &Path) -> Result<Vec<PathBuf>, BundleError> {
+    fs::create_dir_all(directory).map_err(failed("create the directory", directory))?;
+    let mut stages: Vec<(PathBuf, Stage)> = Vec::new();
+    let mut staged = Vec::with_capacity(files.len());
+    for (name, bytes) in files {
+        checkpoint();
+        let target = directory.join(name);
+        let real = destination(&target).map_err(failed("write", &target))?;
+        let folder = real.parent().unwrap_or(directory);
+        if !stages.iter().any(|(of, _)| of == folder) {
+            fs::create_dir_all(folder).map_err(failed("create the directory", folder))?;
+            let stage = Stage::open(folder).map_err(failed("create a file in", folder))?;
+            stages.push((folder.to_owned(), stage));
+        }
+        let Some((_, stage)) = stages.iter().find(|(of, _)| of == folder) else {
+            continue;
+        };
+        let file = real.file_name().unwrap_or_default();
+        let place = stage.place(&file.to_string_lossy());
+        put(bytes, &place, &real).map_err(failed("write", &target))?;
+        staged.push((place, real, target));
+    }
+    let mut written = Vec::with_capacity(files.len());
+    for (place, real, target) in staged {
+        fs::rename(place, &real).map_err(failed("write", &target))?;
+        written.push(target);
+    }
+    Ok(written)
 }
 
 /// Writes one file whole or, after an error, leaves the old one; its folder is made if it is missing.

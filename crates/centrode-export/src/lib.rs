@@ -12,6 +12,7 @@ mod error;
 pub mod feeder;
 mod format;
 pub mod gear_pair;
+mod hash;
 pub mod machine;
 pub mod mjcf;
 pub mod model;

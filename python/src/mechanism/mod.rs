@@ -352,16 +352,17 @@ impl Mechanism {
     ///     tolerance: Greatest distance of every arc, point sequence and mesh from the exact curve or surface, mm.
     ///     dxf_version: "R2010" or "R12".
     ///     dxf_curves: "arcs" or "splines".
+    ///     force: Whether to replace files that no export wrote into the directory, or that were changed since.
     ///
     /// Raises:
-    ///     ExportError: A part does not exist, or a file cannot be made or written.
+    ///     ExportError: A part does not exist, a file cannot be made or written, or such a file would be replaced.
     ///
     /// >>> import centrode as ct, tempfile
     /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20))
     /// >>> with tempfile.TemporaryDirectory() as directory:
     /// ...     [path.name for path in pair.export(directory, formats=["dxf"])]
     /// ['driver.dxf', 'driven.dxf', 'assembly.dxf']
-    #[pyo3(signature = (directory, *, formats=None, parts=None, tolerance=1e-3, dxf_version="R2010", dxf_curves="arcs"))]
+    #[pyo3(signature = (directory, *, formats=None, parts=None, tolerance=1e-3, dxf_version="R2010", dxf_curves="arcs", force=false))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn export(
         &self,
@@ -372,10 +373,11 @@ impl Mechanism {
         tolerance: f64,
         dxf_version: &str,
         dxf_curves: &str,
+        force: bool,
     ) -> Answer<Vec<PathBuf>> {
         let written = [dxf_version, dxf_curves];
         let bundle = self.bundle(py, formats, parts, tolerance, written)?;
-        files::written(py, bundle, directory)
+        files::written(py, bundle, directory, force)
     }
 
     fn __repr__(slf: &Bound<'_, Self>) -> PyResult<String> {

@@ -314,3 +314,37 @@ fn stands_on(machine: &Machine, links: [usize; 2]) -> bool {
     });
     one == other
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_boxes_that_meet_are_those_of_all_pairs() {
+        // Boxes of several sizes at positions that no grid repeats, some on one line.
+        let boxes = |count: u32, size: f64| {
+            let at = |i: u32, k: f64| 100.0 * (k * f64::from(i)).fract();
+            let own = move |i: u32| {
+                let low = Point::new(at(i, 0.618), if i % 5 == 0 { 7.0 } else { at(i, 0.414) });
+                let span = Vector::new(at(i, 0.732), at(i, 0.236)) * size;
+                let (min, max) = (low, low + span);
+                Bounds { min, max }
+            };
+            (0..count).map(own).collect::<Vec<Bounds>>()
+        };
+        for (count, size) in [
+            (0, 1.0),
+            (1, 1.0),
+            (2, 1.0),
+            (40, 0.01),
+            (40, 0.1),
+            (60, 0.0),
+        ] {
+            let boxes = boxes(count, size);
+            let numbers = 0..boxes.len();
+            let pairs = numbers.flat_map(|i| (i + 1..boxes.len()).map(move |k| [i, k]));
+            let pairs: Vec<_> = pairs.filter(|[i, k]| boxes[*i].meets(&boxes[*k])).collect();
+            assert_eq!(meeting(&boxes), pairs, "{count} {size}");
+        }
+    }
+}

@@ -202,7 +202,7 @@ fn slider(shaft: &SpiralShaft, report: &mut Report) {
     if exceeds(needed, slider.clearance) {
         report.findings.push(Finding {
             rule: "slider-clearance",
-            severity: Severity::Warning,
+            severity: Severity::of_overlap(needed - slider.clearance),
             message: format!(
                 "a straight slider {} mm long needs {needed:.4} mm of clearance where the groove bends most, and has {}",
                 slider.length, slider.clearance

@@ -297,3 +297,150 @@ fn a_read_only_file_and_all_others_of_its_set_stay_as_they_were() {
         assert_eq!(kept & 0o777, mode);
     }
 }
+
+fn bundle_of(files: &[(&str, &str)]) -> Bundle {
+    let mut bundle = Bundle::default();
+    for (name, text) in files {
+        bundle.add(name, text.as_bytes().to_vec()).expect("plain");
+    }
+    bundle
+}
+
+/// Each step changes a file by hand, or exports files, which works or is refused with the names of some.
+#[test]
+fn an_export_replaces_only_files_that_exports_wrote() {
+    enum Step {
+        Edit(&'static str, &'static str),
+        Export(&'static [(&'static str, &'static str)]),
+        Refused(&'static [(&'static str, &'static str)], &'static str),
+        Force(&'static [(&'static str, &'static str)]),
+    }
+    use Step::{Edit, Export, Force, Refused};
+    let cases: [&[Step]; 10] = [
+        // A file of somebody else.
+        &[Edit("a.dxf", "mine"), Refused(&[("a.dxf", "1")], "a.dxf")],
+        // The same with equal contents loses nothing.
+        &[
+            Edit("a.dxf", "1"),
+            Export(&[("a.dxf", "1")]),
+            Export(&[("a.dxf", "2")]),
+        ],
+        // Own files are replaced again and again.
+        &[
+            Export(&[("a.dxf", "1")]),
+            Export(&[("a.dxf", "2")]),
+            Export(&[("a.dxf", "1")]),
+        ],
+        // A file changed by hand since.
+        &[
+            Export(&[("a.dxf", "1")]),
+            Edit("a.dxf", "1 and a hole"),
+            Refused(&[("a.dxf", "2")], "a.dxf"),
+        ],
+        // Exports of other parts into one folder know each other.
+        &[
+            Export(&[("a.dxf", "1")]),
+            Export(&[("b.dxf", "1")]),
+            Export(&[("a.dxf", "2"), ("b.dxf", "2")]),
+        ],
+        // Files in folders of the folder.
+        &[
+            Edit("collision/hub.stl", "mine"),
+            Refused(&[("collision/hub.stl", "1")], "collision/hub.stl"),
+        ],
+        &[Export(&[("c/h.stl", "1")]), Export(&[("c/h.stl", "2")])],
+        // Other files stay, and are no hindrance.
+        &[
+            Edit("notes.txt", "mine"),
+            Export(&[("a.dxf", "1")]),
+            Export(&[("a.dxf", "2")]),
+        ],
+        // All are named, and none is written.
+        &[
+            Edit("a.dxf", "mine"),
+            Export(&[("b.dxf", "1")]),
+            Edit("c.dxf", "mine"),
+            Refused(
+                &[("a.dxf", "1"), ("b.dxf", "2"), ("c.dxf", "1")],
+                "a.dxf, c.dxf;",
+            ),
+        ],
+        // Force replaces, and what it wrote is known.
+        &[
+            Edit("a.dxf", "mine"),
+            Force(&[("a.dxf", "1")]),
+            Export(&[("a.dxf", "2")]),
+        ],
+    ];
+    for (number, steps) in cases.into_iter().enumerate() {
+        let root = tempfile::tempdir().expect("a place to write");
+        let text = |name: &str| fs::read_to_string(root.path().join(name)).ok();
+        for step in steps {
+            let (files, force) = match step {
+                Edit(name, text) => {
+                    let path = root.path().join(name);
+                    fs::create_dir_all(path.parent().expect("a folder")).expect("made");
+                    fs::write(path, text).expect("written");
+                    continue;
+                }
+                Export(files) | Refused(files, _) => (files, false),
+                Force(files) => (files, true),
+            };
+            let before: Vec<_> = files.iter().map(|(name, _)| text(name)).collect();
+            let found = bundle_of(files).export_to(root.path(), force);
+            match step {
+                Refused(files, names) => {
+                    let error = found.expect_err("refused").to_string();
+                    assert!(error.contains(names), "{number}: {error}");
+                    let after: Vec<_> = files.iter().map(|(name, _)| text(name)).collect();
+                    assert_eq!(after, before, "{number}");
+                }
+                _ => {
+                    let written = found.unwrap_or_else(|error| panic!("{number}: {error}"));
+                    let expected = files.iter().map(|(name, _)| root.path().join(name));
+                    assert_eq!(written, expected.collect::<Vec<_>>(), "{number}");
+                    for (name, new) in *files {
+                        assert_eq!(text(name).as_deref(), Some(*new), "{number}");
+                    }
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn an_export_continues_after_a_kill_between_two_names() {
+    let [old, new] = ["old", "new"].map(|text| bundle_of(&[("a.dxf", text), ("b.dxf", text)]));
+    let root = tempfile::tempdir().expect("a place to write");
+    old.export_to(root.path(), false).expect("written");
+    // The manifest is the first name, then a.dxf.
+    let manifest = new.manifest(root.path(), false).expect("no other files");
+    fs::write(root.path().join(MANIFEST), manifest).expect("written");
+    fs::write(root.path().join("a.dxf"), "new").expect("written");
+    for bundle in [new, old] {
+        bundle.export_to(root.path(), false).expect("written");
+    }
+    let lines = fs::read_to_string(root.path().join(MANIFEST)).expect("there");
+    assert!(lines.lines().count() <= 4, "{lines}");
+}
+
+#[test]
+fn hashes_are_those_of_the_standard() {
+    // FIPS 180-4, examples with one and two blocks.
+    for (text, hash) in [
+        (
+            "",
+            "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855",
+        ),
+        (
+            "abc",
+            "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad",
+        ),
+        (
+            "abcdbcdecdefdefgefghfghighijhijkijkljklmklmnlmnomnopnopq",
+            "248d6a61d20638b8e5c026930c3e6039a33ce45964ff2167f6ecedd419db06c1",
+        ),
+    ] {
+        assert_eq!(crate::hash::hex(text.as_bytes()), hash);
+    }
+}

@@ -1,4 +1,5 @@
-use super::{bundle, hash};
+use super::bundle;
+use crate::hash;
 
 /// A file of the page.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]

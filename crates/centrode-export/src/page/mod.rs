@@ -6,7 +6,6 @@
 
 mod bundle;
 mod curves;
-mod hash;
 mod html;
 mod path;
 mod scene;

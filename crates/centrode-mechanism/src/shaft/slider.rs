@@ -41,7 +41,7 @@ impl Default for SliderSpec {
     fn default() -> Self {
         Self {
             length: 42.0,
-            clearance: 0.7,
+            clearance: 1.0,
             groove_fit: "H11".into(),
             slider_fit: "h11".into(),
             reach: 3.5,

@@ -98,6 +98,9 @@ pub(crate) struct Export {
     /// Folder for the files, made if it is missing
     #[arg(long, value_name = "DIR")]
     pub(crate) to: PathBuf,
+    /// Replace files in the folder that no export wrote, or that were changed since
+    #[arg(long)]
+    pub(crate) force: bool,
     /// Kinds of file, separated by commas; left out, all
     #[arg(long, value_enum, value_delimiter = ',', value_name = "KINDS")]
     pub(crate) format: Vec<File>,

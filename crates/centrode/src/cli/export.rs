@@ -27,7 +27,7 @@ pub(crate) fn run(command: &Export, out: &mut impl Write) -> Result<Status, Fail
     progress.step("drawing");
     let bundle = bundle(design.family(), mechanism.as_ref(), &found, command)?;
     progress.step("writing");
-    let written = output::write(&bundle, &command.to)?;
+    let written = output::write(|| bundle.export_to(&command.to, command.force))?;
     drop(progress);
     for path in &written {
         writeln!(out, "{}", path.display())?;

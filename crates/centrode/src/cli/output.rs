@@ -1,15 +1,17 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use crate::export::Bundle;
+use crate::export::{Bundle, BundleError};
 
 use crate::cli::failure::Failure;
 use crate::cli::interrupt::{Interrupt, has_descriptors};
 
-/// Writes files into a folder, each whole or not at all; Ctrl-C before the last is written leaves no new one.
-pub(crate) fn write(bundle: &Bundle, folder: &Path) -> Result<Vec<PathBuf>, Failure> {
+/// Writes files as a writer does, each whole or not at all; Ctrl-C before the last is written leaves no new one.
+pub(crate) fn write(
+    writer: impl FnOnce() -> Result<Vec<PathBuf>, BundleError>,
+) -> Result<Vec<PathBuf>, Failure> {
     let interrupt = Interrupt::watch();
-    let written = interrupt.cancel.run(|| bundle.write_to(folder));
+    let written = interrupt.cancel.run(writer);
     Ok(written.map_err(|_| Failure::Interrupted)??)
 }
 
@@ -30,7 +32,7 @@ pub(crate) fn put(path: &Path, bytes: Vec<u8>) -> Result<Vec<PathBuf>, Failure> 
     let name = path.file_name().and_then(|name| name.to_str());
     let mut bundle = Bundle::default();
     bundle.add(name.unwrap_or_default(), bytes)?;
-    write(&bundle, folder)
+    write(|| bundle.write_to(folder))
 }
 
 /// Makes a write beyond the limit of a file's size fail with a reason: its signal, not caught, would end the program.

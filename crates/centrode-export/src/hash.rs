@@ -1,4 +1,4 @@
-//! Hashes by which a page's policy names what may run in it.
+//! SHA-256 hashes: a page's policy names by them what may run in it, a folder's manifest which files were written.
 
 /// First 32 bits of the fractional parts of the square roots of the first 8 primes.
 const START: [u32; 8] = [
@@ -80,6 +80,12 @@ const ROUNDS: [u32; 64] = [
     0xc671_78f2,
 ];
 
+/// SHA-256 of some bytes in hexadecimal digits.
+pub(crate) fn hex(bytes: &[u8]) -> String {
+    let hash = sha256(bytes);
+    hash.iter().map(|byte| format!("{byte:02x}")).collect()
+}
+
 /// SHA-256 of some bytes; FIPS 180-4.
 fn sha256(bytes: &[u8]) -> [u8; 32] {
     let mut padded = bytes.to_vec();
@@ -141,7 +147,7 @@ fn base64(bytes: &[u8]) -> String {
 }
 
 /// Word of a page's policy that lets an inline script or style run: the hash of the text in its element.
-pub(super) fn source(text: &str) -> String {
+pub(crate) fn source(text: &str) -> String {
     format!("'sha256-{}'", base64(&sha256(text.as_bytes())))
 }
 
