@@ -325,7 +325,14 @@ mod tests {
         let boxes = |count: u32, size: f64| {
             let at = |i: u32, k: f64| 100.0 * (k * f64::from(i)).fract();
             let own = move |i: u32| {
-                let low = Point::new(at(i, 0.618), if i % 5 == 0 { 7.0 } else { at(i, 0.414) });
+                let low = Point::new(
+                    at(i, 0.618),
+                    if i.is_multiple_of(5) {
+                        7.0
+                    } else {
+                        at(i, 0.414)
+                    },
+                );
                 let span = Vector::new(at(i, 0.732), at(i, 0.236)) * size;
                 let (min, max) = (low, low + span);
                 Bounds { min, max }

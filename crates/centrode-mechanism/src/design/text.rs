@@ -21,7 +21,7 @@ pub fn visible(text: &str) -> String {
     shown
 }
 
-/// Whether a character has the property Bidi_Control of Unicode.
+/// Whether a character has the property `Bidi_Control` of Unicode.
 fn turns_direction(c: char) -> bool {
     matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
 }

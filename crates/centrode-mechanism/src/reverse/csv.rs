@@ -196,7 +196,7 @@ impl Layout {
                 continue;
             }
             let is_one = |names: &&[&str]| names.contains(&name.as_str());
-            match self.headings.iter().position(|names| is_one(&names)) {
+            match self.headings.iter().position(is_one) {
                 None => {
                     let word: String = word.chars().take(40).collect();
                     return refused(format!("unknown column {word:?}"));
