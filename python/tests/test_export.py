@@ -15,7 +15,7 @@ def test_export_writes_the_files_and_names_them(pair, tmp_path):
     paths = pair.export(out, formats=["dxf", "csv"], tolerance=0.01)
     files = pair.files(formats=["dxf", "csv"], tolerance=0.01)
     assert [path.name for path in paths] == list(files)
-    assert sorted(path.name for path in out.iterdir()) == sorted(files)
+    assert sorted(path.name for path in out.iterdir()) == sorted([".centrode-files", *files])
     for path in paths:
         assert path.read_bytes() == files[path.name]
     names = list(pair.files(tolerance=0.1))
@@ -96,6 +96,17 @@ def test_a_part_that_cannot_be_written_leaves_what_was_there(pair, tmp_path):
     assert os.listdir(tmp_path) == ["old"]
 
 
+def test_files_of_others_are_replaced_by_force_alone(pair, tmp_path):
+    pair.export(tmp_path, formats=["dxf"])
+    (tmp_path / "driven.dxf").write_text("with a hole more")
+    with pytest.raises(ct.ExportError, match=r"changed since: driven\.dxf; .*force"):
+        pair.export(tmp_path, formats=["dxf", "csv"])
+    assert (tmp_path / "driven.dxf").read_text() == "with a hole more"
+    assert not list(tmp_path.glob("*.csv"))
+    pair.export(tmp_path, formats=["dxf"], force=True)
+    pair.export(tmp_path, formats=["dxf"], tolerance=0.01)
+
+
 def test_threads_export_into_one_folder_without_harm(pair, tmp_path):
     files = pair.files(formats=["csv", "dxf"], tolerance=0.01)
     wrong = []
@@ -116,7 +127,7 @@ def test_threads_export_into_one_folder_without_harm(pair, tmp_path):
     for thread in threads:
         thread.join()
     assert wrong == []
-    assert sorted(os.listdir(tmp_path)) == sorted([*files, "gear.stl"])
+    assert sorted(os.listdir(tmp_path)) == sorted([".centrode-files", *files, "gear.stl"])
 
 
 def test_a_killed_process_leaves_nothing_that_the_next_does_not_clear(pair, tmp_path):
@@ -128,17 +139,17 @@ while True: pair.export({str(tmp_path)!r}, formats=["csv", "dxf", "svg"], tolera
     for _ in range(20):
         process = subprocess.Popen([sys.executable, "-c", script])
         try:
-            while not any(name.startswith(".") for name in os.listdir(tmp_path)):
+            while not list(tmp_path.glob(".centrode-*.part")):
                 assert process.poll() is None
         finally:
             process.kill()
             process.wait(timeout=10)
-        if any(name.startswith(".") for name in os.listdir(tmp_path)):
+        if list(tmp_path.glob(".centrode-*.part")):
             break
     else:
         pytest.fail("none was killed while it wrote")
     written = pair.export(tmp_path, formats=["csv", "dxf", "svg"], tolerance=0.01)
-    assert sorted(os.listdir(tmp_path)) == sorted(path.name for path in written)
+    assert sorted(os.listdir(tmp_path)) == sorted([".centrode-files", *(path.name for path in written)])
 
 
 def test_a_write_beyond_the_file_size_limit_is_told_and_leaves_nothing(tmp_path):

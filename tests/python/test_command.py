@@ -49,6 +49,10 @@ def limited(size, action):
     return limit
 
 
+# Hidden folder in which an export writes its files.
+STAGE = ".centrode-*.part"
+
+
 def everything(folder):
     """Contents of every file in a folder, hidden ones among them, by path."""
     return {path.relative_to(folder): path.read_bytes() for path in folder.rglob("*") if path.is_file()}
@@ -75,7 +79,7 @@ def test_an_export_cut_short_leaves_the_old_files(exported, tmp_path, action):
 def writing(folder):
     """Waits until an export has begun to write into a folder."""
     begun = time.monotonic()
-    while not list(folder.glob(".*")):
+    while not list(folder.glob(STAGE)):
         assert time.monotonic() < begun + 60
         time.sleep(1e-4)
 
@@ -88,22 +92,22 @@ def test_what_a_killed_export_left_is_cleared_by_the_next(exported, tmp_path):
     for _ in range(20):
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
         writing_seen = time.monotonic()
-        while process.poll() is None and len(list(tmp_path.glob(".*"))) < 2:
+        while process.poll() is None and len(list(tmp_path.glob(STAGE))) < 1:
             assert time.monotonic() < writing_seen + 60
         process.kill()
         process.wait(timeout=10)
-        if len(list(tmp_path.glob(".*"))) > 1:
+        if list(tmp_path.glob(STAGE)):
             break
     else:
         pytest.fail("none was killed while it wrote")
     # What is there under its own name is whole; an export beside a live one clears only what is dead.
-    visible = {path: contents for path, contents in everything(tmp_path).items() if path.parts[0][0] != "."}
-    assert visible == whole
+    seen = {path: contents for path, contents in everything(tmp_path).items() if path.parts[0][-5:] != ".part"}
+    assert seen == whole
     both = [subprocess.Popen(command, stdout=subprocess.DEVNULL) for _ in range(2)]
     assert [process.wait(timeout=60) for process in both] == [0, 0]
     (tmp_path / ".notes.part").unlink()
     assert everything(tmp_path) == whole
-    assert not list(tmp_path.glob(".*"))
+    assert not list(tmp_path.glob(STAGE))
 
 
 def test_ctrl_c_while_files_are_written_leaves_nothing_half_written(exported, tmp_path):

@@ -393,7 +393,7 @@ def test_parts_are_chosen_as_on_the_command_line(browser, tmp_path):
         out = tmp_path / "out"
         kinds = "dxf,svg,sheet,step,csv,json"
         centrode("export", copy, "--to", out, "--part", "driven", "--format", kinds)
-        written = {str(path.relative_to(out)): path.read_bytes() for path in out.rglob("*") if path.is_file()}
+        written = {str(path.relative_to(out)): path.read_bytes() for path in out.rglob("[!.]*") if path.is_file()}
         assert "driven.dxf" in taken
         assert "driver.dxf" not in taken
         assert taken == written

@@ -592,7 +592,7 @@ def test_the_slider_made_from_its_sheet_alone_is_its_solid(name, exported):
 def test_every_file_of_a_package_is_the_same_bytes_again(name, exported, tmp_path, run):
     folder = exported(name)
     run("export", design_file(name, folder), "--to", tmp_path, "--format", "csv,dxf,sheet,step", check=False)
-    files = sorted(path.relative_to(tmp_path) for path in tmp_path.rglob("*") if path.is_file())
+    files = sorted(path.relative_to(tmp_path) for path in tmp_path.rglob("[!.]*") if path.is_file())
     assert len(files) > 5
     for file in files:
         assert (tmp_path / file).read_bytes() == (folder / file).read_bytes(), file

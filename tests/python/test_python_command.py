@@ -109,8 +109,8 @@ def test_no_file_stands_in_for_an_output_closed_from_the_start(tmp_path):
     command = [sys.executable, "-c", code, "export", PAIR, "--to", tmp_path, "--format", "svg", "--tolerance", "0.01"]
     done = subprocess.run(command, stderr=subprocess.PIPE, timeout=60, preexec_fn=lambda: os.close(1))
     assert done.returncode == 0, done.stderr
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["assembly.svg", "driven.svg", "driver.svg"]
-    assert all(path.read_text().rstrip().endswith("</svg>") for path in tmp_path.iterdir())
+    assert sorted(path.name for path in tmp_path.glob("[!.]*")) == ["assembly.svg", "driven.svg", "driver.svg"]
+    assert all(path.read_text().rstrip().endswith("</svg>") for path in tmp_path.glob("*.svg"))
 
 
 def heard():

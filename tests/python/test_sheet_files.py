@@ -200,7 +200,7 @@ def test_options_that_no_file_has_a_use_for_are_refused(exported, run, tmp_path)
 def test_parts_and_sizes_are_as_asked_for(exported, run, tmp_path):
     options = ("--format", "sheet,pdf", "--part", "driven", "--sheet", "A2", "--projection", "third-angle")
     run("export", exported.design, "--to", tmp_path, *options)
-    assert {file.name.split("-")[0].split(".")[0] for file in tmp_path.iterdir()} == {"driven"}
+    assert {file.name.split("-")[0].split(".")[0] for file in tmp_path.glob("[!.]*")} == {"driven"}
     assert millimetres(pypdf.PdfReader(tmp_path / "driven.pdf").pages[0]) == pytest.approx(SIZES["A2"], abs=0.01)
     run("export", exported.design, "--to", tmp_path / "first", *options[:-1], "first-angle")
     assert (tmp_path / "first" / "driven.pdf").read_bytes() != (tmp_path / "driven.pdf").read_bytes()

@@ -212,7 +212,7 @@ def test_the_zip_holds_the_files_of_export(served, tmp_path):
     centrode("export", served.design, "--to", out, "--tolerance", "0.01")
     with zipfile.ZipFile(io.BytesIO(archive)) as files:
         names = {name for name in files.namelist() if not name.endswith("/")}
-        assert names == {path.relative_to(out).as_posix() for path in out.rglob("*") if path.is_file()}
+        assert names == {path.relative_to(out).as_posix() for path in out.rglob("[!.]*") if path.is_file()}
         for name in names:
             assert files.read(name) == (out / name).read_bytes(), name
     status, refused = served.json("POST", "export", {**request, "tolerance": "-1"})

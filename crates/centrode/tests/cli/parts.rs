@@ -16,6 +16,7 @@ fn names(folder: &Path) -> Vec<String> {
     let mut names: Vec<String> = listed
         .map(|entry| entry.expect("readable").file_name().into_string())
         .map(|name| name.expect("text"))
+        .filter(|name| name != ".centrode-files")
         .collect();
     names.sort();
     names
