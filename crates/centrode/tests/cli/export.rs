@@ -55,7 +55,7 @@ fn export(to: &Path, more: &[&str]) -> std::process::Output {
     centrode(&[&["export", &design, "--to", &to], more].concat())
 }
 
-/// Every file of a folder and of the folders in it.
+/// Every file of a folder and of the folders in it, without the record of written files.
 fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
     let mut read = BTreeMap::new();
     for entry in fs::read_dir(folder).expect("readable") {
@@ -64,7 +64,7 @@ fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
         if path.is_dir() {
             let below = files(&path).into_iter();
             read.extend(below.map(|(file, bytes)| (format!("{name}/{file}"), bytes)));
-        } else {
+        } else if name != ".centrode-files" {
             read.insert(name.into_owned(), fs::read(&path).expect("readable"));
         }
     }
