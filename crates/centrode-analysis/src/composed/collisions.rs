@@ -23,8 +23,6 @@ pub(super) struct PartSurfaces<'a> {
     pub(super) name: &'a str,
     pub(super) link: usize,
     pub(super) surfaces: Vec<&'a Surface>,
-    /// Whether the design decides what it looks like: a plate or pin of a design that describes none is only a proposal.
-    is_decided: bool,
     center: Point,
     radius: f64,
 }
@@ -34,7 +32,7 @@ impl<'a> PartSurfaces<'a> {
     pub(super) fn new(
         name: &'a str,
         link: usize,
-        (surfaces, is_decided): (Vec<&'a Surface>, bool),
+        surfaces: Vec<&'a Surface>,
         tolerance: Tolerance,
     ) -> Option<Self> {
         let corners = |surface: &&Surface| surface.outline.flatten(tolerance);
@@ -48,7 +46,6 @@ impl<'a> PartSurfaces<'a> {
             name,
             link,
             surfaces,
-            is_decided,
             center,
             radius: far.fold(0.0, f64::max) + tolerance.mm(),
         })
@@ -77,12 +74,10 @@ pub(super) fn collisions(made: &Made<'_>, ends: &[f64], report: &mut Report) {
     let (Some(machine), Ok(tolerance)) = (made.machine(), tolerance) else {
         return;
     };
-    let is_decided = composed.design().describes_plates();
     let plate = |link: usize| {
         let is_plate = |surface: &&Surface| surface.name == machine.links[link].name;
         let own = surfaces(machine, link).filter(is_plate);
-        let own = (own.collect(), is_decided);
-        PartSurfaces::new(&machine.links[link].name, link, own, tolerance)
+        PartSurfaces::new(&machine.links[link].name, link, own.collect(), tolerance)
     };
     let plates: Vec<PartSurfaces<'_>> = (0..machine.links.len()).filter_map(plate).collect();
     let may_collide = |pair: [usize; 2]| !held(machine, pair.map(|plate| plates[plate].link));
@@ -93,7 +88,7 @@ pub(super) fn collisions(made: &Made<'_>, ends: &[f64], report: &mut Report) {
     let gears = composed.gears().iter().filter_map(|gear| {
         let (link, name) = (composed.body_named(gear.body_name())?, gear.surface_name());
         let own = surfaces(machine, link).filter(|surface| surface.name == name);
-        PartSurfaces::new(&gear.name, link, (own.collect(), true), tolerance)
+        PartSurfaces::new(&gear.name, link, own.collect(), tolerance)
     });
     let gears: Vec<PartSurfaces<'_>> = gears.collect();
     let may_collide =
@@ -214,7 +209,9 @@ pub(super) fn findings<'a>(
 ) -> impl Iterator<Item = Finding> + 'a {
     let (rule, _, remedy) = told;
     let pairs = overlaps.found.iter();
-    let worst = pairs.map(|(pair, [least, _])| severity(pair, -least)).max();
+    let worst = pairs
+        .map(|(_, [least, _])| Severity::of_overlap(-least))
+        .max();
     let left = worst.filter(|_| overlaps.left > 0).map(|severity| Finding {
         rule,
         severity,
@@ -235,15 +232,6 @@ pub(super) fn findings<'a>(
         .chain(left)
 }
 
-/// Severity of an overlap by a depth, mm: at most a warning where a part is a proposal, which another layer fixes.
-fn severity(pair: &[&PartSurfaces<'_>; 2], depth: f64) -> Severity {
-    let severity = Severity::of_overlap(depth);
-    match pair.iter().all(|part| part.is_decided) {
-        true => severity,
-        false => severity.min(Severity::Warning),
-    }
-}
-
 /// Two parts of a kind that overlap, by the rule that they break.
 fn collision(
     (rule, kind, remedy): (&'static str, &'static str, &'static str),
@@ -252,7 +240,7 @@ fn collision(
     let [one, other] = pair;
     Finding {
         rule,
-        severity: severity(&pair, -least),
+        severity: Severity::of_overlap(-least),
         message: format!(
             "{kind} {} and {} share a height and overlap by {} at an input of {}",
             one.name,

@@ -19,7 +19,7 @@ use std::f64::consts::PI;
 use std::sync::{Arc, OnceLock};
 
 use centrode_geometry::{Extreme, pieces};
-use centrode_mechanism::composed::Composed;
+use centrode_mechanism::composed::{Composed, Hardware};
 use centrode_mechanism::machine::Machine;
 
 pub use self::clearance::composed_clearance;
@@ -112,10 +112,28 @@ fn checked(made: &Made<'_>, motion: Motion, depth: Depth) -> Report {
         }
         pairs::pairs(made, &mut report);
         collisions::collisions(made, &ends(composed), &mut report);
+        not_designed(composed, &mut report);
     }
     add_goals(made, &mut report);
     report.worst_first();
     report
+}
+
+/// Notes what the design leaves to those who build the machine.
+fn not_designed(composed: &Composed, report: &mut Report) {
+    if composed.design().hardware() == Hardware::Full {
+        return;
+    }
+    report.findings.push(Finding {
+        rule: "not-designed",
+        severity: Severity::Note,
+        message: "bodies, frame, pins, shafts, bearings and springs are not designed: drawings and solids are of gears and cams only, and bodies have no mass but a given one".into(),
+        measured: None,
+        required: None,
+        unit: Unit::Count,
+        remedy: Some("hardware = \"full\" for plates, pins and shafts"),
+        place: Place::default(),
+    });
 }
 
 /// Adds the goals to a report, and the findings of those that are missed.

@@ -39,12 +39,11 @@ pub(super) fn collisions(
     (ends, tolerance): (&[f64], Tolerance),
     report: &mut Report,
 ) {
-    let is_decided = composed.design().describes_plates();
     let turned = on_axes(composed, machine);
     let mut kinds = Vec::new();
     let mut pieces = Vec::new();
     for round in &turned {
-        let all = (round.surfaces.iter().collect(), is_decided);
+        let all = round.surfaces.iter().collect();
         if let Some(piece) = PartSurfaces::new(&round.name, round.link, all, tolerance) {
             let (axis, is_roller) = (round.axis, round.is_roller);
             kinds.push(Kind::Turned { axis, is_roller });
@@ -53,8 +52,7 @@ pub(super) fn collisions(
     }
     let parts = parts(composed, machine);
     for (name, link, surface, kind) in &parts {
-        let own = (vec![surface], is_decided || !matches!(kind, Kind::Plate(_)));
-        if let Some(piece) = PartSurfaces::new(name, *link, own, tolerance) {
+        if let Some(piece) = PartSurfaces::new(name, *link, vec![surface], tolerance) {
             kinds.push(*kind);
             pieces.push(piece);
         }

@@ -4,7 +4,7 @@ mod curves;
 mod parts;
 
 use centrode_geometry::{MassProperties, Point, Solid};
-use centrode_mechanism::composed::Composed;
+use centrode_mechanism::composed::{Composed, Hardware};
 use centrode_mechanism::machine::{Form, LinePath, Machine};
 use nalgebra::{Isometry2, Matrix3, Point3};
 
@@ -59,7 +59,9 @@ pub fn files(
     let made = machine(composed)?;
     let named = [design.name.as_str(), design.title.as_str()];
     let mut package = Package::new("a composed machine", named, formats, options);
-    package.finer_than(design.plates.pin_diameter, "pins' diameter")?;
+    if design.hardware() == Hardware::Full {
+        package.finer_than(design.plates.pin_diameter, "pins' diameter")?;
+    }
     parts::add(&mut package, composed, &made)?;
     package.drawing("assembly", |_| Ok(assembly(composed, &made)))?;
     package.machine(|| Ok(with_masses(&made)))?;
@@ -96,13 +98,18 @@ fn assembly(composed: &Composed, machine: &Machine) -> Drawing {
     let mut drawing = Drawing::default().layer(PATH, Color::Blue, LineType::Continuous, 0.18);
     for (index, body) in composed.bodies().iter().enumerate() {
         let layer = body.name.to_uppercase();
-        let line = match index {
-            0 => LineType::Phantom,
-            _ => LineType::Continuous,
+        // The frame, and bars that stand for bodies without plates, are no parts.
+        let line = match index == 0 || composed.bar(index).is_some() {
+            true => LineType::Phantom,
+            false => LineType::Continuous,
         };
         drawing = drawing.layer(&layer, Color::Foreground, line, 0.35);
         for solid in plates(machine, index) {
             contours(&mut drawing, &layer, solid, &start(composed, index));
+        }
+        if let Some(bar) = composed.bar(index) {
+            let bar = bar.transformed(&start(composed, index));
+            drawing.draw(&layer, EntityShape::Contour(bar));
         }
     }
     drawing = scenery(drawing, composed, machine);

@@ -159,7 +159,7 @@ impl ComposedBodySpec {
         for (key, value) in [("width", self.width), ("thickness", self.thickness)] {
             positive(key, value.unwrap_or(1.0))?;
         }
-        self.given_mass().validate(self.has_plate())
+        Ok(())
     }
 
     /// Whether it has a plate.

@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::{
     ComposedBodySpec, ComposedCamSpec, ComposedCopiesSpec, ComposedDyadSpec, ComposedGearSpec,
     ComposedGoalSpec, ComposedLoadSpec, ComposedLoopSpec, ComposedObstacleSpec, ComposedPlatesSpec,
-    ComposedPointsSpec,
+    ComposedPointsSpec, Hardware,
 };
 use crate::design::{DesignSpec, DrawingSpec};
 use crate::gear::design::rule::{
@@ -61,6 +61,10 @@ pub struct ComposedDesign {
     /// Chains of bodies of which there are several, evenly spaced, by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub copies: BTreeMap<String, ComposedCopiesSpec>,
+    /// What is designed of plates, pins and shafts: `full` or `none`; default `full` if `plates` or a body describes them,
+    /// otherwise `none`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hardware: Option<Hardware>,
     /// The bodies as plates.
     #[serde(default)]
     pub plates: ComposedPlatesSpec,
@@ -172,7 +176,10 @@ impl ComposedDesign {
                 );
             }
             body.validate().map_err(|e| e.inside(&key))?;
-            if let Some(width) = body.width {
+            let is_full = self.hardware() == Hardware::Full;
+            let mass = body.given_mass().validate(is_full && body.has_plate());
+            mass.map_err(|e| e.inside(&key))?;
+            if let Some(width) = body.width.filter(|_| is_full) {
                 let least = self.plates.least_width();
                 in_range(&format!("{key}.width"), width, [least, 1e9], " mm")?;
             }
@@ -229,6 +236,9 @@ impl ComposedDesign {
             }
         }
         self.drawing.validate().map_err(|e| e.inside("drawing"))?;
-        self.plates.validate().map_err(|e| e.inside("plates"))
+        match self.hardware() {
+            Hardware::None => Ok(()),
+            Hardware::Full => self.plates.validate().map_err(|e| e.inside("plates")),
+        }
     }
 }

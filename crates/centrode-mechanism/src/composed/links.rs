@@ -323,6 +323,8 @@ impl Composed {
                 lines.push(Line::contour(LineRole::Body, plate.outline()));
                 lines.extend(holes.map(|hole| Line::contour(LineRole::Hole, hole)));
             }
+            let bar = self.bar(index);
+            lines.extend(bar.map(|bar| Line::contour(LineRole::Body, &bar)));
             let gears = pieces[index].gears.iter();
             lines.extend(gears.flat_map(|piece| piece.of.lines()));
             let cams = pieces[index].cams.iter();

@@ -76,7 +76,7 @@ pub use law::{ComposedLawError, ComposedLawSpec};
 pub use load::{ComposedLoadSpec, LoadAxes};
 pub use obstacle::{ComposedObstacle, ComposedObstacleSpec};
 pub use pair_figure::PAIR_FIGURES;
-pub use plates::{ComposedPlatesSpec, PinHole};
+pub use plates::{ComposedPlatesSpec, Hardware, PinHole};
 pub use reversed::{MachineError, ReversedMachine};
 pub(crate) use reversed::{free_backlash, free_body};
 pub use shafts::{ComposedShaft, Hold, ShaftPart};

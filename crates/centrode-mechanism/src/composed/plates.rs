@@ -25,6 +25,8 @@ const BLOCK: [f64; 2] = [1.0, 0.6];
 const BLOCK_ROUNDING: f64 = 0.1;
 /// First and last layer.
 pub(super) const LAYERS: [f64; 2] = [-1000.0, 1000.0];
+/// Width of the bars by which bodies without plates are drawn, as a share of the longest distance in a body.
+const BAR: f64 = 0.03;
 /// Distance of two pins, as a share of their diameter, below which they are one.
 const ONE: f64 = 1e-6;
 /// Accuracy of the check of a contour drawn by hand, as a share of its length.
@@ -76,11 +78,34 @@ impl Default for ComposedPlatesSpec {
     }
 }
 
+/// What the program designs of the machine around gears and cams.
+#[derive(Clone, Copy, Debug, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Hardware {
+    /// Nothing: bodies are kinematic, without plates, pins and shafts. Gears and cams are made.
+    None,
+    /// A plate per body, pins, shafts and what holds them.
+    Full,
+}
+
 impl ComposedDesign {
-    /// Whether the design says anything of its plates and pins: `plates` other than the default, or a body with a layer, an
-    /// outline, a circle or a size. Otherwise plates and pins are a proposal of the program.
+    /// What is designed of plates, pins and shafts: as given, or full if the design describes plates or needs their masses,
+    /// otherwise none.
     #[must_use]
-    pub fn describes_plates(&self) -> bool {
+    pub fn hardware(&self) -> Hardware {
+        let mut bodies = self.bodies.values();
+        let weighs = self.gravity.is_some()
+            || bodies.any(|body| body.given_mass().mass.is_some() && body.inertia_kg_mm2.is_none());
+        let default = match self.describes_plates() || weighs {
+            true => Hardware::Full,
+            false => Hardware::None,
+        };
+        self.hardware.unwrap_or(default)
+    }
+
+    /// Whether the design says anything of its plates and pins: `plates` other than the default, or a body with a layer, an
+    /// outline, a circle or a size.
+    fn describes_plates(&self) -> bool {
         let describes = |body: &ComposedBodySpec| {
             body.layer.is_some()
                 || !body.outline.is_empty()
@@ -177,7 +202,7 @@ impl Composed {
         let own = self.bodies.get(body)?;
         let outline = match self.drawn.get(&own.name) {
             Some(outline) => outline.clone(),
-            None => Outline::hull(&self.circles(body))?,
+            None => Outline::hull(&self.circles(body, self.width(body)))?,
         };
         Some((outline, holes.collect()))
     }
@@ -229,7 +254,8 @@ impl Composed {
     /// Whether a body has a plate.
     pub(super) fn has_plate(&self, body: usize) -> bool {
         let name = self.bodies.get(body).map(|body| &body.name);
-        name.is_some_and(|name| {
+        let is_designed = self.design.hardware() == Hardware::Full;
+        name.filter(|_| is_designed).is_some_and(|name| {
             let spec = self.design.bodies.get(name);
             self.points.contains_key(name) && spec.is_none_or(|body| body.has_plate())
         })
@@ -263,12 +289,24 @@ impl Composed {
         Some(holes)
     }
 
-    /// Circles round which a plate is drawn: about its points, and the corners of a block about the origin of one that slides.
-    fn circles(&self, index: usize) -> Vec<(Point, f64)> {
+    /// Contour of the bar by which a body of a machine without hardware is drawn, in the body's axes; `None` for the frame and
+    /// for a body on one point.
+    #[must_use]
+    pub fn bar(&self, body: usize) -> Option<Outline> {
+        if body == 0 || self.design.hardware() == Hardware::Full {
+            return None;
+        }
+        let points = self.points.values().flat_map(|points| points.values());
+        let sizes = points.map(|point| point.at.coords.norm());
+        let circles = self.circles(body, BAR * sizes.fold(0.0, f64::max));
+        Outline::hull(&circles).filter(|_| circles.len() > 1)
+    }
+
+    /// Circles round which a plate of a width is drawn: about its points, and the corners of a block about the origin of one
+    /// that slides.
+    fn circles(&self, index: usize, width: f64) -> Vec<(Point, f64)> {
         let body = &self.bodies[index];
         let spec = self.design.bodies.get(&body.name);
-        let own = spec.and_then(|body| body.width);
-        let width = own.unwrap_or(self.design.plates.width);
         let points = self.points.get(&body.name).into_iter().flatten();
         let around = |at: Point| (at, self.boss(index, at).max(0.5 * width));
         let mut circles: Vec<(Point, f64)> = points.map(|(_, p)| around(p.at)).collect();
@@ -287,15 +325,19 @@ impl Composed {
         circles
     }
 
+    /// Width of a body's plate, mm.
+    fn width(&self, body: usize) -> f64 {
+        let spec = self.design.bodies.get(&self.bodies[body].name);
+        let own = spec.and_then(|body| body.width);
+        own.unwrap_or(self.design.plates.width)
+    }
+
     /// Height of the block of a body that slides, mm, which a guide holds on both sides; none for a body that does not slide or is drawn
     /// by hand.
     #[must_use]
     pub fn guided(&self, body: usize) -> Option<f64> {
         let own = self.bodies.get(body)?;
-        let spec = self.design.bodies.get(&own.name);
-        let width = spec
-            .and_then(|body| body.width)
-            .unwrap_or(self.design.plates.width);
+        let width = self.width(body);
         let slides = matches!(own.mount.as_ref()?.kind, JointKind::Sliding(_));
         let is_block = slides && !self.drawn.contains_key(&own.name);
         is_block.then_some(2.0 * BLOCK[1] * width)

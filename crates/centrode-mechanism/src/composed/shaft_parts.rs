@@ -1,7 +1,7 @@
 //! Shafts of a composed machine as turned parts, and what the parts list says of them.
 
 use super::shafts::ROUNDING;
-use super::{Composed, ComposedShaft, Hold, ShaftPart};
+use super::{Composed, ComposedShaft, Hardware, Hold, ShaftPart};
 use crate::digits::thousandths;
 use crate::gear::design::Keyway;
 use crate::machine::{
@@ -147,6 +147,7 @@ impl Composed {
         let mut parts = self.shafts().iter().flat_map(|shaft| &shaft.parts);
         let own = parts.find(|part| !part.is_plate && part.name == name);
         match own.map(|part| part.hold) {
+            None if self.design.hardware() == Hardware::None => None,
             None => Some("no bore, or none on an axis: not joined"),
             Some(Hold::Loose) => Some("bore or keyway is not its shaft's"),
             Some(_) => None,

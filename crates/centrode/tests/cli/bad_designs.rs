@@ -274,7 +274,7 @@ fn axes_nearer_than_their_pins_are_named_with_the_key() {
         let [a, b]: [f64; 2] = [ground, crank].map(|number| number.parse().expect("a number"));
         let (coupler, rocker) = (1.2 * a, a - 0.4 * b);
         let design = format!(
-            "family = \"machine\"\n[frame.points]\nA = [0, 0]\nD = [{ground}, 0]\n\
+            "family = \"machine\"\nhardware = \"full\"\n[frame.points]\nA = [0, 0]\nD = [{ground}, 0]\n\
              [bodies.crank]\non = \"frame.A\"\nlaw = {{ ratio = 1 }}\npoints = {{ B = [{crank}, 0] }}\n\
              [dyads.loop]\ntype = \"RRR\"\nfrom = \"crank.B\"\nto = \"frame.D\"\nlengths = [{coupler}, {rocker}]\n\
              side = \"left\"\nbodies = [\"coupler\", \"rocker\"]\njoint = \"C\"\n[plates]\n{pin}\n"

@@ -116,7 +116,12 @@ fn what_cannot_work_is_an_error_and_what_nobody_can_measure_is_a_note() {
         (cam(60.0), 1, "error cam-undercut"),
         (cam(80.0), 1, "error cam-undercut"),
         (four_bar(1.0, small, ""), 0, "warning transmission-angle"),
-        // Who writes a size of the plates is to be heard.
+        (
+            four_bar(1.0, small, "[plates]\nthickness = 5"),
+            0,
+            "warning transmission-angle",
+        ),
+        // A size of the plates, or the word itself, makes them part of the machine.
         (
             four_bar(1.0, small, "[plates]\nthickness = 4"),
             1,
@@ -142,6 +147,62 @@ fn what_cannot_work_is_an_error_and_what_nobody_can_measure_is_a_note() {
             "{found:?}\n{design}"
         );
     }
+}
+
+/// Linkages as sketched in kinematics programs: 1 to 20 mm between the pins of the frame, nothing of plates.
+#[test]
+fn small_kinematic_linkages_have_no_fault_of_hardware() {
+    let slider_crank = |crank: f64, rod: f64| {
+        format!(
+            "family = \"machine\"\n[frame.points]\nO = [0, 0]\n[bodies.crank]\non = \"frame.O\"\nlaw = {{ ratio = 1 }}\n\
+             points = {{ A = [{crank}, 0] }}\n[dyads.slide]\ntype = \"RRP\"\nfrom = \"crank.A\"\nline = \"frame.O\"\n\
+             line_deg = 0\nlengths = [{rod}]\nbodies = [\"rod\", \"piston\"]\njoint = \"B\"\nside = \"forward\"\n"
+        )
+    };
+    let six_bar = |ground: f64| {
+        let [near, far] = [2.2 * ground, 3.0 * ground];
+        let more = format!(
+            "[bodies.rocker]\npoints = {{ E = [{}, {}] }}\n[frame.points]\nF = [{near}, 0]\n[dyads.second]\ntype = \"RRR\"\n\
+             from = \"rocker.E\"\nto = \"frame.F\"\nlengths = [{far}, {far}]\nside = \"left\"\n\
+             bodies = [\"link\", \"lever\"]\njoint = \"G\"",
+            0.5 * ground,
+            0.2 * ground
+        );
+        four_bar(ground, [0.3, 0.9, 0.7].map(|share| share * ground), &more)
+            .replacen("[frame.points]\nF", "#", 1)
+            .replace(
+                &format!("D = [{ground}, 0]"),
+                &format!("D = [{ground}, 0]\nF = [{near}, 0]"),
+            )
+    };
+    let mut all: Vec<String> = [1.0, 2.0, 5.0, 12.0, 20.0].map(six_bar).into();
+    for ground in [1.0, 2.9, 4.0, 7.5, 12.0, 20.0] {
+        all.push(four_bar(
+            ground,
+            [0.3, 0.9, 0.7].map(|share| share * ground),
+            LOAD,
+        ));
+        all.push(slider_crank(0.3 * ground, ground));
+    }
+    for design in &all {
+        let (code, found) = checked(design);
+        assert_eq!(code, Some(0), "{found:?}\n{design}");
+        assert!(found.contains(&"note not-designed".to_owned()), "{found:?}");
+        let hardware = ["plates-collide", "pins-collide", "parts-collide"];
+        let of_hardware = |found: &String| hardware.iter().any(|rule| found.ends_with(rule));
+        assert!(!found.iter().any(of_hardware), "{found:?}\n{design}");
+    }
+    // With plates and pins of their default size the smallest do collide.
+    let full = all[5].replacen("family", "hardware = \"full\"\nfamily", 1);
+    let (_, found) = checked(&full);
+    assert!(
+        !found.contains(&"note not-designed".to_owned()),
+        "{found:?}"
+    );
+    assert!(
+        found.contains(&"error pins-collide".to_owned()),
+        "{found:?}"
+    );
 }
 
 #[test]

@@ -183,6 +183,7 @@ fn a_pin_that_runs_into_a_plate_without_a_hole_for_it_is_found_with_the_depth() 
 /// A lever of 40 mm that follows a cam 8 mm wide.
 const CAM: &str = r#"
 family = "machine"
+hardware = "full"
 [frame.points]
 O = [0, 0]
 P = [50, 10]

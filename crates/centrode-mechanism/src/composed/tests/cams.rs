@@ -56,6 +56,7 @@ fn text(follower: usize, drive: usize) -> String {
     let (bodies, on, carrier) = DRIVES[drive];
     format!(
         r#"family = "machine"
+hardware = "full"
 [frame.points]
 O = [0, 0]
 P = [50, 10]

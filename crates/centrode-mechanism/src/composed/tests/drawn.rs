@@ -217,3 +217,72 @@ fn contours_and_masses_that_cannot_be_are_told_by_key() {
         assert!(found.contains(told), "{ram}\n  {found}\n  {told}");
     }
 }
+
+/// Each change of a design that says nothing of plates, and whether plates, pins and shafts are designed then.
+#[test]
+fn hardware_is_designed_where_the_design_describes_or_weighs_plates() {
+    const BARS: &str = r#"family = "machine"
+HEAD
+[frame.points]
+O = [0, 0]
+P = [50, 0]
+[bodies.crank]
+on = "frame.O"
+law = { ratio = 1 }
+points = { A = [15, 0] }
+CRANK
+[dyads.knee]
+type = "RRR"
+from = "crank.A"
+to = "frame.P"
+lengths = [45, 40]
+side = "left"
+bodies = ["rod", "rocker"]
+joint = "B"
+TAIL
+"#;
+    for (word, text, is_full) in [
+        ("HEAD", "", false),
+        ("HEAD", "hardware = \"none\"", false),
+        ("HEAD", "hardware = \"full\"", true),
+        ("HEAD", "gravity = [0, -9.81]", true),
+        ("HEAD", "gravity = [0, -9.81]\nhardware = \"none\"", false),
+        ("CRANK", "layer = 2", true),
+        ("CRANK", "width = 9", true),
+        ("CRANK", "thickness = 5", true),
+        ("CRANK", "circle = { center = [0, 0], radius = 25 }", true),
+        ("CRANK", "mass_kg = 0.1", true),
+        ("CRANK", "mass_kg = 0.1\ninertia_kg_mm2 = 3", false),
+        ("CRANK", "plate = false", false),
+        ("TAIL", "[plates]", false),
+        ("TAIL", "[plates]\nwidth = 9", true),
+        ("TAIL", "[plates]\nwidth = 9\n[input]\nspeed_rpm = 20", true),
+    ] {
+        let text = BARS.replace(word, text);
+        let text = ["HEAD", "CRANK", "TAIL"]
+            .iter()
+            .fold(text, |text, word| text.replace(word, ""));
+        let machine = made(&text);
+        let made = machine.machine().expect("plates");
+        let bodies = 1..machine.bodies().len();
+        let plates = bodies
+            .clone()
+            .filter(|&body| machine.contours(body).is_some())
+            .count();
+        let bars = bodies.filter(|&body| machine.bar(body).is_some()).count();
+        assert_eq!(
+            (plates, bars),
+            if is_full { (3, 0) } else { (0, 3) },
+            "{text}"
+        );
+        assert_eq!(machine.turned().is_empty(), !is_full, "{text}");
+        assert_eq!(made.parts.len() > 1, is_full, "{text}");
+        assert!(
+            made.sketches
+                .iter()
+                .skip(1)
+                .all(|sketch| !sketch.lines.is_empty()),
+            "{text}"
+        );
+    }
+}
