@@ -95,6 +95,17 @@ impl Gear {
         self.inner().tooth_count()
     }
 
+    /// Profile shift coefficient, in modules.
+    ///
+    /// >>> import centrode as ct
+    /// >>> pitch = ct.pitch.circle(module=2, tooth_count=12)
+    /// >>> ct.GearPair(pitch, mean_ratio=(2, 1), driver_shift=0.3).driven.shift
+    /// -0.3
+    #[getter]
+    fn shift(&self) -> f64 {
+        self.pair.shift(self.member)
+    }
+
     /// Length of the pitch curve, mm.
     #[getter]
     fn pitch_length(&self) -> f64 {

@@ -4,7 +4,7 @@ use centrode_analysis::{Contact, remedies};
 use centrode_export::gear_pair::Subject;
 use centrode_mechanism::gear as mechanism;
 use centrode_mechanism::gear::Member;
-use centrode_mechanism::gear::design::{GearPairDesign, Phase, TeethSpec};
+use centrode_mechanism::gear::design::{GearPairDesign, GearSpec, Phase, TeethSpec, TipShortening};
 use centrode_mechanism::gear::pitch::{Conjugate, PitchSpec};
 use pyo3::prelude::{
     Bound, Py, PyAny, PyClassInitializer, PyRef, PyResult, Python, pyclass, pymethods,
@@ -21,7 +21,7 @@ use crate::gear::Gear;
 use crate::made::Made;
 use crate::mechanism::Mechanism;
 use crate::pitch::Pitch;
-use crate::place::Place;
+use crate::place::{Place, Shortening};
 use crate::record;
 use crate::sheet::sheet;
 use crate::tool::{self, Tool};
@@ -43,7 +43,8 @@ const FARTHEST: f64 = 1e6;
 ///     pitch: Pitch curve of the driver; that of the driven gear follows.
 ///     mean_ratio: Turns of driver : turns of driven gear, in lowest terms.
 ///     tooth_count: Teeth of the driver, for a pitch curve with a size of its own: the module follows.
-///     center_distance: mm; it follows from pitch curve and mean ratio, and is checked if given.
+///     center_distance: mm; it follows from pitch curve, mean ratio and shifts, and is checked if given. Circular gears with one
+///         shift given get the other shift from it.
 ///     tool: What cuts both gears; the rack of ISO 53, profile A, if left out.
 ///     addendum: "full": every tooth as high as the tool asks. "fitted": each as high as works.
 ///     fit: What is chosen so that fitted teeth work deepest, in the place of what is given here: "thickness_split",
@@ -59,6 +60,10 @@ const FARTHEST: f64 = 1e6;
 ///     pin_diameter: Diameter of the measuring pins, mm; chosen if left out.
 ///     driver: Body of the driver.
 ///     driven: Body of the driven gear.
+///     driver_shift: Profile shift coefficient of the driver, in modules; the opposite of that of the driven gear if not given.
+///     driven_shift: Profile shift coefficient of the driven gear. Only circular gears may have shifts whose sum is not zero.
+///     tip_shortening: Change of every addendum: "keep-clearance", as much as keeps the clearance of the tool, "none", or a
+///         coefficient in modules, negative for shorter teeth.
 ///     drawing: What the drawing sheets say.
 ///     name: Short name: letters, digits, "-" and "_".
 ///     title: One line for drawings and reports.
@@ -102,7 +107,7 @@ impl GearPair {
 #[pymethods]
 impl GearPair {
     #[new]
-    #[pyo3(signature = (pitch, *, mean_ratio=[Count::Fits(1), Count::Fits(1)], tooth_count=None, center_distance=None, tool=None, addendum="full", fit=Vec::new(), phase=Place(Phase::Auto), backlash=0.0, backlash_angle=None, thickness_split=0.5, least_tip_width_coefficient=0.2, thickness_deviations=None, pin_diameter=None, driver=None, driven=None, drawing=None, name="gear-pair", title=""), text_signature = "(pitch, *, mean_ratio=(1, 1), tooth_count=None, center_distance=None, tool=None, addendum='full', fit=(), phase='auto', backlash=0.0, backlash_angle=None, thickness_split=0.5, least_tip_width_coefficient=0.2, thickness_deviations=None, pin_diameter=None, driver=None, driven=None, drawing=None, name='gear-pair', title='')")]
+    #[pyo3(signature = (pitch, *, mean_ratio=[Count::Fits(1), Count::Fits(1)], tooth_count=None, center_distance=None, tool=None, addendum="full", fit=Vec::new(), phase=Place(Phase::Auto), backlash=0.0, backlash_angle=None, thickness_split=0.5, least_tip_width_coefficient=0.2, thickness_deviations=None, pin_diameter=None, driver=None, driven=None, driver_shift=None, driven_shift=None, tip_shortening=Shortening(TipShortening::KeepClearance), drawing=None, name="gear-pair", title=""), text_signature = "(pitch, *, mean_ratio=(1, 1), tooth_count=None, center_distance=None, tool=None, addendum='full', fit=(), phase='auto', backlash=0.0, backlash_angle=None, thickness_split=0.5, least_tip_width_coefficient=0.2, thickness_deviations=None, pin_diameter=None, driver=None, driven=None, driver_shift=None, driven_shift=None, tip_shortening='keep-clearance', drawing=None, name='gear-pair', title='')")]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn new(
         py: Python<'_>,
@@ -122,6 +127,9 @@ impl GearPair {
         pin_diameter: Option<f64>,
         driver: Option<PyRef<'_, Body>>,
         driven: Option<PyRef<'_, Body>>,
+        driver_shift: Option<f64>,
+        driven_shift: Option<f64>,
+        tip_shortening: Shortening,
         drawing: Option<PyRef<'_, DrawingSpec>>,
         name: &str,
         title: &str,
@@ -144,6 +152,7 @@ impl GearPair {
                     .iter()
                     .map(|word| Word::of("teeth.fit", word))
                     .collect::<Answer<_>>()?,
+                tip_shortening: tip_shortening.0,
                 phase: phase.0,
                 backlash,
                 backlash_angle,
@@ -152,8 +161,14 @@ impl GearPair {
                 thickness_deviations,
                 pin_diameter,
             },
-            driver: spec_of(driver),
-            driven: spec_of(driven),
+            driver: GearSpec {
+                shift: driver_shift,
+                body: spec_of(driver),
+            },
+            driven: GearSpec {
+                shift: driven_shift,
+                body: spec_of(driven),
+            },
             drawing: drawing.map(|d| d.0.clone()).unwrap_or_default(),
         };
         Self::made(py, design)
@@ -212,6 +227,18 @@ impl GearPair {
     #[getter]
     fn module(&self) -> f64 {
         self.0.module()
+    }
+
+    /// Tip shortening coefficient k: every addendum is longer by k modules, shorter if k is negative.
+    ///
+    /// >>> import centrode as ct
+    /// >>> pitch = ct.pitch.circle(module=3, tooth_count=12)
+    /// >>> pair = ct.GearPair(pitch, mean_ratio=(2, 1), driver_shift=0.6, driven_shift=0.36)
+    /// >>> round(pair.center_distance, 5), round(pair.tip_shortening, 5)
+    /// (56.49987, -0.12671)
+    #[getter]
+    fn tip_shortening(&self) -> f64 {
+        self.0.tip_shortening()
     }
 
     /// Turns of driver : turns of driven gear.

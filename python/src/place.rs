@@ -1,4 +1,4 @@
-use centrode_mechanism::gear::design::Phase;
+use centrode_mechanism::gear::design::{Phase, TipShortening};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::{Borrowed, FromPyObject, PyAny, PyErr, PyResult};
 
@@ -19,5 +19,23 @@ impl<'a, 'py> FromPyObject<'a, 'py> for Place {
             .extract()
             .map_err(|_| PyTypeError::new_err("phase must be a word or a number of pitches"))?;
         Ok(Self(Phase::Pitches(pitches)))
+    }
+}
+
+/// Change of every addendum: a word, or a coefficient in modules.
+#[derive(Debug)]
+pub(crate) struct Shortening(pub(crate) TipShortening);
+
+impl<'a, 'py> FromPyObject<'a, 'py> for Shortening {
+    type Error = PyErr;
+
+    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+        if let Ok(word) = object.extract::<&str>() {
+            return Ok(Self(Word::of("teeth.tip_shortening", word)?));
+        }
+        let coefficient = object
+            .extract()
+            .map_err(|_| PyTypeError::new_err("tip_shortening must be a word or a number"))?;
+        Ok(Self(TipShortening::By(coefficient)))
     }
 }

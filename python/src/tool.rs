@@ -14,7 +14,6 @@ table! {
     ///     addendum_coefficient: Height of the gear's tooth above the pitch curve.
     ///     dedendum_coefficient: Depth of the gear's tooth below the pitch curve; the tool cuts this far.
     ///     tip_radius_coefficient: Radius of the tool's tip, which leaves the fillet.
-    ///     profile_shift_coefficient: Distance the tool is held out of the driver's blank and into the driven's.
     ///
     /// >>> import math, centrode as ct
     /// >>> ct.Rack().dedendum_coefficient
@@ -32,8 +31,6 @@ table! {
         dedendum_coefficient: f64,
         /// Radius of the tool's tip, in modules.
         tip_radius_coefficient: f64,
-        /// Profile shift of the driver, outwards positive, in modules.
-        profile_shift_coefficient: f64,
     }
 }
 
@@ -46,7 +43,6 @@ table! {
     ///     addendum_coefficient: Height of the gear's tooth above the pitch curve.
     ///     dedendum_coefficient: Depth of the gear's tooth below the pitch curve; the cutter's own addendum.
     ///     tip_radius_coefficient: Radius of the cutter's tip corner, which leaves the fillet.
-    ///     profile_shift_coefficient: Distance the cutter is held out of the driver's blank and into the driven's.
     ///
     /// >>> import centrode as ct
     /// >>> ct.Shaper(tooth_count=20).tip_radius_coefficient
@@ -65,8 +61,6 @@ table! {
         dedendum_coefficient: f64,
         /// Radius of the cutter's tip corner, in modules.
         tip_radius_coefficient: f64,
-        /// Profile shift of the driver, outwards positive, in modules.
-        profile_shift_coefficient: f64,
     }
 }
 

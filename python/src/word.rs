@@ -4,7 +4,7 @@ use centrode_analysis::optimise::Strategy;
 use centrode_export::dxf::{Curves, Version};
 use centrode_mechanism::cam::design::Turn;
 use centrode_mechanism::design::{Projection, SheetSize};
-use centrode_mechanism::gear::design::{Addendum, Fit, Phase};
+use centrode_mechanism::gear::design::{Addendum, Fit, Phase, TipShortening};
 use centrode_mechanism::gear::pitch::{Interpolation, Plane};
 use centrode_mechanism::linkage::Branch;
 use centrode_mechanism::reverse::{Aim, SplitKind};
@@ -56,6 +56,13 @@ impl Word for Phase {
         ("tooth", Self::Tooth),
         ("space", Self::Space),
         ("congruent", Self::Congruent),
+    ];
+}
+
+impl Word for TipShortening {
+    const WORDS: &'static [(&'static str, Self)] = &[
+        ("keep-clearance", Self::KeepClearance),
+        ("none", Self::None),
     ];
 }
 

@@ -123,3 +123,36 @@ def test_repr_names_what_matters(pair):
     assert "ellipse" in repr(pair)
     assert "23:23 teeth" in repr(pair)
     assert repr(pair.driver).startswith("Gear(driver, 23 teeth")
+
+
+def shifted(**keys):
+    """Circular gears of the example of ISO 21771."""
+    return ct.GearPair(ct.pitch.circle(module=3, tooth_count=12), mean_ratio=(2, 1), **keys)
+
+
+def test_circular_gears_take_any_two_shifts_and_the_distance_follows():
+    pair = shifted(driver_shift=0.6, driven_shift=0.36)
+    assert (pair.driver.shift, pair.driven.shift) == (0.6, 0.36)
+    assert pair.center_distance == pytest.approx(56.49987, abs=5e-6)
+    assert math.degrees(pair.pressure_angle(1.0)) == pytest.approx(26.0886, abs=5e-5)
+    assert pair.tip_shortening == pytest.approx(-0.12671, abs=5e-6)
+    assert pair.check().values["contact_ratio_mean"] == pytest.approx(1.202, abs=5e-4)
+    full = shifted(driver_shift=0.6, driven_shift=0.36, tip_shortening="none")
+    assert [2 * gear.radii[1] for gear in (full.driver, full.driven)] == pytest.approx([45.6, 80.16], abs=1e-9)
+    lower = shifted(tip_shortening=-0.1)
+    assert lower.driver.radii[1] == pytest.approx(18 + 0.9 * 3, abs=1e-9)
+
+
+def test_a_shift_follows_from_the_distance_and_its_mate():
+    pair = shifted(driver_shift=0.6, center_distance=56.5)
+    assert pair.driven.shift == pytest.approx(0.360056, abs=1e-6)
+    assert ct.GearPair.from_toml(pair.to_toml()).driven.shift == pair.driven.shift
+
+
+def test_shifts_are_opposite_unless_circular_gears_have_both():
+    pitch = ct.pitch.ellipse(eccentricity=0.2, module=2, tooth_count=23)
+    assert ct.GearPair(pitch, driven_shift=0.2).driver.shift == -0.2
+    with pytest.raises(ct.GearPairError, match=r"driven\.shift = -0\.3"):
+        ct.GearPair(pitch, driver_shift=0.3, driven_shift=0.2)
+    with pytest.raises(ct.DesignError, match="clearance"):
+        shifted(tip_shortening="some")

@@ -62,14 +62,15 @@ def draw(seed, number):
     rack = ct.Rack(
         pressure_angle=math.radians(random.uniform(15, 25)),
         tip_radius_coefficient=sharp,
-        profile_shift_coefficient=random.choice([0.0, random.uniform(-0.2, 0.2)]),
     )
+    shift = random.choice([0.0, random.uniform(-0.2, 0.2)])
     try:
         pitch, ratio = curve(random, kind, size)
         pair = ct.GearPair(
             pitch,
             mean_ratio=ratio,
             tool=rack,
+            driver_shift=shift,
             addendum="fitted" if fitted else "full",
             backlash=size["module"] * random.choice([0.0, random.uniform(0, 0.1)]),
             thickness_split=random.choice([0.5, random.uniform(0.46, 0.54)]),

@@ -150,8 +150,8 @@ def draw(seed, number):
         "addendum_coefficient": float(height),
         "dedendum_coefficient": float(height) + random.uniform(0.1, 0.3),
         "tip_radius_coefficient": float(random.choice([0.0, random.uniform(0, 0.2), 0.1])),
-        "profile_shift_coefficient": float(random.choice([0.0, random.uniform(-0.5, 0.5)])),
     }
+    driver = {"shift": float(random.choice([0.0, random.uniform(-0.5, 0.5)]))}
     if random.integers(3) == 0:
         tool |= {"kind": "shaper", "tooth_count": int(random.integers(8, 50))}
     teeth = {
@@ -160,7 +160,7 @@ def draw(seed, number):
         "backlash": pitch["module"] * random.choice([0.0, random.uniform(0, 0.1)]),
         "thickness_split": random.choice([0.5, random.uniform(0.45, 0.55)]),
     }
-    return {"pitch": pitch, "tool": tool, "teeth": teeth, "mean_ratio": ratio}
+    return {"pitch": pitch, "tool": tool, "driver": driver, "teeth": teeth, "mean_ratio": ratio}
 
 
 def text(design):

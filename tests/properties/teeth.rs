@@ -238,18 +238,8 @@ fn a_fitted_tip_stays_above_the_root_of_its_mate() {
             1.25,
             0.0,
         ),
-        (
-            circle(29),
-            rack(3.0) + "\nprofile_shift_coefficient = 0.5",
-            1.25,
-            0.5,
-        ),
-        (
-            circle(29),
-            rack(3.0) + "\nprofile_shift_coefficient = -0.3",
-            1.25,
-            0.3,
-        ),
+        (circle(29), rack(3.0), 1.25, 0.5),
+        (circle(29), rack(3.0), 1.25, -0.3),
         (circle(29), rack(1.0) + "\n" + blunt, 0.4, 0.0),
         (circle(29), shaper.to_owned(), 1.25, 0.0),
         (ellipse.clone(), rack(2.8), 1.25, 0.0),
@@ -260,7 +250,7 @@ fn a_fitted_tip_stays_above_the_root_of_its_mate() {
     ];
     for (pitch, tool, dedendum, shift) in cases {
         let text = format!(
-            "family = \"gear-pair\"\n[pitch]\nmodule = 2\n{pitch}\n[tool]\n{tool}\n[teeth]\naddendum = \"fitted\"\n"
+            "family = \"gear-pair\"\n[pitch]\nmodule = 2\n{pitch}\n[tool]\n{tool}\n[driver]\nshift = {shift}\n[teeth]\naddendum = \"fitted\"\n"
         );
         let design = GearPairDesign::from_toml(&text).expect("a design");
         let pair = GearPair::resolve(&design).unwrap_or_else(|e| panic!("{e}\n{text}"));
@@ -275,7 +265,7 @@ fn a_fitted_tip_stays_above_the_root_of_its_mate() {
                 .flatten(Tolerance::new(2e-2).expect("positive"));
             let farthest = outline.iter().map(|&p| off(&curve, p)).fold(0.0, f64::max);
             // Chords of the pitch curve take a little.
-            let most = 2.0 * (dedendum + shift) + 1e-3;
+            let most = 2.0 * (dedendum + f64::abs(shift)) + 1e-3;
             assert!(farthest <= most, "{farthest} of {most} mm\n{text}");
         }
     }

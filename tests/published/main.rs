@@ -7,6 +7,7 @@ mod data;
 mod feeder;
 mod pitch;
 mod shaft;
+mod shifted;
 mod strong_laws;
 mod teeth;
 mod three_arm;

@@ -27,7 +27,7 @@ use crate::word::Word;
 #[pymethods]
 impl ThreeArm {
     #[new]
-    #[pyo3(signature = (pitch, *, carrier_start, bend, arm_mounting_angle, tip_distance, pusher_offset, planet_reference=None, arms=Count::Fits(3), direction="clockwise", tooth_count=None, center_distance=None, picking=None, planting=None, rate_per_minute=180.0, plant_spacing=140.0, planting_depth=10.0, tray_distance=None, tray_inclination=0.0, seedling_height=60.0, seedling_width=4.0, clamp_length=60.0, housing_offset=10.0, tool=None, addendum="full", backlash=0.0, sun=None, intermediate=None, planet=None, name="three-arm", title=""), text_signature = "(pitch, *, carrier_start, bend, arm_mounting_angle, tip_distance, pusher_offset, planet_reference=None, arms=3, direction='clockwise', tooth_count=None, center_distance=None, picking=None, planting=None, rate_per_minute=180.0, plant_spacing=140.0, planting_depth=10.0, tray_distance=None, tray_inclination=0.0, seedling_height=60.0, seedling_width=4.0, clamp_length=60.0, housing_offset=10.0, tool=None, addendum='full', backlash=0.0, sun=None, intermediate=None, planet=None, name='three-arm', title='')")]
+    #[pyo3(signature = (pitch, *, carrier_start, bend, arm_mounting_angle, tip_distance, pusher_offset, planet_reference=None, arms=Count::Fits(3), direction="clockwise", tooth_count=None, center_distance=None, picking=None, planting=None, rate_per_minute=180.0, plant_spacing=140.0, planting_depth=10.0, tray_distance=None, tray_inclination=0.0, seedling_height=60.0, seedling_width=4.0, clamp_length=60.0, housing_offset=10.0, tool=None, shift=0.0, addendum="full", backlash=0.0, sun=None, intermediate=None, planet=None, name="three-arm", title=""), text_signature = "(pitch, *, carrier_start, bend, arm_mounting_angle, tip_distance, pusher_offset, planet_reference=None, arms=3, direction='clockwise', tooth_count=None, center_distance=None, picking=None, planting=None, rate_per_minute=180.0, plant_spacing=140.0, planting_depth=10.0, tray_distance=None, tray_inclination=0.0, seedling_height=60.0, seedling_width=4.0, clamp_length=60.0, housing_offset=10.0, tool=None, shift=0.0, addendum='full', backlash=0.0, sun=None, intermediate=None, planet=None, name='three-arm', title='')")]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn new(
         py: Python<'_>,
@@ -54,6 +54,7 @@ impl ThreeArm {
         clamp_length: f64,
         housing_offset: f64,
         tool: Option<Tool>,
+        shift: f64,
         addendum: &str,
         backlash: f64,
         sun: Option<PyRef<'_, Body>>,
@@ -73,6 +74,7 @@ impl ThreeArm {
         design.center_distance = center_distance;
         design.arm.clamp_length = clamp_length;
         design.tool = tool.map(|tool| tool.0).unwrap_or_default();
+        design.shift = shift;
         design.teeth.addendum = Word::of("teeth.addendum", addendum)?;
         design.teeth.backlash = backlash;
         design.gearbox.housing_offset = housing_offset;

@@ -44,6 +44,7 @@ use crate::mechanism::Mechanism;
 ///     clamp_length: Back from the tip, mm: what passes between seedlings.
 ///     housing_offset: Of the gearbox from the largest pitch radius, mm.
 ///     tool: What cuts the gears; the rack of ISO 53, profile A, if left out.
+///     shift: Profile shift coefficient of sun and planets, in modules; the intermediate gears have the opposite one.
 ///     addendum: "full" or "fitted".
 ///     backlash: Play of each mesh along the normal, mm.
 ///     sun: Body of the sun.

@@ -115,7 +115,7 @@ impl Stand {
 /// Distance of the driven axis from the line of action by the law, with the driver pushing on (1) or back (-1), mm:
 /// r2 cos(alpha -+ mu).
 pub(super) fn lever(pair: &GearPair, point: &PitchContact, sign: f64) -> f64 {
-    let (sin, cos) = pair.teeth().tool.pressure_angle.sin_cos();
+    let (sin, cos) = pair.pressure_angle().sin_cos();
     let (along, across) = point.inclination;
     point.radii[1] * (cos * along + sign * sin * across)
 }

@@ -20,10 +20,23 @@ macro_rules! values {
     };
 }
 
-/// Profile shifts tried, the smallest first: of the driver, against those of the driven gear.
+/// Profile shifts of the driver tried, the smallest first. That of the driven gear is as written, else opposite.
 #[rustfmt::skip]
-const SHIFTS: [(f64, &str); 16] = values!("tool.profile_shift_coefficient":
+const SHIFTS: [(f64, &str); 16] = values!("driver.shift":
     0.1 -0.1 0.2 -0.2 0.3 -0.3 0.4 -0.4 0.5 -0.5 0.6 -0.6 0.7 -0.7 0.8 -0.8);
+
+/// Equal profile shifts of both gears tried: the centre distance follows.
+#[rustfmt::skip]
+const BOTH: [(f64, &str); 8] = [
+    (0.1, "driver.shift = driven.shift = 0.1, with the centre distance that follows"),
+    (0.2, "driver.shift = driven.shift = 0.2, with the centre distance that follows"),
+    (0.3, "driver.shift = driven.shift = 0.3, with the centre distance that follows"),
+    (0.4, "driver.shift = driven.shift = 0.4, with the centre distance that follows"),
+    (0.5, "driver.shift = driven.shift = 0.5, with the centre distance that follows"),
+    (0.6, "driver.shift = driven.shift = 0.6, with the centre distance that follows"),
+    (0.7, "driver.shift = driven.shift = 0.7, with the centre distance that follows"),
+    (0.8, "driver.shift = driven.shift = 0.8, with the centre distance that follows"),
+];
 
 /// Pressure angles of usual tools, in degrees.
 const ANGLES: [(f64, &str); 6] = values!("tool.pressure_angle_deg": 17.5 20.0 22.5 25.0 28.0 30.0);
@@ -31,7 +44,8 @@ const ANGLES: [(f64, &str); 6] = values!("tool.pressure_angle_deg": 17.5 20.0 22
 /// Names in the findings about teeth and mesh of circular gears the first change of the design with which the check finds nothing
 /// more than notes, or nothing if there is none.
 ///
-/// Tried are a profile shift, a greater pressure angle, fitted addenda and more teeth of a smaller module, in this order.
+/// Tried are opposite profile shifts, a greater pressure angle, equal profile shifts, fitted addenda and more teeth of a smaller
+/// module, in this order.
 pub(super) fn name_remedy(pair: &GearPair, report: &mut Report) {
     let (low, high) = pair.rolling().radii(pair.driver().member());
     let of_teeth = report
@@ -62,25 +76,25 @@ fn remedy(pair: &GearPair) -> Option<&'static str> {
         change(&mut design);
         design
     };
-    // Profile shift and pressure angle of a tool.
-    let with_tool = |change: &dyn Fn([&mut f64; 2])| {
-        with(&|design| match &mut design.tool {
-            ToolSpec::Rack(rack) => change([
-                &mut rack.profile_shift_coefficient,
-                &mut rack.pressure_angle,
-            ]),
-            ToolSpec::Shaper(tool) => change([
-                &mut tool.profile_shift_coefficient,
-                &mut tool.pressure_angle,
-            ]),
-            _ => {}
-        })
-    };
-    let shifted = SHIFTS.map(|(x, words)| (with_tool(&|[shift, _]| *shift = x), words));
+    let shifted = SHIFTS.map(|(x, words)| (with(&|design| design.driver.shift = Some(x)), words));
+    // With a written centre distance there is no such pair.
+    let both = BOTH.map(|(x, words)| {
+        let equal = |design: &mut GearPairDesign| {
+            (design.driver.shift, design.driven.shift) = (Some(x), Some(x));
+        };
+        (with(&equal), words)
+    });
     let own = pair.teeth().tool.pressure_angle;
     let steeper = ANGLES.map(|(angle, words)| (angle.to_radians(), words));
     let steeper = steeper.into_iter().filter(|(angle, _)| *angle > own);
-    let steeper = steeper.map(|(alpha, words)| (with_tool(&|[_, angle]| *angle = alpha), words));
+    let with_angle = |alpha: f64| {
+        with(&|design| match &mut design.tool {
+            ToolSpec::Rack(rack) => rack.pressure_angle = alpha,
+            ToolSpec::Shaper(shaper) => shaper.pressure_angle = alpha,
+            _ => {}
+        })
+    };
+    let steeper = steeper.map(|(alpha, words)| (with_angle(alpha), words));
     let fitted = with(&|design| design.teeth.addendum = Addendum::Fitted);
     let fitted = [(fitted, "teeth.addendum = \"fitted\"")];
     // Full teeth of a rack are undercut below 2 / sin^2(alpha).
@@ -94,7 +108,8 @@ fn remedy(pair: &GearPair) -> Option<&'static str> {
             "more teeth of a smaller module",
         )
     });
-    let mut all = shifted.into_iter().chain(steeper).chain(fitted).chain(more);
+    let all = shifted.into_iter().chain(steeper).chain(both);
+    let mut all = all.chain(fitted).chain(more);
     all.find(|(design, _)| helps(design))
         .map(|(_, words)| words)
 }
@@ -118,20 +133,22 @@ mod tests {
     use std::f64::consts::PI;
 
     use centrode_mechanism::design::DesignSpec as _;
-    use centrode_mechanism::gear::Member;
 
     use super::*;
     use crate::check;
     use crate::contact::tests::closed_forms::mean_ratio;
 
     /// Circular gears by teeth, pressure angle in degrees and further lines of the tool and teeth.
-    fn gears([z1, z2]: [u32; 2], alpha: f64, shift: f64, teeth: &str) -> GearPair {
+    fn gears([z1, z2]: [u32; 2], alpha: f64, shifts: [f64; 2], teeth: &str) -> GearPair {
         let text = format!(
             "family = \"gear-pair\"\nmean_ratio = {}\n[pitch]\nkind = \"circle\"\nmodule = 3\ntooth_count = {z1}\n\
-             [tool]\nkind = \"rack\"\npressure_angle_deg = {alpha}\nprofile_shift_coefficient = {shift}\n[teeth]\n{teeth}\n",
+             [tool]\nkind = \"rack\"\npressure_angle_deg = {alpha}\n[teeth]\n{teeth}\n",
             mean_ratio([z1, z2])
         );
-        let design = GearPairDesign::from_toml(&text).expect("a design");
+        let mut design = GearPairDesign::from_toml(&text).expect("a design");
+        if shifts != [0.0; 2] {
+            (design.driver.shift, design.driven.shift) = (Some(shifts[0]), Some(shifts[1]));
+        }
         GearPair::resolve(&design).expect("a pair")
     }
 
@@ -152,7 +169,7 @@ mod tests {
             ([20, 20], 14.5, "backlash = 0.05"),
             ([6, 6], 20.0, "backlash = 0"),
         ] {
-            let report = check(&gears(z, alpha, 0.0, teeth));
+            let report = check(&gears(z, alpha, [0.0; 2], teeth));
             let of_teeth = report
                 .findings
                 .iter()
@@ -175,33 +192,44 @@ mod tests {
                         .expect("a number"),
                 )
             };
-            let shift = value("tool.profile_shift_coefficient").unwrap_or(0.0);
+            let shifts = match remedy.strip_prefix("driver.shift = driven.shift = ") {
+                Some(rest) => {
+                    let x = rest.split(',').next().expect("a number");
+                    [x.parse().expect("a number"); 2]
+                }
+                None => {
+                    let x = value("driver.shift").unwrap_or(0.0);
+                    [x, -x]
+                }
+            };
             let angle = value("tool.pressure_angle_deg").unwrap_or(alpha);
-            if shift == 0.0 && angle == alpha {
+            if shifts[0] == 0.0 && angle == alpha {
                 continue;
             }
             // Both gears by closed forms, without the check: flanks from the undercut's end to the tip, and the land at the tip.
-            let pair = gears(z, angle, shift, teeth);
+            let pair = gears(z, angle, shifts, teeth);
             let angle = angle.to_radians();
-            let ends = [
-                (Member::Driver, z[0], shift),
-                (Member::Driven, z[1], -shift),
-            ]
-            .map(|(member, z, x)| {
+            let inv = |a: f64| a.tan() - a;
+            let operating = pair.pressure_angle();
+            let [sum, count] = [shifts[0] + shifts[1], f64::from(z[0] + z[1])];
+            let grown = 2.0 * angle.tan() * sum / count;
+            assert!((inv(operating) - inv(angle) - grown).abs() < 1e-12, "{z:?}");
+            let scale = angle.cos() / operating.cos();
+            let lower = sum - 0.5 * count * (scale - 1.0);
+            let ends = [0, 1].map(|i| {
+                let (z, x) = (z[i], shifts[i]);
                 let r = 1.5 * f64::from(z);
-                // Undercut begins below x = 1 - z sin^2(alpha) / 2.
+                // Undercut begins below x = 1 - z sin^2(alpha) / 2. By a little it is below 0.005 mm, a note.
                 assert!(
-                    x >= 1.0 - 0.5 * f64::from(z) * angle.sin().powi(2) - 1e-9,
-                    "{member:?} {z} {x}"
+                    x >= 1.0 - 0.5 * f64::from(z) * angle.sin().powi(2) - 0.05,
+                    "{i} {z} {x}"
                 );
-                let (tip, base) = (r + 3.0 * (1.0 + x), r * angle.cos());
-                let inv = |a: f64| a.tan() - a;
+                let (tip, base) = (r + 3.0 * (1.0 + x - lower), r * angle.cos());
                 let half = (0.5 * PI + 2.0 * x * angle.tan()) / f64::from(z) + inv(angle)
                     - inv((base / tip).acos());
                 // Backlash takes up to 0.2 mm of the thickness.
-                assert!(2.0 * half * tip > 0.6 - 0.25, "{member:?} {z} {x}: {half}");
-                assert!(pair.gear(member).tooth_count() == z);
-                (tip * tip - base * base).sqrt() - r * angle.sin()
+                assert!(2.0 * half * tip > 0.6 - 0.25, "{i} {z} {x}: {half}");
+                (tip * tip - base * base).sqrt() - scale * r * operating.sin()
             });
             let ratio = ends.iter().sum::<f64>() / (3.0 * PI * angle.cos());
             assert!(ratio > 1.1, "{z:?} {remedy}: {ratio}");
@@ -211,7 +239,9 @@ mod tests {
         assert_eq!(named[..3], [more; 3]);
         let is_named = |key: &str| named.iter().flatten().any(|remedy| remedy.contains(key));
         assert!(
-            is_named("profile_shift") && is_named("pressure_angle"),
+            is_named("driver.shift = 0")
+                && is_named("driven.shift = 0")
+                && is_named("pressure_angle"),
             "{named:?}"
         );
     }

@@ -22,6 +22,7 @@ pub(crate) const FIGURES: &[FigureGroup] = &[
         rows: &[
             row("tip radius, greatest", &["driver_tip_radius_max", "driven_tip_radius_max"], Millimetre),
             row("root radius, least", &["driver_root_radius_min", "driven_root_radius_min"], Millimetre),
+            row("profile shift coefficient", &["driver_shift", "driven_shift"], Number),
             row("tip width, least", &["driver_tip_width_min", "driven_tip_width_min"], Millimetre),
             row("fillet radius, least", &["driver_fillet_radius_min", "driven_fillet_radius_min"], Millimetre),
         ],
@@ -54,6 +55,7 @@ pub(crate) const FIGURES: &[FigureGroup] = &[
             row("largest addendum, no undercut", &["largest_addendum"], Millimetre),
             row("phase of the first tooth", &["phase"], Pitch),
             row("the driver's share of the pitch", &["thickness_split"], Number),
+            row("tip shortening coefficient", &["tip_shortening"], Number),
             row("pressure angle of the tool", &["tool_pressure_angle"], Angle),
             row("closure error", &["closure_error"], Radian),
         ],

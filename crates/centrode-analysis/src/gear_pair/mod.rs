@@ -78,6 +78,17 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
     values.insert("center_distance", pair.center_distance());
     values.insert("module", pair.module());
     values.insert("phase", pair.phase());
+    let shifts = [Member::Driver, Member::Driven].map(|member| pair.shift(member));
+    if shifts != [0.0; 2] {
+        values.insert("driver_shift", shifts[0]);
+        values.insert("driven_shift", shifts[1]);
+    }
+    if pair.tip_shortening() != 0.0 {
+        values.insert("tip_shortening", pair.tip_shortening());
+    }
+    if pair.pressure_angle() != pair.teeth().tool.pressure_angle {
+        values.insert("tool_pressure_angle", pair.teeth().tool.pressure_angle);
+    }
     // Chosen here and written nowhere else.
     for fit in &pair.design().teeth.fit {
         match fit {

@@ -26,7 +26,7 @@ pub(super) fn pins(
     let mut over = pair.gear(member).over_pins(pair.pin_diameter(member));
     let radius = 0.5 * over.diameter;
     // Each of two flanks has half of it, square to itself.
-    let behind = 0.5 * thinner * pair.teeth().tool.pressure_angle.cos();
+    let behind = 0.5 * thinner * pair.pressure_angle().cos();
     for pin in &mut over.pins {
         checkpoint();
         let start = pin.as_ref().ok().map(|pin| turn * pin.center);

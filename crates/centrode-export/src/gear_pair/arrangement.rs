@@ -220,12 +220,12 @@ pub(crate) fn half_play(pair: &GearPair, backlash: f64) -> Option<f64> {
 fn shorter(pair: &GearPair, backlash: f64) -> f64 {
     // Nowhere takes a shorter distance more backlash than twice its share across a flank where the pitch curves are square to
     // the line of centres.
-    backlash / (2.0 * pair.teeth().tool.pressure_angle.sin())
+    backlash / (2.0 * pair.pressure_angle().sin())
 }
 
 /// Least and greatest normal backlash by the deviations of tooth thickness, mm.
 fn backlash_limits(pair: &GearPair, backlash: f64) -> [f64; 2] {
-    let cos = pair.teeth().tool.pressure_angle.cos();
+    let cos = pair.pressure_angle().cos();
     // Both gears are thinner, each by its own deviation.
     [0, 1].map(|end| {
         let told = [Member::Driver, Member::Driven].map(|member| pair.thickness_deviations(member));

@@ -77,10 +77,10 @@ pub(crate) fn track(
 /// By the law of gearing a flank touches its mate where its normal passes through the pitch point; as long as both
 /// flanks are there.
 pub(crate) fn paths(pair: &GearPair, flanks: Flanks) -> Vec<Vec<(f64, Point)>> {
-    let (rolling, tool) = (pair.rolling(), &pair.teeth().tool);
+    let rolling = pair.rolling();
     let lengths = [Member::Driver, Member::Driven].map(|member| rolling.pitch_length(member));
     let teeth = [pair.driver().teeth(), pair.driven().teeth()];
-    let (sin, cos) = tool.pressure_angle.sin_cos();
+    let (sin, cos) = pair.pressure_angle().sin_cos();
     let aside = match flanks {
         Flanks::Leading => -sin,
         Flanks::Trailing => sin,
@@ -186,5 +186,33 @@ mod tests {
         };
         let mean = inputs.map(touching).sum::<usize>() as f64 / 720.0;
         assert!((mean - ratio).abs() < 0.02, "{mean} is not {ratio}");
+    }
+
+    #[test]
+    fn contacts_of_shifted_gears_lie_on_the_line_of_action_of_the_operating_circles() {
+        let circle = Circle {
+            module: Some(3.0),
+            tooth_count: Some(12),
+            ..Circle::default()
+        };
+        let mut design = GearPairDesign::new(PitchSpec::Circle(circle));
+        design.mean_ratio = [2, 1];
+        (design.driver.shift, design.driven.shift) = (Some(0.6), Some(0.36));
+        let pair = GearPair::resolve(&design).expect("a pair");
+        let found = contacts(&pair);
+        // Operating angle and radius, and contact ratio, of the example of the published figures.
+        let alpha = 26.088_56_f64.to_radians();
+        let pitch = Point::new(56.499_87 / 3.0, 0.0);
+        let base_pitch = PI * 3.0 * 20_f64.to_radians().cos();
+        for path in &found.paths {
+            for &at in &path.at {
+                let away = Point::from(at) - pitch;
+                let off = away.x.abs() * alpha.cos() - away.y.abs() * alpha.sin();
+                assert!(off.abs() < 1e-3, "{away}");
+            }
+            let [first, last] = [path.at[0], path.at[SAMPLES as usize]].map(Point::from);
+            let ratio = (last - first).norm() / base_pitch;
+            assert!((ratio - 1.202).abs() < 1e-3, "{ratio}");
+        }
     }
 }

@@ -55,7 +55,7 @@ pub fn drawn(pair: &GearPair) -> Machine {
         links: [driver, driven],
         joint,
         copy: 0,
-        pressure_angle: Some(pair.teeth().tool.pressure_angle),
+        pressure_angle: Some(pair.pressure_angle()),
         axes: Default::default(),
         pitch: None,
     });

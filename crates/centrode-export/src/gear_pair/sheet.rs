@@ -136,23 +136,14 @@ fn layers() -> Drawing {
 }
 
 fn tip_curve(pair: &GearPair, gear: &Gear, tolerance: Tolerance) -> Option<Outline> {
-    let teeth = pair.teeth();
-    if teeth.addendum == Addendum::Fitted {
+    if pair.teeth().addendum == Addendum::Fitted {
         return None;
     }
-    let height = teeth.tool.addendum + shift(pair, gear);
+    let height = pair.tip_height(gear.member());
     gear.pitch_curve().offset(height, tolerance.scaled(0.1))
 }
 
 fn root_curve(pair: &GearPair, gear: &Gear, tolerance: Tolerance) -> Option<Outline> {
-    let depth = pair.teeth().tool.dedendum - shift(pair, gear);
+    let depth = pair.root_depth(gear.member());
     gear.pitch_curve().offset(-depth, tolerance.scaled(0.1))
-}
-
-/// How far the tool is withdrawn from this gear, mm.
-fn shift(pair: &GearPair, gear: &Gear) -> f64 {
-    match gear.member() {
-        Member::Driver => pair.teeth().tool.profile_shift,
-        Member::Driven => -pair.teeth().tool.profile_shift,
-    }
 }

@@ -341,7 +341,7 @@ fn hang(
         links,
         joint: turning,
         copy: 0,
-        pressure_angle: Some(gears.pair.teeth().tool.pressure_angle),
+        pressure_angle: Some(gears.pair.pressure_angle()),
         axes: Default::default(),
         pitch: None,
     });

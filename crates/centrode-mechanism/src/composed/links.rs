@@ -90,7 +90,7 @@ impl Composed {
                 links: mesh.gears.map(body),
                 joint: mesh.moved - 1,
                 copy: 0,
-                pressure_angle: Some(pair.teeth().tool.pressure_angle),
+                pressure_angle: Some(pair.pressure_angle()),
                 axes: mesh.gears.map(axis),
                 // Gears that dwell still hold each other.
                 pitch: Some(PitchCurves {

@@ -239,7 +239,7 @@ pub(super) fn table_pair(table: Vec<f64>, distance: f64) -> GearPairDesign {
     let mut pair = GearPairDesign::new(PitchSpec::Transmission(law));
     pair.teeth.addendum = Addendum::Fitted;
     pair.teeth.backlash = free_backlash(distance);
-    pair.driver = free_body(distance).keyed(0.0);
+    pair.driver = free_body(distance).keyed(0.0).into();
     pair.driven = pair.driver.clone();
     pair
 }
@@ -342,7 +342,7 @@ fn design(
     .into();
     if !is_one {
         let mount = idler_mount(split);
-        pairs[1].1.driven = free_body(leg).keyed(mount);
+        pairs[1].1.driven = free_body(leg).keyed(mount).into();
         let second = gear(second, GearRole::Driven, "idler", mount);
         design.gears.insert(named(second_idler), second);
     }

@@ -8,6 +8,9 @@ use super::number::written;
 use super::{DesignError, DesignFault};
 use crate::gear::design::SpecError;
 
+/// Keys of earlier versions and what they are called now, in another table.
+const RENAMED: [(&str, &str); 1] = [("profile_shift_coefficient", "shift")];
+
 /// State of reading a file.
 #[derive(Debug)]
 pub(super) struct Reader<'a> {
@@ -137,10 +140,15 @@ impl<'a> Reader<'a> {
         let (key, offset) = inside(self.text, (&key, offset), message).unwrap_or((key, offset));
         let names = quoted(message);
         if message.starts_with("unknown field") {
-            let known: Vec<String> = names.iter().skip(1).cloned().collect();
+            let mut known: Vec<String> = names.iter().skip(1).cloned().collect();
+            // Serde does not list the keys of a table that is read in two parts.
+            if known.is_empty() {
+                known = family.keys_beside(&key);
+            }
             let name = names.first().map_or("", String::as_str);
             let near = nearest(name, &known);
-            let elsewhere = family.keys_named(name, &key);
+            let now = RENAMED.iter().find(|(before, _)| *before == name);
+            let elsewhere = family.keys_named(now.map_or(name, |(_, now)| now), &key);
             let fault = DesignFault::UnknownKey {
                 near,
                 known,

@@ -50,9 +50,7 @@ impl DesignFamily {
     ///
     /// Without those at the place of `key` itself, which other kinds of its table may have.
     pub(super) fn keys_named(&self, name: &str, key: &str) -> Vec<String> {
-        let schema = self.json_schema();
-        let mut found = Vec::new();
-        named_in(&schema, &schema, name, &mut Vec::new(), "", &mut found);
+        let mut found = self.keys(&|found| found == name);
         found.retain(|path| !is_at(path, key));
         found.sort_by_cached_key(|path| {
             let shared = common(path, key);
@@ -65,6 +63,26 @@ impl DesignFamily {
             is_new
         });
         found.truncate(4);
+        found
+    }
+
+    /// Names of the keys that the table of a key may have.
+    pub(super) fn keys_beside(&self, key: &str) -> Vec<String> {
+        let table = |path: &str| {
+            path.rsplit_once('.')
+                .map_or(String::new(), |(table, _)| table.into())
+        };
+        let mut found = self.keys(&|_| true);
+        found.retain(|path| is_at(&table(path), &table(key)));
+        let name = |path: &String| path[path.rfind('.').map_or(0, |dot| dot + 1)..].to_owned();
+        found.iter().map(name).collect()
+    }
+
+    /// All keys of the family's design files whose name is wanted.
+    fn keys(&self, is_wanted: &dyn Fn(&str) -> bool) -> Vec<String> {
+        let schema = self.json_schema();
+        let mut found = Vec::new();
+        named_in(&schema, &schema, is_wanted, &mut Vec::new(), "", &mut found);
         found
     }
 
@@ -102,11 +120,11 @@ fn is_at(path: &str, key: &str) -> bool {
     depth == parts(key).len() && common(path, key) == depth
 }
 
-/// Gathers the keys of a name at and below a schema, but not below itself.
+/// Gathers the keys of wanted names at and below a schema, but not below itself.
 fn named_in<'s>(
     root: &'s Value,
     here: &'s Value,
-    name: &str,
+    is_wanted: &dyn Fn(&str) -> bool,
     around: &mut Vec<&'s str>,
     path: &str,
     found: &mut Vec<String>,
@@ -116,7 +134,7 @@ fn named_in<'s>(
     if let Some(place) = reference.filter(|place| !around.contains(place)) {
         around.push(place);
         if let Some(there) = root.pointer(place) {
-            named_in(root, there, name, around, path, found);
+            named_in(root, there, is_wanted, around, path, found);
         }
         around.pop();
     }
@@ -128,21 +146,28 @@ fn named_in<'s>(
     {
         let dot = if path.is_empty() { "" } else { "." };
         let path = format!("{path}{dot}{key}");
-        if key == name {
+        if is_wanted(key) {
             found.push(path.clone());
         }
-        named_in(root, there, name, around, &path, found);
+        named_in(root, there, is_wanted, around, &path, found);
     }
     if let Some(there) = here.get("additionalProperties") {
-        named_in(root, there, name, around, &format!("{path}.NAME"), found);
+        named_in(
+            root,
+            there,
+            is_wanted,
+            around,
+            &format!("{path}.NAME"),
+            found,
+        );
     }
     if let Some(there) = here.get("items") {
-        named_in(root, there, name, around, &format!("{path}[]"), found);
+        named_in(root, there, is_wanted, around, &format!("{path}[]"), found);
     }
     for words in ["oneOf", "anyOf", "allOf", "prefixItems"] {
         let list = here.get(words).and_then(Value::as_array);
         for there in list.into_iter().flatten() {
-            named_in(root, there, name, around, path, found);
+            named_in(root, there, is_wanted, around, path, found);
         }
     }
 }

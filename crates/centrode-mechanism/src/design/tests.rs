@@ -196,6 +196,26 @@ fn every_bad_line_is_named_with_key_and_place() {
             "line 19, column 1: driver.width: must be 0 to 1e12, not 1e308",
         ),
         (
+            "width = 10",
+            "witdh = 10",
+            "line 19, column 1: driver.witdh: unknown key, did you mean \"width\"?; known are shift, width",
+        ),
+        (
+            "width = 10",
+            "shift = 3",
+            "line 19, column 1: driver.shift: must be -2 to 2, not 3",
+        ),
+        (
+            "width = 10",
+            "shift = \"out\"",
+            "line 19, column 9: driver.shift: must be a number, not \"out\"",
+        ),
+        (
+            "backlash = 0.05",
+            "tip_shortening = \"some\"",
+            "line 16, column 18: teeth.tip_shortening: must be \"keep-clearance\", \"none\" or a coefficient, not \"some\"",
+        ),
+        (
             "bore = 12",
             "bore = 3",
             "line 21, column 12: driver.keyway.width: is 4 mm, but the bore is only 3 mm across",
@@ -401,6 +421,12 @@ fn a_key_in_the_wrong_table_is_told_where_it_belongs() {
             "eccentricity = 0.25",
             "width = 0.25",
             "; elsewhere there is driver.width, driven.width, driver.keyway.width and others",
+        ),
+        // The key of earlier versions.
+        (
+            "pressure_angle_deg = 20",
+            "profile_shift_coefficient = 0.3",
+            "; elsewhere there is driver.shift, driven.shift",
         ),
         // A key of another kind of the same table is not elsewhere.
         ("kind = \"ellipse\"", "kind = \"circle\"", ", tooth_count"),

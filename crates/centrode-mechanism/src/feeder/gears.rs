@@ -178,7 +178,7 @@ impl GearsSpec {
             ..Circle::default()
         }));
         pair.mean_ratio = [driven / divisor, driver / divisor];
-        [pair.driver, pair.driven] = [self.body(), self.body()];
+        [pair.driver, pair.driven] = [self.body().into(), self.body().into()];
         pair.teeth.thickness_deviations = self.thickness_deviations;
         IntermittentPairSpec {
             lock_radius: self.lock_radius,

@@ -65,7 +65,7 @@ impl GearPair {
     pub fn pitch_point(&self, phi: f64) -> PitchPoint {
         let rolling = self.rolling();
         let contact = rolling.pitch_contact(rolling.parameter_at_angle(phi));
-        let alpha = self.teeth().tool.pressure_angle;
+        let alpha = self.pressure_angle();
         let inclination = inclination(&contact);
         let [driver_radius, driven_radius] = contact.radii;
         let [driver_curvature, driven_curvature] = rolling.curvatures(contact.parameter);
@@ -85,7 +85,7 @@ impl GearPair {
     pub fn greatest_pressure_angle(&self) -> Extreme {
         let rolling = self.rolling();
         // |alpha - mu| and |alpha + mu|: the greater of both.
-        let alpha = self.teeth().tool.pressure_angle;
+        let alpha = self.pressure_angle();
         let steeper = |t: f64| alpha + inclination(&rolling.pitch_contact(t)).abs();
         let found = greatest(steeper, &rolling.pieces());
         Extreme {
@@ -97,7 +97,7 @@ impl GearPair {
     /// Module and addendum allowed by these pitch curves and this tool.
     #[must_use]
     pub fn limits(&self) -> Limits {
-        let tool = &self.teeth().tool;
+        let (teeth, tool) = (self.teeth(), self.operating_tool());
         let sin = tool.pressure_angle.sin();
         let ranges = self.rolling().curvature_ranges();
         let convex = ranges.iter().map(|r| r.greatest.1).fold(0.0, f64::max);
@@ -107,11 +107,24 @@ impl GearPair {
             ToolKind::Rack => regular,
             ToolKind::Shaper { radius } => regular.min(radius * sin * sin),
         };
+        let scale = self.generation().scale();
+        let of_both = |of: &dyn Fn(usize, f64) -> f64| {
+            let [one, two] = [0, 1].map(|member| of(member, teeth.profile_shifts[member]));
+            one.min(two)
+        };
         Limits {
             convex_curvature: convex,
             concave_curvature: concave,
-            largest_module: largest_module(tool, self.module(), [convex, concave]),
-            largest_module_of_fillets: fillet_module(tool, self.module(), concave),
+            largest_module: of_both(&|member, shift| {
+                let bends = [ranges[member].greatest.1, -ranges[member].least.1];
+                // The tool rolls on the generating pitch curve.
+                let bends = bends.map(|bend| scale * bend.max(0.0));
+                largest_module(&teeth.tool, self.module(), shift, bends)
+            }),
+            largest_module_of_fillets: of_both(&|member, shift| {
+                let concave = (-ranges[member].least.1).max(0.0);
+                fillet_module(&teeth.tool, self.module(), shift, concave)
+            }),
             largest_addendum: self.widest_height(regular),
             ranges,
         }
@@ -120,6 +133,7 @@ impl GearPair {
     /// The greatest height, up to `limit`, at which no tooth is thinner than asked for.
     fn widest_height(&self, limit: f64) -> f64 {
         let mut height = limit;
+        let tool = self.operating_tool();
         for member in [Member::Driver, Member::Driven] {
             let pattern = self.patterns.of(member);
             // Teeth that are images of others are as wide as they.
@@ -129,7 +143,7 @@ impl GearPair {
                 let flank = |side, crossing| Flank {
                     rolling: self.rolling(),
                     member,
-                    tool: &self.teeth().tool,
+                    tool: &tool,
                     side,
                     crossing,
                 };
@@ -169,7 +183,10 @@ impl Limits {
     /// (convex, concave, 1/mm): no tooth has to be laid out.
     #[must_use]
     pub fn largest_module_of(design: &GearPairDesign, curvatures: [f64; 2]) -> f64 {
-        largest_module(&parameters(design, 1.0).tool, 1.0, curvatures)
+        let teeth = parameters(design, 1.0);
+        let of = |shift| largest_module(&teeth.tool, 1.0, shift, curvatures);
+        let [driver, driven] = teeth.profile_shifts;
+        of(driver).min(of(driven))
     }
 
     /// Largest module of full teeth, mm, that are sound wherever they fall, cut by the usual rack on pitch curves whose curvatures
@@ -178,7 +195,12 @@ impl Limits {
     pub fn largest_full_module(curvatures: [f64; 2]) -> f64 {
         let design = GearPairDesign::new(PitchSpec::Circle(Circle::default()));
         let tool = parameters(&design, 1.0).tool;
-        largest_module(&tool, 1.0, curvatures).min(fillet_module(&tool, 1.0, curvatures[1]))
+        largest_module(&tool, 1.0, 0.0, curvatures).min(fillet_module(
+            &tool,
+            1.0,
+            0.0,
+            curvatures[1],
+        ))
     }
 }
 
@@ -188,24 +210,26 @@ fn inclination(contact: &PitchContact) -> f64 {
     sin.atan2(cos)
 }
 
-fn largest_module(tool: &Tool, module: f64, [convex, concave]: [f64; 2]) -> f64 {
+fn largest_module(tool: &Tool, module: f64, shift: f64, [convex, concave]: [f64; 2]) -> f64 {
     let (sin, cos) = tool.pressure_angle.sin_cos();
-    let depth =
-        tool.corner(tool.dedendum, tool.tip_radius).end * sin * cos + tool.profile_shift.abs();
-    let height = tool.addendum + tool.profile_shift.abs();
-    let bound = |curvature: f64, reach: f64| module * sin * sin / (curvature * reach);
+    let depth = tool.corner(tool.dedendum, tool.tip_radius).end * sin * cos - shift;
+    let height = tool.addendum + shift;
+    let bound = |curvature: f64, reach: f64| match reach > 0.0 {
+        true => module * sin * sin / (curvature * reach),
+        false => f64::INFINITY,
+    };
     bound(convex, depth).min(bound(concave, height))
 }
 
-fn fillet_module(tool: &Tool, module: f64, concave: f64) -> f64 {
+fn fillet_module(tool: &Tool, module: f64, shift: f64, concave: f64) -> f64 {
     let (sin, cos) = tool.pressure_angle.sin_cos();
     let radius = tool.tip_radius;
-    let far = tool.corner(tool.dedendum, radius).end * cos + tool.profile_shift.abs() / sin;
+    let far = tool.corner(tool.dedendum, radius).end * cos - shift / sin;
     let tool_curvature = match tool.kind {
         ToolKind::Rack => 0.0,
         ToolKind::Shaper { radius } => 1.0 / radius,
     };
-    if concave > 0.0 {
+    if concave > 0.0 && far > radius {
         module * (tool_curvature + sin * radius / (far * (far - radius))) / concave
     } else {
         f64::INFINITY

@@ -6,6 +6,7 @@ mod fit;
 mod fitted;
 mod flank;
 mod flank_count;
+mod generation;
 mod intermittent;
 mod limits;
 mod over_pins;

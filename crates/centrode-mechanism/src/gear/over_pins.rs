@@ -111,7 +111,7 @@ impl GearPair {
             .iter()
             .map(|t| (t.trailing.crossing - t.leading.crossing).abs());
         let width = widths.sum::<f64>() / f64::from(gear.tooth_count());
-        let ideal = (pitch - width) / self.teeth().tool.pressure_angle.cos();
+        let ideal = (pitch - width) / self.pressure_angle().cos();
         let step = if ideal < 1.0 { 0.05 } else { 0.25 };
         ((ideal / step).round() * step).max(step)
     }

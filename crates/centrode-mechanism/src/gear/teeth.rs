@@ -15,6 +15,10 @@ use super::{
 pub struct TeethParameters {
     /// The generating tool.
     pub tool: Tool,
+    /// Profile shifts of driver and driven gear, mm: by how much the tool is moved away from the axis.
+    pub profile_shifts: [f64; 2],
+    /// Change of every addendum, mm: negative for shorter teeth.
+    pub tip_change: f64,
     /// Height of the teeth.
     pub addendum: Addendum,
     /// Position of the teeth.
@@ -27,6 +31,14 @@ pub struct TeethParameters {
     pub thickness_split: f64,
     /// Least width of the top land, mm.
     pub least_tip_width: f64,
+}
+
+impl TeethParameters {
+    /// Profile shift of a member, mm.
+    #[must_use]
+    pub fn profile_shift(&self, member: Member) -> f64 {
+        self.profile_shifts[member as usize]
+    }
 }
 
 /// Reason why no teeth can be laid out.
@@ -110,9 +122,17 @@ pub(crate) fn layout(
         None => parameters.backlash,
     };
     let thinning = backlash / (4.0 * tool.pressure_angle.cos());
-    let width =
-        pitch * parameters.thickness_split + 2.0 * tool.profile_shift * tool.pressure_angle.tan();
-    for (member, width) in [(Member::Driver, width), (Member::Driven, pitch - width)] {
+    // A tool moved away from the axis leaves a thicker tooth.
+    let nominal = pitch * parameters.thickness_split;
+    let width = |member: Member| {
+        let thicker = 2.0 * parameters.profile_shift(member) * tool.pressure_angle.tan();
+        match member {
+            Member::Driver => nominal + thicker,
+            Member::Driven => pitch - (nominal - thicker),
+        }
+    };
+    for member in [Member::Driver, Member::Driven] {
+        let width = width(member);
         if !(width > 2.0 * thinning && width < pitch) {
             return Err(TeethError::NoWidth {
                 member,
@@ -127,25 +147,9 @@ pub(crate) fn layout(
         (f64::from(k) + phase + half) * pitch
     };
     let crossing = |member: Member, k: u32, side: Side| {
-        let width = if member == Member::Driver {
-            width
-        } else {
-            pitch - width
-        };
-        middle(member, k) + side.sign() * (0.5 * width - thinning)
+        middle(member, k) + side.sign() * (0.5 * width(member) - thinning)
     };
-    let space = |member: Member| {
-        let width = if member == Member::Driver {
-            width
-        } else {
-            pitch - width
-        };
-        pitch - width + 2.0 * thinning
-    };
-    let shift = |member: Member| match member {
-        Member::Driver => tool.profile_shift,
-        Member::Driven => -tool.profile_shift,
-    };
+    let space = |member: Member| pitch - width(member) + 2.0 * thinning;
     let count = |member: Member| match member {
         Member::Driver => counts.driver,
         Member::Driven => counts.driven,
@@ -156,7 +160,8 @@ pub(crate) fn layout(
         Addendum::Fitted => tool.addendum.min(tool.dedendum),
     };
     let plan = |member: Member| -> Result<Vec<ToothPlan>, TeethError> {
-        let depth = tool.dedendum - shift(member);
+        let shift = parameters.profile_shift(member);
+        let depth = tool.dedendum - shift;
         let greatest = tool.greatest_tip_radius(depth, space(member));
         let short = depth - tool.pointed_depth(space(member), depth);
         if greatest < 0.0 {
@@ -180,7 +185,7 @@ pub(crate) fn layout(
         let corner = tool.corner(depth, tool.tip_radius);
         let flank = |k: u32, side: Side| FlankPlan {
             crossing: crossing(member, k, side),
-            top: Top::Height(addendum + shift(member)),
+            top: Top::Height(addendum + shift + parameters.tip_change),
             corner,
             active_depth: corner.end,
         };
@@ -237,7 +242,8 @@ fn phase(
     parameters: &TeethParameters,
 ) -> Result<(f64, bool), TeethError> {
     let difference = self_mating_difference(rolling, pitch);
-    let symmetric = parameters.thickness_split == 0.5 && parameters.tool.profile_shift == 0.0;
+    let [driver, driven] = parameters.profile_shifts;
+    let symmetric = parameters.thickness_split == 0.5 && driver == driven;
     let small = 1e-9 * rolling.center_distance();
     let wanted = |mirror: f64| (0.5 * (mirror / pitch - 0.5)).rem_euclid(0.5);
     let congruent_at = |phase: f64| {

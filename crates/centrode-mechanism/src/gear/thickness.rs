@@ -1,7 +1,5 @@
 //! Limits of tooth thickness.
 
-use std::f64::consts::PI;
-
 use super::design::BodySpec;
 use super::{GearPair, Member};
 
@@ -110,7 +108,7 @@ impl GearPair {
         let gear = self.gear(member);
         let class: u32 = gear.body().accuracy_class().parse().ok()?;
         let series = class.checked_add(ABOVE_CLASS)?;
-        let tolerance = tolerance(gear.pitch_length() / PI, series)?;
+        let tolerance = tolerance(self.reference_diameter(member), series)?;
         (self.module() >= LEAST_MODULE).then_some(ThicknessDeviations {
             limits: [0.0, -tolerance],
             series: Some(series),

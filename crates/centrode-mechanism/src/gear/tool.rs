@@ -2,8 +2,7 @@ use centrode_geometry::bracketed_root;
 
 /// The generating tool, resolved: lengths in mm, angles in rad.
 ///
-/// Heights are about the tool's own datum; the driver is cut with `profile_shift`, the driven gear with
-/// the opposite one.
+/// Heights are about the tool's own datum, without profile shift.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tool {
     /// Pressure angle, rad.
@@ -14,8 +13,6 @@ pub struct Tool {
     pub dedendum: f64,
     /// Radius of the tool's rounded tip corner.
     pub tip_radius: f64,
-    /// Profile shift of the driver: outwards positive.
-    pub profile_shift: f64,
     /// Rack, or pinion-type shaper.
     pub kind: ToolKind,
 }
@@ -147,7 +144,6 @@ mod tests {
             addendum: 1.0,
             dedendum: 1.25,
             tip_radius: 0.2,
-            profile_shift: 0.0,
             kind,
         }
     }

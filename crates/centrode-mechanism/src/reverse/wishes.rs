@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 use crate::degrees;
 use crate::gear::design::SpecError;
 use crate::gear::design::rule::{
-    Rule, broken, file_name, finite, in_range, not_negative, positive,
+    Rule, broken, file_name, finite, in_range, is_zero, not_negative, positive,
 };
 
 /// Greatest coordinate of a shape, mm.
@@ -117,14 +117,6 @@ pub struct KeepOut {
     /// Least distance from it, mm.
     #[serde(skip_serializing_if = "is_zero")]
     pub clearance: f64,
-}
-
-#[allow(
-    clippy::trivially_copy_pass_by_ref,
-    reason = "the signature serde calls"
-)]
-fn is_zero(value: &f64) -> bool {
-    *value == 0.0
 }
 
 impl WantedRange {

@@ -8,9 +8,11 @@ use serde::{Deserialize, Serialize};
 use super::{EllipticDrive, Load, Schedule, ShaftError, SpiralShaft, SpiralShaftDesign};
 use crate::design::DesignSpec;
 use crate::gear::design::rule::{
-    Rule, broken, count_in_range, file_name, in_range, positive, single_line,
+    Rule, broken, count_in_range, file_name, in_range, is_zero, positive, single_line,
 };
-use crate::gear::design::{BodySpec, GearPairDesign, Keyway, SpecError, TeethSpec, ToolSpec};
+use crate::gear::design::{
+    BodySpec, GearPairDesign, GearSpec, Keyway, SHIFTS, SpecError, TeethSpec, ToolSpec,
+};
 use crate::gear::pitch::{Ellipse, PitchSpec};
 use crate::machine::GuideForce;
 use crate::transmission::{MotionJet, Transmission};
@@ -52,6 +54,9 @@ pub struct EllipticGears {
     pub tooth_count: u32,
     /// The tool that cuts both gears.
     pub tool: ToolSpec,
+    /// Profile shift coefficient of the driver; the driven gear has the opposite one.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub shift: f64,
     /// Teeth of both gears.
     pub teeth: TeethSpec,
     /// Body of both gears; without a bore of its own, with that and the keyway of the shaft's journal.
@@ -67,6 +72,7 @@ impl Default for EllipticGears {
             module: 2.25,
             tooth_count: 23,
             tool: ToolSpec::default(),
+            shift: 0.0,
             teeth: TeethSpec::default(),
             body: BodySpec::default(),
         }
@@ -105,6 +111,7 @@ impl EllipticGears {
         positive("module", self.module)?;
         count_in_range("tooth_count", self.tooth_count, 3, 10_000)?;
         self.tool.validate().map_err(|e| e.inside("tool"))?;
+        in_range("shift", self.shift, SHIFTS, "")?;
         self.teeth.validate().map_err(|e| e.inside("teeth"))?;
         self.body.validate().map_err(|e| e.inside("body"))
     }
@@ -217,8 +224,12 @@ impl MovingBoxDesign {
             body.bore = self.shaft.body.journal_diameter;
             body.keyway = body.keyway.or(self.shaft.body.keyway.map(Keyway::of_hub));
         }
-        pair.driver = body.clone();
-        pair.driven = BodySpec {
+        pair.driver = GearSpec {
+            shift: Some(gears.shift),
+            body: body.clone(),
+        };
+        pair.driven.shift = Some(0.0 - gears.shift);
+        pair.driven.body = BodySpec {
             keyway_angle: PI - (TAU - body.keyway_angle + drive.phase).rem_euclid(TAU),
             ..body
         };

@@ -186,7 +186,7 @@ mod tests {
         let text = "family = \"gear-pair\"\n[pitch]\nkind = \"circle\"\nradius = 9\n[teeth]\nbacklsh = 1\n";
         assert_eq!(
             shown_error(text),
-            "error: teeth.backlsh: unknown key, did you mean \"backlash\"?; known are addendum, fit, \
+            "error: teeth.backlsh: unknown key, did you mean \"backlash\"?; known are addendum, fit, tip_shortening, \
              phase, backlash, backlash_angle_deg, thickness_split, least_tip_width_coefficient, thickness_deviations, pin_diameter\n \
              --> pair.toml:6:1\n  |\n6 | backlsh = 1\n  | ^^^^^^^\n"
         );

@@ -103,7 +103,8 @@ tooth_count = 4
 kind = "rack"
 dedendum_coefficient = 1.1113154541348957
 tip_radius_coefficient = 0.028999047585876816
-profile_shift_coefficient = 0.03618225534148756
+[driver]
+shift = 0.03618225534148756
 [teeth]
 thickness_split = 0.5321383116182223
 "#;
@@ -237,7 +238,7 @@ fn three_arm_mechanisms_that_cannot_be_are_refused() {
 
 #[test]
 fn a_key_that_means_nothing_is_refused_also_in_what_is_only_a_detail() {
-    let known = "unknown key; known are width, bore";
+    let known = "unknown key; known are shift, width, bore";
     for key in ["internal", "inner", "ring", "helix_deg", "bores_extra"] {
         for body in ["driver", "driven"] {
             let design = format!("{}[{body}]\n{key} = 1\n", sized("circle", ""));

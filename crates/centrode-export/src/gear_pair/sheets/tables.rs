@@ -17,10 +17,6 @@ pub(super) fn data(part: &SheetGear<'_>, found: &[Datum]) -> Table {
     let teeth = pair.teeth();
     let tool = &teeth.tool;
     let m = pair.module();
-    let shift = match part.member {
-        Member::Driver => tool.profile_shift,
-        Member::Driven => -tool.profile_shift,
-    };
     let mut rows = Rows::default();
     rows.add("Number of teeth", "z", gear.tooth_count().to_string());
     rows.add("Module", "m", number(m, 6));
@@ -33,7 +29,14 @@ pub(super) fn data(part: &SheetGear<'_>, found: &[Datum]) -> Table {
     let clearance = (tool.dedendum - tool.addendum) / m;
     rows.add("Clearance coefficient", "c*", number(clearance, 4));
     rows.add("Tool tip radius", "ρ", number(tool.tip_radius, 4));
-    rows.add("Profile shift", "x·m", number(shift, 4));
+    rows.add(
+        "Profile shift",
+        "x·m",
+        number(teeth.profile_shift(part.member), 4),
+    );
+    for datum in shifted(pair, part.member) {
+        rows.add(&datum.name, &datum.symbol, &datum.value);
+    }
     rows.add(
         "Tool",
         "",
@@ -87,6 +90,33 @@ pub(super) fn data(part: &SheetGear<'_>, found: &[Datum]) -> Table {
         rows.add(&datum.name, &datum.symbol, &datum.value);
     }
     rows.table("Gear data")
+}
+
+/// Coefficients of a gear with profile shift or changed addendum, and the operating pressure angle of its pair.
+fn shifted(pair: &GearPair, member: Member) -> Vec<Datum> {
+    let (teeth, m) = (pair.teeth(), pair.module());
+    let (x, k) = (pair.shift(member), pair.tip_shortening());
+    let mut data = Vec::new();
+    if x != 0.0 || k != 0.0 {
+        data.push(Datum::new("Profile shift coefficient", "x", number(x, 4)));
+        data.push(Datum::new("Tip shortening coefficient", "k", number(k, 5)));
+        let root = teeth.tool.dedendum - teeth.profile_shift(member);
+        let heights = match teeth.addendum {
+            Addendum::Full => vec![("Addendum", "ha", teeth.tool.addendum + (x + k) * m)],
+            Addendum::Fitted => Vec::new(),
+        };
+        for (name, symbol, height) in heights.into_iter().chain([("Dedendum", "hf", root)]) {
+            data.push(Datum::new(name, symbol, number(height, 4)));
+        }
+    }
+    let angle = pair.pressure_angle();
+    if angle != teeth.tool.pressure_angle {
+        let degrees = format!("{}°", number(angle.to_degrees(), 4));
+        data.push(Datum::new("Operating pressure angle", "αw", degrees));
+        let diameter = number(pair.reference_diameter(member), 4);
+        data.push(Datum::new("Reference diameter", "d", diameter));
+    }
+    data
 }
 
 /// Flank tolerances, deviations of tooth thickness, material and heat treatment of a gear, for the table of its data.
@@ -229,5 +259,48 @@ impl Rows {
             rows: self.0,
             notes: Vec::new(),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use centrode_mechanism::gear::design::GearPairDesign;
+    use centrode_mechanism::gear::pitch::{Circle, PitchSpec};
+
+    #[test]
+    fn the_gear_data_list_shifts_heights_and_the_operating_angle() {
+        let mut design = GearPairDesign::new(PitchSpec::Circle(Circle {
+            module: Some(3.0),
+            tooth_count: Some(12),
+            ..Circle::default()
+        }));
+        design.mean_ratio = [2, 1];
+        let rows = |design: &GearPairDesign, member| {
+            let pair = GearPair::resolve(design).expect("a pair");
+            let rows = shifted(&pair, member).into_iter();
+            rows.map(|row| (row.symbol, row.value)).collect::<Vec<_>>()
+        };
+        assert!(rows(&design, Member::Driver).is_empty());
+        let told = |rows: &[(&str, &str)]| {
+            let owned = rows
+                .iter()
+                .map(|(symbol, value)| (symbol.to_string(), value.to_string()));
+            owned.collect::<Vec<_>>()
+        };
+        (design.driver.shift, design.driven.shift) = (Some(0.6), Some(0.36));
+        // Of the example of ISO 21771 in the tests of published figures: tip 39.7 mm, root 33.33 mm about a reference circle of 36 mm.
+        let expected = [
+            ("x", "0.36"),
+            ("k", "-0.12671"),
+            ("ha", "3.6999"),
+            ("hf", "2.67"),
+            ("αw", "26.0886°"),
+            ("d", "72"),
+        ];
+        assert_eq!(rows(&design, Member::Driven), told(&expected));
+        design.driven.shift = None;
+        let opposite = [("x", "-0.6"), ("k", "0"), ("ha", "1.2"), ("hf", "5.55")];
+        assert_eq!(rows(&design, Member::Driven), told(&opposite));
     }
 }

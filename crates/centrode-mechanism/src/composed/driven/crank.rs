@@ -185,7 +185,7 @@ impl<'a> Crank<'a> {
             .gears
             .extend(gears.map(|(name, gear)| (name.into(), gear)));
         let mut pair = table_pair(table, distance);
-        pair.driven = pair.driven.keyed(mount);
+        pair.driven.body = pair.driven.body.keyed(mount);
         design.pairs.insert(DRIVE.into(), pair);
         // Its law is gone.
         let law = format!("bodies.{}.law", self.spec.body);

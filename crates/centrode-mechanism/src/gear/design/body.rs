@@ -4,7 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::rule::{
-    Rule, SpecError, broken, hole_class, in_range, not_negative, positive, shaft_class, single_line,
+    Rule, SpecError, broken, hole_class, in_range, is_zero, not_negative, positive, shaft_class,
+    single_line,
 };
 use crate::degrees;
 use crate::machine::Stock;
@@ -23,7 +24,7 @@ pub struct BodySpec {
     pub keyway: Option<Keyway>,
     /// Direction of the keyway from the body's x axis, rad (degrees in the file).
     #[serde(rename = "keyway_angle_deg", with = "degrees")]
-    #[serde(skip_serializing_if = "is_along_x")]
+    #[serde(skip_serializing_if = "is_zero")]
     #[schemars(with = "f64")]
     pub keyway_angle: f64,
     /// Density, kg/m^3.
@@ -56,11 +57,6 @@ pub struct Keyway {
     pub width: f64,
     /// Depth below the bore's circle, mm, measured on the middle of the keyway.
     pub depth: f64,
-}
-
-/// Whether a keyway's angle is zero and need not be written.
-fn is_along_x(angle: &f64) -> bool {
-    *angle == 0.0
 }
 
 /// Width and height of a parallel key, depth left to the hub beyond that of the shaft, least and greatest length, mm; DIN 6885-1.

@@ -7,13 +7,17 @@ use super::pitch::PitchSpec;
 use crate::design::{DesignSpec, DrawingSpec};
 
 mod body;
+mod gear;
 pub(crate) mod rule;
 mod teeth;
 mod tool;
 
 pub use body::{BodySpec, Keyway};
+pub use gear::GearSpec;
+pub(crate) use gear::SHIFTS;
+pub(crate) use rule::in_range;
 pub use rule::{Rule, SpecError};
-pub use teeth::{Addendum, Fit, Phase, TeethSpec};
+pub use teeth::{Addendum, Fit, Phase, TeethSpec, TipShortening};
 pub use tool::{Rack, Shaper, ToolSpec};
 
 use rule::{broken, count_in_range, file_name, positive, single_line};
@@ -35,7 +39,8 @@ pub struct GearPairDesign {
     /// Teeth of the driver, for a pitch curve with a size of its own: the module follows.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tooth_count: Option<u32>,
-    /// Centre distance, mm; left out, it follows from pitch curve and mean ratio.
+    /// Centre distance, mm. Default: it follows from pitch curve, mean ratio and profile shifts. Circular gears with one shift
+    /// given get the other shift from it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub center_distance: Option<f64>,
     /// Pitch curve of the driver.
@@ -46,12 +51,12 @@ pub struct GearPairDesign {
     /// Teeth of both gears.
     #[serde(default)]
     pub teeth: TeethSpec,
-    /// Body of the driver.
+    /// Profile shift and body of the driver.
     #[serde(default)]
-    pub driver: BodySpec,
-    /// Body of the driven gear.
+    pub driver: GearSpec,
+    /// Profile shift and body of the driven gear.
     #[serde(default)]
-    pub driven: BodySpec,
+    pub driven: GearSpec,
     /// The drawing sheets.
     #[serde(default, skip_serializing_if = "DrawingSpec::is_default")]
     pub drawing: DrawingSpec,
@@ -97,8 +102,8 @@ impl GearPairDesign {
             pitch,
             tool: ToolSpec::default(),
             teeth: TeethSpec::default(),
-            driver: BodySpec::default(),
-            driven: BodySpec::default(),
+            driver: GearSpec::default(),
+            driven: GearSpec::default(),
             drawing: DrawingSpec::default(),
         }
     }
@@ -145,6 +150,18 @@ impl GearPairDesign {
         self.driver.validate().map_err(|e| e.inside("driver"))?;
         self.driven.validate().map_err(|e| e.inside("driven"))?;
         self.drawing.validate().map_err(|e| e.inside("drawing"))
+    }
+
+    /// Whether the teeth are fitted, as they are with any choice.
+    pub(crate) fn is_fitted(&self) -> bool {
+        self.teeth.addendum == Addendum::Fitted || !self.teeth.fit.is_empty()
+    }
+
+    /// Profile shift coefficients of driver and driven gear that give no centre distance of their own: a missing one is opposite.
+    pub(crate) fn shifts(&self) -> [f64; 2] {
+        let [driver, driven] = [self.driver.shift, self.driven.shift];
+        let of = |own: Option<f64>, mate: Option<f64>| own.or(mate.map(|x| 0.0 - x)).unwrap_or(0.0);
+        [of(driver, driven), of(driven, driver)]
     }
 
     /// Teeth of the driver, from the pair or from its pitch curve.

@@ -236,6 +236,11 @@ fn class(key: &str, word: &str, of_hole: bool) -> Result<(), SpecError> {
     broken(key, Rule::NoClass { word, of, like })
 }
 
+/// Whether a number is zero and need not be written.
+pub(crate) fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
 pub(crate) fn count_in_range(
     key: &str,
     value: u32,

@@ -16,6 +16,10 @@ pub struct TeethSpec {
     /// pressure angle, the phase; "addendum" stands for fitted teeth, which they are with any of these.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub fit: Vec<Fit>,
+    /// Change of every addendum: "keep-clearance", as much as keeps the clearance of the tool at the centre distance of shifted
+    /// circular gears, "none", or a coefficient k in modules, negative for shorter teeth.
+    #[serde(skip_serializing_if = "TipShortening::is_usual")]
+    pub tip_shortening: TipShortening,
     /// Position of the teeth on the driver's pitch curve.
     pub phase: Phase,
     /// Total backlash of the pair along the normal, mm.
@@ -47,6 +51,7 @@ impl Default for TeethSpec {
         Self {
             addendum: Addendum::Full,
             fit: Vec::new(),
+            tip_shortening: TipShortening::KeepClearance,
             phase: Phase::Auto,
             backlash: 0.0,
             backlash_angle: None,
@@ -120,34 +125,104 @@ impl Serialize for Phase {
 
 impl<'de> Deserialize<'de> for Phase {
     fn deserialize<D: Deserializer<'de>>(d: D) -> Result<Self, D::Error> {
-        struct WordOrNumber;
-        impl de::Visitor<'_> for WordOrNumber {
-            type Value = Phase;
+        d.deserialize_any(WordOrNumber {
+            expected: "\"auto\", \"tooth\", \"space\", \"congruent\" or a number of pitches",
+            words: &WORDS,
+            number: Self::Pitches,
+        })
+    }
+}
 
-            fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
-                f.write_str("\"auto\", \"tooth\", \"space\", \"congruent\" or a number of pitches")
-            }
+/// Change of every addendum, in modules.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum TipShortening {
+    /// Change that keeps the clearance of the tool: k = a/m - (z1 + z2)/2 - x1 - x2.
+    #[default]
+    KeepClearance,
+    /// No change.
+    None,
+    /// A coefficient k: the addendum is longer by k modules, shorter if k is negative.
+    By(f64),
+}
 
-            fn visit_str<E: de::Error>(self, word: &str) -> Result<Phase, E> {
-                let found = WORDS.iter().find(|(w, _)| *w == word);
-                found
-                    .map(|(_, phase)| *phase)
-                    .ok_or_else(|| E::invalid_value(de::Unexpected::Str(word), &self))
-            }
+const SHORTENINGS: [(&str, TipShortening); 2] = [
+    ("keep-clearance", TipShortening::KeepClearance),
+    ("none", TipShortening::None),
+];
 
-            fn visit_f64<E: de::Error>(self, pitches: f64) -> Result<Phase, E> {
-                Ok(Phase::Pitches(pitches))
-            }
+impl TipShortening {
+    fn is_usual(&self) -> bool {
+        *self == Self::KeepClearance
+    }
+}
 
-            fn visit_i64<E: de::Error>(self, pitches: i64) -> Result<Phase, E> {
-                Ok(Phase::Pitches(pitches as f64))
-            }
-
-            fn visit_u64<E: de::Error>(self, pitches: u64) -> Result<Phase, E> {
-                Ok(Phase::Pitches(pitches as f64))
-            }
+impl Serialize for TipShortening {
+    fn serialize<S: Serializer>(&self, s: S) -> Result<S::Ok, S::Error> {
+        match self {
+            Self::KeepClearance => s.serialize_str("keep-clearance"),
+            Self::None => s.serialize_str("none"),
+            Self::By(k) => s.serialize_f64(*k),
         }
-        d.deserialize_any(WordOrNumber)
+    }
+}
+
+impl<'de> Deserialize<'de> for TipShortening {
+    fn deserialize<D: Deserializer<'de>>(d: D) -> Result<Self, D::Error> {
+        d.deserialize_any(WordOrNumber {
+            expected: "\"keep-clearance\", \"none\" or a coefficient",
+            words: &SHORTENINGS,
+            number: Self::By,
+        })
+    }
+}
+
+impl JsonSchema for TipShortening {
+    fn schema_name() -> std::borrow::Cow<'static, str> {
+        "TipShortening".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "description": "Change of every addendum: a word, or the coefficient k in modules.",
+            "anyOf": [
+                { "enum": SHORTENINGS.map(|(word, _)| word) },
+                { "type": "number" }
+            ]
+        })
+    }
+}
+
+/// A value that is one of some words or a number.
+struct WordOrNumber<T: 'static> {
+    expected: &'static str,
+    words: &'static [(&'static str, T)],
+    number: fn(f64) -> T,
+}
+
+impl<T: Copy> de::Visitor<'_> for WordOrNumber<T> {
+    type Value = T;
+
+    fn expecting(&self, f: &mut fmt::Formatter) -> fmt::Result {
+        f.write_str(self.expected)
+    }
+
+    fn visit_str<E: de::Error>(self, word: &str) -> Result<T, E> {
+        let found = self.words.iter().find(|(w, _)| *w == word);
+        found
+            .map(|(_, value)| *value)
+            .ok_or_else(|| E::invalid_value(de::Unexpected::Str(word), &self))
+    }
+
+    fn visit_f64<E: de::Error>(self, number: f64) -> Result<T, E> {
+        Ok((self.number)(number))
+    }
+
+    fn visit_i64<E: de::Error>(self, number: i64) -> Result<T, E> {
+        Ok((self.number)(number as f64))
+    }
+
+    fn visit_u64<E: de::Error>(self, number: u64) -> Result<T, E> {
+        Ok((self.number)(number as f64))
     }
 }
 
@@ -173,6 +248,9 @@ impl TeethSpec {
     /// # Errors
     /// [`SpecError`] with the key at fault.
     pub fn validate(&self) -> Result<(), SpecError> {
+        if let TipShortening::By(k) = self.tip_shortening {
+            in_range("tip_shortening", k, [-1.0, 1.0], "")?;
+        }
         if let Phase::Pitches(p) = self.phase {
             finite("phase", p)?;
             in_range("phase", p, [-1.0, 1.0], "")?;

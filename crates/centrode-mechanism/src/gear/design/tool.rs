@@ -37,8 +37,6 @@ pub struct Rack {
     pub dedendum_coefficient: f64,
     /// Radius of the tool's tip, which leaves the fillet.
     pub tip_radius_coefficient: f64,
-    /// Distance the tool is held out of the driver's blank and into the driven's.
-    pub profile_shift_coefficient: f64,
 }
 
 impl Default for Rack {
@@ -48,7 +46,6 @@ impl Default for Rack {
             addendum_coefficient: 1.0,
             dedendum_coefficient: 1.25,
             tip_radius_coefficient: 0.38,
-            profile_shift_coefficient: 0.0,
         }
     }
 }
@@ -76,9 +73,6 @@ pub struct Shaper {
     /// Radius of the cutter's tip corner, which leaves the fillet.
     #[serde(default = "shaper_tip_radius_coefficient")]
     pub tip_radius_coefficient: f64,
-    /// Distance the cutter is held out of the driver's blank and into the driven's.
-    #[serde(default)]
-    pub profile_shift_coefficient: f64,
 }
 
 fn pressure_angle() -> f64 {
@@ -106,7 +100,6 @@ impl Default for Shaper {
             addendum_coefficient: addendum_coefficient(),
             dedendum_coefficient: dedendum_coefficient(),
             tip_radius_coefficient: shaper_tip_radius_coefficient(),
-            profile_shift_coefficient: 0.0,
         }
     }
 }
@@ -156,7 +149,6 @@ impl Rack {
             self.pressure_angle,
             self.addendum_coefficient,
             self.dedendum_coefficient,
-            self.profile_shift_coefficient,
         )?;
         let key = "tip_radius_coefficient";
         let value = self.tip_radius_coefficient;
@@ -185,13 +177,12 @@ impl Shaper {
             self.pressure_angle,
             self.addendum_coefficient,
             self.dedendum_coefficient,
-            self.profile_shift_coefficient,
         )?;
         not_negative("tip_radius_coefficient", self.tip_radius_coefficient)
     }
 }
 
-fn heights(angle: f64, addendum: f64, dedendum: f64, shift: f64) -> Result<(), SpecError> {
+fn heights(angle: f64, addendum: f64, dedendum: f64) -> Result<(), SpecError> {
     in_range(
         "pressure_angle_deg",
         degrees::rounded(angle),
@@ -201,6 +192,5 @@ fn heights(angle: f64, addendum: f64, dedendum: f64, shift: f64) -> Result<(), S
     positive("addendum_coefficient", addendum)?;
     in_range("addendum_coefficient", addendum, [0.0, 3.0], "")?;
     positive("dedendum_coefficient", dedendum)?;
-    in_range("dedendum_coefficient", dedendum, [0.0, 3.0], "")?;
-    in_range("profile_shift_coefficient", shift, [-2.0, 2.0], "")
+    in_range("dedendum_coefficient", dedendum, [0.0, 3.0], "")
 }

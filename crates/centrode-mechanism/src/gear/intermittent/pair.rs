@@ -166,7 +166,7 @@ impl IntermittentPair {
     /// Base radius of the driven gear: normal backlash is angular backlash times this.
     fn base_radius(&self) -> f64 {
         let mean = self.pair.rolling().pitch_length(Member::Driven) / TAU;
-        mean * self.pair.teeth().tool.pressure_angle.cos()
+        mean * self.pair.pressure_angle().cos()
     }
 
     /// The driver's blank: a complete driver, turned on by half the entry angle that easing in costs, filled up to the

@@ -2,6 +2,8 @@ use centrode_geometry::{Tolerance, together};
 
 use super::{Gear, GearPairError};
 use crate::gear::design::BodySpec;
+use crate::gear::flank::Side;
+use crate::gear::generation::Generation;
 use crate::gear::pattern::{Mating, Patterns};
 use crate::gear::profile::{Cutter, Profile, ProfileError};
 use crate::gear::rolling::{Member, Rolling};
@@ -10,7 +12,9 @@ use crate::gear::tool::Tool;
 
 /// Both gears of a pair, to be cut as their teeth are laid out.
 pub(super) struct Cutting<'a> {
+    /// Pitch curves of the pair.
     pub(super) rolling: &'a Rolling,
+    pub(super) generation: &'a Generation,
     pub(super) tool: &'a Tool,
     pub(super) plan: &'a Layout,
     pub(super) patterns: &'a Patterns,
@@ -23,7 +27,7 @@ impl Cutting<'_> {
     /// Driver and driven gear: by two threads, or one from the other where they mate with it.
     pub(super) fn gears(&self) -> Result<[Gear; 2], GearPairError> {
         let [driver, driven] = [Member::Driver, Member::Driven];
-        if let Some(mating) = Mating::new(self.rolling, self.plan) {
+        if let Some(mating) = Mating::new(&self.generation.rolling, self.plan) {
             let profile = self.cut(driver)?;
             let mate = profile.mated(&mating, &self.plan.driven)?;
             return Ok([self.gear(driver, profile)?, self.gear(driven, mate)?]);
@@ -38,7 +42,7 @@ impl Cutting<'_> {
 
     fn cut(&self, member: Member) -> Result<Profile, ProfileError> {
         let cutter = Cutter {
-            rolling: self.rolling,
+            rolling: &self.generation.rolling,
             member,
             tool: self.tool,
             pattern: self.patterns.of(member),
@@ -50,7 +54,12 @@ impl Cutting<'_> {
         })
     }
 
-    fn gear(&self, member: Member, profile: Profile) -> Result<Gear, GearPairError> {
+    fn gear(&self, member: Member, mut profile: Profile) -> Result<Gear, GearPairError> {
+        let mounted = |side, made| self.generation.mounted(member, side, made);
+        for tooth in &mut profile.teeth {
+            tooth.leading = mounted(Side::Leading, tooth.leading);
+            tooth.trailing = mounted(Side::Trailing, tooth.trailing);
+        }
         let body = self.bodies[member as usize].clone();
         Gear::new(self.rolling, member, profile, body, self.tolerance)
     }

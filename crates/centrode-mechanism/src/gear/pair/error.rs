@@ -1,4 +1,5 @@
 use crate::design::MechanismError;
+use crate::digits::told;
 use crate::gear::design::{GearPairDesign, SpecError};
 use crate::gear::pitch::PitchError;
 use crate::gear::profile::ProfileError;
@@ -91,6 +92,46 @@ pub enum GearPairError {
         /// Distance that closes the driven curve, mm.
         needed: f64,
     },
+    /// Profile shifts with a sum on pitch curves that are not circles.
+    #[error("driver.shift + driven.shift is {}, but must be 0 unless both pitch curves are circles: a tool moved by x m along the normal makes the tooth 2 x m tan(alpha) thicker, and no common pitch curve takes that up on both flanks. Give opposite shifts, driven.shift = {}, or change tool.addendum_coefficient", told(.shifts[0] + .shifts[1]), told(-.shifts[0]))]
+    ShiftSum {
+        /// Profile shift coefficients of driver and driven gear.
+        shifts: [f64; 2],
+    },
+    /// Fitted teeth with a sum of profile shifts.
+    #[error("teeth are fitted, but driver.shift + driven.shift is {}: fitting needs pitch curves that are those of the tool. Give addendum = \"full\" and no fit, or opposite shifts", told(*.sum))]
+    FittedShift {
+        /// Sum of the profile shift coefficients.
+        sum: f64,
+    },
+    /// Profile shifts that leave no room for the teeth at any centre distance.
+    #[error("driver.shift + driven.shift is {}, but must exceed {} for these teeth: below it there is no operating pressure angle", told(*.sum), told(*.least))]
+    ShiftsTooSmall {
+        /// Sum of the profile shift coefficients.
+        sum: f64,
+        /// Sum at which the operating pressure angle is zero.
+        least: f64,
+    },
+    /// A centre distance other than that of both profile shifts.
+    #[error(
+        "center_distance is {wanted} mm, but driver.shift and driven.shift give {needed:.6} mm: omit one of the three"
+    )]
+    ShiftedDistance {
+        /// Distance as written, mm.
+        wanted: f64,
+        /// Distance of the shifts, mm.
+        needed: f64,
+    },
+    /// A centre distance within the base circles.
+    #[error(
+        "center_distance is {wanted} mm, but the radii of the base circles are {least:.6} mm together: it must be greater"
+    )]
+    BaseCircles {
+        /// Distance as written, mm.
+        wanted: f64,
+        /// Sum of the radii of the base circles, mm.
+        least: f64,
+    },
     /// The bore, with its keyway, cuts into the teeth.
     #[error("the {}'s bore reaches {reach} mm from the axis, but its teeth leave only {root} mm", .member.name())]
     Bore {
@@ -126,7 +167,11 @@ impl GearPairError {
             Self::Profile(_) | Self::NoToothCount | Self::DrivenTeeth { .. } => {
                 "tooth_count".into()
             }
-            Self::CenterDistance { .. } => "center_distance".into(),
+            Self::ShiftSum { .. } | Self::ShiftsTooSmall { .. } => "driven.shift".into(),
+            Self::FittedShift { .. } => "teeth.addendum".into(),
+            Self::CenterDistance { .. }
+            | Self::ShiftedDistance { .. }
+            | Self::BaseCircles { .. } => "center_distance".into(),
             Self::Bore { member, .. } => format!("{}.bore", member.name()),
         }
     }
@@ -137,6 +182,13 @@ impl GearPairError {
     #[must_use]
     pub fn key_in(&self, design: &GearPairDesign) -> String {
         let key = self.key();
+        // A shift that leaves a tooth or a space no width.
+        if let Self::Teeth(TeethError::NoWidth { member, .. }) = self
+            && key == "teeth.thickness_split"
+            && design.shifts() != [0.0; 2]
+        {
+            return format!("{}.shift", member.name());
+        }
         // Where the pitch curve says how many teeth the driver has, that number is to blame.
         if key == "tooth_count"
             && design.tooth_count.is_none()

@@ -11,9 +11,10 @@ use centrode_geometry::{Recent, Tolerance};
 use crate::design::DrawingSpec;
 
 use super::{
-    design::{BodySpec, Fit, GearPairDesign, Phase, ToolSpec},
+    design::{BodySpec, Fit, GearPairDesign, Phase, TipShortening, ToolSpec},
     fit::Fits,
     flank::{Flank, Side},
+    generation::Generation,
     pattern::Patterns,
     rolling::{Member, Rolling},
     teeth::{Counts, TeethParameters, layout},
@@ -37,6 +38,7 @@ pub struct GearPair {
     design: GearPairDesign,
     definition: String,
     rolling: Arc<Rolling>,
+    generation: Generation,
     module: f64,
     teeth: TeethParameters,
     phase: f64,
@@ -63,7 +65,9 @@ impl GearPair {
     pub fn resolve(design: &GearPairDesign) -> Result<Self, GearPairError> {
         design.validate()?;
         let ratio = (design.mean_ratio[0], design.mean_ratio[1]);
-        let (definition, rolling) = Self::roll(design)?;
+        let (definition, reference) = Self::reference(design)?;
+        let (generation, rolling) = Generation::new(design, reference)?;
+        let tools = &*generation.rolling;
         let driver = design
             .driver_tooth_count()
             .ok_or(GearPairError::NoToothCount)?;
@@ -76,10 +80,10 @@ impl GearPair {
             driven: u32::try_from(driven / u64::from(ratio.1))
                 .map_err(|_| GearPairError::DrivenTeeth { driver, ratio })?,
         };
-        let module = rolling.pitch_length(Member::Driver) / (PI * f64::from(driver));
-        follow(&rolling, driver, module)?;
+        let module = tools.pitch_length(Member::Driver) / (PI * f64::from(driver));
+        follow(tools, driver, module)?;
         let fits = Fits {
-            rolling: &rolling,
+            rolling: tools,
             counts: &counts,
             module,
         };
@@ -87,10 +91,11 @@ impl GearPair {
             Tolerance::new(OUTLINE_TOLERANCE * module).map_err(|_| GearPairError::NoToothCount)?;
         let make = |settled: &GearPairDesign| -> Result<_, GearPairError> {
             let teeth = parameters(settled, module);
-            let plan = layout(&rolling, &counts, &teeth)?;
-            let patterns = Patterns::new(rolling.symmetry(), &counts, &plan, PI * module);
+            let plan = layout(tools, &counts, &teeth)?;
+            let patterns = Patterns::new(tools.symmetry(), &counts, &plan, PI * module);
             let cutting = Cutting {
                 rolling: &rolling,
+                generation: &generation,
                 tool: &teeth.tool,
                 plan: &plan,
                 patterns: &patterns,
@@ -104,12 +109,13 @@ impl GearPair {
             let (.., gears) = make(design).ok()?;
             Some(gears.map(|gear| gear.teeth().to_vec()))
         };
-        let settled = fits.settled(design, &cut);
+        let settled = fits.settled(&generation.written(design), &cut);
         let (teeth, plan, patterns, [driver, driven]) = make(&settled)?;
         Ok(Self {
             design: design.clone(),
             definition,
-            rolling: Arc::new(rolling),
+            rolling,
+            generation,
             module,
             teeth,
             phase: plan.phase,
@@ -123,6 +129,13 @@ impl GearPair {
 
     /// The driver's pitch curve in words, and both pitch curves rolling, without any teeth.
     pub(crate) fn roll(design: &GearPairDesign) -> Result<(String, Rolling), GearPairError> {
+        let (definition, reference) = Self::reference(design)?;
+        let (_, rolling) = Generation::new(design, reference)?;
+        Ok((definition, Arc::unwrap_or_clone(rolling)))
+    }
+
+    /// The driver's pitch curve in words, and the pitch curves on which the tools roll.
+    fn reference(design: &GearPairDesign) -> Result<(String, Rolling), GearPairError> {
         let pitch = design.pitch.resolve()?;
         let ratio = (design.mean_ratio[0], design.mean_ratio[1]);
         if let Some(implied) = pitch.implied_ratio
@@ -139,13 +152,6 @@ impl GearPair {
         if let Some((turn, angle)) = rolling.corner() {
             return Err(GearPairError::Corner { turn, angle });
         }
-        if let Some(wanted) = design.center_distance {
-            let needed = rolling.center_distance();
-            // A distance is written to a micrometre or so.
-            if (wanted - needed).abs() > 1e-6 * needed {
-                return Err(GearPairError::CenterDistance { wanted, needed });
-            }
-        }
         Ok((pitch.definition, rolling))
     }
 
@@ -156,7 +162,7 @@ impl GearPair {
     pub fn with_driver_body(&self, body: &BodySpec) -> Result<Self, GearPairError> {
         body.validate().map_err(|e| e.inside("driver"))?;
         let mut pair = self.clone();
-        pair.design.driver = body.clone();
+        pair.design.driver.body = body.clone();
         pair.driver.body = body.clone();
         pair.driver.clears_bore()?;
         Ok(pair)
@@ -171,7 +177,7 @@ impl GearPair {
         design.teeth.phase = Phase::Pitches(self.phase);
         design.teeth.backlash_angle = None;
         // Each gear takes half of the backlash, and that on two flanks.
-        design.teeth.backlash = self.backlash + 2.0 * by * self.teeth.tool.pressure_angle.cos();
+        design.teeth.backlash = self.backlash + 2.0 * by * self.pressure_angle().cos();
         Self::resolve(&design)
     }
 
@@ -250,6 +256,56 @@ impl GearPair {
     #[must_use]
     pub fn mean_ratio(&self) -> (u32, u32) {
         self.rolling.mean_ratio()
+    }
+
+    /// Pressure angle of the pair, rad: between the common normal of the teeth and the pitch curves. That of the tool, but for
+    /// circular gears with x1 + x2 not zero, whose pitch circles are the operating ones.
+    #[must_use]
+    pub fn pressure_angle(&self) -> f64 {
+        self.generation
+            .pressure_angle(self.teeth.tool.pressure_angle)
+    }
+
+    /// Profile shift coefficient of a member.
+    #[must_use]
+    pub fn shift(&self, member: Member) -> f64 {
+        self.generation.shifts[member as usize]
+    }
+
+    /// Tip shortening coefficient k: every addendum is longer by k modules, shorter if k is negative.
+    #[must_use]
+    pub fn tip_shortening(&self) -> f64 {
+        self.generation.tip_shortening
+    }
+
+    /// Diameter of the circle as long as the pitch curve on which a member is generated, mm: m z.
+    #[must_use]
+    pub fn reference_diameter(&self, member: Member) -> f64 {
+        self.generation.rolling.pitch_length(member) / PI
+    }
+
+    /// Height of the tips of full teeth above a member's pitch curve, mm.
+    #[must_use]
+    pub fn tip_height(&self, member: Member) -> f64 {
+        let teeth = &self.teeth;
+        let addendum = teeth.tool.addendum + teeth.profile_shift(member) + teeth.tip_change;
+        addendum + self.generation.rise(member)
+    }
+
+    /// Depth of the roots of full teeth below a member's pitch curve, mm.
+    #[must_use]
+    pub fn root_depth(&self, member: Member) -> f64 {
+        let teeth = &self.teeth;
+        teeth.tool.dedendum - teeth.profile_shift(member) - self.generation.rise(member)
+    }
+
+    pub(super) fn generation(&self) -> &Generation {
+        &self.generation
+    }
+
+    /// The tool that makes the same flanks on the pitch curves of the pair.
+    pub(super) fn operating_tool(&self) -> Tool {
+        self.generation.operating_tool(&self.teeth.tool)
     }
 
     /// Tool, addendum, backlash and the like, resolved to mm and rad.
@@ -338,7 +394,7 @@ impl GearPair {
         let flank = Flank {
             rolling: &self.rolling,
             member,
-            tool: &self.teeth.tool,
+            tool: &self.operating_tool(),
             side,
             crossing: made.crossing,
         };
@@ -372,18 +428,16 @@ pub(super) fn parameters(design: &GearPairDesign, module: f64) -> TeethParameter
             radius: 0.5 * module * f64::from(shaper.tooth_count),
         },
     };
-    let [addendum, dedendum, tip_radius, shift] = match spec {
+    let [addendum, dedendum, tip_radius] = match spec {
         ToolSpec::Rack(t) => [
             t.addendum_coefficient,
             t.dedendum_coefficient,
             t.tip_radius_coefficient,
-            t.profile_shift_coefficient,
         ],
         ToolSpec::Shaper(t) => [
             t.addendum_coefficient,
             t.dedendum_coefficient,
             t.tip_radius_coefficient,
-            t.profile_shift_coefficient,
         ],
     };
     TeethParameters {
@@ -392,8 +446,13 @@ pub(super) fn parameters(design: &GearPairDesign, module: f64) -> TeethParameter
             addendum: addendum * module,
             dedendum: dedendum * module,
             tip_radius: tip_radius * module,
-            profile_shift: shift * module,
             kind,
+        },
+        profile_shifts: design.shifts().map(|x| x * module),
+        tip_change: match design.teeth.tip_shortening {
+            // Without a sum of shifts nothing is needed to keep the clearance.
+            TipShortening::KeepClearance | TipShortening::None => 0.0,
+            TipShortening::By(coefficient) => coefficient * module,
         },
         addendum: design.teeth.addendum,
         phase: design.teeth.phase,

@@ -36,8 +36,9 @@ fn assert_simple_polygons(text: &str) {
 fn teeth_cut_off_together_with_the_curve_between_them_leave_a_simple_contour() {
     let eight = pair(
         r#"kind = "transmission", expression = "phi - 0.007440490699025695*sin(2*phi)", module = 3.887609922405928, tooth_count = 8"#,
-        r#"kind = "rack", pressure_angle_deg = 14.5, addendum_coefficient = 0.7385940745691889, dedendum_coefficient = 0.8890741274899601, tip_radius_coefficient = 0.026824051742530733, profile_shift_coefficient = -0.4011362433975023"#,
-        r#"phase = 0.0, backlash = 0.011162874276975314, thickness_split = 0.47098877471668577"#,
+        r#"kind = "rack", pressure_angle_deg = 14.5, addendum_coefficient = 0.7385940745691889, dedendum_coefficient = 0.8890741274899601, tip_radius_coefficient = 0.026824051742530733"#,
+        r#"phase = 0.0, backlash = 0.011162874276975314, thickness_split = 0.47098877471668577 }
+driver = { shift = -0.4011362433975023"#,
     );
     let lobed = pair(
         r#"kind = "limacon", mean_radius = 10, amplitude = 1.2407, lobes = 3, module = 2, tooth_count = 8"#,
@@ -170,27 +171,28 @@ fn beside_a_sharp_bend_inwards_tips_stand_over_the_nearest_place_of_the_pitch_cu
 fn beside_a_fillet_that_turns_back_on_a_flank_polygons_are_simple_as_well() {
     let designs = [
         r#"pitch = { kind = "conjugate", mean_ratio = [2, 1], of = { kind = "polar", radius = [16.204074209877625, 18.410182935740618, 23.006863390637776, 22.44553833489443, 18.500563381395608, 20.291105283835506, 15.824259389968617, 23.733546601166925], interpolation = "cubic", module = 1.0, tooth_count = 30 }, module = 0.40592829698028243, tooth_count = 20 }
-tool = { kind = "shaper", pressure_angle_deg = 14.5, addendum_coefficient = 1.0, dedendum_coefficient = 1.2452970025697345, tip_radius_coefficient = 0.1, profile_shift_coefficient = 0.0, tooth_count = 47 }
+tool = { kind = "shaper", pressure_angle_deg = 14.5, addendum_coefficient = 1.0, dedendum_coefficient = 1.2452970025697345, tip_radius_coefficient = 0.1, tooth_count = 47 }
 teeth = { addendum = "full", phase = 0.0, backlash = 0.0005302039452196339, thickness_split = 0.5 }
 mean_ratio = [3, 2]"#,
         r#"pitch = { kind = "limacon", mean_radius = 11.464272485154506, amplitude = 5.427599326296165, lobes = 3, module = 1.4495713166655166, tooth_count = 17 }
-tool = { kind = "rack", pressure_angle_deg = 14.5, addendum_coefficient = 1.0931257613348864, dedendum_coefficient = 1.2731576830173261, tip_radius_coefficient = 0.044688608498994524, profile_shift_coefficient = 0.0 }
+tool = { kind = "rack", pressure_angle_deg = 14.5, addendum_coefficient = 1.0931257613348864, dedendum_coefficient = 1.2731576830173261, tip_radius_coefficient = 0.044688608498994524 }
 teeth = { addendum = "full", phase = 0.8910724170569531, backlash = 0.017122803281009537, thickness_split = 0.5 }
 mean_ratio = [1, 1]"#,
         r#"pitch = { kind = "bspline", degree = 2, interpolate = true, plane = "cartesian", x = [14.146584351790983, 5.7764486257441945, -8.503963566814901, -5.5318101040442285, -8.468457751498697, 0.364594428761588, 10.727238004592655], y = [0.0, 9.84221054006795, 12.297123474925444, 0.6261627065845893, -5.667057253782819, -8.13920587781676, -10.305332178840173], module = 2.3799755085859657, tooth_count = 30 }
-tool = { kind = "rack", pressure_angle_deg = 24.731871578490697, addendum_coefficient = 1.0, dedendum_coefficient = 1.1378232386593823, tip_radius_coefficient = 0.0, profile_shift_coefficient = 0.0 }
+tool = { kind = "rack", pressure_angle_deg = 24.731871578490697, addendum_coefficient = 1.0, dedendum_coefficient = 1.1378232386593823, tip_radius_coefficient = 0.0 }
 teeth = { addendum = "fitted", phase = 0.6739446713784432, backlash = 0.0, thickness_split = 0.5149278607925007 }
 mean_ratio = [1, 1]"#,
         r#"pitch = { kind = "bspline", degree = 2, interpolate = true, plane = "cartesian", x = [26.500086840688333, 22.465324512710634, 22.944813106110608, 2.893686021086901, -13.30134649719823, -33.11122604911964, -24.128785550795243, -18.067999808959566, -23.3395425324427, 0.1533885145053859, 24.286034746538764, 34.034410354652806], y = [0.0, 10.790359500843826, 30.919621172339834, 19.957403289408752, 39.25512725889489, 24.48892778702733, 1.2146713975737475, -7.816957903277181, -32.82674000496724, -19.524495608353458, -39.01041105662692, -16.502056543672495], module = 3.2450123457915625, tooth_count = 25 }
-tool = { kind = "rack", pressure_angle_deg = 14.5, addendum_coefficient = 1.0, dedendum_coefficient = 1.1802014500658795, tip_radius_coefficient = 0.19725345285417856, profile_shift_coefficient = 0.0 }
+tool = { kind = "rack", pressure_angle_deg = 14.5, addendum_coefficient = 1.0, dedendum_coefficient = 1.1802014500658795, tip_radius_coefficient = 0.19725345285417856 }
 teeth = { addendum = "full", phase = 0.0, backlash = 0.0, thickness_split = 0.4952373828249531 }
 mean_ratio = [2, 1]"#,
         r#"pitch = { kind = "bspline", degree = 2, interpolate = true, plane = "polar", radius = [10.714043655181552, 11.500798621878506, 9.427715716196301, 18.82316131519598, 7.473955153963506, 19.12368843425135, 8.182472524040717, 15.976350249097026, 19.705841825584965], angle_deg = [0.0, 47.386500382969906, 82.06955252698783, 115.28203152907987, 158.22880310578012, 194.37754557373353, 227.02389410395762, 269.21742249703976, 314.2026129344321], module = 3.8207490848458763, tooth_count = 38 }
-tool = { kind = "rack", pressure_angle_deg = 14.5, addendum_coefficient = 1.0912509077094859, dedendum_coefficient = 1.362313639469925, tip_radius_coefficient = 0.12093737448407488, profile_shift_coefficient = -0.4904069324358544 }
+tool = { kind = "rack", pressure_angle_deg = 14.5, addendum_coefficient = 1.0912509077094859, dedendum_coefficient = 1.362313639469925, tip_radius_coefficient = 0.12093737448407488 }
+driver = { shift = -0.4904069324358544 }
 teeth = { addendum = "full", phase = 0.0, backlash = 0.26645351715930593, thickness_split = 0.5031343221525656 }
 mean_ratio = [1, 1]"#,
         r#"pitch = { kind = "bspline", degree = 3, interpolate = true, plane = "polar", radius = [26.792767098544466, 39.16871093527554, 39.21056614767088, 34.52782826255997, 42.54621488549807, 25.459779202693156, 43.12579744885687, 31.38835624662809, 24.530231080610097, 44.50790414971723, 29.085781116104798, 38.18960921600835, 29.764543156922777], angle_deg = [0.0, 27.69230769230769, 55.38461538461538, 83.07692307692308, 110.76923076923076, 138.46153846153848, 166.15384615384616, 193.84615384615384, 221.53846153846152, 249.23076923076923, 276.92307692307696, 304.6153846153846, 332.3076923076923], module = 2.6325862430946194, tooth_count = 16 }
-tool = { kind = "rack", pressure_angle_deg = 14.5, addendum_coefficient = 1.0, dedendum_coefficient = 1.1972611387317844, tip_radius_coefficient = 0.03297777809096545, profile_shift_coefficient = 0.0 }
+tool = { kind = "rack", pressure_angle_deg = 14.5, addendum_coefficient = 1.0, dedendum_coefficient = 1.1972611387317844, tip_radius_coefficient = 0.03297777809096545 }
 teeth = { addendum = "full", phase = 0.0, backlash = 0.0, thickness_split = 0.5 }
 mean_ratio = [1, 1]"#,
     ];
@@ -202,11 +204,13 @@ fn lands_narrower_than_their_parameters_have_digits_for_and_tips_over_each_other
  {
     let designs = [
         r#"pitch = { kind = "conjugate", mean_ratio = [2, 1], of = { kind = "eccentric-circle", eccentricity = 0.3689172946804461, module = 1.0, tooth_count = 30 }, module = 3.0562125155855173, tooth_count = 48 }
-tool = { kind = "rack", pressure_angle_deg = 27.324824106674, addendum_coefficient = 1.216879753674706, dedendum_coefficient = 1.474972552011973, tip_radius_coefficient = 0.0, profile_shift_coefficient = 0.007757012258982177 }
+tool = { kind = "rack", pressure_angle_deg = 27.324824106674, addendum_coefficient = 1.216879753674706, dedendum_coefficient = 1.474972552011973, tip_radius_coefficient = 0.0 }
+driver = { shift = 0.007757012258982177 }
 teeth = { addendum = "fitted", phase = -0.4886353449380616, backlash = 0.0, thickness_split = 0.5 }
 mean_ratio = [1, 1]"#,
         r#"pitch = { kind = "conjugate", mean_ratio = [2, 1], of = { kind = "limacon", mean_radius = 19.837400987091502, amplitude = 11.116799973951625, lobes = 4, module = 1.0, tooth_count = 30 }, module = 1.7498220730779859, tooth_count = 54 }
-tool = { kind = "rack", pressure_angle_deg = 20.0, addendum_coefficient = 1.2575908901710229, dedendum_coefficient = 1.5458927264896059, tip_radius_coefficient = 0.1805235953968268, profile_shift_coefficient = 0.16832051502228607 }
+tool = { kind = "rack", pressure_angle_deg = 20.0, addendum_coefficient = 1.2575908901710229, dedendum_coefficient = 1.5458927264896059, tip_radius_coefficient = 0.1805235953968268 }
+driver = { shift = 0.16832051502228607 }
 teeth = { addendum = "full", phase = -0.8315767390565034, backlash = 0.04068361107933593, thickness_split = 0.48393694566041434 }
 mean_ratio = [3, 1]"#,
     ];
@@ -217,15 +221,16 @@ mean_ratio = [3, 1]"#,
 fn a_flank_that_turns_back_within_rounding_of_its_fillet_leaves_a_simple_contour() {
     let designs = [
         r#"pitch = { kind = "bspline", degree = 2, interpolate = false, plane = "cartesian", x = [26.122387498597618, 20.107057666098044, 8.240726751916169, -7.958295670376018, -18.511520280784733, -25.604142337168746, -21.311669544175324, -9.410013652336968, 5.84149930296789, 20.06158841688901], y = [0.0, 14.367088039711676, 21.378908472789487, 21.229353479220823, 13.470613780986177, 1.1750212719381203, -14.096775456975505, -25.767336033164604, -21.968228840602027, -16.67230274544473], module = 3.3183366646282457, tooth_count = 51 }
-tool = { kind = "rack", pressure_angle_deg = 14.5, addendum_coefficient = 1.2421659506382985, dedendum_coefficient = 1.5101144675684879, tip_radius_coefficient = 0.0, profile_shift_coefficient = -0.30475256382877347 }
+tool = { kind = "rack", pressure_angle_deg = 14.5, addendum_coefficient = 1.2421659506382985, dedendum_coefficient = 1.5101144675684879, tip_radius_coefficient = 0.0 }
+driver = { shift = -0.30475256382877347 }
 teeth = { addendum = "full", phase = -0.46011470299729473, backlash = 0.2839530567510447, thickness_split = 0.49709617971249137 }
 mean_ratio = [1, 1]"#,
         r#"pitch = { kind = "ellipse", eccentricity = 0.4584263668193459, module = 1.3884481289339332, tooth_count = 26 }
-tool = { kind = "rack", pressure_angle_deg = 14.5, addendum_coefficient = 0.8701527138279792, dedendum_coefficient = 1.01634361303425, tip_radius_coefficient = 0.17090511361553734, profile_shift_coefficient = 0.0 }
+tool = { kind = "rack", pressure_angle_deg = 14.5, addendum_coefficient = 0.8701527138279792, dedendum_coefficient = 1.01634361303425, tip_radius_coefficient = 0.17090511361553734 }
 teeth = { addendum = "full", phase = -0.2857413704224736, backlash = 0.0, thickness_split = 0.4814649328961767 }
 mean_ratio = [2, 1]"#,
         r#"pitch = { kind = "polar", expression = "1 + 0.14502241217744302*cos(5*phi) - 0.012244836335580378*sin(phi)", module = 3.184903230701943, tooth_count = 60 }
-tool = { kind = "rack", pressure_angle_deg = 14.5, addendum_coefficient = 1.0, dedendum_coefficient = 1.2139761926156627, tip_radius_coefficient = 0.1, profile_shift_coefficient = 0.0 }
+tool = { kind = "rack", pressure_angle_deg = 14.5, addendum_coefficient = 1.0, dedendum_coefficient = 1.2139761926156627, tip_radius_coefficient = 0.1 }
 teeth = { addendum = "fitted", phase = -0.9958157188534333, backlash = 0.0, thickness_split = 0.5 }
 mean_ratio = [2, 1]"#,
     ];
@@ -237,7 +242,8 @@ fn tips_stand_over_their_own_tooth_and_not_once_more_round_a_small_gear() {
     let text = |amplitude: f64| {
         format!(
             r#"pitch = {{ kind = "limacon", mean_radius = 25.35913982516481, amplitude = {amplitude}, lobes = 4, module = 0.7291877141555998, tooth_count = 10 }}
-tool = {{ kind = "rack", pressure_angle_deg = 14.5, addendum_coefficient = 1.0, dedendum_coefficient = 1.1269599827850645, tip_radius_coefficient = 0.19402206952829182, profile_shift_coefficient = -0.3567265487281023 }}
+tool = {{ kind = "rack", pressure_angle_deg = 14.5, addendum_coefficient = 1.0, dedendum_coefficient = 1.1269599827850645, tip_radius_coefficient = 0.19402206952829182 }}
+driver = {{ shift = -0.3567265487281023 }}
 teeth = {{ addendum = "full", phase = -0.35802832874925206, backlash = 0.0, thickness_split = 0.5 }}
 mean_ratio = [1, 2]"#
         )
@@ -254,8 +260,9 @@ mean_ratio = [1, 2]"#
 fn curves_of_a_tooth_that_do_not_meet_are_no_profile_and_told_with_their_distance() {
     let refused = pair(
         r#"kind = "limacon", mean_radius = 20.0, amplitude = 19.15606738324485, lobes = 8, module = 2.0, tooth_count = 7"#,
-        r#"kind = "shaper", pressure_angle_deg = 16.444633513321094, addendum_coefficient = 1.0, dedendum_coefficient = 1.100397840421288, tip_radius_coefficient = 0.17400953167551528, profile_shift_coefficient = -0.318335702221644, tooth_count = 49"#,
-        r#"addendum = "full", phase = -0.033812248531348565, backlash = 0.2551198660399243, thickness_split = 0.5"#,
+        r#"kind = "shaper", pressure_angle_deg = 16.444633513321094, addendum_coefficient = 1.0, dedendum_coefficient = 1.100397840421288, tip_radius_coefficient = 0.17400953167551528, tooth_count = 49"#,
+        r#"addendum = "full", phase = -0.033812248531348565, backlash = 0.2551198660399243, thickness_split = 0.5 }
+driver = { shift = -0.318335702221644"#,
     );
     let Err(GearPairError::Profile(ProfileError::Gap { roles, gap, .. })) = refused else {
         panic!("{refused:?}");

@@ -7,9 +7,11 @@ use super::Parameter;
 use crate::degrees;
 use crate::design::{DesignSpec, DrawingSpec};
 use crate::gear::design::rule::{
-    broken, count_in_range, file_name, finite, in_range, positive, single_line,
+    broken, count_in_range, file_name, finite, in_range, is_zero, positive, single_line,
 };
-use crate::gear::design::{BodySpec, GearPairDesign, Rule, SpecError, TeethSpec, ToolSpec};
+use crate::gear::design::{
+    BodySpec, GearPairDesign, GearSpec, Rule, SHIFTS, SpecError, TeethSpec, ToolSpec,
+};
 use crate::gear::pitch::PitchSpec;
 
 mod arm;
@@ -72,6 +74,10 @@ pub struct ThreeArmDesign {
     /// The tool that cuts every gear.
     #[serde(default)]
     pub tool: ToolSpec,
+    /// Profile shift coefficient of sun and planets; the intermediate gears have the opposite one.
+    #[serde(default, skip_serializing_if = "is_zero")]
+    #[schemars(extend("x-symbol" = "x"))]
+    pub shift: f64,
     /// Teeth of every gear.
     #[serde(default)]
     pub teeth: TeethSpec,
@@ -201,6 +207,7 @@ impl ThreeArmDesign {
             center_distance: None,
             pitch,
             tool: ToolSpec::default(),
+            shift: 0.0,
             teeth: TeethSpec::default(),
             arm,
             cam: None,
@@ -234,8 +241,14 @@ impl ThreeArmDesign {
             center_distance: self.center_distance,
             tool: self.tool.clone(),
             teeth: self.teeth.clone(),
-            driver: self.sun.clone(),
-            driven: self.intermediate.clone(),
+            driver: GearSpec {
+                shift: Some(self.shift),
+                body: self.sun.clone(),
+            },
+            driven: GearSpec {
+                shift: Some(0.0 - self.shift),
+                body: self.intermediate.clone(),
+            },
             drawing: self.drawing.clone(),
             ..GearPairDesign::new(self.pitch.clone())
         }
@@ -269,6 +282,7 @@ impl ThreeArmDesign {
             positive("center_distance", a)?;
         }
         self.tool.validate().map_err(|e| e.inside("tool"))?;
+        in_range("shift", self.shift, SHIFTS, "")?;
         self.teeth.validate().map_err(|e| e.inside("teeth"))?;
         if !self.teeth.fit.is_empty() {
             let rule = Rule::Unused(

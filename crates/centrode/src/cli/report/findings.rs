@@ -141,7 +141,8 @@ fn causes(rule: &str) -> &'static [&'static str] {
         "pointed" | "thin-tip" => &[
             "tool.addendum_coefficient",
             "tool.pressure_angle_deg",
-            "tool.profile_shift_coefficient",
+            "driver.shift",
+            "driven.shift",
         ],
         "no-flank" | "disengaged" | "contact-lost" | "seat-jump" => {
             &["pitch.module", "tooth_count", "pitch.tooth_count"]

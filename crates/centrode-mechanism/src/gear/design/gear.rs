@@ -1,0 +1,58 @@
+use std::ops::{Deref, DerefMut};
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::body::BodySpec;
+use super::rule::{SpecError, in_range};
+
+/// Range of a profile shift coefficient.
+pub(crate) const SHIFTS: [f64; 2] = [-2.0, 2.0];
+
+/// One gear of a pair: the profile shift of its teeth, and its body.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(extend("x-detail" = true))]
+pub struct GearSpec {
+    /// Profile shift coefficient: distance in modules by which the tool is moved away from the axis. Default: opposite to that
+    /// of the mate, or for circular gears the shift that gives the centre distance.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("x-symbol" = "x"))]
+    pub shift: Option<f64>,
+    /// Body of the gear.
+    #[serde(flatten)]
+    pub body: BodySpec,
+}
+
+impl GearSpec {
+    /// Checks the ranges, and that the keyway fits the bore.
+    ///
+    /// # Errors
+    /// [`SpecError`] with the key at fault.
+    pub fn validate(&self) -> Result<(), SpecError> {
+        if let Some(shift) = self.shift {
+            in_range("shift", shift, SHIFTS, "")?;
+        }
+        self.body.validate()
+    }
+}
+
+impl From<BodySpec> for GearSpec {
+    fn from(body: BodySpec) -> Self {
+        Self { shift: None, body }
+    }
+}
+
+impl Deref for GearSpec {
+    type Target = BodySpec;
+
+    fn deref(&self) -> &BodySpec {
+        &self.body
+    }
+}
+
+impl DerefMut for GearSpec {
+    fn deref_mut(&mut self) -> &mut BodySpec {
+        &mut self.body
+    }
+}
