@@ -425,6 +425,8 @@ class Gear:
     @property
     def shift(self) -> float: ...
     @property
+    def tool(self) -> Rack | Shaper: ...
+    @property
     def pitch_length(self) -> float: ...
     @property
     def area(self) -> float: ...
@@ -685,6 +687,12 @@ class GearPair(Mechanism):
         driven: Body | None = None,
         driver_shift: _Real | None = None,
         driven_shift: _Real | None = None,
+        driver_addendum: _Real | None = None,
+        driven_addendum: _Real | None = None,
+        driver_dedendum: _Real | None = None,
+        driven_dedendum: _Real | None = None,
+        driver_tool: Rack | Shaper | None = None,
+        driven_tool: Rack | Shaper | None = None,
         tip_shortening: Literal["keep-clearance", "none"] | _Real = "keep-clearance",
         drawing: DrawingSpec | None = None,
         name: str = "gear-pair",

@@ -7,7 +7,7 @@ use centrode_geometry::{Solid, Tolerance};
 use centrode_mechanism::gear as mechanism;
 use centrode_mechanism::gear::Member;
 use numpy::{IntoPyArray, PyArray1, PyFixedUnicode};
-use pyo3::prelude::{Bound, PyAny, PyDictMethods, PyResult, Python, pyclass, pymethods};
+use pyo3::prelude::{Bound, Py, PyAny, PyDictMethods, PyResult, Python, pyclass, pymethods};
 use pyo3::types::{PyDict, PyTuple};
 
 use crate::array::{MeshRows, Rows, mesh};
@@ -18,6 +18,7 @@ use crate::made::{Made, Reduced};
 use crate::record;
 use crate::sheet::{drawing, sheet};
 use crate::solid::Sides;
+use crate::tool;
 use crate::wait::wait;
 
 /// One gear of a pair, in its own frame: axes parallel to the world's at phi = 0.
@@ -104,6 +105,12 @@ impl Gear {
     #[getter]
     fn shift(&self) -> f64 {
         self.pair.shift(self.member)
+    }
+
+    /// Tool that cuts the gear.
+    #[getter]
+    fn tool(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
+        tool::object(py, self.pair.settled_design().tool_of(self.member))
     }
 
     /// Length of the pitch curve, mm.

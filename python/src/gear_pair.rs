@@ -62,6 +62,12 @@ const FARTHEST: f64 = 1e6;
 ///     driven: Body of the driven gear.
 ///     driver_shift: Profile shift coefficient of the driver, in modules; the opposite of that of the driven gear if not given.
 ///     driven_shift: Profile shift coefficient of the driven gear. Only circular gears may have shifts whose sum is not zero.
+///     driver_addendum: Height of the driver's teeth above the pitch curve, in modules; that of its tool if not given.
+///     driven_addendum: The same of the driven gear.
+///     driver_dedendum: Depth of the driver's spaces below the pitch curve, in modules; that of its tool if not given.
+///     driven_dedendum: The same of the driven gear.
+///     driver_tool: What cuts the driver, of the same pressure angle; `tool` if not given.
+///     driven_tool: What cuts the driven gear.
 ///     tip_shortening: Change of every addendum: "keep-clearance", as much as keeps the clearance of the tool, "none", or a
 ///         coefficient in modules, negative for shorter teeth.
 ///     drawing: What the drawing sheets say.
@@ -107,7 +113,7 @@ impl GearPair {
 #[pymethods]
 impl GearPair {
     #[new]
-    #[pyo3(signature = (pitch, *, mean_ratio=[Count::Fits(1), Count::Fits(1)], tooth_count=None, center_distance=None, tool=None, addendum="full", fit=Vec::new(), phase=Place(Phase::Auto), backlash=0.0, backlash_angle=None, thickness_split=0.5, least_tip_width_coefficient=0.2, thickness_deviations=None, pin_diameter=None, driver=None, driven=None, driver_shift=None, driven_shift=None, tip_shortening=Shortening(TipShortening::KeepClearance), drawing=None, name="gear-pair", title=""), text_signature = "(pitch, *, mean_ratio=(1, 1), tooth_count=None, center_distance=None, tool=None, addendum='full', fit=(), phase='auto', backlash=0.0, backlash_angle=None, thickness_split=0.5, least_tip_width_coefficient=0.2, thickness_deviations=None, pin_diameter=None, driver=None, driven=None, driver_shift=None, driven_shift=None, tip_shortening='keep-clearance', drawing=None, name='gear-pair', title='')")]
+    #[pyo3(signature = (pitch, *, mean_ratio=[Count::Fits(1), Count::Fits(1)], tooth_count=None, center_distance=None, tool=None, addendum="full", fit=Vec::new(), phase=Place(Phase::Auto), backlash=0.0, backlash_angle=None, thickness_split=0.5, least_tip_width_coefficient=0.2, thickness_deviations=None, pin_diameter=None, driver=None, driven=None, driver_shift=None, driven_shift=None, driver_addendum=None, driven_addendum=None, driver_dedendum=None, driven_dedendum=None, driver_tool=None, driven_tool=None, tip_shortening=Shortening(TipShortening::KeepClearance), drawing=None, name="gear-pair", title=""), text_signature = "(pitch, *, mean_ratio=(1, 1), tooth_count=None, center_distance=None, tool=None, addendum='full', fit=(), phase='auto', backlash=0.0, backlash_angle=None, thickness_split=0.5, least_tip_width_coefficient=0.2, thickness_deviations=None, pin_diameter=None, driver=None, driven=None, driver_shift=None, driven_shift=None, driver_addendum=None, driven_addendum=None, driver_dedendum=None, driven_dedendum=None, driver_tool=None, driven_tool=None, tip_shortening='keep-clearance', drawing=None, name='gear-pair', title='')")]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn new(
         py: Python<'_>,
@@ -129,6 +135,12 @@ impl GearPair {
         driven: Option<PyRef<'_, Body>>,
         driver_shift: Option<f64>,
         driven_shift: Option<f64>,
+        driver_addendum: Option<f64>,
+        driven_addendum: Option<f64>,
+        driver_dedendum: Option<f64>,
+        driven_dedendum: Option<f64>,
+        driver_tool: Option<Tool>,
+        driven_tool: Option<Tool>,
         tip_shortening: Shortening,
         drawing: Option<PyRef<'_, DrawingSpec>>,
         name: &str,
@@ -163,10 +175,16 @@ impl GearPair {
             },
             driver: GearSpec {
                 shift: driver_shift,
+                addendum: driver_addendum,
+                dedendum: driver_dedendum,
+                tool: driver_tool.map(|tool| tool.0),
                 body: spec_of(driver),
             },
             driven: GearSpec {
                 shift: driven_shift,
+                addendum: driven_addendum,
+                dedendum: driven_dedendum,
+                tool: driven_tool.map(|tool| tool.0),
                 body: spec_of(driven),
             },
             drawing: drawing.map(|d| d.0.clone()).unwrap_or_default(),
@@ -180,7 +198,7 @@ impl GearPair {
         Pitch::resolve(self.0.design().pitch.clone())
     }
 
-    /// Tool that cuts both gears.
+    /// Tool that cuts both gears, unless a gear has its own.
     #[getter]
     fn tool(&self, py: Python<'_>) -> PyResult<Py<PyAny>> {
         tool::object(py, &self.0.settled_design().tool)

@@ -156,3 +156,19 @@ def test_shifts_are_opposite_unless_circular_gears_have_both():
         ct.GearPair(pitch, driver_shift=0.3, driven_shift=0.2)
     with pytest.raises(ct.DesignError, match="clearance"):
         shifted(tip_shortening="some")
+
+
+def test_each_gear_has_heights_and_a_tool_of_its_own(pair):
+    pitch = ct.pitch.ellipse(eccentricity=0.25, module=2, tooth_count=24)
+    plain = ct.GearPair(pitch, phase="tooth")
+    shaper = ct.Shaper(tooth_count=20, tip_radius_coefficient=0.1)
+    given = {"driver_addendum": 1.1, "driver_dedendum": 1.15, "driven_addendum": 0.9, "driven_tool": shaper}
+    uneven = ct.GearPair(pitch, phase="tooth", **given)
+    assert (uneven.driver.tool, uneven.driven.tool) == (ct.Rack(), shaper)
+    tips = [[tooth.leading.tip_height for tooth in gear.teeth] for gear in (uneven.driver, uneven.driven)]
+    np.testing.assert_allclose(tips, [[2.2] * 24, [1.8] * 24], atol=1e-9)
+    assert uneven.driver.radii[0] > plain.driver.radii[0] + 0.15
+    assert not uneven.congruent
+    assert uneven.check().values["transmission_error_max"] < 1e-9
+    with pytest.raises(ct.DesignError, match="both tools need the same"):
+        ct.GearPair(pitch, driven_tool=ct.Rack(pressure_angle=0.4))

@@ -4,8 +4,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use centrode_analysis::Contact;
 use centrode_mechanism::design::DesignSpec as _;
-use centrode_mechanism::gear::design::GearPairDesign;
-use centrode_mechanism::gear::{Gear, GearPair, GearPairError, Member, Role};
+use centrode_mechanism::gear::design::{GearPairDesign, Rack, Shaper, ToolSpec};
+use centrode_mechanism::gear::{Gear, GearPair, GearPairError, Member, Role, ToolKind};
 
 /// Dedendum and tip radius of the rack, in modules; its addendum is 1.
 const DEDENDUM: f64 = 1.25;
@@ -275,6 +275,79 @@ fn shifts_that_no_pair_can_have_are_refused_with_the_reason() {
         panic!("{error}");
     };
     near(found, least, 1e-12, &EXAMPLE);
+}
+
+#[test]
+fn each_gear_has_the_heights_and_the_fillets_of_its_own_tool() {
+    let mut design = EXAMPLE.design();
+    (design.driver.addendum, design.driver.dedendum) = (Some(1.1), Some(1.2));
+    design.driven.addendum = Some(0.9);
+    design.driven.tool = Some(ToolSpec::Shaper(Shaper {
+        tooth_count: 20,
+        dedendum_coefficient: 1.3,
+        tip_radius_coefficient: 0.1,
+        ..Shaper::default()
+    }));
+    let pair = GearPair::resolve(&design).expect("a pair");
+    let k = EXAMPLE.tip_shortening();
+    let heights = [[1.1, 1.2], [0.9, 1.3]];
+    let mut path = -EXAMPLE.center_distance() * EXAMPLE.operating_angle().sin();
+    for (i, member) in MEMBERS.into_iter().enumerate() {
+        let (x, reference) = (EXAMPLE.x[i], EXAMPLE.reference(i));
+        let [addendum, dedendum] = heights[i].map(|height| EXAMPLE.module * height);
+        let [tip, root] = [
+            addendum + EXAMPLE.module * (x + k),
+            EXAMPLE.module * x - dedendum,
+        ];
+        let (low, high) = pair.gear(member).radii();
+        near(high, reference + tip, 1e-9, &EXAMPLE);
+        near(low, reference + root, 1e-9, &EXAMPLE);
+        path += (high.powi(2) - EXAMPLE.base(i).powi(2)).sqrt();
+        let tool = pair.teeth().tool(member);
+        assert_eq!(tool.kind == ToolKind::Rack, i == 0);
+    }
+    let base_pitch = PI * EXAMPLE.module * EXAMPLE.alpha.cos();
+    near(contact_ratio(&pair), path / base_pitch, 1e-9, &EXAMPLE);
+    // Flanks are those of the rack: the same spaces, measured over pins.
+    let plain = EXAMPLE.pair();
+    let radial = |pair: &GearPair| {
+        let pins = pair.driven().over_pins(5.0).pins;
+        pins[0].as_ref().expect("a measure").radial
+    };
+    near(radial(&pair), radial(&plain), 1e-9, &EXAMPLE);
+    // Another pressure angle is refused.
+    design.driven.tool = Some(ToolSpec::Rack(Rack {
+        pressure_angle: 0.4,
+        ..Rack::default()
+    }));
+    let error = GearPair::resolve(&design).expect_err("no pair");
+    assert_eq!(error.key(), "driven.tool.pressure_angle_deg");
+}
+
+#[test]
+fn fitted_teeth_of_two_tools_run_without_interference() {
+    let text = "family = \"gear-pair\"\n[pitch]\nkind = \"ellipse\"\neccentricity = 0.45\nmodule = 2\ntooth_count = 26\n\
+                [teeth]\naddendum = \"fitted\"\n[driver]\naddendum = 1.1\ndedendum = 1.1\n\
+                [driven]\naddendum = 0.8\ndedendum = 1.4\ntool = { kind = \"rack\", tip_radius_coefficient = 0.2 }\n";
+    let pair =
+        GearPair::resolve(&GearPairDesign::from_toml(text).expect("a design")).expect("a pair");
+    let found = Contact::analyse(&pair).extremes(&pair);
+    assert!(found.penetration.value < 1e-6, "{found:?}");
+    assert!(
+        found.clearance.value > -1e-6 && found.fillet_clearance.value > -1e-6,
+        "{found:?}"
+    );
+    for (gear, most) in [(pair.driver(), 2.2), (pair.driven(), 1.6)] {
+        let heights = gear
+            .teeth()
+            .iter()
+            .flat_map(|t| [t.leading.tip_height, t.trailing.tip_height]);
+        let highest = heights.fold(0.0, f64::max);
+        assert!(
+            (most - 0.3..=most + 1e-9).contains(&highest),
+            "{highest} of {most}"
+        );
+    }
 }
 
 /// Numbers between 0 and 1, the same in every run.

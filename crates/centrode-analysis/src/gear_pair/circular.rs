@@ -84,7 +84,7 @@ fn remedy(pair: &GearPair) -> Option<&'static str> {
         };
         (with(&equal), words)
     });
-    let own = pair.teeth().tool.pressure_angle;
+    let own = pair.teeth().pressure_angle();
     let steeper = ANGLES.map(|(angle, words)| (angle.to_radians(), words));
     let steeper = steeper.into_iter().filter(|(angle, _)| *angle > own);
     let with_angle = |alpha: f64| {

@@ -86,8 +86,8 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
     if pair.tip_shortening() != 0.0 {
         values.insert("tip_shortening", pair.tip_shortening());
     }
-    if pair.pressure_angle() != pair.teeth().tool.pressure_angle {
-        values.insert("tool_pressure_angle", pair.teeth().tool.pressure_angle);
+    if pair.pressure_angle() != pair.teeth().pressure_angle() {
+        values.insert("tool_pressure_angle", pair.teeth().pressure_angle());
     }
     // Chosen here and written nowhere else.
     for fit in &pair.design().teeth.fit {
@@ -96,7 +96,7 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
                 values.insert("thickness_split", pair.teeth().thickness_split);
             }
             Fit::PressureAngle => {
-                values.insert("tool_pressure_angle", pair.teeth().tool.pressure_angle);
+                values.insert("tool_pressure_angle", pair.teeth().pressure_angle());
             }
             Fit::Addendum | Fit::Phase => {}
         }
@@ -140,7 +140,7 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
             values.insert(name, figure);
         }
         let concave = -range.least.1;
-        if let ToolKind::Shaper { radius } = pair.teeth().tool.kind
+        if let ToolKind::Shaper { radius } = pair.teeth().tool(member).kind
             && concave > 0.0
             && radius * concave >= 1.0
         {

@@ -144,7 +144,7 @@ fn title(file: &str) -> &str {
 /// The data of a gear.
 fn data(feeder: &Feeder, gears: &IntermittentPair, member: Member, teeth: &str) -> Table {
     let (pair, spec) = (gears.pair(), &feeder.design().gears);
-    let tool = &pair.teeth().tool;
+    let tool = pair.teeth().tool(member);
     let pitch = pair.gear(member).pitch_length() / std::f64::consts::PI;
     let angle = format!("{}°", number(tool.pressure_angle.to_degrees(), 4));
     let mut data = vec![

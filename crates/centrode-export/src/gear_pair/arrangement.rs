@@ -139,14 +139,14 @@ pub(super) fn mass(gear: &Gear) -> f64 {
 /// Middle of the first tooth half its addendum above the pitch curve, in the gear's frame.
 fn first_tooth(pair: &GearPair, member: Member) -> [f64; 2] {
     let frame = super::sheets::middle(pair, member, 0.0);
-    let at = frame.point + frame.normal * (0.5 * pair.teeth().tool.addendum);
+    let at = frame.point + frame.normal * (0.5 * pair.teeth().tool(member).addendum);
     at.coords.into()
 }
 
 /// Data of the pair.
 fn data(pair: &GearPair) -> Vec<Datum> {
     let [z1, z2] = [pair.driver(), pair.driven()].map(|gear| gear.tooth_count());
-    let degrees = pair.teeth().tool.pressure_angle.to_degrees();
+    let degrees = pair.teeth().pressure_angle().to_degrees();
     let mut data = vec![
         Datum::new("Number of teeth", "z1 / z2", format!("{z1} / {z2}")),
         Datum::new("Module", "m", number(pair.module(), 6)),

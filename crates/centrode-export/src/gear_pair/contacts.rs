@@ -143,7 +143,7 @@ mod tests {
         let pair =
             GearPair::resolve(&GearPairDesign::new(PitchSpec::Circle(circle))).expect("a pair");
         let found = contacts(&pair);
-        let alpha = pair.teeth().tool.pressure_angle;
+        let alpha = pair.teeth().pressure_angle();
         let radius = 0.5 * module * f64::from(teeth);
         let pitch = Point::new(radius, 0.0);
         assert!(

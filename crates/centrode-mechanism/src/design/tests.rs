@@ -198,7 +198,7 @@ fn every_bad_line_is_named_with_key_and_place() {
         (
             "width = 10",
             "witdh = 10",
-            "line 19, column 1: driver.witdh: unknown key, did you mean \"width\"?; known are shift, width",
+            "line 19, column 1: driver.witdh: unknown key, did you mean \"width\"?; known are shift, addendum, dedendum, tool, width",
         ),
         (
             "width = 10",
@@ -405,7 +405,7 @@ fn a_key_in_the_wrong_table_is_told_where_it_belongs() {
         (
             "mean_ratio = [1, 1]",
             "pressure_angle_deg = 20",
-            "; elsewhere there is tool.pressure_angle_deg",
+            "; elsewhere there is tool.pressure_angle_deg, driver.tool.pressure_angle_deg, driven.tool.pressure_angle_deg",
         ),
         (
             "backlash = 0.05",

@@ -92,7 +92,7 @@ impl Free {
         match self.fit {
             Fit::Phase => design.teeth.phase = Phase::Pitches(value),
             Fit::ThicknessSplit => design.teeth.thickness_split = value,
-            _ => *design.tool.pressure_angle_mut() = value.to_radians(),
+            _ => design.set_pressure_angle(value.to_radians()),
         }
     }
 }

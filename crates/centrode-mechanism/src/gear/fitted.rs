@@ -23,7 +23,8 @@ const LEAST_SPEED: f64 = 0.05;
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Fitting<'a> {
     pub(crate) rolling: &'a Rolling,
-    pub(crate) tool: &'a Tool,
+    /// Tools of driver and driven gear.
+    pub(crate) tools: &'a [Tool; 2],
     pub(crate) least_tip_width: f64,
 }
 
@@ -136,7 +137,7 @@ impl Fitting<'_> {
                 let ([i, j], crossings) = pair(k, by);
                 let passage = ToothPassage::about(
                     &mut poses,
-                    self.tool,
+                    self.tools,
                     middle(crossings),
                     pitch,
                     [
@@ -186,7 +187,7 @@ impl Fitting<'_> {
         }
         let settled = |member: Member, teeth: &mut [ToothPlan], mut reaches: Vec<Reaches>| {
             let tips = self.tops(member, teeth, &reaches);
-            match self.level(&tips, &mut reaches, space(member.mate())) {
+            match self.level(member, &tips, &mut reaches, space(member.mate())) {
                 true => self.tops(member, teeth, &reaches),
                 false => tips,
             }
@@ -227,7 +228,7 @@ impl Fitting<'_> {
                     reaches,
                     depths: [depth; 2],
                 };
-                circle((self.rolling, self.tool), &candidate)
+                circle((self.rolling, self.tools), &candidate)
             };
             teeth.iter().zip(reaches).map(around).collect()
         })
@@ -238,13 +239,20 @@ impl Fitting<'_> {
     ///
     /// Where that depth would cut into the flank that the lower side works on, the root has a step; the tip goes to and fro above it,
     /// and is clear of it wherever it stands if its higher side would be clear of the lower root.
-    fn level(&self, tips: &[[Tip; 2]], reaches: &mut [Reaches], space: f64) -> bool {
-        let clearance = self.tool.clearance();
+    fn level(
+        &self,
+        member: Member,
+        tips: &[[Tip; 2]],
+        reaches: &mut [Reaches],
+        space: f64,
+    ) -> bool {
+        let mate = member.mate();
+        let clearance = self.clearance(mate);
         let mut any = false;
         for (tip, reach) in tips.iter().zip(reaches) {
             for (low, high) in [(0, 1), (1, 0)] {
                 let most = tip[low].1 + clearance;
-                let shared = || self.corner_below(tip[high].1 + clearance, tip[low], space);
+                let shared = || self.corner_below(mate, tip[high].1 + clearance, tip[low], space);
                 if tip[high].1 > most && shared().is_none() {
                     reach[high] = tip[high].0 * (most / tip[high].1);
                     any = true;
@@ -254,11 +262,20 @@ impl Fitting<'_> {
         any
     }
 
+    pub(super) fn tool(&self, member: Member) -> &Tool {
+        &self.tools[member as usize]
+    }
+
+    /// Clearance between the root of a member and the tip of its mate, mm.
+    pub(super) fn clearance(&self, member: Member) -> f64 {
+        (self.tool(member).dedendum - self.tool(member.mate()).addendum).max(0.0)
+    }
+
     pub(super) fn flank(&self, member: Member, side: Side, crossing: f64) -> Flank<'_> {
         Flank {
             rolling: self.rolling,
             member,
-            tool: self.tool,
+            tool: self.tool(member),
             side,
             crossing,
         }
@@ -276,7 +293,13 @@ impl Fitting<'_> {
             .map_or_else(|| flank.farthest(height), |(t, _)| t);
         let rolled = side.sign() * (flank.crossing - self.rolling.arc_length(end));
         let most = rolled.max(0.0);
-        reach(self.rolling, self.tool, (member, side), plan.crossing, most)
+        reach(
+            self.rolling,
+            self.tool(member),
+            (member, side),
+            plan.crossing,
+            most,
+        )
     }
 
     /// Settles every tip of a gear, wide enough at the top.

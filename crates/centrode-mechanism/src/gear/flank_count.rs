@@ -55,7 +55,7 @@ impl FlankCount {
                     (Side::Leading, tooth.leading),
                     (Side::Trailing, tooth.trailing),
                 ] {
-                    found.add(rolling, member, &teeth.tool, side, &plan);
+                    found.add(rolling, member, teeth.tool(member), side, &plan);
                 }
             }
             found

@@ -97,16 +97,19 @@ impl GearPair {
     /// Module and addendum allowed by these pitch curves and this tool.
     #[must_use]
     pub fn limits(&self) -> Limits {
-        let (teeth, tool) = (self.teeth(), self.operating_tool());
-        let sin = tool.pressure_angle.sin();
+        let teeth = self.teeth();
+        let sin = self.pressure_angle().sin();
         let ranges = self.rolling().curvature_ranges();
         let convex = ranges.iter().map(|r| r.greatest.1).fold(0.0, f64::max);
         let concave = ranges.iter().map(|r| -r.least.1).fold(0.0, f64::max);
         let regular = sin * sin / convex.max(concave);
-        let regular = match tool.kind {
-            ToolKind::Rack => regular,
-            ToolKind::Shaper { radius } => regular.min(radius * sin * sin),
-        };
+        let regular = teeth
+            .tools
+            .iter()
+            .fold(regular, |regular, tool| match tool.kind {
+                ToolKind::Rack => regular,
+                ToolKind::Shaper { radius } => regular.min(radius * sin * sin),
+            });
         let scale = self.generation().scale();
         let of_both = |of: &dyn Fn(usize, f64) -> f64| {
             let [one, two] = [0, 1].map(|member| of(member, teeth.profile_shifts[member]));
@@ -119,11 +122,11 @@ impl GearPair {
                 let bends = [ranges[member].greatest.1, -ranges[member].least.1];
                 // The tool rolls on the generating pitch curve.
                 let bends = bends.map(|bend| scale * bend.max(0.0));
-                largest_module(&teeth.tool, self.module(), shift, bends)
+                largest_module(&teeth.tools[member], self.module(), shift, bends)
             }),
             largest_module_of_fillets: of_both(&|member, shift| {
                 let concave = (-ranges[member].least.1).max(0.0);
-                fillet_module(&teeth.tool, self.module(), shift, concave)
+                fillet_module(&teeth.tools[member], self.module(), shift, concave)
             }),
             largest_addendum: self.widest_height(regular),
             ranges,
@@ -133,9 +136,8 @@ impl GearPair {
     /// The greatest height, up to `limit`, at which no tooth is thinner than asked for.
     fn widest_height(&self, limit: f64) -> f64 {
         let mut height = limit;
-        let tool = self.operating_tool();
         for member in [Member::Driver, Member::Driven] {
-            let pattern = self.patterns.of(member);
+            let (pattern, tool) = (self.patterns.of(member), self.operating_tool(member));
             // Teeth that are images of others are as wide as they.
             let teeth = (0..).zip(self.gear(member).teeth());
             for (_, tooth) in teeth.filter(|(k, _)| pattern.image(*k).is_none()) {
@@ -184,9 +186,9 @@ impl Limits {
     #[must_use]
     pub fn largest_module_of(design: &GearPairDesign, curvatures: [f64; 2]) -> f64 {
         let teeth = parameters(design, 1.0);
-        let of = |shift| largest_module(&teeth.tool, 1.0, shift, curvatures);
-        let [driver, driven] = teeth.profile_shifts;
-        of(driver).min(of(driven))
+        let of =
+            |i: usize| largest_module(&teeth.tools[i], 1.0, teeth.profile_shifts[i], curvatures);
+        of(0).min(of(1))
     }
 
     /// Largest module of full teeth, mm, that are sound wherever they fall, cut by the usual rack on pitch curves whose curvatures
@@ -194,7 +196,7 @@ impl Limits {
     #[must_use]
     pub fn largest_full_module(curvatures: [f64; 2]) -> f64 {
         let design = GearPairDesign::new(PitchSpec::Circle(Circle::default()));
-        let tool = parameters(&design, 1.0).tool;
+        let [tool, _] = parameters(&design, 1.0).tools;
         largest_module(&tool, 1.0, 0.0, curvatures).min(fillet_module(
             &tool,
             1.0,

@@ -30,9 +30,15 @@ type Place = (f64, [f64; 2]);
 
 impl Fitting<'_> {
     /// The corner of a space of some depth beside a flank that a tip works on; none where it would cut into that flank.
-    pub(super) fn corner_below(&self, depth: f64, tip: Tip, space: f64) -> Option<Corner> {
+    pub(super) fn corner_below(
+        &self,
+        member: Member,
+        depth: f64,
+        tip: Tip,
+        space: f64,
+    ) -> Option<Corner> {
         let end = SPARE * tip.0;
-        let found = corner(self.tool, depth, end, space);
+        let found = corner(self.tool(member), depth, end, space);
         (found.end <= end * (1.0 + 1e-9)).then_some(found)
     }
 
@@ -47,7 +53,7 @@ impl Fitting<'_> {
         length: f64,
         space: f64,
     ) {
-        let clearance = self.tool.clearance();
+        let (tool, clearance) = (self.tool(member), self.clearance(member));
         let higher = |a: Tip, b: Tip| (a.0.max(b.0), a.1.max(b.1));
         let count = teeth.len();
         for k in 0..count {
@@ -67,9 +73,9 @@ impl Fitting<'_> {
             let depth = before.1.max(after.1) + clearance;
             let settle = |flank: &mut FlankPlan, side: Side, rolled: f64, tip: Tip| {
                 // Where the shared depth would undercut the flank, the root rises to its own.
-                let shared = self.corner_below(depth, tip, space);
-                let corner = shared
-                    .unwrap_or_else(|| corner(self.tool, tip.1 + clearance, SPARE * tip.0, space));
+                let shared = self.corner_below(member, depth, tip, space);
+                let corner =
+                    shared.unwrap_or_else(|| corner(tool, tip.1 + clearance, SPARE * tip.0, space));
                 let mate = usize::from(side == Side::Leading);
                 flank.corner = entering.iter().fold(corner, |corner, &(turns, tips)| {
                     let flank = self.flank(member, side, flank.crossing + rolled + turns);
@@ -90,7 +96,7 @@ impl Fitting<'_> {
     /// far as the flank goes on above it. The tip works on the flank down to a roll.
     fn clear_corner(&self, corner: Corner, flank: &Flank<'_>, rolled: f64) -> Corner {
         let beyond = |path: &[Place], radius: f64| {
-            let corner = self.tool.corner(corner.depth, radius);
+            let corner = flank.tool.corner(corner.depth, radius);
             path.iter()
                 .map(|&(arc, tip)| flank.beyond_corner(&corner, arc, tip))
                 .fold(-radius, f64::max)
@@ -106,7 +112,7 @@ impl Fitting<'_> {
             }
         }
         let beyond = |radius: f64| beyond(&path, radius);
-        let sharp = self.tool.corner(corner.depth, 0.0).end;
+        let sharp = flank.tool.corner(corner.depth, 0.0).end;
         // The flank goes on as far as it moves on.
         let [from, to] = [rolled, sharp].map(|roll| {
             let arc = flank.crossing + flank.side.sign() * roll;
@@ -116,7 +122,7 @@ impl Fitting<'_> {
             Some(t) => flank.side.sign() * (flank.rolling.arc_length(t) - flank.crossing),
             None => sharp,
         };
-        let ends = |radius: f64| self.tool.corner(corner.depth, radius).end - deepest;
+        let ends = |radius: f64| flank.tool.corner(corner.depth, radius).end - deepest;
         let least = match ends(corner.radius) {
             above if above >= 0.0 => return corner,
             above if sharp > deepest => {
@@ -129,7 +135,7 @@ impl Fitting<'_> {
             true => bracketed_root(beyond, least, corner.radius, small, round),
             false => least,
         };
-        self.tool.corner(corner.depth, radius)
+        flank.tool.corner(corner.depth, radius)
     }
 }
 

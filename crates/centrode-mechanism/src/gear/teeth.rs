@@ -13,8 +13,8 @@ use super::{
 /// Parameters of the teeth of a pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TeethParameters {
-    /// The generating tool.
-    pub tool: Tool,
+    /// Generating tools of driver and driven gear, of one pressure angle, with the heights of the gear's teeth.
+    pub tools: [Tool; 2],
     /// Profile shifts of driver and driven gear, mm: by how much the tool is moved away from the axis.
     pub profile_shifts: [f64; 2],
     /// Change of every addendum, mm: negative for shorter teeth.
@@ -34,6 +34,18 @@ pub struct TeethParameters {
 }
 
 impl TeethParameters {
+    /// Generating tool of a member.
+    #[must_use]
+    pub fn tool(&self, member: Member) -> &Tool {
+        &self.tools[member as usize]
+    }
+
+    /// Pressure angle of both tools, rad.
+    #[must_use]
+    pub fn pressure_angle(&self) -> f64 {
+        self.tools[0].pressure_angle
+    }
+
     /// Profile shift of a member, mm.
     #[must_use]
     pub fn profile_shift(&self, member: Member) -> f64 {
@@ -114,18 +126,18 @@ pub(crate) fn layout(
     counts: &Counts,
     parameters: &TeethParameters,
 ) -> Result<Layout, TeethError> {
-    let tool = &parameters.tool;
+    let alpha = parameters.pressure_angle();
     let pitch = rolling.pitch_length(Member::Driver) / f64::from(counts.driver);
     let (phase, congruent) = phase(rolling, pitch, parameters)?;
     let backlash = match parameters.backlash_angle {
-        Some(angle) => angle * least_lever(rolling, tool.pressure_angle),
+        Some(angle) => angle * least_lever(rolling, alpha),
         None => parameters.backlash,
     };
-    let thinning = backlash / (4.0 * tool.pressure_angle.cos());
+    let thinning = backlash / (4.0 * alpha.cos());
     // A tool moved away from the axis leaves a thicker tooth.
     let nominal = pitch * parameters.thickness_split;
     let width = |member: Member| {
-        let thicker = 2.0 * parameters.profile_shift(member) * tool.pressure_angle.tan();
+        let thicker = 2.0 * parameters.profile_shift(member) * alpha.tan();
         match member {
             Member::Driver => nominal + thicker,
             Member::Driven => pitch - (nominal - thicker),
@@ -154,12 +166,13 @@ pub(crate) fn layout(
         Member::Driver => counts.driver,
         Member::Driven => counts.driven,
     };
-    // A tip that is fitted stays above the root of its mate.
-    let addendum = match parameters.addendum {
-        Addendum::Full => tool.addendum,
-        Addendum::Fitted => tool.addendum.min(tool.dedendum),
-    };
     let plan = |member: Member| -> Result<Vec<ToothPlan>, TeethError> {
+        let tool = parameters.tool(member);
+        // A tip that is fitted stays above the root of its mate.
+        let addendum = match parameters.addendum {
+            Addendum::Full => tool.addendum,
+            Addendum::Fitted => tool.addendum.min(parameters.tool(member.mate()).dedendum),
+        };
         let shift = parameters.profile_shift(member);
         let depth = tool.dedendum - shift;
         let greatest = tool.greatest_tip_radius(depth, space(member));
@@ -206,7 +219,7 @@ pub(crate) fn layout(
     if parameters.addendum == Addendum::Fitted {
         let fitting = Fitting {
             rolling,
-            tool,
+            tools: &parameters.tools,
             least_tip_width: parameters.least_tip_width,
         };
         let patterns = Patterns::new(rolling.symmetry(), counts, &layout, pitch);
@@ -243,7 +256,8 @@ fn phase(
 ) -> Result<(f64, bool), TeethError> {
     let difference = self_mating_difference(rolling, pitch);
     let [driver, driven] = parameters.profile_shifts;
-    let symmetric = parameters.thickness_split == 0.5 && driver == driven;
+    let [one, two] = &parameters.tools;
+    let symmetric = parameters.thickness_split == 0.5 && driver == driven && one == two;
     let small = 1e-9 * rolling.center_distance();
     let wanted = |mirror: f64| (0.5 * (mirror / pitch - 0.5)).rem_euclid(0.5);
     let congruent_at = |phase: f64| {

@@ -82,11 +82,6 @@ impl Tool {
         }
     }
 
-    /// Clearance that fitted teeth leave between a tip and the root of its mate, mm: dedendum less addendum, at least 0.
-    pub(crate) fn clearance(&self) -> f64 {
-        (self.dedendum - self.addendum).max(0.0)
-    }
-
     /// Greatest arc length the tool can generate on the addendum side of a crossing, mm: a shaper's
     /// flank starts at its base circle.
     pub(crate) fn addendum_reach(&self) -> f64 {

@@ -36,9 +36,12 @@ pub(super) struct ToothChords {
 const ROUND: f64 = 1.25;
 
 /// A circle around the working part of a tooth.
-pub(super) fn circle((rolling, tool): (&Rolling, &Tool), candidate: &Candidate) -> (Point, f64) {
+pub(super) fn circle(
+    (rolling, tools): (&Rolling, &[Tool; 2]),
+    candidate: &Candidate,
+) -> (Point, f64) {
     let [leading, trailing] = [Side::Leading, Side::Trailing].map(|side| {
-        let flank = candidate.flank(rolling, tool, side);
+        let flank = candidate.flank(rolling, tools, side);
         [0.0, 0.5, 1.0].map(|share| candidate.along(&flank, share))
     });
     let middle = nalgebra::center(&leading[1], &trailing[1]);
@@ -47,11 +50,11 @@ pub(super) fn circle((rolling, tool): (&Rolling, &Tool), candidate: &Candidate) 
 }
 
 impl Candidate {
-    fn flank<'a>(&self, rolling: &'a Rolling, tool: &'a Tool, side: Side) -> Flank<'a> {
+    fn flank<'a>(&self, rolling: &'a Rolling, tools: &'a [Tool; 2], side: Side) -> Flank<'a> {
         Flank {
             rolling,
             member: self.member,
-            tool,
+            tool: &tools[self.member as usize],
             side,
             crossing: self.crossings[side as usize],
         }
@@ -71,9 +74,9 @@ impl Candidate {
 }
 
 impl ToothChords {
-    pub(super) fn new((rolling, tool): (&Rolling, &Tool), candidate: &Candidate) -> Self {
+    pub(super) fn new((rolling, tools): (&Rolling, &[Tool; 2]), candidate: &Candidate) -> Self {
         let [leading, trailing] =
-            [Side::Leading, Side::Trailing].map(|side| candidate.flank(rolling, tool, side));
+            [Side::Leading, Side::Trailing].map(|side| candidate.flank(rolling, tools, side));
         let top = |flank: &Flank<'_>| {
             let arc = flank.crossing - flank.side.sign() * candidate.reaches[flank.side as usize];
             flank.foot(rolling.parameter(arc))

@@ -107,7 +107,7 @@ impl<'a> Poses<'a> {
 #[derive(Debug)]
 pub(crate) struct ToothPassage<'a> {
     rolling: &'a Rolling,
-    tool: &'a Tool,
+    tools: &'a [Tool; 2],
     pitch: f64,
     /// Poses at which the teeth may meet.
     near: Vec<(Frame, Frame)>,
@@ -137,7 +137,7 @@ impl<'a> Trimmed<'a> {
         let new = || {
             let reaches = self.reaches(share);
             Rc::new(ToothChords::new(
-                (passage.rolling, passage.tool),
+                (passage.rolling, passage.tools),
                 &Candidate {
                     reaches,
                     ..*self.candidate
@@ -163,7 +163,7 @@ impl<'a> ToothPassage<'a> {
     /// circles do not meet.
     pub(crate) fn about(
         poses: &mut Poses<'a>,
-        tool: &'a Tool,
+        tools: &'a [Tool; 2],
         middle: f64,
         pitch: f64,
         [(one, first), (two, second)]: [&(Point, f64); 2],
@@ -179,7 +179,7 @@ impl<'a> ToothPassage<'a> {
         let near: Vec<_> = poses.filter(meets).copied().collect();
         (!near.is_empty()).then_some(Self {
             rolling,
-            tool,
+            tools,
             pitch,
             near,
         })
@@ -188,7 +188,7 @@ impl<'a> ToothPassage<'a> {
     /// Whether two teeth penetrate each other at any pose.
     pub(crate) fn is_foul(&self, teeth: &[Candidate; 2]) -> bool {
         checkpoint();
-        let shape = |candidate| Rc::new(ToothChords::new((self.rolling, self.tool), candidate));
+        let shape = |candidate| Rc::new(ToothChords::new((self.rolling, self.tools), candidate));
         let teeth = teeth.each_ref().map(shape);
         let mut poses = self.near.iter();
         poses.any(|pose| penetrate(pose, &teeth, self.pitch))

@@ -227,6 +227,7 @@ impl MovingBoxDesign {
         pair.driver = GearSpec {
             shift: Some(gears.shift),
             body: body.clone(),
+            ..GearSpec::default()
         };
         pair.driven.shift = Some(0.0 - gears.shift);
         pair.driven.body = BodySpec {

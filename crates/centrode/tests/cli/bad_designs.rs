@@ -238,7 +238,7 @@ fn three_arm_mechanisms_that_cannot_be_are_refused() {
 
 #[test]
 fn a_key_that_means_nothing_is_refused_also_in_what_is_only_a_detail() {
-    let known = "unknown key; known are shift, width, bore";
+    let known = "unknown key; known are shift, addendum, dedendum, tool, width, bore";
     for key in ["internal", "inner", "ring", "helix_deg", "bores_extra"] {
         for body in ["driver", "driven"] {
             let design = format!("{}[{body}]\n{key} = 1\n", sized("circle", ""));

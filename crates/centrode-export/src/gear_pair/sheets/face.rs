@@ -173,7 +173,7 @@ fn numbers(part: &SheetGear<'_>, k: f64, draft: &mut Draft) {
         .into_iter()
         .find(|&n| f64::from(n) * step >= 8.0)
         .unwrap_or(count);
-    let height = part.pair.teeth().tool.addendum * k + RING;
+    let height = part.pair.teeth().tool(part.member).addendum * k + RING;
     for space in (0..count).step_by(every as usize) {
         let words = space.to_string();
         let width = lettering::width(&words, NUMBERS);

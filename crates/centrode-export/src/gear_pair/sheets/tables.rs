@@ -15,7 +15,7 @@ use centrode_mechanism::{
 pub(super) fn data(part: &SheetGear<'_>, found: &[Datum]) -> Table {
     let (pair, gear) = (part.pair, part.gear);
     let teeth = pair.teeth();
-    let tool = &teeth.tool;
+    let tool = teeth.tool(part.member);
     let m = pair.module();
     let mut rows = Rows::default();
     rows.add("Number of teeth", "z", gear.tooth_count().to_string());
@@ -26,7 +26,7 @@ pub(super) fn data(part: &SheetGear<'_>, found: &[Datum]) -> Table {
         format!("{}°", number(tool.pressure_angle.to_degrees(), 4)),
     );
     rows.add("Addendum coefficient", "ha*", number(tool.addendum / m, 4));
-    let clearance = (tool.dedendum - tool.addendum) / m;
+    let clearance = (tool.dedendum - teeth.tool(part.member.mate()).addendum) / m;
     rows.add("Clearance coefficient", "c*", number(clearance, 4));
     rows.add("Tool tip radius", "ρ", number(tool.tip_radius, 4));
     rows.add(
@@ -94,15 +94,15 @@ pub(super) fn data(part: &SheetGear<'_>, found: &[Datum]) -> Table {
 
 /// Coefficients of a gear with profile shift or changed addendum, and the operating pressure angle of its pair.
 fn shifted(pair: &GearPair, member: Member) -> Vec<Datum> {
-    let (teeth, m) = (pair.teeth(), pair.module());
+    let (teeth, tool, m) = (pair.teeth(), pair.teeth().tool(member), pair.module());
     let (x, k) = (pair.shift(member), pair.tip_shortening());
     let mut data = Vec::new();
     if x != 0.0 || k != 0.0 {
         data.push(Datum::new("Profile shift coefficient", "x", number(x, 4)));
         data.push(Datum::new("Tip shortening coefficient", "k", number(k, 5)));
-        let root = teeth.tool.dedendum - teeth.profile_shift(member);
+        let root = tool.dedendum - teeth.profile_shift(member);
         let heights = match teeth.addendum {
-            Addendum::Full => vec![("Addendum", "ha", teeth.tool.addendum + (x + k) * m)],
+            Addendum::Full => vec![("Addendum", "ha", tool.addendum + (x + k) * m)],
             Addendum::Fitted => Vec::new(),
         };
         for (name, symbol, height) in heights.into_iter().chain([("Dedendum", "hf", root)]) {
@@ -110,7 +110,7 @@ fn shifted(pair: &GearPair, member: Member) -> Vec<Datum> {
         }
     }
     let angle = pair.pressure_angle();
-    if angle != teeth.tool.pressure_angle {
+    if angle != teeth.pressure_angle() {
         let degrees = format!("{}°", number(angle.to_degrees(), 4));
         data.push(Datum::new("Operating pressure angle", "αw", degrees));
         let diameter = number(pair.reference_diameter(member), 4);

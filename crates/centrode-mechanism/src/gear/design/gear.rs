@@ -4,12 +4,13 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::body::BodySpec;
-use super::rule::{SpecError, in_range};
+use super::rule::{SpecError, in_range, positive};
+use super::tool::ToolSpec;
 
 /// Range of a profile shift coefficient.
 pub(crate) const SHIFTS: [f64; 2] = [-2.0, 2.0];
 
-/// One gear of a pair: the profile shift of its teeth, and its body.
+/// One gear of a pair: shift, heights and tool of its teeth, and its body.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 #[schemars(extend("x-detail" = true))]
@@ -19,6 +20,15 @@ pub struct GearSpec {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-symbol" = "x"))]
     pub shift: Option<f64>,
+    /// Height of the teeth above the pitch curve without profile shift, in modules. Default: that of the tool.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub addendum: Option<f64>,
+    /// Depth of the spaces below the pitch curve without profile shift, in modules. Default: that of the tool.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub dedendum: Option<f64>,
+    /// The tool that cuts this gear, of the same pressure angle. Default: the tool of the pair.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tool: Option<ToolSpec>,
     /// Body of the gear.
     #[serde(flatten)]
     pub body: BodySpec,
@@ -33,13 +43,25 @@ impl GearSpec {
         if let Some(shift) = self.shift {
             in_range("shift", shift, SHIFTS, "")?;
         }
+        for (key, height) in [("addendum", self.addendum), ("dedendum", self.dedendum)] {
+            if let Some(height) = height {
+                positive(key, height)?;
+                in_range(key, height, [0.0, 3.0], "")?;
+            }
+        }
+        if let Some(tool) = &self.tool {
+            tool.validate().map_err(|e| e.inside("tool"))?;
+        }
         self.body.validate()
     }
 }
 
 impl From<BodySpec> for GearSpec {
     fn from(body: BodySpec) -> Self {
-        Self { shift: None, body }
+        Self {
+            body,
+            ..Self::default()
+        }
     }
 }
 

@@ -4,6 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::pitch::PitchSpec;
+use super::rolling::Member;
+use crate::degrees;
 use crate::design::{DesignSpec, DrawingSpec};
 
 mod body;
@@ -45,16 +47,16 @@ pub struct GearPairDesign {
     pub center_distance: Option<f64>,
     /// Pitch curve of the driver.
     pub pitch: PitchSpec,
-    /// The tool that cuts both gears.
+    /// The tool that cuts both gears, unless a gear has its own.
     #[serde(default)]
     pub tool: ToolSpec,
     /// Teeth of both gears.
     #[serde(default)]
     pub teeth: TeethSpec,
-    /// Profile shift and body of the driver.
+    /// Shift and heights of the driver's teeth, and its body.
     #[serde(default)]
     pub driver: GearSpec,
-    /// Profile shift and body of the driven gear.
+    /// Shift and heights of the driven gear's teeth, and its body.
     #[serde(default)]
     pub driven: GearSpec,
     /// The drawing sheets.
@@ -149,7 +151,33 @@ impl GearPairDesign {
         self.teeth.validate().map_err(|e| e.inside("teeth"))?;
         self.driver.validate().map_err(|e| e.inside("driver"))?;
         self.driven.validate().map_err(|e| e.inside("driven"))?;
+        for (member, gear) in [("driver", &self.driver), ("driven", &self.driven)] {
+            let Some(own) = &gear.tool else { continue };
+            let [own, tool] = [own, &self.tool].map(|t| degrees::rounded(t.pressure_angle()));
+            if own != tool {
+                let key = format!("{member}.tool.pressure_angle_deg");
+                return broken(&key, Rule::PressureAngles { own, tool });
+            }
+        }
         self.drawing.validate().map_err(|e| e.inside("drawing"))
+    }
+
+    /// Tool that cuts a gear of the pair.
+    #[must_use]
+    pub fn tool_of(&self, member: Member) -> &ToolSpec {
+        let gear = match member {
+            Member::Driver => &self.driver,
+            Member::Driven => &self.driven,
+        };
+        gear.tool.as_ref().unwrap_or(&self.tool)
+    }
+
+    /// Gives all tools another pressure angle, rad.
+    pub(crate) fn set_pressure_angle(&mut self, angle: f64) {
+        let own = [&mut self.driver.tool, &mut self.driven.tool];
+        for tool in own.into_iter().flatten().chain([&mut self.tool]) {
+            *tool.pressure_angle_mut() = angle;
+        }
     }
 
     /// Whether the teeth are fitted, as they are with any choice.

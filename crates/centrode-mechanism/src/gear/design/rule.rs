@@ -105,6 +105,18 @@ pub enum Rule {
     /// Something that needs a bore, without one.
     #[error("needs a bore")]
     NoBore,
+    /// Two tools of a pair with unlike pressure angles.
+    #[error(
+        "is {} deg, but tool.pressure_angle_deg is {} deg: mating flanks touch on one line of action, so both tools need the same",
+        told(*.own),
+        told(*.tool)
+    )]
+    PressureAngles {
+        /// Pressure angle of the gear's own tool, degrees.
+        own: f64,
+        /// Pressure angle of the tool of the pair, degrees.
+        tool: f64,
+    },
     /// A tip rounding that does not fit the tool's tooth.
     #[error(
         "is {value}, but at this pressure angle and addendum at most {greatest:.6} fits the tip of the tool"

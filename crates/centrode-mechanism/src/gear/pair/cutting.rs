@@ -15,7 +15,8 @@ pub(super) struct Cutting<'a> {
     /// Pitch curves of the pair.
     pub(super) rolling: &'a Rolling,
     pub(super) generation: &'a Generation,
-    pub(super) tool: &'a Tool,
+    /// Tools of driver and driven gear.
+    pub(super) tools: &'a [Tool; 2],
     pub(super) plan: &'a Layout,
     pub(super) patterns: &'a Patterns,
     /// Bodies of the driver and the driven gear.
@@ -44,7 +45,7 @@ impl Cutting<'_> {
         let cutter = Cutter {
             rolling: &self.generation.rolling,
             member,
-            tool: self.tool,
+            tool: &self.tools[member as usize],
             pattern: self.patterns.of(member),
             tolerance: self.tolerance,
         };

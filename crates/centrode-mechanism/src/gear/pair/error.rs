@@ -93,7 +93,7 @@ pub enum GearPairError {
         needed: f64,
     },
     /// Profile shifts with a sum on pitch curves that are not circles.
-    #[error("driver.shift + driven.shift is {}, but must be 0 unless both pitch curves are circles: a tool moved by x m along the normal makes the tooth 2 x m tan(alpha) thicker, and no common pitch curve takes that up on both flanks. Give opposite shifts, driven.shift = {}, or change tool.addendum_coefficient", told(.shifts[0] + .shifts[1]), told(-.shifts[0]))]
+    #[error("driver.shift + driven.shift is {}, but must be 0 unless both pitch curves are circles: a tool moved by x m along the normal makes the tooth 2 x m tan(alpha) thicker, and no common pitch curve takes that up on both flanks. Give opposite shifts, driven.shift = {}, or heights per gear, driver.addendum and driven.addendum", told(.shifts[0] + .shifts[1]), told(-.shifts[0]))]
     ShiftSum {
         /// Profile shift coefficients of driver and driven gear.
         shifts: [f64; 2],

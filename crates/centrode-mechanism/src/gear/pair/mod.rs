@@ -11,7 +11,7 @@ use centrode_geometry::{Recent, Tolerance};
 use crate::design::DrawingSpec;
 
 use super::{
-    design::{BodySpec, Fit, GearPairDesign, Phase, TipShortening, ToolSpec},
+    design::{BodySpec, Fit, GearPairDesign, GearSpec, Phase, TipShortening, ToolSpec},
     fit::Fits,
     flank::{Flank, Side},
     generation::Generation,
@@ -96,7 +96,7 @@ impl GearPair {
             let cutting = Cutting {
                 rolling: &rolling,
                 generation: &generation,
-                tool: &teeth.tool,
+                tools: &teeth.tools,
                 plan: &plan,
                 patterns: &patterns,
                 bodies: [&design.driver, &design.driven],
@@ -191,9 +191,7 @@ impl GearPair {
                 Fit::Addendum => {}
                 Fit::ThicknessSplit => design.teeth.thickness_split = self.teeth.thickness_split,
                 Fit::Phase => design.teeth.phase = self.teeth.phase,
-                Fit::PressureAngle => {
-                    *design.tool.pressure_angle_mut() = self.teeth.tool.pressure_angle;
-                }
+                Fit::PressureAngle => design.set_pressure_angle(self.teeth.pressure_angle()),
             }
         }
         design
@@ -262,8 +260,7 @@ impl GearPair {
     /// circular gears with x1 + x2 not zero, whose pitch circles are the operating ones.
     #[must_use]
     pub fn pressure_angle(&self) -> f64 {
-        self.generation
-            .pressure_angle(self.teeth.tool.pressure_angle)
+        self.generation.pressure_angle(self.teeth.pressure_angle())
     }
 
     /// Profile shift coefficient of a member.
@@ -288,7 +285,7 @@ impl GearPair {
     #[must_use]
     pub fn tip_height(&self, member: Member) -> f64 {
         let teeth = &self.teeth;
-        let addendum = teeth.tool.addendum + teeth.profile_shift(member) + teeth.tip_change;
+        let addendum = teeth.tool(member).addendum + teeth.profile_shift(member) + teeth.tip_change;
         addendum + self.generation.rise(member)
     }
 
@@ -296,16 +293,16 @@ impl GearPair {
     #[must_use]
     pub fn root_depth(&self, member: Member) -> f64 {
         let teeth = &self.teeth;
-        teeth.tool.dedendum - teeth.profile_shift(member) - self.generation.rise(member)
+        teeth.tool(member).dedendum - teeth.profile_shift(member) - self.generation.rise(member)
     }
 
     pub(super) fn generation(&self) -> &Generation {
         &self.generation
     }
 
-    /// The tool that makes the same flanks on the pitch curves of the pair.
-    pub(super) fn operating_tool(&self) -> Tool {
-        self.generation.operating_tool(&self.teeth.tool)
+    /// The tool that makes the same flanks of a member on the pitch curves of the pair.
+    pub(super) fn operating_tool(&self, member: Member) -> Tool {
+        self.generation.operating_tool(self.teeth.tool(member))
     }
 
     /// Tool, addendum, backlash and the like, resolved to mm and rad.
@@ -394,7 +391,7 @@ impl GearPair {
         let flank = Flank {
             rolling: &self.rolling,
             member,
-            tool: &self.operating_tool(),
+            tool: &self.operating_tool(member),
             side,
             crossing: made.crossing,
         };
@@ -421,33 +418,39 @@ impl GearPair {
 }
 
 pub(super) fn parameters(design: &GearPairDesign, module: f64) -> TeethParameters {
-    let spec = &design.tool;
-    let kind = match spec {
-        ToolSpec::Rack(_) => ToolKind::Rack,
-        ToolSpec::Shaper(shaper) => ToolKind::Shaper {
-            radius: 0.5 * module * f64::from(shaper.tooth_count),
-        },
-    };
-    let [addendum, dedendum, tip_radius] = match spec {
-        ToolSpec::Rack(t) => [
-            t.addendum_coefficient,
-            t.dedendum_coefficient,
-            t.tip_radius_coefficient,
-        ],
-        ToolSpec::Shaper(t) => [
-            t.addendum_coefficient,
-            t.dedendum_coefficient,
-            t.tip_radius_coefficient,
-        ],
-    };
-    TeethParameters {
-        tool: Tool {
+    let tool = |member: Member, gear: &GearSpec| {
+        let spec = design.tool_of(member);
+        let kind = match spec {
+            ToolSpec::Rack(_) => ToolKind::Rack,
+            ToolSpec::Shaper(shaper) => ToolKind::Shaper {
+                radius: 0.5 * module * f64::from(shaper.tooth_count),
+            },
+        };
+        let [addendum, dedendum, tip_radius] = match spec {
+            ToolSpec::Rack(t) => [
+                t.addendum_coefficient,
+                t.dedendum_coefficient,
+                t.tip_radius_coefficient,
+            ],
+            ToolSpec::Shaper(t) => [
+                t.addendum_coefficient,
+                t.dedendum_coefficient,
+                t.tip_radius_coefficient,
+            ],
+        };
+        Tool {
             pressure_angle: spec.pressure_angle(),
-            addendum: addendum * module,
-            dedendum: dedendum * module,
+            addendum: gear.addendum.unwrap_or(addendum) * module,
+            dedendum: gear.dedendum.unwrap_or(dedendum) * module,
             tip_radius: tip_radius * module,
             kind,
-        },
+        }
+    };
+    TeethParameters {
+        tools: [
+            tool(Member::Driver, &design.driver),
+            tool(Member::Driven, &design.driven),
+        ],
         profile_shifts: design.shifts().map(|x| x * module),
         tip_change: match design.teeth.tip_shortening {
             // Without a sum of shifts nothing is needed to keep the clearance.

@@ -244,10 +244,12 @@ impl ThreeArmDesign {
             driver: GearSpec {
                 shift: Some(self.shift),
                 body: self.sun.clone(),
+                ..GearSpec::default()
             },
             driven: GearSpec {
                 shift: Some(0.0 - self.shift),
                 body: self.intermediate.clone(),
+                ..GearSpec::default()
             },
             drawing: self.drawing.clone(),
             ..GearPairDesign::new(self.pitch.clone())
