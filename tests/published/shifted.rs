@@ -154,7 +154,7 @@ fn near(found: f64, expected: f64, within: f64, case: &Case) {
     assert!(off <= within, "{found} is not {expected}: {case:?}");
 }
 
-/// Example of the issue: m 3, z 12/24, x 0.6/0.36.
+/// Worked example: m 3, z 12/24, x 0.6/0.36.
 const EXAMPLE: Case = Case {
     module: 3.0,
     z: [12, 24],
