@@ -17,7 +17,7 @@ class AxisMap:
     possible: NDArray[bool_]
     """Whether the axis is possible."""
     fault: tuple[tuple[str | None, ...], ...]
-    """Reason: "extremes", "circle", "on-axis", "winding", "carrier-turns-back", "arm-stops", "too-far"; None if possible."""
+    """Reason or None: "extremes", "circle", "on-axis", "winding", "carrier-turns-back", "arm-stops", "too-far"."""
     carrier: NDArray[float64]
     """Length of the carrier, mm; NaN where the axis is not possible, as in the arrays that follow."""
     arm: NDArray[float64]
