@@ -61,7 +61,7 @@ pub struct ComposedDesign {
     /// Chains of bodies of which there are several, evenly spaced, by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub copies: BTreeMap<String, ComposedCopiesSpec>,
-    /// What is designed of plates, pins and shafts: `full` or `none`; default `full` if `plates` or a body describes them,
+    /// Plates, pins and shafts: `full` designs them, `none` does not; default `full` if `plates` or a body describes them,
     /// otherwise `none`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hardware: Option<Hardware>,

@@ -78,7 +78,7 @@ impl Default for ComposedPlatesSpec {
     }
 }
 
-/// What the program designs of the machine around gears and cams.
+/// Extent of the design around gears and cams.
 #[derive(Clone, Copy, Debug, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Hardware {
@@ -89,7 +89,7 @@ pub enum Hardware {
 }
 
 impl ComposedDesign {
-    /// What is designed of plates, pins and shafts: as given, or full if the design describes plates or needs their masses,
+    /// Extent of plates, pins and shafts: as given, or full if the design describes plates or needs their masses,
     /// otherwise none.
     #[must_use]
     pub fn hardware(&self) -> Hardware {
