@@ -123,6 +123,7 @@ fn shape() -> impl Strategy<Value = PitchSpec> {
                 amplitude: swing * mean_radius,
                 lobes,
                 module: None,
+                diametral_pitch: None,
                 tooth_count: None,
             })
         }),

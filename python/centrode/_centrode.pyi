@@ -791,13 +791,20 @@ class Pitch:
     def __deepcopy__(self, _memo: Any) -> Pitch: ...
     def __reduce__(self) -> tuple[Any, ...]: ...
 
-def circle(*, radius: _Real | None = None, module: _Real | None = None, tooth_count: _Count | None = None) -> Pitch: ...
+def circle(
+    *,
+    radius: _Real | None = None,
+    module: _Real | None = None,
+    tooth_count: _Count | None = None,
+    diametral_pitch: _Real | None = None,
+) -> Pitch: ...
 def eccentric_circle(
     *,
     eccentricity: _Real,
     radius: _Real | None = None,
     module: _Real | None = None,
     tooth_count: _Count | None = None,
+    diametral_pitch: _Real | None = None,
 ) -> Pitch: ...
 def ellipse(
     *,
@@ -805,6 +812,7 @@ def ellipse(
     semi_major_axis: _Real | None = None,
     module: _Real | None = None,
     tooth_count: _Count | None = None,
+    diametral_pitch: _Real | None = None,
 ) -> Pitch: ...
 def lobed_ellipse(
     *,
@@ -813,6 +821,7 @@ def lobed_ellipse(
     semi_major_axis: _Real | None = None,
     module: _Real | None = None,
     tooth_count: _Count | None = None,
+    diametral_pitch: _Real | None = None,
 ) -> Pitch: ...
 def bspline(
     *,
@@ -825,6 +834,7 @@ def bspline(
     interpolate: bool = False,
     module: _Real | None = None,
     tooth_count: _Count | None = None,
+    diametral_pitch: _Real | None = None,
 ) -> Pitch: ...
 
 @final
@@ -913,6 +923,7 @@ def bezier(
     plane: _Plane = "polar",
     module: _Real | None = None,
     tooth_count: _Count | None = None,
+    diametral_pitch: _Real | None = None,
 ) -> Pitch: ...
 def limacon(
     *,
@@ -921,6 +932,7 @@ def limacon(
     lobes: _Count = 1,
     module: _Real | None = None,
     tooth_count: _Count | None = None,
+    diametral_pitch: _Real | None = None,
 ) -> Pitch: ...
 def polar(
     radius: str | ArrayLike | None = None,
@@ -932,6 +944,7 @@ def polar(
     sin: ArrayLike | None = None,
     module: _Real | None = None,
     tooth_count: _Count | None = None,
+    diametral_pitch: _Real | None = None,
 ) -> Pitch: ...
 def from_transmission(
     driven_angle: str | ArrayLike,
@@ -940,6 +953,7 @@ def from_transmission(
     center_distance: _Real | None = None,
     module: _Real | None = None,
     tooth_count: _Count | None = None,
+    diametral_pitch: _Real | None = None,
 ) -> Pitch: ...
 def from_ratio(
     ratio: str | ArrayLike,
@@ -948,6 +962,7 @@ def from_ratio(
     center_distance: _Real | None = None,
     module: _Real | None = None,
     tooth_count: _Count | None = None,
+    diametral_pitch: _Real | None = None,
 ) -> Pitch: ...
 def conjugate(
     of: Pitch,
@@ -955,6 +970,7 @@ def conjugate(
     mean_ratio: _Ratio = (1, 1),
     module: _Real | None = None,
     tooth_count: _Count | None = None,
+    diametral_pitch: _Real | None = None,
 ) -> Pitch: ...
 def template(family: str = "gear-pair") -> str: ...
 def _drawn_path(contents: bytes, within: float) -> NDArray[float64]: ...

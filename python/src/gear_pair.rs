@@ -369,6 +369,7 @@ impl GearPair {
         Pitch::resolve(PitchSpec::Conjugate(Conjugate {
             mean_ratio: self.0.design().mean_ratio,
             module: None,
+            diametral_pitch: None,
             tooth_count: Some(self.0.driven().tooth_count()),
             of: Box::new(self.0.design().pitch.clone()),
         }))

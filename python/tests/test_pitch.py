@@ -1,6 +1,8 @@
 """Pitch curves from Python: the words of the design file, radians, array-likes."""
 
 import math
+import pickle
+from functools import partial
 
 import centrode as ct
 import numpy as np
@@ -87,6 +89,33 @@ def test_module_and_tooth_count_set_the_length(eccentricity, module, teeth):
     step = np.diff(pitch.points(phi), axis=0)
     length = np.hypot(*step.T).sum()
     assert length == pytest.approx(math.pi * module * teeth, rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    "make",
+    [
+        ct.pitch.circle,
+        partial(ct.pitch.eccentric_circle, eccentricity=0.2),
+        partial(ct.pitch.ellipse, eccentricity=0.2),
+        partial(ct.pitch.lobed_ellipse, lobes=2, eccentricity=0.2),
+        partial(ct.pitch.bspline, radius=[20, 22, 20, 22], angle=[0, 1.5, 3, 4.5]),
+        partial(ct.pitch.bezier, radius=[20, 22, 20, 22], angle=[0, 1.5, 3, 4.5], degree=1),
+        partial(ct.pitch.limacon, mean_radius=20, amplitude=3),
+        partial(ct.pitch.polar, "1 + 0.1*cos(2*phi)"),
+        partial(ct.pitch.from_transmission, "phi - 0.08*sin(2*phi)"),
+        partial(ct.pitch.from_ratio, "1 - 0.16*cos(2*phi)"),
+        partial(ct.pitch.conjugate, ct.pitch.circle(radius=20)),
+    ],
+)
+def test_a_diametral_pitch_sets_the_module(make):
+    pitch = make(diametral_pitch=16, tooth_count=40)
+    assert pitch.module == 25.4 / 16
+    np.testing.assert_array_equal(pitch.points([0.0]), make(module=1.5875, tooth_count=40).points([0.0]))
+    assert pickle.loads(pickle.dumps(pitch)).module == pitch.module
+    for wrong in ({"module": 2, "diametral_pitch": 16}, {"diametral_pitch": 0}, {"diametral_pitch": -16}):
+        with pytest.raises(ct.DesignError) as error:
+            make(tooth_count=40, **wrong)
+        assert error.value.key == "pitch.diametral_pitch"
 
 
 @pytest.mark.parametrize("ask", ["points", "curvature"])

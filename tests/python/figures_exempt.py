@@ -235,6 +235,7 @@ EXEMPT = {
         FORMULA: (r"is 0/0 when",),
     },
     "docs/theory/pitch-curves.md": {
+        "definition of the inch": (r"25\.4 mm / P",),
         LIMIT: (r"more than 16 times", r"needs 16 samples", r"below 0\.23 deg"),
         FORMULA: (
             r"is 1/2, as",

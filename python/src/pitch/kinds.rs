@@ -51,16 +51,18 @@ fn interpolation(word: Option<&str>) -> Answer<Option<spec::Interpolation>> {
 /// >>> round(ct.pitch.circle(radius=20, tooth_count=20).module, 12)
 /// 2.0
 #[pyfunction]
-#[pyo3(signature = (*, radius=None, module=None, tooth_count=None))]
+#[pyo3(signature = (*, radius=None, module=None, tooth_count=None, diametral_pitch=None))]
 pub(crate) fn circle(
     radius: Option<f64>,
     module: Option<f64>,
     tooth_count: Option<Count>,
+    diametral_pitch: Option<f64>,
 ) -> Answer<Pitch> {
     Pitch::resolve(spec::PitchSpec::Circle(spec::Circle {
         radius,
         module,
         tooth_count: optional("pitch.tooth_count", tooth_count)?,
+        diametral_pitch,
     }))
 }
 
@@ -70,18 +72,20 @@ pub(crate) fn circle(
 /// >>> ct.pitch.eccentric_circle(eccentricity=0.2, radius=20).points([0.0])
 /// array([[24.,  0.]])
 #[pyfunction]
-#[pyo3(signature = (*, eccentricity, radius=None, module=None, tooth_count=None))]
+#[pyo3(signature = (*, eccentricity, radius=None, module=None, tooth_count=None, diametral_pitch=None))]
 pub(crate) fn eccentric_circle(
     eccentricity: f64,
     radius: Option<f64>,
     module: Option<f64>,
     tooth_count: Option<Count>,
+    diametral_pitch: Option<f64>,
 ) -> Answer<Pitch> {
     Pitch::resolve(spec::PitchSpec::EccentricCircle(spec::EccentricCircle {
         eccentricity,
         radius,
         module,
         tooth_count: optional("pitch.tooth_count", tooth_count)?,
+        diametral_pitch,
     }))
 }
 
@@ -93,18 +97,20 @@ pub(crate) fn eccentric_circle(
 /// >>> ct.pitch.ellipse(eccentricity=0.25, semi_major_axis=20).points([0.0])
 /// array([[25.,  0.]])
 #[pyfunction]
-#[pyo3(signature = (*, eccentricity, semi_major_axis=None, module=None, tooth_count=None))]
+#[pyo3(signature = (*, eccentricity, semi_major_axis=None, module=None, tooth_count=None, diametral_pitch=None))]
 pub(crate) fn ellipse(
     eccentricity: f64,
     semi_major_axis: Option<f64>,
     module: Option<f64>,
     tooth_count: Option<Count>,
+    diametral_pitch: Option<f64>,
 ) -> Answer<Pitch> {
     Pitch::resolve(spec::PitchSpec::Ellipse(spec::Ellipse {
         eccentricity,
         semi_major_axis,
         module,
         tooth_count: optional("pitch.tooth_count", tooth_count)?,
+        diametral_pitch,
     }))
 }
 
@@ -114,13 +120,14 @@ pub(crate) fn ellipse(
 /// >>> ct.pitch.lobed_ellipse(lobes=2, eccentricity=0.1, module=2, tooth_count=30).tooth_count
 /// 30
 #[pyfunction]
-#[pyo3(signature = (*, lobes, eccentricity, semi_major_axis=None, module=None, tooth_count=None))]
+#[pyo3(signature = (*, lobes, eccentricity, semi_major_axis=None, module=None, tooth_count=None, diametral_pitch=None))]
 pub(crate) fn lobed_ellipse(
     lobes: Count,
     eccentricity: f64,
     semi_major_axis: Option<f64>,
     module: Option<f64>,
     tooth_count: Option<Count>,
+    diametral_pitch: Option<f64>,
 ) -> Answer<Pitch> {
     Pitch::resolve(spec::PitchSpec::LobedEllipse(spec::LobedEllipse {
         lobes: lobes.of("pitch.lobes")?,
@@ -128,6 +135,7 @@ pub(crate) fn lobed_ellipse(
         semi_major_axis,
         module,
         tooth_count: optional("pitch.tooth_count", tooth_count)?,
+        diametral_pitch,
     }))
 }
 
@@ -141,7 +149,7 @@ pub(crate) fn lobed_ellipse(
 /// >>> square.period
 /// 4.0
 #[pyfunction]
-#[pyo3(signature = (*, radius=None, angle=None, x=None, y=None, degree=Count::Fits(3), plane="polar", interpolate=false, module=None, tooth_count=None), text_signature = "(*, radius=None, angle=None, x=None, y=None, degree=3, plane='polar', interpolate=False, module=None, tooth_count=None)")]
+#[pyo3(signature = (*, radius=None, angle=None, x=None, y=None, degree=Count::Fits(3), plane="polar", interpolate=false, module=None, tooth_count=None, diametral_pitch=None), text_signature = "(*, radius=None, angle=None, x=None, y=None, degree=3, plane='polar', interpolate=False, module=None, tooth_count=None, diametral_pitch=None)")]
 #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
 pub(crate) fn bspline(
     radius: Option<Numbers>,
@@ -153,6 +161,7 @@ pub(crate) fn bspline(
     interpolate: bool,
     module: Option<f64>,
     tooth_count: Option<Count>,
+    diametral_pitch: Option<f64>,
 ) -> Answer<Pitch> {
     Pitch::resolve(spec::PitchSpec::Bspline(spec::Bspline {
         plane: Word::of("pitch.plane", plane)?,
@@ -164,6 +173,7 @@ pub(crate) fn bspline(
         y: list(y),
         module,
         tooth_count: optional("pitch.tooth_count", tooth_count)?,
+        diametral_pitch,
     }))
 }
 
@@ -174,7 +184,7 @@ pub(crate) fn bspline(
 /// >>> ct.pitch.bezier(x=x, y=y, plane="cartesian", degree=2).points([0.0])
 /// array([[10., 10.]])
 #[pyfunction]
-#[pyo3(signature = (*, radius=None, angle=None, x=None, y=None, degree=Count::Fits(3), plane="polar", module=None, tooth_count=None), text_signature = "(*, radius=None, angle=None, x=None, y=None, degree=3, plane='polar', module=None, tooth_count=None)")]
+#[pyo3(signature = (*, radius=None, angle=None, x=None, y=None, degree=Count::Fits(3), plane="polar", module=None, tooth_count=None, diametral_pitch=None), text_signature = "(*, radius=None, angle=None, x=None, y=None, degree=3, plane='polar', module=None, tooth_count=None, diametral_pitch=None)")]
 #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
 pub(crate) fn bezier(
     radius: Option<Numbers>,
@@ -185,6 +195,7 @@ pub(crate) fn bezier(
     plane: &str,
     module: Option<f64>,
     tooth_count: Option<Count>,
+    diametral_pitch: Option<f64>,
 ) -> Answer<Pitch> {
     Pitch::resolve(spec::PitchSpec::Bezier(spec::Bezier {
         plane: Word::of("pitch.plane", plane)?,
@@ -195,6 +206,7 @@ pub(crate) fn bezier(
         y: list(y),
         module,
         tooth_count: optional("pitch.tooth_count", tooth_count)?,
+        diametral_pitch,
     }))
 }
 
@@ -204,13 +216,14 @@ pub(crate) fn bezier(
 /// >>> ct.pitch.limacon(mean_radius=20, amplitude=2).points([0.0])
 /// array([[22.,  0.]])
 #[pyfunction]
-#[pyo3(signature = (*, mean_radius, amplitude, lobes=Count::Fits(1), module=None, tooth_count=None), text_signature = "(*, mean_radius, amplitude, lobes=1, module=None, tooth_count=None)")]
+#[pyo3(signature = (*, mean_radius, amplitude, lobes=Count::Fits(1), module=None, tooth_count=None, diametral_pitch=None), text_signature = "(*, mean_radius, amplitude, lobes=1, module=None, tooth_count=None, diametral_pitch=None)")]
 pub(crate) fn limacon(
     mean_radius: f64,
     amplitude: f64,
     lobes: Count,
     module: Option<f64>,
     tooth_count: Option<Count>,
+    diametral_pitch: Option<f64>,
 ) -> Answer<Pitch> {
     Pitch::resolve(spec::PitchSpec::Limacon(spec::Limacon {
         mean_radius,
@@ -218,6 +231,7 @@ pub(crate) fn limacon(
         lobes: lobes.of("pitch.lobes")?,
         module,
         tooth_count: optional("pitch.tooth_count", tooth_count)?,
+        diametral_pitch,
     }))
 }
 
@@ -232,6 +246,7 @@ pub(crate) fn limacon(
 ///     sin: Sine coefficients from the first harmonic, mm.
 ///     module: Module, mm, with `tooth_count`: scales the curve.
 ///     tooth_count: Number of teeth; alone, the module follows from the size of the curve.
+///     diametral_pitch: Diametral pitch, 1/in, instead of the module.
 ///
 /// >>> import centrode as ct
 /// >>> ct.pitch.polar("20 + 2*cos(2*phi)").points([0.0])
@@ -239,7 +254,7 @@ pub(crate) fn limacon(
 /// >>> ct.pitch.polar(mean=20, cos=[0, 2]).points([0.0])
 /// array([[22.,  0.]])
 #[pyfunction]
-#[pyo3(signature = (radius=None, *, angle=None, interpolation=None, mean=None, cos=None, sin=None, module=None, tooth_count=None))]
+#[pyo3(signature = (radius=None, *, angle=None, interpolation=None, mean=None, cos=None, sin=None, module=None, tooth_count=None, diametral_pitch=None))]
 #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
 pub(crate) fn polar(
     radius: Option<Law>,
@@ -250,6 +265,7 @@ pub(crate) fn polar(
     sin: Option<Numbers>,
     module: Option<f64>,
     tooth_count: Option<Count>,
+    diametral_pitch: Option<f64>,
 ) -> Answer<Pitch> {
     let (expression, radius) = Law::parts(radius);
     Pitch::resolve(spec::PitchSpec::Polar(spec::Polar {
@@ -262,6 +278,7 @@ pub(crate) fn polar(
         sin: list(sin),
         module,
         tooth_count: optional("pitch.tooth_count", tooth_count)?,
+        diametral_pitch,
     }))
 }
 
@@ -274,19 +291,21 @@ pub(crate) fn polar(
 ///     center_distance: mm; or give `module` and `tooth_count`.
 ///     module: Module, mm.
 ///     tooth_count: Number of teeth.
+///     diametral_pitch: Diametral pitch, 1/in, instead of the module.
 ///
 /// >>> import centrode as ct
 /// >>> pitch = ct.pitch.from_transmission("phi/2 - 0.05*sin(2*phi)", center_distance=60)
 /// >>> pitch.implied_ratio
 /// (2, 1)
 #[pyfunction]
-#[pyo3(signature = (driven_angle, *, interpolation=None, center_distance=None, module=None, tooth_count=None))]
+#[pyo3(signature = (driven_angle, *, interpolation=None, center_distance=None, module=None, tooth_count=None, diametral_pitch=None))]
 pub(crate) fn from_transmission(
     driven_angle: Law,
     interpolation: Option<&str>,
     center_distance: Option<f64>,
     module: Option<f64>,
     tooth_count: Option<Count>,
+    diametral_pitch: Option<f64>,
 ) -> Answer<Pitch> {
     let (expression, driven_angle) = Law::parts(Some(driven_angle));
     Pitch::resolve(spec::PitchSpec::Transmission(spec::Transmission {
@@ -296,6 +315,7 @@ pub(crate) fn from_transmission(
         center_distance,
         module,
         tooth_count: optional("pitch.tooth_count", tooth_count)?,
+        diametral_pitch,
     }))
 }
 
@@ -308,13 +328,14 @@ pub(crate) fn from_transmission(
 /// >>> pitch.implied_ratio
 /// (1, 1)
 #[pyfunction]
-#[pyo3(signature = (ratio, *, interpolation=None, center_distance=None, module=None, tooth_count=None))]
+#[pyo3(signature = (ratio, *, interpolation=None, center_distance=None, module=None, tooth_count=None, diametral_pitch=None))]
 pub(crate) fn from_ratio(
     ratio: Law,
     interpolation: Option<&str>,
     center_distance: Option<f64>,
     module: Option<f64>,
     tooth_count: Option<Count>,
+    diametral_pitch: Option<f64>,
 ) -> Answer<Pitch> {
     let (expression, ratio) = Law::parts(Some(ratio));
     Pitch::resolve(spec::PitchSpec::Ratio(spec::Ratio {
@@ -324,6 +345,7 @@ pub(crate) fn from_ratio(
         center_distance,
         module,
         tooth_count: optional("pitch.tooth_count", tooth_count)?,
+        diametral_pitch,
     }))
 }
 
@@ -336,18 +358,20 @@ pub(crate) fn from_ratio(
 ///     mean_ratio: Turns of `of` : turns of this curve.
 ///     module: Module, mm, with `tooth_count`: scales the curve.
 ///     tooth_count: Number of teeth; alone, the module follows from the size of the curve.
+///     diametral_pitch: Diametral pitch, 1/in, instead of the module.
 ///
 /// >>> import centrode as ct
 /// >>> wheel = ct.pitch.conjugate(ct.pitch.circle(radius=10), mean_ratio=(2, 1))
 /// >>> wheel.points([0.0]).round(12)
 /// array([[20.,  0.]])
 #[pyfunction]
-#[pyo3(signature = (of, *, mean_ratio=[Count::Fits(1), Count::Fits(1)], module=None, tooth_count=None), text_signature = "(of, *, mean_ratio=(1, 1), module=None, tooth_count=None)")]
+#[pyo3(signature = (of, *, mean_ratio=[Count::Fits(1), Count::Fits(1)], module=None, tooth_count=None, diametral_pitch=None), text_signature = "(of, *, mean_ratio=(1, 1), module=None, tooth_count=None, diametral_pitch=None)")]
 pub(crate) fn conjugate(
     of: PyRef<'_, Pitch>,
     mean_ratio: [Count; 2],
     module: Option<f64>,
     tooth_count: Option<Count>,
+    diametral_pitch: Option<f64>,
 ) -> Answer<Pitch> {
     let [driver, driven] = mean_ratio;
     Pitch::resolve(spec::PitchSpec::Conjugate(spec::Conjugate {
@@ -357,6 +381,7 @@ pub(crate) fn conjugate(
         ],
         module,
         tooth_count: optional("pitch.tooth_count", tooth_count)?,
+        diametral_pitch,
         of: Box::new(of.spec.clone()),
     }))
 }

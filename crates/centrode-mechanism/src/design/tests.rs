@@ -121,6 +121,21 @@ fn every_bad_line_is_named_with_key_and_place() {
             "line 8, column 1: pitch.module must be a finite number",
         ),
         (
+            "module = 2.25",
+            "module = 2.25\ndiametral_pitch = 12",
+            "line 9, column 1: pitch.diametral_pitch does not go with module: give one of them",
+        ),
+        (
+            "module = 2.25",
+            "diametral_pitch = 0",
+            "line 8, column 1: pitch.diametral_pitch must be greater than 0, not 0",
+        ),
+        (
+            "module = 2.25",
+            "diametral_pitch = -16",
+            "line 8, column 1: pitch.diametral_pitch must be greater than 0, not -16",
+        ),
+        (
             "module = 2.25\n",
             "",
             "line 8, column 1: pitch.tooth_count is given without module",
@@ -605,6 +620,7 @@ proptest! {
             eccentricity: k,
             semi_major_axis: None,
             module: Some(m),
+            diametral_pitch: None,
             tooth_count: Some(z),
         });
         pair.tool = crate::gear::design::ToolSpec::Rack(crate::gear::design::Rack {

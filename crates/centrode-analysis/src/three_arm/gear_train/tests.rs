@@ -12,6 +12,7 @@ fn gentle(change: impl Fn(&mut ThreeArmDesign)) -> (ThreeArm, GearPair) {
         amplitude: 7.0,
         lobes: 1,
         module: None,
+        diametral_pitch: None,
         tooth_count: None,
     });
     design.tooth_count = Some(36);

@@ -16,6 +16,9 @@ pub struct Circle {
     /// Module, mm, with `tooth_count`: sets the size of the curve.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub module: Option<f64>,
+    /// Diametral pitch, 1/in, instead of the module: 25.4 mm over the module.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub diametral_pitch: Option<f64>,
     /// Number of teeth.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tooth_count: Option<u32>,
@@ -35,6 +38,9 @@ pub struct EccentricCircle {
     /// Module, mm, with `tooth_count`: sets the size of the curve.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub module: Option<f64>,
+    /// Diametral pitch, 1/in, instead of the module: 25.4 mm over the module.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub diametral_pitch: Option<f64>,
     /// Number of teeth.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tooth_count: Option<u32>,
@@ -51,6 +57,7 @@ impl Circle {
     pub(crate) fn draft(&self) -> Result<Draft, PitchError> {
         let size = Size {
             module: self.module,
+            diametral_pitch: self.diametral_pitch,
             tooth_count: self.tooth_count,
             own: own_size(self.radius)?,
         };
@@ -72,6 +79,7 @@ impl EccentricCircle {
         };
         let size = Size {
             module: self.module,
+            diametral_pitch: self.diametral_pitch,
             tooth_count: self.tooth_count,
             own: own_size(self.radius)?,
         };

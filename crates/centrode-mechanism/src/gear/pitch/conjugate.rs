@@ -23,6 +23,9 @@ pub struct Conjugate {
     /// Module, mm, with `tooth_count`: scales the curve.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub module: Option<f64>,
+    /// Diametral pitch, 1/in, instead of the module: 25.4 mm over the module.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub diametral_pitch: Option<f64>,
     /// Number of teeth; alone, the module follows from the size of the curve.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tooth_count: Option<u32>,
@@ -38,6 +41,7 @@ impl Conjugate {
     pub(crate) fn draft(&self) -> Result<Draft, PitchError> {
         let size = Size {
             module: self.module,
+            diametral_pitch: self.diametral_pitch,
             tooth_count: self.tooth_count,
             own: OwnSize::Written,
         };
@@ -111,6 +115,7 @@ mod tests {
         PitchSpec::Conjugate(Conjugate {
             mean_ratio,
             module: None,
+            diametral_pitch: None,
             tooth_count: None,
             of: Box::new(spec),
         })
@@ -153,6 +158,7 @@ mod tests {
         let spec = PitchSpec::Conjugate(Conjugate {
             mean_ratio: [2, 1],
             module: Some(1.5),
+            diametral_pitch: None,
             tooth_count: Some(40),
             of: Box::new(PitchSpec::Polar(Polar::expression("1 + 0.1*cos(phi)"))),
         });

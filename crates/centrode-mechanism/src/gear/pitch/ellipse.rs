@@ -20,6 +20,9 @@ pub struct Ellipse {
     /// Module, mm, with `tooth_count`: sets the size of the curve.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub module: Option<f64>,
+    /// Diametral pitch, 1/in, instead of the module: 25.4 mm over the module.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub diametral_pitch: Option<f64>,
     /// Number of teeth.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tooth_count: Option<u32>,
@@ -41,6 +44,9 @@ pub struct LobedEllipse {
     /// Module, mm, with `tooth_count`: sets the size of the curve.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub module: Option<f64>,
+    /// Diametral pitch, 1/in, instead of the module: 25.4 mm over the module.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub diametral_pitch: Option<f64>,
     /// Number of teeth.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tooth_count: Option<u32>,
@@ -53,6 +59,7 @@ impl Default for LobedEllipse {
             eccentricity: 0.0,
             semi_major_axis: None,
             module: None,
+            diametral_pitch: None,
             tooth_count: None,
         }
     }
@@ -66,7 +73,11 @@ impl Ellipse {
         );
         draft(
             Focal::new(1, self.eccentricity, self.semi_major_axis)?,
-            (self.semi_major_axis, self.module, self.tooth_count),
+            (
+                self.semi_major_axis,
+                [self.module, self.diametral_pitch],
+                self.tooth_count,
+            ),
             definition,
         )
     }
@@ -81,7 +92,11 @@ impl LobedEllipse {
         );
         draft(
             Focal::new(self.lobes, self.eccentricity, self.semi_major_axis)?,
-            (self.semi_major_axis, self.module, self.tooth_count),
+            (
+                self.semi_major_axis,
+                [self.module, self.diametral_pitch],
+                self.tooth_count,
+            ),
             definition,
         )
     }
@@ -89,7 +104,7 @@ impl LobedEllipse {
 
 fn draft(
     law: Focal,
-    (own, module, tooth_count): (Option<f64>, Option<f64>, Option<u32>),
+    (own, [module, diametral_pitch], tooth_count): (Option<f64>, [Option<f64>; 2], Option<u32>),
     definition: String,
 ) -> Result<Draft, PitchError> {
     let key = "semi_major_axis";
@@ -99,6 +114,7 @@ fn draft(
     };
     let size = Size {
         module,
+        diametral_pitch,
         tooth_count,
         own: own_size,
     };

@@ -68,8 +68,8 @@ pub enum PitchError {
     #[error("nothing sets the size of the curve: give module and tooth_count, or {0}")]
     NoSize(&'static str),
     /// The size is set twice.
-    #[error("{0} and module both set the size of the curve: give one of them")]
-    SizeTwice(&'static str),
+    #[error("{0} and {1} both set the size of the curve: give one of them")]
+    SizeTwice(&'static str, &'static str),
     /// Two lists that belong together differ in length.
     #[error("{first} has {first_length} values but {second} has {second_length}")]
     LengthMismatch {
@@ -285,7 +285,7 @@ impl PitchError {
             Self::Eccentricity(_) => "eccentricity",
             Self::ToothCount(_) => "tooth_count",
             Self::SizeIncomplete { given, .. } => given,
-            Self::NoSize(key) | Self::SizeTwice(key) => key,
+            Self::NoSize(key) | Self::SizeTwice(key, _) => key,
             Self::LengthMismatch { second, .. } => second,
             Self::AnglesNotIncreasing { .. } => "angle_deg",
             Self::Of(_) => "of",

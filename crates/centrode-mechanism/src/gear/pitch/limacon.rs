@@ -20,6 +20,9 @@ pub struct Limacon {
     /// Module, mm, with `tooth_count`: scales the curve.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub module: Option<f64>,
+    /// Diametral pitch, 1/in, instead of the module: 25.4 mm over the module.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub diametral_pitch: Option<f64>,
     /// Number of teeth; alone, the module follows from the size of the curve.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tooth_count: Option<u32>,
@@ -36,6 +39,7 @@ impl Default for Limacon {
             amplitude: 0.0,
             lobes: 1,
             module: None,
+            diametral_pitch: None,
             tooth_count: None,
         }
     }
@@ -50,6 +54,7 @@ impl Limacon {
         };
         let size = Size {
             module: self.module,
+            diametral_pitch: self.diametral_pitch,
             tooth_count: self.tooth_count,
             own: OwnSize::Written,
         };

@@ -125,22 +125,69 @@ impl PitchSpec {
 
     /// Gives it another number of teeth, where it has one: on a curve of the same size, so that the module changes.
     pub(crate) fn set_tooth_count(&mut self, teeth: u32) {
-        let (module, count) = match self {
-            Self::Circle(spec) => (&mut spec.module, &mut spec.tooth_count),
-            Self::EccentricCircle(spec) => (&mut spec.module, &mut spec.tooth_count),
-            Self::Ellipse(spec) => (&mut spec.module, &mut spec.tooth_count),
-            Self::LobedEllipse(spec) => (&mut spec.module, &mut spec.tooth_count),
-            Self::Limacon(spec) => (&mut spec.module, &mut spec.tooth_count),
-            Self::Bspline(spec) => (&mut spec.module, &mut spec.tooth_count),
-            Self::Bezier(spec) => (&mut spec.module, &mut spec.tooth_count),
-            Self::Polar(spec) => (&mut spec.module, &mut spec.tooth_count),
-            Self::Transmission(spec) => (&mut spec.module, &mut spec.tooth_count),
-            Self::Ratio(spec) => (&mut spec.module, &mut spec.tooth_count),
-            Self::Conjugate(spec) => (&mut spec.module, &mut spec.tooth_count),
+        let (module, diametral_pitch, count) = match self {
+            Self::Circle(spec) => (
+                &mut spec.module,
+                &mut spec.diametral_pitch,
+                &mut spec.tooth_count,
+            ),
+            Self::EccentricCircle(spec) => (
+                &mut spec.module,
+                &mut spec.diametral_pitch,
+                &mut spec.tooth_count,
+            ),
+            Self::Ellipse(spec) => (
+                &mut spec.module,
+                &mut spec.diametral_pitch,
+                &mut spec.tooth_count,
+            ),
+            Self::LobedEllipse(spec) => (
+                &mut spec.module,
+                &mut spec.diametral_pitch,
+                &mut spec.tooth_count,
+            ),
+            Self::Limacon(spec) => (
+                &mut spec.module,
+                &mut spec.diametral_pitch,
+                &mut spec.tooth_count,
+            ),
+            Self::Bspline(spec) => (
+                &mut spec.module,
+                &mut spec.diametral_pitch,
+                &mut spec.tooth_count,
+            ),
+            Self::Bezier(spec) => (
+                &mut spec.module,
+                &mut spec.diametral_pitch,
+                &mut spec.tooth_count,
+            ),
+            Self::Polar(spec) => (
+                &mut spec.module,
+                &mut spec.diametral_pitch,
+                &mut spec.tooth_count,
+            ),
+            Self::Transmission(spec) => (
+                &mut spec.module,
+                &mut spec.diametral_pitch,
+                &mut spec.tooth_count,
+            ),
+            Self::Ratio(spec) => (
+                &mut spec.module,
+                &mut spec.diametral_pitch,
+                &mut spec.tooth_count,
+            ),
+            Self::Conjugate(spec) => (
+                &mut spec.module,
+                &mut spec.diametral_pitch,
+                &mut spec.tooth_count,
+            ),
         };
         let Some(count) = count else { return };
         if let Some(module) = module {
             *module *= f64::from(*count) / f64::from(teeth);
+        }
+        if let Some(diametral_pitch) = diametral_pitch {
+            *diametral_pitch *= f64::from(teeth) / f64::from(*count);
         }
         *count = teeth;
     }
@@ -220,9 +267,9 @@ impl Draft {
         let written = sized(self.key, perimeter(self.curve.as_ref()))?;
         let tooth_count = self.size.tooth_count;
         let mut factor = 1.0;
-        let module = match (self.size.module, tooth_count) {
+        let module = match (self.size.module(), tooth_count) {
             (Some(module), Some(z)) => {
-                let length = sized("module", PI * module * f64::from(z))?;
+                let length = sized(self.size.module_key(), PI * module * f64::from(z))?;
                 factor = length / written;
                 self.curve.rescale(factor);
                 Some(module)

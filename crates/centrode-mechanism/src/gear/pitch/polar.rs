@@ -48,6 +48,9 @@ pub struct Polar {
     /// Module, mm, with `tooth_count`: scales the curve.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub module: Option<f64>,
+    /// Diametral pitch, 1/in, instead of the module: 25.4 mm over the module.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub diametral_pitch: Option<f64>,
     /// Number of teeth; alone, the module follows from the size of the curve.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tooth_count: Option<u32>,
@@ -66,6 +69,7 @@ impl Polar {
     pub(crate) fn draft(&self) -> Result<Draft, PitchError> {
         let size = Size {
             module: self.module,
+            diametral_pitch: self.diametral_pitch,
             tooth_count: self.tooth_count,
             own: OwnSize::Written,
         };

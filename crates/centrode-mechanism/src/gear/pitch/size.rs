@@ -1,10 +1,14 @@
 use super::PitchError;
 use super::error::positive;
 
+/// Inch, mm.
+const INCH: f64 = 25.4;
+
 /// Size of a curve as its description gives it.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Size {
     pub(crate) module: Option<f64>,
+    pub(crate) diametral_pitch: Option<f64>,
     pub(crate) tooth_count: Option<u32>,
     /// Source of the lengths of the shape.
     pub(crate) own: OwnSize,
@@ -22,10 +26,32 @@ pub(crate) enum OwnSize {
 }
 
 impl Size {
+    /// Module, mm, as written or by the diametral pitch.
+    pub(crate) fn module(&self) -> Option<f64> {
+        let by_pitch = || Some(INCH / self.diametral_pitch?);
+        self.module.or_else(by_pitch)
+    }
+
+    /// Key that gives the module.
+    pub(crate) fn module_key(&self) -> &'static str {
+        match self.diametral_pitch {
+            Some(_) => "diametral_pitch",
+            None => "module",
+        }
+    }
+
     /// Refuses a size that is impossible, absent or given twice.
     pub(crate) fn check(&self) -> Result<(), PitchError> {
         if let Some(module) = self.module {
             positive("module", module)?;
+        }
+        if let Some(pitch) = self.diametral_pitch {
+            positive("diametral_pitch", pitch)?;
+            if self.module.is_some() {
+                let key = "diametral_pitch";
+                let rule = "does not go with module: give one of them";
+                return Err(PitchError::Key { key, rule });
+            }
         }
         if let Some(z) = self.tooth_count {
             if z < 3 {
@@ -40,9 +66,9 @@ impl Size {
                 });
             }
         }
-        match (self.module, self.tooth_count, self.own) {
+        match (self.module(), self.tooth_count, self.own) {
             (Some(_), None, _) => Err(PitchError::SizeIncomplete {
-                given: "module",
+                given: self.module_key(),
                 missing: "tooth_count",
             }),
             (None, Some(_), OwnSize::Missing(_)) => Err(PitchError::SizeIncomplete {
@@ -50,7 +76,9 @@ impl Size {
                 missing: "module",
             }),
             (None, None, OwnSize::Missing(key)) => Err(PitchError::NoSize(key)),
-            (Some(_), Some(_), OwnSize::Fixed(key)) => Err(PitchError::SizeTwice(key)),
+            (Some(_), Some(_), OwnSize::Fixed(key)) => {
+                Err(PitchError::SizeTwice(key, self.module_key()))
+            }
             _ => Ok(()),
         }
     }

@@ -308,6 +308,66 @@ fn module_and_tooth_count_set_the_length() {
 }
 
 #[test]
+fn a_diametral_pitch_is_a_module() {
+    for kind in [
+        "kind = \"circle\"",
+        "kind = \"eccentric-circle\"\neccentricity = 0.2",
+        "kind = \"ellipse\"\neccentricity = 0.3",
+        "kind = \"lobed-ellipse\"\nlobes = 2\neccentricity = 0.2",
+        "kind = \"limacon\"\nmean_radius = 20\namplitude = 3",
+        "kind = \"bspline\"\nradius = [20, 22, 20, 22]\nangle_deg = [0, 90, 180, 270]",
+        "kind = \"bezier\"\ndegree = 1\nradius = [20, 22, 20, 22]\nangle_deg = [0, 90, 180, 270]",
+        "kind = \"polar\"\nexpression = \"1 + 0.1*cos(2*phi)\"",
+        "kind = \"transmission\"\nexpression = \"phi - 0.08*sin(2*phi)\"",
+        "kind = \"ratio\"\nexpression = \"1 - 0.16*cos(2*phi)\"",
+        "kind = \"conjugate\"\nof = { kind = \"circle\", radius = 20 }",
+    ] {
+        let of =
+            |size: &str| -> PitchSpec { toml::from_str(&format!("{size}\n{kind}")).expect(kind) };
+        let written = of("diametral_pitch = 16\ntooth_count = 40");
+        let (inch, metric) = (
+            resolve(&written),
+            resolve(&of("module = 1.5875\ntooth_count = 40")),
+        );
+        assert_eq!(inch.module, Some(25.4 / 16.0), "{kind}");
+        assert_eq!(inch.definition, metric.definition);
+        for i in 0..8 {
+            let t = 0.125 * f64::from(i) * inch.curve.period();
+            assert_eq!(inch.curve.at(t).point, metric.curve.at(t).point, "{kind}");
+        }
+        // More teeth on a curve of the same size.
+        let mut more = written.clone();
+        more.set_tooth_count(50);
+        assert_eq!(resolve(&more).module, Some(25.4 / 20.0), "{kind}");
+        for (size, message) in [
+            (
+                "module = 2\ndiametral_pitch = 16\ntooth_count = 40",
+                "does not go with module",
+            ),
+            ("diametral_pitch = 0\ntooth_count = 40", "greater than 0"),
+            ("diametral_pitch = -16\ntooth_count = 40", "greater than 0"),
+            ("diametral_pitch = nan\ntooth_count = 40", "finite"),
+            (
+                "diametral_pitch = 1e-60\ntooth_count = 40",
+                "makes a pitch curve",
+            ),
+            ("diametral_pitch = 16", "given without tooth_count"),
+        ] {
+            let fault = error(&of(size));
+            assert_eq!(fault.key(), "diametral_pitch", "{kind}: {fault}");
+            assert!(fault.to_string().contains(message), "{kind}: {fault}");
+        }
+    }
+    let twice = error(&PitchSpec::Circle(Circle {
+        radius: Some(20.0),
+        diametral_pitch: Some(16.0),
+        tooth_count: Some(40),
+        ..Circle::default()
+    }));
+    assert_eq!(twice, PitchError::SizeTwice("radius", "diametral_pitch"));
+}
+
+#[test]
 fn faults_are_named_with_key_and_place() {
     let ellipse = |k: f64, m: f64, z: u32| {
         error(&PitchSpec::Ellipse(Ellipse {

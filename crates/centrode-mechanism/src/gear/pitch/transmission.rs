@@ -44,6 +44,9 @@ pub struct Transmission {
     /// Module, mm, with `tooth_count`: sets the size of the curve.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub module: Option<f64>,
+    /// Diametral pitch, 1/in, instead of the module: 25.4 mm over the module.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub diametral_pitch: Option<f64>,
     /// Number of teeth.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tooth_count: Option<u32>,
@@ -70,6 +73,9 @@ pub struct Ratio {
     /// Module, mm, with `tooth_count`: sets the size of the curve.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub module: Option<f64>,
+    /// Diametral pitch, 1/in, instead of the module: 25.4 mm over the module.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub diametral_pitch: Option<f64>,
     /// Number of teeth.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tooth_count: Option<u32>,
@@ -147,7 +153,11 @@ impl Transmission {
     }
 
     fn size(&self) -> Result<Size, PitchError> {
-        size(self.center_distance, self.module, self.tooth_count)
+        size(
+            self.center_distance,
+            [self.module, self.diametral_pitch],
+            self.tooth_count,
+        )
     }
 }
 
@@ -162,7 +172,11 @@ impl Ratio {
     }
 
     pub(crate) fn draft(&self) -> Result<Draft, PitchError> {
-        let size = size(self.center_distance, self.module, self.tooth_count)?;
+        let size = size(
+            self.center_distance,
+            [self.module, self.diametral_pitch],
+            self.tooth_count,
+        )?;
         if let Some(text) = &self.expression {
             formula_alone("ratio", !self.ratio.is_empty(), self.interpolation)?;
             let law = RatioForm::Ratio(read_formula("expression", text)?);
@@ -210,7 +224,11 @@ fn formula_alone(
     }
 }
 
-fn size(own: Option<f64>, module: Option<f64>, z: Option<u32>) -> Result<Size, PitchError> {
+fn size(
+    own: Option<f64>,
+    [module, diametral_pitch]: [Option<f64>; 2],
+    z: Option<u32>,
+) -> Result<Size, PitchError> {
     let key = "center_distance";
     let own = match own {
         Some(a) => positive(key, a).map(|_| OwnSize::Fixed(key))?,
@@ -218,6 +236,7 @@ fn size(own: Option<f64>, module: Option<f64>, z: Option<u32>) -> Result<Size, P
     };
     let size = Size {
         module,
+        diametral_pitch,
         tooth_count: z,
         own,
     };

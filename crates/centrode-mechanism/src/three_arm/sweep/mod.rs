@@ -81,7 +81,9 @@ pub enum SweepError {
 fn spline_of(design: &ThreeArmDesign) -> Result<&Bspline, SweepError> {
     match &design.pitch {
         PitchSpec::Bspline(spline)
-            if spline.plane == Plane::Polar && !spline.interpolate && spline.module.is_none() =>
+            if spline.plane == Plane::Polar
+                && !spline.interpolate
+                && spline.module.or(spline.diametral_pitch).is_none() =>
         {
             Ok(spline)
         }

@@ -138,7 +138,7 @@ fn with_as_many(start: DocumentMut, wanted: &[Entry]) -> (DocumentMut, Vec<Entry
     }
     if let [(key, value)] = wanted {
         // The size of a curve may be given elsewhere.
-        let sized = ["tooth_count", "module"];
+        let sized = ["tooth_count", "module", "diametral_pitch"];
         for left in 1..=sized.len() {
             let mut table = value.as_object().cloned().unwrap_or_default();
             let before = table.len();

@@ -295,9 +295,9 @@ fn unit(name: &str, doc: &str) -> &'static str {
         return "°";
     }
     // Longer names first: one may begin another.
-    const UNITS: [&str; 15] = [
+    const UNITS: [&str; 16] = [
         "kg/m^3", "kg mm²", "N/mm", "N mm", "mm/s", "mm/rad", "rad/s", "1/min", "r/min", "1/mm",
-        "kg", "mm", "s", "N", "rad",
+        "1/in", "kg", "mm", "s", "N", "rad",
     ];
     let ends =
         |rest: &str| !rest.starts_with(|c: char| c.is_alphanumeric() || c == '/' || c == '^');
@@ -355,6 +355,7 @@ mod tests {
         assert_eq!(field(text, "teeth.backlash").unit, "mm");
         assert_eq!(field(text, "teeth.backlash").value, 0.0);
         assert!(!field(text, "teeth.backlash").written);
+        assert_eq!(field(text, "pitch.diametral_pitch").unit, "1/in");
         assert_eq!(field(text, "tool.pressure_angle_deg").unit, "°");
         assert_eq!(field(text, "driver.density").unit, "kg/m³");
         assert_eq!(field(text, "pitch.tooth_count").kind, Kind::Integer);

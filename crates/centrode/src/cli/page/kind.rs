@@ -76,7 +76,7 @@ impl Switch<'_> {
         if whole.is_some() {
             return whole;
         }
-        let size = ["module", "tooth_count"];
+        let size = ["module", "diametral_pitch", "tooth_count"];
         let mut kept: Vec<&str> = shared
             .iter()
             .copied()
@@ -269,6 +269,18 @@ pub(super) mod tests {
             }
         }
         ways
+    }
+
+    #[test]
+    fn a_diametral_pitch_stays_with_a_new_kind() {
+        let text = FAMILIES.template("gear-pair").expect("a template");
+        let text = text.replace("module = 2.25", "diametral_pitch = 12");
+        for kind in ["circle", "lobed-ellipse", "polar", "ratio"] {
+            let new = changed(&text, "pitch.kind", kind);
+            for key in ["pitch.diametral_pitch", "pitch.tooth_count"] {
+                assert_eq!(value(&new, key), value(&text, key), "{kind}: {new}");
+            }
+        }
     }
 
     #[test]

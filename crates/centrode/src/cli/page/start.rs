@@ -14,7 +14,7 @@ use serde_json::{Map, Value};
 pub(super) struct Measures {
     /// Mean radius of the pitch curve, mm.
     radius: f64,
-    /// Whether module and tooth count set the size of the curve.
+    /// Whether module or diametral pitch, with the tooth count, sets the size of the curve.
     sized: bool,
     /// Turns of driver and driven gear in a cycle.
     ratio: [u32; 2],
@@ -42,7 +42,9 @@ impl Measures {
         let mut ratios = around.iter().map(|table| ratio_in(table).unwrap_or([1, 1]));
         let repeats = ratios.clone().map(|[_, driven]| driven).product();
         let number = |table: &Value, key: &str| table.get(key).and_then(Value::as_f64);
-        let sized = old.get("module").is_some() && old.get("tooth_count").is_some();
+        let sizes = ["module", "diametral_pitch"];
+        let sized =
+            sizes.iter().any(|key| old.get(key).is_some()) && old.get("tooth_count").is_some();
         Self {
             radius: mean_radius(old).unwrap_or(40.0),
             sized,
@@ -197,6 +199,7 @@ fn pitch(kind: &str, about: &Measures, swing: f64) -> Option<PitchSpec> {
             PitchSpec::Conjugate(Conjugate {
                 mean_ratio: [1, 1],
                 module: None,
+                diametral_pitch: None,
                 tooth_count: None,
                 of: Box::new(of.filter(|_| swing > 0.0).unwrap_or_else(round)),
             })
