@@ -11,9 +11,9 @@ use centrode_geometry::{BadTolerance, SolidError, Tolerance};
 use centrode_mechanism::arm::ArmError;
 use centrode_mechanism::cam::CamError;
 use centrode_mechanism::design::{DesignError, DesignFault, MechanismError, shortened};
-use centrode_mechanism::gear::GearPairError;
 use centrode_mechanism::gear::design::SpecError;
 use centrode_mechanism::gear::pitch::PitchError;
+use centrode_mechanism::gear::{BaseTangentFault, GearPairError};
 use centrode_mechanism::linkage::{FourBarError, SixBarError};
 use centrode_mechanism::reverse::{
     AxisFault, GearDriveError, MachineError, PathError, PoseError, SplitError,
@@ -79,6 +79,7 @@ raised! {
     FeederForcesError { _ => MechanismError("plates"), }
     ForcesError { _ => MechanismError(""), }
     LinkClearanceError { _ => MechanismError("plates"), }
+    BaseTangentFault { _ => MechanismError(""), }
     NotSearched { _ => MechanismError("optimise"), }
     NotWidened { _ => MechanismError("optimise"), }
     SearchError { _ => MechanismError("optimise"), }

@@ -158,6 +158,20 @@ impl Gear {
         Ok(record::over_pins(py, &over)?)
     }
 
+    /// Base tangent length of a circular gear: number of teeth measured over, and the length, mm.
+    ///
+    /// Raises `MechanismError` with the reason if the gear cannot be measured so.
+    ///
+    /// >>> import centrode as ct
+    /// >>> pair = ct.GearPair(ct.pitch.circle(module=3, tooth_count=24), driver_shift=0.4)
+    /// >>> teeth, length = pair.driver.base_tangent()
+    /// >>> print(teeth, f"{length:.4f}")
+    /// 4 32.8266
+    fn base_tangent(&self) -> Answer<(u32, f64)> {
+        let found = self.pair.base_tangent(self.member)?;
+        Ok((found.teeth, found.length))
+    }
+
     /// Pins in teeth of the greatest and of the least thickness that `thickness_deviations` of the pair, or DIN 3967 for its
     /// accuracy class, allow; None where neither has any.
     ///

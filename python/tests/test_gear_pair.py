@@ -172,3 +172,18 @@ def test_each_gear_has_heights_and_a_tool_of_its_own(pair):
     assert uneven.check().values["transmission_error_max"] < 1e-9
     with pytest.raises(ct.DesignError, match="both tools need the same"):
         ct.GearPair(pitch, driven_tool=ct.Rack(pressure_angle=0.4))
+
+
+def test_a_base_tangent_is_the_arc_of_the_base_circle_or_refused():
+    pair = ct.GearPair(ct.pitch.circle(module=3, tooth_count=24), driver_shift=0.4, backlash=0.05)
+    teeth, length = pair.driver.base_tangent()
+    angle = math.radians(20)
+    arc = math.pi * (teeth - 0.5) + 24 * (math.tan(angle) - angle) + 2 * 0.4 * math.tan(angle)
+    assert teeth == 4
+    assert abs(length - (3 * math.cos(angle) * arc - 0.025)) < 1e-12
+    values = pair.check().values
+    assert (values["driver_base_tangent_teeth"], values["driver_base_tangent"]) == (teeth, length)
+    ellipse = ct.GearPair(ct.pitch.ellipse(eccentricity=0.2, module=2, tooth_count=23))
+    with pytest.raises(ct.MechanismError, match="not a circle"):
+        ellipse.driven.base_tangent()
+    assert "driver_base_tangent" not in ellipse.check().values

@@ -3,9 +3,12 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use centrode_analysis::Contact;
+use centrode_geometry::{Vector, bracketed_minimum};
 use centrode_mechanism::design::DesignSpec as _;
 use centrode_mechanism::gear::design::{GearPairDesign, Rack, Shaper, ToolSpec};
-use centrode_mechanism::gear::{Gear, GearPair, GearPairError, Member, Role, ToolKind};
+use centrode_mechanism::gear::{
+    BaseTangentFault, Gear, GearPair, GearPairError, Member, Role, ToolKind,
+};
 
 /// Dedendum and tip radius of the rack, in modules; its addendum is 1.
 const DEDENDUM: f64 = 1.25;
@@ -73,6 +76,11 @@ impl Case {
         let thinning = self.backlash / (2.0 * self.alpha.cos()) / (2.0 * self.reference(i));
         thick / f64::from(self.z[i]) - thinning + involute(self.alpha)
             - involute((self.base(i) / radius).acos())
+    }
+
+    /// Width of the top land along the tip circle.
+    fn tip_land(&self, i: usize) -> f64 {
+        2.0 * self.tip(i) * self.half_tooth(i, self.tip(i))
     }
 
     /// Depth of the straight side of the rack, in modules.
@@ -358,12 +366,10 @@ fn random(state: &mut u64) -> f64 {
     (*state >> 11) as f64 / (1_u64 << 53) as f64
 }
 
-#[test]
-fn two_hundred_random_circular_pairs_are_those_of_the_involute_formulas() {
-    let mut state = 58;
-    let (mut pairs, mut measured) = (0, 0);
-    while pairs < 200 {
-        let mut next = |low: f64, high: f64| low + (high - low) * random(&mut state);
+/// Circular gears without undercut and with tips of some width.
+fn random_case(state: &mut u64) -> Case {
+    loop {
+        let mut next = |low: f64, high: f64| low + (high - low) * random(state);
         let mut case = Case {
             module: next(0.5, 5.0),
             z: [next(9.0, 41.0) as u32, next(9.0, 41.0) as u32],
@@ -381,11 +387,19 @@ fn two_hundred_random_circular_pairs_are_those_of_the_involute_formulas() {
             1 => Some(0.0),
             _ => Some(next(-0.2, 0.05)),
         };
-        let lands = [0, 1].map(|i| 2.0 * case.tip(i) * case.half_tooth(i, case.tip(i)));
-        if lands.iter().any(|land| *land < 0.1 * case.module) || case.contact_ratio() < 1.02 {
-            continue;
+        let lands = [0, 1].map(|i| case.tip_land(i));
+        if lands.iter().all(|land| *land >= 0.1 * case.module) && case.contact_ratio() >= 1.02 {
+            return case;
         }
-        pairs += 1;
+    }
+}
+
+#[test]
+fn two_hundred_random_circular_pairs_are_those_of_the_involute_formulas() {
+    let mut state = 58;
+    let mut measured = 0;
+    for _ in 0..200 {
+        let case = random_case(&mut state);
         let pair = case.pair();
         near(
             pair.center_distance(),
@@ -410,7 +424,7 @@ fn two_hundred_random_circular_pairs_are_those_of_the_involute_formulas() {
                     .iter()
                     .all(|t| t.leading.undercut == 0.0 && t.trailing.undercut == 0.0)
             );
-            near(tip_land(gear), lands[i], 1e-9 * case.module, &case);
+            near(tip_land(gear), case.tip_land(i), 1e-9 * case.module, &case);
             // A pin between two teeth: its centre is on the middle of the space.
             let diameter = pair.pin_diameter(member);
             let half_space = PI / f64::from(case.z[i]) - case.half_tooth(i, case.reference(i));
@@ -440,4 +454,116 @@ fn undercut_begins_at_the_shift_of_the_formula() {
             assert_eq!(side.undercut > 0.0, is_undercut, "{z} {by}: {side:?}");
         }
     }
+}
+
+/// Distance of two parallel lines that touch opposite flanks over some teeth, and the radii between which the flanks are, by the
+/// contour alone.
+fn span(gear: &Gear, teeth: u32) -> (f64, [f64; 2]) {
+    let of = |role: Role, tooth: u32| {
+        let parts = gear.outline().segments().iter().zip(gear.roles());
+        let own = parts.zip(gear.owners());
+        own.filter(move |((_, own), owner)| **own == role && **owner == tooth)
+            .map(|((segment, _), _)| segment)
+    };
+    let middle = |tooth: u32| {
+        let ends = of(Role::Tip, tooth).flat_map(|tip| [tip.start(), tip.end()]);
+        let sum = ends.fold(Vector::zeros(), |sum, end| sum + end.coords);
+        sum.normalize()
+    };
+    let bisector = (middle(0) + middle(teeth - 1)).normalize();
+    let mut normal = Vector::new(-bisector.y, bisector.x);
+    if normal.dot(&middle(teeth - 1)) < 0.0 {
+        normal = -normal;
+    }
+    let farthest = |tooth: u32, along: Vector| {
+        let quarters = of(Role::Flank, tooth).flat_map(|segment| {
+            let height = move |u: f64| -segment.at(u).point.coords.dot(&along);
+            (0..8).map(move |i| {
+                let low = -1.0 + 0.25 * f64::from(i);
+                -bracketed_minimum(height, low, low + 0.25).1
+            })
+        });
+        quarters.fold(f64::NEG_INFINITY, f64::max)
+    };
+    let ends = of(Role::Flank, 0).flat_map(|flank| [flank.start(), flank.end()]);
+    let radii = ends
+        .map(|end| end.coords.norm())
+        .fold([f64::INFINITY, 0.0], |[low, high]: [f64; 2], radius| {
+            [low.min(radius), high.max(radius)]
+        });
+    (farthest(teeth - 1, normal) + farthest(0, -normal), radii)
+}
+
+#[test]
+fn base_tangents_of_a_hundred_random_gears_are_those_of_the_contour() {
+    let (mut state, mut gears) = (85, 0);
+    while gears < 100 {
+        let case = random_case(&mut state);
+        let pair = case.pair();
+        for (i, member) in MEMBERS.into_iter().enumerate() {
+            let gear = pair.gear(member);
+            let found = match pair.base_tangent(member) {
+                Ok(found) => found,
+                Err(fault) => {
+                    // Few short teeth: each k has a contact outside the flanks.
+                    assert_eq!(fault, BaseTangentFault::NoCount);
+                    for k in 1..4 {
+                        let (length, [low, high]) = span(gear, k);
+                        let contact = case.base(i).hypot(0.5 * length);
+                        let within = 1e-6 * case.module;
+                        assert!(
+                            contact < low + within || contact > high - within,
+                            "{k}: {case:?}"
+                        );
+                    }
+                    continue;
+                }
+            };
+            gears += 1;
+            let k = f64::from(found.teeth);
+            let arcs = PI * (k - 0.5) + f64::from(case.z[i]) * involute(case.alpha);
+            let shifted = arcs + 2.0 * case.x[i] * case.alpha.tan();
+            let formula = case.module * case.alpha.cos() * shifted - 0.5 * case.backlash;
+            near(found.length, formula, 1e-12 * formula, &case);
+            let (length, [low, high]) = span(gear, found.teeth);
+            near(found.length, length, 1e-9 * case.module, &case);
+            let contact = case.base(i).hypot(0.5 * length);
+            assert!(
+                (low..=high).contains(&contact),
+                "{low} {contact} {high}: {case:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_base_tangent_is_the_published_one() {
+    // m 2, z 20, no shift: 15.321 mm over 3 teeth, contacts at a diameter of 40.59 mm (machinecalcs.com, span measurement).
+    let case = Case {
+        module: 2.0,
+        z: [20, 20],
+        x: [0.0; 2],
+        ..EXAMPLE
+    };
+    let found = case.pair().base_tangent(Member::Driver).expect("a length");
+    assert_eq!(found.teeth, 3);
+    near(found.length, 15.321, 5e-4, &case);
+    let contacts = 2.0 * case.base(0).hypot(0.5 * found.length);
+    near(contacts, 40.59, 5e-3, &case);
+    // m 3, z 24, x 0.4: contacts at the shifted circle need 3.79 teeth.
+    let case = Case {
+        z: [24, 24],
+        x: [0.4, -0.4],
+        ..EXAMPLE
+    };
+    let found = case.pair().base_tangent(Member::Driver).expect("a length");
+    assert_eq!(found.teeth, 4);
+    near(found.length, 32.8266, 5e-5, &case);
+    let ellipse = "family = \"gear-pair\"\n[pitch]\nkind = \"ellipse\"\neccentricity = 0.2\nmodule = 2\ntooth_count = 23\n";
+    let design = GearPairDesign::from_toml(ellipse).expect("a design");
+    let pair = GearPair::resolve(&design).expect("a pair");
+    assert_eq!(
+        pair.base_tangent(Member::Driver),
+        Err(BaseTangentFault::NotCircular)
+    );
 }

@@ -24,6 +24,8 @@ pub(crate) const FIGURES: &[FigureGroup] = &[
             row("root radius, least", &["driver_root_radius_min", "driven_root_radius_min"], Millimetre),
             row("profile shift coefficient", &["driver_shift", "driven_shift"], Number),
             row("tip width, least", &["driver_tip_width_min", "driven_tip_width_min"], Millimetre),
+            row("base tangent length", &["driver_base_tangent", "driven_base_tangent"], Millimetre),
+            row("teeth of the base tangent length", &["driver_base_tangent_teeth", "driven_base_tangent_teeth"], Count),
             row("fillet radius, least", &["driver_fillet_radius_min", "driven_fillet_radius_min"], Millimetre),
         ],
     },

@@ -208,6 +208,14 @@ pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut 
     for (name, figure) in names.into_iter().zip([width, fillet, radii.0, radii.1]) {
         report.values.insert(name, figure);
     }
+    if let Ok(found) = pair.base_tangent(gear.member()) {
+        let names = match gear.member() {
+            Member::Driver => ["driver_base_tangent_teeth", "driver_base_tangent"],
+            Member::Driven => ["driven_base_tangent_teeth", "driven_base_tangent"],
+        };
+        let figures = [f64::from(found.teeth), found.length];
+        report.values.extend(names.into_iter().zip(figures));
+    }
 }
 
 #[cfg(test)]

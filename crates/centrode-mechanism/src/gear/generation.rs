@@ -264,7 +264,7 @@ impl Circles {
 
 impl Rolling {
     /// Whether the pitch curves are circles.
-    fn is_round(&self) -> bool {
+    pub(super) fn is_round(&self) -> bool {
         let (least, greatest) = self.radii(Member::Driver);
         greatest - least <= ROUND * greatest
     }

@@ -1,5 +1,6 @@
 //! Non-circular gears.
 
+mod base_tangent;
 mod conjugate;
 pub mod design;
 mod fit;
@@ -23,6 +24,7 @@ mod tool;
 mod tooth_chords;
 mod tooth_passage;
 
+pub use base_tangent::{BaseTangent, BaseTangentFault};
 pub use conjugate::ConjugateCurve;
 pub use flank::Side;
 pub use flank_count::FlankCount;

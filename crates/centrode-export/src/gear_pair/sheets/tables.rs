@@ -86,7 +86,8 @@ pub(super) fn data(part: &SheetGear<'_>, found: &[Datum]) -> Table {
     for datum in arrangement::of_both(pair, own).iter().chain(found) {
         rows.add(&datum.name, &datum.symbol, &datum.value);
     }
-    for datum in measured(pair, part.member) {
+    let measures = base_tangent(pair, part.member);
+    for datum in measures.into_iter().chain(measured(pair, part.member)) {
         rows.add(&datum.name, &datum.symbol, &datum.value);
     }
     rows.table("Gear data")
@@ -117,6 +118,20 @@ fn shifted(pair: &GearPair, member: Member) -> Vec<Datum> {
         data.push(Datum::new("Reference diameter", "d", diameter));
     }
     data
+}
+
+/// Base tangent length of a circular gear, with its limits by the deviations of tooth thickness.
+fn base_tangent(pair: &GearPair, member: Member) -> Option<Datum> {
+    let found = pair.base_tangent(member).ok()?;
+    let mut value = fixed(found.length, 4);
+    if let Some(deviations) = pair.thickness_deviations(member) {
+        // The thickness is that on the pitch circle.
+        let cos = pair.pressure_angle().cos();
+        let [upper, lower] = deviations.limits.map(|d| fixed(found.length + d * cos, 3));
+        value = format!("{value} ({upper} / {lower})");
+    }
+    let name = format!("Base tangent length over {} teeth", found.teeth);
+    Some(Datum::new(&name, "W", value))
 }
 
 /// Flank tolerances, deviations of tooth thickness, material and heat treatment of a gear, for the table of its data.
@@ -302,5 +317,18 @@ mod tests {
         design.driven.shift = None;
         let opposite = [("x", "-0.6"), ("k", "0"), ("ha", "1.2"), ("hf", "5.55")];
         assert_eq!(rows(&design, Member::Driven), told(&opposite));
+        design.mean_ratio = [1, 1];
+        design.pitch = PitchSpec::Circle(Circle {
+            module: Some(3.0),
+            tooth_count: Some(24),
+            ..Circle::default()
+        });
+        design.driver.shift = Some(0.4);
+        design.teeth.thickness_deviations = Some([-0.03, -0.06]);
+        let pair = GearPair::resolve(&design).expect("a pair");
+        // 32.8266 mm without backlash; less 0.03 cos 20 deg and 0.06 cos 20 deg.
+        let row = base_tangent(&pair, Member::Driver).expect("a length");
+        assert_eq!(row.name, "Base tangent length over 4 teeth");
+        assert_eq!(row.value, "32.8266 (32.798 / 32.770)");
     }
 }
