@@ -273,8 +273,11 @@ pub(super) mod tests {
 
     #[test]
     fn a_diametral_pitch_stays_with_a_new_kind() {
-        let text = FAMILIES.template("gear-pair").expect("a template");
-        let text = text.replace("module = 2.25", "diametral_pitch = 12");
+        let mut all = designs().into_iter().map(|(_, text)| text);
+        let sized =
+            all.find(|text| text.contains("\n[pitch]\nkind") && text.contains("\nmodule = "));
+        let text = sized.expect("a pair with a module");
+        let text = text.replacen("\nmodule = ", "\ndiametral_pitch = ", 1);
         for kind in ["circle", "lobed-ellipse", "polar", "ratio"] {
             let new = changed(&text, "pitch.kind", kind);
             for key in ["pitch.diametral_pitch", "pitch.tooth_count"] {
