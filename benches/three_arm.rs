@@ -138,7 +138,7 @@ fn bodies(c: &mut Criterion) {
     let mut group = c.benchmark_group("machine/bodies");
     group.sample_size(10);
     for count in [50_u32, 100, 200, 400] {
-        let mut text = "family = \"machine\"\nname = \"pins\"\n[frame.points]\n".to_owned();
+        let mut text = "family = \"machine\"\nhardware = \"full\"\n[frame.points]\n".to_owned();
         for i in 0..count {
             text += &format!("P{i} = [{}, {}]\n", i % 20 * 100, i / 20 * 100);
         }

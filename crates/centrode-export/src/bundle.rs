@@ -138,8 +138,8 @@ impl Bundle {
     /// [`BundleError::Foreign`] if such a file would be replaced, [`BundleError::Disk`] with the path and the system's reason.
     pub fn export_to(&self, directory: &Path, force: bool) -> Result<Vec<PathBuf>, BundleError> {
         let manifest = self.manifest(directory, force)?;
-        let mut files = vec![(MANIFEST.to_owned(), manifest)];
-        files.extend(self.files.iter().cloned());
+        let files = std::iter::once((MANIFEST, &*manifest)).chain(self.files());
+        let files: Vec<(&str, &[u8])> = files.collect();
         let mut written = write_all(&files, directory)?;
         written.remove(0);
         Ok(written)
@@ -157,12 +157,12 @@ impl Bundle {
     /// # Errors
     /// [`BundleError::Disk`] with the path and the system's reason.
     pub fn write_to(&self, directory: &Path) -> Result<Vec<PathBuf>, BundleError> {
-        write_all(&self.files, directory)
+        write_all(&self.files().collect::<Vec<_>>(), directory)
     }
 }
 
 /// Writes files into a directory: all contents first, then all names in their order.
-fn write_all(files: &[(String, Vec<u8>)], directory: &Path) -> Result<Vec<PathBuf>, BundleError> {
+fn write_all(files: &[(&str, &[u8])], directory: &Path) -> Result<Vec<PathBuf>, BundleError> {
     fs::create_dir_all(directory).map_err(failed("create the directory", directory))?;
     let mut stages: Vec<(PathBuf, Stage)> = Vec::new();
     let mut staged = Vec::with_capacity(files.len());

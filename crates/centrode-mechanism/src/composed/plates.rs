@@ -94,13 +94,15 @@ impl ComposedDesign {
     #[must_use]
     pub fn hardware(&self) -> Hardware {
         let mut bodies = self.bodies.values();
-        let weighs = self.gravity.is_some()
-            || bodies.any(|body| body.given_mass().mass.is_some() && body.inertia_kg_mm2.is_none());
-        let default = match self.describes_plates() || weighs {
-            true => Hardware::Full,
-            false => Hardware::None,
+        let default = || {
+            let weighs = self.gravity.is_some()
+                || bodies.any(|body| body.mass_kg.is_some() && body.inertia_kg_mm2.is_none());
+            match self.describes_plates() || weighs {
+                true => Hardware::Full,
+                false => Hardware::None,
+            }
         };
-        self.hardware.unwrap_or(default)
+        self.hardware.unwrap_or_else(default)
     }
 
     /// Whether the design says anything of its plates and pins: `plates` other than the default, or a body with a layer, an
