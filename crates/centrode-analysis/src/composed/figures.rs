@@ -19,6 +19,7 @@ pub(super) const FIGURES: &[FigureGroup] = &[FigureGroup {
         row("least torque of the input", &["input_torque_min"], NewtonMillimetre),
         row("greatest torque of the input", &["input_torque_max"], NewtonMillimetre),
         row("mean torque of the input", &["input_torque_mean"], NewtonMillimetre),
+        row("maximum stress of a shaft held at one end", &["overhung_stress_max"], NewtonPerSquareMillimetre),
         row("greatest pressure on a key", &["key_pressure_max"], NewtonPerSquareMillimetre),
     ],
 }];

@@ -6,6 +6,7 @@ mod collisions;
 mod figures;
 mod forces;
 mod goals;
+mod held;
 mod joints;
 mod keys;
 mod motion;
@@ -20,7 +21,7 @@ use std::sync::{Arc, OnceLock};
 
 use centrode_geometry::{Extreme, pieces};
 use centrode_mechanism::composed::{Composed, Hardware};
-use centrode_mechanism::machine::Machine;
+use centrode_mechanism::machine::{Machine, Supply};
 
 pub use self::clearance::composed_clearance;
 pub use self::collisions::composed_collisions;
@@ -110,28 +111,52 @@ fn checked(made: &Made<'_>, motion: Motion, depth: Depth) -> Report {
         if let (Some(machine), Some(loaded)) = (made.machine(), made.loaded()) {
             forces::forces(loaded, composed, machine, &mut report);
         }
+        held::held(composed, &mut report);
         pairs::pairs(made, &mut report);
         collisions::collisions(made, &ends(composed), &mut report);
-        not_designed(composed, &mut report);
+        not_designed(made, &mut report);
     }
     add_goals(made, &mut report);
     report.worst_first();
     report
 }
 
-/// Notes what the design leaves to those who build the machine.
-fn not_designed(composed: &Composed, report: &mut Report) {
-    if composed.design().hardware() == Hardware::Full {
-        return;
-    }
+/// Notes what the design leaves to the customer.
+fn not_designed(made: &Made<'_>, report: &mut Report) {
+    let hardware = made.composed.design().hardware();
+    let given = made
+        .machine()
+        .into_iter()
+        .flat_map(|machine| &machine.parts);
+    let given = given.filter(|part| part.supply == Supply::Given);
+    let mut given: Vec<String> = given
+        .map(|part| match part.quantity() {
+            0 | 1 => part.name.clone(),
+            n => format!("{n} of {}", part.name),
+        })
+        .collect();
+    // The frame is listed last, and matters first.
+    given.reverse();
+    let (message, remedy) = match hardware {
+        Hardware::None => (
+            "bodies, frame, pins, shafts, bearings and springs are not designed: drawings and solids are of gears and cams only, and bodies have no mass but a given one".to_owned(),
+            Some("hardware = \"list\" for plates and a table per axis"),
+        ),
+        _ if given.is_empty() => return,
+        Hardware::List => (
+            format!("left to the customer: {}", given.join(", ")),
+            Some("hardware = \"full\" for a frame, pins and shafts"),
+        ),
+        Hardware::Full => (format!("left to the customer: {}", given.join(", ")), None),
+    };
     report.findings.push(Finding {
         rule: "not-designed",
         severity: Severity::Note,
-        message: "bodies, frame, pins, shafts, bearings and springs are not designed: drawings and solids are of gears and cams only, and bodies have no mass but a given one".into(),
+        message,
         measured: None,
         required: None,
         unit: Unit::Count,
-        remedy: Some("hardware = \"full\" for plates, pins and shafts"),
+        remedy,
         place: Place::default(),
     });
 }

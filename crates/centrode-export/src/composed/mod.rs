@@ -59,7 +59,7 @@ pub fn files(
     let made = machine(composed)?;
     let named = [design.name.as_str(), design.title.as_str()];
     let mut package = Package::new("a composed machine", named, formats, options);
-    if design.hardware() == Hardware::Full {
+    if design.hardware() != Hardware::None {
         package.finer_than(design.plates.pin_diameter, "pins' diameter")?;
     }
     parts::add(&mut package, composed, &made)?;

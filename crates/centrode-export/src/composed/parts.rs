@@ -1,5 +1,5 @@
-use centrode_geometry::Outline;
-use centrode_mechanism::composed::{Composed, PinHole};
+use centrode_geometry::{Outline, Solid};
+use centrode_mechanism::composed::{Composed, Hardware, PinHole};
 use centrode_mechanism::machine::Machine;
 
 use super::plates;
@@ -24,11 +24,16 @@ pub(super) fn add(
         if is_copy(&body.name) {
             continue;
         }
-        if let Some(plate) = plate(composed, machine, index, quantity(&body.name)) {
+        let plate = plate(composed, machine, index, quantity(&body.name));
+        let top = plate.as_ref().filter(|_| index == 0);
+        let top = top.and_then(|plate| top_plate(composed, machine, plate));
+        for plate in plate.into_iter().chain(top) {
             plate.add(package, drawing)?;
         }
     }
-    turned::add(composed.turned(), package, drawing)?;
+    if composed.design().hardware() == Hardware::Full {
+        turned::add(composed.turned(), package, drawing)?;
+    }
     for gear in composed.gears().iter().filter(|gear| !is_copy(&gear.name)) {
         let label = Label {
             name: &gear.name,
@@ -59,23 +64,10 @@ fn plate(composed: &Composed, machine: &Machine, body: usize, quantity: usize) -
     // A link's plate is the first of its solids.
     let solid = plates(machine, body).first()?;
     let pins = composed.pin_holes(body)?;
-    let hole = |(outline, pin): (&Outline, PinHole)| {
-        let mut bored = Hole::bore(outline.clone(), &pin.hub);
-        if !bored.notes.is_empty() {
-            // Its contour is no circle, whose place the sheet would tell.
-            let [x, y] = [pin.at.x, pin.at.y].map(|mm| number(mm, 4));
-            bored.notes.insert(1, format!("at {x}, {y}"));
-        }
-        Hole {
-            label: pin.name,
-            is_seat: !bored.notes.is_empty(),
-            ..bored
-        }
-    };
     let name = &composed.bodies()[body].name;
     let [guide, block] = Composed::GUIDE_FIT;
     let guided = composed.guided(body);
-    let mut holes: Vec<Hole> = solid.holes().iter().zip(pins).map(hole).collect();
+    let mut holes = holes(composed, body, solid, pins);
     for pair in composed.carried_pairs(body) {
         if let Some(off) = gear_pair::half_play(pair, pair.backlash()) {
             hold_apart(&mut holes, pair.center_distance(), off);
@@ -102,6 +94,41 @@ fn plate(composed: &Composed, machine: &Machine, body: usize, quantity: usize) -
         exactness: None,
         marks: Vec::new(),
         classes: [guided.map_or("", |_| block).into(), String::new()],
+    })
+}
+
+/// Holes of a plate: those of pins and shafts, then those of the screws of a frame.
+fn holes(composed: &Composed, body: usize, solid: &Solid, pins: Vec<PinHole>) -> Vec<Hole> {
+    let hole = |(outline, pin): (&Outline, PinHole)| {
+        let mut bored = Hole::bore(outline.clone(), &pin.hub);
+        if !bored.notes.is_empty() {
+            // Its contour is no circle, whose place the sheet would tell.
+            let [x, y] = [pin.at.x, pin.at.y].map(|mm| number(mm, 4));
+            bored.notes.insert(1, format!("at {x}, {y}"));
+        }
+        Hole {
+            label: pin.name,
+            is_seat: !bored.notes.is_empty(),
+            ..bored
+        }
+    };
+    let bored = solid.holes().iter().zip(pins).map(hole);
+    let screws = composed.frame_screws().filter(|_| body == 0);
+    bored
+        .chain(screws.into_iter().flat_map(Hole::clearance))
+        .collect()
+}
+
+/// The upper plate of a frame of two plates.
+fn top_plate(composed: &Composed, machine: &Machine, lower: &Plate) -> Option<Plate> {
+    composed.frame_screws()?;
+    let solid = plates(machine, 0).get(1)?;
+    Some(Plate {
+        name: Composed::FRAME_TOP.into(),
+        title: "Frame, upper plate".into(),
+        outline: solid.outline().clone(),
+        holes: holes(composed, 0, solid, composed.top_holes()),
+        ..lower.clone()
     })
 }
 

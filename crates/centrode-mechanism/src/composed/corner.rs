@@ -5,10 +5,12 @@ use std::collections::BTreeMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::drawn::Drawn;
+use super::{ComposedCircleSpec, ComposedCornerSpec};
 use crate::gear::design::SpecError;
 use crate::gear::design::rule::{Rule, broken, file_name, finite, positive};
 
-/// Points of a body by name.
+/// The frame: its points by name, and its contour if it is a plate.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct ComposedPointsSpec {
@@ -18,6 +20,18 @@ pub struct ComposedPointsSpec {
     /// Points by name, each the third corner of a triangle.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub corners: BTreeMap<String, CornerSpec>,
+    /// Contour of its plate: corners in order, x and y, mm, each with an optional bulge of the side that begins there.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub outline: Vec<ComposedCornerSpec>,
+    /// Radius of the corners of the contour, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub corner_radius: Option<f64>,
+    /// Contour of a round plate.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub circle: Option<ComposedCircleSpec>,
+    /// Thickness of its plate, mm; that of the other plates by default.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub thickness: Option<f64>,
 }
 
 /// A point of a body by its distances from two others.
@@ -77,7 +91,19 @@ impl CornerSpec {
 
 impl ComposedPointsSpec {
     pub(super) fn validate(&self) -> Result<(), SpecError> {
-        points(&self.points, &self.corners)
+        points(&self.points, &self.corners)?;
+        self.drawn().validate()?;
+        self.thickness
+            .map_or(Ok(()), |mm| positive("thickness", mm))
+    }
+
+    /// Contour of its plate as written.
+    pub(super) fn drawn(&self) -> Drawn<'_> {
+        Drawn {
+            outline: &self.outline,
+            corner_radius: self.corner_radius,
+            circle: self.circle.as_ref(),
+        }
     }
 }
 

@@ -167,7 +167,7 @@ impl ComposedDesign {
         let count = self.body_count() as f64;
         in_range("bodies", count, [0.0, MOST_BODIES], "")?;
         self.frame.validate().map_err(|e| e.inside(FRAME))?;
-        let is_full = self.hardware() == Hardware::Full;
+        let has_plates = self.hardware() != Hardware::None;
         for (name, body) in &self.bodies {
             let key = format!("bodies.{name}");
             file_name(&key, name)?;
@@ -178,9 +178,9 @@ impl ComposedDesign {
                 );
             }
             body.validate().map_err(|e| e.inside(&key))?;
-            let mass = body.given_mass().validate(is_full && body.has_plate());
+            let mass = body.given_mass().validate(has_plates && body.has_plate());
             mass.map_err(|e| e.inside(&key))?;
-            if let Some(width) = body.width.filter(|_| is_full) {
+            if let Some(width) = body.width.filter(|_| has_plates) {
                 let least = self.plates.least_width();
                 in_range(&format!("{key}.width"), width, [least, 1e9], " mm")?;
             }
@@ -239,7 +239,9 @@ impl ComposedDesign {
         self.drawing.validate().map_err(|e| e.inside("drawing"))?;
         match self.hardware() {
             Hardware::None => Ok(()),
-            Hardware::Full => self.plates.validate().map_err(|e| e.inside("plates")),
+            Hardware::List | Hardware::Full => {
+                self.plates.validate().map_err(|e| e.inside("plates"))
+            }
         }
     }
 }

@@ -94,6 +94,11 @@ impl Composed {
             stems.push((key.clone(), format!("{name}-assembly")));
             stems.push((key, name));
         }
+        if self.has_frame_plates() {
+            stems.extend(
+                [Self::FRAME_TOP, "post"].map(|name| ("hardware".to_owned(), name.to_owned())),
+            );
+        }
         let mut taken: BTreeMap<String, String> = BTreeMap::new();
         for (key, stem) in &stems {
             let refused = |why: String| {

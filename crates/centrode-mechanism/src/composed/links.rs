@@ -2,7 +2,7 @@ use centrode_geometry::{Outline, Point, SolidError};
 
 use super::load::ComposedLoad;
 use super::pieces::Pieces;
-use super::{Composed, ComposedBody, Hold};
+use super::{Composed, ComposedBody, Hardware, Hold};
 use crate::machine::{
     Blank, Closure, Fit, Form, GearMesh, Input, Joint, JointKind, Line, LineRole, Link, LinkPoint,
     Machine, Mark, Part, PitchCurves, Quantity, Shape, Surface,
@@ -21,10 +21,17 @@ impl Composed {
         }
         self.list(&mut machine, &pieces);
         self.tell_fits(&mut machine);
-        for pieces in self.turned() {
-            machine.add_turned(pieces, String::new());
+        match self.design.hardware() {
+            Hardware::None => {}
+            Hardware::List => self.list_axes(&mut machine),
+            Hardware::Full => {
+                for pieces in self.turned() {
+                    machine.add_turned(pieces, String::new());
+                }
+            }
         }
         self.list_brackets(&mut machine);
+        self.list_given(&mut machine);
         machine.arrangement.drawing = self.design.drawing.clone();
         machine.arrangement.notes.extend(self.meshing_notes());
         Ok(machine)
@@ -119,12 +126,20 @@ impl Composed {
                 material: material.to_owned(),
                 blank: outline.and_then(|outline| Blank::plate(outline, self.thickness(index))),
                 mass: made.mass().map(|own| own.mass),
-                remark: outline
-                    .and_then(|_| self.told_fixed(index).or_else(|| self.told_driven(index)))
-                    .unwrap_or_default(),
                 ..Part::default()
             };
             self.add_part(machine, part, &body.name, outline);
+            if let Some(top) = &made.top {
+                machine.part(Part {
+                    name: Self::FRAME_TOP.into(),
+                    links: vec![0],
+                    material: self.design.plates.material.clone(),
+                    blank: Blank::plate(top.outline(), self.thickness(0)),
+                    mass: Some(top.mass_properties(self.design.plates.density).mass),
+                    file: Self::FRAME_TOP.into(),
+                    ..Part::default()
+                });
+            }
         }
         let mut gears: Vec<_> = pieces.iter().flat_map(|made| &made.gears).collect();
         gears.sort_by_key(|piece| &piece.of.name);
@@ -239,9 +254,11 @@ impl Composed {
             name: name.clone(),
             ..Link::default()
         };
-        if let Some(solid) = &pieces.plate {
+        let plates = pieces.plate.iter().map(|plate| (name.as_str(), plate));
+        let top = pieces.top.iter().map(|top| (Self::FRAME_TOP, top));
+        for (name, solid) in plates.chain(top) {
             link.surfaces.push(machine.surface(Surface {
-                name: name.clone(),
+                name: name.into(),
                 outline: solid.outline().clone(),
                 span: [solid.bottom(), solid.top()],
                 teeth: Vec::new(),
@@ -332,6 +349,7 @@ impl Composed {
             let roller = self.roller(&body.name);
             lines.extend(roller.map(|roller| Line::contour(LineRole::Body, &roller)));
             if index == 0 {
+                lines.extend(self.given_frame());
                 let ways = traced.iter();
                 lines.extend(ways.map(|&point| Line::trace(LineRole::Trace, point)));
             }

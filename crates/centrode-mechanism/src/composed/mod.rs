@@ -4,6 +4,7 @@
 //! the bodies of a dyad have theirs as those of a [`Linkage`]. The input is the angle of the driving shaft, rad.
 
 mod axis;
+mod axis_list;
 mod body;
 mod build;
 mod camming;
@@ -22,6 +23,7 @@ mod dyad;
 mod error;
 mod expansion;
 mod figure;
+mod frame;
 mod gearing;
 mod gears;
 mod given_mass;
@@ -69,6 +71,7 @@ pub use driven::{GearDrive, GearDriveError, GearDriveSpec};
 pub use dyad::{ComposedDyadSpec, DyadKind};
 pub use error::ComposedError;
 pub use figure::{ComposedFigure, FIGURE_FORMS, PointPart};
+pub use frame::Overhang;
 pub use gearing::ComposedGear;
 pub use gears::{ComposedGearSpec, ComposedLoopSpec, ComposedMeshSpec, GearRole};
 pub use goal::{ComposedGoalSpec, Over};
@@ -84,6 +87,7 @@ pub use spacing::Frames;
 pub use table::TableReading;
 
 use self::expansion::Expansion;
+use self::frame::FramePlates;
 use self::gearing::Meshing;
 use self::load::ComposedLoad;
 use self::points::BodyPoints;
@@ -115,6 +119,7 @@ pub struct Composed {
     shafts: OnceLock<Vec<ComposedShaft>>,
     turned: OnceLock<Vec<TurnedPieces>>,
     passage: OnceLock<Passage>,
+    frame: OnceLock<Option<FramePlates>>,
 }
 
 /// A body of a composed machine.

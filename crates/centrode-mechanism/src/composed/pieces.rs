@@ -7,6 +7,8 @@ use super::{Composed, ComposedCam, ComposedGear};
 /// Pieces of which a body is made.
 pub(super) struct Pieces<'a> {
     pub(super) plate: Option<Solid>,
+    /// Upper plate of the frame.
+    pub(super) top: Option<Solid>,
     composed: &'a Composed,
     body: usize,
     mass: OnceCell<Option<MassProperties>>,
@@ -59,16 +61,19 @@ impl Pieces<'_> {
     pub(super) fn together(&self) -> Option<MassProperties> {
         let gears = self.gears.iter().map(BodyPiece::mass);
         let cams = self.cams.iter().map(BodyPiece::mass);
-        let all = self.mass().into_iter().chain(gears).chain(cams);
+        let density = self.composed.design.plates.density;
+        let top = self.top.iter().map(|top| top.mass_properties(density));
+        let all = self.mass().into_iter().chain(top).chain(gears).chain(cams);
         MassProperties::together(&all.collect::<Vec<_>>())
     }
 
-    /// Plate, gears and cams.
+    /// Plates, gears and cams.
     pub(super) fn solids(&self) -> Vec<Solid> {
         let gears = self.gears.iter().map(|gear| &gear.solid);
         let cams = self.cams.iter().map(|cam| &cam.solid);
         self.plate
             .iter()
+            .chain(&self.top)
             .chain(gears)
             .chain(cams)
             .cloned()
@@ -81,6 +86,10 @@ impl Composed {
     pub(super) fn pieces(&self, body: usize) -> Result<Pieces<'_>, SolidError> {
         let name = &self.bodies[body].name;
         let plate = self.plate(body)?;
+        let top = match body {
+            0 => self.top_plate()?,
+            _ => None,
+        };
         let gears = self.gears.iter().filter(|gear| gear.body_name == *name);
         let gears = gears.map(|gear| {
             let solid = gear.solid(self.gear_bottom(gear))?;
@@ -93,6 +102,7 @@ impl Composed {
         });
         Ok(Pieces {
             plate,
+            top,
             composed: self,
             body,
             mass: OnceCell::new(),

@@ -11,13 +11,7 @@ use crate::machine::{Bar, Circlip, Fit, Spacer, TurnedPiece, TurnedPieces};
 const ONE: f64 = 1e-6;
 
 /// Length by which play between rings may move one, mm.
-const SPARE: f64 = 1.0;
-
-/// How a pin is held where there is no room for rings, or for one alone.
-const BONDED: [&str; 2] = [
-    "No room for rings: bonded into one of its plates with a retaining compound.",
-    "Room for one ring alone: bonded into one of its plates with a retaining compound, too.",
-];
+pub(super) const SPARE: f64 = 1.0;
 
 /// Holes on one axis.
 pub(super) struct Axis {
@@ -54,7 +48,7 @@ impl Axis {
     }
 
     /// Heights of the plates with a hole on it and of the rollers.
-    fn parts(&self) -> Vec<[f64; 2]> {
+    pub(super) fn parts(&self) -> Vec<[f64; 2]> {
         let rollers = self.rollers.iter();
         let rollers = rollers.map(|(roller, at)| [*at, at + roller.length]);
         self.plates.iter().copied().chain(rollers).collect()
@@ -85,6 +79,11 @@ impl Axis {
         nearest.copied().unwrap_or((0, Point::origin()))
     }
 
+    /// Height of the highest face, mm.
+    pub(super) fn top(&self) -> f64 {
+        self.span[1]
+    }
+
     fn length(&self) -> f64 {
         self.span[1] - self.span[0]
     }
@@ -100,6 +99,7 @@ impl Composed {
         self.turned.get_or_init(|| {
             let mut all = self.turned_shafts();
             all.extend(self.pins_in_plates());
+            all.extend(self.posts());
             all
         })
     }
@@ -108,6 +108,15 @@ impl Composed {
     #[must_use]
     pub fn pins_in_plates(&self) -> Vec<TurnedPieces> {
         let mut axes = self.axes();
+        for axis in axes.iter_mut().filter(|axis| !self.has_shaft(axis)) {
+            let in_frame = axis.holes.iter().find(|(body, _)| *body == 0);
+            let upper = in_frame.and_then(|(_, at)| self.top_part(*at, axis.size, axis.top()));
+            if let Some(upper) = upper {
+                axis.holes.push((0, upper.at));
+                axis.plates.push(upper.span);
+                axis.span[1] = upper.span[1];
+            }
+        }
         axes.sort_by(|a, b| a.length().total_cmp(&b.length()));
         let mut bars: Vec<Cylinders> = axes.iter().map(|axis| self.cylinders(axis)).collect();
         // A single plate turns on a pin of what is around the machine.
@@ -187,13 +196,12 @@ impl Composed {
         let bar = held(room.map(|room| if needed + moved > room { 0.0 } else { room }));
         let bottom = axis.span[0] + bar.bottom() - 0.5 * bar.growth(general);
         let title = format!("Pin through {} mm", thousandths(length));
-        let mut part = bar.part(["pin", &title], spec.pin_stock(), general);
-        let (role, note) = match bar.rings() {
-            [true, true] => ("", None),
-            [false, false] => ("without rings", Some(BONDED[0])),
-            _ => ("one ring", Some(BONDED[1])),
+        let part = bar.part(["pin", &title], spec.pin_stock(), general);
+        let role = match bar.rings() {
+            [true, true] => "",
+            [false, false] => "no room for rings",
+            _ => "room for one ring",
         };
-        part.notes.extend(note.map(Into::into));
         let name = &self.bodies[body].name;
         let given = self.design.bodies.get(name).map(|body| body.given_mass());
         let piece = TurnedPiece {

@@ -15,7 +15,7 @@ use crate::gear::design::SpecError;
 use crate::gear::design::rule::{
     hole_class, in_range, not_negative, positive, shaft_class, single_line,
 };
-use crate::machine::{JointKind, Stock};
+use crate::machine::{Fastening, JointKind, Stock};
 
 /// Greatest diameter of a pin as a share of its plate's width.
 const PIN: f64 = 0.9;
@@ -84,12 +84,14 @@ impl Default for ComposedPlatesSpec {
 pub enum Hardware {
     /// Nothing: bodies are kinematic, without plates, pins and shafts. Gears and cams are made.
     None,
-    /// A plate per body, pins, shafts and what holds them.
+    /// Plates and levers, gears and cams. What joins them is listed axis by axis; it and the frame come from the customer.
+    List,
+    /// Plates, gears and cams, the frame, and the pins, shafts and rings that join them.
     Full,
 }
 
 impl ComposedDesign {
-    /// Extent of plates, pins and shafts: as given, or full if the design describes plates or needs their masses,
+    /// Extent of plates, pins and shafts: as given, or a list if the design describes plates or needs their masses,
     /// otherwise none.
     #[must_use]
     pub fn hardware(&self) -> Hardware {
@@ -98,7 +100,7 @@ impl ComposedDesign {
             let weighs = self.gravity.is_some()
                 || bodies.any(|body| body.mass_kg.is_some() && body.inertia_kg_mm2.is_none());
             match self.describes_plates() || weighs {
-                true => Hardware::Full,
+                true => Hardware::List,
                 false => Hardware::None,
             }
         };
@@ -116,7 +118,10 @@ impl ComposedDesign {
                 || body.width.is_some()
                 || body.thickness.is_some()
         };
-        self.plates != ComposedPlatesSpec::default() || self.bodies.values().any(describes)
+        let is_drawn = self.frame.drawn().is_given() || self.frame.thickness.is_some();
+        is_drawn
+            || self.plates != ComposedPlatesSpec::default()
+            || self.bodies.values().any(describes)
     }
 }
 
@@ -183,6 +188,9 @@ impl PinHole {
 /// Contours of the bodies that are drawn by hand, by name.
 pub(super) fn drawn(design: &ComposedDesign) -> Result<BTreeMap<String, Outline>, ComposedError> {
     let mut all = BTreeMap::new();
+    if let Some(outline) = design.frame.drawn().contour(FRAME)? {
+        all.insert(FRAME.to_owned(), outline);
+    }
     for (name, body) in &design.bodies {
         if let Some(outline) = body.drawn().contour(&format!("bodies.{name}"))? {
             all.insert(name.clone(), outline);
@@ -199,11 +207,17 @@ impl Composed {
     /// the body's axes; none for a body without a plate.
     #[must_use]
     pub fn contours(&self, body: usize) -> Option<(Outline, Vec<Outline>)> {
+        if !self.has_plate(body) {
+            return None;
+        }
         let holes = self.pin_holes(body)?.into_iter();
-        let holes = holes.map(|hole| hole.outline());
+        let screws = (body == 0).then(|| self.frame_screws()).flatten();
+        let screws = screws.into_iter().flat_map(Fastening::clearance_holes);
+        let holes = holes.map(|hole| hole.outline()).chain(screws);
         let own = self.bodies.get(body)?;
         let outline = match self.drawn.get(&own.name) {
             Some(outline) => outline.clone(),
+            None if body == 0 => self.frame_outline()?.clone(),
             None => Outline::hull(&self.circles(body, self.width(body)))?,
         };
         Some((outline, holes.collect()))
@@ -253,19 +267,35 @@ impl Composed {
             && drawn.is_none_or(|outline| outline.contains(Point::origin()))
     }
 
-    /// Whether a body has a plate.
-    pub(super) fn has_plate(&self, body: usize) -> bool {
+    /// Whether pins and shafts go through a body: through its plate, or through the frame.
+    pub(super) fn is_on_axes(&self, body: usize) -> bool {
         let name = self.bodies.get(body).map(|body| &body.name);
-        let is_designed = self.design.hardware() == Hardware::Full;
-        name.filter(|_| is_designed).is_some_and(|name| {
+        let is_described = self.design.hardware() != Hardware::None;
+        name.filter(|_| is_described).is_some_and(|name| {
             let spec = self.design.bodies.get(name);
-            self.points.contains_key(name) && spec.is_none_or(|body| body.has_plate())
+            let has_shape = || {
+                let is_sized = |body: &ComposedBodySpec| body.width.or(body.thickness).is_some();
+                body == 0
+                    || self.drawn.contains_key(name)
+                    || self.is_block(body)
+                    || spec.is_some_and(is_sized)
+                    || self.centers(body).len() > 1
+            };
+            self.points.contains_key(name)
+                && spec.is_none_or(|body| body.has_plate())
+                && has_shape()
         })
     }
 
-    /// Names and places of the holes in a body's plate, in its axes.
+    /// Whether a body has a plate. One on a single point has none, unless it is drawn or has a size.
+    pub(super) fn has_plate(&self, body: usize) -> bool {
+        let is_made = body != 0 || self.drawn.contains_key(FRAME) || self.has_frame_plates();
+        is_made && self.is_on_axes(body)
+    }
+
+    /// Names and places of the holes for pins and shafts in a body, in its axes.
     pub(super) fn hole_places(&self, body: usize) -> Option<Vec<(String, Point)>> {
-        if !self.has_plate(body) {
+        if !self.is_on_axes(body) {
             return None;
         }
         let name = &self.bodies[body].name;
@@ -295,7 +325,7 @@ impl Composed {
     /// for a body on one point.
     #[must_use]
     pub fn bar(&self, body: usize) -> Option<Outline> {
-        if body == 0 || self.design.hardware() == Hardware::Full {
+        if body == 0 || self.design.hardware() != Hardware::None {
             return None;
         }
         let points = self.points.values().flat_map(|points| points.values());
@@ -307,24 +337,47 @@ impl Composed {
     /// Circles round which a plate of a width is drawn: about its points, and the corners of a block about the origin of one
     /// that slides.
     fn circles(&self, index: usize, width: f64) -> Vec<(Point, f64)> {
-        let body = &self.bodies[index];
-        let spec = self.design.bodies.get(&body.name);
-        let points = self.points.get(&body.name).into_iter().flatten();
         let around = |at: Point| (at, self.boss(index, at).max(0.5 * width));
-        let mut circles: Vec<(Point, f64)> = points.map(|(_, p)| around(p.at)).collect();
-        let kind = body.mount.as_ref().map(|mount| mount.kind);
-        if let Some(JointKind::Sliding(_)) = kind {
+        let mut circles: Vec<(Point, f64)> = self.centers(index).into_iter().map(around).collect();
+        if self.is_block(index) {
             let radius = BLOCK_ROUNDING * width;
             let [x, y] = BLOCK.map(|half| half * width - radius);
             let corners = [[x, y], [-x, y], [-x, -y], [x, -y]];
             circles.extend(corners.map(|corner| (Point::from(corner), radius)));
-            return circles;
-        }
-        let at_origin = spec.is_some_and(|body| body.fixed_to.is_some() || body.mesh.is_some());
-        if circles.is_empty() || at_origin {
-            circles.push(around(Point::origin()));
         }
         circles
+    }
+
+    /// Points round which the plate of a body is drawn.
+    fn centers(&self, index: usize) -> Vec<Point> {
+        let name = &self.bodies[index].name;
+        let spec = self.design.bodies.get(name);
+        let at_origin = spec.is_some_and(|body| body.fixed_to.is_some() || body.mesh.is_some());
+        let points = self
+            .points
+            .get(name)
+            .into_iter()
+            .flat_map(|points| points.values());
+        let near = ONE * self.design.plates.width;
+        let mut centers: Vec<Point> = Vec::new();
+        for at in points
+            .map(|point| point.at)
+            .chain(at_origin.then(Point::origin))
+        {
+            if centers.iter().all(|known| (at - known).norm() > near) {
+                centers.push(at);
+            }
+        }
+        if centers.is_empty() {
+            centers.push(Point::origin());
+        }
+        centers
+    }
+
+    /// Whether a body is a block that slides along a line.
+    fn is_block(&self, body: usize) -> bool {
+        let mount = self.bodies[body].mount.as_ref();
+        mount.is_some_and(|mount| matches!(mount.kind, JointKind::Sliding(_)))
     }
 
     /// Width of a body's plate, mm.
@@ -339,22 +392,27 @@ impl Composed {
     #[must_use]
     pub fn guided(&self, body: usize) -> Option<f64> {
         let own = self.bodies.get(body)?;
-        let width = self.width(body);
-        let slides = matches!(own.mount.as_ref()?.kind, JointKind::Sliding(_));
-        let is_block = slides && !self.drawn.contains_key(&own.name);
-        is_block.then_some(2.0 * BLOCK[1] * width)
+        let is_block = self.is_block(body) && !self.drawn.contains_key(&own.name);
+        is_block.then_some(2.0 * BLOCK[1] * self.width(body))
     }
 
-    /// Checks that the bodies drawn by hand hold the holes of their pins.
+    /// Checks that the bodies drawn by hand hold the holes of their pins, and that a mass has an inertia or a plate.
     pub(super) fn check_drawn(&self) -> Result<(), ComposedError> {
         for (index, body) in self.bodies.iter().enumerate() {
+            if let Some(spec) = self.design.bodies.get(&body.name) {
+                let mass = spec.given_mass().validate(self.has_plate(index));
+                mass.map_err(|error| error.inside(&format!("bodies.{}", body.name)))?;
+            }
             let Some((outline, holes)) = self.contours(index) else {
                 continue;
             };
             if !self.drawn.contains_key(&body.name) {
                 continue;
             }
-            let key = format!("bodies.{}.outline", body.name);
+            let key = match index {
+                0 => format!("{FRAME}.outline"),
+                _ => format!("bodies.{}.outline", body.name),
+            };
             let wrong = |why: String| ComposedError::Refused {
                 key: key.clone(),
                 why,
@@ -434,6 +492,7 @@ impl Composed {
         let name = &self.bodies[body].name;
         let written = self.design.bodies.get(name).and_then(|body| body.layer);
         let layer = match written {
+            _ if self.has_frame_plates() && body == 0 => return self.frame_spans()[0][0],
             _ if name == FRAME => -1.0,
             Some(layer) => f64::from(layer),
             None => {
@@ -448,7 +507,10 @@ impl Composed {
     #[must_use]
     pub fn thickness(&self, body: usize) -> f64 {
         let spec = self.design.bodies.get(&self.bodies[body].name);
-        let own = spec.and_then(|body| body.thickness);
+        let own = match body {
+            0 => self.design.frame.thickness,
+            _ => spec.and_then(|body| body.thickness),
+        };
         own.unwrap_or(self.design.plates.thickness)
     }
 

@@ -154,6 +154,7 @@ impl<'a> Builder<'a> {
             shafts: OnceLock::new(),
             turned: OnceLock::new(),
             passage: OnceLock::new(),
+            frame: OnceLock::new(),
         }
     }
 
@@ -168,6 +169,7 @@ impl<'a> Builder<'a> {
             ..self.so_far(written)
         };
         made.check_names()?;
+        made.check_frame()?;
         made.check_drawn()?;
         made.obstacles = made.obstacles_of_design()?;
         let goals = design.goals.iter();

@@ -16,11 +16,9 @@ impl Composed {
     #[must_use]
     pub fn turned_shafts(&self) -> Vec<TurnedPieces> {
         let mut found: Vec<(&str, TurnedPieces)> = Vec::new();
-        // A frame's plate on one axis alone is held by its shaft, not the shaft by it.
-        let is_held = self.hole_places(0).is_some_and(|at| at.len() == 1);
         for shaft in self.shafts() {
             let name = self.original(&shaft.name);
-            let made = self.turned_shaft(shaft, is_held && shaft.body == 0);
+            let made = self.turned_shaft(shaft);
             match found.iter_mut().find(|(known, _)| *known == name) {
                 Some((_, known)) => known.pieces.extend(made.pieces),
                 None => found.push((name, made)),
@@ -29,9 +27,14 @@ impl Composed {
         found.into_iter().map(|(_, made)| made).collect()
     }
 
-    fn turned_shaft(&self, shaft: &ComposedShaft, stands_alone: bool) -> TurnedPieces {
+    fn turned_shaft(&self, shaft: &ComposedShaft) -> TurnedPieces {
         let (hub, spec) = (&shaft.hub, &self.design.plates);
-        let on_it = shaft.parts.iter();
+        let tops = shaft.parts.iter().map(|part| part.span[1]);
+        let top = tops.fold(f64::NEG_INFINITY, f64::max);
+        let mut in_frame = shaft.parts.iter().filter(|part| part.is_plate);
+        let in_frame = in_frame.find(|part| part.body == 0);
+        let upper = in_frame.and_then(|part| self.top_part(part.at, hub.bore, top));
+        let on_it = shaft.parts.iter().chain(&upper);
         let on_it = on_it.filter(|part| part.hold.is_fixed() || part.hold == Hold::Turning);
         let on_it: Vec<&ShaftPart> = on_it.collect();
         let low = on_it
@@ -42,7 +45,7 @@ impl Composed {
             .iter()
             .map(|part| part.span[1])
             .fold(f64::NEG_INFINITY, f64::max);
-        let [deepest, highest] = self.extent();
+        let [deepest, highest] = self.extent_from(0);
         let beyond = |wall: f64, is_above: bool, is_last: bool| match is_last {
             true => f64::INFINITY,
             false => self.room_at(
@@ -53,7 +56,7 @@ impl Composed {
             ),
         };
         let (is_lowest, is_highest) = (low <= deepest + ROUNDING, high >= highest - ROUNDING);
-        let end = match (shaft.is_driven || stands_alone) && is_lowest {
+        let end = match shaft.is_driven && is_lowest {
             true => FREE_END * hub.bore,
             false => 0.0,
         };
@@ -105,12 +108,7 @@ impl Composed {
         let title = format!("Shaft of {}", self.original(&shaft.name));
         let name = format!("shaft-{}", self.original(&shaft.name));
         let mut part = bar.part([&name, &title], hub.shaft_stock(), general);
-        let free = match shaft.body {
-            _ if end == 0.0 => None,
-            0 => Some("Held"),
-            _ => Some("Driven"),
-        };
-        part.notes.extend(notes(&on_it, free, bar.is_held()));
+        part.notes.extend(notes(&on_it, end > 0.0));
         let owner = &self.bodies[shaft.body].name;
         let given = self.design.bodies.get(owner).map(|body| body.given_mass());
         let piece = TurnedPiece {
@@ -124,8 +122,7 @@ impl Composed {
         };
         TurnedPieces {
             role: match (shaft.body, end > 0.0) {
-                (0, false) => "stands still".into(),
-                (0, true) => "stands still, held at its free end".into(),
+                (0, _) => "fixed in the frame".into(),
                 (_, true) => "driven at its free end".into(),
                 (_, false) => String::new(),
             },
@@ -154,23 +151,29 @@ impl Composed {
         }
     }
 
-    /// Note of the parts list on a plate that the machine neither moves nor has a shaft for.
-    pub(super) fn told_driven(&self, body: usize) -> Option<String> {
-        let has_shaft = self.shafts().iter().any(|shaft| shaft.body == body);
-        let told = self.is_driven(body) && !has_shaft;
-        told.then(|| "driven by the customer".into())
-    }
-
-    /// Note of the parts list on a plate that is fixed to another body away from any shaft of both.
-    pub(super) fn told_fixed(&self, body: usize) -> Option<String> {
-        let to = self.bodies[body].mount.as_ref()?;
-        let mut shafts = self.shafts().iter();
-        let is_joined = shafts.any(|shaft| {
-            let own = |part: &ShaftPart| part.is_plate && part.body == body && part.hold.is_fixed();
-            shaft.parts.iter().any(own)
-        });
-        let told = to.kind == JointKind::Fixed && !is_joined;
-        told.then(|| format!("fixed to {} by the customer", self.bodies[to.carrier].name))
+    /// Lists what drives bodies from outside, and what fixes bodies to others away from any shaft of both.
+    pub(super) fn list_drives(&self, machine: &mut Machine) {
+        for (index, body) in self.bodies.iter().enumerate().skip(1) {
+            let Some(mount) = &body.mount else { continue };
+            let name = self.original(&body.name);
+            let carrier = self.original(&self.bodies[mount.carrier].name);
+            let mut on_shafts = self.shafts().iter().flat_map(|shaft| &shaft.parts);
+            let is_joined =
+                on_shafts.any(|part| part.is_plate && part.body == index && part.hold.is_fixed());
+            let is_fixed = mount.kind == JointKind::Fixed && !is_joined && self.has_plate(index);
+            let (what, remark) = match self.is_driven(index) {
+                true => ("Drive", format!("turns it on {carrier}")),
+                false if is_fixed => ("Joint", format!("fixes it to {carrier}")),
+                false => continue,
+            };
+            machine.part(Part {
+                name: format!("{what} of {name}"),
+                links: vec![index],
+                supply: Supply::Given,
+                remark,
+                ..Part::default()
+            });
+        }
     }
 
     /// Lists the brackets, which are the customer's, of gears or cams through which the shaft of another body goes.
@@ -226,9 +229,9 @@ impl Composed {
         }
     }
 
-    /// Lowest and highest face of all plates, gears and cams, mm.
-    fn extent(&self) -> [f64; 2] {
-        let plates = (0..self.bodies.len()).filter(|&body| self.has_plate(body));
+    /// Lowest and highest face of the plates of all bodies but the first ones, gears and cams, mm.
+    pub(super) fn extent_from(&self, first: usize) -> [f64; 2] {
+        let plates = (first..self.bodies.len()).filter(|&body| self.is_on_axes(body));
         let plates = plates.map(|body| {
             let bottom = self.bottom(body);
             [bottom, bottom + self.thickness(body)]
@@ -273,25 +276,11 @@ fn joined(mut seats: Vec<[f64; 2]>, turning: &[[f64; 2]]) -> Vec<[f64; 2]> {
     all
 }
 
-/// Notes of a shaft's sheet: what is done at its free end, and what is bonded on it.
-fn notes(on_it: &[&ShaftPart], free: Option<&str>, held: bool) -> Vec<String> {
+/// Notes of a shaft's sheet: its free end, and keyways that are on one line.
+fn notes(on_it: &[&ShaftPart], is_driven: bool) -> Vec<String> {
     let mut notes = Vec::new();
-    if let Some(done) = free {
-        notes.push(format!("{done} at its free end, to be cut to length."));
-    }
-    let bonded = on_it.iter().filter(|part| match part.hold {
-        Hold::Bonded => true,
-        Hold::Keyed(_) => !held,
-        _ => false,
-    });
-    let bonded: Vec<&str> = bonded.map(|part| &*part.name).collect();
-    if !bonded.is_empty() {
-        let why = if held { "" } else { "No room for two rings: " };
-        let what = bonded.join(", ");
-        let line = format!("{why}bonded on it with a retaining compound: {what}.");
-        let mut letters = line.chars();
-        let first = letters.next().map(|c| c.to_uppercase().collect::<String>());
-        notes.push(first.unwrap_or_default() + letters.as_str());
+    if is_driven {
+        notes.push("Driven at its free end, to be cut to length.".to_owned());
     }
     let keyed = on_it
         .iter()

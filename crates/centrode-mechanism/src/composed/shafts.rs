@@ -9,7 +9,7 @@ use super::gearing::Meshing;
 use super::pins::Axis;
 use super::{Composed, PinHole};
 use crate::bore;
-use crate::gear::design::BodySpec;
+use crate::gear::design::{BodySpec, Keyway};
 use crate::machine::{JointKind, Key};
 
 /// Wall of a plate beside the hole of a shaft, as a share of its diameter.
@@ -58,8 +58,8 @@ pub struct ShaftPart {
 pub enum Hold {
     /// By a parallel key, which sets its angle, too.
     Keyed(Key),
-    /// With a retaining compound.
-    Bonded,
+    /// Fixed on it without a key, by means of the customer.
+    Given,
     /// It turns on it.
     Turning,
     /// The shaft passes through its bore; a bracket holds it on its body.
@@ -72,7 +72,7 @@ impl Hold {
     /// Whether it turns with the shaft.
     #[must_use]
     pub fn is_fixed(self) -> bool {
-        matches!(self, Self::Keyed(_) | Self::Bonded)
+        matches!(self, Self::Keyed(_) | Self::Given)
     }
 }
 
@@ -189,14 +189,23 @@ impl Composed {
         let (name, body, at, hub) = match (own.first(), driven) {
             (Some(first), _) => (first.name.clone(), first.body, first.at, first.hub.clone()),
             (None, Some(&(body, at))) if axis.holes.len() > 1 && plates.pin_diameter > 0.0 => {
+                // Seats with keys have the classes of gears, all others those of pins.
+                let keyway = Keyway::of_bore(plates.pin_diameter);
+                let classes = match keyway {
+                    Some(_) => BodySpec::default(),
+                    None => BodySpec {
+                        bore_fit: plates.hole_fit.clone(),
+                        shaft_fit: plates.pin_fit.clone(),
+                        ..BodySpec::default()
+                    },
+                };
                 let hub = BodySpec {
                     bore: plates.pin_diameter,
-                    bore_fit: plates.hole_fit.clone(),
-                    shaft_fit: plates.pin_fit.clone(),
+                    keyway,
                     material: plates.material.clone(),
                     shaft_heat_treatment: plates.pin_heat_treatment.clone(),
                     density: plates.density,
-                    ..BodySpec::default()
+                    ..classes
                 };
                 (self.bodies[body].name.clone(), body, at, hub)
             }
@@ -215,7 +224,7 @@ impl Composed {
                 let hold = match key {
                     _ if !with_it(body) => Hold::Turning,
                     Some(key) => Hold::Keyed(key),
-                    None => Hold::Bonded,
+                    None => Hold::Given,
                 };
                 let (name, is_plate) = (self.bodies[body].name.clone(), true);
                 ShaftPart {
@@ -240,7 +249,7 @@ impl Composed {
                 .and_then(|hub| Key::fitting(hub, wheel.hub.width));
             let hold = match (with_it(wheel.body), key) {
                 (true, Some(key)) if is_seat => Hold::Keyed(key),
-                (true, None) if is_seat => Hold::Bonded,
+                (true, None) if is_seat => Hold::Given,
                 (false, _) if wheel.hub.bore > hub.bore => Hold::Bracket,
                 _ => Hold::Loose,
             };
@@ -304,7 +313,7 @@ impl Composed {
                         keyway_angle: shaft.hub.keyway_angle + turn,
                         ..shaft.hub.clone()
                     },
-                    Hold::Bonded => BodySpec {
+                    Hold::Given => BodySpec {
                         keyway: None,
                         ..shaft.hub.clone()
                     },
@@ -320,8 +329,9 @@ impl Composed {
     /// Radius of a plate about the hole of a shaft, mm, that leaves a wall; zero where there is none.
     pub(super) fn boss(&self, body: usize, at: Point) -> f64 {
         let shaft = self.shaft_at(body, at).map(|(shaft, _)| shaft);
-        // Holes of pins, whatever goes through them, are narrower than the plates.
-        let shaft = shaft.filter(|shaft| shaft.hub.bore != self.design.plates.pin_diameter);
+        // Round holes of pins, whatever goes through them, are narrower than the plates.
+        let pin = self.design.plates.pin_diameter;
+        let shaft = shaft.filter(|shaft| shaft.hub.bore != pin || shaft.hub.keyway.is_some());
         let around = |shaft: &ComposedShaft| bore::reach(&shaft.hub) + WALL * shaft.hub.bore;
         // A diameter of whole steps.
         shaft.map_or(0.0, |shaft| {

@@ -13,10 +13,10 @@ const FINE: f64 = 1e-2;
 
 /// A plate, gear, cam or roller that may pass a ring: its body, its heights and its corners there.
 #[derive(Clone, Debug)]
-struct Passing {
-    body: usize,
+pub(super) struct Passing {
+    pub(super) body: usize,
     span: [f64; 2],
-    corners: Vec<Point>,
+    pub(super) corners: Vec<Point>,
     outline: Outline,
     /// Distance of its farthest point from the origin of the body, mm.
     reach: f64,
@@ -25,8 +25,8 @@ struct Passing {
 /// Parts that may pass a ring, and the motion of all bodies.
 #[derive(Clone, Debug)]
 pub(super) struct Passage {
-    parts: Vec<Passing>,
-    frames: Frames,
+    pub(super) parts: Vec<Passing>,
+    pub(super) frames: Frames,
 }
 
 /// Positions of all bodies at several inputs.
@@ -108,20 +108,27 @@ impl Composed {
         found
     }
 
-    /// Whether all parts keep farther from an axis than a radius and the plates' gap, mm, between two heights.
-    pub(super) fn is_clear(&self, own: (usize, Point), radius: f64, gap: [f64; 2]) -> bool {
-        let passage = self.passage.get_or_init(|| {
+    /// Parts that may pass a ring but the frame's two plates, and the motion of all bodies.
+    pub(super) fn passage(&self) -> &Passage {
+        self.passage.get_or_init(|| {
             let step = self.period() / f64::from(STEPS);
             let inputs: Vec<f64> = (0..=STEPS).map(|k| f64::from(k) * step).collect();
             Passage {
                 parts: self.passing(),
                 frames: self.frames(&inputs),
             }
-        });
+        })
+    }
+
+    /// Whether all parts keep farther from an axis than a radius and the plates' gap, mm, between two heights.
+    pub(super) fn is_clear(&self, own: (usize, Point), radius: f64, gap: [f64; 2]) -> bool {
+        let passage = self.passage();
+        let frame = self.frame_plates().map(|frame| &frame.lower);
         let required = radius + self.design.plates.gap;
         let reaches_into =
             |part: &&Passing| part.span[0] < gap[1] - ROUNDING && part.span[1] > gap[0] + ROUNDING;
-        passage.parts.iter().filter(reaches_into).all(|part| {
+        let parts = passage.parts.iter().chain(frame);
+        parts.filter(reaches_into).all(|part| {
             let path = passage.frames.path(part.body, own);
             // Between two steps the axis comes nearer by at most half the distance between them.
             let keeps_away = |distance: &dyn Fn(Point) -> f64| {
@@ -144,7 +151,8 @@ impl Composed {
             let reach = outline.farthest(Point::origin());
             Some((self.body_named(body)?, Outline::circle(at, reach)))
         };
-        let plates = (0..self.bodies.len()).filter_map(|body| {
+        let first = usize::from(self.has_frame_plates());
+        let plates = (first..self.bodies.len()).filter_map(|body| {
             let span = (self.bottom(body), self.thickness(body));
             Some((span, (body, self.contours(body)?.0)))
         });
@@ -168,19 +176,24 @@ impl Composed {
         });
         let all = plates.chain(gears).chain(cams).chain(rollers);
         all.filter_map(|((low, thick), (body, outline))| {
-            Some(Passing {
-                body,
-                span: [low, low + thick],
-                corners: outline.flatten(Tolerance::new(FINE).ok()?),
-                reach: outline.farthest(Point::origin()),
-                outline,
-            })
+            Passing::new(body, [low, low + thick], outline)
         })
         .collect()
     }
 }
 
 impl Passing {
+    /// A part of a body with a contour between two heights, mm.
+    pub(super) fn new(body: usize, span: [f64; 2], outline: Outline) -> Option<Self> {
+        Some(Self {
+            body,
+            span,
+            corners: outline.flatten(Tolerance::new(FINE).ok()?),
+            reach: outline.farthest(Point::origin()),
+            outline,
+        })
+    }
+
     /// Distance of a place in the body's axes from the part, mm; zero inside.
     fn distance(&self, at: Point) -> f64 {
         if self.outline.contains(at) {

@@ -8,6 +8,7 @@ mod copies;
 mod cutting;
 mod drawn;
 mod gears;
+mod hardware;
 mod limits;
 mod random;
 mod shafts;

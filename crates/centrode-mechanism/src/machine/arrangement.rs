@@ -23,10 +23,25 @@ pub struct Arrangement {
     pub data: Vec<Datum>,
     /// Lines of notes.
     pub notes: Vec<String>,
+    /// Further tables, such as one per axis.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub tables: Vec<ArrangementTable>,
     /// Indices of the figures that are drawn as adjacent parts, so that what they cover is seen.
     pub seen_through: Vec<usize>,
     /// Indices of the columns of motion that the sheet has a table of.
     pub columns: Vec<usize>,
+}
+
+/// Table of words.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct ArrangementTable {
+    /// Title.
+    pub title: String,
+    /// Heading of each column.
+    pub headings: Vec<String>,
+    /// Rows, each with a cell per column.
+    pub rows: Vec<Vec<String>>,
 }
 
 /// Place in the picture: a point of a figure's sketch.

@@ -124,11 +124,6 @@ impl Bar {
         [false, true].map(|way| self.grooves.iter().any(|(_, above)| *above == way))
     }
 
-    /// Whether a ring is at either end.
-    pub(crate) fn is_held(&self) -> bool {
-        self.rings() == [true; 2]
-    }
-
     /// Heights between which the keyway of the last key goes.
     pub(crate) fn last_keyway(&self) -> Option<[f64; 2]> {
         self.keyed.last().copied()

@@ -36,7 +36,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::transmission::Transmission;
 
-pub use arrangement::{Arrangement, Axis, Callout, Datum, Dimension, Place};
+pub use arrangement::{Arrangement, ArrangementTable, Axis, Callout, Datum, Dimension, Place};
 pub(crate) use bar::Bar;
 pub use blank::Blank;
 pub use boss::with_bosses;

@@ -13,22 +13,23 @@ use super::{
 const STEEL: f64 = 7850.0;
 
 /// A ring, key, bearing or spacer on a turned part.
-struct Fastener<'a> {
-    name: String,
+pub(crate) struct Fastener<'a> {
+    /// Name in the parts list.
+    pub(crate) name: String,
     material: &'a str,
     density: f64,
     /// Name of the files of one that is made.
-    file: Option<String>,
+    pub(crate) file: Option<String>,
     solid: Option<Solid>,
     /// Its origin in the part's frame, mm, and its turn there.
-    at: [f64; 3],
+    pub(crate) at: [f64; 3],
     turn: [f64; 3],
 }
 
 impl TurnedPieces {
     /// The rings, keys, bearings and spacers on each piece: each ring in the middle of its groove, each key on the floor of the
     /// keyway.
-    fn fasteners(&self) -> Vec<Fastener<'_>> {
+    pub(crate) fn fasteners(&self) -> Vec<Fastener<'_>> {
         let part = &self.part;
         let mut low = 0.0;
         let mut all = Vec::new();

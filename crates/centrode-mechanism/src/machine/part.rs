@@ -79,12 +79,13 @@ impl Part {
 }
 
 impl Machine {
-    /// Adds a part with its pieces; of a bought one, or one made from the sheet of another, more pieces to that of its name.
+    /// Adds a part with its pieces; of one that is not made, or one made from the sheet of another, more pieces to that of its
+    /// name and remark.
     pub fn part(&mut self, part: Part) -> usize {
         let alike = |known: &Part| {
             let same = known.supply == part.supply && known.name == part.name;
             let shares_files = !part.file.is_empty() && known.file == part.file;
-            same && (known.supply == Supply::Bought || shares_files)
+            same && (shares_files || (known.supply != Supply::Made && known.remark == part.remark))
         };
         if let Some(index) = self.parts.iter().position(alike) {
             self.parts[index].links.extend(part.links);

@@ -183,10 +183,10 @@ fn a_pin_that_runs_into_a_plate_without_a_hole_for_it_is_found_with_the_depth() 
 /// A lever of 40 mm that follows a cam 8 mm wide.
 const CAM: &str = r#"
 family = "machine"
-hardware = "full"
-[frame.points]
-O = [0, 0]
-P = [50, 10]
+hardware = "list"
+[frame]
+points = { O = [0, 0], P = [50, 10] }
+outline = [[-6, -6], [56, -6], [56, 16], [-6, 16]]
 [bodies.shaft]
 on = "frame.O"
 law = { ratio = 1 }
@@ -215,7 +215,9 @@ fn cams_in_the_height_of_a_plate_and_rollers_without_a_wall_are_found() {
         let text = CAM.replace("LAYER", layer).replace("RADIUS", radius);
         let report = check_composed(&composed(&text));
         let rules = report.findings.into_iter().map(|finding| finding.rule);
-        rules.collect::<Vec<_>>()
+        rules
+            .filter(|rule| *rule != "not-designed")
+            .collect::<Vec<_>>()
     };
     assert_eq!(check("", "5"), [""; 0]);
     // The frame is between -6 and -1 mm.

@@ -318,3 +318,96 @@ at_least = 0
         assert_eq!(columns.len(), 2);
     }
 }
+
+/// A crank of 50 mm that a constant force loads at its end, driven by its shaft.
+const OVERHUNG: &str = r#"
+family = "machine"
+hardware = "full"
+input = { speed_rpm = 0.001 }
+[frame]
+points = { O = [0, 0] }
+outline = [[-30, -30], [30, -30], [30, 30], [-30, 30]]
+thickness = LENGTH
+[bodies.crank]
+on = "frame.O"
+law = { ratio = 1 }
+points = { A = [50, 0] }
+layer = LAYER
+[loads.work]
+on = "crank.A"
+force = [-FORCE, 0]
+[plates]
+thickness = 6
+gap = 2
+width = 16
+pin_diameter = 8
+material = "steel S235"
+"#;
+
+#[test]
+fn a_shaft_held_at_one_end_is_stressed_by_its_load_and_what_holds_nothing_is_found() {
+    for (length, layer, force) in [
+        (6.0, 0, 80.0),
+        (10.0, 0, 500.0),
+        (6.0, 3, 200.0),
+        (14.0, 1, 900.0),
+        (5.0, 2, 10.0),
+    ] {
+        let text = OVERHUNG.replace("LENGTH", &format!("{length}"));
+        let text = text.replace("LAYER", &layer.to_string());
+        let text = text.replace("FORCE", &format!("{force}"));
+        let report = check_composed(&composed(&text));
+        // The frame begins at -8, a layer is 8 mm high.
+        let arm = 8.0 * f64::from(layer) + 3.0 - (-8.0 + 0.5 * length);
+        let pressure = force / (8.0 * length) + 6.0 * force * arm / (8.0 * length * length);
+        let bending = force * arm / (std::f64::consts::PI * 8.0_f64.powi(3) / 32.0);
+        let expected = pressure.max(bending);
+        let measured = report.values["overhung_stress_max"];
+        assert!(
+            (measured / expected - 1.0).abs() < 1e-5,
+            "{measured} {expected}"
+        );
+        // 0.9 of the yield strength of S235.
+        let is_found = report
+            .findings
+            .iter()
+            .any(|finding| finding.rule == "overhung");
+        assert_eq!(
+            is_found,
+            expected > 211.5,
+            "{length} {layer} {force}: {expected}"
+        );
+    }
+    let text = OVERHUNG
+        .replace("LENGTH", "6")
+        .replace("LAYER", "0")
+        .replace("FORCE", "1");
+    let rules = |text: &str| -> Vec<String> {
+        let found = check_composed(&composed(text)).findings.into_iter();
+        let found = found.filter(|finding| finding.rule != "not-designed");
+        found
+            .map(|finding| {
+                format!(
+                    "{} {}",
+                    finding.rule,
+                    finding.place.part.unwrap_or_default()
+                )
+            })
+            .collect()
+    };
+    assert_eq!(rules(&text), [""; 0]);
+    // No key is as small as this shaft, no ring has this size, and nobody knows the strength of bronze.
+    assert_eq!(
+        rules(&text.replace("pin_diameter = 8", "pin_diameter = 5")),
+        ["not-held crank"]
+    );
+    assert_eq!(
+        rules(&text.replace("pin_diameter = 8", "pin_diameter = 8.5")),
+        ["not-held shaft-crank"]
+    );
+    assert_eq!(
+        rules(&text.replace("steel S235", "bronze")),
+        ["overhung shaft of crank"]
+    );
+    assert_eq!(rules(&text.replace("\"full\"", "\"list\"")), [""; 0]);
+}

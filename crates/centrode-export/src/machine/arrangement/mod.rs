@@ -77,6 +77,14 @@ pub fn arrangement(
         .into_iter()
         .partition(|table| table.rows.len() <= BESIDE);
     flowing.insert(0, cut_list(machine));
+    let further = told.tables.iter().map(|table| Table {
+        title: table.title.clone(),
+        headings: table.headings.clone(),
+        columns: vec![Anchor::Left; table.headings.len()],
+        rows: table.rows.clone(),
+        notes: Vec::new(),
+    });
+    flowing.splice(0..0, further);
     let pieces = |scale: Scale, size| {
         let tables = [
             ("parts list", &parts),

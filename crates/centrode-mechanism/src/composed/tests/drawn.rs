@@ -118,7 +118,7 @@ fn a_body_without_a_plate_is_neither_drawn_nor_a_part_unless_its_mass_is_given()
     assert_eq!(machine.validate(), Ok(()));
     let outlines = machine.sketches.iter().flat_map(|sketch| &sketch.lines);
     let bodies = outlines.filter(|line| line.role == LineRole::Body);
-    assert!(bodies.clone().count() == 3);
+    assert!(bodies.clone().count() == 2);
     assert!(
         bodies
             .into_iter()

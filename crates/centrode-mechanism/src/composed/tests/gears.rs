@@ -368,18 +368,14 @@ fn what_no_shaft_of_the_machine_drives_or_holds_is_told() {
         let part = machine.parts.iter().find(|part| part.name == name);
         part.map(|part| part.remark.clone()).expect("in the list")
     };
-    assert_eq!(remark(TWO_ARM, "carrier"), "driven by the customer");
-    // Its frame is a ring on the shaft of the sun: that is held beyond the machine.
+    assert_eq!(remark(TWO_ARM, "Drive of carrier"), "turns it on frame");
     let role = |design: &str, title: &str| {
         let machine = made(design);
         let mut turned = machine.turned().iter();
         let own = turned.find(|pieces| pieces.part.title == title);
         own.map(|pieces| pieces.role.clone()).expect("a shaft")
     };
-    assert_eq!(
-        role(TWO_ARM, "Shaft of sun"),
-        "stands still, held at its free end"
-    );
+    assert_eq!(role(TWO_ARM, "Shaft of sun"), "fixed in the frame");
     assert_eq!(role(PRESS, "Shaft of pinion"), "driven at its free end");
     assert_eq!(remark(PRESS, "rod"), "");
 }

@@ -212,7 +212,7 @@ proptest! {
 
 const SLIDER: &str = r#"
 family = "machine"
-hardware = "full"
+hardware = "list"
 frame.points = { O = [5, -7] }
 bodies.crank = { on = "frame.O", law = { ratio = 1, start_deg = 20 }, points = { A = [30, 0] } }
 [dyads.ram]
