@@ -414,3 +414,53 @@ segments = [
     assert!((input - least).abs() < 1e-9, "{input} {least}");
     assert!(rules(&report).contains(&"cam-pressure-angle"));
 }
+
+/// A crank whose block slides in the slot of a lever, with what follows.
+fn quick_return(more: &str) -> Report {
+    check_composed(&composed(&format!(
+        r#"
+family = "machine"
+hardware = "full"
+[frame.points]
+O = [0, 0]
+P = [0, -60]
+Q = [0, 30]
+[bodies.crank]
+on = "frame.O"
+law = {{ ratio = 1 }}
+points = {{ A = [24, 0] }}
+[dyads.drive]
+type = "RPR"
+from = "crank.A"
+to = "frame.P"
+side = "forward"
+bodies = ["block", "lever"]
+{more}"#
+    )))
+}
+
+#[test]
+fn a_block_in_its_slot_is_no_collision_but_a_pin_that_leaves_the_slot_is_one() {
+    let collides = |report: &Report| {
+        let findings = report.findings.iter();
+        let rules = findings.filter(|finding| finding.rule.ends_with("-collide"));
+        rules
+            .map(|finding| finding.message.clone())
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(collides(&quick_return("")), Vec::<String>::new());
+    // The pin at Q goes from the frame to the post above the lever, through whose slot it passes: 90 mm from the lever's pin it is
+    // in the slot where the lever is upright, and runs into its wall where the lever swings.
+    let post = "[bodies.post]\non = \"frame.Q\"\nlaw = { start_deg = 90 }\nlayer = 3";
+    let found = collides(&quick_return(post));
+    // And into the block, 36 to 84 mm and 8 mm from there.
+    let is_met = |name: &str| {
+        found
+            .iter()
+            .any(|words| words.contains(&format!("shaft-post and {name} ")))
+    };
+    assert!(
+        found.len() == 2 && is_met("lever") && is_met("block"),
+        "{found:?}"
+    );
+}

@@ -1,6 +1,8 @@
 //! Pins and shafts that run into parts through which they have no hole, and cams and gears that run into what is at their height.
 
-use centrode_geometry::{Outline, Point, Solid, Tolerance};
+use std::cell::OnceCell;
+
+use centrode_geometry::{Outline, Point, Tolerance};
 use centrode_mechanism::composed::{Composed, Frames};
 use centrode_mechanism::machine::{Form, Machine, SpacerKind, Surface, TurnedPiece, TurnedPieces};
 
@@ -10,17 +12,20 @@ use crate::Report;
 /// Height by which parts that touch may overlap, mm: rounding.
 const LEVEL: f64 = 1e-6;
 
+/// Steps of the cycle at which a pin is to be within a slot.
+const SLOT_STEPS: u32 = 360;
+
 /// Part that surfaces belong to.
 #[derive(Clone, Copy)]
 enum Kind<'a> {
     /// A pin or shaft with the sleeves on it, or a roller, by its axis in its link.
     Turned { axis: Point, is_roller: bool },
-    /// A plate, with its holes.
-    Plate(&'a Solid),
+    /// A plate, with the holes for its pins.
+    Plate(&'a [Outline]),
     /// A gear, with its bore.
-    Gear(&'a Solid),
+    Gear(&'a [Outline]),
     /// A cam, with its bore.
-    Cam(&'a Solid),
+    Cam(&'a [Outline]),
 }
 
 /// A pin or shaft with the sleeves on it, or a roller.
@@ -65,6 +70,9 @@ pub(super) fn collisions(
         })
     };
     let frames = composed.frames(&Composed::SHARES.map(|share| share * composed.period()));
+    let steps = (0..=SLOT_STEPS).map(|k| f64::from(k) / f64::from(SLOT_STEPS) * composed.period());
+    let paths = OnceCell::new();
+    let paths = || paths.get_or_init(|| composed.frames(&steps.clone().collect::<Vec<_>>()));
     // Turned parts come first.
     let pins_may = |[one, other]: [usize; 2]| {
         let Kind::Turned { axis, is_roller } = kinds[one] else {
@@ -74,9 +82,12 @@ pub(super) fn collisions(
         let is_free = || match kinds[other] {
             Kind::Turned { axis, .. } => !is_one(&frames, own, (pieces[other].link, axis)),
             // A roller touches its cam, and goes through no hole of a pin.
-            Kind::Cam(solid) => !is_roller && !is_in_hole(&frames, own, pieces[other].link, solid),
-            Kind::Plate(solid) | Kind::Gear(solid) => {
-                is_roller || !is_in_hole(&frames, own, pieces[other].link, solid)
+            Kind::Cam(bores) => !is_roller && !is_in_hole(&frames, own, pieces[other].link, bores),
+            Kind::Gear(bores) => is_roller || !is_in_hole(&frames, own, pieces[other].link, bores),
+            Kind::Plate(holes) => {
+                is_roller
+                    || !(is_in_hole(&frames, own, pieces[other].link, holes)
+                        || is_in_slot(composed, paths, (own, &pieces[one]), &pieces[other]))
             }
         };
         is_level([one, other]) && is_free()
@@ -175,9 +186,13 @@ fn parts<'a>(
             let mut cams = composed.cams().iter();
             let cam = cams.find(|cam| cam.surface_name() == surface.name);
             let (name, kind) = match (gear, cam) {
-                (Some(gear), _) => (&gear.name, Kind::Gear(solid)),
-                (None, Some(cam)) => (&cam.name, Kind::Cam(solid)),
-                (None, None) => (&link.name, Kind::Plate(solid)),
+                (Some(gear), _) => (&gear.name, Kind::Gear(solid.holes())),
+                (None, Some(cam)) => (&cam.name, Kind::Cam(solid.holes())),
+                (None, None) => {
+                    let slots = composed.slots(index).len();
+                    let (pins, _) = solid.holes().split_at(solid.holes().len() - slots);
+                    (&link.name, Kind::Plate(pins))
+                }
             };
             found.push((&**name, index, surface, kind));
         }
@@ -191,7 +206,28 @@ fn is_one(frames: &Frames, own: (usize, Point), (body, axis): (usize, Point)) ->
 }
 
 /// Whether the axis of a pin lies in one hole of a part all through the cycle.
-fn is_in_hole(frames: &Frames, own: (usize, Point), link: usize, solid: &Solid) -> bool {
-    let mut holes = solid.holes().iter();
+fn is_in_hole(frames: &Frames, own: (usize, Point), link: usize, holes: &[Outline]) -> bool {
+    let mut holes = holes.iter();
     holes.any(|hole| frames.path(link, own).all(|at| hole.contains(at)))
+}
+
+/// Whether a pin, with what is on it at the height of a plate, keeps within one slot of it all through the cycle.
+fn is_in_slot<'a>(
+    composed: &Composed,
+    paths: impl Fn() -> &'a Frames,
+    (own, pin): ((usize, Point), &PartSurfaces<'_>),
+    plate: &PartSurfaces<'_>,
+) -> bool {
+    let is_level = |a: &Surface, b: &Surface| a.span[0] < b.span[1] && b.span[0] < a.span[1];
+    let level = pin.surfaces.iter().filter(|a| {
+        let mut others = plate.surfaces.iter();
+        others.any(|b| is_level(a, b))
+    });
+    let radii = level.map(|surface| surface.outline.farthest(own.1));
+    let radius = radii.fold(0.0, f64::max);
+    let slots = composed.slots(plate.link);
+    slots.iter().any(|slot| {
+        let mut path = paths().path(plate.link, own);
+        path.all(|at| slot.depth(at) >= radius - LEVEL)
+    })
 }

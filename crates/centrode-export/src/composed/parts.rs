@@ -74,10 +74,19 @@ fn plate(composed: &Composed, machine: &Machine, body: usize, quantity: usize) -
         }
     }
     let axes = "x and y are the body's axes in the design.".to_owned();
-    let slides = guided.map(|height| {
-        let guide = fit::keyway(height, guide);
-        format!("Slides along x in a guide of {guide}, which is the customer's.")
-    });
+    let slides = match (guided, composed.slotted(body)) {
+        (Some(_), Some(guide)) => Some(format!(
+            "Slides along x in the slot of {}.",
+            composed.bodies()[guide].name
+        )),
+        (Some(height), None) => {
+            let guide = fit::keyway(height, guide);
+            Some(format!(
+                "Slides along x in a guide of {guide}, which is the customer's."
+            ))
+        }
+        (None, _) => None,
+    };
     Some(Plate {
         name: name.clone(),
         title: capital(name),
@@ -97,7 +106,7 @@ fn plate(composed: &Composed, machine: &Machine, body: usize, quantity: usize) -
     })
 }
 
-/// Holes of a plate: those of pins and shafts, then those of the screws of a frame.
+/// Holes of a plate: those of pins and shafts, then those of the screws of a frame, or slots.
 fn holes(composed: &Composed, body: usize, solid: &Solid, pins: Vec<PinHole>) -> Vec<Hole> {
     let hole = |(outline, pin): (&Outline, PinHole)| {
         let mut bored = Hole::bore(outline.clone(), &pin.hub);
@@ -112,9 +121,18 @@ fn holes(composed: &Composed, body: usize, solid: &Solid, pins: Vec<PinHole>) ->
             ..bored
         }
     };
+    let [guide, _] = Composed::GUIDE_FIT;
+    let slots = composed.slots(body);
+    let own_slots = solid.holes().get(pins.len()..).unwrap_or_default();
+    let own_slots = own_slots.iter().zip(slots).map(|(outline, slot)| Hole {
+        label: composed.bodies()[slot.block].name.clone(),
+        fit: guide.into(),
+        ..Hole::from(outline.clone())
+    });
     let bored = solid.holes().iter().zip(pins).map(hole);
     let screws = composed.frame_screws().filter(|_| body == 0);
     bored
+        .chain(own_slots)
         .chain(screws.into_iter().flat_map(Hole::clearance))
         .collect()
 }

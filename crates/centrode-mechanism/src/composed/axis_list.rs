@@ -84,7 +84,10 @@ impl Composed {
             // A copy is a further piece of what its original has.
             let name = self.original(&self.bodies[index].name);
             let original = self.body_named(name).unwrap_or(index);
-            let Some((mount, height, travel)) = self.guide(original) else {
+            let guided = self
+                .sliding(original)
+                .filter(|_| self.slotted(original).is_none());
+            let Some((mount, height, travel)) = guided else {
                 continue;
             };
             let (size, travel) = (thousandths(height), thousandths(travel));
@@ -153,7 +156,7 @@ impl Composed {
         let holes = self.pin_holes(0).into_iter().flatten();
         let bores = holes.map(|hole| Line::contour(LineRole::Beside, &hole.outline()));
         let guides = (1..self.bodies.len()).flat_map(|body| {
-            let guide = self.guide(body).filter(|(mount, ..)| mount.carrier == 0);
+            let guide = self.sliding(body).filter(|(mount, ..)| mount.carrier == 0);
             let Some((mount, height, travel)) = guide else {
                 return Vec::new();
             };
@@ -173,7 +176,7 @@ impl Composed {
     }
 
     /// Joint of a body that slides as a block, the height of the block and its travel, mm.
-    fn guide(&self, body: usize) -> Option<(&Mount, f64, f64)> {
+    fn sliding(&self, body: usize) -> Option<(&Mount, f64, f64)> {
         let mount = self.bodies[body].mount.as_ref()?;
         let height = self.guided(body).filter(|_| self.has_plate(body))?;
         match mount.kind {

@@ -40,6 +40,16 @@ impl Composed {
                 ),
             });
         }
+        let is_in = |[block, guide]: [usize; 2]| self.slotted(block) == Some(guide);
+        if is_in([one, other]) || is_in([other, one]) {
+            let [first, second] = names;
+            return Err(ComposedError::Refused {
+                key: key.into(),
+                why: format!(
+                    "{first} and {second} slide on each other in a slot: their clearance is that of the fit"
+                ),
+            });
+        }
         Ok(ends)
     }
 

@@ -17,9 +17,6 @@ const POST: f64 = 2.0;
 /// Length of thread that a screw enters at least, in its diameters.
 const ENTERED: f64 = 1.0;
 
-/// Name of the files of the posts.
-const POSTS: &str = "post";
-
 /// A shaft or pin that one plate of the frame holds alone.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Overhang {
@@ -49,6 +46,8 @@ pub(super) struct FramePlates {
 impl Composed {
     /// Name of the upper plate of a frame of two plates, and of its files.
     pub const FRAME_TOP: &str = "frame-top";
+    /// Name of the files of the posts of such a frame.
+    pub(super) const POSTS: &str = "frame-post";
 
     /// Whether the frame is two plates round all that moves: where it is to be made and not drawn.
     pub(super) fn has_frame_plates(&self) -> bool {
@@ -215,7 +214,7 @@ impl Composed {
         let stock = Stock::new(&spec.material, spec.density);
         let general = &self.design.drawing.general_tolerance;
         let bar = Bar::new(diameter, "", [low, high]);
-        let mut post = bar.part([POSTS, "Post"], stock, general);
+        let mut post = bar.part([Self::POSTS, "Post"], stock, general);
         let thread = screws.screw.thread();
         post.notes.push(match screws.thread_depth() {
             Some(depth) => format!("{thread}, {} deep, in both ends.", thousandths(depth)),
@@ -238,7 +237,8 @@ impl Composed {
     #[must_use]
     pub fn turned_in_plates(&self) -> Vec<&TurnedPieces> {
         let all = self.turned().iter();
-        let made = all.filter(|pieces| pieces.standard.is_none() && pieces.part.name != POSTS);
+        let made =
+            all.filter(|pieces| pieces.standard.is_none() && pieces.part.name != Self::POSTS);
         made.collect()
     }
 

@@ -96,7 +96,7 @@ impl Composed {
         }
         if self.has_frame_plates() {
             stems.extend(
-                [Self::FRAME_TOP, "post"].map(|name| ("hardware".to_owned(), name.to_owned())),
+                [Self::FRAME_TOP, Self::POSTS].map(|name| ("hardware".to_owned(), name.to_owned())),
             );
         }
         let mut taken: BTreeMap<String, String> = BTreeMap::new();

@@ -44,6 +44,7 @@ mod reversed;
 mod seating;
 mod shaft_parts;
 mod shafts;
+mod slots;
 mod spacing;
 mod table;
 #[cfg(test)]
@@ -83,6 +84,7 @@ pub use plates::{ComposedPlatesSpec, Hardware, PinHole};
 pub use reversed::{MachineError, ReversedMachine};
 pub(crate) use reversed::{free_backlash, free_body};
 pub use shafts::{ComposedShaft, Hold, ShaftPart};
+pub use slots::Slot;
 pub use spacing::Frames;
 pub use table::TableReading;
 

@@ -20,7 +20,7 @@ use crate::machine::{Fastening, JointKind, Stock};
 /// Greatest diameter of a pin as a share of its plate's width.
 const PIN: f64 = 0.9;
 /// Half length and half height of the block of a body that slides, as shares of a plate's width: higher than the plate.
-const BLOCK: [f64; 2] = [1.0, 0.6];
+pub(super) const BLOCK: [f64; 2] = [1.0, 0.6];
 /// Radius of its corners, as a share of a plate's width.
 const BLOCK_ROUNDING: f64 = 0.1;
 /// First and last layer.
@@ -203,8 +203,8 @@ impl Composed {
     /// Tolerance classes, ISO 286, of guides and of the blocks that slide in them.
     pub const GUIDE_FIT: [&str; 2] = ["H9", "e9"];
 
-    /// Contour of a body's plate, as drawn or round all its points, and the holes in it, where other bodies are pinned, in
-    /// the body's axes; none for a body without a plate.
+    /// Contour of a body's plate, as drawn or round all its points and slots, and the holes in it, in the body's axes: where other
+    /// bodies are pinned, then its [`slots`](Self::slots); none for a body without a plate.
     #[must_use]
     pub fn contours(&self, body: usize) -> Option<(Outline, Vec<Outline>)> {
         if !self.has_plate(body) {
@@ -213,12 +213,17 @@ impl Composed {
         let holes = self.pin_holes(body)?.into_iter();
         let screws = (body == 0).then(|| self.frame_screws()).flatten();
         let screws = screws.into_iter().flat_map(Fastening::clearance_holes);
-        let holes = holes.map(|hole| hole.outline()).chain(screws);
+        let slots = self.slots(body).into_iter();
+        let slots = slots.filter_map(|slot| slot.outline());
+        let holes = holes.map(|hole| hole.outline()).chain(screws).chain(slots);
         let own = self.bodies.get(body)?;
         let outline = match self.drawn.get(&own.name) {
             Some(outline) => outline.clone(),
             None if body == 0 => self.frame_outline()?.clone(),
-            None => Outline::hull(&self.circles(body, self.width(body)))?,
+            None => match self.stemmed(body) {
+                Some(outline) => outline,
+                None => Outline::hull(&self.circles(body, self.width(body)))?,
+            },
         };
         Some((outline, holes.collect()))
     }
@@ -230,26 +235,43 @@ impl Composed {
         Some(holes.map(|place| self.hole(body, place)).collect())
     }
 
-    /// Two holes of one plate that overlap, as words for a message; `None` if there are none.
+    /// Two holes of one plate, or a hole and a slot, that overlap, as words for a message; `None` if there are none.
     #[must_use]
     pub fn overlapping_holes(&self) -> Option<String> {
         self.bodies.iter().enumerate().find_map(|(index, body)| {
             let holes = self.pin_holes(index)?;
             let mut pairs = (0..holes.len()).flat_map(|k| (0..k).map(move |i| (i, k)));
-            let (apart, one, other) = pairs.find_map(|(i, k)| {
+            let of_holes = pairs.find_map(|(i, k)| {
                 let (one, other) = (&holes[i], &holes[k]);
                 let apart = (one.at - other.at).norm();
-                let overlap = apart < 0.5 * (one.hub.bore + other.hub.bore);
-                overlap.then_some((apart, one, other))
-            })?;
-            let [first, second] = [one, other].map(|hole| thousandths(hole.hub.bore));
-            Some(format!(
-                "axes {} and {} of body {} are {} mm apart, but their holes of {first} and {second} mm overlap: take thinner pins",
-                one.name,
-                other.name,
-                body.name,
-                thousandths(apart),
-            ))
+                if apart >= 0.5 * (one.hub.bore + other.hub.bore) {
+                    return None;
+                }
+                let [first, second] = [one, other].map(|hole| thousandths(hole.hub.bore));
+                Some(format!(
+                    "axes {} and {} of body {} are {} mm apart, but their holes of {first} and {second} mm overlap: take thinner pins",
+                    one.name,
+                    other.name,
+                    body.name,
+                    thousandths(apart),
+                ))
+            });
+            of_holes.or_else(|| {
+                let slots = self.slots(index);
+                let mut pairs = slots.iter().flat_map(|slot| holes.iter().map(move |hole| (slot, hole)));
+                pairs.find_map(|(slot, hole)| {
+                    let wall = -slot.depth(hole.at) - 0.5 * hole.hub.bore;
+                    (wall < 0.0).then(|| format!(
+                        "in body {}, the slot of {} mm for {} overlaps the hole of axis {} by {} mm: take a narrower {}, or a shorter stroke",
+                        body.name,
+                        thousandths(slot.width),
+                        self.bodies[slot.block].name,
+                        hole.name,
+                        thousandths(-wall),
+                        self.bodies[slot.block].name,
+                    ))
+                })
+            })
         })
     }
 
@@ -278,6 +300,7 @@ impl Composed {
                 body == 0
                     || self.drawn.contains_key(name)
                     || self.is_block(body)
+                    || self.carries_block(body)
                     || spec.is_some_and(is_sized)
                     || self.centers(body).len() > 1
             };
@@ -336,15 +359,19 @@ impl Composed {
 
     /// Circles round which a plate of a width is drawn: about its points, and the corners of a block about the origin of one
     /// that slides.
-    fn circles(&self, index: usize, width: f64) -> Vec<(Point, f64)> {
+    pub(super) fn circles(&self, index: usize, width: f64) -> Vec<(Point, f64)> {
         let around = |at: Point| (at, self.boss(index, at).max(0.5 * width));
         let mut circles: Vec<(Point, f64)> = self.centers(index).into_iter().map(around).collect();
+        let wall = self.wall(index);
+        let slots = self.slots(index).into_iter();
+        let at_slots = slots.flat_map(|slot| slot.ends.map(|at| (at, 0.5 * slot.width + wall)));
         if self.is_block(index) {
             let radius = BLOCK_ROUNDING * width;
             let [x, y] = BLOCK.map(|half| half * width - radius);
             let corners = [[x, y], [-x, y], [-x, -y], [x, -y]];
             circles.extend(corners.map(|corner| (Point::from(corner), radius)));
         }
+        circles.extend(at_slots);
         circles
     }
 
@@ -374,6 +401,15 @@ impl Composed {
         centers
     }
 
+    /// Whether the block of a dyad slides along a line of a body.
+    fn carries_block(&self, body: usize) -> bool {
+        let mut blocks = self.dyads.iter().flat_map(|dyad| dyad.bodies);
+        blocks.any(|block| {
+            let mount = self.bodies[block].mount.as_ref();
+            self.is_block(block) && mount.is_some_and(|mount| mount.carrier == body)
+        })
+    }
+
     /// Whether a body is a block that slides along a line.
     fn is_block(&self, body: usize) -> bool {
         let mount = self.bodies[body].mount.as_ref();
@@ -381,18 +417,20 @@ impl Composed {
     }
 
     /// Width of a body's plate, mm.
-    fn width(&self, body: usize) -> f64 {
+    pub(super) fn width(&self, body: usize) -> f64 {
         let spec = self.design.bodies.get(&self.bodies[body].name);
         let own = spec.and_then(|body| body.width);
         own.unwrap_or(self.design.plates.width)
     }
 
-    /// Height of the block of a body that slides, mm, which a guide holds on both sides; none for a body that does not slide or is drawn
-    /// by hand.
+    /// Height of the block of a body that slides, mm, which a guide holds on both sides; none for a body that does not slide, is drawn
+    /// by hand or has a slot and no stem.
     #[must_use]
     pub fn guided(&self, body: usize) -> Option<f64> {
         let own = self.bodies.get(body)?;
-        let is_block = self.is_block(body) && !self.drawn.contains_key(&own.name);
+        let is_block = self.is_block(body)
+            && !self.drawn.contains_key(&own.name)
+            && (self.slots(body).is_empty() || self.stemmed(body).is_some());
         is_block.then_some(2.0 * BLOCK[1] * self.width(body))
     }
 
@@ -419,16 +457,22 @@ impl Composed {
             };
             let fine = Tolerance::new(CHECKED * outline.length().max(f64::MIN_POSITIVE));
             let fine = fine.map_err(|error| wrong(error.to_string()))?;
+            // Adding zero makes a negative zero positive.
+            let told = |x: f64| (x * 1e6).round() / 1e6 + 0.0;
             let pins = self.pin_holes(index).into_iter().flatten();
-            for (hole, PinHole { at, hub, .. }) in holes.into_iter().zip(pins) {
+            let pins = pins.map(|PinHole { at, hub, .. }| {
+                let [x, y] = [at.x, at.y].map(told);
+                format!("hole of {} mm for the pin at {x}, {y} mm", hub.bore)
+            });
+            let slots = self.slots(index).into_iter().map(|slot| {
+                let [a, b, c, d] = [slot.ends[0].x, slot.ends[0].y, slot.ends[1].x, slot.ends[1].y].map(told);
+                let block = &self.bodies[slot.block].name;
+                format!("slot of {} mm for {block}, whose ends are round about {a}, {b} and {c}, {d} mm,", slot.width)
+            });
+            for (hole, what) in holes.into_iter().zip(pins.chain(slots)) {
                 let plate = Solid::new(outline.clone(), vec![hole], 0.0, 1.0);
                 if plate.and_then(|plate| plate.mesh(fine)).is_err() {
-                    // Adding zero makes a negative zero positive.
-                    let [x, y] = [at.x, at.y].map(|x| (x * 1e6).round() / 1e6 + 0.0);
-                    return Err(wrong(format!(
-                        "the hole of {} mm for the pin at {x}, {y} mm does not lie within the outline",
-                        hub.bore
-                    )));
+                    return Err(wrong(format!("the {what} does not lie within the outline")));
                 }
             }
         }
@@ -488,19 +532,31 @@ impl Composed {
 
     /// Height of the lower face of a body's plate along the shafts, mm; that of the frame is below all others.
     pub(super) fn bottom(&self, body: usize) -> f64 {
-        let spec = &self.design.plates;
         let name = &self.bodies[body].name;
-        let written = self.design.bodies.get(name).and_then(|body| body.layer);
-        let layer = match written {
+        let layer = match (self.layer_of(body), self.guide(body)) {
             _ if self.has_frame_plates() && body == 0 => return self.frame_spans()[0][0],
             _ if name == FRAME => -1.0,
-            Some(layer) => f64::from(layer),
-            None => {
-                let original = self.body_named(self.original(name));
-                original.unwrap_or(body) as f64 - 1.0
+            (Some(layer), _) => f64::from(layer),
+            // A block in a slot lies in the plate with the slot.
+            (None, Some(guide)) => return self.bottom(guide),
+            (None, None) => {
+                let original = self.body_named(self.original(name)).unwrap_or(body);
+                let before = (1..original).filter(|&other| self.is_in_slot(other));
+                (original - 1 - before.count()) as f64
             }
         };
-        spec.height_of(layer)
+        self.design.plates.height_of(layer)
+    }
+
+    /// Layer of a body's plate as written.
+    pub(super) fn layer_of(&self, body: usize) -> Option<i32> {
+        let spec = self.design.bodies.get(&self.bodies[body].name)?;
+        spec.layer
+    }
+
+    /// Whether a body has no layer of its own, as a block in a slot.
+    fn is_in_slot(&self, body: usize) -> bool {
+        self.layer_of(body).is_none() && self.guide(body).is_some()
     }
 
     /// Thickness of a body's plate, mm.

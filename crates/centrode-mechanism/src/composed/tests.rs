@@ -12,6 +12,7 @@ mod hardware;
 mod limits;
 mod random;
 mod shafts;
+mod slots;
 mod tables;
 mod trains;
 
