@@ -420,7 +420,7 @@ fn quick_return(more: &str) -> Report {
     check_composed(&composed(&format!(
         r#"
 family = "machine"
-hardware = "full"
+hardware = "list"
 [frame.points]
 O = [0, 0]
 P = [0, -60]
@@ -451,7 +451,8 @@ fn a_block_in_its_slot_is_no_collision_but_a_pin_that_leaves_the_slot_is_one() {
     assert_eq!(collides(&quick_return("")), Vec::<String>::new());
     // The pin at Q goes from the frame to the post above the lever, through whose slot it passes: 90 mm from the lever's pin it is
     // in the slot where the lever is upright, and runs into its wall where the lever swings.
-    let post = "[bodies.post]\non = \"frame.Q\"\nlaw = { start_deg = 90 }\nlayer = 3";
+    let post =
+        "[bodies.post]\non = \"frame.Q\"\nlaw = { start_deg = 90 }\nlayer = 3\nthickness = 5";
     let found = collides(&quick_return(post));
     // And into the block, 36 to 84 mm and 8 mm from there.
     let is_met = |name: &str| {

@@ -11,7 +11,8 @@ fn press(hardware: &str) -> String {
         "/../../tests/designs/press.toml"
     );
     let text = std::fs::read_to_string(path).expect("a shipped design");
-    text.replacen("\n[", &format!("\nhardware = \"{hardware}\"\n["), 1)
+    text.replace("hardware = \"full\"", &format!("hardware = \"{hardware}\""))
+        .replace("gap = 2.5", "gap = 1")
 }
 
 fn table<'a>(machine: &'a Machine, title: &str) -> &'a ArrangementTable {
