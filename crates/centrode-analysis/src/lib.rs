@@ -25,7 +25,7 @@ mod unit;
 
 pub use composed::{
     NoSoundTeeth, SoundTeeth, check_composed, check_composed_goals, check_composed_motion,
-    composed_clearance, composed_collisions, composed_figures, with_sound_teeth,
+    composed_clearance, composed_collisions, composed_figures, composed_layers, with_sound_teeth,
 };
 pub use contact::{
     Contact, ContactExtremes, Proof, ProofError, ProofMeeting, ProofStretch, SeatJump, prove,

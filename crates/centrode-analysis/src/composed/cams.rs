@@ -66,7 +66,7 @@ pub(super) fn cams(composed: &Composed, report: &mut Report) {
 
 /// Tells of a roller whose wall is too thin for the pins of the design: it has no part and no pin.
 fn thin_roller(composed: &Composed, cam: &ComposedCam, report: &mut Report) {
-    let pin = composed.design().plates.pin_diameter;
+    let pin = composed.plates().pin_diameter;
     let radius = cam.disc().follower().roller_radius().unwrap_or(0.0);
     let is_made = Spacer::roller(radius, pin, cam.part.body().width).is_some();
     if radius == 0.0 || pin == 0.0 || is_made {

@@ -70,7 +70,7 @@ pub fn composed_collisions(design: &ComposedDesign) -> Vec<Finding> {
 /// Plates, and gears that are not to mesh, that share a height and collide.
 pub(super) fn collisions(made: &Made<'_>, ends: &[f64], report: &mut Report) {
     let composed = made.composed;
-    let tolerance = Tolerance::new(ACCURACY * composed.design().plates.width);
+    let tolerance = Tolerance::new(ACCURACY * composed.plates().width);
     let (Some(machine), Ok(tolerance)) = (made.machine(), tolerance) else {
         return;
     };

@@ -198,7 +198,7 @@ fn clearance(
     ends: [ClearanceEnd; 2],
     spec: &ComposedGoalSpec,
 ) -> (Option<f64>, Option<f64>) {
-    let width = made.composed.design().plates.width;
+    let width = made.composed.plates().width;
     let (Some(machine), Ok(tolerance)) = (made.outlined(), Tolerance::new(ACCURACY * width)) else {
         return (None, None);
     };

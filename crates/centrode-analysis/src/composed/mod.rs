@@ -9,6 +9,7 @@ mod goals;
 mod held;
 mod joints;
 mod keys;
+mod layers;
 mod motion;
 mod pairs;
 mod sound_teeth;
@@ -28,6 +29,7 @@ pub use self::collisions::composed_collisions;
 use self::figures::FIGURES;
 use self::forces::Loaded;
 pub use self::goals::composed_figures;
+pub use self::layers::composed_layers;
 use self::motion::Motion;
 pub use self::sound_teeth::{NoSoundTeeth, SoundTeeth, with_sound_teeth};
 use crate::forces::ForcesError;
@@ -113,7 +115,9 @@ fn checked(made: &Made<'_>, motion: Motion, depth: Depth) -> Report {
         }
         held::held(composed, &mut report);
         pairs::pairs(made, &mut report);
-        collisions::collisions(made, &ends(composed), &mut report);
+        let ends = ends(composed);
+        collisions::collisions(made, &ends, &mut report);
+        layers::layers(composed, &ends, &mut report);
         not_designed(made, &mut report);
     }
     add_goals(made, &mut report);

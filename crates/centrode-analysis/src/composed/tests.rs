@@ -5,6 +5,7 @@ use super::*;
 
 mod clearances;
 mod followers;
+mod layers;
 mod loads;
 mod seats;
 mod teeth;

@@ -60,7 +60,7 @@ pub fn files(
     let named = [design.name.as_str(), design.title.as_str()];
     let mut package = Package::new("a composed machine", named, formats, options);
     if design.hardware() != Hardware::None {
-        package.finer_than(design.plates.pin_diameter, "pins' diameter")?;
+        package.finer_than(composed.plates().pin_diameter, "pins' diameter")?;
     }
     parts::add(&mut package, composed, &made)?;
     package.drawing("assembly", |_| Ok(assembly(composed, &made)))?;

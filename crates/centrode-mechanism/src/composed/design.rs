@@ -180,10 +180,6 @@ impl ComposedDesign {
             body.validate().map_err(|e| e.inside(&key))?;
             let mass = body.given_mass().validate(has_plates && body.has_plate());
             mass.map_err(|e| e.inside(&key))?;
-            if let Some(width) = body.width.filter(|_| has_plates) {
-                let least = self.plates.least_width();
-                in_range(&format!("{key}.width"), width, [least, 1e9], " mm")?;
-            }
         }
         for (name, dyad) in &self.dyads {
             let key = format!("dyads.{name}");

@@ -29,6 +29,7 @@ mod gears;
 mod given_mass;
 mod goal;
 mod law;
+mod layers;
 mod limits;
 mod links;
 mod load;
@@ -44,6 +45,7 @@ mod reversed;
 mod seating;
 mod shaft_parts;
 mod shafts;
+mod sizes;
 mod slots;
 mod spacing;
 mod table;
@@ -77,6 +79,7 @@ pub use gearing::ComposedGear;
 pub use gears::{ComposedGearSpec, ComposedLoopSpec, ComposedMeshSpec, GearRole};
 pub use goal::{ComposedGoalSpec, Over};
 pub use law::{ComposedLawError, ComposedLawSpec};
+pub use layers::LayerOrders;
 pub use load::{ComposedLoadSpec, LoadAxes};
 pub use obstacle::{ComposedObstacle, ComposedObstacleSpec};
 pub use pair_figure::PAIR_FIGURES;
@@ -84,6 +87,7 @@ pub use plates::{ComposedPlatesSpec, Hardware, PinHole};
 pub use reversed::{MachineError, ReversedMachine};
 pub(crate) use reversed::{free_backlash, free_body};
 pub use shafts::{ComposedShaft, Hold, ShaftPart};
+pub use sizes::Plates;
 pub use slots::Slot;
 pub use spacing::Frames;
 pub use table::TableReading;
@@ -93,6 +97,7 @@ use self::frame::FramePlates;
 use self::gearing::Meshing;
 use self::load::ComposedLoad;
 use self::points::BodyPoints;
+use self::sizes::Sized;
 use self::spacing::Passage;
 use crate::linkage::{Line, LinkId, Linkage};
 use crate::machine::{JointKind, TurnedPieces};
@@ -103,7 +108,7 @@ use crate::transmission::{MotionJet, Transmission};
 pub struct Composed {
     /// The design as written, and with its copies written out.
     written: ComposedDesign,
-    design: ComposedDesign,
+    design: Sized,
     expansion: Expansion,
     linkage: Linkage,
     bodies: Vec<ComposedBody>,
@@ -200,6 +205,12 @@ impl Mount {
             law,
             ..Self::fixed(carrier, line.through, line.angle)
         }
+    }
+
+    /// Place of what slides along it by a distance, in the carrier's axes, mm.
+    fn along(&self, distance: f64) -> Point {
+        let (sin, cos) = self.angle.sin_cos();
+        self.at + Vector::new(cos, sin) * distance
     }
 
     /// Sets the motion, and the range of a slide.

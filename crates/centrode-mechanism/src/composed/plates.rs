@@ -12,13 +12,11 @@ use crate::bore;
 use crate::digits::thousandths;
 use crate::gear::design::BodySpec;
 use crate::gear::design::SpecError;
-use crate::gear::design::rule::{
-    hole_class, in_range, not_negative, positive, shaft_class, single_line,
-};
+use crate::gear::design::rule::{hole_class, not_negative, positive, shaft_class, single_line};
 use crate::machine::{Fastening, JointKind, Stock};
 
 /// Greatest diameter of a pin as a share of its plate's width.
-const PIN: f64 = 0.9;
+pub(super) const PIN: f64 = 0.9;
 /// Half length and half height of the block of a body that slides, as shares of a plate's width: higher than the plate.
 pub(super) const BLOCK: [f64; 2] = [1.0, 0.6];
 /// Radius of its corners, as a share of a plate's width.
@@ -28,7 +26,7 @@ pub(super) const LAYERS: [f64; 2] = [-1000.0, 1000.0];
 /// Width of the bars by which bodies without plates are drawn, as a share of the longest distance in a body.
 const BAR: f64 = 0.03;
 /// Distance of two pins, as a share of their diameter, below which they are one.
-const ONE: f64 = 1e-6;
+pub(super) const ONE: f64 = 1e-6;
 /// Accuracy of the check of a contour drawn by hand, as a share of its length.
 const CHECKED: f64 = 1e-6;
 
@@ -37,14 +35,18 @@ const CHECKED: f64 = 1e-6;
 #[serde(default, deny_unknown_fields)]
 #[schemars(extend("x-detail" = true))]
 pub struct ComposedPlatesSpec {
-    /// Thickness of a plate, mm.
-    pub thickness: f64,
-    /// Distance of neighbouring plates, mm.
-    pub gap: f64,
-    /// Width of a plate, mm: it ends in half circles about its points.
-    pub width: f64,
-    /// Diameter of the pins, mm.
-    pub pin_diameter: f64,
+    /// Thickness of a plate, mm; default 5, or less by the shortest distance of two holes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub thickness: Option<f64>,
+    /// Distance of neighbouring plates, mm; default 1, or less by the shortest distance of two holes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub gap: Option<f64>,
+    /// Width of a plate, mm: it ends in half circles about its points; default 8, or less by the shortest distance of two holes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub width: Option<f64>,
+    /// Diameter of the pins, mm; default 3, or less by the shortest distance of two holes.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub pin_diameter: Option<f64>,
     /// Tolerance class of the holes, ISO 286, for the drawing.
     pub hole_fit: String,
     /// Tolerance class of the pins, ISO 286, for the drawing.
@@ -64,10 +66,10 @@ pub struct ComposedPlatesSpec {
 impl Default for ComposedPlatesSpec {
     fn default() -> Self {
         Self {
-            thickness: 5.0,
-            gap: 1.0,
-            width: 8.0,
-            pin_diameter: 3.0,
+            thickness: None,
+            gap: None,
+            width: None,
+            pin_diameter: None,
             hole_fit: "H8".into(),
             pin_fit: "f7".into(),
             material: "steel".into(),
@@ -137,28 +139,16 @@ impl ComposedPlatesSpec {
             ("thickness", self.thickness),
             ("width", self.width),
             ("pin_diameter", self.pin_diameter),
-            ("density", self.density),
+            ("density", Some(self.density)),
         ] {
-            positive(key, value)?;
+            positive(key, value.unwrap_or(1.0))?;
         }
-        not_negative("gap", self.gap)?;
+        not_negative("gap", self.gap.unwrap_or(0.0))?;
         hole_class("hole_fit", &self.hole_fit)?;
         shaft_class("pin_fit", &self.pin_fit)?;
         single_line("material", &self.material)?;
         single_line("heat_treatment", &self.heat_treatment)?;
-        single_line("pin_heat_treatment", &self.pin_heat_treatment)?;
-        let most = PIN * self.width;
-        in_range("pin_diameter", self.pin_diameter, [0.0, most], " mm")
-    }
-
-    /// Height of the lower face of what lies in a layer along the shafts, mm.
-    pub(super) fn height_of(&self, layer: f64) -> f64 {
-        layer * (self.thickness + self.gap)
-    }
-
-    /// Least width of a plate that holds its pins, mm.
-    pub(super) fn least_width(&self) -> f64 {
-        self.pin_diameter / PIN
+        single_line("pin_heat_treatment", &self.pin_heat_treatment)
     }
 }
 

@@ -11,7 +11,7 @@ use super::plates::drawn;
 use super::points::{BodyPoints, Reference, followed_cam, points_of};
 use super::{
     Composed, ComposedBody, ComposedCam, ComposedDesign, ComposedDyad, ComposedDyadSpec,
-    ComposedError, ComposedFigure, ComposedGear, Over, Pin,
+    ComposedError, ComposedFigure, ComposedGear, Hardware, Over, Pin,
 };
 use crate::gear::design::{Rule, SpecError};
 use crate::linkage::{Coordinate, LinkId, Linkage, LinkageError, NotClosing};
@@ -137,7 +137,7 @@ impl<'a> Builder<'a> {
     pub(super) fn so_far(self, written: &ComposedDesign) -> Composed {
         Composed {
             written: written.clone(),
-            design: self.design.clone(),
+            design: self.design.clone().into(),
             linkage: self.linkage,
             bodies: self.bodies,
             dyads: self.dyads,
@@ -156,6 +156,7 @@ impl<'a> Builder<'a> {
             passage: OnceLock::new(),
             frame: OnceLock::new(),
         }
+        .sized()
     }
 
     /// The machine with all that stands on it, checked.
@@ -168,6 +169,9 @@ impl<'a> Builder<'a> {
             loads,
             ..self.so_far(written)
         };
+        if design.hardware() != Hardware::None {
+            made.check_sizes()?;
+        }
         made.check_names()?;
         made.check_frame()?;
         made.check_drawn()?;

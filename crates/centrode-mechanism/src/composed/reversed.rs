@@ -359,9 +359,9 @@ fn design(
         design.copies.insert(named(ARMS), copies);
     }
     let [thickness, width, pin] = PLATE.map(|share| preferred_size(share * leg));
-    design.plates.thickness = thickness;
-    design.plates.width = width;
-    design.plates.pin_diameter = pin;
+    design.plates.thickness = Some(thickness);
+    design.plates.width = Some(width);
+    design.plates.pin_diameter = Some(pin);
     design
 }
 

@@ -1,6 +1,6 @@
 //! Slots of plates in which the blocks of dyads slide.
 
-use centrode_geometry::{Outline, Point, Segment, Vector};
+use centrode_geometry::{Outline, Point, Segment};
 
 use super::Composed;
 use super::plates::BLOCK;
@@ -94,11 +94,12 @@ impl Composed {
             ends.fold(0.0, f64::max) + self.design.plates.gap
         };
         let half = circles.iter().map(|(at, radius)| at.y.abs() + radius);
-        let (sin, cos) = mount.angle.sin_cos();
-        let at = |along: f64| mount.at + Vector::new(cos, sin) * along;
         Some(Slot {
             block,
-            ends: [at(low - reach(-1.0)), at(high + reach(1.0))],
+            ends: [
+                mount.along(low - reach(-1.0)),
+                mount.along(high + reach(1.0)),
+            ],
             width: 2.0 * half.fold(0.0, f64::max),
         })
     }

@@ -108,18 +108,6 @@ impl Composed {
         found
     }
 
-    /// Parts that may pass a ring but the frame's two plates, and the motion of all bodies.
-    pub(super) fn passage(&self) -> &Passage {
-        self.passage.get_or_init(|| {
-            let step = self.period() / f64::from(STEPS);
-            let inputs: Vec<f64> = (0..=STEPS).map(|k| f64::from(k) * step).collect();
-            Passage {
-                parts: self.passing(),
-                frames: self.frames(&inputs),
-            }
-        })
-    }
-
     /// Whether all parts keep farther from an axis than a radius and the plates' gap, mm, between two heights.
     pub(super) fn is_clear(&self, own: (usize, Point), radius: f64, gap: [f64; 2]) -> bool {
         let passage = self.passage();
@@ -142,6 +130,31 @@ impl Composed {
                 })
             };
             keeps_away(&|at| at.coords.norm() - part.reach) || keeps_away(&|at| part.distance(at))
+        })
+    }
+
+    /// Whether the plate of a body comes nearer to an axis than a radius, mm, at a step of the cycle, whatever their heights.
+    pub(super) fn meets(&self, own: (usize, Point), radius: f64, body: usize) -> bool {
+        let passage = self.passage();
+        // A body's plate comes before its gears.
+        let plate = passage.parts.iter().find(|part| part.body == body);
+        plate.is_some_and(|part| {
+            let mut path = passage.frames.path(body, own);
+            path.any(|at| {
+                at.coords.norm() < part.reach + radius && part.distance(at) + FINE < radius
+            })
+        })
+    }
+
+    /// Parts that may pass a ring but the frame's two plates, and the motion of all bodies.
+    pub(super) fn passage(&self) -> &Passage {
+        self.passage.get_or_init(|| {
+            let step = self.period() / f64::from(STEPS);
+            let inputs: Vec<f64> = (0..=STEPS).map(|k| f64::from(k) * step).collect();
+            Passage {
+                parts: self.passing(),
+                frames: self.frames(&inputs),
+            }
         })
     }
 

@@ -125,15 +125,34 @@ pub fn preferred_size(size: f64) -> f64 {
     if !(size > 0.0 && size.is_finite()) {
         return size;
     }
-    let decade = 10_f64.powi(size.log10().floor() as i32);
-    let off = |preferred: f64| (size / (preferred * decade)).ln().abs();
+    preferred(size, |ratio| ratio.ln().abs())
+}
+
+/// Largest preferred size up to a size; see [`preferred_size`]. At most 17 % less.
+#[must_use]
+pub fn preferred_size_below(size: f64) -> f64 {
+    const ROUNDING: f64 = 1e-9;
+    if !(size > 0.0 && size.is_finite()) {
+        return size;
+    }
+    preferred(size, |ratio| match ratio < 1.0 - ROUNDING {
+        true => f64::INFINITY,
+        false => ratio,
+    })
+}
+
+/// Preferred size in the decade of a size for which a measure of their ratio is lowest.
+fn preferred(size: f64, off: impl Fn(f64) -> f64) -> f64 {
+    let power = size.log10().floor() as i32;
+    let decade = 10_f64.powi(power);
+    let off = |preferred: f64| off(size / (preferred * decade));
     let nearest = PREFERRED
         .into_iter()
         .min_by(|a, b| off(*a).total_cmp(&off(*b)));
     // A division by a whole power of ten gives the nearest float of the short decimal.
     let nearest = nearest.unwrap_or(1.0);
     if decade < 1.0 {
-        nearest / 10_f64.powi(-(size.log10().floor() as i32))
+        nearest / 10_f64.powi(-power)
     } else {
         nearest * decade
     }
@@ -338,6 +357,25 @@ mod tests {
             assert!(seat.clearance().expect("classes")[1] <= 0.0, "{size}");
         }
         assert_eq!(limits_of_size(16.0, "r10"), None);
+    }
+
+    #[test]
+    fn preferred_sizes_below_are_no_larger() {
+        for (size, preferred) in [
+            (3.022, 3.0),
+            (2.99, 2.8),
+            (0.375, 0.35),
+            (0.2, 0.2),
+            (9.99, 9.0),
+            (0.0, 0.0),
+        ] {
+            assert_eq!(preferred_size_below(size), preferred, "{size}");
+        }
+        for k in 1..500 {
+            let size = 0.013 * f64::from(k);
+            let below = preferred_size_below(size);
+            assert!(below <= size && below > 0.83 * size, "{size} {below}");
+        }
     }
 
     #[test]

@@ -45,7 +45,7 @@ pub(crate) use fastening::ScrewRoom;
 pub use fastening::{Fastening, FasteningError};
 pub use figure::{Figure, Line, LinePath, LineRole, Mark, Seat, Sketch};
 pub(crate) use fit::is_class;
-pub use fit::{Fit, PinFit, limits_of_size, preferred_size};
+pub use fit::{Fit, PinFit, limits_of_size, preferred_size, preferred_size_below};
 pub use general::general_deviation;
 pub use jet::{FrameJet, PointJet};
 pub use joint::{Joint, JointKind};

@@ -81,7 +81,7 @@ fn remedies(
         }
         let family = mechanism.design().family().word;
         return Err(Failure::Usage(format!(
-            "no remedy is known for this design of family {family:?}: only those of gear-pair whose flanks carry the motion with {MOST_TEETH} teeth or fewer have one"
+            "no remedy is known for this design of family {family:?}: only those of gear-pair whose flanks carry the motion with {MOST_TEETH} teeth or fewer have one, and machines whose plates or pins collide and have layers in which they do not"
         )));
     }
     let designs: Vec<(&str, String)> = found

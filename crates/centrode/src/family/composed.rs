@@ -4,7 +4,7 @@ use centrode_analysis::optimise::composed::ComposedProblem;
 use centrode_analysis::optimise::{DesignProblem, NotSearched};
 use centrode_analysis::{
     Report, Table, Unit, check_composed, check_composed_goals, check_composed_motion,
-    composed_figures,
+    composed_figures, composed_layers,
 };
 use centrode_export::page::{Curve, Handle, HandlePlane, Picture};
 use centrode_export::{Bundle, ExportError, Format, Options};
@@ -66,6 +66,13 @@ impl Mechanism for Composed {
         Some(GearDrive::new(self.design(), spec))
     }
 
+    fn remedies(&self) -> Vec<(String, Box<dyn Design>)> {
+        let found = composed_layers(self).into_iter();
+        found
+            .map(|(words, design)| -> (String, Box<dyn Design>) { (words, Box::new(design)) })
+            .collect()
+    }
+
     fn figures(&self) -> Vec<Table> {
         composed_figures(self)
     }
@@ -90,7 +97,7 @@ impl Mechanism for Composed {
     }
 
     fn picture(&self) -> Picture {
-        let tolerance = Tolerance::new(DRAWN * self.design().plates.width);
+        let tolerance = Tolerance::new(DRAWN * self.plates().width);
         let (Ok(tolerance), Ok(made)) = (tolerance, composed::outlined(self)) else {
             return Picture::default();
         };

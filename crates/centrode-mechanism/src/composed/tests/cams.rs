@@ -234,7 +234,7 @@ fn a_roller_is_a_part_on_a_pin_from_its_plate_to_its_cam_at_whatever_height_that
     ] {
         let machine =
             made(&text.replace("base_radius = 25\n", &format!("base_radius = 25\n{layer}")));
-        let plates = &machine.design().plates;
+        let plates = machine.plates();
         let step = plates.thickness + plates.gap;
         let made = machine.machine().expect("plates and cams");
         let part = made.parts.iter().find(|part| part.file == "roller-3x8x7");
