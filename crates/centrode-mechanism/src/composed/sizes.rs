@@ -36,7 +36,7 @@ pub struct Plates {
     spec: ComposedPlatesSpec,
 }
 
-/// As written: classes, materials, density.
+/// Classes, materials and density as written.
 impl Deref for Plates {
     type Target = ComposedPlatesSpec;
 
