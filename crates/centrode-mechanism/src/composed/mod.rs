@@ -229,10 +229,6 @@ impl Mount {
 impl Composed {
     /// The design as written.
     #[must_use]
-    #[expect(
-        clippy::misnamed_getters,
-        reason = "the field holds the design with its copies written out"
-    )]
     pub fn design(&self) -> &ComposedDesign {
         &self.written
     }
