@@ -172,8 +172,8 @@ impl Gear {
         Ok((found.teeth, found.length))
     }
 
-    /// Pins in teeth of the greatest and of the least thickness that `thickness_deviations` of the pair, or DIN 3967 for its
-    /// accuracy class, allow; None where neither has any.
+    /// Pins in teeth of the maximum and of the minimum thickness that `thickness_deviations` of the pair, or DIN 3967 for its
+    /// accuracy class, allow. None where neither has any.
     ///
     /// >>> import centrode as ct
     /// >>> pitch = ct.pitch.circle(module=2, tooth_count=24)
@@ -183,7 +183,7 @@ impl Gear {
     /// 51.9968 51.9222
     fn pin_limits<'py>(&self, py: Python<'py>) -> Answer<Option<Vec<Bound<'py, PyAny>>>> {
         let (pair, member) = (self.pair.clone(), self.member);
-        let limits = wait(py, move || pair.pin_limits(member))??;
+        let limits = wait(py, move || pair.pin_limits(member))?;
         let Some(limits) = limits else {
             return Ok(None);
         };

@@ -55,8 +55,9 @@ const FARTHEST: f64 = 1e6;
 ///     backlash_angle: Play of the driven gear at most, rad, instead of `backlash`.
 ///     thickness_split: The driver's share of the pitch.
 ///     least_tip_width_coefficient: Least width of a tooth at its tip, in modules, before it is reported.
-///     thickness_deviations: Upper and lower deviation of the finished teeth's thickness, mm, neither above zero:
-///         limits of the measures over pins. Left out, zero and the tolerance of DIN 3967 for the accuracy class.
+///     thickness_deviations: Upper and lower deviation of the finished teeth's thickness from the design, mm, each within
+///         half a module: limits of the measures over pins. Default: zero and minus the tolerance of DIN 3967 for the
+///         accuracy class.
 ///     pin_diameter: Diameter of the measuring pins, mm; chosen if left out.
 ///     driver: Body of the driver.
 ///     driven: Body of the driven gear.

@@ -88,7 +88,7 @@ EXEMPT = {
     },
     "docs/how-to/shop.md": {
         INPUT: (r"release 12", r"than 0\.01", r"of 1/"),
-        FORMULA: (r"a - j / \(2 sin .\)",),
+        FORMULA: (r"a - j / \(2 sin .\)", r"E cos . / 2", r"j - 2 E", r"j / \(2 cos .\)"),
         LIMIT: (r"contact ratio of 1\.1",),
         RUST: (r"18 \+ the accuracy class: 26h for class 8",),
     },

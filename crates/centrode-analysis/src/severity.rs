@@ -53,7 +53,7 @@ impl Severity {
 }
 
 /// Every rule whose findings cause others, before the rules of its consequences; rules that are not listed come after these.
-const CAUSES: [&str; 24] = [
+const CAUSES: [&str; 25] = [
     "detail",
     "pitch-curves-overlap",
     "pitch-curve-corner",
@@ -71,6 +71,7 @@ const CAUSES: [&str; 24] = [
     "contact-lost",
     "interference",
     "tip-interference",
+    "negative-backlash",
     "seat-jump",
     "cam-undercut",
     "cam-pressure-angle",

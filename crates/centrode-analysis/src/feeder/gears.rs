@@ -4,6 +4,7 @@ use centrode_geometry::{Recent, Tolerance};
 use centrode_mechanism::feeder::{Feeder, GearsSpec};
 use centrode_mechanism::machine::limits_of_size;
 
+use crate::gear_pair::negative_backlash;
 use crate::rounding::exceeds;
 use crate::{Finding, IntermittentContact, Place, Report, Severity, Unit};
 
@@ -59,6 +60,14 @@ pub(super) fn gears(feeder: &Feeder, report: &mut Report) {
     let Ok(tolerance) = Tolerance::new(CONTOUR * spec.module) else {
         return;
     };
+    let overlap = negative_backlash(pair.pair(), spec.backlash).map(|finding| Finding {
+        place: Place {
+            part: Some("gears".into()),
+            ..Place::default()
+        },
+        ..finding
+    });
+    report.findings.extend(overlap);
     let contact = PROVEN.get(spec, || {
         Arc::new(IntermittentContact::analyse(&pair, GEAR_LOOKS, tolerance))
     });

@@ -372,8 +372,31 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
             place: place(worst.1),
         });
     }
+    report
+        .findings
+        .extend(negative_backlash(pair, pair.backlash()));
     report.findings.extend(seat_jump(pair, contact));
     report.findings.extend(restless(pair, contact));
+}
+
+/// Finding about teeth of a normal backlash, mm, that overlap where the deviations of thickness make them thickest.
+pub(crate) fn negative_backlash(pair: &GearPair, backlash: f64) -> Option<Finding> {
+    let [minimum, _] = pair.backlash_limits(backlash);
+    let unit = Unit::Millimetre;
+    (-minimum > PENETRATION * pair.module()).then(|| Finding {
+        rule: "negative-backlash",
+        remedy: remedy("negative-backlash"),
+        severity: Severity::of_overlap(-minimum),
+        message: format!(
+            "teeth of maximum thickness overlap their mates by {} along the normal: the backlash must be at least {}",
+            unit.tell(-minimum),
+            unit.tell(backlash - minimum),
+        ),
+        measured: Some(minimum),
+        required: Some(0.0),
+        unit,
+        place: Place::default(),
+    })
 }
 
 /// Pitch curves that swing so often that figures of the mesh are those of samples, as a finding.

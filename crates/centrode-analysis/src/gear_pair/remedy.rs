@@ -43,6 +43,7 @@ pub(crate) fn remedy(rule: &str) -> Option<&'static str> {
             "a pitch curve of gentler curvature, or more teeth of a smaller module"
         }
         "interference" => "more backlash, or a smaller module",
+        "negative-backlash" => "more backlash, or a smaller upper deviation of tooth thickness",
         "tip-interference" => "more tip clearance, or a smaller module",
         "pitch-curve-corner" => "samples that go round the corner over a pitch or more",
         "pressure-angle" => {

@@ -115,3 +115,29 @@ fn corners_of_sampled_pitch_curves_are_findings() {
         }
     }
 }
+
+/// The maximum deviation of thickness that leaves backlash is j / (2 cos(alpha)): 0.0266 mm for 0.05 mm.
+#[test]
+fn teeth_thicker_than_the_backlash_are_found() {
+    for (upper, overlap) in [
+        (0.0266, None),
+        (0.03, Some(0.06 * 20_f64.to_radians().cos() - 0.05)),
+    ] {
+        let mut design = pair("1+0.2*cos(phi)", 2.0, 30, 0.05).design().clone();
+        design.teeth.thickness_deviations = Some([upper, -0.02]);
+        let report = check(&GearPair::resolve(&design).expect("a pair"));
+        let found = report
+            .findings
+            .iter()
+            .find(|f| f.rule == "negative-backlash");
+        assert_eq!(found.is_some(), overlap.is_some(), "{upper}");
+        if let (Some(found), Some(overlap)) = (found, overlap) {
+            assert!((found.measured.expect("a length") + overlap).abs() < 1e-12);
+            assert!(
+                found.message.contains("at least 0.0564 mm"),
+                "{}",
+                found.message
+            );
+        }
+    }
+}

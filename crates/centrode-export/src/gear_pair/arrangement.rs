@@ -212,7 +212,7 @@ pub(crate) fn of_both(pair: &GearPair, of: Option<Member>) -> Vec<Datum> {
 
 /// Half of what a pair with a normal backlash, mm, lets its centre distance be shorter, mm; none without backlash.
 pub(crate) fn half_play(pair: &GearPair, backlash: f64) -> Option<f64> {
-    let [least, _] = backlash_limits(pair, backlash);
+    let [least, _] = pair.backlash_limits(backlash);
     (least > 0.0).then(|| 0.5 * shorter(pair, least))
 }
 
@@ -221,17 +221,6 @@ fn shorter(pair: &GearPair, backlash: f64) -> f64 {
     // Nowhere takes a shorter distance more backlash than twice its share across a flank where the pitch curves are square to
     // the line of centres.
     backlash / (2.0 * pair.pressure_angle().sin())
-}
-
-/// Least and greatest normal backlash by the deviations of tooth thickness, mm.
-fn backlash_limits(pair: &GearPair, backlash: f64) -> [f64; 2] {
-    let cos = pair.pressure_angle().cos();
-    // Both gears are thinner, each by its own deviation.
-    [0, 1].map(|end| {
-        let told = [Member::Driver, Member::Driven].map(|member| pair.thickness_deviations(member));
-        let of_both = told.iter().flatten().map(|told| told.limits[end]);
-        backlash - of_both.sum::<f64>() * cos
-    })
 }
 
 /// Centre distance by the normal backlash of a pair, mm, and what the deviations of tooth thickness leave of it.
@@ -250,7 +239,7 @@ pub(crate) fn by_thickness(pair: &GearPair, backlash: f64) -> Vec<Datum> {
     if told == [None; 2] {
         return data;
     }
-    let limits = backlash_limits(pair, backlash);
+    let limits = pair.backlash_limits(backlash);
     data.extend([
         Datum::new("Backlash by thickness, normal", "jn", range(limits, 4)),
         Datum::new(

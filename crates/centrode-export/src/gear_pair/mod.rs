@@ -124,7 +124,7 @@ fn add(
     package.points(name, name, || {
         outline::columns(pair.gear(member), tolerance)
     })?;
-    let limits = pair.pin_limits(member).map_err(ExportError::missing)?;
+    let limits = pair.pin_limits(member);
     package.table(name, &format!("{name}-pins"), || {
         pins::columns(pair, member, limits.as_ref())
     })

@@ -70,9 +70,9 @@ pub struct GearsSpec {
     #[serde(skip_serializing_if = "String::is_empty")]
     #[schemars(extend("x-detail" = true))]
     pub accuracy: String,
-    /// Upper and lower deviation of the tooth thickness from the nominal one along the pitch circle, mm, both at most zero: for
-    /// the drawing, which has limits of the measures over pins by them; left out, zero and the tolerance of DIN 3967 for the
-    /// accuracy class.
+    /// Upper and lower deviation of the tooth thickness from the nominal one along the pitch circle, mm, each within half a
+    /// module: for the drawing, which has limits of the measures over pins by them. Default: zero and minus the tolerance of
+    /// DIN 3967 for the accuracy class.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-detail" = true))]
     pub thickness_deviations: Option<[f64; 2]>,

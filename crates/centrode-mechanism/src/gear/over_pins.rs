@@ -3,9 +3,8 @@ mod space;
 use centrode_geometry::{Point, bracketed_minimum};
 
 use super::{
-    pair::{Gear, GearPair, GearPairError},
+    pair::{Gear, GearPair},
     rolling::Member,
-    thickness::ThicknessDeviations,
 };
 
 /// Measuring pins laid into every space of a gear, by which a workshop checks tooth thickness.
@@ -74,25 +73,17 @@ impl OverPins {
 }
 
 impl GearPair {
-    /// Pins of a member's usual diameter in teeth of the greatest and the least thickness that [`Self::thickness_deviations`]
-    /// allow: the teeth are cut anew with each. `None` without deviations.
+    /// Pins of a member's usual diameter in teeth of the maximum and the minimum thickness that [`Self::thickness_deviations`]
+    /// allow. `None` without deviations.
     ///
-    /// # Errors
-    /// [`GearPairError`] where a deviation leaves too little of a tooth.
-    pub fn pin_limits(&self, member: Member) -> Result<Option<[OverPins; 2]>, GearPairError> {
-        let Some(ThicknessDeviations { limits, .. }) = self.thickness_deviations(member) else {
-            return Ok(None);
-        };
-        let diameter = self.pin_diameter(member);
-        let over = |deviation: f64| {
-            if deviation == 0.0 {
-                return Ok(self.gear(member).over_pins(diameter));
-            }
-            let pair = self.thinned(-deviation);
-            pair.map(|pair| pair.gear(member).over_pins(diameter))
-        };
-        let [upper, lower] = limits;
-        Ok(Some([over(upper)?, over(lower)?]))
+    /// A deviation E along the pitch curve moves each flank by `E cos(alpha) / 2` along its normal, because the flanks of an
+    /// involute tool are equidistant.
+    #[must_use]
+    pub fn pin_limits(&self, member: Member) -> Option<[OverPins; 2]> {
+        let limits = self.thickness_deviations(member)?.limits;
+        let (gear, diameter) = (self.gear(member), self.pin_diameter(member));
+        let normal = 0.5 * self.pressure_angle().cos();
+        Some(limits.map(|deviation| gear.pins_beside(diameter, normal * deviation)))
     }
 
     /// Diameter of the measuring pin for a member, mm: as written in the design, or the pin that would
@@ -125,19 +116,28 @@ impl Gear {
     /// fits no space.
     #[must_use]
     pub fn over_pins(&self, diameter: f64) -> OverPins {
-        let spaces = self.spaces();
-        let pins = spaces.iter().map(|walls| match walls {
-            Some(walls) if diameter.is_finite() && diameter > 0.0 => {
-                walls.rest(0.5 * diameter).and_then(|pin| {
-                    if self.is_clear(&pin, 0.5 * diameter) {
-                        Ok(pin)
-                    } else {
-                        Err(PinFault::Blocked)
-                    }
-                })
+        self.pins_beside(diameter, 0.0)
+    }
+
+    /// Pins of a diameter between flanks that are moved along their normals into the spaces, mm.
+    fn pins_beside(&self, diameter: f64, moved: f64) -> OverPins {
+        let radius = 0.5 * diameter;
+        let far = radius + moved;
+        let pins = self.spaces().into_iter().map(|walls| {
+            let walls = walls.ok_or(PinFault::NoFlank)?;
+            if !(diameter.is_finite() && diameter > 0.0 && far > 0.0) {
+                return Err(PinFault::TooSmall);
             }
-            Some(_) => Err(PinFault::TooSmall),
-            None => Err(PinFault::NoFlank),
+            let pin = walls.rest(far)?;
+            if !self.is_clear(&pin, far.min(radius)) {
+                return Err(PinFault::Blocked);
+            }
+            let contact = |flank: Point| flank + (pin.center - flank) * (moved / far);
+            Ok(Pin {
+                contacts: pin.contacts.map(contact),
+                radial: pin.radial - moved,
+                ..pin
+            })
         });
         OverPins {
             diameter,

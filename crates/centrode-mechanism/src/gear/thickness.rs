@@ -79,7 +79,7 @@ const LEAST_MODULE: f64 = 1.0;
 /// Upper and lower deviation of the thickness of a gear's teeth.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ThicknessDeviations {
-    /// Upper and lower deviation, mm, neither above zero.
+    /// Upper and lower deviation, mm.
     pub limits: [f64; 2],
     /// Series of DIN 3967 of the tolerance, where the design states no deviations.
     pub series: Option<u32>,
@@ -102,6 +102,18 @@ impl GearPair {
                 })
             },
         )
+    }
+
+    /// Minimum and maximum normal backlash, mm, of teeth designed for a normal `backlash`, by the deviations of both gears:
+    /// `j - (E_1 + E_2) cos(alpha)` with the upper and the lower deviations E along the pitch curves and alpha the pressure angle
+    /// of the pair. A negative backlash is an overlap.
+    #[must_use]
+    pub fn backlash_limits(&self, backlash: f64) -> [f64; 2] {
+        let deviations = [Member::Driver, Member::Driven].map(|m| self.thickness_deviations(m));
+        [0, 1].map(|end| {
+            let both = deviations.iter().flatten().map(|one| one.limits[end]);
+            backlash - both.sum::<f64>() * self.pressure_angle().cos()
+        })
     }
 
     fn usual_deviations(&self, member: Member) -> Option<ThicknessDeviations> {

@@ -110,6 +110,7 @@ pub(crate) fn check_gear_train(mechanism: &ThreeArm, teeth: &TrainTeeth, report:
         "pitch-curve-corner",
         "interference",
         "tip-interference",
+        "negative-backlash",
         "disengaged",
         "contact-lost",
         "seat-jump",

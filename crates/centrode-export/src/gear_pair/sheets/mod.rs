@@ -114,7 +114,7 @@ pub(super) fn labelled(
             let mut part = SheetGear::new(pair, member, tolerance);
             part.label = label;
             part.file = file.to_owned();
-            let limits = pair.pin_limits(member).map_err(ExportError::missing)?;
+            let limits = pair.pin_limits(member);
             gear(&part, limits.as_ref(), block(&part, options), options)
         }
         None => arrangement(&drawn(pair), options, tolerance),

@@ -36,9 +36,9 @@ pub struct TeethSpec {
     pub thickness_split: f64,
     /// Least width of a tooth at its tip, as a multiple of the module, before it is reported.
     pub least_tip_width_coefficient: f64,
-    /// Upper and lower deviation of the thickness of every finished tooth along its pitch curve, mm, neither above zero: limits
-    /// for the shop. The teeth designed stand at zero; left out, zero and the tolerance of DIN 3967 for the
-    /// accuracy class.
+    /// Upper and lower deviation of the thickness of every finished tooth along its pitch curve from the tooth as designed, mm,
+    /// each within half a module: limits for the shop. An upper one above zero takes backlash. Default: zero and minus the
+    /// tolerance of DIN 3967 for the accuracy class.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub thickness_deviations: Option<[f64; 2]>,
     /// Diameter of the measuring pins, mm; left out, a pin that touches near the pitch curve.
@@ -264,7 +264,7 @@ impl TeethSpec {
         }
         if let Some([upper, lower]) = self.thickness_deviations {
             finite("thickness_deviations", lower)?;
-            in_range("thickness_deviations", upper, [lower.min(0.0), 0.0], " mm")?;
+            in_range("thickness_deviations", upper, [lower, f64::INFINITY], " mm")?;
         }
         if let Some(diameter) = self.pin_diameter {
             positive("pin_diameter", diameter)?;
@@ -274,5 +274,15 @@ impl TeethSpec {
             "least_tip_width_coefficient",
             self.least_tip_width_coefficient,
         )
+    }
+
+    /// Checks that the deviations of thickness are at most a length, mm.
+    pub(crate) fn thickness_within(&self, limit: f64) -> Result<(), SpecError> {
+        let mut deviations = self.thickness_deviations.into_iter().flatten();
+        let inside = |deviation| {
+            let key = "teeth.thickness_deviations";
+            in_range(key, deviation, [-limit, limit], " mm")
+        };
+        deviations.try_for_each(inside)
     }
 }

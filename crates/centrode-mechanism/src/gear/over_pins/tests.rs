@@ -26,23 +26,33 @@ fn involute_angle(value: f64) -> f64 {
 #[test]
 fn limits_are_the_textbook_measures_of_thicker_and_thinner_teeth() {
     let mut design = circular(0.05).design().clone();
-    design.teeth.thickness_deviations = Some([-0.03, -0.06]);
-    let pair = GearPair::resolve(&design).expect("a sound pair");
     let (z, m, alpha) = (24.0, 2.0, 20.0_f64.to_radians());
     let base = 0.5 * m * z * alpha.cos();
-    for member in [Member::Driver, Member::Driven] {
-        let limits = pair.pin_limits(member).expect("teeth").expect("told");
-        for (over, thinner) in limits.iter().zip([0.03, 0.06]) {
-            let space = 0.5 * std::f64::consts::PI * m + 0.05 / (2.0 * alpha.cos()) + thinner;
-            let inv = alpha.tan() - alpha + over.diameter / (2.0 * base) - space / (m * z);
-            let radial = base / involute_angle(inv).cos() + 0.5 * over.diameter;
-            let pin = over.pins[5].expect("measurable");
-            assert!(
-                (pin.radial - radial).abs() < 2e-9,
-                "{} {radial}",
-                pin.radial
-            );
-            assert!((over.over(5, 17).expect("both") - 2.0 * radial).abs() < 4e-9);
+    // The last are thicker than nominal by more than the backlash.
+    for deviations in [[-0.03, -0.06], [0.02, -0.01], [0.2, 0.1]] {
+        design.teeth.thickness_deviations = Some(deviations);
+        let pair = GearPair::resolve(&design).expect("a sound pair");
+        for (minimum, deviation) in pair.backlash_limits(0.05).iter().zip(deviations) {
+            assert!((minimum - (0.05 - 2.0 * deviation * alpha.cos())).abs() < 1e-12);
+        }
+        for member in [Member::Driver, Member::Driven] {
+            let limits = pair.pin_limits(member).expect("stated");
+            for (over, deviation) in limits.iter().zip(deviations) {
+                let space = 0.5 * std::f64::consts::PI * m + 0.05 / (2.0 * alpha.cos()) - deviation;
+                let inv = alpha.tan() - alpha + over.diameter / (2.0 * base) - space / (m * z);
+                let radial = base / involute_angle(inv).cos() + 0.5 * over.diameter;
+                let pin = over.pins[5].expect("measurable");
+                assert!(
+                    (pin.radial - radial).abs() < 2e-9,
+                    "{} {radial}",
+                    pin.radial
+                );
+                assert!((over.over(5, 17).expect("both") - 2.0 * radial).abs() < 4e-9);
+                for contact in pin.contacts {
+                    let gap = (contact - pin.center).norm() - 0.5 * over.diameter;
+                    assert!(gap.abs() < 1e-12);
+                }
+            }
         }
     }
     design.teeth.thickness_deviations = None;
@@ -50,13 +60,9 @@ fn limits_are_the_textbook_measures_of_thicker_and_thinner_teeth() {
     let told = usual.thickness_deviations(Member::Driver).expect("told");
     // Class 8, 48 mm.
     assert_eq!((told.limits, told.series), ([0.0, -0.05], Some(26)));
-    let [high, low] = usual
-        .pin_limits(Member::Driver)
-        .expect("teeth")
-        .expect("told");
+    let [high, low] = usual.pin_limits(Member::Driver).expect("stated");
     assert_eq!(high, usual.driver().over_pins(high.diameter));
-    let thin = usual.thinned(0.05).expect("teeth");
-    assert_eq!(low, thin.driver().over_pins(high.diameter));
+    assert_same_as_cut(&usual, &low, 0.05);
     for (accuracy, series) in [
         (" 6 ", Some(24)),
         ("12", Some(30)),
@@ -69,13 +75,11 @@ fn limits_are_the_textbook_measures_of_thicker_and_thinner_teeth() {
         let told = pair.thickness_deviations(Member::Driver);
         assert_eq!(told.and_then(|told| told.series), series, "{accuracy}");
         assert_eq!(told.is_some(), series.is_some());
-        assert_eq!(
-            pair.pin_limits(Member::Driver).expect("teeth").is_some(),
-            series.is_some()
-        );
+        assert_eq!(pair.pin_limits(Member::Driver).is_some(), series.is_some());
     }
     for wrong in [
-        [0.01, -0.06],
+        [1.01, -0.06],
+        [0.01, -1.01],
         [-0.06, -0.03],
         [f64::NAN, -0.1],
         [-0.1, f64::INFINITY],
@@ -86,6 +90,34 @@ fn limits_are_the_textbook_measures_of_thicker_and_thinner_teeth() {
             error.to_string().contains("thickness_deviations"),
             "{error}"
         );
+    }
+}
+
+/// Checks that pins are at the positions they have in teeth that are cut thinner by a length, mm.
+fn assert_same_as_cut(pair: &GearPair, over: &OverPins, by: f64) {
+    let cut = pair.thinned(by).expect("teeth");
+    let cut = cut.driver().over_pins(over.diameter);
+    for (one, other) in over.pins.iter().zip(&cut.pins) {
+        let (one, other) = (one.expect("measurable"), other.expect("measurable"));
+        assert!((one.center - other.center).norm() < 1e-8);
+        assert!((one.radial - other.radial).abs() < 1e-8);
+    }
+}
+
+#[test]
+fn limits_of_other_gears_are_those_of_teeth_cut_anew() {
+    for words in [
+        "[pitch]\nkind = \"ellipse\"\neccentricity = 0.2679\nmodule = 2.25\ntooth_count = 23",
+        "[pitch]\nkind = \"ellipse\"\neccentricity = 0.2\nmodule = 2\ntooth_count = 31\n[tool]\nkind = \"shaper\"\ntooth_count = 12",
+        "[pitch]\nkind = \"circle\"\nmodule = 3\ntooth_count = 13\n[driver]\nshift = 0.6\n[driven]\nshift = 0.36",
+    ] {
+        let words =
+            format!("{words}\n[teeth]\nbacklash = 0.1\nthickness_deviations = [0.04, -0.1]\n");
+        let pair = GearPair::resolve(&toml::from_str(&words).expect("a design")).expect("a pair");
+        let limits = pair.pin_limits(Member::Driver).expect("stated");
+        for (over, deviation) in limits.iter().zip([0.04, -0.1]) {
+            assert_same_as_cut(&pair, over, -deviation);
+        }
     }
 }
 

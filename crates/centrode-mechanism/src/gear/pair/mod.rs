@@ -81,6 +81,7 @@ impl GearPair {
                 .map_err(|_| GearPairError::DrivenTeeth { driver, ratio })?,
         };
         let module = tools.pitch_length(Member::Driver) / (PI * f64::from(driver));
+        design.teeth.thickness_within(0.5 * module)?;
         follow(tools, driver, module)?;
         let fits = Fits {
             rolling: tools,

@@ -148,6 +148,7 @@ fn causes(rule: &str) -> &'static [&'static str] {
             &["pitch.module", "tooth_count", "pitch.tooth_count"]
         }
         "interference" | "tip-interference" => &["tool.dedendum_coefficient", "teeth.backlash"],
+        "negative-backlash" => &["teeth.thickness_deviations", "teeth.backlash"],
         "pitch-curve-corner" => &["pitch.radius", "pitch.ratio", "pitch.driven_angle_deg"],
         "pressure-angle" => &["pitch.eccentricity", "tool.pressure_angle_deg"],
         "shaper-radius" => &["tool.tooth_count"],
