@@ -1,5 +1,7 @@
 //! Flank tolerances of the teeth, ISO 1328-1:2013.
 
+use std::f64::consts::PI;
+
 use centrode_mechanism::gear::{GearPair, Member};
 use centrode_mechanism::machine::Datum;
 
@@ -75,7 +77,12 @@ fn gauges(pair: &GearPair, member: Member) -> Option<[Gauge; 2]> {
     let bend = pair.rolling().curvature_ranges()[member as usize]
         .greatest
         .1;
-    let diameters = [2.0 / bend, module * f64::from(gear.tooth_count())];
+    let reference = pair.reference_diameter(member);
+    // The pitch curve of a shifted gear is its operating circle; tolerances are those of the curve on which it is generated.
+    let diameters = [
+        2.0 / bend * (PI * reference / gear.pitch_length()),
+        reference,
+    ];
     Some(diameters.map(|diameter| Gauge {
         diameter,
         module,
@@ -154,6 +161,8 @@ pub(crate) fn flank_tolerances(pair: &GearPair, member: Member) -> Vec<Datum> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use centrode_mechanism::gear::design::GearPairDesign;
+    use centrode_mechanism::gear::pitch::{Circle, PitchSpec};
 
     #[test]
     fn tolerances_are_those_of_the_standard() {
@@ -178,6 +187,30 @@ mod tests {
         // Class 1 is a quarter of class 5: 1.58, 5.09, 2.13, 4.58.
         assert_eq!(found(gauge(1)), [1.6, 5.0, 2.1, 4.6]);
         assert!(gauge(11).is_told(10.0) && !gauge(12).is_told(10.0) && !gauge(8).is_told(3.0));
+    }
+
+    #[test]
+    fn a_shifted_gear_has_the_tolerances_of_its_reference_diameter() {
+        // d = m z = 20 mm, where the operating circle is 22 mm. The single pitch by hand, formula 5 of ISO 1328-1:2013, class 11:
+        // 8 (0.001 d + 0.4 m + 5) = 46.56 um, rounded to 47; both diameters round to it.
+        let mut design = GearPairDesign::new(PitchSpec::Circle(Circle {
+            module: Some(2.0),
+            tooth_count: Some(10),
+            ..Circle::default()
+        }));
+        for gear in [&mut design.driver, &mut design.driven] {
+            gear.shift = Some(0.6);
+            gear.accuracy = "11".into();
+        }
+        let pair = GearPair::resolve(&design).expect("a pair");
+        assert!(pair.center_distance() > 21.5);
+        for gauge in gauges(&pair, Member::Driver).expect("a class") {
+            assert!((gauge.diameter - 20.0).abs() < 1e-9, "{gauge:?}");
+            assert!((gauge.module - 2.0).abs() < 1e-12);
+        }
+        let rows = flank_tolerances(&pair, Member::Driver);
+        assert_eq!(rows[1].value, "equivalent gear of d = 20");
+        assert_eq!(rows[2].value, "0.047");
     }
 
     #[test]
