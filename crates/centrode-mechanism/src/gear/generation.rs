@@ -5,6 +5,8 @@ use std::sync::Arc;
 
 use centrode_geometry::bracketed_root;
 
+use crate::digits::digits;
+
 use super::{
     design::{GearPairDesign, SHIFTS, TipShortening, in_range},
     flank::Side,
@@ -118,6 +120,16 @@ impl Generation {
         (written.driver.shift, written.driven.shift) = (Some(driver), Some(driven));
         written.teeth.tip_shortening = TipShortening::By(self.tip_shortening);
         written
+    }
+
+    /// The driver's pitch curve in words, with the operating circle if the pair runs on another one.
+    pub(crate) fn named(&self, definition: String) -> String {
+        if self.is_plain() {
+            return definition;
+        }
+        let radius = self.scale() * self.radius(Member::Driver);
+        let radius = digits(radius, 8);
+        format!("{definition}; operating circle, R = {radius} mm")
     }
 
     /// Whether the pair runs on the pitch curves on which the tools roll.

@@ -93,21 +93,26 @@ pub(super) fn data(part: &SheetGear<'_>, found: &[Datum]) -> Table {
     rows.table("Gear data")
 }
 
-/// Coefficients of a gear with profile shift or changed addendum, and the operating pressure angle of its pair.
+/// Coefficients and heights of a gear with profile shift, changed addendum, or heights or tool of its own, and the operating
+/// pressure angle of its pair.
 fn shifted(pair: &GearPair, member: Member) -> Vec<Datum> {
     let (teeth, tool, m) = (pair.teeth(), pair.teeth().tool(member), pair.module());
     let (x, k) = (pair.shift(member), pair.tip_shortening());
     let mut data = Vec::new();
-    if x != 0.0 || k != 0.0 {
+    let design = pair.design();
+    let spec = match member {
+        Member::Driver => &design.driver,
+        Member::Driven => &design.driven,
+    };
+    let is_own = spec.addendum.is_some() || spec.dedendum.is_some() || spec.tool.is_some();
+    if x != 0.0 || k != 0.0 || is_own {
         data.push(Datum::new("Profile shift coefficient", "x", number(x, 4)));
         data.push(Datum::new("Tip shortening coefficient", "k", number(k, 5)));
-        let root = tool.dedendum - teeth.profile_shift(member);
-        let heights = match teeth.addendum {
-            Addendum::Full => vec![("Addendum", "ha", tool.addendum + (x + k) * m)],
-            Addendum::Fitted => Vec::new(),
-        };
-        for (name, symbol, height) in heights.into_iter().chain([("Dedendum", "hf", root)]) {
-            data.push(Datum::new(name, symbol, number(height, 4)));
+        // Fitted teeth each have their own heights.
+        if teeth.addendum == Addendum::Full {
+            let (tip, root) = (tool.addendum + (x + k) * m, tool.dedendum - x * m);
+            data.push(Datum::new("Addendum", "ha", number(tip, 4)));
+            data.push(Datum::new("Dedendum", "hf", number(root, 4)));
         }
     }
     let angle = pair.pressure_angle();
@@ -314,6 +319,13 @@ mod tests {
             ("d", "72"),
         ];
         assert_eq!(rows(&design, Member::Driven), told(&expected));
+        // Own heights and a shaper on a pair without shifts, only on the driver's sheet.
+        let mut own = design.clone();
+        (own.driver.shift, own.driven.shift) = (None, None);
+        (own.driver.addendum, own.driver.dedendum) = (Some(1.1), Some(1.15));
+        let heights = [("x", "0"), ("k", "0"), ("ha", "3.3"), ("hf", "3.45")];
+        assert_eq!(rows(&own, Member::Driver), told(&heights));
+        assert!(rows(&own, Member::Driven).is_empty());
         design.driven.shift = None;
         let opposite = [("x", "-0.6"), ("k", "0"), ("ha", "1.2"), ("hf", "5.55")];
         assert_eq!(rows(&design, Member::Driven), told(&opposite));
@@ -330,5 +342,10 @@ mod tests {
         let row = base_tangent(&pair, Member::Driver).expect("a length");
         assert_eq!(row.name, "Base tangent length over 4 teeth");
         assert_eq!(row.value, "32.8266 (32.798 / 32.770)");
+        // Thicker teeth have a longer one: 0.05 cos 20 deg.
+        design.teeth.thickness_deviations = Some([0.05, 0.0]);
+        let pair = GearPair::resolve(&design).expect("a pair");
+        let row = base_tangent(&pair, Member::Driver).expect("a length");
+        assert_eq!(row.value, "32.8266 (32.874 / 32.827)");
     }
 }

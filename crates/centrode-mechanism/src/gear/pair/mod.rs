@@ -67,6 +67,7 @@ impl GearPair {
         let ratio = (design.mean_ratio[0], design.mean_ratio[1]);
         let (definition, reference) = Self::reference(design)?;
         let (generation, rolling) = Generation::new(design, reference)?;
+        let definition = generation.named(definition);
         let tools = &*generation.rolling;
         let driver = design
             .driver_tooth_count()
@@ -131,8 +132,8 @@ impl GearPair {
     /// The driver's pitch curve in words, and both pitch curves rolling, without any teeth.
     pub(crate) fn roll(design: &GearPairDesign) -> Result<(String, Rolling), GearPairError> {
         let (definition, reference) = Self::reference(design)?;
-        let (_, rolling) = Generation::new(design, reference)?;
-        Ok((definition, Arc::unwrap_or_clone(rolling)))
+        let (generation, rolling) = Generation::new(design, reference)?;
+        Ok((generation.named(definition), Arc::unwrap_or_clone(rolling)))
     }
 
     /// The driver's pitch curve in words, and the pitch curves on which the tools roll.

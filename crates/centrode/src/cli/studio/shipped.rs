@@ -1,7 +1,7 @@
 //! Designs that the program brings with it.
 
 /// Name and text of every shipped design, by family.
-pub(crate) const SHIPPED: [(&str, &str); 25] = [
+pub(crate) const SHIPPED: [(&str, &str); 26] = [
     (
         "circular-pair",
         include_str!("../../../designs/circular-pair.toml"),
@@ -30,6 +30,10 @@ pub(crate) const SHIPPED: [(&str, &str); 25] = [
     (
         "quintic-pair",
         include_str!("../../../designs/quintic-pair.toml"),
+    ),
+    (
+        "shifted-pair",
+        include_str!("../../../designs/shifted-pair.toml"),
     ),
     (
         "transplanter-pair-2021",
