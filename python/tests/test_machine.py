@@ -274,8 +274,8 @@ def test_obstacles_are_drawn_as_scenery_and_are_no_parts_and_bodies_without_mass
     scenery = [entity for entity in drawing.modelspace() if entity.dxf.layer == "SCENERY"]
     assert len(scenery) >= 2
     parts = machine.parts()
-    assert {part.name for part in parts if part.supply == "made"} == {"disc", "far"}
-    assert {"frame", "Drive of crank"} <= {part.name for part in parts if part.supply == "given"}
+    assert {part.name for part in parts if part.file} == {"disc"}
+    assert {"frame", "Drive of crank"} <= {part.name for part in parts if not part.file}
     assert not list(tmp_path.glob("ground*"))
     mujoco = pytest.importorskip("mujoco")
     model = mujoco.MjModel.from_xml_path(str(tmp_path / "machine.xml"))

@@ -26,11 +26,11 @@ def test_edits_leave_nothing_behind(browser, tmp_path):
             # History holds texts, each of some kilobytes.
             return counted(session)
 
-        edit(40)
+        edit(20)
         [heap, nodes] = edit(20)
-        [later, more] = edit(60)
+        [later, more] = edit(30)
         assert more <= nodes + 200, (nodes, more)
-        assert later < heap + 60 * 20_000, (heap, later)
+        assert later < heap + 30 * 20_000, (heap, later)
 
 
 # Frames asked for, timers set and run, and requests made by the page from now on, by what does them.

@@ -12,7 +12,9 @@ use crate::bore;
 use crate::digits::thousandths;
 use crate::gear::design::BodySpec;
 use crate::gear::design::SpecError;
-use crate::gear::design::rule::{hole_class, not_negative, positive, shaft_class, single_line};
+use crate::gear::design::rule::{
+    hole_class, in_range, not_negative, positive, shaft_class, single_line,
+};
 use crate::machine::{Fastening, JointKind, Stock};
 
 /// Greatest diameter of a pin as a share of its plate's width.
@@ -21,6 +23,10 @@ pub(super) const PIN: f64 = 0.9;
 pub(super) const BLOCK: [f64; 2] = [1.0, 0.6];
 /// Radius of its corners, as a share of a plate's width.
 const BLOCK_ROUNDING: f64 = 0.1;
+/// Smallest size of a plate or pin, mm: far below any that is made. Smaller ones have pictures of ten times the points.
+const SMALLEST: f64 = 1e-3;
+/// Largest size of a plate or pin, mm.
+const FAR: f64 = 1e9;
 /// First and last layer.
 pub(super) const LAYERS: [f64; 2] = [-1000.0, 1000.0];
 /// Width of the bars by which bodies without plates are drawn, as a share of the longest distance in a body.
@@ -139,10 +145,12 @@ impl ComposedPlatesSpec {
             ("thickness", self.thickness),
             ("width", self.width),
             ("pin_diameter", self.pin_diameter),
-            ("density", Some(self.density)),
         ] {
-            positive(key, value.unwrap_or(1.0))?;
+            let given = value.map_or(Ok(()), |size| positive(key, size));
+            given
+                .and_then(|()| in_range(key, value.unwrap_or(SMALLEST), [SMALLEST, FAR], " mm"))?;
         }
+        positive("density", self.density)?;
         not_negative("gap", self.gap.unwrap_or(0.0))?;
         hole_class("hole_fit", &self.hole_fit)?;
         shaft_class("pin_fit", &self.pin_fit)?;
