@@ -55,7 +55,11 @@ impl Plates {
             true => preferred_size_below(share * size),
             false => size,
         });
-        let width = spec.width.unwrap_or(width);
+        // A given pin needs a plate that holds it; the margin is rounding.
+        let held = spec
+            .pin_diameter
+            .map_or(0.0, |pin| pin / PIN * (1.0 + 1e-9));
+        let width = spec.width.unwrap_or(width.max(held));
         let own = design.bodies.values().filter_map(|body| body.width);
         let narrowest = own.fold(width, f64::min);
         let pin = match pin > PIN * narrowest {

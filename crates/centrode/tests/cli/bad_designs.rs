@@ -254,14 +254,15 @@ fn axes_nearer_than_their_pins_are_named_with_the_key() {
     let folder = tempfile::tempdir().expect("a place to write");
     let to = folder.path().join("out");
     for (ground, crank, pin, overlap) in [
-        ("1", "0.5", "", "axes A and D of body frame are 1 mm apart"),
+        // Sizes that are not given follow the distances.
+        ("1", "0.5", "", ""),
+        ("2.9", "1", "", ""),
         (
-            "2.9",
-            "1",
-            "",
-            "axes A and D of body frame are 2.9 mm apart",
+            "12",
+            "2",
+            "width = 4\npin_diameter = 3",
+            "axes A and B of body crank are 2 mm apart",
         ),
-        ("12", "2", "", "axes A and B of body crank are 2 mm apart"),
         ("12", "2", "pin_diameter = 1.9", ""),
         ("1", "0.5", "pin_diameter = 0.4\nwidth = 0.6", ""),
         ("20", "10", "pin_diameter = 7", ""),
@@ -275,7 +276,7 @@ fn axes_nearer_than_their_pins_are_named_with_the_key() {
         let [a, b]: [f64; 2] = [ground, crank].map(|number| number.parse().expect("a number"));
         let (coupler, rocker) = (1.2 * a, a - 0.4 * b);
         let design = format!(
-            "family = \"machine\"\nhardware = \"full\"\n[frame.points]\nA = [0, 0]\nD = [{ground}, 0]\n\
+            "family = \"machine\"\nhardware = \"list\"\n[frame.points]\nA = [0, 0]\nD = [{ground}, 0]\n\
              [bodies.crank]\non = \"frame.A\"\nlaw = {{ ratio = 1 }}\npoints = {{ B = [{crank}, 0] }}\n\
              [dyads.loop]\ntype = \"RRR\"\nfrom = \"crank.B\"\nto = \"frame.D\"\nlengths = [{coupler}, {rocker}]\n\
              side = \"left\"\nbodies = [\"coupler\", \"rocker\"]\njoint = \"C\"\n[plates]\n{pin}\n"
