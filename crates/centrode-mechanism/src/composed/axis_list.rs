@@ -3,6 +3,7 @@
 use centrode_geometry::Point;
 
 use super::design::FRAME;
+use super::pins::Axis;
 use super::{Composed, Hardware, Hold, Mount};
 use crate::digits::{rounded, thousandths};
 use crate::machine::{
@@ -25,6 +26,11 @@ impl Composed {
     /// Lists shafts and pins with what is on them as parts that are given, and a table per axis of what sits on it, from the top
     /// down. Copies have the table of their originals.
     pub(super) fn list_axes(&self, machine: &mut Machine) {
+        let axes = self.axes();
+        let points = self
+            .points()
+            .map(|(name, body, at)| (name, self.places_of(body, at)));
+        let points: Vec<(String, Vec<Point>)> = points.collect();
         for pieces in self.turned() {
             let size = format!(
                 "Ø{} {}",
@@ -63,11 +69,11 @@ impl Composed {
             let words = keyway.unwrap_or_default() + &role.unwrap_or_default();
             let originals = pieces.pieces.iter();
             for piece in originals.filter(|piece| self.original(&piece.link) == piece.link) {
-                let axis = self.axis_name(piece);
+                let axis = self.axis_name(piece, &points);
                 machine.arrangement.tables.push(ArrangementTable {
                     title: format!("Axis {axis}: {size}{words}"),
                     headings: ON_AXIS.map(String::from).into(),
-                    rows: self.rows(pieces, piece),
+                    rows: self.rows(pieces, piece, &axes),
                 });
             }
         }
@@ -200,22 +206,22 @@ impl Composed {
     }
 
     /// Name of the axis of a shaft or pin: that of a point on it, otherwise the body's.
-    fn axis_name(&self, piece: &TurnedPiece) -> String {
+    fn axis_name(&self, piece: &TurnedPiece, points: &[(String, Vec<Point>)]) -> String {
         let body = self.body_named(&piece.link).unwrap_or(0);
         let here = self.places_of(body, Point::new(piece.at[0], piece.at[1]));
-        let is_here = |(_, other, at): &(String, usize, Point)| {
-            let mut both = here.iter().zip(self.places_of(*other, *at));
+        let is_here = |(_, places): &&(String, Vec<Point>)| {
+            let mut both = here.iter().zip(places);
             both.all(|(a, b)| (a - b).norm() < ONE)
         };
-        let named = self.points().find(is_here).map(|(name, ..)| name);
-        named.unwrap_or_else(|| piece.link.clone())
+        let named = points.iter().find(is_here);
+        named.map_or_else(|| piece.link.clone(), |(name, _)| name.clone())
     }
 
     /// Rows of the table of an axis, from the top down.
-    fn rows(&self, pieces: &TurnedPieces, piece: &TurnedPiece) -> Vec<Vec<String>> {
+    fn rows(&self, pieces: &TurnedPieces, piece: &TurnedPiece, axes: &[Axis]) -> Vec<Vec<String>> {
         let at = Point::new(piece.at[0], piece.at[1]);
         let body = self.body_named(&piece.link).unwrap_or(0);
-        let mut rows: Vec<Row> = self.parts_on(body, at, pieces);
+        let mut rows: Vec<Row> = self.parts_on((body, at), pieces, axes);
         let bottom = piece.at[2];
         for fastener in pieces.fasteners() {
             let low = bottom + fastener.at[2];
@@ -264,7 +270,12 @@ impl Composed {
     }
 
     /// Plates, gears and cams on a shaft or pin.
-    fn parts_on(&self, body: usize, at: Point, pieces: &TurnedPieces) -> Vec<Row> {
+    fn parts_on(
+        &self,
+        (body, at): (usize, Point),
+        pieces: &TurnedPieces,
+        axes: &[Axis],
+    ) -> Vec<Row> {
         let made = |body: usize, is_plate: bool| match is_plate && !self.has_plate(body) {
             true => Supply::Given,
             false => Supply::Made,
@@ -289,7 +300,6 @@ impl Composed {
             };
             return shaft.parts.iter().map(row).collect();
         }
-        let axes = self.axes();
         let is_here = |hole: &(usize, Point)| hole.0 == body && (hole.1 - at).norm() < ONE;
         let axis = axes.iter().find(|axis| axis.holes.iter().any(is_here));
         let row = |(&(body, _), &span): (&(usize, Point), &[f64; 2])| {

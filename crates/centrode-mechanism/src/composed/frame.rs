@@ -4,8 +4,9 @@ use centrode_geometry::{Bounds, Outline, Point, Solid, SolidError, Vector};
 
 use super::design::FRAME;
 use super::pins::SPARE;
+use super::plates::ONE;
 use super::spacing::Passing;
-use super::{Composed, ComposedError, Hardware, Hold, PinHole, ShaftPart};
+use super::{Composed, ComposedError, ComposedShaft, Hardware, Hold, PinHole, ShaftPart};
 use crate::digits::thousandths;
 use crate::gear::design::BodySpec;
 use crate::machine::{Bar, Circlip, Fastening, Fit, JointKind, Stock, TurnedPiece, TurnedPieces};
@@ -39,8 +40,19 @@ pub struct Overhang {
 pub(super) struct FramePlates {
     outline: Outline,
     screws: Fastening,
+    /// Lower and upper faces of both plates, mm.
+    spans: [[f64; 2]; 2],
     /// The lower plate, as rings near it see it.
     pub(super) lower: Passing,
+}
+
+/// A bore of the frame with the shaft in it, if there is one, and the faces of what is on its axis, mm.
+struct FrameAxis<'a> {
+    hole: PinHole,
+    shaft: Option<&'a ComposedShaft>,
+    spans: Vec<[f64; 2]>,
+    /// Whether the shaft or pin goes on to the upper plate.
+    reaches_top: bool,
 }
 
 impl Composed {
@@ -114,10 +126,12 @@ impl Composed {
             let at = vec![min, Point::new(max.x, min.y), max, Point::new(min.x, max.y)];
             let rounded: Vec<(Point, f64)> = at.iter().map(|at| (*at, post)).collect();
             let outline = Outline::hull(&rounded)?;
-            let lower = Passing::new(0, self.frame_spans()[0], outline.clone())?;
+            let spans = self.frame_spans();
+            let lower = Passing::new(0, spans[0], outline.clone())?;
             Some(FramePlates {
                 outline,
                 screws: Fastening { at, ..screws },
+                spans,
                 lower,
             })
         };
@@ -138,45 +152,59 @@ impl Composed {
 
     /// Whether a shaft or pin on the frame goes on from a height to the upper plate without meeting anything.
     fn reaches_top(&self, at: Point, diameter: f64, from: f64) -> bool {
-        let [_, [top, _]] = self.frame_spans();
-        self.has_frame_plates() && self.is_clear((0, at), 0.5 * diameter, [from, top])
+        let tops = self.frame_plates().map(|frame| frame.spans[1][0]);
+        tops.is_some_and(|top| self.is_clear((0, at), 0.5 * diameter, [from, top]))
     }
 
     /// The upper plate of the frame on a shaft or pin through the lower one, from the height of what is on it; `None` if it
     /// does not reach it.
     pub(super) fn top_part(&self, at: Point, diameter: f64, from: f64) -> Option<ShaftPart> {
-        self.reaches_top(at, diameter, from).then(|| ShaftPart {
+        let frame = self
+            .frame_plates()
+            .filter(|_| self.reaches_top(at, diameter, from));
+        frame.map(|frame| ShaftPart {
             name: Self::FRAME_TOP.into(),
             body: 0,
             at,
             is_plate: true,
-            span: self.frame_spans()[1],
+            span: frame.spans[1],
             hold: Hold::Turning,
         })
+    }
+
+    /// Axes of the bores of the frame, with what is on them.
+    fn frame_axes(&self) -> Vec<FrameAxis<'_>> {
+        let axes = self.axes();
+        let holes = self.pin_holes(0).into_iter().flatten();
+        let found = holes.filter_map(|hole| {
+            let is_here = |held: &(usize, Point)| held.0 == 0 && held.1 == hole.at;
+            let axis = axes.iter().find(|axis| axis.holes.iter().any(is_here))?;
+            let shaft = self.shaft_at(0, hole.at).map(|(shaft, _)| shaft);
+            let spans: Vec<[f64; 2]> = match shaft {
+                Some(shaft) => shaft.parts.iter().map(|part| part.span).collect(),
+                None => axis.parts(),
+            };
+            let tops = spans.iter().map(|span| span[1]);
+            let top = tops.fold(f64::NEG_INFINITY, f64::max);
+            Some(FrameAxis {
+                reaches_top: self.reaches_top(hole.at, hole.hub.bore, top),
+                hole,
+                shaft,
+                spans,
+            })
+        });
+        found.collect()
     }
 
     /// Holes of the upper plate of the frame, for the shafts and pins that reach it.
     #[must_use]
     pub fn top_holes(&self) -> Vec<PinHole> {
         let spec = &self.design.plates;
-        let axes = self.axes();
-        let reached = |hole: &PinHole| {
-            let shaft = self.shaft_at(0, hole.at).map(|(shaft, _)| shaft);
-            let tops = shaft.into_iter().flat_map(|shaft| &shaft.parts);
-            let tops = tops.map(|part| part.span[1]);
-            let is_here = |held: &&(usize, Point)| held.0 == 0 && held.1 == hole.at;
-            let of_pin = axes
-                .iter()
-                .filter(|axis| axis.holes.iter().any(|held| is_here(&held)));
-            let top = tops.chain(of_pin.map(super::pins::Axis::top));
-            self.reaches_top(
-                hole.at,
-                hole.hub.bore,
-                top.fold(f64::NEG_INFINITY, f64::max),
-            )
-        };
-        let holes = self.pin_holes(0).into_iter().flatten().filter(reached);
-        let plain = |hole: PinHole| PinHole {
+        let reaching = self
+            .frame_axes()
+            .into_iter()
+            .filter(|axis| axis.reaches_top);
+        let plain = |FrameAxis { hole, .. }| PinHole {
             hub: BodySpec {
                 bore: hole.hub.bore,
                 bore_fit: spec.hole_fit.clone(),
@@ -185,7 +213,7 @@ impl Composed {
             },
             ..hole
         };
-        holes.map(plain).collect()
+        reaching.map(plain).collect()
     }
 
     /// The upper plate of the frame; `None` if it has none.
@@ -199,17 +227,17 @@ impl Composed {
         let holes = self.top_holes();
         let holes = holes.iter().map(PinHole::outline);
         let holes = holes.chain(frame.screws.clearance_holes()).collect();
-        let [low, high] = self.frame_spans()[1];
+        let [low, high] = frame.spans[1];
         Solid::new(frame.outline.clone(), holes, low, high).map(Some)
     }
 
     /// Posts between the plates of the frame, and the screws into them.
     pub(super) fn posts(&self) -> Vec<TurnedPieces> {
-        let Some(FramePlates { screws, .. }) = self.frame_plates() else {
+        let Some(FramePlates { screws, spans, .. }) = self.frame_plates() else {
             return Vec::new();
         };
         let spec = &self.design.plates;
-        let [[_, low], [high, _]] = self.frame_spans();
+        let [[_, low], [high, _]] = *spans;
         let diameter = POST * screws.screw.diameter;
         let stock = Stock::new(&spec.material, spec.density);
         let general = &self.design.drawing.general_tolerance;
@@ -245,52 +273,41 @@ impl Composed {
     /// Shafts and pins that one plate of the frame holds alone.
     #[must_use]
     pub fn overhangs(&self) -> Vec<Overhang> {
-        let (bottom, length) = (self.bottom(0), self.thickness(0));
-        let middle = bottom + 0.5 * length;
+        let length = self.thickness(0);
+        let middle = self.bottom(0) + 0.5 * length;
         let plates = &self.design.plates;
-        let holes = self.pin_holes(0).into_iter().flatten();
-        let axes = self.axes();
-        let found = holes.filter_map(|hole| {
-            let is_here = |held: &&(usize, Point)| held.0 == 0 && held.1 == hole.at;
-            let axis = axes
-                .iter()
-                .find(|axis| axis.holes.iter().any(|held| is_here(&held)))?;
-            let shaft = self.shaft_at(0, hole.at).map(|(shaft, _)| shaft);
-            let of_shaft = shaft.into_iter().flat_map(|shaft| &shaft.parts);
-            let spans: Vec<[f64; 2]> = match shaft {
-                Some(_) => of_shaft.map(|part| part.span).collect(),
-                None => axis.parts(),
-            };
-            let top = spans
-                .iter()
-                .map(|span| span[1])
-                .fold(f64::NEG_INFINITY, f64::max);
-            if self.reaches_top(hole.at, hole.hub.bore, top) {
-                return None;
-            }
-            let off = spans
-                .iter()
-                .map(|[low, high]| (0.5 * (low + high) - middle).abs());
-            let on_frame = |body: &usize| {
-                let mount = self.bodies[*body].mount.as_ref();
-                mount.is_some_and(|mount| {
-                    let is_here = axis.is_one(&self.places_of(0, mount.at));
-                    mount.carrier == 0 && mount.kind == JointKind::Turning && is_here
-                })
-            };
-            let material = shaft.map_or(&plates.material, |shaft| &shaft.hub.material);
-            Some(Overhang {
-                name: match shaft {
-                    Some(shaft) => format!("shaft of {}", shaft.name),
-                    None => format!("pin of frame.{}", hole.name),
-                },
-                bodies: (1..self.bodies.len()).filter(on_frame).collect(),
-                diameter: hole.hub.bore,
-                length,
-                arm: off.fold(0.0, f64::max),
-                materials: [plates.material.clone(), material.clone()],
-            })
-        });
+        let alone = self
+            .frame_axes()
+            .into_iter()
+            .filter(|axis| !axis.reaches_top);
+        let found = alone.map(
+            |FrameAxis {
+                 hole, shaft, spans, ..
+             }| {
+                let off = spans
+                    .iter()
+                    .map(|[low, high]| (0.5 * (low + high) - middle).abs());
+                let is_on_it = |body: &usize| {
+                    let mount = self.bodies[*body].mount.as_ref();
+                    mount.is_some_and(|mount| {
+                        let turns = mount.carrier == 0 && mount.kind == JointKind::Turning;
+                        turns && (mount.at - hole.at).norm() < ONE * plates.pin_diameter
+                    })
+                };
+                let material = shaft.map_or(&plates.material, |shaft| &shaft.hub.material);
+                Overhang {
+                    name: match shaft {
+                        Some(shaft) => format!("shaft of {}", shaft.name),
+                        None => format!("pin of {FRAME}.{}", hole.name),
+                    },
+                    bodies: (1..self.bodies.len()).filter(is_on_it).collect(),
+                    diameter: hole.hub.bore,
+                    length,
+                    arm: off.fold(0.0, f64::max),
+                    materials: [plates.material.clone(), material.clone()],
+                }
+            },
+        );
         found.filter(|overhang| overhang.arm > 0.0).collect()
     }
 

@@ -1,4 +1,4 @@
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 
 use centrode_geometry::{Outline, Point, Solid, SolidError, Tolerance};
 use nalgebra::Isometry2;
@@ -6,8 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::design::FRAME;
-use super::points::ROLLER;
-use super::{Composed, ComposedBodySpec, ComposedDesign, ComposedError};
+use super::{Composed, ComposedBodySpec, ComposedDesign, ComposedError, Hardware};
 use crate::bore;
 use crate::digits::thousandths;
 use crate::gear::design::BodySpec;
@@ -83,53 +82,6 @@ impl Default for ComposedPlatesSpec {
             pin_heat_treatment: String::new(),
             density: 7850.0,
         }
-    }
-}
-
-/// Extent of the design around gears and cams.
-#[derive(Clone, Copy, Debug, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
-#[serde(rename_all = "lowercase")]
-pub enum Hardware {
-    /// Nothing: bodies are kinematic, without plates, pins and shafts. Gears and cams are made.
-    None,
-    /// Plates and levers, gears and cams. What joins them is listed axis by axis; it and the frame come from the customer.
-    List,
-    /// Plates, gears and cams, the frame, and the pins, shafts and rings that join them.
-    Full,
-}
-
-impl ComposedDesign {
-    /// Extent of plates, pins and shafts: as given, or a list if the design describes plates or needs their masses,
-    /// otherwise none.
-    #[must_use]
-    pub fn hardware(&self) -> Hardware {
-        let mut bodies = self.bodies.values();
-        let default = || {
-            let weighs = self.gravity.is_some()
-                || bodies.any(|body| body.mass_kg.is_some() && body.inertia_kg_mm2.is_none());
-            match self.describes_plates() || weighs {
-                true => Hardware::List,
-                false => Hardware::None,
-            }
-        };
-        self.hardware.unwrap_or_else(default)
-    }
-
-    /// Whether the design says anything of its plates and pins: `plates` other than the default, or a body with a layer, an
-    /// outline, a circle or a size.
-    fn describes_plates(&self) -> bool {
-        let describes = |body: &ComposedBodySpec| {
-            body.layer.is_some()
-                || !body.outline.is_empty()
-                || body.corner_radius.is_some()
-                || body.circle.is_some()
-                || body.width.is_some()
-                || body.thickness.is_some()
-        };
-        let is_drawn = self.frame.drawn().is_given() || self.frame.thickness.is_some();
-        is_drawn
-            || self.plates != ComposedPlatesSpec::default()
-            || self.bodies.values().any(describes)
     }
 }
 
@@ -475,57 +427,6 @@ impl Composed {
             }
         }
         Ok(())
-    }
-
-    /// Points, by `body.point`, on which other bodies turn.
-    pub(super) fn pinned(&self) -> BTreeSet<String> {
-        let design = &self.design;
-        let bodies = design.bodies.values();
-        let turning = bodies.filter(|body| body.slides.is_none() && body.mesh.is_none());
-        let on = turning.filter_map(|body| body.on.clone());
-        let dyads = design.dyads.values().flat_map(|dyad| {
-            let ends = dyad.from.iter().chain(&dyad.to).cloned();
-            let joint = dyad.joint.iter();
-            let joint =
-                joint.flat_map(|joint| dyad.bodies.iter().map(move |b| format!("{b}.{joint}")));
-            ends.chain(joint).collect::<Vec<_>>()
-        });
-        let following = design.bodies.iter().filter(|(_, body)| {
-            let law = body.law.as_ref();
-            law.is_some_and(|law| law.follows.is_some())
-        });
-        let cut = design.cams.values().filter_map(|cam| cam.cut_to.as_ref());
-        let rollers = following.map(|(name, _)| name).chain(cut);
-        let rollers = rollers.map(|name| format!("{name}.{ROLLER}"));
-        on.chain(dyads).chain(rollers).collect()
-    }
-
-    /// Points worth following, among those that no other body is held by: given ones, or joints where there is none.
-    pub(super) fn followed(&self) -> Vec<String> {
-        let design = &self.design;
-        let bodies = design.bodies.values();
-        let held = bodies.flat_map(|body| body.on.iter().chain(&body.fixed_to));
-        let dyads = design.dyads.values();
-        let tied = dyads.flat_map(|dyad| [&dyad.from, &dyad.to, &dyad.line, &dyad.second_line]);
-        let words: BTreeSet<&String> = held.chain(tied.flatten()).collect();
-        // A joint has a name on each of its bodies.
-        let joints: Vec<[String; 2]> = design
-            .dyads
-            .values()
-            .filter_map(|dyad| {
-                let joint = dyad.joint.as_ref()?;
-                Some(dyad.bodies.each_ref().map(|body| format!("{body}.{joint}")))
-            })
-            .collect();
-        let of = |name: &String| joints.iter().find(|names| names.contains(name));
-        let free = |name: &String| match of(name) {
-            Some(names) => !names.iter().any(|name| words.contains(name)),
-            None => !words.contains(name),
-        };
-        let moving = self.points().filter(|(_, body, _)| *body > 0);
-        let all = moving.map(|(name, ..)| name).filter(free);
-        let (ties, given): (Vec<String>, Vec<String>) = all.partition(|name| of(name).is_some());
-        if given.is_empty() { ties } else { given }
     }
 
     /// Height of the lower face of a body's plate along the shafts, mm; that of the frame is below all others.

@@ -1,4 +1,4 @@
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use centrode_geometry::{Point, Vector};
 use nalgebra::Rotation2;
@@ -6,8 +6,8 @@ use nalgebra::Rotation2;
 use super::design::FRAME;
 use super::expansion::Expansion;
 use super::{
-    ComposedBodySpec, ComposedCamSpec, ComposedDesign, ComposedDyadSpec, ComposedError, CornerSpec,
-    DyadKind,
+    Composed, ComposedBodySpec, ComposedCamSpec, ComposedDesign, ComposedDyadSpec, ComposedError,
+    CornerSpec, DyadKind,
 };
 
 /// Share of a triangle's sides by which they may fail to meet: rounding.
@@ -317,4 +317,57 @@ fn third_corner(
     let unit = way / apart;
     let left = Vector::new(-unit.y, unit.x);
     Ok(p + unit * along + left * (corner.side.sign() * height))
+}
+
+impl Composed {
+    /// Points, by `body.point`, on which other bodies turn.
+    pub(super) fn pinned(&self) -> BTreeSet<String> {
+        let design = &self.design;
+        let bodies = design.bodies.values();
+        let turning = bodies.filter(|body| body.slides.is_none() && body.mesh.is_none());
+        let on = turning.filter_map(|body| body.on.clone());
+        let dyads = design.dyads.values().flat_map(|dyad| {
+            let ends = dyad.from.iter().chain(&dyad.to).cloned();
+            let joint = dyad.joint.iter();
+            let joint =
+                joint.flat_map(|joint| dyad.bodies.iter().map(move |b| format!("{b}.{joint}")));
+            ends.chain(joint).collect::<Vec<_>>()
+        });
+        let following = design.bodies.iter().filter(|(_, body)| {
+            let law = body.law.as_ref();
+            law.is_some_and(|law| law.follows.is_some())
+        });
+        let cut = design.cams.values().filter_map(|cam| cam.cut_to.as_ref());
+        let rollers = following.map(|(name, _)| name).chain(cut);
+        let rollers = rollers.map(|name| format!("{name}.{ROLLER}"));
+        on.chain(dyads).chain(rollers).collect()
+    }
+
+    /// Points worth following, among those that no other body is held by: given ones, or joints where there is none.
+    pub(super) fn followed(&self) -> Vec<String> {
+        let design = &self.design;
+        let bodies = design.bodies.values();
+        let held = bodies.flat_map(|body| body.on.iter().chain(&body.fixed_to));
+        let dyads = design.dyads.values();
+        let tied = dyads.flat_map(|dyad| [&dyad.from, &dyad.to, &dyad.line, &dyad.second_line]);
+        let words: BTreeSet<&String> = held.chain(tied.flatten()).collect();
+        // A joint has a name on each of its bodies.
+        let joints: Vec<[String; 2]> = design
+            .dyads
+            .values()
+            .filter_map(|dyad| {
+                let joint = dyad.joint.as_ref()?;
+                Some(dyad.bodies.each_ref().map(|body| format!("{body}.{joint}")))
+            })
+            .collect();
+        let of = |name: &String| joints.iter().find(|names| names.contains(name));
+        let free = |name: &String| match of(name) {
+            Some(names) => !names.iter().any(|name| words.contains(name)),
+            None => !words.contains(name),
+        };
+        let moving = self.points().filter(|(_, body, _)| *body > 0);
+        let all = moving.map(|(name, ..)| name).filter(free);
+        let (ties, given): (Vec<String>, Vec<String>) = all.partition(|name| of(name).is_some());
+        if given.is_empty() { ties } else { given }
+    }
 }

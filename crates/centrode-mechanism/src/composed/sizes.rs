@@ -144,8 +144,8 @@ impl Composed {
                 all.extend(distances);
             }
         }
-        let least = ONE * all.iter().copied().fold(0.0, f64::max);
-        let apart = all.into_iter().filter(|apart| *apart > least);
+        let smallest = ONE * all.iter().copied().fold(0.0, f64::max);
+        let apart = all.into_iter().filter(|apart| *apart > smallest);
         apart.fold(f64::INFINITY, f64::min)
     }
 
@@ -173,11 +173,16 @@ impl Composed {
             [0.0, largest],
             " mm",
         )?;
-        let least = plates.pin_diameter / PIN;
+        let narrowest = plates.pin_diameter / PIN;
         let widths = self.written.bodies.iter();
         let mut widths = widths.filter_map(|(name, body)| Some((name, body.width?)));
         widths.try_for_each(|(name, width)| {
-            in_range(&format!("bodies.{name}.width"), width, [least, 1e9], " mm")
+            in_range(
+                &format!("bodies.{name}.width"),
+                width,
+                [narrowest, 1e9],
+                " mm",
+            )
         })
     }
 }

@@ -116,7 +116,7 @@ fn corners(composed: &Composed, input: f64) -> Vec<Point> {
 }
 
 #[test]
-fn a_frame_in_full_is_two_plates_round_all_that_moves_on_posts_beside_it() {
+fn a_frame_in_full_is_two_plates_round_all_that_moves_on_posts_around_it() {
     for (name, posts) in [
         ("press", 4),
         ("jansen-leg", 4),
