@@ -142,6 +142,35 @@ fn named_files_are_there(mechanism: &dyn Mechanism, bundle: &Bundle) {
     assert!(machine.parts.iter().any(|part| !part.file.is_empty()));
 }
 
+/// A golden as text: one line per figure, finding, goal, file and row of a table.
+fn lines(outcome: &Value) -> String {
+    let parts = outcome.as_object().expect("parts of an outcome");
+    let parts = parts.iter().map(|(name, part)| {
+        let depth = if name == "tables" { 2 } else { 1 };
+        format!("  {}: {}", json!(name), nested(part, depth, "  "))
+    });
+    format!("{{\n{}\n}}\n", parts.collect::<Vec<_>>().join(",\n"))
+}
+
+/// JSON with `depth` levels on lines of their own, and what is deeper on one line.
+fn nested(value: &Value, depth: usize, indent: &str) -> String {
+    let inner = format!("{indent}  ");
+    let (open, close, items): (_, _, Vec<String>) = match value {
+        Value::Object(fields) if depth > 0 && !fields.is_empty() => {
+            let field =
+                |(key, value)| format!("{}: {}", json!(key), nested(value, depth - 1, &inner));
+            ('{', '}', fields.iter().map(field).collect())
+        }
+        Value::Array(items) if depth > 0 && !items.is_empty() => {
+            let item = |value| nested(value, depth - 1, &inner);
+            ('[', ']', items.iter().map(item).collect())
+        }
+        _ => return value.to_string(),
+    };
+    let separator = format!(",\n{inner}");
+    format!("{open}\n{inner}{}\n{indent}{close}", items.join(&separator))
+}
+
 /// Every place where two values differ, numbers within [`DIFFERENCE`] aside.
 fn differences(place: &str, golden: &Value, now: &Value, found: &mut Vec<String>) {
     match (golden, now) {
@@ -179,7 +208,7 @@ fn every_design_is_as_it_was() {
     for (name, now) in designs.iter().zip(outcomes(&designs)) {
         let file = goldens.join(format!("{name}.json"));
         if update {
-            fs::write(&file, format!("{now:#}\n")).expect("written");
+            fs::write(&file, lines(&now)).expect("written");
             continue;
         }
         match fs::read(&file) {
