@@ -2,13 +2,13 @@
 
 use std::hint::black_box;
 
-use centrode_geometry::Tolerance;
-use centrode_mechanism::cam::DiscCam;
-use centrode_mechanism::cam::design::{
+use centrode_gear::cam::DiscCam;
+use centrode_gear::cam::design::{
     CamSpec, Dwell, Follower, MotionSpec, SegmentSpec, SwingingRoller, TranslatingFlat,
     TranslatingRoller, Travel, Turn,
 };
-use centrode_mechanism::cam::law::LawSpec;
+use centrode_gear::cam::law::LawSpec;
+use centrode_geometry::Tolerance;
 use criterion::{BenchmarkId, Criterion, criterion_group};
 
 fn motion(stroke: f64, swings: bool) -> MotionSpec {

@@ -7,11 +7,11 @@ use centrode_analysis::interference::{
     Body, Motion, Moving, PoseJet, Tabulated, clearance, least_clearance,
 };
 use centrode_analysis::{ArmClearance, between_arms};
+use centrode_gear::pitch::{Bspline, PitchSpec};
 use centrode_geometry::{Outline, Point, Tolerance, Vector};
-use centrode_mechanism::arm::{ArmBody, ArmBodySpec};
-use centrode_mechanism::gear::pitch::{Bspline, PitchSpec};
-use centrode_mechanism::three_arm::ThreeArm;
-use centrode_mechanism::three_arm::design::{ArmSpec, ThreeArmDesign};
+use centrode_machines::arm::{ArmBody, ArmBodySpec};
+use centrode_machines::three_arm::ThreeArm;
+use centrode_machines::three_arm::design::{ArmSpec, ThreeArmDesign};
 use criterion::{BenchmarkId, Criterion, criterion_group};
 
 fn tolerance(mm: f64) -> Tolerance {

@@ -3,10 +3,10 @@
 use std::hint::black_box;
 use std::ops::ControlFlow;
 
-use centrode_analysis::optimise::six_bar::{PUBLISHED_BOUNDS, WantedSwing};
-use centrode_analysis::optimise::{Method, Settings, minimise};
+use centrode_analysis::six_bar::{PUBLISHED_BOUNDS, WantedSwing};
 use centrode_geometry::Point;
-use centrode_mechanism::linkage::{Branch, FourBar, LinkId, Linkage, SixBar};
+use centrode_kinematics::linkage::{Branch, FourBar, LinkId, Linkage, SixBar};
+use centrode_optimise::{Method, Settings, minimise};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group};
 
 const PIVOT: Point = Point::new(100.0, 67.0);
@@ -26,7 +26,7 @@ fn composed() -> Linkage {
         let bars = linkage.rrr(b, d, (147.0, 127.0), Branch::Upper)?;
         let effector = linkage.rpr(bars.joint, f, 0.0, Branch::Upper)?;
         linkage.point(effector.link, Point::new(200.0, 0.0))?;
-        Ok::<_, centrode_mechanism::linkage::LinkageError>(linkage)
+        Ok::<_, centrode_kinematics::linkage::LinkageError>(linkage)
     };
     build().expect("a linkage")
 }

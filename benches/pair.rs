@@ -3,10 +3,10 @@
 use std::hint::black_box;
 
 use centrode_analysis::{Contact, check, check_contact};
+use centrode_gear::GearPair;
+use centrode_gear::design::{Addendum, GearPairDesign};
+use centrode_gear::pitch::{Bspline, Circle, EccentricCircle, Ellipse, PitchSpec};
 use centrode_geometry::Tolerance;
-use centrode_mechanism::gear::GearPair;
-use centrode_mechanism::gear::design::{Addendum, GearPairDesign};
-use centrode_mechanism::gear::pitch::{Bspline, Circle, EccentricCircle, Ellipse, PitchSpec};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group};
 
 fn elliptic(tooth_count: u32) -> GearPairDesign {

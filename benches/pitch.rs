@@ -1,6 +1,6 @@
 //! Cost of resolving a pitch curve: proof that it goes round, and scaling to a module.
 
-use centrode_mechanism::gear::pitch::{Bspline, Ellipse, LobedEllipse, PitchSpec};
+use centrode_gear::pitch::{Bspline, Ellipse, LobedEllipse, PitchSpec};
 use criterion::{Criterion, criterion_group};
 
 fn specs() -> [(&'static str, PitchSpec); 3] {

@@ -3,7 +3,7 @@
 use std::hint::black_box;
 
 use centrode_geometry::Point;
-use centrode_mechanism::reverse::{AxisMap, AxisRange, Split, SplitKind, TwoBar, WantedPath};
+use centrode_synthesis::reverse::{AxisMap, AxisRange, Split, SplitKind, TwoBar, WantedPath};
 use criterion::{Criterion, criterion_group};
 
 /// A path drawn by hand, mm.

@@ -3,9 +3,9 @@
 use std::hint::black_box;
 
 use centrode_export::{step, stl};
+use centrode_gear::shaft::{SpiralShaft, SpiralShaftDesign};
 use centrode_geometry::Tolerance;
-use centrode_mechanism::shaft::{SpiralShaft, SpiralShaftDesign};
-use centrode_mechanism::transmission::Transmission;
+use centrode_kinematics::transmission::Transmission;
 use criterion::{BenchmarkId, Criterion, criterion_group};
 
 /// Inputs over the whole way out and back.

@@ -2,14 +2,14 @@
 
 use std::hint::black_box;
 
-use centrode_analysis::optimise::Problem;
-use centrode_analysis::optimise::three_arm::ThreeArmProblem;
 use centrode_analysis::{check_composed, check_three_arm};
-use centrode_mechanism::composed::{Composed, ComposedDesign};
-use centrode_mechanism::design::DesignSpec as _;
-use centrode_mechanism::gear::pitch::PitchSpec;
-use centrode_mechanism::three_arm::design::ThreeArmDesign;
-use centrode_mechanism::three_arm::{Sweep, ThreeArm};
+use centrode_gear::pitch::PitchSpec;
+use centrode_machines::composed::{Composed, ComposedDesign};
+use centrode_machines::three_arm::design::ThreeArmDesign;
+use centrode_machines::three_arm::{Sweep, ThreeArm};
+use centrode_optimise::Problem;
+use centrode_spec::DesignSpec as _;
+use centrode_synthesis::optimise::three_arm::ThreeArmProblem;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group};
 
 fn template() -> ThreeArmDesign {

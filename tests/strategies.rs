@@ -2,13 +2,13 @@
 
 use std::f64::consts::TAU;
 
-use centrode_geometry::Crossing;
-use centrode_mechanism::gear::design::{Addendum, GearPairDesign, Phase, Rack, ToolSpec};
-use centrode_mechanism::gear::pitch::{
+use centrode_gear::design::{Addendum, GearPairDesign, Phase, Rack, ToolSpec};
+use centrode_gear::pitch::{
     Bspline, Circle, EccentricCircle, Ellipse, Limacon, LobedEllipse, PitchSpec, Plane, Polar,
     Transmission,
 };
-use centrode_mechanism::gear::{GearPair, Member};
+use centrode_gear::{GearPair, Member};
+use centrode_geometry::Crossing;
 use proptest::prelude::{Just, Strategy, any, prop_oneof};
 
 /// A pair whose pitch curves bear full-depth teeth: as many teeth as it takes.

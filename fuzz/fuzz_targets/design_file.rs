@@ -1,7 +1,7 @@
 //! Any text is a design or an error: no panic, no hang.
 #![no_main]
 
-use centrode_mechanism::gear::design::GearPairDesign;
+use centrode_gear::design::GearPairDesign;
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {

@@ -1,7 +1,7 @@
 //! Any formula is a pitch curve or an error: no panic, no hang.
 #![no_main]
 
-use centrode_mechanism::gear::pitch::{PitchSpec, Polar, Transmission};
+use centrode_gear::pitch::{PitchSpec, Polar, Transmission};
 use libfuzzer_sys::fuzz_target;
 
 fuzz_target!(|text: &str| {

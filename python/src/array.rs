@@ -1,7 +1,7 @@
 //! `NumPy` arrays in and out.
 
 use centrode_geometry::{Cancel, Mesh, Point, checkpoint};
-use centrode_mechanism::transmission::MotionJet;
+use centrode_kinematics::transmission::MotionJet;
 use numpy::ndarray::{Array2, ArrayD};
 use numpy::{Element, IntoPyArray, PyArray2, PyArrayDyn, PyArrayMethods, PyUntypedArrayMethods};
 use pyo3::IntoPyObjectExt;

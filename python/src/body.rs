@@ -1,4 +1,4 @@
-use centrode_mechanism::gear::design as spec;
+use centrode_gear::design as spec;
 use pyo3::prelude::PyRef;
 
 use crate::table::table;
@@ -31,7 +31,7 @@ table! {
         /// Diameter of the bore, mm; 0 for none.
         bore: f64,
         /// Keyway in the bore.
-        keyway: Option<spec::Keyway>,
+        keyway: Option<centrode_kinematics::machine::Keyway>,
         /// Density, kg/m^3.
         density: f64,
         /// Material, for the drawing.
@@ -59,7 +59,7 @@ table! {
     /// >>> import centrode as ct
     /// >>> ct.Keyway(width=4, depth=1.8)
     /// Keyway(width=4.0, depth=1.8)
-    "centrode" Keyway(spec::Keyway) from spec::Keyway { width: 0.0, depth: 0.0 }, keys "keyway.", rules |_| Ok(());
+    "centrode" Keyway(centrode_kinematics::machine::Keyway) from centrode_kinematics::machine::Keyway { width: 0.0, depth: 0.0 }, keys "keyway.", rules |_| Ok(());
     needed {
         /// Width, mm.
         width: f64,

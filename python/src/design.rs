@@ -3,7 +3,7 @@ use std::sync::Arc;
 
 use centrode::FAMILIES;
 use centrode::family::{self, Family, Resolved};
-use centrode_mechanism::design::DesignFile;
+use centrode_spec::DesignFile;
 use pyo3::PyClass;
 use pyo3::prelude::{
     Bound, Py, PyAny, PyAnyMethods, PyClassInitializer, PyModule, PyResult, PyTypeMethods, Python,

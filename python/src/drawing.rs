@@ -1,4 +1,4 @@
-use centrode_mechanism::design as spec;
+use centrode_spec as spec;
 
 use crate::table::table;
 

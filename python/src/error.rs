@@ -3,23 +3,25 @@ use std::error::Error;
 use centrode::family::NotProved;
 use centrode_analysis::forces::ForcesError;
 use centrode_analysis::interference::LinkClearanceError;
-use centrode_analysis::optimise::feeder::NotWidened;
-use centrode_analysis::optimise::{EasingError, NotSearched, SearchError};
 use centrode_analysis::{ArmClearanceError, FeederForcesError, NoSoundTeeth};
 use centrode_export::{BundleError, ExportError};
+use centrode_gear::cam::CamError;
+use centrode_gear::pitch::PitchError;
+use centrode_gear::shaft::ShaftError;
+use centrode_gear::{BaseTangentFault, GearPairError};
 use centrode_geometry::{BadTolerance, SolidError, Tolerance};
-use centrode_mechanism::arm::ArmError;
-use centrode_mechanism::cam::CamError;
-use centrode_mechanism::design::{DesignError, DesignFault, MechanismError, shortened};
-use centrode_mechanism::gear::design::SpecError;
-use centrode_mechanism::gear::pitch::PitchError;
-use centrode_mechanism::gear::{BaseTangentFault, GearPairError};
-use centrode_mechanism::linkage::{FourBarError, SixBarError};
-use centrode_mechanism::reverse::{
+use centrode_kinematics::linkage::{FourBarError, SixBarError};
+use centrode_machines::arm::ArmError;
+use centrode_machines::three_arm::PusherError;
+use centrode_optimise::SearchError;
+use centrode_spec::SpecError;
+use centrode_spec::{DesignError, DesignFault, MechanismError, shortened};
+use centrode_synthesis::optimise::feeder::NotWidened;
+use centrode_synthesis::optimise::{EasingError, NotSearched};
+use centrode_synthesis::reverse::NotPosed;
+use centrode_synthesis::reverse::{
     AxisFault, GearDriveError, MachineError, PathError, PoseError, SplitError,
 };
-use centrode_mechanism::shaft::ShaftError;
-use centrode_mechanism::three_arm::{NotPosed, PusherError};
 use pyo3::exceptions::PyOSError;
 use pyo3::prelude::{PyErr, Python};
 

@@ -2,8 +2,8 @@ use std::sync::Arc;
 
 use centrode_analysis::FeederForces;
 use centrode_analysis::forces::Forces;
-use centrode_analysis::optimise::feeder::Widened;
-use centrode_mechanism::feeder as mechanism;
+use centrode_machines::feeder as mechanism;
+use centrode_synthesis::optimise::feeder::Widened;
 use pyo3::prelude::{Py, PyClassInitializer, Python, pyclass, pymethods};
 
 use crate::array::{Course, Values, row};

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use centrode_analysis::forces::{Balance, Forces};
-use centrode_mechanism::machine::{GuideForce, JointKind, Machine};
+use centrode_kinematics::machine::{GuideForce, JointKind, Machine};
 use pyo3::prelude::{Bound, PyAny, PyResult, Python};
 use pyo3::types::{PyDict, PyDictMethods};
 

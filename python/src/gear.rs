@@ -3,9 +3,9 @@ use std::sync::Arc;
 
 use centrode_export::gear_pair::{self, subject_files};
 use centrode_export::{Format, Options};
+use centrode_gear as mechanism;
+use centrode_gear::Member;
 use centrode_geometry::{Solid, Tolerance};
-use centrode_mechanism::gear as mechanism;
-use centrode_mechanism::gear::Member;
 use numpy::{IntoPyArray, PyArray1, PyFixedUnicode};
 use pyo3::prelude::{Bound, Py, PyAny, PyDictMethods, PyResult, Python, pyclass, pymethods};
 use pyo3::types::{PyDict, PyTuple};

@@ -2,10 +2,10 @@ use std::sync::Arc;
 
 use centrode_analysis::{Contact, remedies};
 use centrode_export::gear_pair::Subject;
-use centrode_mechanism::gear as mechanism;
-use centrode_mechanism::gear::Member;
-use centrode_mechanism::gear::design::{GearPairDesign, GearSpec, Phase, TeethSpec, TipShortening};
-use centrode_mechanism::gear::pitch::{Conjugate, PitchSpec};
+use centrode_gear as mechanism;
+use centrode_gear::Member;
+use centrode_gear::design::{GearPairDesign, GearSpec, Phase, TeethSpec, TipShortening};
+use centrode_gear::pitch::{Conjugate, PitchSpec};
 use pyo3::prelude::{
     Bound, Py, PyAny, PyClassInitializer, PyRef, PyResult, Python, pyclass, pymethods,
 };

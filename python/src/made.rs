@@ -1,4 +1,4 @@
-use centrode_mechanism::design::Design;
+use centrode_spec::Design;
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::{Bound, Py, PyAny, PyAnyMethods, PyModule, PyResult, Python};
 use pyo3::types::{PyBytes, PyTuple};

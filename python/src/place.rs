@@ -1,4 +1,4 @@
-use centrode_mechanism::gear::design::{Phase, TipShortening};
+use centrode_gear::design::{Phase, TipShortening};
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::{Borrowed, FromPyObject, PyAny, PyErr, PyResult};
 

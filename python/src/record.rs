@@ -3,11 +3,11 @@
 use std::collections::BTreeMap;
 
 use centrode_analysis::interference::Clearance;
-use centrode_analysis::optimise::{Ended, Progress};
 use centrode_analysis::{Contact, Finding, Goal, PairRemedy, Report, Severity, Table};
-use centrode_mechanism::gear::{OverPins, Pin, Tooth, ToothSide};
-use centrode_mechanism::linkage;
-use centrode_mechanism::machine::{Machine, Part};
+use centrode_gear::{OverPins, Pin, Tooth, ToothSide};
+use centrode_kinematics::linkage;
+use centrode_kinematics::machine::{Machine, Part};
+use centrode_optimise::{Ended, Progress};
 use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::{Bound, IntoPyObject, Py, PyAny, PyAnyMethods, PyResult, Python};

@@ -6,14 +6,14 @@ mod wished;
 use std::ops::ControlFlow;
 use std::sync::{Arc, OnceLock};
 
-use centrode_analysis::optimise::three_arm::PosedProblem;
 use centrode_analysis::{composed_collisions, with_sound_teeth};
-use centrode_mechanism::design::Design as _;
-use centrode_mechanism::machine::Piecewise;
-use centrode_mechanism::reverse::{
+use centrode_kinematics::machine::Piecewise;
+use centrode_kinematics::transmission::Transmission as _;
+use centrode_spec::Design as _;
+use centrode_synthesis::optimise::three_arm::PosedProblem;
+use centrode_synthesis::reverse::{
     Aim, AxisMap, KeyPoses, PathDesign, ReversedMachine, Split, SplitKind, TwoBar, WantedPath,
 };
-use centrode_mechanism::transmission::Transmission as _;
 use pyo3::prelude::{Bound, Py, PyAny, PyResult, Python, pyclass, pymethods};
 use pyo3::types::PyTuple;
 
@@ -77,7 +77,7 @@ impl Reversed {
         }
         let law = chain
             .law()
-            .map_err(centrode_mechanism::reverse::SplitError::from)?;
+            .map_err(centrode_synthesis::reverse::SplitError::from)?;
         Ok(Self {
             given,
             bend_deg,
@@ -284,7 +284,7 @@ impl Reversed {
             let (design, _) = with_sound_teeth(&design, |_| true)?;
             Ok::<_, Raised>(
                 <Machine as Class>::Machine::resolve(&design)
-                    .map_err(centrode_mechanism::design::MechanismError::from)?,
+                    .map_err(centrode_spec::MechanismError::from)?,
             )
         })??;
         Machine::object(py, composed)

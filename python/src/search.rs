@@ -7,8 +7,9 @@ use std::sync::mpsc::Sender;
 
 use centrode::family::{Family, Mechanism};
 use centrode_analysis::Goal;
-use centrode_analysis::optimise::{DesignSearch, Ended, GuidedStep, Progress, Settings, Strategy};
-use centrode_mechanism::design::{Design, MechanismError};
+use centrode_optimise::{Ended, Progress, Settings};
+use centrode_spec::{Design, MechanismError};
+use centrode_synthesis::optimise::{DesignSearch, GuidedStep, Strategy};
 use pyo3::prelude::{Bound, PyAny, PyAnyMethods, Python};
 
 use crate::design::object;

@@ -6,8 +6,8 @@ use centrode::sheet_data;
 use centrode_analysis::check;
 use centrode_export::gear_pair::{Subject, sheets, subject_files};
 use centrode_export::{Bundle, ExportError, Format, Options, Package, SheetOptions};
+use centrode_gear::{GearPair, Member};
 use centrode_geometry::Tolerance;
-use centrode_mechanism::gear::{GearPair, Member};
 use pyo3::prelude::{Bound, PyAny, Python};
 
 use crate::error::{Answer, tolerance as within};

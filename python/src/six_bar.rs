@@ -1,7 +1,7 @@
 use std::collections::BTreeMap;
 
 use centrode_geometry::Point;
-use centrode_mechanism::linkage::{self, FourBar};
+use centrode_kinematics::linkage::{self, FourBar};
 use pyo3::prelude::{Bound, PyAny, PyResult, Python, pyclass, pymethods};
 
 use crate::array::{Course, Rows, Values, put, row};

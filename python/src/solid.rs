@@ -4,7 +4,7 @@ use centrode::family::FINEST;
 use centrode_export::step::{StepError, contours, poles, write_shell};
 use centrode_export::{Bundle, ExportError};
 use centrode_geometry::{Opening, Segment, Solid, Tolerance};
-use centrode_mechanism::machine::{Form, Joint, JointKind, Machine, Mounted, Shape};
+use centrode_kinematics::machine::{Form, Joint, JointKind, Machine, Mounted, Shape};
 use pyo3::prelude::{Bound, PyAny, PyDictMethods, PyResult, Python};
 use pyo3::types::{PyBytes, PyDict, PyTuple};
 

@@ -1,6 +1,6 @@
 //! Tables of a design as keyword classes.
 
-use centrode_mechanism::gear::design::Keyway as KeywaySpec;
+use centrode_kinematics::machine::Keyway as KeywaySpec;
 use pyo3::prelude::IntoPyObject;
 
 use crate::body::Keyway;
@@ -120,7 +120,7 @@ macro_rules! table {
                 $(if let Some($given) = $given {
                     table.$given = $crate::table::Value::of(concat!($place, stringify!($given)), $given)?;
                 })*
-                let rules: fn(&$spec) -> Result<(), centrode_mechanism::gear::design::SpecError> = $rules;
+                let rules: fn(&$spec) -> Result<(), centrode_spec::SpecError> = $rules;
                 rules(&table)?;
                 Ok(Self(table))
             }

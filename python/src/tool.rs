@@ -1,5 +1,5 @@
-use centrode_mechanism::gear::design as spec;
-use centrode_mechanism::gear::design::SpecError;
+use centrode_gear::design as spec;
+use centrode_spec::SpecError;
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::{Borrowed, FromPyObject, Py, PyAny, PyErr, PyResult, Python};

@@ -1,15 +1,15 @@
 //! Words of design files and calls, and what each stands for.
 
-use centrode_analysis::optimise::Strategy;
 use centrode_export::dxf::{Curves, Version};
-use centrode_mechanism::cam::design::Turn;
-use centrode_mechanism::design::{Projection, SheetSize};
-use centrode_mechanism::gear::design::{Addendum, Fit, Phase, TipShortening};
-use centrode_mechanism::gear::pitch::{Interpolation, Plane};
-use centrode_mechanism::linkage::Branch;
-use centrode_mechanism::reverse::{Aim, SplitKind};
-use centrode_mechanism::shaft::Scheme;
-use centrode_mechanism::three_arm::design::Direction;
+use centrode_gear::cam::design::Turn;
+use centrode_gear::design::{Addendum, Fit, Phase, TipShortening};
+use centrode_gear::pitch::{Interpolation, Plane};
+use centrode_gear::shaft::Scheme;
+use centrode_kinematics::linkage::Branch;
+use centrode_machines::three_arm::design::Direction;
+use centrode_spec::{Projection, SheetSize};
+use centrode_synthesis::optimise::Strategy;
+use centrode_synthesis::reverse::{Aim, SplitKind};
 
 use crate::error::{Answer, Raised};
 

@@ -15,9 +15,9 @@ use std::sync::mpsc::{self, RecvTimeoutError, Sender};
 use std::thread;
 use std::time::{Duration, Instant};
 
-use centrode_mechanism::design::Design;
-use centrode_mechanism::gear::GearPair;
-use centrode_mechanism::gear::design::GearPairDesign;
+use centrode_gear::GearPair;
+use centrode_gear::design::GearPairDesign;
+use centrode_spec::Design;
 use centrode_tests::{Points, bspline_pair, crossing};
 use proptest::strategy::{Strategy, ValueTree};
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};

@@ -1,5 +1,5 @@
-use centrode_mechanism::design::{Design, DesignSpec};
-use centrode_mechanism::gear::design::GearPairDesign;
+use centrode_gear::design::GearPairDesign;
+use centrode_spec::{Design, DesignSpec};
 use centrode_tests::{near_design, pitch};
 use proptest::prelude::{ProptestConfig, prop_assert, prop_assert_eq, proptest};
 

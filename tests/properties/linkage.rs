@@ -3,8 +3,8 @@
 use std::f64::consts::TAU;
 
 use centrode_geometry::{Jet, Point, Vector};
-use centrode_mechanism::linkage::{Branch, FourBar, LinkId, Linkage, SixBar};
-use centrode_mechanism::transmission::MotionJet;
+use centrode_kinematics::linkage::{Branch, FourBar, LinkId, Linkage, SixBar};
+use centrode_kinematics::transmission::MotionJet;
 use nalgebra::Matrix2;
 use proptest::prelude::{Just, ProptestConfig, Strategy, any, prop_assert, prop_oneof, proptest};
 
@@ -243,7 +243,7 @@ proptest! {
             let bars = linkage.rrr(at_b, at_d, (b, c), four_bar.branch())?;
             let carried = linkage.point(bars.first, Point::from(local))?;
             let second = linkage.rrr(carried, at_g, lengths, branch)?;
-            Ok::<_, centrode_mechanism::linkage::LinkageError>((linkage, carried, second.joint))
+            Ok::<_, centrode_kinematics::linkage::LinkageError>((linkage, carried, second.joint))
         };
         let (linkage, carried, joint) = build().expect("a linkage");
         let crank = Motion::crank(a, input);

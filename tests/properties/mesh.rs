@@ -1,6 +1,6 @@
 use centrode_analysis::{Contact, check};
+use centrode_gear::{Gear, GearPair};
 use centrode_geometry::{Extreme, Point, Tolerance};
-use centrode_mechanism::gear::{Gear, GearPair};
 use centrode_tests::sound_pair;
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay_rule::OverlayRule;

@@ -1,7 +1,7 @@
 use std::f64::consts::{PI, TAU};
 
+use centrode_gear::pitch::PitchSpec;
 use centrode_geometry::{Antiderivative, Curve};
-use centrode_mechanism::gear::pitch::PitchSpec;
 use centrode_tests::pitch;
 use proptest::prelude::{prop_assert, proptest};
 

@@ -5,10 +5,11 @@ use centrode::FAMILIES;
 use centrode_export::SheetOptions;
 use centrode_export::gear_pair::{Subject, sheets};
 use centrode_export::sheet::overlaps;
+use centrode_gear::GearPair;
+use centrode_gear::design::GearPairDesign;
 use centrode_geometry::Tolerance;
-use centrode_mechanism::design::{DesignSpec as _, Projection, SheetSize};
-use centrode_mechanism::gear::GearPair;
-use centrode_mechanism::gear::design::{GearPairDesign, Keyway};
+use centrode_kinematics::machine::Keyway;
+use centrode_spec::{DesignSpec as _, Projection, SheetSize};
 use centrode_tests::sound_pair;
 use proptest::prelude::{ProptestConfig, any, prop_assert, proptest};
 

@@ -1,10 +1,8 @@
+use centrode_gear::design::{Addendum, GearPairDesign};
+use centrode_gear::pitch::{Bspline, PitchSpec};
+use centrode_gear::{ConjugateCurve, GearPair, GearPairError, Member, ProfileError, Rolling};
 use centrode_geometry::{LoopError, Point, Segment, Tolerance, Unresolved};
-use centrode_mechanism::design::{Design, DesignSpec};
-use centrode_mechanism::gear::design::{Addendum, GearPairDesign};
-use centrode_mechanism::gear::pitch::{Bspline, PitchSpec};
-use centrode_mechanism::gear::{
-    ConjugateCurve, GearPair, GearPairError, Member, ProfileError, Rolling,
-};
+use centrode_spec::{Design, DesignSpec};
 use centrode_tests::{Points, bspline_pair, crossing, pitch, sound_pair};
 use proptest::prelude::{ProptestConfig, Strategy, any, prop_assert, prop_assert_eq, proptest};
 use proptest::test_runner::RngSeed;
@@ -115,7 +113,7 @@ proptest! {
         if fitted {
             design.teeth.addendum = Addendum::Fitted;
         }
-        if let centrode_mechanism::gear::design::ToolSpec::Rack(rack) = &mut design.tool {
+        if let centrode_gear::design::ToolSpec::Rack(rack) = &mut design.tool {
             rack.addendum_coefficient = height;
             rack.dedendum_coefficient = height + 0.25;
             rack.tip_radius_coefficient = 0.1;

@@ -4,9 +4,9 @@ use std::collections::BTreeSet;
 use std::fmt::Write as _;
 
 use centrode_analysis::{Goal, Report, Severity, check, check_three_arm};
-use centrode_mechanism::design::DesignSpec as _;
-use centrode_mechanism::three_arm::design::ThreeArmDesign;
-use centrode_mechanism::three_arm::{Parameter, ThreeArm};
+use centrode_machines::three_arm::design::ThreeArmDesign;
+use centrode_machines::three_arm::{Parameter, ThreeArm};
+use centrode_spec::DesignSpec as _;
 
 use crate::data::{documented, file};
 
@@ -53,10 +53,7 @@ fn its_full_teeth_carry_the_motion_over_the_whole_cycle() {
     for name in ["three-arm-all-goals", "three-arm-from-poses"] {
         let (mechanism, _) = machine(name);
         let teeth = &mechanism.design().teeth;
-        assert_eq!(
-            teeth.addendum,
-            centrode_mechanism::gear::design::Addendum::Full
-        );
+        assert_eq!(teeth.addendum, centrode_gear::design::Addendum::Full);
         let pair = mechanism.pair().expect("teeth");
         let report = check(&pair);
         let worst = report

@@ -6,11 +6,11 @@ use std::fs;
 use std::path::Path;
 
 use centrode_analysis::{Goal, Report, check_composed, check_feeder};
-use centrode_mechanism::composed::{Composed, ComposedDesign};
-use centrode_mechanism::design::DesignSpec;
-use centrode_mechanism::feeder::{Feeder, FeederDesign};
-use centrode_mechanism::shaft::{MovingBox, MovingBoxDesign};
-use centrode_mechanism::transmission::MotionJet;
+use centrode_gear::shaft::{MovingBox, MovingBoxDesign};
+use centrode_kinematics::transmission::MotionJet;
+use centrode_machines::composed::{Composed, ComposedDesign};
+use centrode_machines::feeder::{Feeder, FeederDesign};
+use centrode_spec::DesignSpec;
 
 const LOOKS: u32 = 500;
 

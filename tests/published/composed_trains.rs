@@ -3,11 +3,11 @@ use std::f64::consts::{PI, TAU};
 use centrode_analysis::between_arms;
 use centrode_analysis::composed_clearance;
 use centrode_geometry::{Outline, Point, Segment, Tolerance, Vector, extremes};
-use centrode_mechanism::composed::{Composed, ComposedDesign};
-use centrode_mechanism::design::DesignSpec as _;
-use centrode_mechanism::three_arm::ThreeArm;
-use centrode_mechanism::three_arm::design::ThreeArmDesign;
-use centrode_mechanism::transmission::MotionJet;
+use centrode_kinematics::transmission::MotionJet;
+use centrode_machines::composed::{Composed, ComposedDesign};
+use centrode_machines::three_arm::ThreeArm;
+use centrode_machines::three_arm::design::ThreeArmDesign;
+use centrode_spec::DesignSpec as _;
 use nalgebra::Rotation2;
 
 use crate::data::file;

@@ -3,11 +3,11 @@
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
-use centrode_analysis::optimise::six_bar::{
+use centrode_analysis::six_bar::{
     BestTransmissionAngle, LeastWidening, PUBLISHED_BOUNDS, WantedSwing,
 };
-use centrode_analysis::optimise::{Candidate, Method, Problem, Settings, minimise};
-use centrode_mechanism::linkage::{Branch, FourBar, Grashof, SixBar};
+use centrode_kinematics::linkage::{Branch, FourBar, Grashof, SixBar};
+use centrode_optimise::{Candidate, Method, Problem, Settings, minimise};
 
 const PUBLISHED: [f64; 4] = [77.0, 147.0, 127.0, 105.0];
 

@@ -1,7 +1,7 @@
 use std::f64::consts::{PI, TAU};
 
+use centrode_gear::pitch::{Bspline, Ellipse, LobedEllipse, Pitch, PitchSpec, Plane};
 use centrode_geometry::{Antiderivative, Curve};
-use centrode_mechanism::gear::pitch::{Bspline, Ellipse, LobedEllipse, Pitch, PitchSpec, Plane};
 
 use crate::data::{EllipticPair, LobedPair, TransplanterPair, cases};
 

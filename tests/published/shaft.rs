@@ -3,12 +3,12 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-use centrode_mechanism::cam::law::LawSpec;
-use centrode_mechanism::shaft::{
+use centrode_gear::cam::law::LawSpec;
+use centrode_gear::shaft::{
     AmplitudeFor, EllipticDrive, Groove, Load, Reversal, RotatedSine, Schedule, ShaftError,
     ShaftLaw, Sine, SliderSpec, SpeedLaw, Traverse,
 };
-use centrode_mechanism::transmission::{Chain, Transmission};
+use centrode_kinematics::transmission::{Chain, Transmission};
 
 const LEAD: f64 = 20.0;
 const RADIUS: f64 = 15.0;

@@ -3,12 +3,10 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use centrode_analysis::Contact;
+use centrode_gear::design::{GearPairDesign, Rack, Shaper, ToolSpec};
+use centrode_gear::{BaseTangentFault, Gear, GearPair, GearPairError, Member, Role, ToolKind};
 use centrode_geometry::{Vector, bracketed_minimum};
-use centrode_mechanism::design::DesignSpec as _;
-use centrode_mechanism::gear::design::{GearPairDesign, Rack, Shaper, ToolSpec};
-use centrode_mechanism::gear::{
-    BaseTangentFault, Gear, GearPair, GearPairError, Member, Role, ToolKind,
-};
+use centrode_spec::DesignSpec as _;
 
 /// Dedendum and tip radius of the rack, in modules; its addendum is 1.
 const DEDENDUM: f64 = 1.25;

@@ -3,9 +3,9 @@
 use std::f64::consts::{PI, SQRT_2, TAU};
 
 use centrode_analysis::{check, remedies};
-use centrode_mechanism::gear::design::{Addendum, Fit, GearPairDesign, Rack, ToolSpec};
-use centrode_mechanism::gear::pitch::{PitchSpec, Polar, Ratio, Transmission};
-use centrode_mechanism::gear::{GearPair, Member, ToothSide};
+use centrode_gear::design::{Addendum, Fit, GearPairDesign, Rack, ToolSpec};
+use centrode_gear::pitch::{PitchSpec, Polar, Ratio, Transmission};
+use centrode_gear::{GearPair, Member, ToothSide};
 use serde::Deserialize;
 
 use crate::data::{cases, file};

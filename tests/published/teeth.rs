@@ -1,9 +1,9 @@
 use std::f64::consts::TAU;
 
+use centrode_gear::GearPair;
+use centrode_gear::design::{GearPairDesign, Phase};
+use centrode_gear::pitch::{Circle, Ellipse, PitchSpec};
 use centrode_geometry::{Outline, Point, Segment};
-use centrode_mechanism::gear::GearPair;
-use centrode_mechanism::gear::design::{GearPairDesign, Phase};
-use centrode_mechanism::gear::pitch::{Circle, Ellipse, PitchSpec};
 use proptest::prelude::{ProptestConfig, prop_assert, proptest};
 
 use crate::data::{CircularGear, EllipticPair, cases};

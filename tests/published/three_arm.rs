@@ -1,12 +1,12 @@
 use std::fmt::Write as _;
 
 use centrode_analysis::{Goal, Unit, check_three_arm};
-use centrode_mechanism::design::DesignSpec as _;
-use centrode_mechanism::gear::design::Phase;
-use centrode_mechanism::gear::pitch::{PitchSpec, Plane};
-use centrode_mechanism::gear::{FlankCount, Member};
-use centrode_mechanism::three_arm::ThreeArm;
-use centrode_mechanism::three_arm::design::ThreeArmDesign;
+use centrode_gear::design::Phase;
+use centrode_gear::pitch::{PitchSpec, Plane};
+use centrode_gear::{FlankCount, Member};
+use centrode_machines::three_arm::ThreeArm;
+use centrode_machines::three_arm::design::ThreeArmDesign;
+use centrode_spec::DesignSpec as _;
 
 use crate::data::{ThreeArmReading, UndercutAtPhase, cases, documented, file};
 

@@ -1,6 +1,6 @@
 //! Findings of a disc cam.
 
-use centrode_mechanism::cam::Limits;
+use centrode_gear::cam::Limits;
 
 use crate::rounding::exceeds;
 use crate::{Finding, Place, Report, Severity, Unit};

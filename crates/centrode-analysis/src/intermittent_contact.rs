@@ -1,10 +1,10 @@
 use std::f64::consts::{PI, TAU};
 
+use centrode_gear::{Cam, IntermittentPair, Member};
 use centrode_geometry::{
     Extreme, Outline, Point, SampledPiece, Tolerance, Vector, bracketed_minimum_below, checkpoint,
 };
-use centrode_mechanism::gear::{Cam, IntermittentPair, Member};
-use centrode_mechanism::transmission::Transmission;
+use centrode_kinematics::transmission::Transmission;
 use nalgebra::Isometry2;
 
 use crate::progress::Steps;

@@ -1,6 +1,6 @@
 use centrode_geometry::Extreme;
-use centrode_mechanism::gear::design::Keyway;
-use centrode_mechanism::machine::{Key, allowed_pressure};
+use centrode_kinematics::machine::Keyway;
+use centrode_kinematics::machine::{Key, allowed_pressure};
 
 use crate::rounding::exceeds;
 use crate::{Finding, Place, Report, Severity, Unit};

@@ -12,7 +12,6 @@ pub mod interference;
 mod intermittent_contact;
 mod key_pressure;
 mod no_screws;
-pub mod optimise;
 mod progress;
 mod report;
 mod response;
@@ -20,22 +19,27 @@ mod rounding;
 mod severity;
 mod shaft;
 mod side_by_side;
+pub mod six_bar;
 mod three_arm;
 mod unit;
 
 pub use composed::{
     NoSoundTeeth, SoundTeeth, check_composed, check_composed_goals, check_composed_motion,
-    composed_clearance, composed_collisions, composed_figures, composed_layers, with_sound_teeth,
+    composed_clearance, composed_collisions, composed_figures, composed_layers, machine_goals,
+    with_sound_teeth,
 };
 pub use contact::{
     Contact, ContactExtremes, Proof, ProofError, ProofMeeting, ProofStretch, SeatJump, prove,
 };
 pub use feeder::{
     Attainable, FeederForces, FeederForcesError, SixBarTolerances, SwingSpread, check_feeder,
-    check_strokes,
+    check_strokes, feeder_goals,
 };
 pub use figure::{FigureGroup, FigureRow, JsonNumber};
-pub use gear_pair::{MOST_TEETH, PairRemedy, check, check_contact, pitch_overlap, remedies};
+pub use gear_pair::{
+    MOST_TEETH, PairRemedy, SLIGHT_TRANSMISSION_ERROR, check, check_contact, pitch_overlap,
+    remedies,
+};
 pub use goal::Goal;
 pub use intermittent_contact::IntermittentContact;
 pub use progress::Progress;
@@ -47,6 +51,6 @@ pub use side_by_side::prepare_threads;
 pub use three_arm::{
     ArmClearance, ArmClearanceCourse, ArmClearanceError, TrainTeeth, Variants, VariantsError,
     arm_clearance_course, between_arms, carrier_turn, check_arms, check_three_arm,
-    check_three_arm_teeth, goals,
+    check_three_arm_teeth, three_arm_goals, three_arm_reached,
 };
 pub use unit::Unit;

@@ -1,4 +1,4 @@
-use centrode_mechanism::machine::{Fastening, FasteningError};
+use centrode_kinematics::machine::{Fastening, FasteningError};
 
 use crate::{Finding, Place, Severity, Unit};
 

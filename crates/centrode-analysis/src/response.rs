@@ -1,7 +1,7 @@
 use std::borrow::Cow;
 
 use centrode_geometry::Cancel;
-use centrode_mechanism::design::{Design, DesignError, MechanismError};
+use centrode_spec::{Design, DesignError, MechanismError};
 use rayon::prelude::{IntoParallelIterator, ParallelIterator};
 use serde::Serialize;
 

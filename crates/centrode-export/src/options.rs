@@ -1,6 +1,6 @@
 use centrode_geometry::Tolerance;
-use centrode_mechanism::design::{Projection, SheetSize};
-use centrode_mechanism::machine::Datum;
+use centrode_kinematics::machine::Datum;
+use centrode_spec::{Projection, SheetSize};
 
 use crate::dxf;
 

@@ -1,7 +1,7 @@
 mod solids;
 
 use centrode_geometry::Tolerance;
-use centrode_mechanism::machine::Machine;
+use centrode_kinematics::machine::Machine;
 
 use crate::{
     Bundle, ExportError, Format, Options,

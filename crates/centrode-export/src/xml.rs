@@ -1,6 +1,6 @@
 //! Text within XML files: SVG, 3MF, URDF and MJCF.
 
-use centrode_mechanism::design::is_control;
+use centrode_spec::is_control;
 
 /// Text for an element or an attribute in double quotes: reserved characters become entities, those that XML cannot hold a space.
 pub(crate) fn escaped(text: &str) -> String {

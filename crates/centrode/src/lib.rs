@@ -4,8 +4,13 @@
 
 pub use centrode_analysis as analysis;
 pub use centrode_export as export;
+pub use centrode_gear as gear;
 pub use centrode_geometry as geometry;
-pub use centrode_mechanism as mechanism;
+pub use centrode_kinematics as kinematics;
+pub use centrode_machines as machines;
+pub use centrode_optimise as optimise;
+pub use centrode_spec as spec;
+pub use centrode_synthesis as synthesis;
 
 #[cfg(feature = "cli")]
 pub mod cli;
@@ -15,8 +20,8 @@ mod internal_fault;
 pub use family::FAMILIES;
 pub use internal_fault::InternalFault;
 
+use centrode_kinematics::machine::Datum;
 use export::gear_pair::contact_data;
-use mechanism::machine::Datum;
 
 /// Figures of a report for drawing sheets: the pairs of teeth in contact, and the normal backlash,
 /// mm. None for gears that do not hold each other, and for machines without a pair of their own.

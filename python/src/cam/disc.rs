@@ -3,7 +3,7 @@ use std::sync::Arc;
 
 use centrode_export::Options;
 use centrode_export::cam as export;
-use centrode_mechanism::cam::{Cam, Contact, Extreme, design as spec};
+use centrode_gear::cam::{Cam, Contact, Extreme, design as spec};
 use pyo3::prelude::{Bound, PyAny, PyRef, PyResult, Python, pyclass, pymethods};
 use pyo3::types::PyDict;
 

@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use centrode_mechanism::cam::design::MotionSpec;
-use centrode_mechanism::cam::{Cam, CamError, Fork as Mechanism, Lever, Motion, RodJoint};
-use centrode_mechanism::transmission::MotionJet;
+use centrode_gear::cam::design::MotionSpec;
+use centrode_gear::cam::{Cam, CamError, Fork as Mechanism, Lever, Motion, RodJoint};
+use centrode_kinematics::transmission::MotionJet;
 use pyo3::prelude::{Bound, PyAnyMethods, PyRef, PyResult, Python, pyclass, pymethods};
 
 use super::disc::DiscCam;

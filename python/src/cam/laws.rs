@@ -1,6 +1,6 @@
 use std::collections::BTreeMap;
 
-use centrode_mechanism::cam::law as mechanism;
+use centrode_gear::cam::law as mechanism;
 use pyo3::prelude::{PyResult, Python, pyclass, pyfunction, pymethods};
 use pyo3::types::PyTuple;
 

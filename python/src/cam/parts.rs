@@ -1,7 +1,7 @@
 //! Segments of a motion and kinds of follower: keywords as in the design file, angles in radians.
 
-use centrode_mechanism::cam::design as spec;
-use centrode_mechanism::cam::law::LawSpec;
+use centrode_gear::cam::design as spec;
+use centrode_gear::cam::law::LawSpec;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::{
     Borrowed, FromPyObject, PyAny, PyErr, PyRef, PyResult, Python, pyclass, pyfunction, pymethods,

@@ -1,9 +1,9 @@
 use std::sync::Arc;
 
 use centrode_analysis::with_sound_teeth;
-use centrode_mechanism::design::MechanismError;
-use centrode_mechanism::reverse::{GearDrive as Found, GearDriveSpec, Timing};
-use centrode_mechanism::transmission::Transmission as _;
+use centrode_kinematics::transmission::Transmission as _;
+use centrode_spec::MechanismError;
+use centrode_synthesis::reverse::{GearDrive as Found, GearDriveSpec, Timing};
 use pyo3::prelude::{Py, PyRef, PyResult, Python, pyclass, pyfunction, pymethods};
 
 use super::Machine;

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use centrode_analysis::composed_clearance;
 use centrode_geometry::Point;
-use centrode_mechanism::composed::Composed;
+use centrode_machines::composed::Composed;
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::{
     Bound, PyAny, PyClassInitializer, PyRef, PyResult, Python, pyclass, pymethods,

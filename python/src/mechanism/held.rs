@@ -6,7 +6,7 @@ use centrode::family::{self, Depth, Family};
 use centrode::sheet_data;
 use centrode_export::machine::tabulated;
 use centrode_export::{Bundle, ExportError, Format, Options};
-use centrode_mechanism::machine::{FrameJet, Machine};
+use centrode_kinematics::machine::{FrameJet, Machine};
 use pyo3::prelude::{Bound, PyAny, PyClassInitializer, PyDictMethods, PyResult, Python, pyclass};
 use pyo3::types::PyDict;
 

@@ -5,8 +5,8 @@ mod held;
 use std::path::PathBuf;
 use std::sync::Arc;
 
-use centrode_analysis::optimise::Settings;
 use centrode_export::ExportError;
+use centrode_optimise::Settings;
 use pyo3::prelude::{
     Bound, PyAny, PyAnyMethods, PyDictMethods, PyResult, PyTypeMethods, Python, pymethods,
 };

@@ -1,6 +1,6 @@
 //! One function a kind of pitch curve: keywords as in the design file, angles in radians.
 
-use centrode_mechanism::gear::pitch as spec;
+use centrode_gear::pitch as spec;
 use pyo3::prelude::{Borrowed, FromPyObject, PyAny, PyErr, PyRef, PyResult, pyfunction};
 
 use super::Pitch;

@@ -1,9 +1,9 @@
 pub(crate) mod kinds;
 
+use centrode_gear::design::GearPairDesign;
+use centrode_gear::pitch as spec;
 use centrode_geometry::Jet;
-use centrode_mechanism::design::{Design as _, DesignSpec as _};
-use centrode_mechanism::gear::design::GearPairDesign;
-use centrode_mechanism::gear::pitch as spec;
+use centrode_spec::{Design as _, DesignSpec as _};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::{Bound, PyAny, PyAnyMethods, PyModule, Python, pyclass, pyfunction, pymethods};
 

@@ -1,9 +1,9 @@
 use std::ops::ControlFlow;
 
-use centrode_analysis::optimise::{Easing, EasingSpec};
 use centrode_analysis::{Finding, Goal};
 use centrode_geometry::Point;
-use centrode_mechanism::reverse::{Aim, AxisRange, DrawnPath, TwoBar, Wishes};
+use centrode_synthesis::optimise::{Easing, EasingSpec};
+use centrode_synthesis::reverse::{Aim, AxisRange, DrawnPath, TwoBar, Wishes};
 use pyo3::prelude::{Python, pyfunction};
 
 use crate::array::{Rows, Values};

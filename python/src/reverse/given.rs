@@ -1,9 +1,9 @@
 use std::sync::OnceLock;
 
 use centrode_analysis::Finding;
-use centrode_analysis::optimise::{EasingError, axis_at_border};
 use centrode_geometry::{Bounds, Point};
-use centrode_mechanism::reverse::{
+use centrode_synthesis::optimise::{EasingError, axis_at_border};
+use centrode_synthesis::reverse::{
     AxisMap, KeyPose, KeyPoses, PathDesign, SplitKind, TwoBar, WantedPath,
 };
 use pyo3::prelude::{Bound, Python, pyfunction};

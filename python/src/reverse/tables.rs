@@ -1,4 +1,4 @@
-use centrode_mechanism::reverse::{AxisFault, AxisMap, PossibleAxis, ReversedMachine};
+use centrode_synthesis::reverse::{AxisFault, AxisMap, PossibleAxis, ReversedMachine};
 use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::prelude::{Bound, PyAny, PyResult, Python};
 use pyo3::types::PyTuple;

@@ -1,6 +1,6 @@
 //! Wishes about a machine as Python gives them.
 
-use centrode_mechanism::reverse::Wishes;
+use centrode_synthesis::reverse::Wishes;
 use pyo3::prelude::{Bound, PyAny, PyAnyMethods, PyResult, Python};
 use pyo3::types::{IntoPyDict, PyDict};
 

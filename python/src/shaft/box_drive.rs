@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use centrode::family::Mechanism as Mechanical;
-use centrode_mechanism::machine::GuideForce;
-use centrode_mechanism::shaft::{Load, MovingBox, SpiralShaft};
-use centrode_mechanism::transmission::{MotionJet, Transmission};
+use centrode_gear::shaft::{Load, MovingBox, SpiralShaft};
+use centrode_kinematics::machine::GuideForce;
+use centrode_kinematics::transmission::{MotionJet, Transmission};
 use pyo3::prelude::{Bound, PyAny, PyClassInitializer, Python, pyclass, pymethods};
 
 use crate::array::{Course, Values};

@@ -1,8 +1,8 @@
 use std::sync::Arc;
 
-use centrode_mechanism::cam::law::LawSpec;
-use centrode_mechanism::shaft as mechanism;
-use centrode_mechanism::shaft::{
+use centrode_gear::cam::law::LawSpec;
+use centrode_gear::shaft as mechanism;
+use centrode_gear::shaft::{
     GrooveSpec, Load, RotatedSine, Sine, SpeedFormula, SpeedLaw, SpeedTable, SpiralShaftDesign,
     Wall,
 };

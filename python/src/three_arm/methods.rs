@@ -2,8 +2,8 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use centrode_analysis::between_arms;
-use centrode_mechanism::three_arm::ThreeArmLink;
-use centrode_mechanism::three_arm::design::{ArmSpec, ThreeArmDesign, WorkSpec};
+use centrode_machines::three_arm::ThreeArmLink;
+use centrode_machines::three_arm::design::{ArmSpec, ThreeArmDesign, WorkSpec};
 use pyo3::prelude::{
     Bound, Py, PyAny, PyClassInitializer, PyDictMethods, PyRef, Python, pymethods,
 };

@@ -3,8 +3,8 @@ mod variants;
 
 use std::sync::Arc;
 
-use centrode_mechanism::three_arm as mechanism;
-use centrode_mechanism::three_arm::PointMotion;
+use centrode_machines::three_arm as mechanism;
+use centrode_machines::three_arm::PointMotion;
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::{PyClassInitializer, pyclass};
 

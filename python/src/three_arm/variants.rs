@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use centrode_analysis::{Variants, VariantsError};
-use centrode_mechanism::three_arm::design::ThreeArmDesign;
+use centrode_machines::three_arm::design::ThreeArmDesign;
 use numpy::PyArray1;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::{Bound, PyResult, Python};

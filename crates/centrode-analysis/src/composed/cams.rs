@@ -1,7 +1,7 @@
 use std::f64::consts::{FRAC_PI_4, FRAC_PI_6};
 
-use centrode_mechanism::composed::{Composed, ComposedCam};
-use centrode_mechanism::machine::Spacer;
+use centrode_kinematics::machine::Spacer;
+use centrode_machines::composed::{Composed, ComposedCam};
 
 use crate::cam::CheckedCam;
 use crate::{Finding, Place, Report, Severity, Table, Unit};

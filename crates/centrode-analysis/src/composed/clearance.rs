@@ -1,6 +1,6 @@
 use centrode_geometry::Tolerance;
-use centrode_mechanism::composed::{ClearanceEnd, Composed, ComposedFigure};
-use centrode_mechanism::machine::{Machine, Surface};
+use centrode_kinematics::machine::{Machine, Surface};
+use centrode_machines::composed::{ClearanceEnd, Composed, ComposedFigure};
 
 use super::goals::Found;
 use crate::interference::{LinkClearanceError, LinkPair};

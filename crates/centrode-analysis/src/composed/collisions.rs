@@ -1,8 +1,8 @@
 //! Plates and gears that collide.
 
 use centrode_geometry::{Bounds, Point, Tolerance, Vector, greatest_of};
-use centrode_mechanism::composed::{Composed, ComposedDesign};
-use centrode_mechanism::machine::{JointKind, Machine, Surface};
+use centrode_kinematics::machine::{JointKind, Machine, Surface};
+use centrode_machines::composed::{Composed, ComposedDesign};
 
 use super::clearance::surfaces;
 use super::{Made, ends as ends_of, through};

@@ -1,8 +1,8 @@
 use std::sync::{Mutex, PoisonError};
 
 use centrode_geometry::{Antiderivative, Extreme, greatest_of, rounding};
-use centrode_mechanism::composed::{Composed, ComposedFigure};
-use centrode_mechanism::machine::{JointKind, Load, Machine};
+use centrode_kinematics::machine::{JointKind, Load, Machine};
+use centrode_machines::composed::{Composed, ComposedFigure};
 
 use super::{ends, keys};
 use crate::forces::{Balance, Forces, ForcesError};

@@ -1,5 +1,5 @@
 use centrode_geometry::{Tolerance, extremes, greatest_of, rounding};
-use centrode_mechanism::composed::{
+use centrode_machines::composed::{
     ClearanceEnd, Composed, ComposedFigure, ComposedGoalSpec, Over, PointPart,
 };
 

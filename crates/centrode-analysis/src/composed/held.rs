@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-use centrode_mechanism::composed::{Composed, Hardware, Hold, Overhang};
-use centrode_mechanism::machine::allowed_pressure;
+use centrode_kinematics::machine::allowed_pressure;
+use centrode_machines::composed::{Composed, Hardware, Hold, Overhang};
 
 use crate::rounding::exceeds;
 use crate::{Finding, Place, Report, Severity, Unit};

@@ -1,10 +1,10 @@
 use std::f64::consts::TAU;
 
 use centrode_geometry::{Extreme, bracketed_root};
-use centrode_mechanism::composed::{Composed, DyadKind};
-use centrode_mechanism::linkage::{Branch, FourBar};
-use centrode_mechanism::machine::JointKind;
-use centrode_mechanism::transmission::Transmission;
+use centrode_kinematics::linkage::{Branch, FourBar};
+use centrode_kinematics::machine::JointKind;
+use centrode_kinematics::transmission::Transmission;
+use centrode_machines::composed::{Composed, DyadKind};
 
 use super::motion::Motion;
 use crate::{Report, Table, Unit};

@@ -1,8 +1,8 @@
 //! Keys of the shafts under the torque that they pass on.
 
 use centrode_geometry::Extreme;
-use centrode_mechanism::composed::{Composed, ComposedShaft, Hold, ShaftPart};
-use centrode_mechanism::machine::Key;
+use centrode_kinematics::machine::Key;
+use centrode_machines::composed::{Composed, ComposedShaft, Hold, ShaftPart};
 
 use crate::Report;
 use crate::forces::Forces;

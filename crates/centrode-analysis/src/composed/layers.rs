@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use centrode_mechanism::composed::{Composed, ComposedDesign, Hardware, LayerOrders};
+use centrode_machines::composed::{Composed, ComposedDesign, Hardware, LayerOrders};
 
 use super::{Made, collisions, ends as ends_of};
 use crate::{Finding, Place, Report, Severity, Unit};

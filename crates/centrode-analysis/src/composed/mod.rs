@@ -21,8 +21,8 @@ use std::f64::consts::PI;
 use std::sync::{Arc, OnceLock};
 
 use centrode_geometry::{Extreme, pieces};
-use centrode_mechanism::composed::{Composed, Hardware};
-use centrode_mechanism::machine::{Machine, Supply};
+use centrode_kinematics::machine::{Machine, Supply};
+use centrode_machines::composed::{Composed, Hardware};
 
 pub use self::clearance::composed_clearance;
 pub use self::collisions::composed_collisions;
@@ -180,7 +180,8 @@ fn add_goals(made: &Made<'_>, report: &mut Report) {
 }
 
 /// The goals of a composed machine with their figures.
-pub(crate) fn goals_of(composed: &Composed) -> Vec<Goal> {
+#[must_use]
+pub fn machine_goals(composed: &Composed) -> Vec<Goal> {
     let found = goals::goals(&Made::new(composed)).into_iter();
     found.map(|found| found.goal).collect()
 }

@@ -1,5 +1,5 @@
 use centrode_geometry::{Extreme, Point, greatest_of, rounding};
-use centrode_mechanism::composed::Composed;
+use centrode_machines::composed::Composed;
 
 /// Extremes over the cycle of all that a check tells of the motion, found in one sweep.
 pub(super) struct Motion {

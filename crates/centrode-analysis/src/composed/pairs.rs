@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
+use centrode_gear::design::GearPairDesign;
 use centrode_geometry::Recent;
-use centrode_mechanism::composed::Composed;
-use centrode_mechanism::gear::design::GearPairDesign;
+use centrode_machines::composed::Composed;
 
 use super::Made;
 use crate::progress::filling;
@@ -61,7 +61,7 @@ pub(super) fn pairs(made: &Made<'_>, report: &mut Report) {
 
 #[cfg(test)]
 mod tests {
-    use centrode_mechanism::composed::PAIR_FIGURES;
+    use centrode_machines::composed::PAIR_FIGURES;
 
     #[test]
     fn every_figure_of_a_pair_that_goals_can_name_is_one_of_its_check() {

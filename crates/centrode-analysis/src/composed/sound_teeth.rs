@@ -2,10 +2,10 @@
 
 use std::f64::consts::PI;
 
+use centrode_gear::design::{Addendum, GearPairDesign};
+use centrode_gear::{FlankCount, GearPair, GearPairError};
 use centrode_geometry::checkpoint;
-use centrode_mechanism::composed::ComposedDesign;
-use centrode_mechanism::gear::design::{Addendum, GearPairDesign};
-use centrode_mechanism::gear::{FlankCount, GearPair, GearPairError};
+use centrode_machines::composed::ComposedDesign;
 
 use crate::MOST_TEETH;
 use crate::gear_pair::{is_carried, least_count};

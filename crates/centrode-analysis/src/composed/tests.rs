@@ -1,5 +1,5 @@
-use centrode_mechanism::composed::{Composed, ComposedDesign};
-use centrode_mechanism::design::DesignSpec;
+use centrode_machines::composed::{Composed, ComposedDesign};
+use centrode_spec::DesignSpec;
 
 use super::*;
 
@@ -334,30 +334,6 @@ fn figures_that_are_not_there_are_told_at_their_goal() {
         assert!(error.to_string().contains(told), "{error}");
         assert!(error.key().starts_with("goals.a."), "{}", error.key());
     }
-}
-
-#[test]
-fn a_search_finds_lengths_that_meet_the_goals() {
-    use crate::optimise::composed::ComposedProblem;
-    use crate::optimise::{DesignProblem, DesignSearch, Ended, Settings, Strategy};
-
-    let text = format!(
-        "{MACHINE}[goals.swing]\nfigure = \"rocker.swing\"\nover = \"span\"\nbetween = [59.95, 60.05]\n[goals.holds]\nfigure = \"transmission(four-bar)\"\nover = \"least\"\nat_least = 24\n[vary]\n\"bodies.crank.points.B[0]\" = [20, 80]\n\"dyads.four-bar.lengths[0]\" = [100, 180]\n"
-    );
-    let design = ComposedDesign::from_toml(&text).expect("a design");
-    let problem = ComposedProblem::new(&design).expect("a problem");
-    let (_, strategy) = Strategy::NAMES[1];
-    let settings = Settings {
-        evaluations: 3000,
-        seed: 2,
-        ..Settings::default()
-    };
-    let mut search = DesignSearch::new(&problem, strategy, settings).expect("a search");
-    let ended = search.run(&problem, &mut |_| std::ops::ControlFlow::Continue(()));
-    assert_eq!(ended, Ended::Target);
-    let best = problem.goals(&search.best()).expect("a machine");
-    assert!(best.iter().all(|goal| goal.met() == Some(true)), "{best:?}");
-    assert!(ComposedProblem::new(&ComposedDesign::from_toml(MACHINE).expect("a design")).is_err());
 }
 
 #[test]

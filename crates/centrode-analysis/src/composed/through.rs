@@ -3,8 +3,8 @@
 use std::cell::OnceCell;
 
 use centrode_geometry::{Outline, Point, Tolerance};
-use centrode_mechanism::composed::{Composed, Frames};
-use centrode_mechanism::machine::{Form, Machine, SpacerKind, Surface, TurnedPiece, TurnedPieces};
+use centrode_kinematics::machine::{Form, Machine, SpacerKind, Surface, TurnedPiece, TurnedPieces};
+use centrode_machines::composed::{Composed, Frames};
 
 use super::collisions::{PartSurfaces, findings, overlaps};
 use crate::Report;

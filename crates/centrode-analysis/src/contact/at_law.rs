@@ -1,7 +1,7 @@
 //! Clearances with the driven gear at the law's angle, which needs no seat.
 
+use centrode_gear::PitchContact;
 use centrode_geometry::checkpoint;
-use centrode_mechanism::gear::PitchContact;
 
 use super::{
     meshing::Meshing,

@@ -1,7 +1,7 @@
 use std::cell::OnceCell;
 
+use centrode_gear::{Gear, Role};
 use centrode_geometry::{Outline, Point, Segment, SegmentJet, Vector};
-use centrode_mechanism::gear::{Gear, Role};
 
 use super::{
     span::{self, Span},

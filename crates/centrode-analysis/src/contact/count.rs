@@ -1,7 +1,7 @@
 //! Pairs of teeth in contact along a period, from the driver angles at which a contact comes to an edge of a flank or leaves it.
 
+use centrode_gear::GearPair;
 use centrode_geometry::Extreme;
-use centrode_mechanism::gear::GearPair;
 
 use super::{Contact, cycle::period, edges::EdgeContact, meshing::Meshing};
 

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use centrode_mechanism::gear::{GearPair, Member};
+use centrode_gear::{GearPair, Member};
 
 use super::{Contact, sample::Sample};
 

@@ -1,7 +1,7 @@
 //! Driver angles at which a contact reaches the end of a flank.
 
+use centrode_gear::{Member, PitchContact, Role};
 use centrode_geometry::{Point, SegmentJet, Vector};
-use centrode_mechanism::gear::{Member, PitchContact, Role};
 
 use super::{
     body::{GearOutline, OutlinePart},

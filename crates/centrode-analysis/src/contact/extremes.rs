@@ -1,7 +1,7 @@
 //! Greatest and least figures of a contact, sought between its samples.
 
+use centrode_gear::GearPair;
 use centrode_geometry::{Extreme, bracketed_minimum_below};
-use centrode_mechanism::gear::GearPair;
 
 use super::{
     CARRIED, Contact, at_angle, clearances,

@@ -2,8 +2,8 @@
 
 use std::ops::Range;
 
+use centrode_gear::{Member, Role};
 use centrode_geometry::{Extreme, Point, SegmentJet, Vector, bracketed_minimum_below};
-use centrode_mechanism::gear::{Member, Role};
 
 use super::{
     at_angle,

@@ -1,6 +1,6 @@
 //! Seats that jump: a tooth comes between the teeth that hold the driven gear, without touching where it was held before.
 
-use centrode_mechanism::gear::GearPair;
+use centrode_gear::GearPair;
 
 use super::{Contact, meshing::Meshing, seat::Seat, touch::Pose};
 

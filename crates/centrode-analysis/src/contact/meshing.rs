@@ -1,7 +1,7 @@
 use std::cell::RefCell;
 
+use centrode_gear::{GearPair, PitchContact};
 use centrode_geometry::{Point, Vector, checkpoint};
-use centrode_mechanism::gear::{GearPair, PitchContact};
 
 use super::{
     body::GearOutline,

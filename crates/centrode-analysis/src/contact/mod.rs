@@ -33,9 +33,9 @@ mod window;
 
 use std::ops::Range;
 
+use centrode_gear::design::Addendum;
+use centrode_gear::{GearPair, PitchContact, Tooth, ToothSide};
 use centrode_geometry::Cancel;
-use centrode_mechanism::gear::design::Addendum;
-use centrode_mechanism::gear::{GearPair, PitchContact, Tooth, ToothSide};
 use cycle::Cycle;
 pub use extremes::ContactExtremes;
 pub use jumps::SeatJump;

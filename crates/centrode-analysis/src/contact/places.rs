@@ -1,7 +1,7 @@
 //! Points at which the outlines of two gears face each other in one pose.
 
+use centrode_gear::{Member, Role};
 use centrode_geometry::{Point, Vector, checkpoint};
-use centrode_mechanism::gear::{Member, Role};
 
 use super::{
     body::{Cone, Corner, OutlinePart},

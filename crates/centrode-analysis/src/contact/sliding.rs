@@ -1,7 +1,7 @@
 //! Sliding speed of the teeth in contact.
 
+use centrode_gear::{PitchContact, Role};
 use centrode_geometry::{Point, Vector};
-use centrode_mechanism::gear::{PitchContact, Role};
 
 use super::{
     body::GearOutline,

@@ -1,9 +1,10 @@
 pub(crate) mod closed_forms;
 
-use centrode_mechanism::design::DesignSpec as _;
-use centrode_mechanism::gear::GearPair;
-use centrode_mechanism::gear::design::{Addendum, GearPairDesign};
-use centrode_mechanism::three_arm::{ThreeArm, design::ThreeArmDesign};
+use centrode_gear::GearPair;
+use centrode_gear::design::{Addendum, GearPairDesign};
+use centrode_machines::three_arm::ThreeArm;
+use centrode_machines::three_arm::design::ThreeArmDesign;
+use centrode_spec::DesignSpec as _;
 
 use super::{
     Contact, ProofError, ProofStretch, at_angle, meshing::Meshing, prove, touch::Pose,

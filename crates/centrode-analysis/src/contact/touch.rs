@@ -1,5 +1,5 @@
+use centrode_gear::{GearPair, PitchContact};
 use centrode_geometry::{Point, SegmentJet, Vector};
-use centrode_mechanism::gear::{GearPair, PitchContact};
 
 use super::body::{Corner, OutlinePart};
 

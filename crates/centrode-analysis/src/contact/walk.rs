@@ -3,8 +3,8 @@
 use std::f64::consts::{PI, TAU};
 use std::ops::Range;
 
+use centrode_gear::{GearPair, Member, PitchContact};
 use centrode_geometry::{Point, bracketed_root, checkpoint};
-use centrode_mechanism::gear::{GearPair, Member, PitchContact};
 
 use super::{
     at_angle,

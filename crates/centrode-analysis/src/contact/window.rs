@@ -1,7 +1,7 @@
 use std::f64::consts::{PI, TAU};
 
+use centrode_gear::GearPair;
 use centrode_geometry::{Point, Vector};
-use centrode_mechanism::gear::GearPair;
 
 use super::{
     SAMPLES_PER_PITCH,

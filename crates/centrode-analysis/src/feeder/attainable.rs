@@ -2,10 +2,10 @@ use std::f64::consts::FRAC_PI_2;
 use std::fmt;
 use std::ops::ControlFlow;
 
-use centrode_mechanism::feeder::FeederDesign;
+use centrode_machines::feeder::FeederDesign;
 
-use crate::optimise::six_bar::{BestTransmissionAngle, LeastWidening, Lengths};
-use crate::optimise::{Candidate, Method, Problem, Settings, minimise};
+use crate::six_bar::{BestTransmissionAngle, LeastWidening, Lengths};
+use centrode_optimise::{Candidate, Method, Problem, Settings, minimise};
 
 /// Evaluations of the search for the best attainable transmission angle.
 const ATTAINABLE: u64 = 20_000;

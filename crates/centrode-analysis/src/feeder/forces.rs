@@ -1,8 +1,8 @@
 use std::cell::Cell;
 
 use centrode_geometry::{Extreme, SolidError, Vector, greatest_each};
-use centrode_mechanism::feeder::{Feeder, FeederError, FeederPart};
-use centrode_mechanism::machine::Key;
+use centrode_kinematics::machine::Key;
+use centrode_machines::feeder::{Feeder, FeederError, FeederPart};
 
 use crate::forces::{Balance, Forces, ForcesError};
 use crate::key_pressure::LoadedKey;

@@ -1,8 +1,8 @@
 use std::sync::Arc;
 
 use centrode_geometry::{Recent, Tolerance};
-use centrode_mechanism::feeder::{Feeder, GearsSpec};
-use centrode_mechanism::machine::limits_of_size;
+use centrode_kinematics::machine::limits_of_size;
+use centrode_machines::feeder::{Feeder, GearsSpec};
 
 use crate::gear_pair::negative_backlash;
 use crate::rounding::exceeds;

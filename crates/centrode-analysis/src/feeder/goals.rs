@@ -1,21 +1,14 @@
 use std::f64::consts::{PI, TAU};
 
-use centrode_mechanism::feeder::{Feeder, FeederGoals};
-use centrode_mechanism::linkage::SixBar;
+use centrode_machines::feeder::{Feeder, FeederGoals};
 
 use super::Attainable;
 use crate::report::Missed;
 use crate::{Goal, Report, Unit};
 
-/// Crank angle of the feed stroke, rad.
-pub(crate) fn feed_stroke(six_bar: &SixBar) -> f64 {
-    let extremes = six_bar.extremes();
-    let one = (extremes.high.0 - extremes.low.0).rem_euclid(TAU);
-    one.max(TAU - one)
-}
-
 /// Every goal with its figure, in the order of their numbers.
-pub(crate) fn goals(feeder: &Feeder) -> Vec<Goal> {
+#[must_use]
+pub fn feeder_goals(feeder: &Feeder) -> Vec<Goal> {
     let FeederGoals {
         swing,
         swing_tolerance,
@@ -75,7 +68,7 @@ pub(crate) fn goals(feeder: &Feeder) -> Vec<Goal> {
     goals.extend([
         least(
             (5, "quick-return", "crank turns for the feed stroke"),
-            feed_stroke(six_bar),
+            six_bar.extremes().longer_stroke(),
             TAU * quick_return / (1.0 + quick_return),
             Unit::Angle,
             PI,

@@ -12,12 +12,12 @@ mod tests;
 
 use std::f64::consts::{PI, TAU};
 
-use centrode_mechanism::feeder::Feeder;
-use centrode_mechanism::transmission::Transmission;
+use centrode_kinematics::transmission::Transmission;
+use centrode_machines::feeder::Feeder;
 
 pub use attainable::Attainable;
 pub use forces::{FeederForces, FeederForcesError};
-pub(crate) use goals::{feed_stroke, goals};
+pub use goals::feeder_goals;
 pub use swing_spread::{SixBarTolerances, SwingSpread};
 
 use self::figures::FIGURES;
@@ -47,7 +47,7 @@ pub fn check_feeder(feeder: &Feeder) -> Report {
 #[must_use]
 pub fn check_strokes(feeder: &Feeder) -> Report {
     let mut report = Report {
-        goals: goals(feeder),
+        goals: feeder_goals(feeder),
         groups: FIGURES.to_vec(),
         ..Report::default()
     };
@@ -95,7 +95,7 @@ fn linkage(feeder: &Feeder, report: &mut Report) {
         values.insert("rocker_swing", swing);
     }
     values.insert("slider_distance_min", six_bar.least_slider_distance());
-    let slow = feed_stroke(six_bar);
+    let slow = six_bar.extremes().longer_stroke();
     values.insert("feed_crank_angle", slow);
     values.insert("crank_quick_return", slow / (TAU - slow));
     if let Some(distance) = feeder.distance_from_chord() {

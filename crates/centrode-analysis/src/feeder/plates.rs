@@ -1,5 +1,5 @@
 use centrode_geometry::{Extreme, least};
-use centrode_mechanism::feeder::{Feeder, FeederPart};
+use centrode_machines::feeder::{Feeder, FeederPart};
 
 use crate::{Finding, Place, Report, Severity, Unit};
 

@@ -1,8 +1,8 @@
 use centrode_geometry::{Vector, checkpoint};
-use centrode_mechanism::linkage::{FourBar, SixBar};
+use centrode_kinematics::linkage::{FourBar, SixBar};
 use serde::{Deserialize, Serialize};
 
-use crate::optimise::Random;
+use centrode_optimise::Random;
 
 /// Tolerances of the dimensions of a six-bar: each is uniformly distributed within plus or minus this, mm.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
@@ -87,7 +87,7 @@ impl SwingSpread {
 mod tests {
     use std::f64::consts::PI;
 
-    use centrode_mechanism::linkage::Branch;
+    use centrode_kinematics::linkage::Branch;
 
     use super::*;
 

@@ -1,7 +1,7 @@
 use super::*;
 use crate::forces::Forces;
-use centrode_mechanism::feeder::{FeederDesign, FeederPart, LinkageSpec};
-use centrode_mechanism::linkage::Branch;
+use centrode_kinematics::linkage::Branch;
+use centrode_machines::feeder::{FeederDesign, FeederPart, LinkageSpec};
 
 fn feeder([crank, coupler, rocker, frame]: [f64; 4], pivot: [f64; 2]) -> Feeder {
     let design = FeederDesign::new(LinkageSpec {

@@ -11,7 +11,7 @@ mod ready;
 mod state;
 mod tie;
 
-use centrode_mechanism::machine::GuideForce;
+use centrode_kinematics::machine::GuideForce;
 use nalgebra::Vector3;
 
 pub use ready::Balance;

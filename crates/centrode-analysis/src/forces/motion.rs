@@ -1,5 +1,5 @@
-use centrode_mechanism::machine::{Joint, JointKind};
-use centrode_mechanism::transmission::MotionJet;
+use centrode_kinematics::machine::{Joint, JointKind};
+use centrode_kinematics::transmission::MotionJet;
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 
 /// Motion of a link by the input, in the axes of the first link: rad and mm.

@@ -1,6 +1,6 @@
 use std::sync::Arc;
 
-use centrode_mechanism::machine::{Guide, Joint, JointKind, Load, Machine};
+use centrode_kinematics::machine::{Guide, Joint, JointKind, Load, Machine};
 use nalgebra::{Matrix3, Vector3};
 
 use super::ForcesError;

@@ -1,5 +1,5 @@
-use centrode_mechanism::machine::{Axes, GuideForce, JointKind, Load, Machine, Quantity};
-use centrode_mechanism::transmission::MotionJet;
+use centrode_kinematics::machine::{Axes, GuideForce, JointKind, Load, Machine, Quantity};
+use centrode_kinematics::transmission::MotionJet;
 use nalgebra::Vector3;
 
 use super::elimination::eliminated;

@@ -1,4 +1,4 @@
-use centrode_mechanism::machine::{JointKind, Machine, PitchCurves};
+use centrode_kinematics::machine::{JointKind, Machine, PitchCurves};
 use nalgebra::Vector3;
 
 use super::ForcesError;

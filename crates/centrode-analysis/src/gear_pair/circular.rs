@@ -1,8 +1,8 @@
 //! Remedies of circular gears: one change of the design that was made and checked.
 
-use centrode_mechanism::gear::GearPair;
-use centrode_mechanism::gear::design::{Addendum, GearPairDesign, ToolSpec};
-use centrode_mechanism::gear::pitch::{Circle, PitchSpec};
+use centrode_gear::GearPair;
+use centrode_gear::design::{Addendum, GearPairDesign, ToolSpec};
+use centrode_gear::pitch::{Circle, PitchSpec};
 
 use super::{checked, remedy::is_of_teeth};
 use crate::{Contact, Report, Severity};
@@ -132,7 +132,7 @@ fn helps(design: &GearPairDesign) -> bool {
 mod tests {
     use std::f64::consts::PI;
 
-    use centrode_mechanism::design::DesignSpec as _;
+    use centrode_spec::DesignSpec as _;
 
     use super::*;
     use crate::check;

@@ -10,9 +10,9 @@ mod tests;
 
 use std::f64::consts::PI;
 
+use centrode_gear::design::Fit;
+use centrode_gear::{GearPair, Limits, Member, ToolKind};
 use centrode_geometry::Extreme;
-use centrode_mechanism::gear::design::Fit;
-use centrode_mechanism::gear::{GearPair, Limits, Member, ToolKind};
 
 use self::remedy::remedy;
 use self::teeth::teeth;
@@ -30,7 +30,7 @@ const PENETRATION: f64 = 1e-6;
 /// Transmission error, rad, above which contact is reported as lost.
 const LOST: f64 = 1e-6;
 /// Transmission error, rad, below which lost contact is less than gears are made to: a micrometre at 50 mm from the axis.
-pub(crate) const SLIGHT: f64 = 2e-5;
+pub const SLIGHT_TRANSMISSION_ERROR: f64 = 2e-5;
 
 /// Checks a gear pair: its pitch curves, every tooth, and the mesh along one whole cycle.
 ///
@@ -250,7 +250,7 @@ const PRESSURE_ANGLE: f64 = 50.0 * PI / 180.0;
 pub(crate) fn thinned(pair: &GearPair) -> f64 {
     let a = pair.center_distance();
     let second = 2.0 * (pair.backlash() / a).powi(2) * a / pair.module();
-    second.min(SLIGHT)
+    second.min(SLIGHT_TRANSMISSION_ERROR)
 }
 
 fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: &mut Report) {

@@ -1,7 +1,7 @@
 //! Tooth counts from which the flanks alone carry the motion.
 
-use centrode_mechanism::gear::GearPair;
-use centrode_mechanism::gear::design::{Addendum, Fit, GearPairDesign};
+use centrode_gear::GearPair;
+use centrode_gear::design::{Addendum, Fit, GearPairDesign};
 
 use super::{PENETRATION, thinned};
 use crate::Contact;

@@ -1,4 +1,4 @@
-use centrode_mechanism::gear::design::Addendum;
+use centrode_gear::design::Addendum;
 
 /// Remedy against a finding about the teeth, of a pair whose addenda are fitted already or not.
 pub(super) fn remedy_of_teeth(rule: &str, addendum: Addendum) -> Option<&'static str> {

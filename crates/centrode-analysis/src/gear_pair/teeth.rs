@@ -1,4 +1,4 @@
-use centrode_mechanism::gear::{Gear, GearPair, Limits, Member, Side, Tooth, ToothSide};
+use centrode_gear::{Gear, GearPair, Limits, Member, Side, Tooth, ToothSide};
 
 use super::remedy::remedy_of_teeth;
 use crate::{Finding, FlankPlace, Place, Report, Severity, Unit};
@@ -220,8 +220,8 @@ pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut 
 
 #[cfg(test)]
 mod tests {
-    use centrode_mechanism::gear::design::GearPairDesign;
-    use centrode_mechanism::gear::pitch::{Ellipse, PitchSpec, Polar};
+    use centrode_gear::design::GearPairDesign;
+    use centrode_gear::pitch::{Ellipse, PitchSpec, Polar};
 
     use super::*;
 

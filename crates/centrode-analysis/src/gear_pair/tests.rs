@@ -1,6 +1,6 @@
-use centrode_mechanism::design::DesignSpec as _;
-use centrode_mechanism::gear::GearPair;
-use centrode_mechanism::gear::design::GearPairDesign;
+use centrode_gear::GearPair;
+use centrode_gear::design::GearPairDesign;
+use centrode_spec::DesignSpec as _;
 
 use super::check;
 

@@ -1,5 +1,5 @@
 use centrode_geometry::Tolerance;
-use centrode_mechanism::machine::{FrameJet, Joint, JointKind, Machine, Surface};
+use centrode_kinematics::machine::{FrameJet, Joint, JointKind, Machine, Surface};
 
 use crate::side_by_side::each;
 
@@ -230,7 +230,7 @@ mod tests {
 
     use super::*;
     use centrode_geometry::{Outline, Point, Segment};
-    use centrode_mechanism::machine::{Constant, Input, Linear, Link};
+    use centrode_kinematics::machine::{Constant, Input, Linear, Link};
 
     fn square(half: f64) -> Outline {
         let corner = |x: f64, y: f64| Point::new(x * half, y * half);

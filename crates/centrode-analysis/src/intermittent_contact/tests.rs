@@ -1,9 +1,9 @@
 use super::*;
-use centrode_mechanism::gear::design::GearPairDesign;
-use centrode_mechanism::gear::pitch::{Circle, PitchSpec, Polar};
-use centrode_mechanism::gear::{IntermittentPairSpec, Member};
+use centrode_gear::design::GearPairDesign;
+use centrode_gear::pitch::{Circle, PitchSpec, Polar};
+use centrode_gear::{IntermittentPairSpec, Member};
 
-use crate::optimise::Random;
+use centrode_optimise::Random;
 
 fn spec(driver: u32, mean_ratio: [u32; 2], teeth: u32, entry: f64) -> IntermittentPairSpec {
     let mut pair = GearPairDesign::new(PitchSpec::Circle(Circle {

@@ -5,10 +5,10 @@ mod tables;
 
 use std::f64::consts::{FRAC_PI_6, TAU};
 
+use centrode_gear::shaft::{Pick, Schedule, SpiralShaft};
 use centrode_geometry::Extreme;
-use centrode_mechanism::gear::design::Keyway;
-use centrode_mechanism::machine::Key;
-use centrode_mechanism::shaft::{Pick, Schedule, SpiralShaft};
+use centrode_kinematics::machine::Key;
+use centrode_kinematics::machine::Keyway;
 
 use self::crossings::crossings;
 use self::figures::FIGURES;

@@ -1,8 +1,8 @@
+use centrode_gear::GearPair;
+use centrode_gear::shaft::{EllipticDrive, MovingBox};
 use centrode_geometry::{extremes, greatest};
-use centrode_mechanism::gear::GearPair;
-use centrode_mechanism::machine::Key;
-use centrode_mechanism::shaft::{EllipticDrive, MovingBox};
-use centrode_mechanism::transmission::Transmission;
+use centrode_kinematics::machine::Key;
+use centrode_kinematics::transmission::Transmission;
 
 use super::{check_shaft, contact, contact_limit, moved, tables};
 use crate::key_pressure::LoadedKey;

@@ -1,5 +1,5 @@
-use centrode_mechanism::machine::Bearing;
-use centrode_mechanism::three_arm::ThreeArm;
+use centrode_kinematics::machine::Bearing;
+use centrode_machines::three_arm::ThreeArm;
 
 use crate::{Finding, Place, Report, Severity, Unit};
 

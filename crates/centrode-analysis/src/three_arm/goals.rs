@@ -1,13 +1,13 @@
-use centrode_mechanism::gear::FlankCount;
-use centrode_mechanism::three_arm::design::GoalsSpec;
-use centrode_mechanism::three_arm::{Figures, ThreeArm};
+use centrode_gear::FlankCount;
+use centrode_machines::three_arm::design::GoalsSpec;
+use centrode_machines::three_arm::{Figures, ThreeArm};
 
 use super::ArmClearance;
 use crate::{Goal, Unit};
 
 /// Goals of a mechanism as far as its figures reach: those of arms, seedlings and flanks are left open.
 #[must_use]
-pub fn goals(figures: &Figures, wanted: &GoalsSpec) -> Vec<Goal> {
+pub fn three_arm_goals(figures: &Figures, wanted: &GoalsSpec) -> Vec<Goal> {
     let range = |[least, greatest]: [f64; 2]| [Some(least), Some(greatest)];
     let least = |least: f64| [Some(least), None];
     let angle = |about, value, wanted: [f64; 2]| {
@@ -76,7 +76,7 @@ pub(super) fn all_goals(
     arms: Option<&ArmClearance>,
     teeth: Option<&[FlankCount; 2]>,
 ) -> Vec<Goal> {
-    let mut goals = goals(&mechanism.figures(), &mechanism.design().goals);
+    let mut goals = three_arm_goals(&mechanism.figures(), &mechanism.design().goals);
     for goal in &mut goals {
         let value = match &*goal.name {
             "arm-clearance" => match arms.and_then(|found| found.arms) {

@@ -11,9 +11,9 @@ mod variants;
 
 use std::f64::consts::TAU;
 
+use centrode_gear::{FlankCount, GearPairError, Member};
 use centrode_geometry::Tolerance;
-use centrode_mechanism::gear::{FlankCount, GearPairError, Member};
-use centrode_mechanism::three_arm::{PickingRule, PlantingRule, ThreeArm};
+use centrode_machines::three_arm::{PickingRule, PlantingRule, ThreeArm};
 
 use self::bearings::check_bearings;
 use self::figures::FIGURES;
@@ -28,7 +28,7 @@ use crate::{Finding, Goal, Place, Report, Severity, Table, Unit, gear_pair};
 
 pub use arm_clearance::{ArmClearance, ArmClearanceCourse, ArmClearanceError, between_arms};
 pub use gear_train::{TrainTeeth, carrier_turn};
-pub use goals::goals;
+pub use goals::three_arm_goals;
 pub use variants::{Variants, VariantsError};
 
 /// Tolerance of the arms' clearances, as a share of the tip's distance from the planet's axis.
@@ -97,7 +97,8 @@ pub fn check_arms(mechanism: &ThreeArm) -> Report {
 }
 
 /// Goals of a mechanism and the clearances of its arms, as [`check_three_arm`] reports them.
-pub(crate) fn reached(mechanism: &ThreeArm) -> (Vec<Goal>, Option<ArmClearance>) {
+#[must_use]
+pub fn three_arm_reached(mechanism: &ThreeArm) -> (Vec<Goal>, Option<ArmClearance>) {
     let arms = arm_clearance(mechanism).ok().flatten();
     (
         all_goals(

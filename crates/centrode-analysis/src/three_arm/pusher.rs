@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use centrode_mechanism::three_arm::{Pusher, PusherError};
+use centrode_machines::three_arm::{Pusher, PusherError};
 
 use crate::cam::CheckedCam;
 use crate::{Finding, Place, Report, Severity, Unit};
@@ -58,9 +58,9 @@ pub(super) fn check_pusher(pusher: &Result<Pusher, PusherError>, report: &mut Re
 #[cfg(test)]
 mod tests {
     use super::*;
-    use centrode_mechanism::design::DesignSpec as _;
-    use centrode_mechanism::three_arm::ThreeArm;
-    use centrode_mechanism::three_arm::design::{PusherCamSpec, ThreeArmDesign};
+    use centrode_machines::three_arm::ThreeArm;
+    use centrode_machines::three_arm::design::{PusherCamSpec, ThreeArmDesign};
+    use centrode_spec::DesignSpec as _;
 
     fn checked(change: impl Fn(&mut ThreeArmDesign)) -> Report {
         let mut design = ThreeArmDesign::from_toml(ThreeArmDesign::TEMPLATE).expect("sound");

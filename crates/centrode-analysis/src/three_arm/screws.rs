@@ -1,4 +1,4 @@
-use centrode_mechanism::three_arm::{Pusher, ThreeArm};
+use centrode_machines::three_arm::{Pusher, ThreeArm};
 
 use crate::Report;
 use crate::no_screws::no_screws;
@@ -32,8 +32,8 @@ pub(super) fn check_screws(mechanism: &ThreeArm, pusher: &Pusher, report: &mut R
 mod tests {
     use super::*;
     use crate::Finding;
-    use centrode_mechanism::design::DesignSpec as _;
-    use centrode_mechanism::three_arm::design::ThreeArmDesign;
+    use centrode_machines::three_arm::design::ThreeArmDesign;
+    use centrode_spec::DesignSpec as _;
 
     fn found(change: impl Fn(&mut ThreeArmDesign)) -> Vec<Finding> {
         let mut design = ThreeArmDesign::from_toml(ThreeArmDesign::TEMPLATE).expect("sound");

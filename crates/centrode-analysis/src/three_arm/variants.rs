@@ -1,6 +1,6 @@
 use centrode_geometry::Cancel;
-use centrode_mechanism::three_arm::design::ThreeArmDesign;
-use centrode_mechanism::three_arm::{Parameter, Sweep, SweepError, UnknownParameter};
+use centrode_machines::three_arm::design::ThreeArmDesign;
+use centrode_machines::three_arm::{Parameter, Sweep, SweepError, UnknownParameter};
 use rayon::prelude::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
 
 /// Evaluates many variants of one three-arm design: the figures of its goals 2 to 4 and 6 to 8, about twenty

@@ -6,8 +6,8 @@ mod solid;
 mod table;
 
 use crate::{Bundle, ExportError, Format, Options, Package, drawing::Drawing, dxf::Curves};
+use centrode_gear::cam::{Cam, CamError};
 use centrode_geometry::Tolerance;
-use centrode_mechanism::cam::{Cam, CamError};
 pub(crate) use plate::plate;
 use sheet::Contours;
 pub use solid::{mesh, solid};

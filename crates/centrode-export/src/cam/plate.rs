@@ -1,4 +1,4 @@
-use centrode_mechanism::cam::Cam;
+use centrode_gear::cam::Cam;
 
 use super::{ROWS, columns};
 use crate::plate::{Exactness, Plate};

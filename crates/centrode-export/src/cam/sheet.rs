@@ -1,8 +1,8 @@
 use crate::drawing::{Anchor, CENTER, Color, Drawing, EntityShape, HOLE, LineType, PROFILE, Text};
 use crate::package::title_or_name;
+use centrode_gear::cam::design::{Follower, Turn};
+use centrode_gear::cam::{Cam, CamError};
 use centrode_geometry::{Bounds, Outline, Point, Tolerance, Vector};
-use centrode_mechanism::cam::design::{Follower, Turn};
-use centrode_mechanism::cam::{Cam, CamError};
 
 const PITCH_CURVE: &str = "PITCH_CURVE";
 const BASE_CIRCLE: &str = "BASE_CIRCLE";

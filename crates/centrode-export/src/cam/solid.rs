@@ -1,5 +1,5 @@
+use centrode_gear::cam::Cam;
 use centrode_geometry::{Mesh, Solid, SolidError, Tolerance};
-use centrode_mechanism::cam::Cam;
 
 /// A cam as a solid: contour less the bore, from z = 0 to its width.
 ///

@@ -1,5 +1,5 @@
 use crate::csv::Column;
-use centrode_mechanism::cam::{Cam, Contact};
+use centrode_gear::cam::{Cam, Contact};
 use std::f64::consts::TAU;
 
 /// The profile table of a cam at `rows` equal steps of the cam angle: where it is touched, with outward

@@ -3,13 +3,14 @@ use crate::csv::Values;
 use crate::drawing::EntityShape;
 use crate::dxf;
 use crate::{ExportError, Format, Options};
-use centrode_geometry::{Point, Tolerance};
-use centrode_mechanism::cam::design::{
+use centrode_gear::cam::Cam;
+use centrode_gear::cam::design::{
     CamSpec, Dwell, Follower, MotionSpec, SegmentSpec, SwingingRoller, TranslatingFlat, Travel,
     Turn,
 };
-use centrode_mechanism::cam::{Cam, law::LawSpec};
-use centrode_mechanism::gear::design::Keyway;
+use centrode_gear::cam::law::LawSpec;
+use centrode_geometry::{Point, Tolerance};
+use centrode_kinematics::machine::Keyway;
 
 fn motion(stroke: f64, swings: bool) -> MotionSpec {
     let travel = |degrees: f64| Travel {

@@ -1,8 +1,8 @@
 use std::borrow::Cow;
 use std::f64::consts::PI;
 
-use centrode_mechanism::composed::{Composed, ComposedBody};
-use centrode_mechanism::machine::JointKind;
+use centrode_kinematics::machine::JointKind;
+use centrode_machines::composed::{Composed, ComposedBody};
 
 use crate::page::Curve;
 

@@ -4,8 +4,8 @@ mod curves;
 mod parts;
 
 use centrode_geometry::{MassProperties, Point, Solid};
-use centrode_mechanism::composed::{Composed, Hardware};
-use centrode_mechanism::machine::{Form, LinePath, Machine};
+use centrode_kinematics::machine::{Form, LinePath, Machine};
+use centrode_machines::composed::{Composed, Hardware};
 use nalgebra::{Isometry2, Matrix3, Point3};
 
 use crate::drawing::{Color, Drawing, EntityShape, LineType};

@@ -1,6 +1,6 @@
 use centrode_geometry::{Outline, Solid};
-use centrode_mechanism::composed::{Composed, Hardware, PinHole};
-use centrode_mechanism::machine::Machine;
+use centrode_kinematics::machine::Machine;
+use centrode_machines::composed::{Composed, Hardware, PinHole};
 
 use super::plates;
 use crate::gear_pair::{self, Label};

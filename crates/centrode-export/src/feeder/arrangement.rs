@@ -1,10 +1,10 @@
 use std::f64::consts::TAU;
 
 use centrode_geometry::Point;
-use centrode_mechanism::feeder::{Feeder, FeederPart, GearBody, Plate};
-use centrode_mechanism::machine::{
+use centrode_kinematics::machine::{
     self, Axis, Blank, Datum, Dimension, Fit, Form, Line, LineRole, Machine,
 };
+use centrode_machines::feeder::{Feeder, FeederPart, GearBody, Plate};
 
 use super::gears::TITLES;
 use super::plates::spacer;

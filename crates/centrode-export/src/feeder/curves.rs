@@ -1,6 +1,6 @@
 use std::f64::consts::TAU;
 
-use centrode_mechanism::feeder::Feeder;
+use centrode_machines::feeder::Feeder;
 
 use crate::page::Curve;
 

@@ -1,10 +1,10 @@
 use std::sync::Arc;
 
+use centrode_gear::IntermittentPair;
 use centrode_geometry::{Outline, Point};
-use centrode_mechanism::feeder::{Feeder, FeederPart, Plate};
-use centrode_mechanism::gear::IntermittentPair;
-use centrode_mechanism::linkage::SixBar;
-use centrode_mechanism::machine::{Constant, Line, LineRole, Machine, Mark, Quantity, Seat};
+use centrode_kinematics::linkage::SixBar;
+use centrode_kinematics::machine::{Constant, Line, LineRole, Machine, Mark, Quantity, Seat};
+use centrode_machines::feeder::{Feeder, FeederPart, Plate};
 
 use crate::gear_pair;
 

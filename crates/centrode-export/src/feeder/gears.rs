@@ -1,7 +1,7 @@
+use centrode_gear::{IntermittentPair, Member};
 use centrode_geometry::{Arc, Outline, Point, Segment, Tolerance};
-use centrode_mechanism::feeder::{Feeder, GearBody};
-use centrode_mechanism::gear::{IntermittentPair, Member};
-use centrode_mechanism::machine::Datum;
+use centrode_kinematics::machine::Datum;
+use centrode_machines::feeder::{Feeder, GearBody};
 use nalgebra::Isometry2;
 
 use super::pins::pins;

@@ -1,6 +1,6 @@
-use centrode_mechanism::feeder::{Feeder, FeederPart, Plate};
-use centrode_mechanism::gear::IntermittentPair;
-use centrode_mechanism::machine::{Form, Machine, Mounted, Quantity, Shape};
+use centrode_gear::IntermittentPair;
+use centrode_kinematics::machine::{Form, Machine, Mounted, Quantity, Shape};
+use centrode_machines::feeder::{Feeder, FeederPart, Plate};
 
 use super::plates::spacer;
 use super::{arrangement, figures};

@@ -10,9 +10,9 @@ mod plates;
 
 use crate::package::title_or_name;
 use crate::{Bundle, ExportError, Format, Options, Package, turned};
-use centrode_mechanism::feeder::{Feeder, FeederError, FeederPart, Plate};
-use centrode_mechanism::gear::IntermittentPair;
-use centrode_mechanism::machine::Machine;
+use centrode_gear::IntermittentPair;
+use centrode_kinematics::machine::Machine;
+use centrode_machines::feeder::{Feeder, FeederError, FeederPart, Plate};
 pub use curves::curves;
 pub use plates::assembly;
 

@@ -1,7 +1,7 @@
 //! Measuring pins in the spaces of the intermittent gears as they are cut.
 
+use centrode_gear::{IntermittentPair, Member, OverPins, Pin, PinFault};
 use centrode_geometry::{Point, bracketed_root, checkpoint};
-use centrode_mechanism::gear::{IntermittentPair, Member, OverPins, Pin, PinFault};
 use nalgebra::Rotation2;
 
 /// Share of its radius by which a pin that rests may be off a flank.

@@ -2,8 +2,8 @@ use crate::drawing::{Anchor, CENTER, Color, Drawing, EntityShape, LineType, Text
 use crate::plate::{self, Hole};
 use crate::sheet::{capital, number};
 use centrode_geometry::{Bounds, Point, Vector};
-use centrode_mechanism::feeder::{Feeder, FeederPart, Plate};
-use centrode_mechanism::machine::Stock;
+use centrode_kinematics::machine::Stock;
+use centrode_machines::feeder::{Feeder, FeederPart, Plate};
 
 const PATH: &str = "PATH";
 const TEXT: &str = "TEXT";

@@ -2,8 +2,8 @@
 
 use std::f64::consts::PI;
 
-use centrode_mechanism::gear::{GearPair, Member};
-use centrode_mechanism::machine::Datum;
+use centrode_gear::{GearPair, Member};
+use centrode_kinematics::machine::Datum;
 
 use crate::sheet::number;
 
@@ -161,8 +161,8 @@ pub(crate) fn flank_tolerances(pair: &GearPair, member: Member) -> Vec<Datum> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use centrode_mechanism::gear::design::GearPairDesign;
-    use centrode_mechanism::gear::pitch::{Circle, PitchSpec};
+    use centrode_gear::design::GearPairDesign;
+    use centrode_gear::pitch::{Circle, PitchSpec};
 
     #[test]
     fn tolerances_are_those_of_the_standard() {

@@ -1,6 +1,6 @@
-use centrode_mechanism::gear::design::BodySpec;
-use centrode_mechanism::gear::{Gear, GearPair, Member};
-use centrode_mechanism::machine::{Blank, Callout, Datum, Fit, Key, Machine, Part, Supply};
+use centrode_gear::design::BodySpec;
+use centrode_gear::{Gear, GearPair, Member};
+use centrode_kinematics::machine::{Blank, Callout, Datum, Fit, Key, Machine, Part, Supply};
 
 use crate::sheet::geometrical::grade;
 use crate::sheet::{fit, number, range};

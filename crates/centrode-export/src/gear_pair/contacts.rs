@@ -1,5 +1,5 @@
+use centrode_gear::{GearPair, Member, Tooth, ToothSide};
 use centrode_geometry::Point;
-use centrode_mechanism::gear::{GearPair, Member, Tooth, ToothSide};
 
 use crate::page::{Contacts, Track, short};
 
@@ -127,8 +127,8 @@ pub(crate) fn paths(pair: &GearPair, flanks: Flanks) -> Vec<Vec<(f64, Point)>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use centrode_mechanism::gear::design::GearPairDesign;
-    use centrode_mechanism::gear::pitch::{Circle, PitchSpec};
+    use centrode_gear::design::GearPairDesign;
+    use centrode_gear::pitch::{Circle, PitchSpec};
     use std::f64::consts::{PI, TAU};
 
     #[test]

@@ -1,5 +1,5 @@
 use crate::page::Curve;
-use centrode_mechanism::gear::GearPair;
+use centrode_gear::GearPair;
 
 /// Samples of one driver turn.
 const SAMPLES: u32 = 360;

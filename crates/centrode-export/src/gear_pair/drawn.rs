@@ -1,8 +1,8 @@
 use super::Subject;
 use super::sheet::{self, Contours};
 use crate::{drawing::Drawing, dxf::Curves};
+use centrode_gear::{GearPair, Member};
 use centrode_geometry::Tolerance;
-use centrode_mechanism::gear::{GearPair, Member};
 use std::cell::OnceCell;
 
 /// The cutting drawings of a pair, whose contours are made once.

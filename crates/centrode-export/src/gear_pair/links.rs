@@ -1,11 +1,11 @@
 use std::sync::Arc;
 
+use centrode_gear::{Gear, GearPair, Member, Role};
 use centrode_geometry::Outline;
-use centrode_mechanism::gear::{Gear, GearPair, Member, Role};
-use centrode_mechanism::machine::{
+use centrode_kinematics::machine::{
     Form, GearMesh, Input, Joint, Line, LineRole, Linear, Link, Machine, Quantity, Shape, Surface,
 };
-use centrode_mechanism::transmission::Transmission;
+use centrode_kinematics::transmission::Transmission;
 
 use super::{arrangement, solid};
 use crate::ExportError;

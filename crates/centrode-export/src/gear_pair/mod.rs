@@ -16,7 +16,7 @@ use crate::{Bundle, ExportError, Format, Options, Package};
 pub(crate) use accuracy::{flank_tolerances, tooth_runout};
 pub use arrangement::contact_data;
 pub(crate) use arrangement::{by_thickness, half_play, list, list_keys, list_pair, of_both};
-use centrode_mechanism::gear::{GearPair, GearPairError, Member};
+use centrode_gear::{GearPair, GearPairError, Member};
 pub use contacts::contacts;
 pub(crate) use contacts::{Flanks, PITCH_SAMPLES, ROUNDING, paths, track};
 pub use curves::curves;

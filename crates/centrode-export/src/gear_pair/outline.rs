@@ -1,6 +1,6 @@
 use crate::csv::Column;
+use centrode_gear::Gear;
 use centrode_geometry::Tolerance;
-use centrode_mechanism::gear::Gear;
 
 /// Points of the toothed contour in order, counter-clockwise, each with outward normal, curvature, and
 /// which part of which tooth begins or continues there.

@@ -1,5 +1,5 @@
 use crate::csv::Column;
-use centrode_mechanism::gear::{GearPair, Member, OverPins, Pin};
+use centrode_gear::{GearPair, Member, OverPins, Pin};
 
 /// Measuring pins, a row a tooth space: where the pin lies, and the measures over it. Cells of a space
 /// that cannot be measured are empty, and the last column says why.

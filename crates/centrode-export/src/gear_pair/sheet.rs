@@ -1,6 +1,7 @@
 use crate::drawing::{Anchor, CENTER, Color, Drawing, EntityShape, HOLE, LineType, PROFILE, Text};
+use centrode_gear::design::Addendum;
+use centrode_gear::{Gear, GearPair, Member};
 use centrode_geometry::{Bounds, Outline, Point, Tolerance, Vector};
-use centrode_mechanism::gear::{Gear, GearPair, Member, design::Addendum};
 use nalgebra::Isometry2;
 
 const PITCH_CURVE: &str = "PITCH_CURVE";

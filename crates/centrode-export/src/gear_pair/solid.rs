@@ -1,6 +1,6 @@
 use crate::ExportError;
+use centrode_gear::{GearPair, Member};
 use centrode_geometry::{Mesh, Solid, Tolerance};
-use centrode_mechanism::gear::{GearPair, Member};
 
 /// A gear as a solid: toothed outline less the bore, from z = 0 to its width.
 ///

@@ -1,10 +1,9 @@
 use super::*;
+use centrode_gear::Gear;
+use centrode_gear::design::GearPairDesign;
+use centrode_gear::pitch::{Circle, Ellipse, PitchSpec, Polar};
 use centrode_geometry::{Outline, Point, Tolerance, Vector};
-use centrode_mechanism::gear::{
-    Gear,
-    design::{GearPairDesign, Keyway},
-    pitch::{Circle, Ellipse, PitchSpec, Polar},
-};
+use centrode_kinematics::machine::Keyway;
 use std::f64::consts::TAU;
 
 fn pair(pitch: PitchSpec) -> GearPair {

@@ -1,6 +1,6 @@
 use crate::model::Convex;
 use centrode_geometry::{ConvexPieces, Mesh, Point, Tolerance, Vector, convex_pieces};
-use centrode_mechanism::machine::Surface;
+use centrode_kinematics::machine::Surface;
 use std::collections::BTreeMap;
 
 /// Convex bodies that stand for a surface.

@@ -1,4 +1,4 @@
-use centrode_mechanism::machine::{Blank, Machine, Part};
+use centrode_kinematics::machine::{Blank, Machine, Part};
 
 use crate::drawing::Anchor;
 use crate::sheet::Table;

@@ -1,7 +1,7 @@
 use std::sync::Arc;
 
 use centrode_geometry::{SolidError, Tolerance};
-use centrode_mechanism::machine::{Form, Load, Machine, MachineError, Quantity, Seat};
+use centrode_kinematics::machine::{Form, Load, Machine, MachineError, Quantity, Seat};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;

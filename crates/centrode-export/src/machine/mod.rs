@@ -15,7 +15,7 @@ mod spatial;
 mod still;
 mod whole;
 
-use centrode_mechanism::machine::Machine;
+use centrode_kinematics::machine::Machine;
 
 use crate::{ExportError, Format, Package, csv, mjcf, step, threemf, urdf};
 pub(crate) use arrangement::NAME as ARRANGEMENT;

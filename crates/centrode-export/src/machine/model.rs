@@ -1,5 +1,5 @@
 use centrode_geometry::{Mesh, SolidError, Tolerance};
-use centrode_mechanism::machine::{Form, JointKind, Link, Machine, Shape};
+use centrode_kinematics::machine::{Form, JointKind, Link, Machine, Shape};
 
 use super::motion::Line;
 use super::{bodies, motion};

@@ -1,6 +1,6 @@
 use centrode_geometry::{Tolerance, extremes, greatest, pieces};
-use centrode_mechanism::machine::{Form, Joint, JointKind, Machine, Quantity};
-use centrode_mechanism::transmission::Transmission;
+use centrode_kinematics::machine::{Form, Joint, JointKind, Machine, Quantity};
+use centrode_kinematics::transmission::Transmission;
 use std::f64::consts::TAU;
 
 use super::MODEL;
@@ -180,7 +180,7 @@ pub(super) fn driving(machine: &Machine, lines: &[Line]) -> Option<usize> {
 pub(super) fn columns(machine: &Machine, steps: u32) -> Vec<Column> {
     let at = |i: u32| machine.input.period * f64::from(i) / f64::from(steps);
     let inputs: Vec<f64> = (0..=steps).map(at).collect();
-    let column = |about: &centrode_mechanism::machine::Column| {
+    let column = |about: &centrode_kinematics::machine::Column| {
         let values = inputs
             .iter()
             .map(|&input| machine.value(&about.quantity, input));

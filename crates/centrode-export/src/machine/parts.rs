@@ -1,4 +1,4 @@
-use centrode_mechanism::machine::{Machine, Part, Supply};
+use centrode_kinematics::machine::{Machine, Part, Supply};
 
 use crate::csv::Column;
 use crate::drawing::Anchor;

@@ -1,10 +1,10 @@
 use std::f64::consts::{PI, TAU};
 
 use centrode_geometry::{Point, Tolerance, together};
-use centrode_mechanism::machine::{
+use centrode_kinematics::machine::{
     Figure, Line, LinePath, LineRole, Machine, Quantity, Seat, Sketch,
 };
-use centrode_mechanism::transmission::Transmission;
+use centrode_kinematics::transmission::Transmission;
 use nalgebra::{Isometry2, Isometry3, Vector3};
 
 use super::motion::within;

@@ -1,5 +1,5 @@
 use centrode_geometry::{Point, Segment, convex_hull};
-use centrode_mechanism::machine::{LinePath, LineRole, Sketch};
+use centrode_kinematics::machine::{LinePath, LineRole, Sketch};
 
 /// Most places of a rim: what lies beyond the straight lines between them is seen by no eye.
 const MOST: usize = 64;
@@ -43,7 +43,7 @@ fn places(segment: &Segment) -> impl Iterator<Item = Point> {
 mod tests {
     use super::*;
     use centrode_geometry::Outline;
-    use centrode_mechanism::machine::Line;
+    use centrode_kinematics::machine::Line;
 
     #[test]
     fn a_rim_is_convex_and_leaves_nothing_outside() {

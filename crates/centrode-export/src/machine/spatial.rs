@@ -1,4 +1,4 @@
-use centrode_mechanism::machine::Machine;
+use centrode_kinematics::machine::Machine;
 use nalgebra::Isometry3;
 use serde::Serialize;
 

@@ -4,7 +4,7 @@ use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use centrode_geometry::{Outline, Point, Recent, Tolerance};
-use centrode_mechanism::machine::{Line, LinePath, Machine};
+use centrode_kinematics::machine::{Line, LinePath, Machine};
 
 use crate::page::Path;
 

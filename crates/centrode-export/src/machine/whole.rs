@@ -1,7 +1,7 @@
 use std::collections::BTreeSet;
 
 use centrode_geometry::{Mesh, Shell, SolidError, Tolerance};
-use centrode_mechanism::machine::{Form, Machine, Part, Shape, Supply};
+use centrode_kinematics::machine::{Form, Machine, Part, Shape, Supply};
 use nalgebra::Isometry3;
 
 use crate::step::{Component, Exact};

@@ -3,7 +3,7 @@
 use crate::model::{Convex, JointKind, Model, ModelJoint, ModelLink};
 use crate::xml::{comment, escaped};
 use centrode_geometry::MassProperties;
-use centrode_mechanism::machine::loose_link;
+use centrode_kinematics::machine::loose_link;
 use nalgebra::UnitQuaternion;
 use std::collections::BTreeSet;
 use std::fmt::Write;

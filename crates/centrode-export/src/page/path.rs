@@ -1,7 +1,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use centrode_geometry::{Outline, Point, Segment, Tolerance};
-use centrode_mechanism::machine::LineRole;
+use centrode_kinematics::machine::LineRole;
 use serde::ser::SerializeSeq as _;
 use serde::{Serialize, Serializer};
 

@@ -60,7 +60,7 @@ mod tests {
     use super::super::PictureLink;
     use super::*;
     use centrode_geometry::Point;
-    use centrode_mechanism::machine::LineRole;
+    use centrode_kinematics::machine::LineRole;
 
     #[test]
     fn parts_that_look_alike_share_a_shape() {

@@ -1,7 +1,7 @@
 //! Views of a plate's edge, and of the wall that an opening goes through.
 
 use centrode_geometry::{Bounds, Point, Vector};
-use centrode_mechanism::design::Projection;
+use centrode_spec::Projection;
 
 use super::hole::circle;
 use super::{Exactness, Plate};

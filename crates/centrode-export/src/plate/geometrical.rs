@@ -131,9 +131,10 @@ impl Plate {
 
 #[cfg(test)]
 mod tests {
+    use centrode_gear::design::BodySpec;
     use centrode_geometry::Outline;
-    use centrode_mechanism::composed::PinHole;
-    use centrode_mechanism::gear::design::{BodySpec, Keyway};
+    use centrode_kinematics::machine::Keyway;
+    use centrode_machines::composed::PinHole;
 
     use super::*;
 

@@ -1,8 +1,8 @@
 use std::f64::consts::TAU;
 
+use centrode_gear::design::BodySpec;
 use centrode_geometry::{Outline, Point, Segment};
-use centrode_mechanism::gear::design::BodySpec;
-use centrode_mechanism::machine::{Fastening, Screw};
+use centrode_kinematics::machine::{Fastening, Screw};
 
 use crate::sheet::{fit, number};
 

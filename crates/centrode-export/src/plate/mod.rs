@@ -5,12 +5,12 @@ mod geometrical;
 mod hole;
 mod sheet;
 
+use centrode_gear::design::BodySpec;
 use centrode_geometry::{
     MassProperties, Opening, Outline, Point, Solid, SolidError, Tolerance, Vector,
 };
-use centrode_mechanism::design::DrawingSpec;
-use centrode_mechanism::gear::design::BodySpec;
-use centrode_mechanism::machine::{Fastening, Stock};
+use centrode_kinematics::machine::{Fastening, Stock};
+use centrode_spec::DrawingSpec;
 
 use nalgebra::Isometry2;
 

@@ -1,5 +1,5 @@
 use centrode_geometry::{Arc, Bounds, Outline, Point, Segment, Tolerance, Vector};
-use centrode_mechanism::design::{DrawingSpec, Projection, SheetSize};
+use centrode_spec::{DrawingSpec, Projection, SheetSize};
 
 use super::hole::circle;
 use super::{Exactness, Hole, HoleKind, Plate, ScrewHole};

@@ -1,8 +1,10 @@
 use std::f64::consts::TAU;
 
-use centrode_mechanism::gear::Member;
-use centrode_mechanism::machine::{Axis, Blank, Datum, Dimension, Machine as Linked, Part, Supply};
-use centrode_mechanism::shaft::ShaftSolid;
+use centrode_gear::Member;
+use centrode_gear::shaft::ShaftSolid;
+use centrode_kinematics::machine::{
+    Axis, Blank, Datum, Dimension, Machine as Linked, Part, Supply,
+};
 
 use super::figures;
 use super::links::{BOX, GEARS};

@@ -1,10 +1,10 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
 
+use centrode_gear::shaft::{ShaftSolid, SpiralShaft};
 use centrode_geometry::{Outline, Point, Tolerance, Vector};
-use centrode_mechanism::machine::{Constant, Line, LineRole, Machine as Linked, Quantity, Seat};
-use centrode_mechanism::shaft::{ShaftSolid, SpiralShaft};
-use centrode_mechanism::transmission::{FromFn, MotionJet, Transmission};
+use centrode_kinematics::machine::{Constant, Line, LineRole, Machine as Linked, Quantity, Seat};
+use centrode_kinematics::transmission::{FromFn, MotionJet, Transmission};
 
 use super::links::MEMBERS;
 use super::machine::{Gears, Machine};

@@ -1,14 +1,14 @@
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
+use centrode_gear::Member;
+use centrode_gear::shaft::{GRAVITY, ShaftSolid, SpiralShaft};
 use centrode_geometry::{MassProperties, Mesh, Shell, SolidError, Tolerance};
-use centrode_mechanism::gear::Member;
-use centrode_mechanism::machine::{
+use centrode_kinematics::machine::{
     self, Form, GearMesh, Guide, GuideForce, Input, Joint, Linear, Link, Load, Piecewise, Quantity,
     Shape, SolidBody,
 };
-use centrode_mechanism::shaft::{GRAVITY, ShaftSolid, SpiralShaft};
-use centrode_mechanism::transmission::{FromFn, MotionJet, Transmission};
+use centrode_kinematics::transmission::{FromFn, MotionJet, Transmission};
 use nalgebra::{Matrix3, Point3};
 
 use super::machine::{Gears, Machine};

@@ -1,8 +1,8 @@
 use crate::ExportError;
-use centrode_mechanism::gear::GearPair;
-use centrode_mechanism::machine::GuideForce;
-use centrode_mechanism::shaft::{EllipticDrive, MovingBox, Schedule, SpiralShaft};
-use centrode_mechanism::transmission::{MotionJet, Transmission};
+use centrode_gear::GearPair;
+use centrode_gear::shaft::{EllipticDrive, MovingBox, Schedule, SpiralShaft};
+use centrode_kinematics::machine::GuideForce;
+use centrode_kinematics::transmission::{MotionJet, Transmission};
 use std::f64::consts::PI;
 use std::sync::Arc;
 

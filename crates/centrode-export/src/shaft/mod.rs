@@ -11,9 +11,9 @@ mod sheets;
 mod tables;
 
 use crate::{Bundle, ExportError, Format, Options, Package, gear_pair, turned};
+use centrode_gear::shaft::{MovingBox, ShaftError, SpiralShaft};
 use centrode_geometry::Solid;
-use centrode_mechanism::machine::Machine as Linked;
-use centrode_mechanism::shaft::{MovingBox, ShaftError, SpiralShaft};
+use centrode_kinematics::machine::Machine as Linked;
 pub use curves::{box_curves, shaft_curves};
 pub use drawings::{developed, side_view, slider};
 pub use gcode::program;

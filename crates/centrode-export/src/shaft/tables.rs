@@ -1,7 +1,7 @@
 use crate::csv::Column;
+use centrode_gear::shaft::{Schedule, SpiralShaft};
 use centrode_geometry::Tolerance;
-use centrode_mechanism::shaft::{Schedule, SpiralShaft};
-use centrode_mechanism::transmission::Transmission;
+use centrode_kinematics::transmission::Transmission;
 use std::f64::consts::PI;
 
 /// Step of the lead table, rad: 1 deg.

@@ -1,7 +1,7 @@
 //! Holes, keyways and shafts as written on a drawing, with their limits.
 
-use centrode_mechanism::gear::design::Keyway;
-use centrode_mechanism::machine::{Fit, limits_of_size};
+use centrode_kinematics::machine::Keyway;
+use centrode_kinematics::machine::{Fit, limits_of_size};
 
 use super::geometrical::{SYMMETRY, grade};
 use super::number;

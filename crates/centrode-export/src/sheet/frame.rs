@@ -1,7 +1,7 @@
 use super::{Draft, Pen, title_block};
 use crate::drawing::{Anchor, EntityShape};
 use centrode_geometry::{Bounds, Point, Vector};
-use centrode_mechanism::design::SheetSize;
+use centrode_spec::SheetSize;
 
 /// Width of the filing edge on the left, mm.
 const FILING_EDGE: f64 = 20.0;

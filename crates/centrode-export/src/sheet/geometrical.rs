@@ -3,7 +3,7 @@
 use std::fmt;
 
 use centrode_geometry::{Arc, Bounds, Outline, Point, Vector};
-use centrode_mechanism::machine::limits_of_size;
+use centrode_kinematics::machine::limits_of_size;
 
 use super::{Draft, Pen, draft::ARROW, lettering, number};
 use crate::drawing::{Anchor, EntityShape};

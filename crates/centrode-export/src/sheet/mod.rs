@@ -20,7 +20,7 @@ mod treatment;
 
 use crate::drawing::Drawing;
 use centrode_geometry::{Bounds, Vector};
-use centrode_mechanism::design::SheetSize;
+use centrode_spec::SheetSize;
 pub(crate) use dimension::dimension_words;
 pub use draft::Draft;
 pub use layout::Corner;

@@ -1,7 +1,7 @@
 use super::{Corner, Draft, Table};
 use crate::drawing::Anchor;
 use centrode_geometry::Point;
-use centrode_mechanism::design::SheetSize;
+use centrode_spec::SheetSize;
 
 /// A piece of the first page.
 #[derive(Clone, Debug, PartialEq)]

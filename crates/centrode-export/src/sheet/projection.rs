@@ -1,7 +1,7 @@
 use super::{Draft, Pen};
 use crate::drawing::EntityShape;
 use centrode_geometry::{Outline, Point};
-use centrode_mechanism::design::Projection;
+use centrode_spec::Projection;
 
 /// Draws the symbol of the projection method, ISO 5456-2: a truncated cone from the side and from its small
 /// end. In first angle the view from the left is on the right.

@@ -2,7 +2,7 @@ use super::{Draft, Pen, lettering, projection};
 use crate::SheetOptions;
 use crate::drawing::Anchor;
 use centrode_geometry::{Bounds, Point};
-use centrode_mechanism::design::{DrawingSpec, Projection};
+use centrode_spec::{DrawingSpec, Projection};
 
 /// Width of a title block, mm, ISO 7200.
 pub(super) const WIDTH: f64 = 180.0;

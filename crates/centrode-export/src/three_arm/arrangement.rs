@@ -1,8 +1,8 @@
+use centrode_gear::Member;
+use centrode_gear::design::BodySpec;
 use centrode_geometry::Point;
-use centrode_mechanism::gear::Member;
-use centrode_mechanism::gear::design::BodySpec;
-use centrode_mechanism::machine::{self, Axis, Blank, Callout, Datum, Dimension, Fit, Supply};
-use centrode_mechanism::three_arm::ThreeArm;
+use centrode_kinematics::machine::{self, Axis, Blank, Callout, Datum, Dimension, Fit, Supply};
+use centrode_machines::three_arm::ThreeArm;
 
 use super::ThreeArmPart;
 use super::machine::{Machine, PASSING};

@@ -1,8 +1,8 @@
 use std::f64::consts::TAU;
 
+use centrode_gear::Member;
 use centrode_geometry::{Outline, Point, Tolerance};
-use centrode_mechanism::gear::Member;
-use centrode_mechanism::three_arm::{ThreeArm, ThreeArmLink};
+use centrode_machines::three_arm::{ThreeArm, ThreeArmLink};
 use nalgebra::Isometry2;
 
 use super::machine::Machine;

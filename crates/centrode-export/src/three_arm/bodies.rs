@@ -1,5 +1,5 @@
 use centrode_geometry::{Outline, Point};
-use centrode_mechanism::machine::{self, Line, LineRole};
+use centrode_kinematics::machine::{self, Line, LineRole};
 
 use super::ThreeArmPart;
 use super::machine::Machine;

@@ -1,8 +1,8 @@
 use std::f64::consts::{PI, TAU};
 
+use centrode_gear::GearPair;
 use centrode_geometry::{Point, Vector};
-use centrode_mechanism::gear::GearPair;
-use centrode_mechanism::three_arm::ThreeArm;
+use centrode_machines::three_arm::ThreeArm;
 use nalgebra::Rotation2;
 
 use crate::gear_pair::{Flanks, PITCH_SAMPLES, ROUNDING, paths, track};
@@ -134,11 +134,11 @@ fn touching(mechanism: &ThreeArm, teeth: Option<&GearPair>, mesh: Mesh) -> Vec<V
 #[cfg(test)]
 mod tests {
     use super::*;
+    use centrode_gear::Member;
     use centrode_geometry::Tolerance;
-    use centrode_mechanism::design::DesignSpec as _;
-    use centrode_mechanism::gear::Member;
-    use centrode_mechanism::three_arm::ThreeArmLink;
-    use centrode_mechanism::three_arm::design::{Direction, ThreeArmDesign};
+    use centrode_machines::three_arm::ThreeArmLink;
+    use centrode_machines::three_arm::design::{Direction, ThreeArmDesign};
+    use centrode_spec::DesignSpec as _;
 
     /// Distance of a place of the machine's axes from the outline of a gear.
     fn off(

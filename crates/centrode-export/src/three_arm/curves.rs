@@ -1,6 +1,6 @@
 use std::f64::consts::TAU;
 
-use centrode_mechanism::three_arm::{Chain, PointMotion, ThreeArm};
+use centrode_machines::three_arm::{Chain, PointMotion, ThreeArm};
 
 use crate::page::Curve;
 

@@ -1,11 +1,11 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+use centrode_gear::{GearPair, Member};
 use centrode_geometry::{Outline, Point};
-use centrode_mechanism::gear::{GearPair, Member};
-use centrode_mechanism::machine::{Constant, Line, LineRole, Machine, Mark, Quantity, Seat};
-use centrode_mechanism::three_arm::{ThreeArm, ThreeArmLink};
-use centrode_mechanism::transmission::{FromFn, MotionJet};
+use centrode_kinematics::machine::{Constant, Line, LineRole, Machine, Mark, Quantity, Seat};
+use centrode_kinematics::transmission::{FromFn, MotionJet};
+use centrode_machines::three_arm::{ThreeArm, ThreeArmLink};
 
 use super::bodies;
 use super::machine::Machine as Parts;

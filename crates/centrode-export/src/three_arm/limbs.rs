@@ -1,5 +1,5 @@
 use centrode_geometry::Vector;
-use centrode_mechanism::machine::Surface;
+use centrode_kinematics::machine::Surface;
 use nalgebra::Isometry2;
 
 use super::ThreeArmPart;

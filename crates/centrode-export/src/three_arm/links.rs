@@ -1,14 +1,14 @@
 use std::f64::consts::TAU;
 use std::sync::{Arc, Mutex, PoisonError};
 
+use centrode_gear::{GearPair, Member};
 use centrode_geometry::{MassProperties, Solid};
-use centrode_mechanism::gear::{GearPair, Member};
-use centrode_mechanism::machine::{
+use centrode_kinematics::machine::{
     self, Column, Form, GearMesh, Input, Joint, JointKind, Linear, LinkPoint, Quantity,
     STANDARD_GRAVITY, Shape,
 };
-use centrode_mechanism::three_arm::{LinkMotion, Pusher, ThreeArm, ThreeArmLink};
-use centrode_mechanism::transmission::{FromFn, MotionJet, Transmission};
+use centrode_kinematics::transmission::{FromFn, MotionJet, Transmission};
+use centrode_machines::three_arm::{LinkMotion, Pusher, ThreeArm, ThreeArmLink};
 use nalgebra::Isometry2;
 
 use super::limbs::Limbs;

@@ -1,9 +1,9 @@
+use centrode_gear::{GearPair, Member};
 use centrode_geometry::{Bounds, Outline, Point};
-use centrode_mechanism::arm::{ArmBody, ArmPart};
-use centrode_mechanism::gear::{GearPair, Member};
-use centrode_mechanism::machine::{Fastening, Fit, Stock, TurnedPieces, with_bosses};
-use centrode_mechanism::three_arm::making::{self, LIGHT, PRESSED, RINGS, SLIDING, SPRING, STEEL};
-use centrode_mechanism::three_arm::{GearboxBody, Pusher, ThreeArm};
+use centrode_kinematics::machine::{Fastening, Fit, Stock, TurnedPieces, with_bosses};
+use centrode_machines::arm::{ArmBody, ArmPart};
+use centrode_machines::three_arm::making::{self, LIGHT, PRESSED, RINGS, SLIDING, SPRING, STEEL};
+use centrode_machines::three_arm::{GearboxBody, Pusher, ThreeArm};
 
 use super::ThreeArmPart;
 use crate::gear_pair::half_play;

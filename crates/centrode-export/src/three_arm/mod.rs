@@ -14,11 +14,11 @@ mod pieces;
 mod pushed;
 mod surroundings;
 
-use centrode_mechanism::arm::ArmError;
-use centrode_mechanism::design::DrawingSpec;
-use centrode_mechanism::gear::GearPair;
-use centrode_mechanism::machine::Machine as Linked;
-use centrode_mechanism::three_arm::{PusherError, ThreeArm};
+use centrode_gear::GearPair;
+use centrode_kinematics::machine::Machine as Linked;
+use centrode_machines::arm::ArmError;
+use centrode_machines::three_arm::{PusherError, ThreeArm};
+use centrode_spec::DrawingSpec;
 
 use crate::gear_pair::{self, Label};
 use crate::{Bundle, ExportError, Format, Options, Package, cam, turned};

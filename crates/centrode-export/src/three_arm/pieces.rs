@@ -1,5 +1,5 @@
 use centrode_geometry::MassProperties;
-use centrode_mechanism::machine::{Form, Mounted, Shape};
+use centrode_kinematics::machine::{Form, Mounted, Shape};
 
 use super::links::Builder;
 use crate::ExportError;

@@ -1,6 +1,6 @@
-use centrode_mechanism::machine::{Contact, Joint, Load, Quantity};
-use centrode_mechanism::three_arm::Pusher;
-use centrode_mechanism::transmission::MotionJet;
+use centrode_kinematics::machine::{Contact, Joint, Load, Quantity};
+use centrode_kinematics::transmission::MotionJet;
+use centrode_machines::three_arm::Pusher;
 
 use super::limbs::Limbs;
 use super::links::{Builder, Laws};

@@ -1,5 +1,5 @@
 use centrode_geometry::{Mesh, Outline, Point, Segment, Vector};
-use centrode_mechanism::three_arm::ThreeArm;
+use centrode_machines::three_arm::ThreeArm;
 
 /// Thickness of what stands for the ground, mm.
 const GROUND: f64 = 20.0;

@@ -2,9 +2,9 @@ use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
 use centrode_geometry::{Point, Solid, Tolerance};
-use centrode_mechanism::design::DesignSpec as _;
-use centrode_mechanism::machine::{Column, Form, JointKind, LineRole, Quantity};
-use centrode_mechanism::three_arm::design::ThreeArmDesign;
+use centrode_kinematics::machine::{Column, Form, JointKind, LineRole, Quantity};
+use centrode_machines::three_arm::design::ThreeArmDesign;
+use centrode_spec::DesignSpec as _;
 
 use super::*;
 use crate::machine::{self, arrangement};
@@ -248,7 +248,7 @@ fn what_cannot_be_made_is_refused_by_name() {
     let error = files(&without, &[Format::Dxf], &options()).expect_err("no teeth");
     assert!(error.to_string().contains("tooth_count"), "{error}");
     let thin = mechanism(|d| {
-        let mut body = centrode_mechanism::arm::ArmBodySpec::default();
+        let mut body = centrode_machines::arm::ArmBodySpec::default();
         body.clamp.root_height = 22.0;
         d.arm.body = Some(body);
     });

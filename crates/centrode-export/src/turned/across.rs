@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use centrode_geometry::{Arc, Bounds, Outline, Point, Segment, Tolerance, Vector};
-use centrode_mechanism::gear::design::Keyway;
+use centrode_kinematics::machine::Keyway;
 
 use crate::drawing::{Anchor, EntityShape};
 use crate::sheet::geometrical::{Frame, NoteLine};

@@ -6,10 +6,10 @@ mod sheet;
 
 use std::ops::Deref;
 
+use centrode_gear::design::BodySpec;
 use centrode_geometry::{Outline, Point};
-use centrode_mechanism::design::DrawingSpec;
-use centrode_mechanism::gear::design::BodySpec;
-use centrode_mechanism::machine::{Machine, Spacer, SpacerKind, TurnedPart, TurnedPieces};
+use centrode_kinematics::machine::{Machine, Spacer, SpacerKind, TurnedPart, TurnedPieces};
+use centrode_spec::DrawingSpec;
 
 use crate::drawing::{CENTER, Drawing, EntityShape, PROFILE};
 use crate::plate::{Exactness, Plate};

@@ -1,6 +1,6 @@
 use centrode_geometry::{Arc, Point, Tolerance, Vector};
-use centrode_mechanism::design::{DrawingSpec, SheetSize};
-use centrode_mechanism::machine::HeldLength;
+use centrode_kinematics::machine::HeldLength;
+use centrode_spec::{DrawingSpec, SheetSize};
 
 use super::{Drawn, across, centre, centre_mark, cutting_plane};
 use crate::SheetOptions;

@@ -1,4 +1,4 @@
-use centrode_mechanism::machine::TurnedStep;
+use centrode_kinematics::machine::TurnedStep;
 
 use super::*;
 

@@ -3,9 +3,9 @@ mod wanted;
 use std::ffi::OsStr;
 use std::path::PathBuf;
 
-use crate::analysis::optimise::Strategy;
 use crate::family::{FAMILIES, PartName};
 use crate::geometry::Tolerance;
+use centrode_synthesis::optimise::Strategy;
 use clap::builder::{
     NonEmptyStringValueParser, PossibleValue, PossibleValuesParser, TypedValueParser,
 };

@@ -2,7 +2,7 @@ use std::io::Write;
 
 use crate::analysis::{MOST_TEETH, Report};
 use crate::family::Mechanism;
-use crate::mechanism::design::{Design, DesignError};
+use centrode_spec::{Design, DesignError};
 
 use crate::cli::Status;
 use crate::cli::args::Check;

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::page::{Edit, Table, edited, tables};
 use crate::analysis::{Finding, Place, Report, Severity, Unit};
 use crate::family::{FAMILIES, Mechanism};
-use crate::mechanism::design::{DesignError, DesignFault};
+use centrode_spec::{DesignError, DesignFault};
 
 /// Greatest number of details that are left out of one design.
 const MOST: usize = 6;

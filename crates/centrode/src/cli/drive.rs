@@ -1,8 +1,8 @@
 use std::io::Write;
 
 use crate::analysis::{Unit, with_sound_teeth};
-use crate::mechanism::design::Design as _;
-use crate::mechanism::reverse::{GearDrive, GearDriveSpec};
+use centrode_spec::Design as _;
+use centrode_synthesis::reverse::{GearDrive, GearDriveSpec};
 
 use crate::cli::Status;
 use crate::cli::args::Drive;

@@ -3,7 +3,7 @@ use std::io::Write;
 use crate::analysis::Report;
 use crate::export::{Bundle, ExportError, Format, Options, SheetOptions, dxf};
 use crate::family::{Family, Mechanism, PartName};
-use crate::mechanism::design::{Projection, SheetSize};
+use centrode_spec::{Projection, SheetSize};
 
 use crate::cli::Status;
 use crate::cli::args::{Dxf, Export, File, Method, Size, TOLERANCE, tolerance};

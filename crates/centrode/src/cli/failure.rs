@@ -2,8 +2,8 @@ use std::io::{self, Write};
 
 use crate::InternalFault;
 use crate::export::{BundleError, ExportError};
-use crate::mechanism::design::{DesignError, visible};
 use anstyle::{AnsiColor, Style};
+use centrode_spec::{DesignError, visible};
 
 /// Longest part of a line shown below an error, in characters.
 const WIDEST: usize = 100;

@@ -3,7 +3,7 @@ use std::io::{self, Read};
 use std::path::Path;
 
 use crate::family::{FAMILIES, OpenDesign};
-use crate::mechanism::design::{DesignError, DesignFile, shortened};
+use centrode_spec::{DesignError, DesignFile, shortened};
 
 use crate::cli::failure::Failure;
 

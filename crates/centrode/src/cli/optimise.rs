@@ -6,9 +6,8 @@ use std::io::Write;
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
 
-use crate::analysis::optimise::{
-    DesignProblem, DesignSearch, Ended, SearchError, Settings, Strategy,
-};
+use centrode_optimise::{Ended, SearchError, Settings};
+use centrode_synthesis::optimise::{DesignProblem, DesignSearch, Strategy};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
 use crate::cli::Status;

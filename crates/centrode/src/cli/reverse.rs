@@ -8,10 +8,10 @@ use std::io::Write;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use crate::analysis::optimise::EasingError;
 use crate::analysis::{Finding, Severity, SoundTeeth, Unit};
-use crate::mechanism::design::DesignSpec as _;
-use crate::mechanism::reverse::{
+use centrode_spec::DesignSpec as _;
+use centrode_synthesis::optimise::EasingError;
+use centrode_synthesis::reverse::{
     AxisMap, KeyPose, PathDesign, ReversedMachine, Split, SplitKind, TwoBar, WantedPath,
 };
 

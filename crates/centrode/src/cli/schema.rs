@@ -1,9 +1,9 @@
 use std::io::Write;
 
 use crate::FAMILIES;
-use crate::mechanism::composed::FIGURE_FORMS;
-use crate::mechanism::design::DesignFamily;
-use crate::mechanism::reverse::PathDesign;
+use centrode_machines::composed::FIGURE_FORMS;
+use centrode_spec::DesignFamily;
+use centrode_synthesis::reverse::PathDesign;
 
 use crate::cli::Status;
 use crate::cli::args::Schema;

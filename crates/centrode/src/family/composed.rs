@@ -1,7 +1,5 @@
 use std::sync::Arc;
 
-use centrode_analysis::optimise::composed::ComposedProblem;
-use centrode_analysis::optimise::{DesignProblem, NotSearched};
 use centrode_analysis::{
     Report, Table, Unit, check_composed, check_composed_goals, check_composed_motion,
     composed_figures, composed_layers,
@@ -9,12 +7,14 @@ use centrode_analysis::{
 use centrode_export::page::{Curve, Handle, HandlePlane, Picture};
 use centrode_export::{Bundle, ExportError, Format, Options};
 use centrode_export::{composed, machine};
+use centrode_gear::{GearPair, GearPairError};
 use centrode_geometry::Tolerance;
-use centrode_mechanism::composed::{Composed, ComposedDesign, DyadKind, Over};
-use centrode_mechanism::design::{Design, MechanismError};
-use centrode_mechanism::gear::{GearPair, GearPairError};
-use centrode_mechanism::machine::Machine;
-use centrode_mechanism::reverse::{GearDrive, GearDriveError, GearDriveSpec};
+use centrode_kinematics::machine::Machine;
+use centrode_machines::composed::{Composed, ComposedDesign, DyadKind, Over};
+use centrode_spec::{Design, MechanismError};
+use centrode_synthesis::optimise::composed::ComposedProblem;
+use centrode_synthesis::optimise::{DesignProblem, NotSearched};
+use centrode_synthesis::reverse::{GearDrive, GearDriveError, GearDriveSpec};
 
 use super::{Limit, Mechanism, Resolved};
 

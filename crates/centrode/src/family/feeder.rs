@@ -1,17 +1,17 @@
 use std::f64::consts::TAU;
 
-use centrode_analysis::optimise::feeder::{FeederProblem, Widened};
-use centrode_analysis::optimise::{DesignProblem, NotSearched};
 use centrode_analysis::{FeederForces, Report, check_feeder, check_strokes};
 use centrode_export::feeder;
 use centrode_export::machine::picture;
 use centrode_export::page::{Curve, Handle, HandlePlane, Picture};
 use centrode_export::{Bundle, ExportError, Format, Options};
+use centrode_gear::IntermittentPair;
 use centrode_geometry::Tolerance;
-use centrode_mechanism::design::{Design, MechanismError};
-use centrode_mechanism::feeder::{Dimension, Feeder, FeederDesign, FeederPart};
-use centrode_mechanism::gear::IntermittentPair;
-use centrode_mechanism::machine::Machine;
+use centrode_kinematics::machine::Machine;
+use centrode_machines::feeder::{Dimension, Feeder, FeederDesign, FeederPart};
+use centrode_spec::{Design, MechanismError};
+use centrode_synthesis::optimise::feeder::{FeederProblem, Widened};
+use centrode_synthesis::optimise::{DesignProblem, NotSearched};
 use serde_json::json;
 
 use super::{Limit, Mechanism, Resolved, Widening, WideningError};

@@ -6,11 +6,11 @@ use centrode_analysis::{
 use centrode_export::page::{Curve, Picture};
 use centrode_export::{Bundle, ExportError, Format, Options};
 use centrode_export::{gear_pair, machine};
+use centrode_gear::design::{Addendum, GearPairDesign};
+use centrode_gear::{GearPair, GearPairError};
 use centrode_geometry::Tolerance;
-use centrode_mechanism::design::{Design, MechanismError};
-use centrode_mechanism::gear::design::{Addendum, GearPairDesign};
-use centrode_mechanism::gear::{GearPair, GearPairError};
-use centrode_mechanism::machine::Machine;
+use centrode_kinematics::machine::Machine;
+use centrode_spec::{Design, MechanismError};
 
 use super::contact::contact_curves;
 use super::handles::handles;

@@ -1,7 +1,7 @@
 use std::f64::consts::{PI, TAU};
 
 use centrode_export::page::{Handle, HandlePlane};
-use centrode_mechanism::gear::pitch::{PitchSpec, Plane};
+use centrode_gear::pitch::{PitchSpec, Plane};
 
 /// Greatest number of points of a pitch curve that get a handle each: more would hide the curve.
 const MOST_HANDLES: usize = 60;

@@ -5,10 +5,10 @@ use std::sync::Arc;
 use centrode_analysis::{Report, Table};
 use centrode_export::page::{Curve, Picture};
 use centrode_export::{Bundle, ExportError, Format, Options};
-use centrode_mechanism::design::Design;
-use centrode_mechanism::gear::{GearPair, GearPairError};
-use centrode_mechanism::machine::Machine;
-use centrode_mechanism::reverse::{GearDrive, GearDriveError, GearDriveSpec};
+use centrode_gear::{GearPair, GearPairError};
+use centrode_kinematics::machine::Machine;
+use centrode_spec::Design;
+use centrode_synthesis::reverse::{GearDrive, GearDriveError, GearDriveSpec};
 
 use super::Limit;
 

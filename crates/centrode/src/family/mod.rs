@@ -24,11 +24,11 @@ pub use proofs::{NotProved, Proved};
 pub use registry::{Families, Family, PartName, Resolved};
 pub use widening::{Widening, WideningError};
 
-use centrode_mechanism::composed::Composed;
-use centrode_mechanism::feeder::Feeder;
-use centrode_mechanism::gear::GearPair;
-use centrode_mechanism::shaft::{MovingBox, SpiralShaft};
-use centrode_mechanism::three_arm::ThreeArm;
+use centrode_gear::GearPair;
+use centrode_gear::shaft::{MovingBox, SpiralShaft};
+use centrode_machines::composed::Composed;
+use centrode_machines::feeder::Feeder;
+use centrode_machines::three_arm::ThreeArm;
 
 /// Every family there is.
 pub static FAMILIES: Families = Families(&[

@@ -4,10 +4,10 @@ use centrode_analysis::{Report, check_moving_box};
 use centrode_export::page::{Curve, Picture};
 use centrode_export::shaft;
 use centrode_export::{Bundle, ExportError, Format, Options};
-use centrode_mechanism::design::{Design, MechanismError};
-use centrode_mechanism::gear::{GearPair, GearPairError};
-use centrode_mechanism::machine::Machine;
-use centrode_mechanism::shaft::{MovingBox, MovingBoxDesign, Scheme};
+use centrode_gear::shaft::{MovingBox, MovingBoxDesign, Scheme};
+use centrode_gear::{GearPair, GearPairError};
+use centrode_kinematics::machine::Machine;
+use centrode_spec::{Design, MechanismError};
 
 use super::spiral_shaft::{drawn, in_words, window};
 use super::{Mechanism, Resolved};

@@ -1,6 +1,6 @@
 use std::sync::Arc;
 
-use centrode_mechanism::design::{Design, DesignError, DesignFile};
+use centrode_spec::{Design, DesignError, DesignFile};
 
 use super::{Family, Mechanism};
 

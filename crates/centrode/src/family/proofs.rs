@@ -1,6 +1,6 @@
 use centrode_analysis::{Proof, ProofError, prove};
-use centrode_mechanism::design::DesignError;
-use centrode_mechanism::gear::GearPairError;
+use centrode_gear::GearPairError;
+use centrode_spec::DesignError;
 
 use super::Mechanism;
 

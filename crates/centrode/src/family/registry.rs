@@ -1,10 +1,10 @@
 use std::sync::Arc;
 
 use centrode_analysis::Response;
-use centrode_analysis::optimise::{DesignProblem, NotSearched};
-use centrode_mechanism::design::{
+use centrode_spec::{
     self, Design, DesignError, DesignFamily, DesignFault, DesignFile, DesignSpec, MechanismError,
 };
+use centrode_synthesis::optimise::{DesignProblem, NotSearched};
 
 use super::{Depth, Mechanism, OpenDesign, Widening, WideningError};
 
@@ -184,7 +184,7 @@ impl Families {
     /// The JSON schema of the design file, of whatever family.
     #[must_use]
     pub fn json_schema(&self) -> serde_json::Value {
-        design::json_schema(self.0)
+        centrode_spec::json_schema(self.0)
     }
 
     /// Reads a design file of one of the families and checks every rule that needs no geometry.

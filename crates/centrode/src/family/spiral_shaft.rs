@@ -5,11 +5,11 @@ use centrode_export::machine::picture;
 use centrode_export::page::{Curve, Handle, HandlePlane, Picture};
 use centrode_export::shaft;
 use centrode_export::{Bundle, ExportError, Format, Options};
+use centrode_gear::shaft::{ShaftSolid, SpiralShaft, SpiralShaftDesign};
 use centrode_geometry::Tolerance;
-use centrode_mechanism::design::{Design, MechanismError};
-use centrode_mechanism::machine::Machine;
-use centrode_mechanism::shaft::{ShaftSolid, SpiralShaft, SpiralShaftDesign};
-use centrode_mechanism::transmission::MotionJet;
+use centrode_kinematics::machine::Machine;
+use centrode_kinematics::transmission::MotionJet;
+use centrode_spec::{Design, MechanismError};
 
 use super::handles::degrees;
 use super::{Mechanism, Resolved};

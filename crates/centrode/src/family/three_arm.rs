@@ -1,7 +1,5 @@
 use std::sync::Arc;
 
-use centrode_analysis::optimise::three_arm::ThreeArmProblem;
-use centrode_analysis::optimise::{DesignProblem, NotSearched};
 use centrode_analysis::{
     Report, TrainTeeth, arm_clearance_course, carrier_turn, check_arms, check_three_arm,
     check_three_arm_teeth,
@@ -9,12 +7,14 @@ use centrode_analysis::{
 use centrode_export::page::{Curve, Picture};
 use centrode_export::{Bundle, ExportError, Format, Options};
 use centrode_export::{machine, three_arm};
+use centrode_gear::{GearPair, GearPairError, Member};
 use centrode_geometry::{Tolerance, together};
-use centrode_mechanism::design::{Design, MechanismError};
-use centrode_mechanism::gear::{GearPair, GearPairError, Member};
-use centrode_mechanism::machine::Machine;
-use centrode_mechanism::three_arm::ThreeArm;
-use centrode_mechanism::three_arm::design::ThreeArmDesign;
+use centrode_kinematics::machine::Machine;
+use centrode_machines::three_arm::ThreeArm;
+use centrode_machines::three_arm::design::ThreeArmDesign;
+use centrode_spec::{Design, MechanismError};
+use centrode_synthesis::optimise::three_arm::ThreeArmProblem;
+use centrode_synthesis::optimise::{DesignProblem, NotSearched};
 
 use super::contact::contact_curves;
 use super::handles::handles;

@@ -5,7 +5,7 @@ use centrode::export::drawing::EntityShape;
 use centrode::export::machine::{arrangement, parts_list};
 use centrode::export::sheet::{Sheet, overlaps};
 use centrode::geometry::Tolerance;
-use centrode::mechanism::machine::Machine;
+use centrode_kinematics::machine::Machine;
 
 use super::machines;
 

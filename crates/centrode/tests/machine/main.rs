@@ -12,7 +12,7 @@ use centrode::export::machine::{picture, plain, read, schema, write};
 use centrode::export::page::{self, Picture};
 use centrode::export::{Bundle, Format, Options, Package};
 use centrode::geometry::Tolerance;
-use centrode::mechanism::machine::{Form, JointKind, LineRole, Load, Machine, Mounted};
+use centrode_kinematics::machine::{Form, JointKind, LineRole, Load, Machine, Mounted};
 use nalgebra::{Matrix3, Point3, Vector3};
 
 /// Name and machine of every shipped design that gives one.

@@ -1,5 +1,5 @@
 use centrode_geometry::{Tolerance, greatest, pieces};
-use centrode_mechanism::machine::{Part, Supply};
+use centrode_kinematics::machine::{Part, Supply};
 
 use super::*;
 

@@ -163,7 +163,7 @@ fn quick_returns_whitworths_and_yokes_have_an_order_of_layers_at_every_scale() {
         assert_eq!(finding(&report, "layer-order").as_deref(), Some(order));
         let (words, design) = composed_layers(&whitworth).expect("layers");
         assert_eq!(words, "layers crank -2, lever 0");
-        let toml = centrode_mechanism::design::Design::to_toml(&design).expect("a file");
+        let toml = centrode_spec::Design::to_toml(&design).expect("a file");
         is_good(&toml);
     }
 }

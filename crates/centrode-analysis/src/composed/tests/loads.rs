@@ -57,7 +57,7 @@ fn a_constant_force_on_a_slider_crank_has_the_torque_of_virtual_work_and_the_for
         ];
         let goals: String = figures.map(|figure| goal(figure, degrees)).concat();
         let load = "[loads.work]\non = \"ram.tool\"\nforce = [-150, 0]\n";
-        let found = goals_of(&with("", "", &format!("{load}{goals}")));
+        let found = machine_goals(&with("", "", &format!("{load}{goals}")));
         let value = |figure: &str| {
             let name = figure.replace(['(', ')', '.'], "_");
             let goal = found.iter().find(|goal| goal.name == name);
@@ -126,7 +126,7 @@ fn a_force_in_the_axes_of_its_body_turns_with_it_and_a_torque_adds_up() {
         let goal = goal("input.torque", at);
         goal.replace("[goals.input_torque]", &format!("[goals.at-{at}]"))
     });
-    let found = goals_of(&with("", "", &format!("{load}{}", goals.concat())));
+    let found = machine_goals(&with("", "", &format!("{load}{}", goals.concat())));
     assert_eq!(found.len(), 3);
     for goal in found {
         let degrees: f64 = goal.name[3..].parse().expect("an angle");

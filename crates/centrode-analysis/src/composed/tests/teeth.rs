@@ -1,8 +1,8 @@
 //! Teeth of gear pairs in a machine: findings and goals are those of the pairs themselves.
 
 use super::*;
-use centrode_mechanism::gear::GearPair;
-use centrode_mechanism::gear::design::GearPairDesign;
+use centrode_gear::GearPair;
+use centrode_gear::design::GearPairDesign;
 
 /// A shaft and a crank geared to it by teeth too few for their law.
 const WEAK: &str = r#"

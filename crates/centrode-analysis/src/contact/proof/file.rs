@@ -1,9 +1,9 @@
 //! The certificate as it is written.
 
+use centrode_gear::{Gear, Member};
 use centrode_geometry::{Point, Segment};
-use centrode_mechanism::design::DesignError;
-use centrode_mechanism::gear::{Gear, Member};
-use centrode_mechanism::machine::Piecewise;
+use centrode_kinematics::machine::Piecewise;
+use centrode_spec::DesignError;
 use schemars::JsonSchema;
 use serde::Serialize;
 

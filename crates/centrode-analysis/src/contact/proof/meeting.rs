@@ -1,7 +1,7 @@
 //! The turn of the driven gear at which two features of the contours meet, followed along the driver's angle.
 
+use centrode_gear::Member;
 use centrode_geometry::Vector;
-use centrode_mechanism::gear::Member;
 use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 
 use super::super::{hit::Hit, meshing::Meshing, touch::Pose};

@@ -15,11 +15,11 @@ mod track;
 
 use std::f64::consts::TAU;
 
+use centrode_gear::{GearPair, Member};
 use centrode_geometry::{chebyshev_series, checkpoint};
-use centrode_mechanism::design::Design;
-use centrode_mechanism::gear::{GearPair, Member};
-use centrode_mechanism::machine::Piecewise;
-use centrode_mechanism::transmission::Transmission;
+use centrode_kinematics::machine::Piecewise;
+use centrode_kinematics::transmission::Transmission;
+use centrode_spec::Design;
 
 use super::{meshing::Meshing, touch::Pose};
 use file::contour;

@@ -1,7 +1,7 @@
 //! Parabolas between two features that meet, and the pieces beyond joints nearby.
 
+use centrode_gear::Member;
 use centrode_geometry::SegmentJet;
-use centrode_mechanism::gear::Member;
 
 use super::{
     Feature, Meeting, Prover,

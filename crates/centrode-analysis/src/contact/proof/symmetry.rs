@@ -2,8 +2,8 @@
 
 use std::f64::consts::TAU;
 
-use centrode_mechanism::machine::Piecewise;
-use centrode_mechanism::transmission::Transmission;
+use centrode_kinematics::machine::Piecewise;
+use centrode_kinematics::transmission::Transmission;
 use nalgebra::Complex;
 
 use super::HALF_WIDTH;

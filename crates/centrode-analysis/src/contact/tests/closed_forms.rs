@@ -2,9 +2,9 @@
 
 use std::f64::consts::PI;
 
-use centrode_mechanism::design::DesignSpec as _;
-use centrode_mechanism::gear::design::GearPairDesign;
-use centrode_mechanism::gear::{GearPair, Member, Side};
+use centrode_gear::design::GearPairDesign;
+use centrode_gear::{GearPair, Member, Side};
+use centrode_spec::DesignSpec as _;
 
 use crate::{Contact, ContactExtremes};
 

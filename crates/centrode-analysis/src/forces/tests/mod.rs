@@ -8,12 +8,12 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 use centrode_geometry::{Jet, MassProperties, Point};
-use centrode_mechanism::linkage::{Branch, Line, LinkId as Bar, Linkage, LinkageError};
-use centrode_mechanism::machine::{
+use centrode_kinematics::linkage::{Branch, Line, LinkId as Bar, Linkage, LinkageError};
+use centrode_kinematics::machine::{
     Axes, Closure, Constant, Contact, FrameJet, GearMesh, Input, Joint, Linear, Link, Load,
     Machine, PitchCurves, Quantity,
 };
-use centrode_mechanism::transmission::{FromFn, MotionJet, Transmission};
+use centrode_kinematics::transmission::{FromFn, MotionJet, Transmission};
 use nalgebra::{Matrix3, Point3};
 
 use super::*;

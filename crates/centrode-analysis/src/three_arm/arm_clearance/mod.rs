@@ -1,8 +1,8 @@
 use std::f64::consts::{PI, TAU};
 
 use centrode_geometry::{Outline, Tolerance, Vector};
-use centrode_mechanism::arm::ArmBody;
-use centrode_mechanism::three_arm::{LinkMotion, ThreeArm, ThreeArmLink};
+use centrode_machines::arm::ArmBody;
+use centrode_machines::three_arm::{LinkMotion, ThreeArm, ThreeArmLink};
 use nalgebra::{Isometry2, Rotation2};
 
 use crate::interference::{

@@ -1,8 +1,8 @@
 use super::*;
+use centrode_gear::pitch::{Bspline, PitchSpec};
 use centrode_geometry::Point;
-use centrode_mechanism::arm::ArmBodySpec;
-use centrode_mechanism::gear::pitch::{Bspline, PitchSpec};
-use centrode_mechanism::three_arm::design::{ArmSpec, ThreeArmDesign, Unpicked};
+use centrode_machines::arm::ArmBodySpec;
+use centrode_machines::three_arm::design::{ArmSpec, ThreeArmDesign, Unpicked};
 
 /// The set of section 4.1 of the 2021 paper, read as a quadratic B-spline in the polar plane.
 fn published(arms: u32) -> ThreeArm {

@@ -3,10 +3,10 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
+use centrode_gear::design::GearPairDesign;
+use centrode_gear::{GearPair, GearPairError, Member};
 use centrode_geometry::{Recent, Tolerance, Vector, checkpoint};
-use centrode_mechanism::gear::design::GearPairDesign;
-use centrode_mechanism::gear::{GearPair, GearPairError, Member};
-use centrode_mechanism::three_arm::{ThreeArm, ThreeArmLink};
+use centrode_machines::three_arm::{ThreeArm, ThreeArmLink};
 
 use crate::interference::{Clearance, Motion, Moving, PoseJet, Shares};
 use crate::progress::filling;

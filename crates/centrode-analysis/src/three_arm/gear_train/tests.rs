@@ -1,8 +1,8 @@
 use super::*;
-use centrode_mechanism::design::DesignSpec as _;
-use centrode_mechanism::gear::pitch::{Limacon, PitchSpec};
-use centrode_mechanism::three_arm::GearMesh;
-use centrode_mechanism::three_arm::design::{Direction, ThreeArmDesign};
+use centrode_gear::pitch::{Limacon, PitchSpec};
+use centrode_machines::three_arm::GearMesh;
+use centrode_machines::three_arm::design::{Direction, ThreeArmDesign};
+use centrode_spec::DesignSpec as _;
 
 /// Gentle gears with full teeth, three chains as published.
 fn gentle(change: impl Fn(&mut ThreeArmDesign)) -> (ThreeArm, GearPair) {
@@ -16,7 +16,7 @@ fn gentle(change: impl Fn(&mut ThreeArmDesign)) -> (ThreeArm, GearPair) {
         tooth_count: None,
     });
     design.tooth_count = Some(36);
-    design.teeth = centrode_mechanism::gear::design::TeethSpec {
+    design.teeth = centrode_gear::design::TeethSpec {
         backlash: 0.05,
         ..Default::default()
     };

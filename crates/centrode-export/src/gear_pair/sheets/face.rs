@@ -11,7 +11,7 @@ use crate::{
     },
 };
 use centrode_geometry::{Bounds, Outline, Point, Vector};
-use centrode_mechanism::design::Projection;
+use centrode_spec::Projection;
 use nalgebra::Isometry2;
 
 /// Distance of the numbers of the spaces from the teeth, mm.

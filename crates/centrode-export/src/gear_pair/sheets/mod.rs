@@ -15,12 +15,11 @@ use crate::{
         view_letters,
     },
 };
+use centrode_gear::{GearPair, Member, OverPins};
 use centrode_geometry::Tolerance;
-use centrode_mechanism::{
-    design::{DrawingSpec, SheetSize},
-    gear::{GearPair, Member, OverPins, design::Keyway},
-    machine::Fit,
-};
+use centrode_kinematics::machine::Fit;
+use centrode_kinematics::machine::Keyway;
+use centrode_spec::{DrawingSpec, SheetSize};
 pub(super) use part::middle;
 use part::{Likeness, SheetGear, likeness};
 pub(crate) use tables::{measured, over_pins};

@@ -1,10 +1,10 @@
 use super::Label;
+use centrode_gear::design::BodySpec;
+use centrode_gear::{Frame, Gear, GearPair, Member, Role};
 use centrode_geometry::{
     Bounds, Extreme, Outline, Point, Tolerance, Vector, bracketed_root, least,
 };
-use centrode_mechanism::design::DrawingSpec;
-use centrode_mechanism::gear::design::BodySpec;
-use centrode_mechanism::gear::{Frame, Gear, GearPair, Member, Role};
+use centrode_spec::DrawingSpec;
 use nalgebra::Rotation2;
 use std::f64::consts::TAU;
 
@@ -258,8 +258,9 @@ pub(super) fn degrees(p: Point) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use centrode_mechanism::gear::design::{GearPairDesign, Keyway};
-    use centrode_mechanism::gear::pitch::{Circle, Ellipse, PitchSpec};
+    use centrode_gear::design::GearPairDesign;
+    use centrode_gear::pitch::{Circle, Ellipse, PitchSpec};
+    use centrode_kinematics::machine::Keyway;
     use std::f64::consts::PI;
 
     fn pair(pitch: PitchSpec, driven: impl Fn(&mut BodySpec)) -> GearPair {

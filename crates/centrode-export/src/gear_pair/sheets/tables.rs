@@ -6,10 +6,9 @@ use crate::{
     drawing::Anchor,
     sheet::{Table, broken, fixed, number, range, treatment},
 };
-use centrode_mechanism::{
-    gear::{GearPair, Member, OverPins, PinFault, ToolKind, design::Addendum},
-    machine::Datum,
-};
+use centrode_gear::design::Addendum;
+use centrode_gear::{GearPair, Member, OverPins, PinFault, ToolKind};
+use centrode_kinematics::machine::Datum;
 
 /// The gear data, in the order of ISO 1340 as far as it goes.
 pub(super) fn data(part: &SheetGear<'_>, found: &[Datum]) -> Table {
@@ -285,8 +284,8 @@ impl Rows {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use centrode_mechanism::gear::design::GearPairDesign;
-    use centrode_mechanism::gear::pitch::{Circle, PitchSpec};
+    use centrode_gear::design::GearPairDesign;
+    use centrode_gear::pitch::{Circle, PitchSpec};
 
     #[test]
     fn the_gear_data_list_shifts_heights_and_the_operating_angle() {

@@ -5,8 +5,8 @@ use crate::{
     drawing::{Anchor, EntityShape},
     sheet::{Draft, Pen, Scale, lettering, number},
 };
+use centrode_gear::Role;
 use centrode_geometry::{Point, Tolerance, Vector};
-use centrode_mechanism::gear::Role;
 use nalgebra::Rotation2;
 
 /// Height of the letters, mm.

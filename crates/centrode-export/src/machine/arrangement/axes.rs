@@ -1,5 +1,5 @@
 use centrode_geometry::Point;
-use centrode_mechanism::machine::{JointKind, Machine, Place, Seat};
+use centrode_kinematics::machine::{JointKind, Machine, Place, Seat};
 use nalgebra::{Point3, Vector3};
 
 use super::scene::Scene;

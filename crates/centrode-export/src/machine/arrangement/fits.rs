@@ -1,4 +1,4 @@
-use centrode_mechanism::machine::{Fit, Machine};
+use centrode_kinematics::machine::{Fit, Machine};
 
 use crate::drawing::Anchor;
 use crate::sheet::{Table, broken, fit, number};

@@ -1,5 +1,5 @@
 use centrode_geometry::{Extreme, Point, Vector, greatest_each, pieces};
-use centrode_mechanism::machine::{Axis as Along, Machine};
+use centrode_kinematics::machine::{Axis as Along, Machine};
 
 use super::super::motion::within;
 use super::axes::Axis;

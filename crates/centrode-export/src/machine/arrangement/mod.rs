@@ -8,8 +8,8 @@ mod stacks;
 mod view;
 
 use centrode_geometry::Tolerance;
-use centrode_mechanism::design::SheetSize;
-use centrode_mechanism::machine::{Column, Machine, Place};
+use centrode_kinematics::machine::{Column, Machine, Place};
+use centrode_spec::SheetSize;
 
 use super::cuts::cut_list;
 use super::parts::parts_list;

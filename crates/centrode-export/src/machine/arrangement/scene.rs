@@ -1,5 +1,5 @@
 use centrode_geometry::{Bounds, Outline, Point, Tolerance, Vector};
-use centrode_mechanism::machine::{
+use centrode_kinematics::machine::{
     Figure, LinePath, LineRole, LinkPoint, Machine, Place, Quantity, Seat,
 };
 use nalgebra::{Isometry2, Isometry3};

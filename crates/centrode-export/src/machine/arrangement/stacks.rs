@@ -1,7 +1,7 @@
 //! Sections along shafts, pins and screws: what is on them and what they are in.
 
 use centrode_geometry::{Bounds, Outline, Point, Solid, Tolerance, Vector};
-use centrode_mechanism::machine::{Blank, Form, Machine, Part, Shape, Supply, TurnedPart};
+use centrode_kinematics::machine::{Blank, Form, Machine, Part, Shape, Supply, TurnedPart};
 use nalgebra::{Isometry3, Point3, Vector3};
 
 use crate::drawing::Anchor;

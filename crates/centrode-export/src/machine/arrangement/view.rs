@@ -1,6 +1,6 @@
 use centrode_geometry::{Bounds, Point, Vector};
-use centrode_mechanism::design::SheetSize;
-use centrode_mechanism::machine::{Axis as Along, Place};
+use centrode_kinematics::machine::{Axis as Along, Place};
+use centrode_spec::SheetSize;
 
 use super::axes::Axis;
 use super::measure::Measured;

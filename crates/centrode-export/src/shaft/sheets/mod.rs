@@ -18,9 +18,9 @@ use crate::{
         treatment_note, view_letters,
     },
 };
+use centrode_gear::shaft::{ShaftSolid, SpiralShaft};
 use centrode_geometry::{Arc, Point};
-use centrode_mechanism::design::SheetSize;
-use centrode_mechanism::shaft::{ShaftSolid, SpiralShaft};
+use centrode_spec::SheetSize;
 
 /// Letter of the section across the journal; datums have the first ones.
 const SECTION: char = 'C';

@@ -4,9 +4,9 @@ use crate::{
     drawing::EntityShape,
     sheet::{Draft, Pen, Scale, fit, number},
 };
+use centrode_gear::shaft::SpiralShaft;
 use centrode_geometry::{Bounds, Outline, Point, Tolerance, Vector};
-use centrode_mechanism::design::Projection;
-use centrode_mechanism::shaft::SpiralShaft;
+use centrode_spec::Projection;
 
 /// Room between a view and the next, mm.
 const APART: f64 = 16.0;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 
-use crate::mechanism::reverse::{Aim, SplitKind};
+use centrode_synthesis::reverse::{Aim, SplitKind};
 
 #[derive(Debug, Args)]
 #[command(

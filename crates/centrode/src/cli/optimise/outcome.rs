@@ -1,7 +1,8 @@
 use std::io::{self, Write};
 
 use crate::analysis::Goal;
-use crate::analysis::optimise::{DesignProblem, DesignSearch, Ended, GuidedStep, Progress};
+use centrode_optimise::{Ended, Progress};
+use centrode_synthesis::optimise::{DesignProblem, DesignSearch, GuidedStep};
 use serde::Serialize;
 
 use crate::cli::report::goal_words;

@@ -1,8 +1,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use crate::analysis::optimise::{DesignProblem, DesignSearch};
 use crate::export::Bundle;
+use centrode_synthesis::optimise::{DesignProblem, DesignSearch};
 use serde::Deserialize;
 
 use crate::cli::failure::Failure;

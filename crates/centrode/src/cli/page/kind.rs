@@ -1,5 +1,5 @@
 use crate::FAMILIES;
-use crate::mechanism::design::DesignError;
+use centrode_spec::DesignError;
 use serde_json::{Map, Value as Json};
 use toml_edit::{DocumentMut, InlineTable, Item, Value};
 

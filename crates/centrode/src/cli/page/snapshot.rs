@@ -4,7 +4,7 @@ use crate::analysis::Report;
 use crate::export::page::{Curve, CurveList, Picture};
 use crate::family::{FAMILIES, Limit, Mechanism};
 use crate::geometry::together;
-use crate::mechanism::design::{DesignError, visible};
+use centrode_spec::{DesignError, visible};
 use serde::Serialize;
 
 use super::field::{Table, tables};

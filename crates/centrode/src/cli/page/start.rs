@@ -1,13 +1,13 @@
 use std::f64::consts::TAU;
 
 use crate::geometry::Antiderivative;
-use crate::mechanism::cam::law::{LawSpec, Polynomial};
-use crate::mechanism::gear::design::{Rack, Shaper, ToolSpec};
-use crate::mechanism::gear::pitch::{
+use centrode_gear::cam::law::{LawSpec, Polynomial};
+use centrode_gear::design::{Rack, Shaper, ToolSpec};
+use centrode_gear::pitch::{
     Bezier, Bspline, Circle, Conjugate, EccentricCircle, Ellipse, Limacon, LobedEllipse, PitchSpec,
     Polar, Ratio, Transmission,
 };
-use crate::mechanism::shaft::{RotatedSine, Sine, SpeedFormula, SpeedKnots, SpeedLaw, SpeedTable};
+use centrode_gear::shaft::{RotatedSine, Sine, SpeedFormula, SpeedKnots, SpeedLaw, SpeedTable};
 use serde_json::{Map, Value};
 
 /// Measures of the design for a table that changes its kind.

@@ -2,9 +2,9 @@ use std::path::Path;
 
 use crate::analysis::Unit;
 use crate::geometry::Point;
-use crate::mechanism::design::{DesignFamily, DesignFile, MechanismError};
-use crate::mechanism::gear::design::SpecError;
-use crate::mechanism::reverse::{
+use centrode_spec::SpecError;
+use centrode_spec::{DesignFamily, DesignFile, MechanismError};
+use centrode_synthesis::reverse::{
     Aim, DrawnPath, PathDesign, PathError, SplitKind, WantedPath, WantedPoints,
 };
 

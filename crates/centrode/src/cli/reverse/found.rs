@@ -1,9 +1,9 @@
 use std::ops::ControlFlow;
 
-use crate::analysis::optimise::{EasedPath, Easing, EasingError, EasingSpec, axis_at_border};
 use crate::analysis::{Finding, Goal, Unit};
 use crate::geometry::{Bounds, Point};
-use crate::mechanism::reverse::{
+use centrode_synthesis::optimise::{EasedPath, Easing, EasingError, EasingSpec, axis_at_border};
+use centrode_synthesis::reverse::{
     Aim, AxisFault, AxisMap, AxisRange, KeyPose, KeyPoses, PathDesign, PathError, PoseError,
     TwoBar, WantedPath,
 };

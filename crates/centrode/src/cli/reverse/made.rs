@@ -1,8 +1,8 @@
 //! The machine of a chain, for the command and the page.
 
 use crate::analysis::{Finding, NoSoundTeeth, SoundTeeth, composed_collisions, with_sound_teeth};
-use crate::mechanism::design::Design;
-use crate::mechanism::reverse::{MachineError, PathDesign, ReversedMachine, Split, TwoBar};
+use centrode_spec::Design;
+use centrode_synthesis::reverse::{MachineError, PathDesign, ReversedMachine, Split, TwoBar};
 
 /// The machine of a chain, with the names and the shapes to keep out of of a design.
 pub(crate) fn rolled(

@@ -3,10 +3,10 @@ use std::ops::ControlFlow;
 
 use clap::Parser as _;
 
-use crate::analysis::optimise::three_arm::PosedProblem;
 use crate::analysis::{Goal, Unit};
-use crate::mechanism::design::Design as _;
-use crate::mechanism::reverse::{KeyPose, KeyPoses};
+use centrode_spec::Design as _;
+use centrode_synthesis::optimise::three_arm::PosedProblem;
+use centrode_synthesis::reverse::{KeyPose, KeyPoses};
 
 use super::{line, words};
 use crate::cli::Status;

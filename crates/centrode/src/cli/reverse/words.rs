@@ -1,9 +1,9 @@
 //! Words on a machine made from a path, for the command and the page.
 
 use crate::analysis::{Finding, Goal, SoundTeeth, Unit};
-use crate::mechanism::gear::design::Addendum;
-use crate::mechanism::reverse::{ReversedMachine, TwoBar};
-use crate::mechanism::three_arm::design::Direction;
+use centrode_gear::design::Addendum;
+use centrode_machines::three_arm::design::Direction;
+use centrode_synthesis::reverse::{ReversedMachine, TwoBar};
 
 /// Name of a figure, and its words.
 pub(crate) type Labelled = (String, String);

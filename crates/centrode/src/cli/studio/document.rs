@@ -4,7 +4,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 use crate::export::{Bundle, BundleError};
-use crate::mechanism::design::DesignFile;
+use centrode_spec::DesignFile;
 use serde::Serialize;
 
 use crate::cli::failure::Failure;

@@ -2,7 +2,6 @@ use std::convert::Infallible;
 use std::sync::Arc;
 use std::time::Duration;
 
-use crate::analysis::optimise::{NotSearched, Strategy};
 use crate::export::page;
 use crate::geometry::Cancel;
 use crate::{FAMILIES, InternalFault};
@@ -12,6 +11,7 @@ use axum::http::{StatusCode, header};
 use axum::response::{Html, IntoResponse, Response};
 use axum::routing::{delete, get, post};
 use axum::{Json, Router};
+use centrode_synthesis::optimise::{NotSearched, Strategy};
 use futures_util::stream::unfold;
 use serde::Deserialize;
 use serde_json::json;

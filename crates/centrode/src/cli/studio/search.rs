@@ -5,8 +5,9 @@ use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
 use crate::analysis::Goal;
-use crate::analysis::optimise::{DesignProblem, DesignSearch, Ended, Progress, Settings, Strategy};
 use crate::{FAMILIES, InternalFault};
+use centrode_optimise::{Ended, Progress, Settings};
+use centrode_synthesis::optimise::{DesignProblem, DesignSearch, Strategy};
 use serde::{Deserialize, Serialize};
 
 use crate::cli::optimise::better;

@@ -13,7 +13,7 @@ use super::shipped::{SHIPPED, shipped};
 use crate::FAMILIES;
 use crate::cli::failure::Failure;
 use crate::export::{BundleError, write_new_file};
-use crate::mechanism::design::DesignFile;
+use centrode_spec::DesignFile;
 
 /// Most designs of the folder that are listed.
 const MOST: usize = 100;

@@ -4,14 +4,14 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use centrode_analysis::Report;
-use centrode_analysis::optimise::NotSearched;
 use centrode_export::csv::Column;
 use centrode_export::page::{Curve, Picture};
 use centrode_export::{Bundle, ExportError, Format, Options, Package};
 use centrode_geometry::{Outline, Point, Solid, Tolerance};
-use centrode_mechanism::design::{Design, DesignSpec, MechanismError};
-use centrode_mechanism::gear::design::SpecError;
-use centrode_mechanism::machine::{Input, Joint, Linear, Link, Machine, Quantity};
+use centrode_kinematics::machine::{Input, Joint, Linear, Link, Machine, Quantity};
+use centrode_spec::SpecError;
+use centrode_spec::{Design, DesignSpec, MechanismError};
+use centrode_synthesis::optimise::NotSearched;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 

@@ -2,7 +2,7 @@
 
 use centrode_export::{composed, machine};
 use centrode_geometry::Tolerance;
-use centrode_mechanism::composed::Composed;
+use centrode_machines::composed::Composed;
 
 use super::{FAMILIES, shipped};
 

@@ -1,5 +1,5 @@
 use centrode_analysis::{Answer, Response};
-use centrode_mechanism::design::{DesignError, DesignSpec as _};
+use centrode_spec::{DesignError, DesignSpec as _};
 
 use super::*;
 

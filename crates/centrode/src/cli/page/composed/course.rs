@@ -3,7 +3,7 @@
 use serde_json::Value as Json;
 
 use crate::geometry::{Point, Vector};
-use crate::mechanism::composed::Composed;
+use centrode_machines::composed::Composed;
 
 /// Inputs of a period at which the old dyad is looked at.
 const LOOKS: u32 = 48;

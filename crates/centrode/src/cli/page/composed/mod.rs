@@ -10,7 +10,7 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use crate::FAMILIES;
-use crate::mechanism::composed::Composed;
+use centrode_machines::composed::Composed;
 use serde_json::{Map, Value as Json};
 use toml_edit::DocumentMut;
 

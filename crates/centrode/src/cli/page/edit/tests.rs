@@ -1,7 +1,7 @@
 use super::super::field::tables;
 use super::*;
 use crate::FAMILIES;
-use centrode_mechanism::design::DesignError;
+use centrode_spec::DesignError;
 
 const TEXT: &str = "# head\nfamily = \"gear-pair\" # a pair\n\n[pitch] # the curve\nkind = \"bspline\"\n\
                     radius = [1, 2, # two\n  3]\nmodule = 2.250 # mm\n# tail\n[driver]\nkeyway = { width = 4, depth = 1.8 }\n";

@@ -5,14 +5,14 @@ use serde::Serialize;
 use super::drawing::{self, Drawing, mark};
 use super::sought::Kept;
 use super::wish::{Wish, points};
-use crate::analysis::optimise::reached;
 use crate::analysis::{Goal, Unit};
 use crate::cli::reverse::words::Labelled;
 use crate::cli::reverse::{sharpest, words};
 use crate::export::page::{Curve, Mark, Picture};
 use crate::geometry::Point;
-use crate::mechanism::gear::Limits;
-use crate::mechanism::reverse::{
+use centrode_gear::Limits;
+use centrode_synthesis::optimise::reached;
+use centrode_synthesis::reverse::{
     AxisFault, PathDesign, PathError, ReversedMachine, Split, SplitKind, TwoBar, WantedPath,
 };
 

@@ -3,9 +3,9 @@ use std::f64::consts::{PI, TAU};
 use super::stages::{STEPS, Stage};
 use crate::export::page::{Curve, Mark, Motion, Path, Picture, PictureLink};
 use crate::geometry::{Bounds, Point, Vector};
-use crate::mechanism::machine::LineRole;
-use crate::mechanism::reverse::{AxisRange, Split, TwoBar, WantedPath};
-use crate::mechanism::transmission::{Inverse, Transmission as _, TransmissionError};
+use centrode_kinematics::machine::LineRole;
+use centrode_kinematics::transmission::{Inverse, Transmission as _, TransmissionError};
+use centrode_synthesis::reverse::{AxisRange, Split, TwoBar, WantedPath};
 
 /// Samples of the path.
 const SAMPLES: u32 = 360;

@@ -1,7 +1,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::wish::path;
-use crate::mechanism::reverse::{AxisFault, AxisMap, AxisRange, PossibleAxis};
+use centrode_synthesis::reverse::{AxisFault, AxisMap, AxisRange, PossibleAxis};
 
 /// Most axes along a side of a map.
 const MOST: u32 = 200;

@@ -8,7 +8,7 @@ use super::wish::Wish;
 use crate::analysis::{NoSoundTeeth, Unit};
 use crate::cli::reverse::made::{Toothed, rolled};
 use crate::cli::reverse::words::{self, Labelled};
-use crate::mechanism::reverse::Split;
+use centrode_synthesis::reverse::Split;
 
 /// A design with sound teeth, or what was found without such.
 #[derive(Debug, Serialize)]

@@ -18,7 +18,7 @@ use serde::Serialize;
 
 use super::routes::{Refused, computed};
 use crate::export::page;
-use crate::mechanism::design::Design as _;
+use centrode_spec::Design as _;
 use sought::Kept;
 use stream::streamed;
 use wish::Wish;

@@ -2,8 +2,8 @@ use serde::Serialize;
 
 use crate::analysis::Unit;
 use crate::cli::reverse::asked::{WITHIN, drawn};
-use crate::mechanism::design::DesignSpec as _;
-use crate::mechanism::reverse::{PathDesign, WantedPoints, Wishes};
+use centrode_spec::DesignSpec as _;
+use centrode_synthesis::reverse::{PathDesign, WantedPoints, Wishes};
 
 /// Most points that the page shows, each with a row and a handle.
 const MOST: usize = 200;

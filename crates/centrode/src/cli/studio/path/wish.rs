@@ -1,8 +1,8 @@
 use serde::Deserialize;
 
 use crate::geometry::Point;
-use crate::mechanism::design::{Design as _, DesignSpec as _};
-use crate::mechanism::reverse::{KeyPose, PathDesign, PathError, WantedPath};
+use centrode_spec::{Design as _, DesignSpec as _};
+use centrode_synthesis::reverse::{KeyPose, PathDesign, PathError, WantedPath};
 
 /// Wish of the page: the design that `centrode reverse` reads, or key poses with its choices.
 #[derive(Clone, Debug, Deserialize)]

@@ -1,0 +1,362 @@
+//! Phase, thickness and pressure angle at which fitted teeth work deepest.
+//!
+//! Along the pitch curve a flank works from its mate's tip to its own, by the sum of both tips' rolls. Where one flank ends the next
+//! has begun if what is left of the one and what there is of the other are more than a pitch together; over the pitch that is the
+//! contact ratio there. Where the least of them is above one, the flanks alone carry the motion. What is free is chosen for the
+//! greatest least: from a grid of places on, by ever smaller steps along each number, first by the layout alone, then by the teeth
+//! that are cut, whose flanks may end before.
+
+use centrode_geometry::checkpoint;
+
+use super::{
+    design::{Addendum, Fit, GearPairDesign, Phase},
+    flank::Side,
+    pair::parameters,
+    profile::{FlankPlan, Tooth, ToothPlan, ToothSide, Top},
+    rolling::{Member, Rolling},
+    teeth::{Counts, Layout, layout},
+};
+
+/// Share of the mean contact ratio that counts beside the least, so that flanks with room to spare are made deeper too.
+const MEAN: f64 = 1e-3;
+
+/// Number that is free.
+struct Free {
+    fit: Fit,
+    /// Values tried first, beside the one written.
+    first: &'static [f64],
+    range: [f64; 2],
+    /// First step, a power of two times the last.
+    step: f64,
+    /// Parts of a unit to which it is rounded, so that a file can hold it.
+    parts: f64,
+}
+
+const FREE: [Free; 3] = [
+    Free {
+        fit: Fit::Phase,
+        first: &[0.0, 0.25, 0.5, 0.75],
+        range: [f64::NEG_INFINITY, f64::INFINITY],
+        step: 0.064,
+        parts: 1000.0,
+    },
+    Free {
+        fit: Fit::ThicknessSplit,
+        first: &[0.45, 0.55],
+        range: [0.35, 0.65],
+        step: 0.032,
+        parts: 1000.0,
+    },
+    Free {
+        fit: Fit::PressureAngle,
+        first: &[17.5, 23.0],
+        range: [14.5, 30.0],
+        step: 1.6,
+        parts: 20.0,
+    },
+];
+
+/// Choices by the layout of which gears are cut.
+const CUT: usize = 12;
+
+/// Halvings of the first steps, and how many of them are left out where gears are cut.
+const HALVINGS: u32 = 5;
+const LEFT_OUT: u32 = 2;
+
+/// Contact ratio up to which two choices are as good as each other.
+const TIE: f64 = 1e-9;
+
+/// Contact ratio by which a choice must be better than what is written.
+const BETTER: f64 = 1e-6;
+
+impl Free {
+    fn rounded(&self, value: f64) -> f64 {
+        let [low, high] = self.range;
+        let value = (value.clamp(low, high) * self.parts).round() / self.parts;
+        if self.fit == Fit::Phase {
+            value.rem_euclid(1.0)
+        } else {
+            value
+        }
+    }
+
+    fn written(&self, design: &GearPairDesign, phase: f64) -> f64 {
+        match self.fit {
+            Fit::Phase => phase.rem_euclid(1.0),
+            Fit::ThicknessSplit => design.teeth.thickness_split,
+            _ => design.tool.pressure_angle().to_degrees(),
+        }
+    }
+
+    fn write(&self, design: &mut GearPairDesign, value: f64) {
+        match self.fit {
+            Fit::Phase => design.teeth.phase = Phase::Pitches(value),
+            Fit::ThicknessSplit => design.teeth.thickness_split = value,
+            _ => design.set_pressure_angle(value.to_radians()),
+        }
+    }
+}
+
+/// Pair whose teeth are fitted.
+pub(super) struct Fits<'a> {
+    pub(super) rolling: &'a Rolling,
+    pub(super) counts: &'a Counts,
+    pub(super) module: f64,
+}
+
+impl Fits<'_> {
+    /// The design with what it leaves free chosen and nothing free. `cut` gives the teeth of both gears, where they can be cut.
+    ///
+    /// Where no choice carries the motion, or none is better, what is written stays.
+    pub(super) fn settled(
+        &self,
+        design: &GearPairDesign,
+        cut: &impl Fn(&GearPairDesign) -> Option<[Vec<Tooth>; 2]>,
+    ) -> GearPairDesign {
+        let mut base = design.clone();
+        let fits = std::mem::take(&mut base.teeth.fit);
+        let free: Vec<&Free> = FREE.iter().filter(|f| fits.contains(&f.fit)).collect();
+        if !fits.is_empty() {
+            // What is chosen is chosen for fitted teeth.
+            base.teeth.addendum = Addendum::Fitted;
+        }
+        if free.is_empty() {
+            return base;
+        }
+        let phase = self.layout(&base).map_or(0.0, |layout| layout.phase);
+        let start: Vec<f64> = free.iter().map(|f| f.written(&base, phase)).collect();
+        let with = |values: &[f64]| {
+            let mut design = base.clone();
+            for (free, &value) in free.iter().zip(values) {
+                free.write(&mut design, value);
+            }
+            design
+        };
+        let planned = |values: &[f64]| self.merit(&with(values));
+        let tried = grid(&free, &start).into_iter().map(|values| Choice {
+            merit: planned(&values),
+            values,
+        });
+        let mut ranked = climb(&free, tried.collect(), 0, planned);
+        ranked.retain(|choice| choice.merit.is_finite() && choice.values != start);
+        ranked.dedup_by(|a, b| a.values == b.values);
+        ranked.truncate(CUT);
+        let made = |values: &[f64]| {
+            let teeth = cut(&with(values));
+            teeth.map_or(f64::NEG_INFINITY, |teeth| weighed(self.worked(&teeth)))
+        };
+        let written = cut(&base).map_or(f64::NEG_INFINITY, |teeth| weighed(self.worked(&teeth)));
+        let first = [Choice {
+            merit: written,
+            values: start,
+        }];
+        let planned = ranked.into_iter().map(|choice| Choice {
+            merit: made(&choice.values),
+            ..choice
+        });
+        let first = first.into_iter().chain(planned);
+        let ranked = climb(&free, first.collect(), LEFT_OUT, made);
+        let best = ranked.first().filter(|best| {
+            let carries = best.merit > 1.0 || written == f64::NEG_INFINITY;
+            best.merit.is_finite() && carries && best.merit > written + BETTER
+        });
+        best.map_or(base.clone(), |best| with(&best.values))
+    }
+
+    /// Layout of a design's teeth, fitted, if it has one.
+    fn layout(&self, design: &GearPairDesign) -> Option<Layout> {
+        let teeth = parameters(design, self.module);
+        layout(self.rolling, self.counts, &teeth).ok()
+    }
+
+    /// The least contact ratio from a flank to the next, and a little of their mean; without limit below where there are no teeth.
+    fn merit(&self, design: &GearPairDesign) -> f64 {
+        checkpoint();
+        let is_valid = design.tool.validate().is_ok() && design.teeth.validate().is_ok();
+        let Some(layout) = is_valid.then(|| self.layout(design)).flatten() else {
+            return f64::NEG_INFINITY;
+        };
+        let flanks = |tooth: &ToothPlan| [tooth.leading, tooth.trailing];
+        let [driver, driven] = [&layout.driver, &layout.driven]
+            .map(|teeth| teeth.iter().map(flanks).collect::<Vec<_>>());
+        // Up to a flank's tip, as far as the mate's flank goes: deeper the tip cuts into the fillet.
+        let above = |flank: &FlankPlan, _: Side, mate: &FlankPlan| match flank.top {
+            Top::Reach(reach) if reach <= mate.corner.end => reach,
+            _ => f64::NEG_INFINITY,
+        };
+        weighed(self.contact_ratios([&driver, &driven], above))
+    }
+
+    /// Least and mean contact ratio, from one flank to the next, of teeth that are cut.
+    fn worked(&self, teeth: &[Vec<Tooth>; 2]) -> (f64, f64) {
+        let flanks = |tooth: &Tooth| [tooth.leading, tooth.trailing];
+        let [driver, driven] = [0, 1].map(|k| teeth[k].iter().map(flanks).collect::<Vec<_>>());
+        // Rolls of what is left of a flank above its crossing of the pitch curve, and below.
+        let rolls = |flank: &ToothSide, side: Side| {
+            let (low, high) = flank.active.unwrap_or((flank.crossing, flank.crossing));
+            let (before, after) = (flank.crossing - low, high - flank.crossing);
+            match side {
+                Side::Leading => (after, before),
+                Side::Trailing => (before, after),
+            }
+        };
+        let above = |flank: &ToothSide, side: Side, mate: &ToothSide| {
+            rolls(flank, side).0.min(rolls(mate, side.other()).1)
+        };
+        self.contact_ratios([&driver, &driven], above)
+    }
+
+    /// Least and mean contact ratio from one flank to the next, of the leading and trailing flanks of both gears, by the roll above
+    /// the crossing over which a flank of some side works with a mate.
+    fn contact_ratios<F>(
+        &self,
+        [driver, driven]: [&[[F; 2]]; 2],
+        above: impl Fn(&F, Side, &F) -> f64,
+    ) -> (f64, f64) {
+        let pitch = self.rolling.pitch_length(Member::Driver) / f64::from(self.counts.driver);
+        let meshes = driver.len() * self.rolling.mean_ratio().0 as usize;
+        // Driver's flank and the driven gear's.
+        let both = |m: usize, side: Side| {
+            let [leading, trailing] = &driven[m % driven.len()];
+            match side {
+                Side::Trailing => (&driver[m % driver.len()][1], leading),
+                Side::Leading => (&driver[(m + 1) % driver.len()][0], trailing),
+            }
+        };
+        let mut least = f64::INFINITY;
+        let mut sum = 0.0;
+        for side in [Side::Leading, Side::Trailing] {
+            for m in 0..meshes {
+                let ((one, its), (next, mate)) = (both(m, side), both((m + 1) % meshes, side));
+                // A driver's flank works from its tip on, or up to it.
+                let along = match side {
+                    Side::Trailing => {
+                        above(its, Side::Leading, one) + above(next, Side::Trailing, mate)
+                    }
+                    Side::Leading => {
+                        above(one, Side::Leading, its) + above(mate, Side::Trailing, next)
+                    }
+                };
+                least = least.min(along / pitch);
+                sum += along / pitch;
+            }
+        }
+        (least, sum / (2 * meshes) as f64)
+    }
+}
+
+/// The least contact ratio, and a little of the mean.
+fn weighed((least, mean): (f64, f64)) -> f64 {
+    least + MEAN * mean
+}
+
+/// Values of what is free.
+#[derive(Clone)]
+struct Choice {
+    merit: f64,
+    values: Vec<f64>,
+}
+
+/// All choices that were tried, the best first: those given and, from the best of them on, by steps along each number that are
+/// halved where none is better, the first of them some halvings smaller.
+fn climb(
+    free: &[&Free],
+    mut tried: Vec<Choice>,
+    halvings: u32,
+    merit: impl Fn(&[f64]) -> f64,
+) -> Vec<Choice> {
+    let better = |a: Choice, b: &Choice| match b.merit > a.merit + TIE {
+        true => b.clone(),
+        false => a,
+    };
+    // Of those that are as good the first.
+    let Some(first) = tried.first().cloned() else {
+        return tried;
+    };
+    let mut best = tried.iter().fold(first, better);
+    for halving in halvings..=HALVINGS {
+        loop {
+            let before = best.merit;
+            for (k, free) in free.iter().enumerate() {
+                let step = free.step / f64::from(1 << halving);
+                for step in [-step, step] {
+                    let mut values = best.values.clone();
+                    values[k] = free.rounded(values[k] + step);
+                    let merit = merit(&values);
+                    let found = Choice { merit, values };
+                    best = better(best, &found);
+                    tried.push(found);
+                }
+            }
+            if best.merit <= before {
+                break;
+            }
+        }
+    }
+    tried.sort_by(|a, b| b.merit.total_cmp(&a.merit));
+    tried
+}
+
+/// All combinations of the first values and those written, these first.
+fn grid(free: &[&Free], start: &[f64]) -> Vec<Vec<f64>> {
+    let mut all = vec![Vec::new()];
+    for (free, &written) in free.iter().zip(start) {
+        let values = || [written].into_iter().chain(free.first.iter().copied());
+        all = all
+            .iter()
+            .flat_map(|known: &Vec<f64>| values().map(move |v| [known.as_slice(), &[v]].concat()))
+            .collect();
+    }
+    all
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::GearPair;
+    use crate::pitch::{Ellipse, PitchSpec};
+
+    const ALL: [Fit; 4] = [
+        Fit::Addendum,
+        Fit::ThicknessSplit,
+        Fit::PressureAngle,
+        Fit::Phase,
+    ];
+
+    fn weak(fit: &[Fit]) -> GearPairDesign {
+        let mut design = GearPairDesign::new(PitchSpec::Ellipse(Ellipse {
+            eccentricity: 0.45,
+            module: Some(2.0),
+            tooth_count: Some(17),
+            ..Ellipse::default()
+        }));
+        design.teeth.fit = fit.to_vec();
+        design
+    }
+
+    #[test]
+    fn the_settled_design_gives_the_same_gears_and_leaves_nothing_free() {
+        for fit in [&ALL[..1], &ALL[1..3], &ALL] {
+            let pair = GearPair::resolve(&weak(fit)).expect("a pair");
+            let settled = pair.settled_design();
+            assert!(settled.teeth.fit.is_empty());
+            let again = GearPair::resolve(&settled).expect("a pair");
+            assert_eq!(again.driver().outline(), pair.driver().outline(), "{fit:?}");
+            assert_eq!(again.driven().outline(), pair.driven().outline(), "{fit:?}");
+            assert_eq!(pair.design().teeth.fit, fit);
+        }
+    }
+
+    #[test]
+    fn nothing_is_chosen_that_is_not_free() {
+        let written = weak(&[]);
+        let settled = GearPair::resolve(&weak(&[Fit::PressureAngle])).expect("a pair");
+        let settled = settled.settled_design();
+        assert_ne!(settled.tool.pressure_angle(), written.tool.pressure_angle());
+        let degrees = settled.tool.pressure_angle().to_degrees();
+        assert!((14.5..=30.0).contains(&degrees), "{degrees}");
+        assert_eq!(settled.teeth.addendum, Addendum::Fitted);
+        assert_eq!(settled.teeth.phase, written.teeth.phase);
+        assert_eq!(settled.teeth.thickness_split, written.teeth.thickness_split);
+    }
+}

@@ -1,0 +1,48 @@
+//! Gears, cams and grooves: from a design to exact curves.
+//!
+//! Pitch curves and their conjugates, tools, tooth profiles and pairs of gears at the root; [`cam`] and its followers; the
+//! spiral shaft and the moving box in [`shaft`]. It knows no machine of several gears, checks nothing and writes no file.
+
+mod base_tangent;
+mod bore;
+pub mod cam;
+mod conjugate;
+pub mod design;
+mod fit;
+mod fitted;
+mod flank;
+mod flank_count;
+mod generation;
+mod intermittent;
+mod limits;
+mod over_pins;
+mod pair;
+mod pattern;
+pub mod pitch;
+mod profile;
+mod rolling;
+mod served;
+pub mod shaft;
+mod stage;
+mod teeth;
+mod thickness;
+mod tool;
+mod tooth_chords;
+mod tooth_passage;
+
+pub use base_tangent::{BaseTangent, BaseTangentFault};
+pub use conjugate::ConjugateCurve;
+pub use flank::Side;
+pub use flank_count::FlankCount;
+pub use intermittent::{
+    Cam, IntermittentDrive, IntermittentError, IntermittentLaw, IntermittentPair,
+    IntermittentPairError, IntermittentPairSpec, Pins,
+};
+pub use limits::{Limits, PitchPoint};
+pub use over_pins::{OverPins, Pin, PinFault};
+pub use pair::{Gear, GearPair, GearPairError};
+pub use profile::{ProfileError, Role, Tooth, ToothSide};
+pub use rolling::{CurvatureRange, Frame, Member, PitchContact, Rolling, RollingError};
+pub use teeth::{TeethError, TeethParameters};
+pub use thickness::ThicknessDeviations;
+pub use tool::{Tool, ToolKind};

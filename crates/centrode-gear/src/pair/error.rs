@@ -1,0 +1,220 @@
+use crate::design::GearPairDesign;
+use crate::pitch::PitchError;
+use crate::profile::ProfileError;
+use crate::rolling::{Member, RollingError};
+use crate::teeth::TeethError;
+use centrode_spec::MechanismError;
+use centrode_spec::SpecError;
+use centrode_spec::digits::told;
+
+use super::follow::{MOST_SWINGS, MOST_WORK};
+
+/// Reason why a design gives no gear pair.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum GearPairError {
+    /// A value breaks a rule of its own.
+    #[error(transparent)]
+    Spec(#[from] SpecError),
+    /// The pitch curve does not exist.
+    #[error(transparent)]
+    Pitch(#[from] PitchError),
+    /// The pitch curves do not roll on each other.
+    #[error(transparent)]
+    Rolling(#[from] RollingError),
+    /// No teeth can be laid out.
+    #[error(transparent)]
+    Teeth(#[from] TeethError),
+    /// The teeth leave no contour.
+    #[error(transparent)]
+    Profile(#[from] ProfileError),
+    /// Neither the pair nor the curve says how many teeth the driver has.
+    #[error(
+        "tooth_count is missing: give it to the pair, or module and tooth_count to the pitch curve"
+    )]
+    NoToothCount,
+    /// The driven gear has no whole number of teeth, or too few.
+    #[error("{driver} driver teeth at mean ratio {}:{} give the driven gear {driver} x {}/{} teeth; that must be a whole number of at least 3", ratio.0, ratio.1, ratio.0, ratio.1)]
+    DrivenTeeth {
+        /// Teeth of the driver.
+        driver: u32,
+        /// Turns of driver : turns of driven.
+        ratio: (u32, u32),
+    },
+    /// The pitch curve's law and the written mean ratio disagree.
+    #[error("mean_ratio is {}:{} but the pitch curve's law makes it {}:{}", written.0, written.1, implied.0, implied.1)]
+    MeanRatio {
+        /// Ratio as written.
+        written: (u32, u32),
+        /// Ratio of the law.
+        implied: (u32, u32),
+    },
+    /// The pitch curve swings so often that the waves of a tooth cannot all be told from each other.
+    #[error(
+        "the pitch curves swing {swings} times for {teeth} teeth; swings times swings a tooth may be {MOST_WORK} at most: smooth the law, or give fewer points or more digits"
+    )]
+    Waves {
+        /// Waves of the radius in a turn.
+        swings: usize,
+        /// Teeth of the driver.
+        teeth: u32,
+    },
+    /// The pitch curve swings many times a tooth, on arcs too small for it.
+    #[error(
+        "the pitch curves swing {swings} times for {teeth} teeth, on arcs of {radius:.4} mm: no tooth of module {module:.4} mm follows that; with arcs under half a module they may swing {MOST_SWINGS} times a tooth: smooth the law, or give fewer points or more digits"
+    )]
+    Swings {
+        /// Waves of the radius in a turn.
+        swings: usize,
+        /// Teeth of the driver.
+        teeth: u32,
+        /// Least radius of curvature of both pitch curves, mm.
+        radius: f64,
+        /// Module, mm.
+        module: f64,
+    },
+    /// The pitch curve has a corner, where there can be no tooth.
+    #[error(
+        "the pitch curve has a corner of {turn} rad at a polar angle of {angle} rad; a toothed curve must be smooth"
+    )]
+    Corner {
+        /// Change of direction, rad.
+        turn: f64,
+        /// Polar angle, rad.
+        angle: f64,
+    },
+    /// The wanted centre distance is not the one at which the curves roll.
+    #[error(
+        "center_distance is {wanted} mm, but this pitch curve rolls on a closed conjugate only at {needed} mm"
+    )]
+    CenterDistance {
+        /// Distance as written, mm.
+        wanted: f64,
+        /// Distance that closes the driven curve, mm.
+        needed: f64,
+    },
+    /// Profile shifts with a sum on pitch curves that are not circles.
+    #[error("driver.shift + driven.shift is {}, but must be 0 unless both pitch curves are circles: a tool moved by x m along the normal makes the tooth 2 x m tan(alpha) thicker, and no common pitch curve takes that up on both flanks. Give opposite shifts, driven.shift = {}, or heights per gear, driver.addendum and driven.addendum", told(.shifts[0] + .shifts[1]), told(-.shifts[0]))]
+    ShiftSum {
+        /// Profile shift coefficients of driver and driven gear.
+        shifts: [f64; 2],
+    },
+    /// Fitted teeth with a sum of profile shifts.
+    #[error("teeth are fitted, but driver.shift + driven.shift is {}: fitting needs pitch curves that are those of the tool. Give addendum = \"full\" and no fit, or opposite shifts", told(*.sum))]
+    FittedShift {
+        /// Sum of the profile shift coefficients.
+        sum: f64,
+    },
+    /// Profile shifts that leave no room for the teeth at any centre distance.
+    #[error("driver.shift + driven.shift is {}, but must exceed {} for these teeth: below it there is no operating pressure angle", told(*.sum), told(*.least))]
+    ShiftsTooSmall {
+        /// Sum of the profile shift coefficients.
+        sum: f64,
+        /// Sum at which the operating pressure angle is zero.
+        least: f64,
+    },
+    /// A centre distance other than that of both profile shifts.
+    #[error(
+        "center_distance is {wanted} mm, but driver.shift and driven.shift give {needed:.6} mm: omit one of the three"
+    )]
+    ShiftedDistance {
+        /// Distance as written, mm.
+        wanted: f64,
+        /// Distance of the shifts, mm.
+        needed: f64,
+    },
+    /// A centre distance within the base circles.
+    #[error(
+        "center_distance is {wanted} mm, but the radii of the base circles are {least:.6} mm together: it must be greater"
+    )]
+    BaseCircles {
+        /// Distance as written, mm.
+        wanted: f64,
+        /// Sum of the radii of the base circles, mm.
+        least: f64,
+    },
+    /// The bore, with its keyway, cuts into the teeth.
+    #[error("the {}'s bore reaches {reach} mm from the axis, but its teeth leave only {root} mm", .member.name())]
+    Bore {
+        /// Gear at fault.
+        member: Member,
+        /// Radius reached by bore and keyway, mm.
+        reach: f64,
+        /// Least radius of the outline, mm.
+        root: f64,
+    },
+}
+
+impl GearPairError {
+    /// Key of the design file at fault.
+    #[must_use]
+    pub fn key(&self) -> String {
+        match self {
+            Self::Spec(error) => error.key.clone(),
+            Self::Pitch(error) => format!("pitch.{}", error.key()),
+            Self::Rolling(RollingError::MeanRatio { .. } | RollingError::NotPeriodic { .. })
+            | Self::MeanRatio { .. } => "mean_ratio".into(),
+            Self::Rolling(_) | Self::Corner { .. } | Self::Swings { .. } | Self::Waves { .. } => {
+                "pitch".into()
+            }
+            Self::Teeth(TeethError::TipRadius { .. }) => "tool.tip_radius_coefficient".into(),
+            Self::Teeth(TeethError::NoTip { .. }) => "tool.dedendum_coefficient".into(),
+            // Without the backlash there would be a tooth.
+            Self::Teeth(TeethError::NoWidth {
+                width, backlash, ..
+            }) if width + backlash > 0.0 => "teeth.backlash".into(),
+            Self::Teeth(TeethError::NoWidth { .. }) => "teeth.thickness_split".into(),
+            Self::Teeth(TeethError::NotCongruent { .. }) => "teeth.phase".into(),
+            Self::Profile(_) | Self::NoToothCount | Self::DrivenTeeth { .. } => {
+                "tooth_count".into()
+            }
+            Self::ShiftSum { .. } | Self::ShiftsTooSmall { .. } => "driven.shift".into(),
+            Self::FittedShift { .. } => "teeth.addendum".into(),
+            Self::CenterDistance { .. }
+            | Self::ShiftedDistance { .. }
+            | Self::BaseCircles { .. } => "center_distance".into(),
+            Self::Bore { member, .. } => format!("{}.bore", member.name()),
+        }
+    }
+}
+
+impl GearPairError {
+    /// Key at fault in the file of a design.
+    #[must_use]
+    pub fn key_in(&self, design: &GearPairDesign) -> String {
+        let key = self.key();
+        // A shift that leaves a tooth or a space no width.
+        if let Self::Teeth(TeethError::NoWidth { member, .. }) = self
+            && key == "teeth.thickness_split"
+            && design.shifts() != [0.0; 2]
+        {
+            return format!("{}.shift", member.name());
+        }
+        // Where the pitch curve says how many teeth the driver has, that number is to blame.
+        if key == "tooth_count"
+            && design.tooth_count.is_none()
+            && design.pitch.tooth_count().is_some()
+        {
+            return "pitch.tooth_count".into();
+        }
+        key
+    }
+
+    /// The error of a design, with the key at fault.
+    #[must_use]
+    pub fn blamed(self, design: &GearPairDesign) -> MechanismError {
+        let key = self.key_in(design);
+        MechanismError { key, ..self.into() }
+    }
+}
+
+impl From<GearPairError> for MechanismError {
+    fn from(error: GearPairError) -> Self {
+        let key = error.key();
+        match error {
+            GearPairError::Spec(error) => error.into(),
+            GearPairError::Pitch(error) => Self::new(key, error),
+            other => Self::new(key, other),
+        }
+    }
+}

@@ -1,0 +1,90 @@
+//! Whether teeth can follow pitch curves that swing.
+
+use super::GearPairError;
+use crate::Rolling;
+
+/// Greatest product of the swings in a turn and the swings a tooth: every wave of a flank may cross every other of the tooth, so
+/// the work goes with it.
+pub(super) const MOST_WORK: usize = 25_000;
+
+/// Least radius of curvature, modules, of pitch curves that swing as often as the work allows.
+const LEAST_ARC: f64 = 0.5;
+
+/// Most swings a tooth of sharper ones.
+pub(super) const MOST_SWINGS: usize = 4;
+
+/// Checks that teeth can follow the pitch curves: these may swing often, and have small arcs, but not both.
+pub(super) fn follow(rolling: &Rolling, teeth: u32, module: f64) -> Result<(), GearPairError> {
+    if !rolling.is_restless(teeth) {
+        return Ok(());
+    }
+    let (swings, count) = (rolling.swings(), teeth as usize);
+    if swings * swings > MOST_WORK * count {
+        return Err(GearPairError::Waves { swings, teeth });
+    }
+    let radius = rolling.sharpest();
+    if swings <= MOST_SWINGS * count || radius >= LEAST_ARC * module {
+        return Ok(());
+    }
+    Err(GearPairError::Swings {
+        swings,
+        teeth,
+        radius,
+        module,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::GearPair;
+    use crate::design::GearPairDesign;
+    use centrode_spec::DesignSpec as _;
+
+    fn resolved(expression: &str, teeth: u32) -> Result<GearPair, GearPairError> {
+        let text = format!(
+            "family = \"gear-pair\"\n[pitch]\nkind = \"polar\"\nmodule = 2\nexpression = \"{expression}\"\ntooth_count = {teeth}\n[teeth]\naddendum = \"fitted\"\n"
+        );
+        GearPair::resolve(&GearPairDesign::from_toml(&text).expect("a design"))
+    }
+
+    #[test]
+    fn pitch_curves_may_swing_often_or_have_small_arcs_but_not_both() {
+        // Often: waves of half a micrometre, twelve a tooth. Small arcs: a rounded triangle.
+        for (expression, teeth) in [
+            ("1 + 0.00001*cos(501*phi)", 40),
+            ("1/(1 - 0.11*cos(3*phi))", 12),
+        ] {
+            assert!(resolved(expression, teeth).is_ok(), "{expression}");
+        }
+        let refused = resolved("1 + 0.001*cos(503*phi)", 40);
+        let Err(error) = refused else {
+            panic!("{refused:?}");
+        };
+        assert_eq!(error.key(), "pitch");
+        let GearPairError::Swings {
+            swings,
+            teeth,
+            radius,
+            module,
+        } = error
+        else {
+            panic!("{error}");
+        };
+        assert_eq!((swings, teeth), (503, 40));
+        // Beside the waves the circle counts for nothing: their curvature is about e n^2/r, and that of the mate the same with the other
+        // sign. Their slope makes the pitch curve longer by a sixteenth.
+        let r = 40.0 * module / (2.0 * 1.06);
+        let expected = r / (1.0 + 0.001 * 503.0 * 503.0);
+        assert!(
+            (radius / expected - 1.0).abs() < 0.05,
+            "{radius} {expected}"
+        );
+        // Waves of a nanometre are no arcs to speak of, but too many.
+        let refused = resolved("1 + 0.00000001*cos(2003*phi)", 40);
+        let Err(GearPairError::Waves { swings, .. }) = refused else {
+            panic!("{refused:?}");
+        };
+        assert_eq!(swings, 2003);
+    }
+}

@@ -1,0 +1,341 @@
+use thiserror::Error;
+
+use crate::RollingError;
+
+/// Reason why a pitch curve does not exist.
+///
+/// Angles are polar angles around the shaft axis, degrees.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum PitchError {
+    /// A number is NaN or infinite.
+    #[error("{key} must be a finite number, not {value}")]
+    NotFinite {
+        /// Key of the number.
+        key: &'static str,
+        /// Value given.
+        value: f64,
+    },
+    /// A length, module or ratio is zero or negative.
+    #[error("{key} must be greater than 0, not {value}")]
+    NotPositive {
+        /// Key of the number.
+        key: &'static str,
+        /// Value given.
+        value: f64,
+    },
+    /// An eccentricity outside its range.
+    #[error("eccentricity must be at least 0 and less than 1, not {0}")]
+    Eccentricity(f64),
+    /// A whole number outside its range.
+    #[error("{key} must be {least} to {greatest}, not {value}")]
+    OutOfRange {
+        /// Key of the number.
+        key: &'static str,
+        /// Value given.
+        value: u64,
+        /// Least value allowed.
+        least: u64,
+        /// Greatest value allowed.
+        greatest: u64,
+    },
+    /// A gear with fewer than three teeth.
+    #[error("tooth_count must be at least 3, not {0}")]
+    ToothCount(u32),
+    /// Module without tooth count, or the other way round for a shape without a size.
+    #[error("{given} is given without {missing}: the two together set the size of the curve")]
+    SizeIncomplete {
+        /// The key that is there.
+        given: &'static str,
+        /// The key that is not.
+        missing: &'static str,
+    },
+    /// A curve so long or so short that powers of its lengths are lost.
+    #[error(
+        "{key} makes a pitch curve {length:e} mm long; it must be {least:e} to {greatest:e} mm"
+    )]
+    Size {
+        /// The key that sets the size.
+        key: &'static str,
+        /// Length of one turn, mm.
+        length: f64,
+        /// Least length allowed, mm.
+        least: f64,
+        /// Greatest length allowed, mm.
+        greatest: f64,
+    },
+    /// Nothing sets the size of the curve.
+    #[error("nothing sets the size of the curve: give module and tooth_count, or {0}")]
+    NoSize(&'static str),
+    /// The size is set twice.
+    #[error("{0} and {1} both set the size of the curve: give one of them")]
+    SizeTwice(&'static str, &'static str),
+    /// Two lists that belong together differ in length.
+    #[error("{first} has {first_length} values but {second} has {second_length}")]
+    LengthMismatch {
+        /// First key.
+        first: &'static str,
+        /// Its length.
+        first_length: usize,
+        /// Second key.
+        second: &'static str,
+        /// Its length.
+        second_length: usize,
+    },
+    /// Too few points for the degree.
+    #[error(
+        "{key} has {count} values; {least} are the fewest that make a closed curve of this kind"
+    )]
+    TooFewPoints {
+        /// Key of the list.
+        key: &'static str,
+        /// Its length.
+        count: usize,
+        /// Fewest allowed.
+        least: usize,
+    },
+    /// Too many points.
+    #[error("{key} has {count} values; the limit is {limit}")]
+    TooManyPoints {
+        /// Key of the list.
+        key: &'static str,
+        /// Its length.
+        count: usize,
+        /// Most allowed.
+        limit: usize,
+    },
+    /// A closed chain of Bezier arcs needs a multiple of its degree.
+    #[error("{key} has {count} values, not a multiple of the degree {degree}")]
+    ArcsIncomplete {
+        /// Key of the list.
+        key: &'static str,
+        /// Its length.
+        count: usize,
+        /// Degree of every arc.
+        degree: u32,
+    },
+    /// A key is missing, or does not belong to the others given.
+    #[error("{key} {rule}")]
+    Key {
+        /// The key.
+        key: &'static str,
+        /// Rule it breaks.
+        rule: &'static str,
+    },
+    /// Listed polar angles do not pass once round in order.
+    #[error(
+        "angle_deg must increase, within one turn: value {index} is {value} deg after {before} deg, so the control polygon crosses itself"
+    )]
+    AnglesNotIncreasing {
+        /// Index of the value, from zero.
+        index: usize,
+        /// The angle, degrees.
+        value: f64,
+        /// The angle before it, degrees.
+        before: f64,
+    },
+    /// The radius is zero or negative somewhere.
+    #[error("the radius falls to {radius:.6} mm at {angle:.3} deg; it must stay above 0")]
+    RadiusNotPositive {
+        /// Key of the shape.
+        key: &'static str,
+        /// Polar angle, degrees.
+        angle: f64,
+        /// Radius there, mm.
+        radius: f64,
+    },
+    /// The polar angle turns back.
+    #[error(
+        "the curve turns back or crosses itself near {angle:.3} deg, radius {radius:.6} mm: its polar angle must increase all the way round the shaft axis"
+    )]
+    SelfCrossing {
+        /// Key of the shape.
+        key: &'static str,
+        /// Polar angle, degrees.
+        angle: f64,
+        /// Radius there, mm.
+        radius: f64,
+    },
+    /// The curve turns clockwise about the shaft axis.
+    #[error("the points run clockwise round the shaft axis: list them counter-clockwise")]
+    Clockwise {
+        /// Key of the shape.
+        key: &'static str,
+    },
+    /// The curve does not wind exactly once about the shaft axis.
+    #[error(
+        "the curve goes {turns} times round the shaft axis at the origin; it must go round once"
+    )]
+    NotAroundAxis {
+        /// Key of the shape.
+        key: &'static str,
+        /// Number of turns, counter-clockwise positive.
+        turns: i32,
+    },
+    /// The ends of the cycle do not meet.
+    #[error("the curve is open: {what} is {start} at the start of the turn and {end} at its end")]
+    OpenCurve {
+        /// Key of the shape.
+        key: &'static str,
+        /// Name of the quantity.
+        what: &'static str,
+        /// Value at the start.
+        start: f64,
+        /// Value at the end.
+        end: f64,
+    },
+    /// A function has no finite value somewhere in the cycle.
+    #[error(
+        "{key} has the value {value} at phi = {angle:.3} deg: it or a derivative is not a finite number there"
+    )]
+    Undefined {
+        /// Key of the function.
+        key: &'static str,
+        /// Driver angle, degrees.
+        angle: f64,
+        /// The value.
+        value: f64,
+    },
+    /// A formula with features too narrow to be followed.
+    #[error(
+        "{key} changes within about {width:.1e} rad; what is narrower than {least:.1e} rad is not followed: take a gentler step, a wider bump or slower waves"
+    )]
+    Steep {
+        /// Key of the function.
+        key: &'static str,
+        /// About how wide the narrowest feature is, rad.
+        width: f64,
+        /// Width of those that can be followed, rad.
+        least: f64,
+    },
+    /// The driven gear stops or turns back.
+    #[error(
+        "d driven / d driver falls to {ratio:.6} at phi = {angle:.3} deg; it must stay above 0"
+    )]
+    RatioNotPositive {
+        /// Key of the function.
+        key: &'static str,
+        /// Driver angle, degrees.
+        angle: f64,
+        /// The ratio there.
+        ratio: f64,
+    },
+    /// The driven gear's turns in one driver turn are not a ratio of small whole numbers.
+    #[error(
+        "one driver turn makes {turns} driven turns, which is no ratio of whole numbers up to {limit}: the gears would never close"
+    )]
+    RatioNotRational {
+        /// Key of the function.
+        key: &'static str,
+        /// Driven turns in one driver turn.
+        turns: f64,
+        /// Largest whole number tried.
+        limit: u32,
+    },
+    /// The curve changes so fast that no sampling can guarantee it.
+    #[error("the curve changes too fast near {angle:.3} deg to be followed")]
+    TooRough {
+        /// Key of the shape.
+        key: &'static str,
+        /// Polar angle, degrees.
+        angle: f64,
+    },
+    /// The curve whose conjugate is wanted does not exist.
+    #[error("of: {0}")]
+    Of(Box<PitchError>),
+    /// No closed curve rolls on the one given.
+    #[error("{0}")]
+    NoConjugate(Box<RollingError>),
+    /// A formula that cannot be read.
+    #[error("{key}: {reason} at character {column}")]
+    Expression {
+        /// Key of the formula.
+        key: &'static str,
+        /// Reason.
+        reason: String,
+        /// Position in the formula, from one.
+        column: usize,
+    },
+}
+
+impl PitchError {
+    /// Key of the pitch curve's description that is at fault.
+    #[must_use]
+    pub fn key(&self) -> &'static str {
+        match self {
+            Self::NotFinite { key, .. }
+            | Self::NotPositive { key, .. }
+            | Self::OutOfRange { key, .. }
+            | Self::Size { key, .. }
+            | Self::TooFewPoints { key, .. }
+            | Self::TooManyPoints { key, .. }
+            | Self::ArcsIncomplete { key, .. }
+            | Self::Key { key, .. }
+            | Self::RadiusNotPositive { key, .. }
+            | Self::SelfCrossing { key, .. }
+            | Self::Clockwise { key }
+            | Self::NotAroundAxis { key, .. }
+            | Self::OpenCurve { key, .. }
+            | Self::Undefined { key, .. }
+            | Self::Steep { key, .. }
+            | Self::TooRough { key, .. }
+            | Self::RatioNotPositive { key, .. }
+            | Self::RatioNotRational { key, .. }
+            | Self::Expression { key, .. } => key,
+            Self::Eccentricity(_) => "eccentricity",
+            Self::ToothCount(_) => "tooth_count",
+            Self::SizeIncomplete { given, .. } => given,
+            Self::NoSize(key) | Self::SizeTwice(key, _) => key,
+            Self::LengthMismatch { second, .. } => second,
+            Self::AnglesNotIncreasing { .. } => "angle_deg",
+            Self::Of(_) => "of",
+            Self::NoConjugate(_) => "mean_ratio",
+        }
+    }
+}
+
+/// Returns `value`, if finite.
+pub(crate) fn finite(key: &'static str, value: f64) -> Result<f64, PitchError> {
+    if value.is_finite() {
+        Ok(value)
+    } else {
+        Err(PitchError::NotFinite { key, value })
+    }
+}
+
+/// Returns `value`, if finite and greater than zero.
+pub(crate) fn positive(key: &'static str, value: f64) -> Result<f64, PitchError> {
+    if finite(key, value)? > 0.0 {
+        Ok(value)
+    } else {
+        Err(PitchError::NotPositive { key, value })
+    }
+}
+
+/// Returns `value`, if in `[0, 1)`.
+pub(crate) fn eccentricity(value: f64) -> Result<f64, PitchError> {
+    if (0.0..1.0).contains(&finite("eccentricity", value)?) {
+        Ok(value)
+    } else {
+        Err(PitchError::Eccentricity(value))
+    }
+}
+
+/// Returns `value`, if in `least..=greatest`.
+pub(crate) fn in_range(
+    key: &'static str,
+    value: u32,
+    least: u32,
+    greatest: u32,
+) -> Result<u32, PitchError> {
+    if (least..=greatest).contains(&value) {
+        Ok(value)
+    } else {
+        Err(PitchError::OutOfRange {
+            key,
+            value: value.into(),
+            least: least.into(),
+            greatest: greatest.into(),
+        })
+    }
+}

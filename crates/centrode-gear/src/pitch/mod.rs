@@ -1,0 +1,326 @@
+//! Pitch curves: the description of each kind, and the exact curve it means.
+//!
+//! A description scaled by `module` and `tooth_count` has the length `pi * module * tooth_count`.
+
+use std::f64::consts::PI;
+use std::sync::Arc;
+
+use centrode_geometry::{Antiderivative, Curve};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use centrode_spec::digits;
+
+mod bezier;
+mod bspline;
+mod circle;
+mod conjugate;
+mod ellipse;
+mod error;
+mod limacon;
+pub mod periodic;
+mod piecewise;
+mod plane;
+mod points;
+pub(crate) mod polar;
+mod proof;
+mod sampled;
+mod size;
+mod symmetry;
+mod transmission;
+
+pub use bezier::Bezier;
+pub use bspline::Bspline;
+pub use circle::{Circle, EccentricCircle};
+pub use conjugate::Conjugate;
+pub use ellipse::{Ellipse, LobedEllipse};
+pub use error::PitchError;
+pub use limacon::Limacon;
+pub use periodic::Interpolation;
+pub use points::Plane;
+pub use polar::Polar;
+pub use sampled::SampledCorner;
+pub use transmission::{Ratio, Transmission};
+
+pub use bspline::{basis as spline_basis, closed_spline};
+pub use piecewise::HIGHEST_DEGREE;
+use plane::ScalableCurve;
+use size::Size;
+pub use symmetry::{Symmetry, gcd};
+
+/// A pitch curve as written: one of the kinds, by the key `kind`.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
+#[non_exhaustive]
+pub enum PitchSpec {
+    /// Circle around the shaft axis.
+    Circle(Circle),
+    /// Circle whose shaft axis is not at its centre.
+    EccentricCircle(EccentricCircle),
+    /// Ellipse turning about a focus.
+    Ellipse(Ellipse),
+    /// Focal ellipse drawn together so that it repeats several times in one turn.
+    LobedEllipse(LobedEllipse),
+    /// Limacon of Pascal, if wanted with several lobes.
+    Limacon(Limacon),
+    /// Closed uniform B-spline.
+    Bspline(Bspline),
+    /// Closed chain of Bezier arcs.
+    Bezier(Bezier),
+    /// Radius as a function of the polar angle.
+    Polar(Polar),
+    /// Driven angle as a function of the driver angle.
+    Transmission(Transmission),
+    /// Ratio as a function of the driver angle.
+    Ratio(Ratio),
+    /// The curve that rolls on another.
+    Conjugate(Conjugate),
+}
+
+/// A resolved pitch curve.
+#[derive(Clone, Debug)]
+pub struct Pitch {
+    /// The exact curve, mm, around the shaft axis at the origin: once round, counter-clockwise, the
+    /// polar angle strictly increasing, the radius above zero.
+    pub curve: Arc<dyn Curve>,
+    /// Number of teeth, if given.
+    pub tooth_count: Option<u32>,
+    /// Module, mm, if the tooth count is given: the length of the curve is `pi * module * tooth_count`.
+    pub module: Option<f64>,
+    /// Definition of the curve in one line, for reports and drawings.
+    pub definition: String,
+    /// Turns of driver and driven gear that the description asks for, in lowest terms.
+    pub implied_ratio: Option<(u32, u32)>,
+    /// Corners of the law that samples follow; the curve through them rounds these.
+    pub corners: Vec<SampledCorner>,
+    pub(crate) symmetry: Symmetry,
+}
+
+impl PitchSpec {
+    /// Exact curve, proved to wind once round the shaft axis, in order.
+    ///
+    /// # Errors
+    /// [`PitchError`] naming the violated rule and its numbers.
+    pub fn resolve(&self) -> Result<Pitch, PitchError> {
+        self.draft()?.finish()
+    }
+
+    /// Number of teeth written with the curve.
+    #[must_use]
+    pub fn tooth_count(&self) -> Option<u32> {
+        match self {
+            Self::Circle(spec) => spec.tooth_count,
+            Self::EccentricCircle(spec) => spec.tooth_count,
+            Self::Ellipse(spec) => spec.tooth_count,
+            Self::LobedEllipse(spec) => spec.tooth_count,
+            Self::Limacon(spec) => spec.tooth_count,
+            Self::Bspline(spec) => spec.tooth_count,
+            Self::Bezier(spec) => spec.tooth_count,
+            Self::Polar(spec) => spec.tooth_count,
+            Self::Transmission(spec) => spec.tooth_count,
+            Self::Ratio(spec) => spec.tooth_count,
+            Self::Conjugate(spec) => spec.tooth_count,
+        }
+    }
+
+    /// Gives it another number of teeth, where it has one: on a curve of the same size, so that the module changes.
+    pub(crate) fn set_tooth_count(&mut self, teeth: u32) {
+        let (module, diametral_pitch, count) = match self {
+            Self::Circle(spec) => (
+                &mut spec.module,
+                &mut spec.diametral_pitch,
+                &mut spec.tooth_count,
+            ),
+            Self::EccentricCircle(spec) => (
+                &mut spec.module,
+                &mut spec.diametral_pitch,
+                &mut spec.tooth_count,
+            ),
+            Self::Ellipse(spec) => (
+                &mut spec.module,
+                &mut spec.diametral_pitch,
+                &mut spec.tooth_count,
+            ),
+            Self::LobedEllipse(spec) => (
+                &mut spec.module,
+                &mut spec.diametral_pitch,
+                &mut spec.tooth_count,
+            ),
+            Self::Limacon(spec) => (
+                &mut spec.module,
+                &mut spec.diametral_pitch,
+                &mut spec.tooth_count,
+            ),
+            Self::Bspline(spec) => (
+                &mut spec.module,
+                &mut spec.diametral_pitch,
+                &mut spec.tooth_count,
+            ),
+            Self::Bezier(spec) => (
+                &mut spec.module,
+                &mut spec.diametral_pitch,
+                &mut spec.tooth_count,
+            ),
+            Self::Polar(spec) => (
+                &mut spec.module,
+                &mut spec.diametral_pitch,
+                &mut spec.tooth_count,
+            ),
+            Self::Transmission(spec) => (
+                &mut spec.module,
+                &mut spec.diametral_pitch,
+                &mut spec.tooth_count,
+            ),
+            Self::Ratio(spec) => (
+                &mut spec.module,
+                &mut spec.diametral_pitch,
+                &mut spec.tooth_count,
+            ),
+            Self::Conjugate(spec) => (
+                &mut spec.module,
+                &mut spec.diametral_pitch,
+                &mut spec.tooth_count,
+            ),
+        };
+        let Some(count) = count else { return };
+        if let Some(module) = module {
+            *module *= f64::from(*count) / f64::from(teeth);
+        }
+        if let Some(diametral_pitch) = diametral_pitch {
+            *diametral_pitch *= f64::from(teeth) / f64::from(*count);
+        }
+        *count = teeth;
+    }
+
+    fn draft(&self) -> Result<Draft, PitchError> {
+        match self {
+            Self::Circle(spec) => spec.draft(),
+            Self::EccentricCircle(spec) => spec.draft(),
+            Self::Ellipse(spec) => spec.draft(),
+            Self::LobedEllipse(spec) => spec.draft(),
+            Self::Limacon(spec) => spec.draft(),
+            Self::Bspline(spec) => spec.draft(),
+            Self::Bezier(spec) => spec.draft(),
+            Self::Polar(spec) => spec.draft(),
+            Self::Transmission(spec) => spec.draft(),
+            Self::Ratio(spec) => spec.draft(),
+            Self::Conjugate(spec) => spec.draft(),
+        }
+    }
+}
+
+/// How a definition in words tells the scale of its curve.
+#[derive(Debug)]
+enum Scaled {
+    /// It holds at every scale.
+    Not,
+    /// By the length that it leaves open: its symbol, and its value before scaling, mm.
+    Length(&'static str, f64),
+    /// By a factor, where it is not drawn as it is written.
+    Written,
+}
+
+/// Proved shape, before scaling.
+#[derive(Debug)]
+pub(crate) struct Draft {
+    /// Key of the shape.
+    key: &'static str,
+    curve: Box<dyn ScalableCurve>,
+    size: Size,
+    definition: String,
+    scaled: Scaled,
+    implied_ratio: Option<(u32, u32)>,
+    corners: Vec<SampledCorner>,
+}
+
+impl Draft {
+    fn new(
+        key: &'static str,
+        curve: impl ScalableCurve + 'static,
+        size: Size,
+        definition: String,
+    ) -> Result<Self, PitchError> {
+        size.check()?;
+        proof::goes_round_once(&curve, key)?;
+        Ok(Self {
+            key,
+            curve: Box::new(curve),
+            size,
+            definition,
+            scaled: Scaled::Written,
+            implied_ratio: None,
+            corners: Vec::new(),
+        })
+    }
+
+    /// Its definition tells how it is scaled.
+    fn scaled(self, scaled: Scaled) -> Self {
+        Self { scaled, ..self }
+    }
+
+    /// Its samples follow a law with these corners.
+    fn with_corners(self, corners: Vec<SampledCorner>) -> Self {
+        Self { corners, ..self }
+    }
+
+    fn finish(mut self) -> Result<Pitch, PitchError> {
+        let written = sized(self.key, perimeter(self.curve.as_ref()))?;
+        let tooth_count = self.size.tooth_count;
+        let mut factor = 1.0;
+        let module = match (self.size.module(), tooth_count) {
+            (Some(module), Some(z)) => {
+                let length = sized(self.size.module_key(), PI * module * f64::from(z))?;
+                factor = length / written;
+                self.curve.rescale(factor);
+                Some(module)
+            }
+            (None, Some(z)) => Some(written / (PI * f64::from(z))),
+            (_, None) => None,
+        };
+        let symmetry = self.curve.symmetry();
+        let shape: Arc<dyn ScalableCurve> = Arc::from(self.curve);
+        let told = |value: f64| match value {
+            ..1e-3 => digits::told(value),
+            _ => ((value * 1e9).round() / 1e9).to_string(),
+        };
+        self.definition += &match self.scaled {
+            Scaled::Length(symbol, length) => format!(", {symbol} = {} mm", told(length * factor)),
+            Scaled::Written if told(factor) != "1" => format!(", times {}", told(factor)),
+            Scaled::Written | Scaled::Not => String::new(),
+        };
+        Ok(Pitch {
+            curve: shape,
+            tooth_count,
+            module,
+            definition: self.definition,
+            implied_ratio: self.implied_ratio,
+            corners: self.corners,
+            symmetry,
+        })
+    }
+}
+
+/// Least and greatest length of a pitch curve, mm: its moments, up to the fourth power, are normal numbers.
+const LENGTHS: [f64; 2] = [1e-50, 1e50];
+
+/// Checks that the length of a pitch curve can be computed with.
+fn sized(key: &'static str, length: f64) -> Result<f64, PitchError> {
+    let [least, greatest] = LENGTHS;
+    if (least..=greatest).contains(&length) {
+        return Ok(length);
+    }
+    Err(PitchError::Size {
+        key,
+        length,
+        least,
+        greatest,
+    })
+}
+
+/// Length of one turn of a curve, mm.
+fn perimeter(curve: &dyn Curve) -> f64 {
+    Antiderivative::new(|t| curve.at(t).first.norm(), &proof::piece_ends(curve)).total()
+}
+
+#[cfg(test)]
+mod tests;

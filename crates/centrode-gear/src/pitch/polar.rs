@@ -1,0 +1,264 @@
+use std::f64::consts::TAU;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::error::finite;
+use super::periodic::{Fourier, Interpolation, Periodic};
+use super::plane::{Derivatives, Direction, PolarCurve, RadiusLaw};
+use super::size::{OwnSize, Size};
+use super::{Draft, PitchError, Symmetry, sampled};
+use centrode_kinematics::formula::{Formula, FormulaError, Steep};
+use centrode_spec::degrees;
+
+/// A radius as a function of the polar angle: a formula, a table or a Fourier series.
+///
+/// Give one of: `expression`; `radius` (equal steps from the angle zero, or with `angle_deg`);
+/// `mean` with `cos` and `sin`.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Polar {
+    /// Radius, mm, as a formula in `phi` (rad): `+ - * / ^`, `pi`, sin, cos, tan, asin, acos, atan,
+    /// sinh, cosh, tanh, exp, ln, sqrt.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub expression: Option<String>,
+    /// Radii, mm; over equal steps from the angle zero if `angle_deg` is left out.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub radius: Vec<f64>,
+    /// Polar angles of the radii, rad (degrees in the file), increasing within one turn.
+    #[serde(
+        rename = "angle_deg",
+        with = "degrees",
+        skip_serializing_if = "Vec::is_empty"
+    )]
+    #[schemars(with = "Vec<f64>")]
+    pub angle: Vec<f64>,
+    /// Interpolation between the radii; left out, "quintic" over equal steps, "cubic" with `angle_deg`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub interpolation: Option<Interpolation>,
+    /// Mean radius of a Fourier series, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub mean: Option<f64>,
+    /// Cosine coefficients from the first harmonic, mm.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub cos: Vec<f64>,
+    /// Sine coefficients from the first harmonic, mm.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub sin: Vec<f64>,
+    /// Module, mm, with `tooth_count`: scales the curve.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub module: Option<f64>,
+    /// Diametral pitch, 1/in, instead of the module: 25.4 mm over the module.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub diametral_pitch: Option<f64>,
+    /// Number of teeth; alone, the module follows from the size of the curve.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub tooth_count: Option<u32>,
+}
+
+impl Polar {
+    /// Curve of a formula for the radius.
+    #[must_use]
+    pub fn expression(formula: impl Into<String>) -> Self {
+        Self {
+            expression: Some(formula.into()),
+            ..Self::default()
+        }
+    }
+
+    pub(crate) fn draft(&self) -> Result<Draft, PitchError> {
+        let size = Size {
+            module: self.module,
+            diametral_pitch: self.diametral_pitch,
+            tooth_count: self.tooth_count,
+            own: OwnSize::Written,
+        };
+        if let Some(text) = &self.expression {
+            self.nothing_of(&["radius", "mean"])?;
+            let law = FormulaLaw::read("expression", text)?;
+            let definition = format!("polar, r = {text}");
+            return Draft::new("expression", PolarCurve::new(law), size, definition);
+        }
+        if let Some(mean) = self.mean {
+            self.nothing_of(&["radius"])?;
+            finite("mean", mean)?;
+            for (key, list) in [("cos", &self.cos), ("sin", &self.sin)] {
+                list.iter().try_for_each(|&c| finite(key, c).map(drop))?;
+            }
+            let series = Fourier::new(mean, ("cos", &self.cos), ("sin", &self.sin))?;
+            let definition = format!(
+                "polar, Fourier series of {} harmonics",
+                self.cos.len().max(self.sin.len())
+            );
+            let law = TableLaw(Periodic::from(series));
+            return Draft::new("mean", PolarCurve::new(law), size, definition);
+        }
+        if self.radius.is_empty() {
+            let rule = "is missing: give expression, or radius, or mean with cos and sin";
+            let key = "expression";
+            return Err(PitchError::Key { key, rule });
+        }
+        self.nothing_of(&["mean"])?;
+        for &r in &self.radius {
+            super::error::positive("radius", r)?;
+        }
+        let (table, kind) = self.table()?;
+        let definition = format!("polar, {kind} through {} radii", self.radius.len());
+        let corners = sampled::of_radii(&self.samples());
+        let draft = Draft::new("radius", PolarCurve::new(TableLaw(table)), size, definition)?;
+        Ok(draft.with_corners(corners))
+    }
+
+    /// Polar angle and radius of every sample, in order of the angle.
+    fn samples(&self) -> Vec<[f64; 2]> {
+        let radii = self.radius.iter().copied();
+        match self.angle.is_empty() {
+            true => even_steps(&self.radius),
+            false => self
+                .angle
+                .iter()
+                .copied()
+                .zip(radii)
+                .map(Into::into)
+                .collect(),
+        }
+    }
+
+    fn table(&self) -> Result<(Periodic, &'static str), PitchError> {
+        if self.angle.is_empty() {
+            let interpolation = self.interpolation.unwrap_or(Interpolation::Quintic);
+            let table = Periodic::even("radius", &self.radius, interpolation)?;
+            return Ok((table, interpolation.name()));
+        }
+        if self
+            .interpolation
+            .is_some_and(|i| i != Interpolation::Cubic)
+        {
+            return Err(PitchError::Key {
+                key: "interpolation",
+                rule: "must be \"cubic\" where angle_deg is given",
+            });
+        }
+        let table = Periodic::uneven("radius", &self.angle, &self.radius)?;
+        Ok((table, Interpolation::Cubic.name()))
+    }
+
+    /// Refuses keys of another way to give the radius than the one in use.
+    fn nothing_of(&self, ways: &[&str]) -> Result<(), PitchError> {
+        let given = [
+            ("radius", "radius", !self.radius.is_empty()),
+            ("radius", "angle_deg", !self.angle.is_empty()),
+            ("radius", "interpolation", self.interpolation.is_some()),
+            ("mean", "mean", self.mean.is_some()),
+            ("mean", "cos", !self.cos.is_empty()),
+            ("mean", "sin", !self.sin.is_empty()),
+        ];
+        let stray = given.iter().find(|(way, _, on)| *on && ways.contains(way));
+        match stray {
+            Some((_, key, _)) => Err(PitchError::Key {
+                key,
+                rule: "does not go with the other keys: give one of expression, radius (with angle_deg, interpolation), mean (with cos, sin)",
+            }),
+            None => Ok(()),
+        }
+    }
+}
+
+/// Samples over equal steps of one turn, each with its angle.
+pub(super) fn even_steps(values: &[f64]) -> Vec<[f64; 2]> {
+    let step = TAU / values.len() as f64;
+    let values = values.iter().enumerate();
+    values.map(|(k, &value)| [step * k as f64, value]).collect()
+}
+
+impl Interpolation {
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Cubic => "periodic cubic spline",
+            Self::Quintic => "periodic quintic spline",
+            Self::Trigonometric => "trigonometric polynomial",
+        }
+    }
+}
+
+/// Reads a formula; the error says where it cannot be read.
+pub(crate) fn read_formula(key: &'static str, text: &str) -> Result<Formula, PitchError> {
+    Formula::read(text).map_err(|FormulaError { reason, column }| PitchError::Expression {
+        key,
+        reason,
+        column,
+    })
+}
+
+/// Angles at which a formula is parted so that nothing narrow in it is stepped over.
+pub(crate) fn formula_parts(key: &'static str, formula: &Formula) -> Result<Vec<f64>, PitchError> {
+    let steep = |Steep { width, least }| PitchError::Steep { key, width, least };
+    formula.parts(TAU).map_err(steep)
+}
+
+#[derive(Debug)]
+struct FormulaLaw {
+    formula: Formula,
+    breaks: Vec<f64>,
+}
+
+impl FormulaLaw {
+    fn read(key: &'static str, text: &str) -> Result<Self, PitchError> {
+        let formula = read_formula(key, text)?;
+        let (start, end) = (formula.at(0.0).derivatives(), formula.at(TAU).derivatives());
+        for (angle, value) in [(0.0, start[0]), (360.0, end[0])] {
+            if !value.is_finite() {
+                return Err(PitchError::Undefined { key, angle, value });
+            }
+        }
+        let size = start[0].abs().max(end[0].abs());
+        if (start[0] - end[0]).abs() > 1e-9 * size {
+            return Err(PitchError::OpenCurve {
+                key,
+                what: "the radius",
+                start: start[0],
+                end: end[0],
+            });
+        }
+        let mut breaks = seam(&start, &end);
+        breaks.extend(formula_parts(key, &formula)?);
+        Ok(Self { formula, breaks })
+    }
+}
+
+/// A break at the angle zero, unless all derivatives of both ends of the turn agree.
+pub(crate) fn seam(start: &Derivatives, end: &Derivatives) -> Vec<f64> {
+    let size = start.iter().fold(0.0_f64, |m, d| m.max(d.abs()));
+    let smooth = start
+        .iter()
+        .zip(end)
+        .all(|(a, b)| (a - b).abs() <= 1e-9 * size);
+    if smooth { Vec::new() } else { vec![0.0] }
+}
+
+impl RadiusLaw for FormulaLaw {
+    fn radius(&self, phi: &Direction) -> Derivatives {
+        self.formula.at(phi.angle.rem_euclid(TAU)).derivatives()
+    }
+
+    fn breaks(&self) -> Vec<f64> {
+        self.breaks.clone()
+    }
+}
+
+#[derive(Debug)]
+struct TableLaw(Periodic);
+
+impl RadiusLaw for TableLaw {
+    fn radius(&self, phi: &Direction) -> Derivatives {
+        self.0.at(phi.angle).derivatives()
+    }
+
+    fn breaks(&self) -> Vec<f64> {
+        self.0.breaks()
+    }
+
+    fn symmetry(&self) -> Symmetry {
+        self.0.symmetry()
+    }
+}

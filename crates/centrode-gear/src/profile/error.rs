@@ -1,0 +1,60 @@
+use centrode_geometry::{LoopError, OpenOutline, Point};
+
+use crate::rolling::Member;
+
+use super::Role;
+
+/// Reason why a gear has no profile.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum ProfileError {
+    /// The pitch curve is too sharp for any tooth.
+    #[error("the {} has no profile: every part of its contour lies in a loop, so the teeth are too large for the pitch curve", .member.name())]
+    Looped {
+        /// Gear at fault.
+        member: Member,
+    },
+    /// The crossings of the contour with itself cannot be determined.
+    #[error("the {} has no profile: {cause}", .member.name())]
+    Unresolved {
+        /// Gear at fault.
+        member: Member,
+        /// Place and cause.
+        cause: LoopError,
+    },
+    /// Two curves of a tooth that do not meet.
+    #[error("the {} has no profile: on tooth {tooth} {} and {} end {gap:.3e} mm apart, so the teeth are too large for the pitch curve", .member.name(), .roles[0].name(), .roles[1].name())]
+    Gap {
+        /// Gear at fault.
+        member: Member,
+        /// Tooth, counted from 0.
+        tooth: u32,
+        /// Roles of the two curves.
+        roles: [Role; 2],
+        /// Distance of their ends, mm.
+        gap: f64,
+    },
+    /// A contour that touches itself.
+    #[error("the {} has no profile: its contour touches itself at ({:.6}, {:.6}) mm, between a {} of tooth {} and a {} of tooth {}, so the teeth are too large for the pitch curve", .member.name(), .point.x, .point.y, .roles[0].name(), .teeth[0], .roles[1].name(), .teeth[1])]
+    Touches {
+        /// Gear at fault.
+        member: Member,
+        /// Place of the touch, mm.
+        point: Point,
+        /// Roles of the two parts.
+        roles: [Role; 2],
+        /// Their teeth, counted from 0.
+        teeth: [u32; 2],
+    },
+    /// A contour that leaves its axis outside, so that nothing can carry it.
+    #[error("the {} has no profile: its axis lies outside its contour, {away:.6} mm from it, so the teeth are too large for the pitch curve", .member.name())]
+    AxisOutside {
+        /// Gear at fault.
+        member: Member,
+        /// Distance of the axis from the contour, mm.
+        away: f64,
+    },
+    /// The contour does not close: a coordinate is not a number.
+    #[error(transparent)]
+    Open(#[from] OpenOutline),
+}

@@ -1,0 +1,284 @@
+use std::f64::consts::TAU;
+use std::sync::{Arc, OnceLock};
+
+use centrode_geometry::{Antiderivative, Curve, Jet, Point, bracketed_root};
+
+use super::{Extreme, Rolling, RollingError, SAME};
+use crate::pitch::{Symmetry, gcd};
+
+/// Most pieces on which a pitch curve may not be smooth, as beside a kink.
+const MOST_UNSETTLED: usize = 64;
+
+/// Share of the greatest radius, a radian, by which the slope of a radius that swings changes at least.
+const SWINGS: f64 = 1e-7;
+
+impl Rolling {
+    /// Finds the centre distance at which `curve` drives a closed conjugate curve at `mean_ratio`
+    /// (turns of driver : turns of driven).
+    ///
+    /// # Errors
+    /// [`RollingError`] when no such curve exists.
+    pub fn new(curve: Arc<dyn Curve>, mean_ratio: (u32, u32)) -> Result<Self, RollingError> {
+        let ratio = reduced(mean_ratio)?;
+        let period = curve.period();
+        let (start, half) = axis_crossings(&*curve, period)?;
+        let breaks = curve.breaks();
+        // A curve drawn from angle zero on has a break there: rounding must not part the two, nor the break
+        // from itself a turn on.
+        let on = breaks.iter().find(|&&b| (b - start).abs() <= SAME * period);
+        let start = on.copied().unwrap_or(start);
+        let mut jumps: Vec<f64> = breaks
+            .into_iter()
+            .map(|b| if b < start { b + period } else { b })
+            .collect();
+        jumps.sort_by(f64::total_cmp);
+        let mut breaks = vec![start];
+        breaks.extend(jumps.iter().copied().filter(|&b| b > start));
+        breaks.push(start + period);
+
+        let arc = Antiderivative::new(|t| curve.at(t).first.norm(), &breaks);
+        if arc.unsettled() > MOST_UNSETTLED {
+            return Err(RollingError::Unsettled {
+                unsettled: arc.unsettled(),
+                most: MOST_UNSETTLED,
+            });
+        }
+        let jets: Vec<(f64, f64, Jet)> = arc
+            .nodes()
+            .map(|(t, weight)| (t, weight, curve.at(t)))
+            .collect();
+        let node = |&(_, weight, jet): &(f64, f64, Jet)| {
+            let p = jet.point.coords;
+            (p.norm(), weight * p.perp(&jet.first))
+        };
+        let nodes: Vec<(f64, f64)> = jets.iter().map(node).collect();
+        let mut samples: Vec<(f64, Jet)> = jets.iter().map(|&(t, _, jet)| (t, jet)).collect();
+        samples.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let [least, greatest] = extremes(&*curve, &samples);
+        let swings = swings(&samples, SWINGS * greatest.radius);
+        let wanted = TAU * f64::from(ratio.1) / f64::from(ratio.0);
+        let mut a = closure(&nodes, greatest.radius, wanted);
+        let mut driven = driven_angle(&*curve, &breaks, a);
+        for _ in 0..4 {
+            let missing = driven.total() - wanted;
+            if missing.abs() <= 1e-15 * wanted {
+                break;
+            }
+            let slope: f64 = nodes
+                .iter()
+                .map(|&(r, w)| -w / (r * (a - r) * (a - r)))
+                .sum();
+            let better = a - missing / slope;
+            if better <= greatest.radius || better == a {
+                break;
+            }
+            let retry = driven_angle(&*curve, &breaks, better);
+            if (retry.total() - wanted).abs() >= missing.abs() {
+                break;
+            }
+            (a, driven) = (better, retry);
+        }
+        if (driven.total() - wanted).abs().is_nan()
+            || (driven.total() - wanted).abs() > 1e-12 * wanted
+        {
+            return Err(RollingError::NoClosure {
+                center_distance: a,
+                turned: driven.total(),
+                wanted,
+            });
+        }
+        let mut rolling = Self {
+            curve,
+            start,
+            half,
+            jumps,
+            knots: Vec::new(),
+            arc,
+            driven,
+            center_distance: a,
+            mean_ratio: ratio,
+            least,
+            greatest,
+            swings,
+            symmetry: Symmetry::NONE,
+            sampled_corners: Vec::new(),
+            ranges: OnceLock::new(),
+        };
+        rolling.knots = rolling.knots_at(&breaks);
+        rolling.check_repeats()?;
+        Ok(rolling)
+    }
+
+    /// Checks that a driver repeats n2 times a turn, without which the driven curve would not close after its own turn.
+    fn check_repeats(&self) -> Result<(), RollingError> {
+        let repeats = self.mean_ratio.1;
+        if repeats == 1 {
+            return Ok(());
+        }
+        let mut difference = 0.0_f64;
+        for i in 0..256 {
+            let phi = TAU * f64::from(i) / 256.0;
+            let r = self.radius(phi);
+            let again = self.radius(phi + TAU / f64::from(repeats));
+            difference = difference.max((again - r).abs());
+        }
+        if difference > 1e-9 * self.greatest.radius {
+            return Err(RollingError::NotPeriodic {
+                ratio: self.mean_ratio,
+                difference,
+            });
+        }
+        Ok(())
+    }
+}
+
+fn reduced(ratio: (u32, u32)) -> Result<(u32, u32), RollingError> {
+    let a = gcd(ratio.0, ratio.1);
+    let fair = |n: u32| (1..=Rolling::GREATEST_TURNS).contains(&n);
+    if a == 0 || !fair(ratio.0 / a) || !fair(ratio.1 / a) {
+        return Err(RollingError::MeanRatio { ratio });
+    }
+    Ok((ratio.0 / a, ratio.1 / a))
+}
+
+/// Parameters at polar angle 0 and pi.
+fn axis_crossings(curve: &dyn Curve, period: f64) -> Result<(f64, f64), RollingError> {
+    const SAMPLES: usize = 128;
+    let t = |i: usize| period * i as f64 / SAMPLES as f64;
+    let mut points: Vec<Point> = (0..SAMPLES).map(|i| curve.at(t(i)).point).collect();
+    // The end of the turn is its start, to the last digit.
+    points.push(points[0]);
+    let mut turned = 0.0;
+    let (mut start, mut half) = (None, None);
+    for i in 0..SAMPLES {
+        let (p, q) = (points[i], points[i + 1]);
+        turned += p.coords.perp(&q.coords).atan2(p.coords.dot(&q.coords));
+        let crossing = || bracketed_root(|t| curve.at(t).point.y, t(i), t(i + 1), p.y, q.y);
+        if p.y < 0.0 && q.y >= 0.0 {
+            start = Some(crossing());
+        }
+        if p.y >= 0.0 && q.y < 0.0 {
+            half = Some(crossing());
+        }
+    }
+    match (start, half) {
+        (Some(start), Some(half)) if (turned - TAU).abs() < 1e-6 => {
+            // A start at the very end of the turn is one at its start.
+            let start = if period - start <= SAME * period {
+                0.0
+            } else {
+                start
+            };
+            let half = if half < start { half + period } else { half };
+            Ok((start, half))
+        }
+        _ => Err(RollingError::NotAroundAxis { turned }),
+    }
+}
+
+/// Least and greatest radius, sharpened from samples all along the curve.
+fn extremes(curve: &dyn Curve, samples: &[(f64, Jet)]) -> [Extreme; 2] {
+    let slope_of = |jet: &Jet| jet.point.coords.dot(&jet.first);
+    let slope = |t: f64| slope_of(&curve.at(t));
+    let extreme = |radius| Extreme { at: 0.0, radius };
+    let (mut least, mut greatest) = (extreme(f64::INFINITY), extreme(0.0));
+    let mut take = |at: f64, jet: &Jet| {
+        let radius = jet.point.coords.norm();
+        if radius < least.radius {
+            least = Extreme { at, radius };
+        }
+        if radius > greatest.radius {
+            greatest = Extreme { at, radius };
+        }
+    };
+    for (i, (a, jet)) in samples.iter().enumerate() {
+        let (b, next) = match samples.get(i + 1) {
+            Some((b, next)) => (*b, next),
+            None => (samples[0].0 + curve.period(), &samples[0].1),
+        };
+        let (fa, fb) = (slope_of(jet), slope_of(next));
+        if (fa > 0.0) != (fb > 0.0) {
+            let at = bracketed_root(slope, *a, b, fa, fb);
+            take(at, &curve.at(at));
+        }
+        take(*a, jet);
+    }
+    [least, greatest]
+}
+
+/// How often the radius swings in a turn: its slope goes from rising to falling and back by more than a threshold, which a wave on a
+/// radius that falls does, too.
+fn swings(samples: &[(f64, Jet)], threshold: f64) -> usize {
+    let slopes = samples.iter().map(|(_, jet)| {
+        let p = jet.point.coords;
+        p.norm() * p.dot(&jet.first) / p.perp(&jet.first)
+    });
+    turns(slopes, threshold) / 2
+}
+
+/// How often a closed row of values goes from rising to falling or back, by more than a threshold.
+fn turns(values: impl Iterator<Item = f64>, threshold: f64) -> usize {
+    let mut rises = Vec::new();
+    let mut from: Option<f64> = None;
+    for value in values {
+        let change = value - from.unwrap_or(value);
+        if change.abs() > threshold {
+            rises.push(change > 0.0);
+        }
+        if from.is_none() || change.abs() > threshold {
+            from = Some(value);
+        }
+    }
+    let again = rises.iter().cycle().skip(1);
+    rises.iter().zip(again).filter(|(a, b)| a != b).count()
+}
+
+/// Newton's method kept above the greatest radius, where the driven angle falls from infinity to zero.
+fn closure(nodes: &[(f64, f64)], greatest: f64, wanted: f64) -> f64 {
+    let turned = |a: f64| -> (f64, f64) {
+        let (mut sum, mut slope) = (0.0, 0.0);
+        for &(r, w) in nodes {
+            let part = w / (r * (a - r));
+            sum += part;
+            slope -= part / (a - r);
+        }
+        (sum, slope)
+    };
+    let mut low = greatest;
+    let mut high = f64::INFINITY;
+    // A circle of the greatest radius would need this distance; the answer is below it.
+    let mut a = greatest * (1.0 + TAU / wanted);
+    for _ in 0..100 {
+        let (sum, slope) = turned(a);
+        if sum > wanted {
+            low = low.max(a);
+        } else {
+            high = high.min(a);
+        }
+        let mut next = a - (sum - wanted) / slope;
+        if !(next > low && next < high) {
+            next = if high.is_finite() {
+                0.5 * (low + high)
+            } else {
+                2.0 * a
+            };
+        }
+        let done = (next - a).abs() <= 2.0 * f64::EPSILON * a;
+        a = next;
+        if done {
+            break;
+        }
+    }
+    a
+}
+
+fn driven_angle(curve: &dyn Curve, breaks: &[f64], a: f64) -> Antiderivative {
+    Antiderivative::new(
+        |t| {
+            let jet = curve.at(t);
+            let r = jet.point.coords.norm();
+            jet.point.coords.perp(&jet.first) / (r * (a - r))
+        },
+        breaks,
+    )
+}

@@ -1,0 +1,168 @@
+use thiserror::Error;
+
+use crate::pitch::PitchError;
+use centrode_spec::MechanismError;
+use centrode_spec::SpecError;
+
+/// Reason why a spiral shaft does not exist.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum ShaftError {
+    /// A value breaks a rule of its own.
+    #[error(transparent)]
+    Spec(#[from] SpecError),
+    /// A table or formula of the speed cannot be read.
+    #[error(transparent)]
+    Speed(#[from] PitchError),
+    /// The slider would stop or run back on the way.
+    #[error(
+        "amplitude is {amplitude} mm, but with the harmonic {harmonic} and a lead of {lead} mm the slider only keeps moving one way below {limit:.6} mm"
+    )]
+    Amplitude {
+        /// Amplitude, mm.
+        amplitude: f64,
+        /// Waves a turn.
+        harmonic: u32,
+        /// Lead, mm a turn.
+        lead: f64,
+        /// Amplitude at which the speed falls to zero, mm.
+        limit: f64,
+    },
+    /// A speed law whose speed falls to zero.
+    #[error(
+        "the speed must stay above zero, but at {angle_deg:.4} deg it is {ratio:.6} of its mean"
+    )]
+    SpeedNotPositive {
+        /// Shaft angle, deg.
+        angle_deg: f64,
+        /// Speed there over its mean.
+        ratio: f64,
+    },
+    /// A distance no amplitude gives.
+    #[error(
+        "moved_distance must lie between {least:.6} mm, where the slider stands still, and {greatest:.6} mm, where its speed is constant, not {wanted}"
+    )]
+    MovedDistance {
+        /// Distance asked for, mm.
+        wanted: f64,
+        /// Lower bound, mm.
+        least: f64,
+        /// Upper bound, mm.
+        greatest: f64,
+    },
+    /// A window that holds whole waves, over which no amplitude changes the distance.
+    #[error(
+        "window_deg is {window_deg}, whole waves of the harmonic {harmonic}: every amplitude moves the slider alike over it"
+    )]
+    Window {
+        /// Width of the window, deg.
+        window_deg: f64,
+        /// Waves a turn.
+        harmonic: u32,
+    },
+    /// Reversals after which the groove does not meet its own start.
+    #[error(
+        "the reversal must take a whole number of half turns, or the groove does not close on the shaft; it is {0}"
+    )]
+    ReversalAngle(f64),
+    /// A law that does not bring the speed smoothly and evenly from one way to the other.
+    #[error(
+        "the law {law} does not reverse the slider: its acceleration must vanish at both ends and its halves be alike"
+    )]
+    ReversalLaw {
+        /// Name of the law.
+        law: &'static str,
+    },
+    /// A slider that reverses more than once in a reversal.
+    #[error("the slider turns round {0} times in one reversal: take a larger reversal angle")]
+    TurnsRound(usize),
+    /// A groove that leaves no land to the next turn of itself.
+    #[error(
+        "the groove is {width} mm wide, but the next turn of the groove is only {room:.6} mm away along the normal"
+    )]
+    GrooveWidth {
+        /// Width of the groove, mm.
+        width: f64,
+        /// Least normal distance of neighbouring turns, mm.
+        room: f64,
+    },
+    /// A groove as deep as the shaft is thick.
+    #[error("the groove is {depth} mm deep, which at a radius of {radius} mm reaches {limit}")]
+    GrooveDepth {
+        /// Depth, mm.
+        depth: f64,
+        /// Radius of the shaft, mm.
+        radius: f64,
+        /// Part in the way.
+        limit: &'static str,
+    },
+    /// A slider of the groove's width cannot follow the bend.
+    #[error(
+        "the groove bends with a radius of {radius:.6} mm at {angle_deg:.3} deg, less than half its width of {width} mm: no slider cuts or follows it; take a larger reversal angle"
+    )]
+    Bend {
+        /// Least radius of curvature on the development, mm.
+        radius: f64,
+        /// Position, deg of shaft turn.
+        angle_deg: f64,
+        /// Width of the groove, mm.
+        width: f64,
+    },
+    /// A groove whose edges no smooth surfaces follow.
+    #[error(
+        "the groove's edges bend too wildly for smooth surfaces between {0} lines round the shaft"
+    )]
+    Boundary(u32),
+    /// An error inside a table of a larger design.
+    #[error("{error}")]
+    Inside {
+        /// The table.
+        table: &'static str,
+        /// Error there.
+        error: Box<ShaftError>,
+    },
+}
+
+impl ShaftError {
+    /// Error with its key seen from outside a table.
+    #[must_use]
+    pub(super) fn inside(self, table: &'static str) -> Self {
+        match self {
+            Self::Spec(error) => Self::Spec(error.inside(table)),
+            other => Self::Inside {
+                table,
+                error: Box::new(other),
+            },
+        }
+    }
+
+    /// Key of the design to blame.
+    #[must_use]
+    pub fn key(&self) -> String {
+        match self {
+            Self::Spec(error) => error.key.clone(),
+            Self::Speed(error) => format!("law.{}", error.key()),
+            Self::Amplitude { .. } => "law.amplitude".into(),
+            Self::SpeedNotPositive { .. } => "law".into(),
+            Self::MovedDistance { .. } => "moved_distance".into(),
+            Self::Window { .. } => "window_deg".into(),
+            Self::ReversalAngle(_) | Self::TurnsRound(_) | Self::Bend { .. } => {
+                "reversal.angle_deg".into()
+            }
+            Self::ReversalLaw { .. } => "reversal.law".into(),
+            Self::Boundary(_) => "law".into(),
+            Self::GrooveWidth { .. } => "groove.width".into(),
+            Self::GrooveDepth { .. } => "groove.depth".into(),
+            Self::Inside { table, error } => format!("{table}.{}", error.key()),
+        }
+    }
+}
+
+impl From<ShaftError> for MechanismError {
+    fn from(error: ShaftError) -> Self {
+        match error {
+            ShaftError::Spec(error) => error.into(),
+            other => Self::new(other.key(), other),
+        }
+    }
+}

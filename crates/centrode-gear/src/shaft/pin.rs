@@ -1,0 +1,36 @@
+use std::f64::consts::FRAC_PI_2;
+
+use super::SpiralShaft;
+use centrode_kinematics::machine::{Bar, Fit, Stock, TurnedPiece, TurnedPieces};
+use centrode_spec::digits::thousandths;
+
+/// Diameters of its own that the slider's pin is long in the box.
+const IN_BOX: f64 = 2.0;
+
+impl SpiralShaft {
+    /// The slider's pin, from the slider's foot into the box, in whose frame it lies along x: `link` is the box's name.
+    #[must_use]
+    pub fn pin(&self, link: &str) -> TurnedPieces {
+        let slider = self.slider();
+        let length = slider.reach + IN_BOX * slider.pin_diameter;
+        let bar = Bar::new(slider.pin_diameter, &slider.pin_fit, [0.0, length]);
+        let stock = Stock::new(&slider.material, slider.density);
+        let mut part = bar.part(["pin", "Pin of the slider"], stock, "");
+        part.notes = vec![format!(
+            "{} mm of it in the slider.",
+            thousandths(slider.reach)
+        )];
+        let classes = [&*slider.hole_fit, &slider.pin_fit];
+        let fit = Fit::new("slider on its pin", slider.pin_diameter, classes);
+        TurnedPieces {
+            pieces: vec![TurnedPiece {
+                link: link.into(),
+                at: [self.groove().radius() - slider.reach, 0.0, 0.0],
+                turn: [0.0, FRAC_PI_2, 0.0],
+                // The mass moved is given.
+                is_counted: true,
+            }],
+            ..TurnedPieces::new(part, fit)
+        }
+    }
+}

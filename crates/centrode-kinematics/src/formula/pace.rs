@@ -1,0 +1,127 @@
+//! How fast a formula changes, so that nothing narrow is stepped over.
+
+use super::{Formula, Taylor};
+
+/// Places of a turn at which any formula is looked at.
+const FEWEST: usize = 512;
+
+/// Most places: a bump is seen where one of them lies within seven of its widths.
+const MOST: usize = 1 << 18;
+
+/// Greatest rate a radian of which features are found wherever they are without being looked for.
+const GENTLE: f64 = 12.0;
+
+/// Length of a part, as a multiple of the width of the narrowest feature.
+const PART: f64 = 24.0;
+
+/// Parts of a turn go by so many, so that they repeat with the formula.
+const PARTS: usize = 60;
+
+/// Most parts of a turn.
+const MOST_PARTS: usize = 1200;
+
+/// Share of a value that is rounding, and its slope with it.
+const ROUNDING: f64 = 1e-12;
+
+/// A formula with features too narrow to be followed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Steep {
+    /// About how wide the narrowest feature is, rad.
+    pub width: f64,
+    /// Width of those that can be followed, rad.
+    pub least: f64,
+}
+
+/// Range and slopes of a value inside a formula along a turn.
+#[derive(Clone, Copy)]
+struct Course {
+    low: f64,
+    high: f64,
+    /// Greatest slope, of its own and from one place to the next.
+    steepest: f64,
+    last: f64,
+}
+
+impl Course {
+    const NONE: Self = Self {
+        low: f64::INFINITY,
+        high: f64::NEG_INFINITY,
+        steepest: 0.0,
+        last: f64::NAN,
+    };
+
+    fn pass(&mut self, value: f64, slope: f64, step: f64) {
+        let chord = (value - self.last) / step;
+        // A value that is no number has no course.
+        self.steepest = self.steepest.max(slope.abs()).max(chord.abs());
+        (self.low, self.high) = (self.low.min(value), self.high.max(value));
+        self.last = value;
+    }
+
+    /// Slope, as a share of the whole range, of a value that has both and changes by more than its rounding.
+    fn rate(&self) -> f64 {
+        let range = self.high - self.low;
+        let rate = self.steepest / range;
+        let changes = range > ROUNDING * self.high.abs().max(self.low.abs());
+        if changes && rate.is_finite() {
+            rate
+        } else {
+            0.0
+        }
+    }
+}
+
+impl Formula {
+    /// Ends, inside a turn, of even parts in each of which the formula has no feature that is narrow beside the part; none
+    /// where the formula has no such features at all.
+    ///
+    /// A bump, as of `exp(-700*(1-cos(5*phi)))`, is next to nothing with all its derivatives a few widths beside it. How wide it
+    /// is, is told by the slopes of every function, product and quotient in the formula beside their ranges; where to look for
+    /// these, by how fast what the functions are of changes.
+    ///
+    /// # Errors
+    /// [`Steep`] for a feature too narrow to be followed.
+    pub fn parts(&self, turn: f64) -> Result<Vec<f64>, Steep> {
+        let mut count = FEWEST;
+        let rate = loop {
+            let [argument, value] = self.rates(turn, count);
+            let wanted = ((2.0 * argument * turn) as usize).min(MOST);
+            if count >= wanted {
+                break value;
+            }
+            count = wanted.max(2 * count);
+        };
+        let parts = turn * rate / PART;
+        if parts > MOST_PARTS as f64 {
+            return Err(Steep {
+                width: 1.0 / rate,
+                least: turn / (PART * MOST_PARTS as f64),
+            });
+        }
+        if rate <= GENTLE {
+            return Ok(Vec::new());
+        }
+        let count = (parts / PARTS as f64).ceil() as usize * PARTS;
+        Ok((1..count).map(|k| turn * k as f64 / count as f64).collect())
+    }
+
+    /// Greatest rates a radian, at even places of a turn: of what a function is of, and of what follows, as a share of its range.
+    fn rates(&self, turn: f64, count: usize) -> [f64; 2] {
+        let step = turn / count as f64;
+        let mut courses = vec![Course::NONE; self.program.len()];
+        let mut argument = 0.0_f64;
+        for k in 0..=count {
+            let seen = |place: usize, of: Option<&Taylor>, value: &Taylor| {
+                let rate = of.map_or(0.0, |of| of.0[1].abs());
+                // Where there is no value any more its argument is no matter.
+                if rate.is_finite() && value.0[0].is_finite() {
+                    argument = argument.max(rate);
+                }
+                courses[place].pass(value.0[0], value.0[1], step);
+            };
+            self.run(step * k as f64, seen);
+        }
+        let value = courses.iter().map(Course::rate).fold(0.0, f64::max);
+        [argument, value]
+    }
+}

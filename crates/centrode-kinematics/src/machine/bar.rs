@@ -1,0 +1,278 @@
+use super::{
+    Circlip, HeldLength, Stock, TurnedPart, TurnedStep, general_deviation, preferred_size,
+};
+use crate::machine::Keyway;
+
+/// Share of a diameter that a chamfer at an end takes at most.
+const CHAMFER: f64 = 1.0 / 16.0;
+/// Lengths below which steps are none, mm: rounding.
+const ROUNDING: f64 = 1e-9;
+/// Least play along the axis of what lies between two rings, mm.
+const PLAY: f64 = 0.05;
+/// Steps of deviations of a length between grooves, and the width of its tolerance, mm.
+const DEVIATION: [f64; 2] = [0.05, 0.1];
+
+/// A bar of one diameter through the parts that it joins, at heights in its machine.
+#[derive(Clone, Debug)]
+pub struct Bar {
+    diameter: f64,
+    class: String,
+    /// Lower and upper end, mm.
+    span: [f64; 2],
+    keyed: Vec<[f64; 2]>,
+    /// Heights of the walls of grooves towards what the ring holds, and whether the groove lies above it.
+    grooves: Vec<(f64, bool)>,
+    keyway: Option<Keyway>,
+    /// Stretches of a class of their own.
+    seats: Vec<([f64; 2], String)>,
+    /// Extents of the parts on it.
+    parts: Vec<[f64; 2]>,
+}
+
+impl Bar {
+    /// A bar between two heights, of a diameter in a tolerance class.
+    pub fn new(diameter: f64, class: &str, span: [f64; 2]) -> Self {
+        Self {
+            diameter,
+            class: class.into(),
+            span,
+            keyed: Vec::new(),
+            grooves: Vec::new(),
+            keyway: None,
+            seats: Vec::new(),
+            parts: Vec::new(),
+        }
+    }
+
+    /// The parts on it, by their lower and upper faces, mm: rings leave them play.
+    pub fn through(mut self, parts: &[[f64; 2]]) -> Self {
+        self.parts.extend_from_slice(parts);
+        self
+    }
+
+    /// Retaining rings at both ends where there is a ring of this size and room beyond them for its groove and land.
+    pub fn held(self, room: [f64; 2]) -> Self {
+        let [low, high] = self.span;
+        self.ring(low, false, room[0]).ring(high, true, room[1])
+    }
+
+    /// A retaining ring below or above a height, where there is room for its groove; at an end the bar grows by what the land takes.
+    pub fn ring(mut self, wall: f64, above: bool, room: f64) -> Self {
+        let Some(ring) = Circlip::of_shaft(self.diameter) else {
+            return self;
+        };
+        let [low, high] = self.span;
+        let at_end = wall <= low || wall >= high;
+        let needed = if at_end { ring.room() } else { ring.width };
+        if needed > room {
+            return self;
+        }
+        self.grooves.push((wall, above));
+        if at_end {
+            self.span = match above {
+                true => [low, wall + needed],
+                false => [wall - needed, high],
+            };
+        }
+        self
+    }
+
+    /// A keyway of the shaft for a hub's, between two heights.
+    pub fn keyed(mut self, hub: Option<Keyway>, span: [f64; 2]) -> Self {
+        if let Some(hub) = hub {
+            self.keyway = Some(hub.of_shaft());
+            self.keyed.push(span);
+        }
+        self
+    }
+
+    /// A keyway for a key with square ends, whose whole length between two heights is straight: half round ends lie beyond it, past
+    /// grooves there, or the keyway is open at the bar's end.
+    pub fn keyed_square(self, hub: Option<Keyway>, [low, high]: [f64; 2]) -> Self {
+        let half = 0.5 * hub.map_or(0.0, |hub| hub.width);
+        let walls = self.walls();
+        let past = walls.iter().fold(low - half, |end, &([a, b], _)| {
+            let is_in_the_way = b > end && a - half < end && a < low;
+            if is_in_the_way { a - half } else { end }
+        });
+        let beyond = walls.iter().rev().fold(high + half, |end, &([a, b], _)| {
+            let is_in_the_way = a < end && b + half > end && b > high;
+            if is_in_the_way { b + half } else { end }
+        });
+        let [first, last] = self.span;
+        let past = if past > first + half {
+            past
+        } else {
+            f64::NEG_INFINITY
+        };
+        let beyond = if beyond < last - half {
+            beyond
+        } else {
+            f64::INFINITY
+        };
+        self.keyed(hub, [past, beyond])
+    }
+
+    /// A stretch between two heights in a tolerance class of its own.
+    pub fn seat(mut self, span: [f64; 2], class: &str) -> Self {
+        self.seats.push((span, class.into()));
+        self
+    }
+
+    /// Whether a ring is at the lower end, and whether at the upper.
+    pub fn rings(&self) -> [bool; 2] {
+        [false, true].map(|way| self.grooves.iter().any(|(_, above)| *above == way))
+    }
+
+    /// Heights between which the keyway of the last key goes.
+    pub fn last_keyway(&self) -> Option<[f64; 2]> {
+        self.keyed.last().copied()
+    }
+
+    /// Length by which the part is longer than the bar, mm: play between its rings.
+    pub fn growth(&self, general: &str) -> f64 {
+        match &self.held_lengths(general)[..] {
+            [held] => held.middle(),
+            _ => 0.0,
+        }
+    }
+
+    /// The bar without the ring at its upper end where that, moved by the play, finds no room.
+    pub fn within(mut self, room: f64, general: &str) -> Self {
+        let needed = Circlip::of_shaft(self.diameter).map_or(0.0, Circlip::room);
+        if needed + self.growth(general) <= room + ROUNDING {
+            return self;
+        }
+        let [_, end] = self.span;
+        let at_end = |&(wall, above): &(f64, bool)| above && wall + needed > end - ROUNDING;
+        if let Some(ring) = self.grooves.iter().position(at_end) {
+            self.span[1] = self.grooves.remove(ring).0;
+        }
+        self
+    }
+
+    /// Height of its lower end, mm.
+    pub fn bottom(&self) -> f64 {
+        self.span[0]
+    }
+
+    /// Lower and upper walls of its grooves, from the lowest on, and whether the ring in each holds what is below it.
+    fn walls(&self) -> Vec<([f64; 2], bool)> {
+        let width = Circlip::of_shaft(self.diameter).map_or(0.0, |ring| ring.width);
+        let walls = self.grooves.iter().map(|&(wall, above)| match above {
+            true => ([wall, wall + width], above),
+            false => ([wall - width, wall], above),
+        });
+        let mut walls: Vec<_> = walls.collect();
+        walls.sort_by(|a, b| a.0[0].total_cmp(&b.0[0]));
+        walls
+    }
+
+    /// Lengths between grooves that leave what the rings hold no play within general tolerances, with deviations that do.
+    ///
+    /// A ring gives way to the far wall of its groove. The play is then least where the length and the grooves are shortest and the
+    /// parts and rings thickest: l + (m - s) for each ring that is pushed away from the parts, less the thicknesses, each with
+    /// its deviation.
+    fn held_lengths(&self, general: &str) -> Vec<HeldLength> {
+        let slack =
+            Circlip::of_shaft(self.diameter).map_or(0.0, |ring| ring.width - ring.thickness);
+        let between = |pair: &[([f64; 2], bool)]| {
+            let ([_, low], lower_holds_below) = pair[0];
+            let ([high, _], upper_holds_below) = pair[1];
+            let inside = |part: &&[f64; 2]| part[0] > low - 1e-6 && part[1] < high + 1e-6;
+            let parts: Vec<f64> = self
+                .parts
+                .iter()
+                .filter(inside)
+                .map(|p| p[1] - p[0])
+                .collect();
+            let thickest = parts.iter().map(|t| t + general_deviation(general, *t));
+            let slacks = f64::from(!lower_holds_below) + f64::from(upper_holds_below);
+            let length = high - low;
+            let play = length + slack * slacks - thickest.sum::<f64>();
+            if parts.is_empty() || play - general_deviation(general, length) >= PLAY {
+                return None;
+            }
+            let [step, width] = DEVIATION;
+            // A whole number of steps, but for rounding.
+            let least = ((PLAY - play) / step - 1e-6).ceil() * step;
+            let deviations = [least, least + width].map(|mm| (mm * 1e3).round() / 1e3);
+            let span = [low, high].map(|z| z - self.span[0]);
+            Some(HeldLength { span, deviations })
+        };
+        self.walls().windows(2).filter_map(between).collect()
+    }
+
+    /// Cylinders one after another from the lower end.
+    fn steps(&self) -> Vec<TurnedStep> {
+        let ring = Circlip::of_shaft(self.diameter);
+        let grooves: Vec<[f64; 2]> = self.walls().into_iter().map(|(walls, _)| walls).collect();
+        let mut ends: Vec<f64> = self.span.to_vec();
+        let seats: Vec<[f64; 2]> = self.seats.iter().map(|(span, _)| *span).collect();
+        ends.extend(grooves.iter().chain(&self.keyed).chain(&seats).flatten());
+        let [low, high] = self.span;
+        ends.retain(|z| (low..=high).contains(z));
+        ends.sort_by(f64::total_cmp);
+        ends.dedup_by(|a, b| (*a - *b).abs() < ROUNDING);
+        let step = |pair: &[f64]| {
+            let middle = 0.5 * (pair[0] + pair[1]);
+            let within = |spans: &[[f64; 2]]| spans.iter().any(|s| s[0] < middle && middle < s[1]);
+            let seat = self.seats.iter().find(|(span, _)| within(&[*span]));
+            let class = seat.map_or(&self.class, |(_, class)| class);
+            let plain = TurnedStep {
+                is_keyed: within(&self.keyed),
+                ..TurnedStep::plain(self.diameter, pair[1] - pair[0], class)
+            };
+            match ring.filter(|_| within(&grooves)) {
+                Some(ring) => TurnedStep {
+                    diameter: ring.groove,
+                    class: ring.class().into(),
+                    ring: Some(ring),
+                    ..plain
+                },
+                None => plain,
+            }
+        };
+        ends.windows(2).map(step).collect()
+    }
+
+    /// The part that it is: names of its files and in words, material, and the general tolerances.
+    pub fn part(&self, [name, title]: [&str; 2], stock: Stock<'_>, general: &str) -> TurnedPart {
+        let (mut steps, mut held) = (self.steps(), self.held_lengths(general));
+        lengthen(&mut steps, &mut held);
+        let lands = [steps.first(), steps.last()].into_iter().flatten();
+        let shortest = lands.map(|step| step.length).fold(f64::INFINITY, f64::min);
+        let chamfer = (CHAMFER * self.diameter).min(0.5 * shortest);
+        TurnedPart {
+            name: name.into(),
+            title: title.into(),
+            steps,
+            keyway: self.keyway,
+            held,
+            chamfer: preferred_size(chamfer.min(1.0)),
+            material: stock.material.into(),
+            density: stock.density,
+            heat_treatment: stock.heat_treatment.into(),
+            notes: Vec::new(),
+        }
+    }
+}
+
+/// Makes the last step of a length between two grooves longer by the middle of its deviations, which are then even: what lies beyond keeps
+/// its length, and the contour lies within all limits. Lengths one after another keep theirs: the parts on them would move.
+fn lengthen(steps: &mut [TurnedStep], held: &mut [HeldLength]) {
+    let [length] = held else {
+        return;
+    };
+    let ([lower, upper], middle) = (length.deviations, length.middle());
+    let mut end = 0.0;
+    let last = steps.iter_mut().find(|step| {
+        end += step.length;
+        end > length.span[1] - ROUNDING
+    });
+    if let Some(last) = last {
+        last.length += middle;
+        length.span[1] += middle;
+        length.deviations = [lower - middle, upper - middle].map(|mm| (mm * 1e3).round() / 1e3);
+    }
+}

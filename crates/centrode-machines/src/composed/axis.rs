@@ -1,0 +1,67 @@
+//! Axes of gears and cams, as seen from the body that carries what they move.
+
+use centrode_geometry::Point;
+use nalgebra::Isometry2;
+
+use super::Mount;
+use super::mesh::Angle;
+use super::resolve::Builder;
+use centrode_kinematics::machine::JointKind;
+
+impl Mount {
+    /// Place of the joint's axes in the carrier's.
+    pub(super) fn seat(&self) -> Isometry2<f64> {
+        Isometry2::new(self.at.coords, self.angle)
+    }
+}
+
+impl Builder<'_> {
+    /// Angle of a body by the input, from the joints that carry it, without jumps.
+    pub(super) fn angle(&self, body: usize) -> Angle {
+        let Some(mount) = &self.bodies[body].mount else {
+            return Angle::default();
+        };
+        let mut angle = self.angle(mount.carrier).plus(mount.angle);
+        if mount.kind == JointKind::Turning {
+            angle.terms.push(std::sync::Arc::clone(&mount.law));
+        }
+        angle
+    }
+
+    /// Place, in the axes of a body that carries it, of a point of another that stands still there; none where it moves by
+    /// more than a length.
+    pub(super) fn axis_on(
+        &self,
+        carrier: usize,
+        (mut body, mut at): (usize, Point),
+        size: f64,
+    ) -> Option<Point> {
+        loop {
+            if let Some(found) = self.down(carrier, (body, at), size) {
+                return Some(found);
+            }
+            // The same point on the body below: that of the pin, or any of a body fixed to it.
+            let mount = self.bodies[body].mount.as_ref()?;
+            at = match mount.kind {
+                JointKind::Fixed => mount.seat() * at,
+                JointKind::Turning if at.coords.norm() <= size => mount.at,
+                _ => return None,
+            };
+            body = mount.carrier;
+        }
+    }
+
+    /// A point of a body in the axes of one that it carries, where it stands still.
+    fn down(&self, carrier: usize, (body, at): (usize, Point), size: f64) -> Option<Point> {
+        if carrier == body {
+            return Some(at);
+        }
+        let mount = self.bodies[carrier].mount.as_ref()?;
+        let below = self.down(mount.carrier, (body, at), size)?;
+        match mount.kind {
+            JointKind::Fixed => Some(mount.seat().inverse() * below),
+            JointKind::Turning if (below - mount.at).norm() <= size => Some(Point::origin()),
+            _ => None,
+        }
+    }
+}

@@ -1,0 +1,323 @@
+use std::f64::consts::PI;
+
+use centrode_geometry::{Outline, Point, Solid, SolidError, Vector};
+use nalgebra::Isometry2;
+
+use super::{Feeder, FeederError};
+use centrode_gear::design::BodySpec;
+
+/// A part of the six-bar, cut from plate.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub enum FeederPart {
+    /// Plate that holds the shafts A, D and F and that of the intermittent gear, G; one in front of the links, one behind.
+    Frame,
+    /// The crank AB.
+    Crank,
+    /// The coupler BC.
+    Coupler,
+    /// The rocker CD.
+    Rocker,
+    /// The end effector on F, with a slot for the slider.
+    Effector,
+    /// The slider on the pin C.
+    Slider,
+}
+
+impl FeederPart {
+    /// All parts.
+    pub const ALL: [Self; 6] = [
+        Self::Frame,
+        Self::Crank,
+        Self::Coupler,
+        Self::Rocker,
+        Self::Effector,
+        Self::Slider,
+    ];
+
+    /// Name of the part's files.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Frame => "frame",
+            Self::Crank => "crank",
+            Self::Coupler => "coupler",
+            Self::Rocker => "rocker",
+            Self::Effector => "effector",
+            Self::Slider => "slider",
+        }
+    }
+
+    /// Number of the part that one six-bar needs.
+    #[must_use]
+    pub fn quantity(self) -> u32 {
+        match self {
+            Self::Frame => 2,
+            _ => 1,
+        }
+    }
+
+    /// Layer of the part's plate along the shafts; the frame is the one below the first.
+    fn layer(self) -> f64 {
+        match self {
+            Self::Frame => -1.0,
+            Self::Crank => 0.0,
+            Self::Coupler => 1.0,
+            Self::Rocker => 2.0,
+            Self::Effector | Self::Slider => 3.0,
+        }
+    }
+}
+
+/// Hole of a plate at a joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum JointHole {
+    /// For a pin.
+    Pin,
+    /// In which a shaft of the gears turns.
+    Bearing,
+    /// Keyed to a shaft of the gears: direction of the keyway from the plate's x axis, rad.
+    Keyed(f64),
+}
+
+/// A joint of a [`Plate`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlateJoint {
+    /// Letter, A to G.
+    pub name: &'static str,
+    /// Position in the plate's own axes, mm.
+    pub at: Point,
+    /// Its hole; none at the tip.
+    pub hole: Option<JointHole>,
+}
+
+/// A part as a plate in its own axes: the first joint in the origin, the second one along x.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Plate {
+    /// The part.
+    pub part: FeederPart,
+    /// Contour.
+    pub outline: Outline,
+    /// Holes of the joints that have one, in their order.
+    pub holes: Vec<Outline>,
+    /// Holes of the screws that hold the frame's plates apart.
+    pub screws: Vec<Outline>,
+    /// Ends of the slot along x, mm, round ends included, and its contour.
+    pub slot: Option<([f64; 2], Outline)>,
+    /// Joints.
+    pub joints: Vec<PlateJoint>,
+    /// Height of the lower face along the shafts, mm.
+    pub bottom: f64,
+    /// Thickness, mm.
+    pub thickness: f64,
+}
+
+impl Plate {
+    /// Contours of all cut-outs: holes, slot, holes of screws.
+    #[must_use]
+    pub fn cut_outs(&self) -> Vec<Outline> {
+        let slot = self.slot.iter().map(|(_, contour)| contour.clone());
+        let holes = self.holes.iter().cloned().chain(slot);
+        holes.chain(self.screws.iter().cloned()).collect()
+    }
+
+    /// The plate lying on z = 0.
+    ///
+    /// # Errors
+    /// [`SolidError`] where a number is not finite.
+    pub fn solid(&self) -> Result<Solid, SolidError> {
+        self.solid_at(&Isometry2::identity(), 0.0)
+    }
+
+    /// The plate moved in its plane, its lower face at a height.
+    ///
+    /// # Errors
+    /// [`SolidError`] where a number is not finite.
+    pub fn solid_at(&self, motion: &Isometry2<f64>, bottom: f64) -> Result<Solid, SolidError> {
+        let moved = |outline: &Outline| outline.transformed(motion);
+        let holes = self.cut_outs().iter().map(moved).collect();
+        Solid::new(moved(&self.outline), holes, bottom, bottom + self.thickness)
+    }
+}
+
+impl Feeder {
+    /// A part as a plate. The crank is keyed to its shaft as the gear is: with both keyways on one line it stands as the
+    /// motion begins.
+    ///
+    /// # Errors
+    /// [`FeederError::SlotMeetsPivot`] for an effector whose slot runs into the hole of its pivot;
+    /// [`FeederError::NoPlate`] where the joints leave no contour.
+    pub fn plate(&self, part: FeederPart) -> Result<Plate, FeederError> {
+        let (spec, gears) = (&self.design().plates, &self.design().gears);
+        let [crank, coupler, rocker, frame] = self.six_bar().four_bar().lengths();
+        let joint = |name, x: f64, y: f64, hole| PlateJoint {
+            name,
+            at: Point::new(x, y),
+            hole,
+        };
+        let (pin, bearing) = (Some(JointHole::Pin), Some(JointHole::Bearing));
+        let pivot = self.six_bar().pivot();
+        let joints = match part {
+            FeederPart::Frame => vec![
+                joint("A", 0.0, 0.0, bearing),
+                joint("D", frame, 0.0, pin),
+                joint("F", pivot.x, pivot.y, pin),
+                joint("G", -gears.center_distance(), 0.0, bearing),
+            ],
+            FeederPart::Crank => {
+                // The gear's x axis points from the intermittent gear's as the motion begins.
+                let keyed = Some(JointHole::Keyed(-self.start()));
+                vec![joint("A", 0.0, 0.0, keyed), joint("B", crank, 0.0, pin)]
+            }
+            FeederPart::Coupler => vec![joint("B", 0.0, 0.0, pin), joint("C", coupler, 0.0, pin)],
+            FeederPart::Rocker => vec![joint("D", 0.0, 0.0, pin), joint("C", rocker, 0.0, pin)],
+            FeederPart::Effector => vec![
+                joint("F", 0.0, 0.0, pin),
+                joint("E", self.six_bar().effector_length(), 0.0, None),
+            ],
+            FeederPart::Slider => vec![joint("C", 0.0, 0.0, pin)],
+        };
+        let slot = match part {
+            FeederPart::Effector => Some(self.slot()?),
+            _ => None,
+        };
+        let half = 0.5 * spec.width;
+        let mut circles: Vec<(Point, f64)> = joints.iter().map(|j| (j.at, half)).collect();
+        match (part, slot) {
+            (FeederPart::Slider, _) => {
+                let radius = 0.5 * spec.slot_width;
+                let off = Vector::new(0.5 * spec.slider_length - radius, 0.0);
+                circles = vec![
+                    (Point::origin() - off, radius),
+                    (Point::origin() + off, radius),
+                ];
+            }
+            // The plate goes on behind a slot that ends beyond the tip.
+            (_, Some([_, end])) => circles.push((Point::new(end, 0.0), half)),
+            _ => {}
+        }
+        let no_plate = || FeederError::NoPlate(part.name());
+        let mut holes: Vec<(&PlateJoint, f64, Outline)> = Vec::new();
+        for joint in joints.iter().filter(|joint| joint.hole.is_some()) {
+            let hub = self.hub(joint);
+            let reach = hub.bore_reach();
+            for (other, beside, _) in &holes {
+                let distance = (joint.at - other.at).norm();
+                if distance <= reach + beside {
+                    return Err(FeederError::HolesMeet {
+                        part: part.name(),
+                        joints: [other.name, joint.name],
+                        distance,
+                        reach: reach + beside,
+                    });
+                }
+            }
+            let hole = hub.bore_outline().ok_or_else(no_plate)?;
+            let place = Isometry2::translation(joint.at.x, joint.at.y);
+            holes.push((joint, reach, hole.transformed(&place)));
+        }
+        let holes = holes.into_iter().map(|(_, _, hole)| hole).collect();
+        let contour = |[start, end]: [f64; 2]| {
+            let radius = 0.5 * spec.slot_width;
+            let ends = [start + radius, end - radius].map(|x| (Point::new(x, 0.0), radius));
+            Some(([start, end], Outline::hull(&ends)?))
+        };
+        let slot = match slot {
+            Some(ends) => Some(contour(ends).ok_or_else(no_plate)?),
+            None => None,
+        };
+        Ok(Plate {
+            part,
+            outline: Outline::hull(&circles).ok_or_else(no_plate)?,
+            holes,
+            screws: Vec::new(),
+            slot,
+            joints,
+            bottom: part.layer() * (spec.thickness + spec.gap),
+            thickness: spec.thickness,
+        })
+    }
+
+    /// Bore of a plate at a joint, with its keyway and its tolerance class; none of the tip.
+    #[must_use]
+    pub fn hub(&self, joint: &PlateJoint) -> BodySpec {
+        let (spec, gears) = (&self.design().plates, self.design().gears.body());
+        let round = |bore, class: &str| BodySpec {
+            bore,
+            bore_fit: class.into(),
+            ..BodySpec::default()
+        };
+        let bored = match joint.hole {
+            None => BodySpec::default(),
+            Some(JointHole::Pin) => round(spec.pin_diameter, &spec.hole_fit),
+            Some(JointHole::Bearing) => round(gears.bore, &spec.bearing_fit),
+            Some(JointHole::Keyed(keyway_angle)) => BodySpec {
+                keyway_angle,
+                bore_fit: Self::CRANK_FIT[0].into(),
+                shaft_fit: Self::CRANK_FIT[1].into(),
+                ..gears
+            },
+        };
+        BodySpec {
+            width: spec.thickness,
+            ..bored
+        }
+    }
+
+    /// Ends of the effector's slot, distances from its pivot, mm.
+    fn slot(&self) -> Result<[f64; 2], FeederError> {
+        let spec = &self.design().plates;
+        let more = 0.5 * spec.slider_length + spec.slot_clearance;
+        let start = self.six_bar().least_slider_distance() - more;
+        let end = self.six_bar().greatest_slider_distance() + more;
+        let radius = 0.5 * spec.pin_diameter;
+        if start <= radius {
+            return Err(FeederError::SlotMeetsPivot { start, radius });
+        }
+        Ok([start, end])
+    }
+
+    /// Pose of a part's own axes at a crank angle.
+    #[must_use]
+    pub fn place(&self, part: FeederPart, crank: f64) -> Isometry2<f64> {
+        let bar = self.six_bar().four_bar();
+        let [b, c, _] = self.six_bar().joints(crank);
+        let d = Point::new(bar.lengths()[3], 0.0);
+        let f = self.six_bar().pivot();
+        let (origin, towards) = match part {
+            FeederPart::Frame => return Isometry2::identity(),
+            FeederPart::Crank => (Point::origin(), b),
+            FeederPart::Coupler => (b, c),
+            FeederPart::Rocker => (d, c),
+            FeederPart::Effector => (f, c),
+            FeederPart::Slider => (c, c + (c - f)),
+        };
+        let way = towards - origin;
+        Isometry2::new(origin.coords, way.y.atan2(way.x))
+    }
+
+    /// Clearance between the rocker's shaft D, where it passes the effector, and the effector's plate at an input, mm;
+    /// below zero where they overlap.
+    #[must_use]
+    pub fn shaft_clearance(&self, input: f64) -> f64 {
+        let spec = &self.design().plates;
+        let crank = self.crank(input).position;
+        let place = self.place(FeederPart::Effector, crank);
+        let d = Point::new(self.six_bar().four_bar().lengths()[3], 0.0);
+        let d = place.inverse_transform_point(&d);
+        let reach = self.six_bar().effector_length();
+        let nearest = Point::new(d.x.clamp(0.0, reach), 0.0);
+        (d - nearest).norm() - 0.5 * (spec.width + spec.pin_diameter)
+    }
+
+    /// The path of a joint or the tip over one turn of the crank: B, C or E by its place in
+    /// [`SixBar::joints`](centrode_kinematics::linkage::SixBar::joints).
+    #[must_use]
+    pub fn path(&self, joint: usize, count: u32) -> Vec<Point> {
+        (0..=count)
+            .map(|i| {
+                let crank = self.start() + 2.0 * PI * f64::from(i) / f64::from(count);
+                self.six_bar().joints(crank)[joint.min(2)]
+            })
+            .collect()
+    }
+}

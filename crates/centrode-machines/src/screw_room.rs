@@ -1,0 +1,141 @@
+use centrode_geometry::{Outline, Point};
+use centrode_kinematics::machine::FasteningError;
+
+/// Most places looked at along a segment of a line.
+const MOST_PLACES: f64 = 500.0;
+
+/// Fewest screws that hold a plate.
+const FEWEST: usize = 3;
+
+/// Where screws may be: on a line, clear of what else is there.
+#[derive(Clone, Debug)]
+pub(crate) struct ScrewRoom {
+    /// Line on which their axes lie; none where there is no such.
+    pub(crate) line: Option<Outline>,
+    /// Room taken already: circles that move along a straight line between two places, with their radius, mm.
+    pub(crate) taken: Vec<([Point; 2], f64)>,
+    /// Every place is there as often, turned about the origin.
+    pub(crate) turns: u32,
+    /// Step of the coordinates of the places, mm, which are then beside the line by less than that; zero for none.
+    pub(crate) grid: f64,
+}
+
+impl ScrewRoom {
+    /// Middles of so many circles of a radius, mm, or of at least three: the first where most room is, every other as far from
+    /// all before it as there is room.
+    ///
+    /// # Errors
+    /// [`FasteningError::NoRoom`] for a screw of a diameter.
+    pub(crate) fn places(
+        &self,
+        (diameter, radius): (f64, f64),
+        count: usize,
+    ) -> Result<Vec<Point>, FasteningError> {
+        let step = 0.25 * diameter;
+        let mut free: Vec<(Point, f64)> = Vec::new();
+        for segment in self.line.iter().flat_map(Outline::segments) {
+            let long = 2.0 * segment.at(-1.0).first.norm();
+            let parts = (long / step).ceil().clamp(1.0, MOST_PLACES);
+            for i in 0..parts as usize {
+                let at = self.stepped(segment.at(2.0 * i as f64 / parts - 1.0).point);
+                let room = self.room(at);
+                if room >= radius {
+                    // Alike places differ by rounding: the first of them is taken.
+                    free.push((at, (1e6 * room).round()));
+                }
+            }
+        }
+        let mut found: Vec<Point> = Vec::new();
+        while found.len() < count {
+            let score = |(at, room): &(Point, f64)| match found.is_empty() {
+                true => *room,
+                false => {
+                    let near = found.iter().map(|other| (at - other).norm());
+                    (1e6 * near.fold(f64::INFINITY, f64::min)).round()
+                }
+            };
+            let best = free.iter().map(|place| (score(place), place.0));
+            let best = best.reduce(|a, b| if b.0 > a.0 { b } else { a });
+            let Some((score, at)) = best else { break };
+            if !found.is_empty() && score < 4e6 * radius {
+                break;
+            }
+            let turn = std::f64::consts::TAU / f64::from(self.turns);
+            let copies =
+                (0..self.turns).map(|k| nalgebra::Rotation2::new(turn * f64::from(k)) * at);
+            found.extend(copies);
+        }
+        if found.len() < FEWEST {
+            return Err(FasteningError::NoRoom {
+                diameter,
+                found: found.len(),
+                around: 2.0 * radius,
+            });
+        }
+        Ok(found)
+    }
+
+    /// The place nearest to another with coordinates in whole steps.
+    fn stepped(&self, at: Point) -> Point {
+        if self.grid > 0.0 {
+            at.map(|x| (x / self.grid).round() * self.grid)
+        } else {
+            at
+        }
+    }
+
+    /// Radius of the free circle about a place, mm.
+    fn room(&self, at: Point) -> f64 {
+        let off = self.taken.iter().map(|([from, to], radius)| {
+            let along = to - from;
+            let square = along.norm_squared();
+            let share = if square > 0.0 {
+                ((at - from).dot(&along) / square).clamp(0.0, 1.0)
+            } else {
+                0.0
+            };
+            (at - (from + along * share)).norm() - radius
+        });
+        off.fold(f64::INFINITY, f64::min)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn square(side: f64) -> Outline {
+        let p = Point::new;
+        Outline::polygon(&[p(0.0, 0.0), p(side, 0.0), p(side, side), p(0.0, side)])
+    }
+
+    #[test]
+    fn places_miss_what_is_taken_and_lie_far_apart() {
+        let middle = Point::new(20.0, 0.0);
+        let mut room = ScrewRoom {
+            line: Some(square(40.0)),
+            taken: vec![([middle, middle], 10.0)],
+            turns: 1,
+            grid: 0.0,
+        };
+        let found = room.places((4.0, 4.0), 4).expect("room");
+        assert_eq!(found.len(), 4);
+        for (i, at) in found.iter().enumerate() {
+            assert!((at - middle).norm() >= 14.0, "{at}");
+            assert!(found[..i].iter().all(|other| (at - other).norm() >= 16.0));
+        }
+        room.grid = 0.8;
+        for at in room.places((4.0, 4.0), 4).expect("room") {
+            assert!((at - middle).norm() >= 14.0, "{at}");
+            let off = at.coords.map(|x| x / 0.8 - (x / 0.8).round()).norm();
+            assert!(off < 1e-9, "{at}");
+        }
+        let across = [Point::new(-50.0, 20.0), Point::new(90.0, 20.0)];
+        room.taken.push((across, 19.0));
+        let error = room.places((4.0, 4.0), 4).expect_err("no room");
+        assert!(
+            matches!(error, FasteningError::NoRoom { found: 0, .. }),
+            "{error}"
+        );
+    }
+}

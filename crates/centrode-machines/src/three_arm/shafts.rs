@@ -1,0 +1,214 @@
+//! Shafts and pins of a three-arm mechanism, turned to the heights of what is on them.
+
+use std::f64::consts::PI;
+
+use super::making::{BEARING, PRESSED, SLIDING, STEEL};
+use super::{Pusher, ThreeArm};
+use crate::arm::ArmBody;
+use centrode_gear::design::BodySpec;
+use centrode_kinematics::machine::{
+    Bar, Bearing, Dowel, Fit, Key, SeatedKey, TurnedPart, TurnedPiece, TurnedPieces, TurnedStep,
+};
+
+/// Diameters of its own that the carrier's shaft goes on behind the gearbox.
+const DRIVEN_END: f64 = 3.0;
+/// Share of the fork's thickness that its pin may fall short of, so that one of a standard length does.
+const SHORT: f64 = 0.3;
+
+impl ThreeArm {
+    /// All parts that are turned, the dowels and the screws; no shafts of gears without a bore, and none without a gearbox.
+    #[must_use]
+    pub fn turned(&self, pusher: &Pusher, arm: &ArmBody) -> Vec<TurnedPieces> {
+        let mut all = self.shafts(arm);
+        all.extend(self.pins(pusher, arm));
+        let carrier = self.carrier_screws(arm).and_then(Result::ok);
+        all.extend(
+            carrier.map(|screws| screws.screws(&["carrier".into()], "of the carrier's plates")),
+        );
+        let covers = self.cover_screws(pusher, arm).and_then(Result::ok);
+        let arms: Vec<String> = (0..self.arms()).map(|k| format!("arm_{k}")).collect();
+        all.extend(covers.map(|screws| screws.screws(&arms, "of the covers of the arms")));
+        all
+    }
+
+    /// A piece on a link of every chain, at a place in it.
+    fn on_chains(&self, link: &str, at: [f64; 3]) -> Vec<TurnedPiece> {
+        let piece = |k| TurnedPiece::upright(&format!("{link}_{k}"), at);
+        (0..self.arms()).map(piece).collect()
+    }
+
+    /// Shafts through both plates of the carrier; those of the planets go on through the arms.
+    fn shafts(&self, arm: &ArmBody) -> Vec<TurnedPieces> {
+        let Some(gearbox) = self.gearbox() else {
+            return Vec::new();
+        };
+        let (design, [rear, front]) = (self.design(), gearbox.spans);
+        let (clearance, free) = (design.gearbox.clearance, f64::INFINITY);
+        let beyond = self.arm_level() + span(arm, "cover-front").map_or(0.0, |[_, top]| top);
+        let between = self.shaft(
+            &design.intermediate,
+            self.on_chains("intermediate", [0.0; 3]),
+            ["shaft-intermediate", "Shaft of an intermediate gear"],
+            ([rear[0], front[1]], [free, clearance]),
+        );
+        let planet = self.shaft(
+            &design.planet,
+            self.on_chains("planet", [0.0; 3]),
+            ["shaft-planet", "Shaft of a planet gear"],
+            ([rear[0], beyond], [free, free]),
+        );
+        let all = [self.carrier_shaft(), between, planet];
+        all.into_iter().flatten().collect()
+    }
+
+    /// Shaft of the sun, which stands still and about which the carrier turns; none without a gearbox, or a bore of the sun.
+    #[must_use]
+    pub fn carrier_shaft(&self) -> Option<TurnedPieces> {
+        let (design, [rear, front]) = (self.design(), self.gearbox()?.spans);
+        let behind = rear[0] - DRIVEN_END * design.sun.bore;
+        let mut made = self.shaft(
+            &design.sun,
+            vec![TurnedPiece::upright("sun", [0.0; 3])],
+            ["shaft-carrier", "Shaft of the carrier"],
+            ([behind, front[1]], [0.0, design.gearbox.clearance]),
+        )?;
+        made.part.notes = vec![
+            "Held fast at its free end, to be cut to length; the carrier turns about it.".into(),
+        ];
+        Some(made)
+    }
+
+    /// A shaft in the bore of a gear, on links, with its names, between two heights with room for rings beyond them.
+    fn shaft(
+        &self,
+        body: &BodySpec,
+        links: Vec<TurnedPiece>,
+        names: [&str; 2],
+        (span, room): ([f64; 2], [f64; 2]),
+    ) -> Option<TurnedPieces> {
+        let [rear, front] = self.gearbox().filter(|_| body.bore > 0.0)?.spans;
+        let general = &self.design().drawing.general_tolerance;
+        let [_, end] = span;
+        let bar = Bar::new(body.bore, &body.shaft_fit, span).held(room);
+        // Plates of the carrier, what holds them apart and, where the shaft goes on, what holds the arm.
+        let arm = (end > front[1]).then_some([front[1], end]);
+        let between = [rear, [rear[1], front[0]], front];
+        let on_it: Vec<[f64; 2]> = between.into_iter().chain(arm).collect();
+        let mut bar = bar.through(&on_it).keyed(body.keyway, [0.0, body.width]);
+        // At the outer faces of the plates, against the rings.
+        let bearings = self.bearing(body.bore).map(|bearing| {
+            let wide = bearing.width;
+            [(bearing, rear[0]), (bearing, front[1] - wide)]
+        });
+        for (bearing, low) in bearings.into_iter().flatten() {
+            bar = bar.seat([low, low + bearing.width], BEARING[1]);
+        }
+        let above = |(bearing, low): (Bearing, f64)| (bearing, low - bar.bottom());
+        let part = bar.part(names, body.shaft_stock(), general);
+        let fit = Fit::new("", body.bore, [&body.bore_fit, &body.shaft_fit]);
+        let key = body.keyway.and_then(|hub| Key::fitting(hub, body.width));
+        let key = key.map(|key| SeatedKey {
+            key,
+            at: 0.5 * (body.width - key.length) - bar.bottom(),
+        });
+        // Keyways of shaft and gear are on one line.
+        let seat = |piece: TurnedPiece| TurnedPiece {
+            at: [0.0, 0.0, bar.bottom()],
+            turn: [0.0, 0.0, body.keyway_angle],
+            ..piece
+        };
+        Some(TurnedPieces {
+            keys: key.into_iter().collect(),
+            bearings: bearings.into_iter().flatten().map(above).collect(),
+            pieces: links.into_iter().map(seat).collect(),
+            ..TurnedPieces::new(part, fit)
+        })
+    }
+
+    /// Pins of fork, roller and push rod.
+    fn pins(&self, pusher: &Pusher, arm: &ArmBody) -> Vec<TurnedPieces> {
+        let spec = pusher.fork_spec();
+        let (fork, cam) = (pusher.fork_span(), pusher.cam_span());
+        let wide = |name: &str| span(arm, name).unwrap_or([0.0, 1.0]);
+        // The cam behind the fork reaches beyond the pivot.
+        let [_, cover] = wide("cover-front");
+        let seat = pusher.pivot_fit();
+        // From the rear face of the fork, or a little above it where no pin is as long, to the outside of the front cover.
+        let standard = Dowel::for_diameter(seat.size, cover - fork[0]);
+        let standard = standard.filter(|pin| cover - pin.length < fork[0] + SHORT * spec.width);
+        let low = standard.map_or(fork[0], |pin| cover - pin.length);
+        let bar = Bar::new(seat.size, seat.pin, [low, cover]);
+        let stock = STEEL.treated(&spec.pin_heat_treatment);
+        let mut pivot = bar.part(["pin-fork", "Pin of the fork"], stock, "");
+        pivot.notes = vec!["Pressed into the front cover, flush with its outside.".into()];
+        let at = pusher.pivot();
+        let [pressed, _] = seat.fits([""; 2]);
+        let pivot = TurnedPieces {
+            pieces: self.on_chains("arm", [at.x, at.y, bar.bottom()]),
+            role: standard
+                .map_or("", |_| "of the fork, pressed into the front cover")
+                .into(),
+            standard: standard.map(Dowel::name),
+            ..TurnedPieces::new(pivot, pressed)
+        };
+        // From the roller, which is behind it, through the fork.
+        let (low, high) = (fork[0].min(cam[0]), fork[1].max(cam[1]));
+        let standard = Dowel::for_diameter(spec.roller_bore, high - low);
+        let long = standard.map_or(high - low, |pin| pin.length);
+        let seat = pusher.roller_fit();
+        let bar = Bar::new(seat.size, seat.pin, [high - long, high]);
+        let [pressed, _] = seat.fits([""; 2]);
+        let roller = TurnedPieces {
+            pieces: self.on_chains("fork", [spec.arm_length, 0.0, high - long]),
+            role: standard
+                .map_or("", |_| "of the roller, pressed into the fork")
+                .into(),
+            standard: standard.map(Dowel::name),
+            ..TurnedPieces::new(
+                bar.part(["pin-roller", "Pin of the roller"], stock, ""),
+                pressed,
+            )
+        };
+        let thin = 0.5 * spec.slot_width;
+        let [under, over] = wide("push-rod");
+        let rod = TurnedPart {
+            name: "pin-rod".into(),
+            title: "Pin of the push rod".into(),
+            steps: vec![
+                TurnedStep::plain(thin, over - under, PRESSED[1]),
+                TurnedStep::plain(spec.slot_width, under - fork[0], SLIDING[1]),
+            ],
+            keyway: None,
+            held: Vec::new(),
+            chamfer: 0.0,
+            material: stock.material.into(),
+            density: stock.density,
+            heat_treatment: stock.heat_treatment.into(),
+            notes: vec![
+                "Thin end pressed into the rod; the wide one runs in the fork's slot.".into(),
+            ],
+        };
+        let at = [
+            0.5 * pusher.stroke(),
+            -self.design().arm.pusher_offset,
+            over,
+        ];
+        let mut pieces = self.on_chains("push_rod", at);
+        for piece in &mut pieces {
+            // The fork is behind the rod.
+            piece.turn = [PI, 0.0, 0.0];
+        }
+        let rod = TurnedPieces {
+            pieces,
+            ..TurnedPieces::new(rod, Fit::new("", thin, PRESSED))
+        };
+        let all = [pivot, roller, rod].into_iter();
+        all.filter(|pin| pin.fit.size > 0.0).collect()
+    }
+}
+
+/// Extent of a part of the arm along the planet's axis, mm.
+fn span(arm: &ArmBody, name: &str) -> Option<[f64; 2]> {
+    let part = arm.parts().iter().find(|part| part.name == name)?;
+    Some(part.span)
+}

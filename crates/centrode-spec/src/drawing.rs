@@ -1,0 +1,162 @@
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use crate::SpecError;
+use crate::rule::single_line;
+
+/// Entries of the title block of a design's drawing sheets, and their layout.
+///
+/// An entry left empty stays empty on the sheet.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+#[schemars(extend("x-detail" = true))]
+pub struct DrawingSpec {
+    /// Drawing number; the part's name is added to it.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub number: String,
+    /// Revision.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub revision: String,
+    /// Date of issue, as it is to be printed.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub date: String,
+    /// Legal owner.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub owner: String,
+    /// Who has drawn it.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub drawn_by: String,
+    /// Who has approved it.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub approved_by: String,
+    /// Size of the sheets; left out, the smallest that takes the part.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sheet: Option<SheetSize>,
+    /// Arrangement of the views.
+    pub projection: Projection,
+    /// General tolerances.
+    pub general_tolerance: String,
+    /// State of the edges.
+    pub edges: String,
+    /// Texture of the surfaces that nothing else is said of, ISO 21920.
+    pub surface: String,
+    /// Texture of the surfaces with a tolerance class up to grade 8, and of flanks and profiles, ISO 21920; empty, that of the others.
+    pub fitted_surface: String,
+}
+
+/// Size of a drawing sheet, ISO 5457.
+#[derive(
+    Clone, Copy, Debug, Deserialize, Eq, JsonSchema, Ord, PartialEq, PartialOrd, Serialize,
+)]
+pub enum SheetSize {
+    /// 210 x 297 mm, portrait.
+    A4,
+    /// 420 x 297 mm.
+    A3,
+    /// 594 x 420 mm.
+    A2,
+    /// 841 x 594 mm.
+    A1,
+    /// 1189 x 841 mm.
+    A0,
+}
+
+/// Arrangement of the views of a part, ISO 5456-2.
+#[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Projection {
+    /// A view lies on the far side of the object: the view from the left on the right.
+    #[default]
+    FirstAngle,
+    /// A view lies on the side from which the object is seen.
+    ThirdAngle,
+}
+
+impl Default for DrawingSpec {
+    fn default() -> Self {
+        Self {
+            number: String::new(),
+            revision: String::new(),
+            date: String::new(),
+            owner: String::new(),
+            drawn_by: String::new(),
+            approved_by: String::new(),
+            sheet: None,
+            projection: Projection::default(),
+            general_tolerance: "ISO 2768-mK".into(),
+            edges: "ISO 13715, -0.2 / +0.1".into(),
+            surface: "Ra 3.2".into(),
+            fitted_surface: "Ra 1.6".into(),
+        }
+    }
+}
+
+impl DrawingSpec {
+    /// Checks that every entry is one line of a drawing.
+    ///
+    /// # Errors
+    /// [`SpecError`] with the key at fault.
+    pub fn validate(&self) -> Result<(), SpecError> {
+        let words = [
+            ("number", &self.number),
+            ("revision", &self.revision),
+            ("date", &self.date),
+            ("owner", &self.owner),
+            ("drawn_by", &self.drawn_by),
+            ("approved_by", &self.approved_by),
+            ("general_tolerance", &self.general_tolerance),
+            ("edges", &self.edges),
+            ("surface", &self.surface),
+            ("fitted_surface", &self.fitted_surface),
+        ];
+        words
+            .iter()
+            .try_for_each(|(key, word)| single_line(key, word))
+    }
+
+    /// Whether every value is the default.
+    #[must_use]
+    pub fn is_default(&self) -> bool {
+        *self == Self::default()
+    }
+}
+
+impl Projection {
+    /// Name, as written in the design.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::FirstAngle => "first-angle",
+            Self::ThirdAngle => "third-angle",
+        }
+    }
+}
+
+impl SheetSize {
+    /// All sizes, smallest first.
+    pub const ALL: [Self; 5] = [Self::A4, Self::A3, Self::A2, Self::A1, Self::A0];
+
+    /// Width and height of the trimmed sheet, mm.
+    #[must_use]
+    pub fn size(self) -> [f64; 2] {
+        match self {
+            Self::A4 => [210.0, 297.0],
+            Self::A3 => [420.0, 297.0],
+            Self::A2 => [594.0, 420.0],
+            Self::A1 => [841.0, 594.0],
+            Self::A0 => [1189.0, 841.0],
+        }
+    }
+
+    /// Name: "A4".
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::A4 => "A4",
+            Self::A3 => "A3",
+            Self::A2 => "A2",
+            Self::A1 => "A1",
+            Self::A0 => "A0",
+        }
+    }
+}

@@ -1,0 +1,177 @@
+use std::any::Any;
+use std::fmt::Debug;
+use std::sync::Arc;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator};
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use toml::Spanned;
+use toml::de::DeTable;
+
+use super::number::{NumberedDesign, written};
+use super::reader::Reader;
+use super::{DesignError, DesignFault, DesignFile};
+use crate::SpecError;
+
+/// A mechanism as written: one of the families, by the key `family`.
+pub trait Design: Any + Debug + Send + Sync {
+    /// Family of the design.
+    fn family(&self) -> DesignFamily;
+
+    /// Short name.
+    fn name(&self) -> &str;
+
+    /// One line for drawings and reports.
+    fn title(&self) -> &str;
+
+    /// Checks every rule that needs no geometry.
+    ///
+    /// # Errors
+    /// [`SpecError`] with the key at fault.
+    fn validate(&self) -> Result<(), SpecError>;
+
+    /// The design as a file; reads back as the same design.
+    ///
+    /// # Errors
+    /// [`DesignFault::NotWritable`] for a number no file can hold, such as a tooth count above the
+    /// greatest whole number of TOML.
+    fn to_toml(&self) -> Result<String, DesignError>;
+
+    /// Key in the design file for a word: a parameter's name, `r1`, or the key itself.
+    fn key_of(&self, word: &str) -> String;
+
+    /// Opens the number at a key of the design's file, `arm.tip_distance` or `pitch.radius[3]`.
+    ///
+    /// A number that is not written, but may be, is opened by [`NumberedDesign::with`] too, if its table is there.
+    ///
+    /// # Errors
+    /// [`DesignFault::UnknownKey`] where there can be no number at the key.
+    fn numbered(&self, key: &str) -> Result<NumberedDesign, DesignError> {
+        NumberedDesign::new(self.family(), &self.to_toml()?, key)
+    }
+
+    /// Whether another is the same design.
+    fn equals(&self, other: &dyn Design) -> bool;
+}
+
+impl dyn Design {
+    /// Casts to the design of a family; `None` for another family.
+    #[must_use]
+    pub fn downcast_ref<D: DesignSpec>(&self) -> Option<&D> {
+        (self as &dyn Any).downcast_ref()
+    }
+}
+
+impl PartialEq for dyn Design {
+    fn eq(&self, other: &Self) -> bool {
+        self.equals(other)
+    }
+}
+
+/// Design file of one family: its word, template, tables and rules.
+pub trait DesignSpec:
+    Clone + Debug + DeserializeOwned + JsonSchema + PartialEq + Send + Serialize + Sync + 'static
+{
+    /// Word of the family, as written at the key `family`.
+    const FAMILY: &'static str;
+    /// Sentence that says which mechanism it is.
+    const ABOUT: &'static str;
+    /// Commented design file to start from, itself a good design.
+    const TEMPLATE: &'static str;
+    /// Keys at the root that hold a table.
+    const TABLES: &'static [&'static str];
+
+    /// Name and title, as written.
+    fn words(&self) -> [&str; 2];
+
+    /// Checks the rules that need no geometry.
+    ///
+    /// # Errors
+    /// [`SpecError`] with the key at fault.
+    fn rules(&self) -> Result<(), SpecError>;
+
+    /// Key for a word of this family.
+    #[must_use]
+    fn key_of(_word: &str) -> Option<String> {
+        None
+    }
+
+    /// Reads a design file of this family and checks every rule that needs no geometry.
+    ///
+    /// # Errors
+    /// [`DesignError`] naming key, line and column.
+    fn from_toml(text: &str) -> Result<Self, DesignError> {
+        let mut reader = Reader::new(DesignFile::text_of(text.as_bytes())?);
+        let (root, _) = reader.root(&[DesignFamily::new::<Self>()])?;
+        reader.design(root)
+    }
+}
+
+impl<D: DesignSpec> Design for D {
+    fn family(&self) -> DesignFamily {
+        DesignFamily::new::<D>()
+    }
+
+    fn name(&self) -> &str {
+        self.words()[0]
+    }
+
+    fn title(&self) -> &str {
+        self.words()[1]
+    }
+
+    fn validate(&self) -> Result<(), SpecError> {
+        self.rules()
+    }
+
+    fn to_toml(&self) -> Result<String, DesignError> {
+        let keys = written(self).and_then(|root| toml::to_string(&root));
+        let keys = keys.map_err(|e| DesignError::at_start(DesignFault::NotWritable(e.to_string())));
+        Ok(format!("family = \"{}\"\n{}", D::FAMILY, keys?))
+    }
+
+    fn key_of(&self, word: &str) -> String {
+        <D as DesignSpec>::key_of(word).unwrap_or_else(|| word.to_owned())
+    }
+
+    fn equals(&self, other: &dyn Design) -> bool {
+        other.downcast_ref::<D>() == Some(self)
+    }
+}
+
+/// Family of mechanism, as readers and writers of its design files need it.
+#[derive(Clone, Copy, Debug)]
+pub struct DesignFamily {
+    /// Word of the family, as written at the key `family`.
+    pub word: &'static str,
+    /// Sentence that says which mechanism it is.
+    pub about: &'static str,
+    /// Commented design file to start from, itself a good design.
+    pub template: &'static str,
+    pub(super) read: Read,
+    pub(super) schema: fn(&mut SchemaGenerator) -> Schema,
+    pub(super) title: fn() -> std::borrow::Cow<'static, str>,
+}
+
+type Read = for<'a> fn(&Reader<'a>, Spanned<DeTable<'a>>) -> Result<Arc<dyn Design>, DesignError>;
+
+impl DesignFamily {
+    /// The family of a design.
+    #[must_use]
+    pub const fn new<D: DesignSpec>() -> Self {
+        Self {
+            word: D::FAMILY,
+            about: D::ABOUT,
+            template: D::TEMPLATE,
+            read: |reader, root| Ok(Arc::new(reader.design::<D>(root)?)),
+            schema: D::json_schema,
+            title: D::schema_name,
+        }
+    }
+}
+
+impl AsRef<DesignFamily> for DesignFamily {
+    fn as_ref(&self) -> &Self {
+        self
+    }
+}

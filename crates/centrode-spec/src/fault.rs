@@ -1,0 +1,181 @@
+use std::error;
+
+use thiserror::Error;
+
+use super::visible;
+use crate::digits::shortened;
+use crate::{Rule, SpecError};
+
+/// Error of a design file: the fault and its place.
+#[derive(Debug, Error)]
+#[error("line {line}, column {column}: {}", self.message())]
+pub struct DesignError {
+    /// Fault.
+    #[source]
+    pub fault: DesignFault,
+    /// Key at fault with the tables around it, `teeth.backlash`; empty where no key is to blame.
+    pub key: String,
+    /// Line of the key, from one.
+    pub line: usize,
+    /// Column of the key, in characters, from one.
+    pub column: usize,
+}
+
+/// A rule a design file breaks.
+#[derive(Debug, Error)]
+#[non_exhaustive]
+pub enum DesignFault {
+    /// Too large to be a design; it is not read to its end.
+    #[error("the file has at least {bytes} bytes; a design file has at most {limit}")]
+    TooLarge {
+        /// Bytes seen of it.
+        bytes: usize,
+        /// Greatest size read.
+        limit: usize,
+    },
+    /// Not text.
+    #[error("the file is not UTF-8 text")]
+    NotText,
+    /// Nothing but blanks and comments.
+    #[error("the file is empty: write family = {example:?} and what belongs to it")]
+    Empty {
+        /// Word of a family.
+        example: &'static str,
+    },
+    /// Not TOML.
+    #[error("{0}")]
+    Syntax(String),
+    /// A key that means nothing here.
+    #[error("unknown key{}; known are {}{}", near.as_ref().map_or(String::new(), |n| format!(", did you mean {n:?}?")), known.join(", "), in_words(elsewhere))]
+    UnknownKey {
+        /// Nearest known key.
+        near: Option<String>,
+        /// All keys known here.
+        known: Vec<String>,
+        /// Where else the family has a key of this name, at most four, the nearest first.
+        elsewhere: Vec<String>,
+    },
+    /// A key that must be there.
+    #[error("the key {0:?} is missing")]
+    MissingKey(String),
+    /// A word that is not allowed.
+    #[error("unknown word {word:?}{}; known are {}", near.as_ref().map_or(String::new(), |n| format!(", did you mean {n:?}?")), known.join(", "))]
+    UnknownWord {
+        /// Word as written.
+        word: String,
+        /// The nearest known word.
+        near: Option<String>,
+        /// All words known here.
+        known: Vec<String>,
+    },
+    /// A value of another type than the key takes.
+    #[error("{0}")]
+    WrongType(String),
+    /// A value outside its range, or against another key.
+    #[error("{0}")]
+    Value(Rule),
+    /// The mechanism does not exist: the error that says why.
+    #[error("{0}")]
+    Mechanism(#[source] Box<dyn error::Error + Send + Sync>),
+    /// A design that TOML cannot hold.
+    #[error("{0}")]
+    NotWritable(String),
+}
+
+/// Error of a design that gives no mechanism: key and fault.
+#[derive(Debug, Error)]
+#[error("{fault}")]
+pub struct MechanismError {
+    /// Key of the design file.
+    pub key: String,
+    /// Fault.
+    #[source]
+    pub fault: DesignFault,
+}
+
+impl MechanismError {
+    /// Wraps an error of a mechanism that cannot be.
+    #[must_use]
+    pub fn new(key: String, error: impl error::Error + Send + Sync + 'static) -> Self {
+        let fault = DesignFault::Mechanism(Box::new(error));
+        Self { key, fault }
+    }
+
+    /// The key and what is wrong with it.
+    #[must_use]
+    pub fn message(&self) -> String {
+        named(&self.key, &self.fault)
+    }
+}
+
+impl From<SpecError> for MechanismError {
+    fn from(SpecError { key, rule }: SpecError) -> Self {
+        let fault = DesignFault::Value(rule);
+        Self { key, fault }
+    }
+}
+
+impl DesignError {
+    /// A fault that no key is to blame for.
+    pub(super) fn at_start(fault: DesignFault) -> Self {
+        Self {
+            fault,
+            key: String::new(),
+            line: 1,
+            column: 1,
+        }
+    }
+
+    /// The key and what is wrong with it, without the place.
+    #[must_use]
+    pub fn message(&self) -> String {
+        named(&self.key, &self.fault)
+    }
+}
+
+/// Where else a key is known, in words.
+fn in_words(keys: &[String]) -> String {
+    match keys {
+        [] => String::new(),
+        [one, two, three, _, ..] => {
+            format!("; elsewhere there is {one}, {two}, {three} and others")
+        }
+        keys => format!("; elsewhere there is {}", keys.join(", ")),
+    }
+}
+
+/// A key and what is wrong with it, without characters that cannot be seen.
+fn named(key: &str, fault: &DesignFault) -> String {
+    let key = &visible(key);
+    let fault = visible(&shortened(&fault.to_string()));
+    let (tables, last) = match key.rfind('.') {
+        Some(dot) => key.split_at(dot + 1),
+        None => ("", key.as_str()),
+    };
+    // Some rules begin with their key already.
+    let named = fault
+        .strip_prefix(last)
+        .is_some_and(|rest| rest.starts_with(|c: char| !c.is_alphanumeric() && c != '_'));
+    if last.is_empty() {
+        fault
+    } else if named {
+        format!("{tables}{fault}")
+    } else {
+        format!("{key}: {fault}")
+    }
+}
+
+/// The known word nearest to `word`, if it is near at all.
+pub(super) fn nearest(word: &str, known: &[String]) -> Option<String> {
+    let short: String = word.chars().take(60).collect();
+    known
+        .iter()
+        .map(|k| (strsim::damerau_levenshtein(&short, k), k))
+        // A word of the same first letter may be one step farther.
+        .filter(|(distance, k)| {
+            let starts_alike = k.chars().next() == short.chars().next();
+            *distance <= (k.len() / 4).max(1) + usize::from(starts_alike)
+        })
+        .min()
+        .map(|(_, k)| k.clone())
+}

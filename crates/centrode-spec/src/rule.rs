@@ -1,0 +1,274 @@
+//! Rules that a number of the file can break, and the checks of them.
+
+use thiserror::Error;
+
+use crate::digits::told;
+use crate::is_control;
+
+/// A value of a description that breaks a rule.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[error("{key} {rule}")]
+pub struct SpecError {
+    /// Key of the value, with the tables around it: `teeth.backlash`.
+    pub key: String,
+    /// The rule it breaks.
+    pub rule: Rule,
+}
+
+/// Rule that a value breaks, with the value.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum Rule {
+    /// NaN or infinite.
+    #[error("must be a finite number, not {0}")]
+    NotFinite(f64),
+    /// Zero or less where a size is needed.
+    #[error("must be greater than 0, not {}", told(*.0))]
+    NotPositive(f64),
+    /// Less than zero.
+    #[error("must not be negative, but is {}", told(*.0))]
+    Negative(f64),
+    /// Outside a range.
+    #[error("must be {}{unit}, not {}{unit}", range(*least, *greatest), told(*value))]
+    OutOfRange {
+        /// Value given.
+        value: f64,
+        /// Least value allowed.
+        least: f64,
+        /// Greatest value allowed.
+        greatest: f64,
+        /// Unit with a leading space, or empty.
+        unit: &'static str,
+    },
+    /// A range whose ends are not in order.
+    #[error("must be a range from less to more, not {} to {}", told(*.0), told(*.1))]
+    NotInOrder(f64, f64),
+    /// Two keys that exclude each other.
+    #[error("cannot be given together with {0}")]
+    Excludes(&'static str),
+    /// None of several keys one of which is needed.
+    #[error("is missing: give one of {0}")]
+    NeedsOneOf(&'static str),
+    /// Strokes of another kind than the follower makes.
+    #[error("needs {0} in every segment, for this follower")]
+    Stroke(&'static str),
+    /// A number that must not come twice.
+    #[error("is {} a second time", told(*.0))]
+    Twice(f64),
+    /// A key that must be given.
+    #[error("is needed {0}")]
+    Needed(&'static str),
+    /// A key where it means nothing.
+    #[error("has no meaning {0}")]
+    Unused(&'static str),
+    /// A screw that there is none of.
+    #[error("must be 0 or the size of a screw, 1.6, 2, 2.5, 3, 4, 5, 6, 8, 10 or 12 mm, not {}", told(*.0))]
+    NoScrew(f64),
+    /// A name that cannot name a file.
+    #[error("must be 1 to 64 letters, digits, '-' or '_', not {0:?}")]
+    Name(String),
+    /// Words that do not fit one line of a drawing.
+    #[error(
+        "must be one line of at most {most} characters, not {count} with {controls} control characters (U+FFFE and U+FFFF count as such)"
+    )]
+    Line {
+        /// Characters given.
+        count: usize,
+        /// Control characters among them, U+FFFE and U+FFFF: line ends, tabs and the like.
+        controls: usize,
+        /// Most characters allowed.
+        most: usize,
+    },
+    /// Words that are no tolerance class.
+    #[error(
+        "must be empty or a tolerance class of ISO 286 for a {of}, like {like:?}, not {word:?}"
+    )]
+    NoClass {
+        /// Word given.
+        word: String,
+        /// Side of the fit it stands for.
+        of: &'static str,
+        /// A class of that side.
+        like: &'static str,
+    },
+    /// A mean ratio with a common factor.
+    #[error("must be in lowest terms: write {1:?} for {0:?}")]
+    LowestTerms([u32; 2], [u32; 2]),
+    /// Two different tooth counts for one gear.
+    #[error("is {0}, but the pitch curve has tooth_count {1}: give one of them")]
+    ToothCountTwice(u32, u32),
+    /// A driven gear without a whole number of teeth.
+    #[error("is {0}, which at mean_ratio {1:?} leaves the driven gear no whole number of teeth: it must be a multiple of {n2}", n2 = .1[1])]
+    DrivenTeeth(u32, [u32; 2]),
+    /// A keyway wider than the bore.
+    #[error("is {0} mm, but the bore is only {1} mm across")]
+    KeywayWidth(f64, f64),
+    /// Something that needs a bore, without one.
+    #[error("needs a bore")]
+    NoBore,
+    /// Two tools of a pair with unlike pressure angles.
+    #[error(
+        "is {} deg, but tool.pressure_angle_deg is {} deg: mating flanks touch on one line of action, so both tools need the same",
+        told(*.own),
+        told(*.tool)
+    )]
+    PressureAngles {
+        /// Pressure angle of the gear's own tool, degrees.
+        own: f64,
+        /// Pressure angle of the tool of the pair, degrees.
+        tool: f64,
+    },
+    /// A tip rounding that does not fit the tool's tooth.
+    #[error(
+        "is {value}, but at this pressure angle and addendum at most {greatest:.6} fits the tip of the tool"
+    )]
+    TipRadius {
+        /// Value given.
+        value: f64,
+        /// Greatest that fits.
+        greatest: f64,
+    },
+}
+
+/// A range in words, one without an end by where it begins.
+fn range(least: f64, greatest: f64) -> String {
+    if greatest <= least {
+        told(least)
+    } else if greatest.is_finite() {
+        format!("{} to {}", told(least), told(greatest))
+    } else {
+        format!("at least {}", told(least))
+    }
+}
+
+impl SpecError {
+    /// Error with its key seen from outside the table `table`.
+    #[must_use]
+    pub fn inside(mut self, table: &str) -> Self {
+        self.key = format!("{table}.{}", self.key);
+        self
+    }
+}
+
+/// The error that the value of a key breaks a rule.
+///
+/// # Errors
+/// Always: [`SpecError`] with the key and the rule.
+pub fn broken<T>(key: &str, rule: Rule) -> Result<T, SpecError> {
+    Err(SpecError {
+        key: key.into(),
+        rule,
+    })
+}
+
+/// Checks that a value is a number, not NaN and not infinite.
+///
+/// # Errors
+/// [`SpecError`] with the key.
+pub fn finite(key: &str, value: f64) -> Result<(), SpecError> {
+    if value.is_finite() {
+        Ok(())
+    } else {
+        broken(key, Rule::NotFinite(value))
+    }
+}
+
+/// Checks a size: greater than 0, at most 1e12.
+///
+/// # Errors
+/// [`SpecError`] with the key.
+pub fn positive(key: &str, value: f64) -> Result<(), SpecError> {
+    finite(key, value)?;
+    if value > 0.0 {
+        not_too_great(key, value)
+    } else {
+        broken(key, Rule::NotPositive(value))
+    }
+}
+
+/// Checks a size that may be 0, at most 1e12.
+///
+/// # Errors
+/// [`SpecError`] with the key.
+pub fn not_negative(key: &str, value: f64) -> Result<(), SpecError> {
+    finite(key, value)?;
+    if value >= 0.0 {
+        not_too_great(key, value)
+    } else {
+        broken(key, Rule::Negative(value))
+    }
+}
+
+/// Checks that a size is no greater than any part could be, so that what follows from it is a number.
+fn not_too_great(key: &str, value: f64) -> Result<(), SpecError> {
+    const GREATEST: f64 = 1e12;
+    in_range(key, value, [0.0, GREATEST], "")
+}
+
+/// Checks a name that can name a file.
+///
+/// # Errors
+/// [`SpecError`] with the key.
+pub fn file_name(key: &str, name: &str) -> Result<(), SpecError> {
+    let safe = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
+    if name.is_empty() || name.len() > 64 || !name.chars().all(safe) {
+        return broken(key, Rule::Name(name.chars().take(80).collect()));
+    }
+    Ok(())
+}
+
+/// Checks words for a drawing: one line, not endless.
+///
+/// # Errors
+/// [`SpecError`] with the key.
+pub fn single_line(key: &str, words: &str) -> Result<(), SpecError> {
+    const MOST: usize = 80;
+    let count = words.chars().count();
+    let controls = words.chars().filter(|&c| is_control(c)).count();
+    if count <= MOST && controls == 0 {
+        return Ok(());
+    }
+    let rule = Rule::Line {
+        count,
+        controls,
+        most: MOST,
+    };
+    broken(key, rule)
+}
+
+/// Whether a number is zero and need not be written.
+#[must_use]
+pub fn is_zero(value: &f64) -> bool {
+    *value == 0.0
+}
+
+/// Checks a count against its minimum and maximum.
+///
+/// # Errors
+/// [`SpecError`] with the key.
+pub fn count_in_range(key: &str, value: u32, least: u32, greatest: u32) -> Result<(), SpecError> {
+    in_range(key, value.into(), [least.into(), greatest.into()], "")
+}
+
+/// Checks a value against its minimum and maximum, in a unit with a leading space, or empty.
+///
+/// # Errors
+/// [`SpecError`] with the key.
+pub fn in_range(
+    key: &str,
+    value: f64,
+    [least, greatest]: [f64; 2],
+    unit: &'static str,
+) -> Result<(), SpecError> {
+    finite(key, value)?;
+    if (least..=greatest).contains(&value) {
+        return Ok(());
+    }
+    let rule = Rule::OutOfRange {
+        value,
+        least,
+        greatest,
+        unit,
+    };
+    broken(key, rule)
+}

@@ -1,0 +1,89 @@
+use std::sync::Arc;
+
+use centrode_spec::Design;
+
+use centrode_analysis::Goal;
+use centrode_optimise::Problem;
+
+/// Number of a design that a search moves.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Variable {
+    /// Name, `r1`.
+    pub name: String,
+    /// Key in the design file, `pitch.radius[0]`.
+    pub key: String,
+    /// Least and greatest value, rad or mm.
+    pub bounds: [f64; 2],
+    /// Whether it is an angle, in rad, and in degrees in the file.
+    pub is_angle: bool,
+    /// Decimals of its values in the file, degrees or mm: the file then holds what was evaluated.
+    pub decimals: u32,
+}
+
+impl Variable {
+    /// Rounds a value, in the file's unit, to its decimals.
+    #[must_use]
+    pub fn written(&self, value: f64) -> f64 {
+        let value = if self.is_angle {
+            value.to_degrees()
+        } else {
+            value
+        };
+        let grid = 10_f64.powi(self.decimals as i32);
+        // Divided by the whole number: the nearest number to those decimals.
+        (value * grid).round() / grid
+    }
+
+    /// Value as read back from the file, rad or mm.
+    #[must_use]
+    pub fn rounded(&self, value: f64) -> f64 {
+        let written = self.written(value);
+        if self.is_angle {
+            written.to_radians()
+        } else {
+            written
+        }
+    }
+}
+
+/// Problem whose points are designs: the interface of an optimiser of design files, of whatever family.
+pub trait DesignProblem: Problem {
+    /// Variables; the points of the problem hold their values, rad or mm.
+    fn variables(&self) -> &[Variable];
+
+    /// Design at a point, values rounded to those a file holds.
+    fn design(&self, point: &[f64]) -> Arc<dyn Design>;
+
+    /// Numbers of the design at a point that follow from its variables: key in the file, and value as written.
+    fn followers(&self, point: &[f64]) -> Vec<(String, f64)>;
+
+    /// Goals at a point, and all other constraints, each with figure, range and margin; none where the point gives no
+    /// mechanism.
+    fn goals(&self, point: &[f64]) -> Option<Vec<Goal>>;
+
+    /// Goals at a point as a guide needs them: smooth figures, which may be nearer or farther than those of
+    /// [`DesignProblem::goals`] but are met only where those are.
+    fn guides(&self, point: &[f64]) -> Option<Vec<Goal>>;
+
+    /// Objective at which a point that breaks no constraint is good enough; none where less is always better.
+    fn target(&self) -> Option<f64> {
+        None
+    }
+
+    /// Remark of the problem on a point at which a search has ended: why no better one can be had, or why it says little.
+    fn remark(&self, _point: &[f64]) -> Option<String> {
+        None
+    }
+}
+
+/// Reason why there is no search for a better design.
+#[derive(Clone, Debug, Eq, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NotSearched {
+    /// A family without goals.
+    #[error("there is no search for designs of this family: it has no goals")]
+    Family,
+    /// A design that the search of its family does not accept.
+    #[error("no search: {0}")]
+    Design(String),
+}

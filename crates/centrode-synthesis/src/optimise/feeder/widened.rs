@@ -1,0 +1,132 @@
+use centrode_geometry::Point;
+use centrode_kinematics::linkage::{FourBar, Grashof, SixBar};
+use centrode_machines::feeder::{BoundsSpec, Dimension, FeederDesign};
+
+use centrode_analysis::Attainable;
+
+/// Steps of a millimetre to which bounds and lengths are written, as a machinist reads them.
+const STEPS: f64 = 1e3;
+/// Greatest number of steps by which rounded bounds are moved outwards again.
+const MOST: u32 = 10;
+
+/// Feeder's design with its bounds widened by as little as lets a crank-rocker within them have the least transmission
+/// angle wanted, its lengths there, and its pivot in the middle of the places that give the swing wanted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Widened {
+    /// Share by which every least length is made smaller and every greatest one greater, before rounding.
+    pub share: f64,
+    /// The design, bounds rounded outwards and lengths and pivot rounded to a thousandth of a millimetre.
+    pub design: FeederDesign,
+}
+
+/// Reason why the bounds are not widened.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NotWidened {
+    /// The bounds hold the angle wanted.
+    #[error(
+        "the bounds hold lengths with a least transmission angle of {:.4} deg, and {:.4} deg is wanted: they need not be widened", .attainable.to_degrees(), .wanted.to_degrees()
+    )]
+    Needless {
+        /// Greatest least transmission angle within the bounds, rad.
+        attainable: f64,
+        /// Angle wanted, rad.
+        wanted: f64,
+    },
+    /// No widening below nine tenths helps.
+    #[error("bounds widened by 90 % hold no crank-rocker with a least transmission angle of {:.4} deg", .wanted.to_degrees())]
+    NoUse {
+        /// Angle wanted, rad.
+        wanted: f64,
+    },
+    /// The slider's arc is seen under the angle wanted from no point.
+    #[error("the lengths found have no place of the pivot that gives a swing of {:.4} deg", .swing.to_degrees())]
+    NoPivot {
+        /// Angle wanted, rad.
+        swing: f64,
+    },
+}
+
+impl Widened {
+    /// Widens the bounds of a design; equal designs give equal results.
+    ///
+    /// # Errors
+    /// [`NotWidened`].
+    pub fn search(design: &FeederDesign) -> Result<Self, NotWidened> {
+        let goals = &design.goals;
+        let wanted = goals.transmission_angle;
+        let none = NotWidened::NoUse { wanted };
+        let found = Attainable::search(design).ok_or(none)?;
+        let attainable = found.transmission_angle;
+        let needless = NotWidened::Needless { attainable, wanted };
+        let share = found.widening.ok_or(needless)?;
+        let mut widened = design.clone();
+        for more in 0..MOST {
+            let bounds = outwards(&design.bounds, share, f64::from(more) / STEPS);
+            let best = rounded(found.widened_lengths, &bounds, design);
+            let Some((four_bar, _)) = best.filter(|(_, angle)| *angle >= wanted) else {
+                continue;
+            };
+            let pivot = SixBar::pivots(&four_bar, goals.swing, 1).first().copied();
+            let swing = goals.swing;
+            let pivot: Point = pivot.ok_or(NotWidened::NoPivot { swing })?;
+            let [crank, coupler, rocker, frame] = four_bar.lengths();
+            for (dimension, value) in Dimension::ALL.into_iter().zip([
+                crank,
+                coupler,
+                rocker,
+                frame,
+                nearest(pivot.x),
+                nearest(pivot.y),
+            ]) {
+                dimension.set(&mut widened.linkage, value);
+            }
+            widened.bounds = bounds;
+            return Ok(Self {
+                share,
+                design: widened,
+            });
+        }
+        Err(none)
+    }
+}
+
+fn nearest(value: f64) -> f64 {
+    (value * STEPS).round() / STEPS
+}
+
+/// Widens bounds by a share, rounds them outwards, and widens them then by so much more.
+fn outwards(bounds: &BoundsSpec, share: f64, more: f64) -> BoundsSpec {
+    let out = |[low, high]: [f64; 2]| {
+        [
+            nearest((low * (1.0 - share) * STEPS).floor() / STEPS - more),
+            nearest((high * (1.0 + share) * STEPS).ceil() / STEPS + more),
+        ]
+    };
+    BoundsSpec {
+        crank: out(bounds.crank),
+        coupler: out(bounds.coupler),
+        rocker: out(bounds.rocker),
+        frame: out(bounds.frame),
+    }
+}
+
+/// The crank-rocker of rounded lengths next to these ones with the greatest least transmission angle, rad.
+fn rounded(
+    lengths: [f64; 4],
+    bounds: &BoundsSpec,
+    design: &FeederDesign,
+) -> Option<(FourBar, f64)> {
+    let bounds = bounds.named();
+    let near = |k: usize, step: usize| {
+        let (_, [low, high]) = bounds[k];
+        nearest((nearest(lengths[k]) + (step as f64 - 1.0) / STEPS).clamp(low, high))
+    };
+    let candidates = (0..81_usize).filter_map(|i| {
+        let [a, b, c, d] = [(0, 1), (1, 3), (2, 9), (3, 27)].map(|(k, by)| near(k, i / by % 3));
+        let four_bar = FourBar::new(a, b, c, d, design.linkage.branch).ok()?;
+        let turns = four_bar.grashof() == Grashof::CrankRocker;
+        turns.then(|| (four_bar, four_bar.least_transmission_angle()))
+    });
+    candidates.max_by(|a, b| a.1.total_cmp(&b.1))
+}

@@ -1,0 +1,51 @@
+use centrode_gear::GearPair;
+use centrode_gear::design::{Addendum, GearPairDesign, TeethSpec};
+use centrode_machines::three_arm::design::ThreeArmDesign;
+
+use centrode_analysis::{Goal, Severity, Unit};
+use centrode_analysis::{SLIGHT_TRANSMISSION_ERROR, check};
+
+/// Transmission error of half the progress, rad.
+const ERROR: f64 = 1e-3;
+
+/// Goals of number zero for a mechanism's full teeth in mesh, over a whole cycle: that flanks carry the motion, and
+/// that there is no finding against the teeth. None where no teeth can be cut.
+///
+/// Planets are the sun's part again, and the mesh of intermediate and planet is that of sun and intermediate turned
+/// round: one pair represents all six meshes.
+pub(super) fn mesh(design: &ThreeArmDesign) -> Option<[Goal; 2]> {
+    let pair = design.pair();
+    let full = GearPairDesign {
+        teeth: TeethSpec {
+            addendum: Addendum::Full,
+            ..pair.teeth.clone()
+        },
+        ..pair
+    };
+    let pair = GearPair::resolve(&full).ok()?;
+    let report = check(&pair);
+    let error = report.values.get("transmission_error_max").copied();
+    let worse = report
+        .findings
+        .iter()
+        .filter(|f| f.severity >= Severity::Warning);
+    // Lost contact, and what comes of it, counts as transmission error; the pressure angle is the pitch curve's.
+    let other = ["contact-lost", "seat-jump", "pressure-angle"];
+    let against = worse.filter(|f| !other.contains(&f.rule)).count();
+    Some([
+        Goal::new(
+            (0, "transmission-error", "transmission error of full teeth"),
+            error.filter(|error| error.is_finite()).or(Some(1.0)),
+            [None, Some(SLIGHT_TRANSMISSION_ERROR)],
+            Unit::Angle,
+            ERROR,
+        ),
+        Goal::new(
+            (0, "tooth-findings", "findings against full teeth"),
+            Some(against as f64),
+            [None, Some(0.0)],
+            Unit::Count,
+            10.0,
+        ),
+    ])
+}

@@ -1,0 +1,237 @@
+use std::f64::consts::{PI, TAU};
+use std::ops::ControlFlow;
+
+use crate::reverse::NotPosed;
+use crate::reverse::{Harmonics, KeyPose, KeyPoses};
+use centrode_gear::{CurvatureRange, Limits, Member, Rolling};
+use centrode_machines::three_arm::ThreeArm;
+use centrode_machines::three_arm::design::ThreeArmDesign;
+
+use super::judged;
+use centrode_analysis::Goal;
+use centrode_analysis::three_arm_goals;
+use centrode_optimise::{Evaluation, Method, Problem, Settings, minimise};
+
+/// Bends tried with the mildest law, in steps, and the step, degrees; how far the search may go from the best of them, steps.
+const BENDS: std::ops::RangeInclusive<i32> = -8..=8;
+const STEP: f64 = 12.0;
+const ROOM: f64 = 2.0;
+/// Decimals of the bend, degrees.
+const DECIMALS: f64 = 1e3;
+/// Orders of the law that the search may bias, and by how much of 1/k^2, rad.
+const ORDERS: usize = 5;
+const GREATEST: f64 = 0.2;
+/// Evaluations after which a search gives up.
+const EVALUATIONS: u64 = 500;
+/// Violation of a point of which there is no mechanism.
+const NONE: f64 = 1e3;
+
+/// Search for a three-arm mechanism whose clamps take key poses and that reaches its goals: over the bend, and over the
+/// amplitudes near which the law of its pair is kept.
+///
+/// Every point takes the poses, so they are no constraint. The objective is how far the law is from the mildest one.
+#[derive(Clone, Copy, Debug)]
+pub struct PosedProblem<'a> {
+    poses: &'a KeyPoses,
+    arms: u32,
+    /// Bend about which is searched, rad.
+    bend: f64,
+}
+
+/// Mechanism of key poses that was found.
+#[derive(Clone, Debug)]
+pub struct Posed {
+    /// Poses and the chain through them.
+    pub poses: KeyPoses,
+    /// The design.
+    pub design: ThreeArmDesign,
+    /// Its goals, as far as they were looked at, and what was kept besides; all are met where `is_reached`.
+    pub goals: Vec<Goal>,
+    /// Distance of the tip from each pose, mm, and turn of the clamp from its direction there, rad.
+    pub misses: Vec<[f64; 2]>,
+    /// Whether every goal is reached, with sound full teeth whose flanks carry the motion.
+    pub is_reached: bool,
+    /// Evaluations of the search.
+    pub evaluations: u64,
+}
+
+impl<'a> PosedProblem<'a> {
+    /// Chains through the same poses that are enough to choose from: five poses have four at most, of either sense.
+    pub const CHAINS: usize = 8;
+
+    /// The design of a point: the bend, and amplitudes of the law.
+    fn at(&self, point: &[f64]) -> Result<ThreeArmDesign, NotPosed> {
+        let bend = (point[0].to_degrees() * DECIMALS).round() / DECIMALS;
+        let mut design = self.poses.three_arm(bend.to_radians(), &point[1..])?;
+        design.arms = self.arms;
+        Ok(design)
+    }
+
+    /// Searches for a mechanism that reaches every goal: first the mildest law of every chain at bends all over their range,
+    /// then from the best of them. The best is given where none reaches all. `observe` hears of evaluations and of the least
+    /// violation so far.
+    ///
+    /// # Errors
+    /// [`NotPosed`] where no chain has a law at any bend.
+    pub fn search(
+        chains: &'a [KeyPoses],
+        arms: u32,
+        observe: &mut dyn FnMut(u64, f64) -> ControlFlow<()>,
+    ) -> Result<Posed, NotPosed> {
+        let mut evaluations = 0;
+        let mut best: Option<(f64, Self)> = None;
+        let mut fault = None;
+        // Small ones first: they leave the smaller gearbox.
+        let mut bends: Vec<f64> = BENDS.map(|step| STEP * f64::from(step)).collect();
+        bends.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+        let bends = || bends.iter().map(|bend| bend.to_radians());
+        for (poses, bend) in chains
+            .iter()
+            .flat_map(|poses| bends().map(move |bend| (poses, bend)))
+        {
+            let problem = Self { poses, arms, bend };
+            if let Err(error) = problem.at(&problem.mildest()) {
+                fault = Some(error);
+                continue;
+            }
+            evaluations += 1;
+            let violation = problem.evaluate(&problem.mildest()).violation();
+            if best.as_ref().is_none_or(|(least, _)| violation < *least) {
+                best = Some((violation, problem));
+            }
+            let least = best.as_ref().map_or(violation, |(least, _)| *least);
+            if least <= 0.0 || observe(evaluations, least).is_break() {
+                break;
+            }
+        }
+        let Some((violation, problem)) = best else {
+            return Err(fault.unwrap_or(NotPosed::Law { bend: 0.0 }));
+        };
+        let mut point = problem.mildest();
+        if violation > 0.0 {
+            let settings = Settings {
+                method: Method::CmaEs,
+                evaluations: EVALUATIONS,
+                target: Some(f64::INFINITY),
+                ..Settings::default()
+            };
+            let found = minimise(&problem, settings, &mut |progress| {
+                observe(evaluations + progress.evaluations, progress.violation)
+            });
+            if let Ok((search, _)) = found {
+                evaluations += search.evaluations();
+                point = search.best().point;
+            }
+        }
+        problem.found(&point, evaluations)
+    }
+
+    fn mildest(&self) -> Vec<f64> {
+        let mut point = vec![0.0; 1 + 2 * ORDERS];
+        point[0] = self.bend;
+        point
+    }
+
+    fn found(&self, point: &[f64], evaluations: u64) -> Result<Posed, NotPosed> {
+        let mut design = self.at(point)?;
+        let Some((quick, overload)) = quick(&mut design) else {
+            return Err(NotPosed::Law {
+                bend: design.bend.to_degrees(),
+            });
+        };
+        let judged = judged::judge(&quick, overload, || ThreeArm::resolve(&design).ok());
+        let reached = judged.filter(|judged| judged.constraints.iter().all(|c| *c <= 0.0));
+        let exact = || judged::exact(&ThreeArm::resolve(&design).ok()?);
+        let (goals, is_reached) = match reached.and_then(|judged| judged.reached) {
+            Some((_, goals)) => (goals, true),
+            None => (exact().unwrap_or(quick), false),
+        };
+        let misses = ThreeArm::resolve(&design).ok();
+        let misses = misses.map_or_else(Vec::new, |mechanism| self.misses(&mechanism));
+        Ok(Posed {
+            poses: self.poses.clone(),
+            design,
+            goals,
+            misses,
+            is_reached,
+            evaluations,
+        })
+    }
+}
+
+impl PosedProblem<'_> {
+    fn misses(&self, mechanism: &ThreeArm) -> Vec<[f64; 2]> {
+        let axis = self.poses.chain.axis().coords;
+        let miss = |(pose, turns): (&KeyPose, &[f64; 2])| {
+            let tip = mechanism.tip(turns[0], 0).position + axis;
+            let turned = mechanism.clamp(turns[0], 0).position - pose.direction;
+            let turned = turned - TAU * (turned / TAU).round();
+            [(tip - pose.point).norm(), turned.abs()]
+        };
+        self.poses
+            .poses
+            .iter()
+            .zip(&self.poses.turns)
+            .map(miss)
+            .collect()
+    }
+}
+
+/// Quick goals of a design, which gets its teeth, and the share by which its module exceeds what the pitch curves bear.
+fn quick(design: &mut ThreeArmDesign) -> Option<(Vec<Goal>, f64)> {
+    let mechanism = ThreeArm::resolve(design).ok()?;
+    let rolling = mechanism.train().rolling();
+    let length = rolling.pitch_length(Member::Driver);
+    judged::follow(design, length);
+    let module = design
+        .tooth_count
+        .map_or(design.goals.module, |z| length / (PI * f64::from(z)));
+    let mut figures = mechanism.figures();
+    figures.module = Some(module);
+    let largest = Limits::largest_module_of(&design.pair(), curvatures(rolling));
+    let mut goals = three_arm_goals(&figures, &design.goals);
+    goals.push(judged::picking_depth(design, mechanism.picking_depth()));
+    goals.push(judged::gearbox_tray(&mechanism));
+    Some((goals, module / largest - 1.0))
+}
+
+/// Greatest convex and concave curvature of both pitch curves, 1/mm.
+fn curvatures(rolling: &Rolling) -> [f64; 2] {
+    let ranges = rolling.curvature_ranges();
+    let greatest = |of: fn(&CurvatureRange) -> f64| ranges.iter().map(of).fold(0.0, f64::max);
+    [
+        greatest(|range| range.greatest.1),
+        greatest(|range| -range.least.1),
+    ]
+}
+
+impl Problem for PosedProblem<'_> {
+    fn bounds(&self) -> Vec<(f64, f64)> {
+        let room = (ROOM * STEP).to_radians();
+        let mut bounds = vec![(self.bend - room, self.bend + room)];
+        for order in 1..=ORDERS {
+            let greatest = GREATEST / (order * order) as f64;
+            bounds.extend([(-greatest, greatest); 2]);
+        }
+        bounds
+    }
+
+    fn start(&self) -> Option<Vec<f64>> {
+        Some(self.mildest())
+    }
+
+    fn evaluate(&self, point: &[f64]) -> Evaluation {
+        let objective = point[1..].iter().map(|a| a * a).sum::<f64>();
+        let judged = self.at(point).ok().and_then(|mut design| {
+            let (quick, overload) = quick(&mut design)?;
+            judged::judge(&quick, overload, || ThreeArm::resolve(&design).ok())
+        });
+        Evaluation {
+            objective,
+            constraints: judged.map_or(vec![NONE], |judged| judged.constraints),
+        }
+    }
+}
+
+// The law has room for every order that the search may bias.
+const _: () = assert!(2 * ORDERS <= Harmonics::TERMS);

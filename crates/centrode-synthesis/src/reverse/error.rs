@@ -1,0 +1,261 @@
+use centrode_geometry::Point;
+use thiserror::Error;
+
+use super::DrawingError;
+use centrode_spec::digits::told;
+
+/// Reason why points or a file give no path.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum PathError {
+    /// A drawing that gives no path.
+    #[error(transparent)]
+    Drawing(#[from] DrawingError),
+    /// A coordinate is NaN or infinite.
+    #[error("point {number} of the path is ({x}, {y}): both must be finite numbers", x = told(*x), y = told(*y))]
+    NotFinite {
+        /// Number of the point, from one.
+        number: usize,
+        /// Its x, mm.
+        x: f64,
+        /// Its y, mm.
+        y: f64,
+    },
+    /// A coordinate so large that its powers are lost.
+    #[error(
+        "point {number} of the path is ({}, {}) mm: coordinates may be up to {limit:e} mm", told(*x), told(*y)
+    )]
+    TooFar {
+        /// Number of the point, from one.
+        number: usize,
+        /// Its x, mm.
+        x: f64,
+        /// Its y, mm.
+        y: f64,
+        /// Greatest coordinate, mm.
+        limit: f64,
+    },
+    /// A path that is small beside its distance from the origin.
+    #[error("the path is {} mm across and up to {} mm from the origin of x and y: too few digits are left of it; draw it larger, or nearer to the origin", told(*size), told(*far))]
+    TooSmall {
+        /// Diagonal of the box round it, mm.
+        size: f64,
+        /// Greatest coordinate, mm.
+        far: f64,
+    },
+    /// Fewer points than make a closed curve.
+    #[error("the path has {count} points; a closed curve takes at least {least}")]
+    TooFew {
+        /// Number of points.
+        count: usize,
+        /// Fewest allowed.
+        least: usize,
+    },
+    /// More points than a path may have.
+    #[error("the path has {count} points; the limit is {limit}")]
+    TooMany {
+        /// Number of points.
+        count: usize,
+        /// Most allowed.
+        limit: usize,
+    },
+    /// Two neighbouring points are one.
+    #[error("points {first} and {second} of the path are both ({x}, {y}) mm: leave one out", x = told(*x), y = told(*y))]
+    Twice {
+        /// Number of the first, from one.
+        first: usize,
+        /// Number of the second.
+        second: usize,
+        /// Their x, mm.
+        x: f64,
+        /// Their y, mm.
+        y: f64,
+    },
+    /// The last point is far from the first.
+    #[error(
+        "the path is open: its last point is {gap:.4} mm from the first, and no other two neighbours are more than {step:.4} mm apart; add points on the way back"
+    )]
+    Open {
+        /// Distance of the last point from the first, mm.
+        gap: f64,
+        /// Greatest distance of two other neighbours, mm.
+        step: f64,
+    },
+    /// The path crosses itself.
+    #[error("the path crosses itself at ({x:.4}, {y:.4}) mm: are its points in order?")]
+    Crossing {
+        /// Place, mm.
+        x: f64,
+        /// Place, mm.
+        y: f64,
+    },
+    /// A file that is too large.
+    #[error("the file of the path has {bytes} bytes or more; the limit is {limit}")]
+    TooLarge {
+        /// Bytes read.
+        bytes: usize,
+        /// Most allowed.
+        limit: usize,
+    },
+    /// A file that is no text.
+    #[error("line {line}: the file of the path is not text in UTF-8")]
+    NotText {
+        /// Line, from one.
+        line: usize,
+    },
+    /// A tolerance that is none.
+    #[error("line {line}: the tolerance of a point is zero or more, in mm, not {}", told(*value))]
+    Tolerance {
+        /// Line, from one.
+        line: usize,
+        /// Value given.
+        value: f64,
+    },
+    /// A line that holds no point.
+    #[error(
+        "line {line}: {found:?} is no number; a line holds x and y in mm, separated by a comma"
+    )]
+    NotNumber {
+        /// Line, from one.
+        line: usize,
+        /// The word found.
+        found: String,
+    },
+    /// A line of headings that names no columns.
+    #[error("line {line}: {fault}; known columns are {known}")]
+    Headings {
+        /// Line, from one.
+        line: usize,
+        /// The heading at fault.
+        fault: String,
+        /// Headings of the columns that a file may have.
+        known: String,
+    },
+    /// A line of too few values, or of values in columns without a heading.
+    #[error(
+        "line {line} has {count} values; it must hold {wanted}, separated by a comma, and further columns need a heading"
+    )]
+    Columns {
+        /// Line, from one.
+        line: usize,
+        /// Number of values.
+        count: usize,
+        /// Values that a line must hold.
+        wanted: &'static str,
+    },
+}
+
+/// Reason why no machine with its carrier's axis at a place has a tip that runs along the path.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum AxisFault {
+    /// The place is no point.
+    #[error("the axis ({}, {}) must be two finite numbers within {limit:e} mm", told(*x), told(*y))]
+    NotFinite {
+        /// Its x, mm.
+        x: f64,
+        /// Its y, mm.
+        y: f64,
+        /// Greatest coordinate, mm.
+        limit: f64,
+    },
+    /// An axis so far from the path that the tip's position is lost in rounding.
+    #[error("the axis is {} mm from the path: it may be up to {} mm away, 1000 times the size of the path", told(distance.round()), told(limit.round()))]
+    TooFar {
+        /// Minimum distance of the path from the axis, mm.
+        distance: f64,
+        /// Maximum allowed, mm.
+        limit: f64,
+    },
+    /// The distance from the axis has several greatest or least places.
+    #[error(
+        "the distance from the axis has {} greatest places along the path, at {}, and as many least ones; it must have one of each, where the arm is stretched and folded",
+        maxima.len(),
+        places(maxima)
+    )]
+    Extremes {
+        /// Places on the path where the distance is greater than beside them, mm.
+        maxima: Vec<Point>,
+    },
+    /// The path is a circle about the axis.
+    #[error(
+        "the distance from the axis is {distance:.6} mm all along the path: one arm on the axis would do, and no two bars follow from it"
+    )]
+    Circle {
+        /// The distance, mm.
+        distance: f64,
+    },
+    /// The path passes through the axis.
+    #[error("the path passes the axis at {distance:.6} mm: the tip would run into the shaft")]
+    OnAxis {
+        /// Least distance, mm.
+        distance: f64,
+    },
+    /// The path winds about the axis more than once.
+    #[error(
+        "the path goes {turns} times round the axis; it must go round once, or not at all with the axis outside"
+    )]
+    Winding {
+        /// Turns, counter-clockwise positive.
+        turns: i32,
+    },
+    /// An axis inside the path allows one sense only.
+    #[error(
+        "with the axis inside the path the carrier turns as the path is run through, {sense}: the other sense needs an axis outside"
+    )]
+    Sense {
+        /// The one that is possible.
+        sense: &'static str,
+    },
+    /// The carrier would turn back.
+    #[error(
+        "the carrier, {carrier:.4} mm long, would turn back near ({:.4}, {:.4}) mm of the path: its turn must run one way",
+        at.x,
+        at.y
+    )]
+    CarrierTurnsBack {
+        /// Length of the carrier, mm.
+        carrier: f64,
+        /// Place on the path, mm.
+        at: Point,
+    },
+    /// The arm would stand still on the carrier.
+    #[error(
+        "the arm would stand still on the carrier at ({:.4}, {:.4}) mm of the path, where the path lies on a circle about the axis",
+        at.x,
+        at.y
+    )]
+    ArmStops {
+        /// Place on the path, mm.
+        at: Point,
+    },
+}
+
+impl AxisFault {
+    /// Short name of the reason, for maps of many axes.
+    #[must_use]
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::NotFinite { .. } => "not-finite",
+            Self::TooFar { .. } => "too-far",
+            Self::Extremes { .. } => "extremes",
+            Self::Circle { .. } => "circle",
+            Self::OnAxis { .. } => "on-axis",
+            Self::Winding { .. } => "winding",
+            Self::Sense { .. } => "sense",
+            Self::CarrierTurnsBack { .. } => "carrier-turns-back",
+            Self::ArmStops { .. } => "arm-stops",
+        }
+    }
+}
+
+/// The first few points as text.
+fn places(points: &[Point]) -> String {
+    const SHOWN: usize = 4;
+    let words = points.iter().take(SHOWN);
+    let mut words: Vec<String> = words.map(|p| format!("({:.4}, {:.4})", p.x, p.y)).collect();
+    if points.len() > SHOWN {
+        words.push("...".into());
+    }
+    words.join(", ")
+}

@@ -1,0 +1,44 @@
+//! Synthesis of a machine from the path wanted of its tip.
+//!
+//! A carrier turns about a fixed axis and bears an arm, whose tip runs along the path. The carrier turns once for one run
+//! of the path, and the arm turns once against it the other way, as the planet of a train does whose sun stands still and
+//! whose mean ratio is 1. Stretched once and folded once, the two bars follow from the path and the axis alone.
+//!
+//! And of the law of a crank from what is wanted of the output of the machine it drives: [`Timing`].
+
+mod chain;
+mod csv;
+mod curvature;
+mod design;
+mod distance;
+mod drawn;
+mod error;
+mod limit;
+mod map;
+mod path;
+mod poses;
+mod sharpness;
+mod split;
+mod three_arm;
+mod timing;
+mod wishes;
+
+pub use crate::composed::{
+    GearDrive, GearDriveError, GearDriveSpec, MachineError, ReversedMachine,
+};
+pub use chain::{ChainJet, TwoBar};
+pub use csv::WantedPoints;
+pub use design::{Aim, PathDesign, PathSpec};
+pub use drawn::{DrawingError, DrawnPath};
+pub use error::{AxisFault, PathError};
+pub use map::{AxisMap, AxisRange, PossibleAxis};
+pub use path::WantedPath;
+pub use poses::{Harmonics, KeyPose, KeyPoses, PoseError};
+pub(crate) use sharpness::leg;
+pub use split::{Split, SplitError, SplitKind};
+pub use three_arm::NotPosed;
+pub use timing::{Section, Timing, TimingError, Wanted};
+pub use wishes::{KeepOut, WantedDirection, WantedRange, WantedTurn, Wishes};
+
+#[cfg(test)]
+mod tests;

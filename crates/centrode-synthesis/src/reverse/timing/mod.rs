@@ -1,0 +1,384 @@
+//! When the crank of a machine has to be where, so that its output does what is wanted.
+
+mod free;
+mod order;
+mod search;
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use centrode_geometry::{Extreme, bracketed_root, greatest_each, pieces};
+use thiserror::Error;
+
+use self::free::Free;
+use self::order::{Placed, Swing};
+use self::search::StretchShape;
+use centrode_kinematics::transmission::{MotionJet, Transmission};
+use centrode_spec::degrees;
+use centrode_spec::digits::told;
+
+/// Even parts of a turn, in each of which the ratio has few extremes.
+const PARTS: u32 = 32;
+
+/// Part of a turn over which something is wanted of an output.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Section {
+    /// Name, for messages.
+    pub name: String,
+    /// First and last input, rad.
+    pub within: [f64; 2],
+    /// Motion wanted there.
+    pub wanted: Wanted,
+}
+
+/// Motion of an output over a section.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Wanted {
+    /// It goes evenly from one place to another, mm or rad.
+    Even([f64; 2]),
+    /// It stays within a band of an end of its stroke, mm or rad: as near as gears, whose ratio is never zero, come to a rest.
+    Rest(f64),
+}
+
+/// Law of a crank by the input with which the output of a machine does what is wanted.
+///
+/// The output q is known by the angle tau of the crank, with one greatest and one least place in a turn. Where q shall be w(phi),
+/// tau solves `q(tau) = w(phi)`. Over a rest the crank runs evenly through the end of the stroke. In between `ln(d tau/d phi)` is
+/// a polynomial that joins both sides with two derivatives and makes the turn whole, so the crank never turns back. What is free,
+/// how far into the band of a rest the crank goes outside its section and where between sections it is faster, is chosen such that
+/// the sharpest convex place of both pitch curves is as blunt as it can be.
+#[derive(Clone, Debug)]
+pub struct Timing {
+    output: Arc<dyn Transmission>,
+    swing: Swing,
+    /// From the first section's start over one turn, ascending.
+    stretches: Vec<Stretch>,
+}
+
+/// A part of the turn.
+#[derive(Clone, Debug)]
+struct Stretch {
+    /// Inputs, rad.
+    within: [f64; 2],
+    /// Angles of the crank there, rad.
+    angles: [f64; 2],
+    course: Course,
+}
+
+#[derive(Clone, Debug)]
+enum Course {
+    /// The output goes evenly from one place to another.
+    Even([f64; 2]),
+    /// The crank turns evenly.
+    Turn,
+    Free(Free),
+}
+
+/// Reason why no law of the crank does what is wanted.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum TimingError {
+    /// Nothing wanted.
+    #[error("nothing is wanted of the output")]
+    Nothing,
+    /// An output that does not come back.
+    #[error("the output moves by {} in a turn of the crank and does not come back", told(*advance))]
+    Advances {
+        /// Growth in a turn, mm or rad.
+        advance: f64,
+    },
+    /// An output with more than two turning points, or none.
+    #[error(
+        "the output turns back {count} times in a turn of the crank; with one greatest and one least place it does twice"
+    )]
+    Swings {
+        /// Times.
+        count: usize,
+    },
+    /// A course that reaches an end of the stroke or goes beyond.
+    #[error(
+        "{name}: the output shall go evenly from {} to {}, but it moves from {} to {}, and at both ends it stands: stay between them",
+        told(*from), told(*to), told(*least), told(*greatest)
+    )]
+    Beyond {
+        /// Section.
+        name: String,
+        /// First place wanted.
+        from: f64,
+        /// Last.
+        to: f64,
+        /// Least place of the output.
+        least: f64,
+        /// Greatest.
+        greatest: f64,
+    },
+    /// A course that goes nowhere.
+    #[error(
+        "{name}: the output shall stay at {}: gears never stand still; ask for a rest at an end of the stroke instead",
+        told(*place)
+    )]
+    Stands {
+        /// Section.
+        name: String,
+        /// The place.
+        place: f64,
+    },
+    /// A band that is no part of the stroke.
+    #[error(
+        "{name}: a rest within {} of a stroke of {}: take a band above {} and below half of the stroke",
+        told(*band), told(*stroke), told(*least)
+    )]
+    Band {
+        /// Section.
+        name: String,
+        /// Band given, mm or rad.
+        band: f64,
+        /// Stroke.
+        stroke: f64,
+        /// Least band: below it the gears would stand within rounding.
+        least: f64,
+    },
+    /// Sections of the input that touch, overlap or are none.
+    #[error(
+        "{name}: from {from} deg to {to} deg, where {other} begins at {next} deg: leave room between them, all within one turn"
+    )]
+    Overlap {
+        /// Section.
+        name: String,
+        /// Its start, degrees.
+        from: f64,
+        /// Its end, degrees.
+        to: f64,
+        /// The next.
+        other: String,
+        /// Its start, degrees.
+        next: f64,
+    },
+    /// Sections that the output cannot pass in one turn of the crank.
+    #[error(
+        "the output cannot pass {names} in this order in one turn of the crank, in which it goes once from its least place to its greatest and once back"
+    )]
+    Order {
+        /// Names in the order of the input.
+        names: String,
+    },
+    /// Too far to go between two sections.
+    #[error(
+        "between {from} and {to} the crank would have to turn by {turn:.4} deg over {room:.4} deg of the input, and no smooth law does: leave more room"
+    )]
+    Abrupt {
+        /// Section before.
+        from: String,
+        /// Section after.
+        to: String,
+        /// Turn of the crank, degrees.
+        turn: f64,
+        /// Room, degrees.
+        room: f64,
+    },
+}
+
+impl TimingError {
+    /// The error of an output that is an angle, in the degrees of a design file instead of rad.
+    pub(crate) fn in_degrees(mut self) -> Self {
+        let places = match &mut self {
+            Self::Advances { advance } => vec![advance],
+            Self::Beyond {
+                from,
+                to,
+                least,
+                greatest,
+                ..
+            } => vec![from, to, least, greatest],
+            Self::Stands { place, .. } => vec![place],
+            Self::Band {
+                band,
+                stroke,
+                least,
+                ..
+            } => vec![band, stroke, least],
+            _ => Vec::new(),
+        };
+        for place in places {
+            *place = degrees::rounded(*place);
+        }
+        self
+    }
+}
+
+impl Timing {
+    /// Finds the law of the crank; `output` is the output's place by the crank's angle, over one turn.
+    ///
+    /// # Errors
+    /// [`TimingError`] with the section and the numbers: an output that turns back more than twice, places beyond its stroke,
+    /// sections that overlap or that it cannot pass in their order.
+    pub fn new(output: Arc<dyn Transmission>, sections: &[Section]) -> Result<Self, TimingError> {
+        if sections.is_empty() {
+            return Err(TimingError::Nothing);
+        }
+        let swing = Swing::new(output.as_ref())?;
+        let mut best: Result<(f64, Self), TimingError> = Err(TimingError::Nothing);
+        for placed in order::placed(output.as_ref(), &swing, sections)? {
+            let made = search::mildest(&output, &swing, &placed);
+            best = match (best, made) {
+                (Ok(best), Ok(made)) if made.0 < best.0 => Ok(made),
+                (Ok(best), _) => Ok(best),
+                (Err(_), made) => made,
+            };
+        }
+        Ok(best?.1)
+    }
+
+    /// The law of sections that are placed, with shapes.
+    fn through(
+        output: &Arc<dyn Transmission>,
+        swing: &Swing,
+        placed: &[Placed<'_>],
+        shapes: &[StretchShape],
+    ) -> Result<Self, TimingError> {
+        let mut law = Self {
+            output: Arc::clone(output),
+            swing: swing.clone(),
+            stretches: Vec::new(),
+        };
+        let fixed = placed.iter().zip(shapes);
+        let fixed: Vec<Stretch> = fixed.map(|(p, shape)| Stretch::new(p, shape)).collect();
+        for (i, stretch) in fixed.iter().enumerate() {
+            let next = (i + 1) % fixed.len();
+            let mut after = fixed[next].clone();
+            if next == 0 {
+                after.within = after.within.map(|input| input + TAU);
+                after.angles = after.angles.map(|angle| angle + TAU);
+            }
+            let [_, from] = stretch.within;
+            let [to, _] = after.within;
+            let ends = [law.jet(stretch, from), law.jet(&after, to)];
+            let free = Free::between([from, to], &ends, shapes[i].skew);
+            let free = free.ok_or_else(|| TimingError::Abrupt {
+                from: placed[i].section.name.clone(),
+                to: placed[next].section.name.clone(),
+                turn: degrees::rounded(ends[1].position - ends[0].position),
+                room: degrees::rounded(to - from),
+            })?;
+            law.stretches.push(stretch.clone());
+            law.stretches.push(Stretch {
+                within: [from, to],
+                angles: ends.map(|end| end.position),
+                course: Course::Free(free),
+            });
+        }
+        Ok(law)
+    }
+
+    /// The law within a stretch.
+    fn jet(&self, stretch: &Stretch, input: f64) -> MotionJet {
+        let [from, to] = stretch.within;
+        let [first, last] = stretch.angles;
+        match &stretch.course {
+            Course::Even([start, end]) => {
+                let rate = (end - start) / (to - from);
+                let place = start + rate * (input - from);
+                let miss = |angle: f64| self.output.at(angle).position - place;
+                let [before, after] = [first, last].map(miss);
+                let angle = if (before > 0.0) == (after > 0.0) {
+                    // Rounding beside an end.
+                    if before.abs() < after.abs() {
+                        first
+                    } else {
+                        last
+                    }
+                } else {
+                    bracketed_root(miss, first, last, before, after)
+                };
+                let even = MotionJet {
+                    position: place,
+                    velocity: rate,
+                    ..MotionJet::default()
+                };
+                self.output.at(angle).inverse(angle).after(&even)
+            }
+            Course::Turn => {
+                let rate = (last - first) / (to - from);
+                MotionJet {
+                    position: first + rate * (input - from),
+                    velocity: rate,
+                    ..MotionJet::default()
+                }
+            }
+            Course::Free(free) => free.at(first, input),
+        }
+    }
+
+    /// Output of the machine by the crank's angle.
+    #[must_use]
+    pub fn output(&self) -> &Arc<dyn Transmission> {
+        &self.output
+    }
+
+    /// Least and greatest place of the output, mm or rad.
+    #[must_use]
+    pub fn places(&self) -> [f64; 2] {
+        self.swing.places()
+    }
+
+    /// Least and greatest speed of the crank by the input's, and the inputs there.
+    #[must_use]
+    pub fn ratios(&self) -> [Extreme; 2] {
+        let start = self.stretches[0].within[0];
+        let ratio = |input: f64| {
+            let ratio = self.at(input).velocity.ln();
+            [-ratio, ratio]
+        };
+        let ends: Vec<f64> = self.stretches.iter().map(|s| s.within[0]).collect();
+        let [least, greatest] = greatest_each(ratio, &pieces(start, start + TAU, PARTS, &ends));
+        let value = |of: Extreme, log: f64| Extreme {
+            value: log.exp(),
+            ..of
+        };
+        [value(least, -least.value), value(greatest, greatest.value)]
+    }
+}
+
+impl Stretch {
+    fn new(placed: &Placed<'_>, shape: &StretchShape) -> Self {
+        let [from, to] = placed.angles;
+        let angles = match placed.section.wanted {
+            Wanted::Even(_) => placed.angles,
+            Wanted::Rest(_) => {
+                let half = 0.5 * (to - from);
+                [from + shape.late * half, to - shape.early * half]
+            }
+        };
+        Self {
+            within: placed.within,
+            angles,
+            course: match placed.section.wanted {
+                Wanted::Even(places) => Course::Even(places),
+                Wanted::Rest(_) => Course::Turn,
+            },
+        }
+    }
+}
+
+impl Transmission for Timing {
+    fn at(&self, input: f64) -> MotionJet {
+        let start = self.stretches[0].within[0];
+        let turns = ((input - start) / TAU).floor();
+        let inside = input - turns * TAU;
+        let after = self.stretches.partition_point(|s| s.within[0] <= inside);
+        let stretch = &self.stretches[after.saturating_sub(1)];
+        let [from, to] = stretch.within;
+        let mut jet = self.jet(stretch, inside.clamp(from, to));
+        jet.position += turns * TAU;
+        jet
+    }
+
+    fn advance(&self) -> f64 {
+        TAU
+    }
+
+    fn breaks(&self) -> Vec<f64> {
+        let ends = self.stretches.iter().map(|s| s.within[0].rem_euclid(TAU));
+        centrode_kinematics::transmission::sorted(ends, TAU)
+    }
+}

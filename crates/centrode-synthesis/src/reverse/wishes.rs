@@ -1,0 +1,268 @@
+//! Wishes about a machine that is made from its path.
+
+use std::collections::BTreeMap;
+
+use centrode_geometry::{Outline, Point};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use centrode_spec::SpecError;
+use centrode_spec::degrees;
+use centrode_spec::rule::{
+    Rule, broken, file_name, finite, in_range, is_zero, not_negative, positive,
+};
+
+/// Greatest coordinate of a shape, mm.
+const FARTHEST: f64 = 1e6;
+/// Most directions that are wanted along a path.
+const MOST_DIRECTIONS: usize = 200;
+
+/// Wishes about a machine besides the path of its tip.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct Wishes {
+    /// Length of the carrier, mm.
+    #[serde(skip_serializing_if = "WantedRange::is_free")]
+    pub carrier: WantedRange,
+    /// Length of the arm, mm.
+    #[serde(skip_serializing_if = "WantedRange::is_free")]
+    pub arm: WantedRange,
+    /// Centre distance of the gears, mm.
+    #[serde(skip_serializing_if = "WantedRange::is_free")]
+    pub center_distance: WantedRange,
+    /// Ratio of planet to carrier.
+    #[serde(skip_serializing_if = "WantedRange::is_free")]
+    pub ratio: WantedRange,
+    /// Direction of the clamp less that of the arm, rad (degrees in the file); left out, the one that suits the directions best.
+    #[serde(
+        rename = "clamp_deg",
+        with = "degrees",
+        skip_serializing_if = "Option::is_none"
+    )]
+    #[schemars(with = "Option<f64>")]
+    pub clamp: Option<f64>,
+    /// Directions of the clamp at points of the path.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub directions: Vec<WantedDirection>,
+    /// Turn of the carrier between two points of the path.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub turn: Option<WantedTurn>,
+    /// Shapes that the machine keeps out of, by name.
+    #[serde(skip_serializing_if = "BTreeMap::is_empty")]
+    pub keep_out: BTreeMap<String, KeepOut>,
+}
+
+/// Least and greatest value wanted of a figure.
+#[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct WantedRange {
+    /// Least; left out, there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at_least: Option<f64>,
+    /// Greatest; left out, there is none.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub at_most: Option<f64>,
+}
+
+/// Direction of the clamp wanted at a point.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct WantedDirection {
+    /// Number of the point, from one.
+    pub point: usize,
+    /// Direction, counter-clockwise from x, rad (degrees in the file).
+    #[serde(rename = "direction_deg", with = "degrees")]
+    #[schemars(with = "f64")]
+    pub direction: f64,
+    /// How far off it may be, rad (degrees in the file).
+    #[serde(
+        default = "WantedDirection::usual_tolerance",
+        rename = "tolerance_deg",
+        with = "degrees"
+    )]
+    #[schemars(with = "f64")]
+    pub tolerance: f64,
+}
+
+/// Turn of the carrier wanted between two points of the path.
+#[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct WantedTurn {
+    /// Number of the point from which it is counted, from one.
+    pub from: usize,
+    /// Number of the point up to which it is counted.
+    pub to: usize,
+    /// Least and greatest turn, rad (degrees in the file).
+    #[serde(rename = "between_deg", with = "degrees")]
+    #[schemars(with = "[f64; 2]")]
+    pub between: [f64; 2],
+}
+
+/// Shape that the machine keeps out of: a polygon, a circle or the ground.
+#[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(default, deny_unknown_fields)]
+pub struct KeepOut {
+    /// Corners of a polygon in order, mm.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub corners: Vec<[f64; 2]>,
+    /// Centre of a circle, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub center: Option<[f64; 2]>,
+    /// Its radius, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub radius: Option<f64>,
+    /// Height of the ground, which fills all below it: its y, mm.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub below: Option<f64>,
+    /// Least distance from it, mm.
+    #[serde(skip_serializing_if = "is_zero")]
+    pub clearance: f64,
+}
+
+impl WantedRange {
+    /// Whether nothing is wanted.
+    #[must_use]
+    pub fn is_free(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// Least and greatest value.
+    #[must_use]
+    pub fn ends(&self) -> [Option<f64>; 2] {
+        [self.at_least, self.at_most]
+    }
+
+    fn validate(&self, key: &str) -> Result<(), SpecError> {
+        for (end, value) in [("at_least", self.at_least), ("at_most", self.at_most)] {
+            if let Some(value) = value {
+                not_negative(&format!("{key}.{end}"), value)?;
+            }
+        }
+        match self.ends() {
+            [Some(least), Some(greatest)] if least > greatest => {
+                broken(&format!("{key}.at_most"), Rule::NotInOrder(least, greatest))
+            }
+            _ => Ok(()),
+        }
+    }
+}
+
+impl WantedDirection {
+    /// Tolerance where none is given: 2 degrees, in rad.
+    #[must_use]
+    pub fn usual_tolerance() -> f64 {
+        2.0_f64.to_radians()
+    }
+}
+
+impl Wishes {
+    /// Whether nothing is wanted.
+    #[must_use]
+    pub fn is_free(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// Checks the rules for a path of so many points.
+    ///
+    /// # Errors
+    /// [`SpecError`] with the key at fault.
+    pub fn validate(&self, points: usize) -> Result<(), SpecError> {
+        self.carrier.validate("carrier")?;
+        self.arm.validate("arm")?;
+        self.center_distance.validate("center_distance")?;
+        self.ratio.validate("ratio")?;
+        finite("clamp_deg", self.clamp.unwrap_or(0.0))?;
+        if self.directions.len() > MOST_DIRECTIONS {
+            let rule = Rule::OutOfRange {
+                value: self.directions.len() as f64,
+                least: 0.0,
+                greatest: MOST_DIRECTIONS as f64,
+                unit: " directions",
+            };
+            return broken("directions", rule);
+        }
+        // How many points a file holds is not known before it is read.
+        let is_point = |key: &str, number: usize| match points {
+            usize::MAX => positive(key, number as f64),
+            points => in_range(key, number as f64, [1.0, points as f64], ""),
+        };
+        for (i, wanted) in self.directions.iter().enumerate() {
+            let key = |word: &str| format!("directions[{i}].{word}");
+            is_point(&key("point"), wanted.point)?;
+            let before = &self.directions[..i];
+            if before.iter().any(|other| other.point == wanted.point) {
+                return broken(&key("point"), Rule::Twice(wanted.point as f64));
+            }
+            finite(&key("direction_deg"), wanted.direction)?;
+            positive(&key("tolerance_deg"), degrees::rounded(wanted.tolerance))?;
+        }
+        if let Some(turn) = self.turn {
+            is_point("turn.from", turn.from)?;
+            is_point("turn.to", turn.to)?;
+            let [least, greatest] = turn.between;
+            for end in turn.between {
+                in_range(
+                    "turn.between_deg",
+                    degrees::rounded(end),
+                    [0.0, 360.0],
+                    " deg",
+                )?;
+            }
+            if least > greatest {
+                let rule = Rule::NotInOrder(degrees::rounded(least), degrees::rounded(greatest));
+                return broken("turn.between_deg", rule);
+            }
+        }
+        self.keep_out.iter().try_for_each(|(name, shape)| {
+            let key = format!("keep_out.{name}");
+            file_name(&key, name)?;
+            let is_body = |body: &&str| name.split('-').next() == Some(*body);
+            if name == "frame" || KeepOut::BODIES.iter().any(is_body) {
+                return broken(&key, Rule::Excludes("a body of that name"));
+            }
+            shape.validate().map_err(|e| e.inside(&key))
+        })
+    }
+}
+
+impl KeepOut {
+    /// Bodies of the machine that keep out of it.
+    pub(crate) const BODIES: [&'static str; 4] = ["arm", "carrier", "idler", "planet"];
+
+    fn validate(&self) -> Result<(), SpecError> {
+        not_negative("clearance", self.clearance)?;
+        let is_circle = self.center.is_some() || self.radius.is_some();
+        let kinds = [!self.corners.is_empty(), is_circle, self.below.is_some()];
+        match kinds.iter().filter(|is| **is).count() {
+            0 => return broken("corners", Rule::NeedsOneOf("corners, center and below")),
+            1 => {}
+            _ if is_circle => return broken("center", Rule::Excludes("another shape")),
+            _ => return broken("below", Rule::Excludes("corners")),
+        }
+        let below = self.below.unwrap_or(0.0);
+        in_range("below", below, [-FARTHEST, FARTHEST], " mm")?;
+        if is_circle {
+            let Some(center) = self.center else {
+                return broken("center", Rule::Needed("with a radius"));
+            };
+            let Some(radius) = self.radius else {
+                return broken("radius", Rule::Needed("with a center"));
+            };
+            for x in center {
+                in_range("center", x, [-FARTHEST, FARTHEST], " mm")?;
+            }
+            return in_range("radius", radius, [f64::MIN_POSITIVE, FARTHEST], " mm");
+        }
+        if !self.corners.is_empty() && self.corners.len() < 3 {
+            return broken("corners", Rule::Needed("as three or more"));
+        }
+        for x in self.corners.iter().flatten() {
+            in_range("corners", *x, [-FARTHEST, FARTHEST], " mm")?;
+        }
+        let corners: Vec<Point> = self.corners.iter().map(|c| Point::from(*c)).collect();
+        if !corners.is_empty() && Outline::polygon(&corners).crossing().is_some() {
+            return broken("corners", Rule::Needed("in order: two of its sides cross"));
+        }
+        Ok(())
+    }
+}
