@@ -3,8 +3,8 @@
 use std::hint::black_box;
 
 use centrode_export::{step, stl};
-use centrode_gear::shaft::{SpiralShaft, SpiralShaftDesign};
 use centrode_geometry::Tolerance;
+use centrode_groove::{SpiralShaft, SpiralShaftDesign};
 use centrode_kinematics::transmission::Transmission;
 use criterion::{BenchmarkId, Criterion, criterion_group};
 

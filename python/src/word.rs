@@ -4,7 +4,7 @@ use centrode_export::dxf::{Curves, Version};
 use centrode_gear::cam::design::Turn;
 use centrode_gear::design::{Addendum, Fit, Phase, TipShortening};
 use centrode_gear::pitch::{Interpolation, Plane};
-use centrode_gear::shaft::Scheme;
+use centrode_groove::Scheme;
 use centrode_kinematics::linkage::Branch;
 use centrode_machines::three_arm::design::Direction;
 use centrode_spec::{Projection, SheetSize};

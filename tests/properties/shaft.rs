@@ -1,11 +1,11 @@
 use std::f64::consts::{PI, TAU};
 
 use centrode_gear::cam::law::LawSpec;
-use centrode_gear::shaft::{
+use centrode_geometry::Tolerance;
+use centrode_groove::{
     GrooveSpec, RotatedSine, ShaftBody, Sine, SliderSpec, SpeedFormula, SpeedLaw, SpiralShaft,
     SpiralShaftDesign, Wall,
 };
-use centrode_geometry::Tolerance;
 use centrode_kinematics::transmission::Transmission;
 use nalgebra::Vector3;
 use proptest::prelude::{ProptestConfig, Strategy, prop_assert, prop_oneof, proptest};

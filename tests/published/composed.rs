@@ -6,7 +6,7 @@ use std::fs;
 use std::path::Path;
 
 use centrode_analysis::{Goal, Report, check_composed, check_feeder};
-use centrode_gear::shaft::{MovingBox, MovingBoxDesign};
+use centrode_groove::{MovingBox, MovingBoxDesign};
 use centrode_kinematics::transmission::MotionJet;
 use centrode_machines::composed::{Composed, ComposedDesign};
 use centrode_machines::feeder::{Feeder, FeederDesign};

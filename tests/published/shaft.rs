@@ -4,7 +4,7 @@ use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
 use centrode_gear::cam::law::LawSpec;
-use centrode_gear::shaft::{
+use centrode_groove::{
     AmplitudeFor, EllipticDrive, Groove, Load, Reversal, RotatedSine, Schedule, ShaftError,
     ShaftLaw, Sine, SliderSpec, SpeedLaw, Traverse,
 };

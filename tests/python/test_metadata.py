@@ -95,7 +95,7 @@ def test_a_package_holds_every_file_it_needs(name):
                 included.append((path.parent / target).resolve())
     for target in included:
         assert target.relative_to(folder).as_posix() in listed, target
-    assert included or name not in ("centrode-export", "centrode-gear", "centrode-machines")
+    assert included or name not in ("centrode-export", "centrode-gear", "centrode-groove", "centrode-machines")
 
 
 def test_the_python_package_has_its_command_and_its_licences():

@@ -1,7 +1,6 @@
-//! Gears, cams and grooves: from a design to exact curves.
+//! Gears and cams: from a design to exact curves.
 //!
-//! Pitch curves and their conjugates, tools, tooth profiles and pairs of gears at the root; [`cam`] and its followers; the
-//! spiral shaft and the moving box in [`shaft`]. It knows no machine of several gears, checks nothing and writes no file.
+//! Pitch curves and their conjugates, tools, tooth profiles and pairs of gears at the root; disc cams and their followers in [`cam`]. It knows no machine of several gears, checks nothing and writes no file.
 
 mod base_tangent;
 mod bore;
@@ -22,7 +21,6 @@ pub mod pitch;
 mod profile;
 mod rolling;
 mod served;
-pub mod shaft;
 mod stage;
 mod teeth;
 mod thickness;

@@ -6,6 +6,7 @@ pub use centrode_analysis as analysis;
 pub use centrode_export as export;
 pub use centrode_gear as gear;
 pub use centrode_geometry as geometry;
+pub use centrode_groove as groove;
 pub use centrode_kinematics as kinematics;
 pub use centrode_machines as machines;
 pub use centrode_optimise as optimise;

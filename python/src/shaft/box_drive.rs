@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use centrode::family::Mechanism as Mechanical;
-use centrode_gear::shaft::{Load, MovingBox, SpiralShaft};
+use centrode_groove::{Load, MovingBox, SpiralShaft};
 use centrode_kinematics::machine::GuideForce;
 use centrode_kinematics::transmission::{MotionJet, Transmission};
 use pyo3::prelude::{Bound, PyAny, PyClassInitializer, Python, pyclass, pymethods};

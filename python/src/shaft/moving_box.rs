@@ -1,8 +1,8 @@
 use std::sync::Arc;
 
 use centrode_gear::GearPair as Gears;
-use centrode_gear::shaft as mechanism;
-use centrode_gear::shaft::{EllipticGears, MovingBoxDesign, Scheme};
+use centrode_groove as mechanism;
+use centrode_groove::{EllipticGears, MovingBoxDesign, Scheme};
 use pyo3::prelude::{Py, PyClassInitializer, PyRef, Python, pyclass, pymethods};
 
 use super::BoxDrive;

@@ -1,8 +1,8 @@
 use std::sync::Arc;
 
 use centrode_gear::cam::law::LawSpec;
-use centrode_gear::shaft as mechanism;
-use centrode_gear::shaft::{
+use centrode_groove as mechanism;
+use centrode_groove::{
     GrooveSpec, Load, RotatedSine, Sine, SpeedFormula, SpeedLaw, SpeedTable, SpiralShaftDesign,
     Wall,
 };

@@ -1,4 +1,4 @@
-use centrode_gear::shaft::{ClearOffset, Crossing, ShaftError, SpiralShaft};
+use centrode_groove::{ClearOffset, Crossing, ShaftError, SpiralShaft};
 
 use super::{at, from_turn};
 use crate::rounding::exceeds;

@@ -5,8 +5,8 @@ mod tables;
 
 use std::f64::consts::{FRAC_PI_6, TAU};
 
-use centrode_gear::shaft::{Pick, Schedule, SpiralShaft};
 use centrode_geometry::Extreme;
+use centrode_groove::{Pick, Schedule, SpiralShaft};
 use centrode_kinematics::machine::Key;
 use centrode_kinematics::machine::Keyway;
 

@@ -1,6 +1,6 @@
 use centrode_gear::GearPair;
-use centrode_gear::shaft::{EllipticDrive, MovingBox};
 use centrode_geometry::{extremes, greatest};
+use centrode_groove::{EllipticDrive, MovingBox};
 use centrode_kinematics::machine::Key;
 use centrode_kinematics::transmission::Transmission;
 

@@ -1,7 +1,7 @@
 use std::f64::consts::{FRAC_PI_4, TAU};
 
-use centrode_gear::shaft::{MovingBox, SpiralShaft};
 use centrode_geometry::{extremes, pieces};
+use centrode_groove::{MovingBox, SpiralShaft};
 use centrode_kinematics::transmission::{MotionJet, Transmission};
 
 use crate::{Table, Unit};
@@ -123,7 +123,7 @@ fn eighths(of: impl Fn(f64) -> Vec<f64>) -> Vec<(String, Vec<f64>)> {
 }
 
 /// Acceleration and forces over one turn of a stroke by equilibrium, beside equations (14) to (18) of Zhou et al.
-/// 2018, which do not hold: see [`Load::published`](centrode_gear::shaft::Load::published).
+/// 2018, which do not hold: see [`Load::published`](centrode_groove::Load::published).
 ///
 /// (16) to (18) are for sines; for another law they are left out.
 pub(super) fn published(shaft: &SpiralShaft) -> Vec<Table> {

@@ -1,7 +1,7 @@
 use super::*;
 use crate::Table;
 use centrode_gear::cam::law::LawSpec;
-use centrode_gear::shaft::{
+use centrode_groove::{
     EllipticGears, MovingBox, MovingBoxDesign, RotatedSine, Scheme, SpeedFormula, SpeedKnots,
     SpeedLaw, SpiralShaftDesign,
 };
@@ -125,7 +125,7 @@ fn picks_beside_the_slow_places_are_found_and_those_on_them_meet_every_hole() {
     let found = found.expect("a finding");
     assert!(found.measured > found.required && !beside.ok());
     assert!(beside.values["misplacement_max"] < 1e-9);
-    design.law = SpeedLaw::Sine(centrode_gear::shaft::Sine {
+    design.law = SpeedLaw::Sine(centrode_groove::Sine {
         phase: design.pick,
         ..Default::default()
     });
@@ -482,7 +482,7 @@ fn a_hair_of_rounding_changes_no_verdict() {
 #[test]
 fn the_limit_of_the_speed_is_a_value_with_friction_and_without() {
     let sine = |amplitude: f64| {
-        SpeedLaw::Sine(centrode_gear::shaft::Sine {
+        SpeedLaw::Sine(centrode_groove::Sine {
             amplitude,
             ..Default::default()
         })

@@ -1,7 +1,7 @@
 use std::f64::consts::TAU;
 
 use centrode_gear::Member;
-use centrode_gear::shaft::ShaftSolid;
+use centrode_groove::ShaftSolid;
 use centrode_kinematics::machine::{
     Axis, Blank, Datum, Dimension, Machine as Linked, Part, Supply,
 };

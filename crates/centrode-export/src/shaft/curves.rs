@@ -1,7 +1,7 @@
 use super::machine::Machine;
 use crate::ExportError;
 use crate::page::Curve;
-use centrode_gear::shaft::{MovingBox, SpiralShaft};
+use centrode_groove::{MovingBox, SpiralShaft};
 use std::f64::consts::PI;
 
 /// Step of the curves, rad.

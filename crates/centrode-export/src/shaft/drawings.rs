@@ -1,6 +1,6 @@
 use crate::drawing::{Anchor, CENTER, Color, Drawing, EntityShape, HOLE, LineType, PROFILE, Text};
-use centrode_gear::shaft::{ShaftError, ShaftSolid, SpiralShaft};
 use centrode_geometry::{Arc, Outline, Point, Tolerance};
+use centrode_groove::{ShaftError, ShaftSolid, SpiralShaft};
 use std::f64::consts::TAU;
 
 /// Height of lettering, mm.

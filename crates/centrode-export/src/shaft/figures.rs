@@ -1,8 +1,8 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
 
-use centrode_gear::shaft::{ShaftSolid, SpiralShaft};
 use centrode_geometry::{Outline, Point, Tolerance, Vector};
+use centrode_groove::{ShaftSolid, SpiralShaft};
 use centrode_kinematics::machine::{Constant, Line, LineRole, Machine as Linked, Quantity, Seat};
 use centrode_kinematics::transmission::{FromFn, MotionJet, Transmission};
 

@@ -1,5 +1,5 @@
-use centrode_gear::shaft::SpiralShaft;
 use centrode_geometry::{Point, Tolerance};
+use centrode_groove::SpiralShaft;
 use std::fmt::Write;
 
 /// Height of the tool above the shaft's surface between passes, mm.

@@ -2,8 +2,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use std::sync::Arc;
 
 use centrode_gear::Member;
-use centrode_gear::shaft::{GRAVITY, ShaftSolid, SpiralShaft};
 use centrode_geometry::{MassProperties, Mesh, Shell, SolidError, Tolerance};
+use centrode_groove::{GRAVITY, ShaftSolid, SpiralShaft};
 use centrode_kinematics::machine::{
     self, Form, GearMesh, Guide, GuideForce, Input, Joint, Linear, Link, Load, Piecewise, Quantity,
     Shape, SolidBody,

@@ -1,6 +1,6 @@
 use crate::ExportError;
 use centrode_gear::GearPair;
-use centrode_gear::shaft::{EllipticDrive, MovingBox, Schedule, SpiralShaft};
+use centrode_groove::{EllipticDrive, MovingBox, Schedule, SpiralShaft};
 use centrode_kinematics::machine::GuideForce;
 use centrode_kinematics::transmission::{MotionJet, Transmission};
 use std::f64::consts::PI;

@@ -11,8 +11,8 @@ mod sheets;
 mod tables;
 
 use crate::{Bundle, ExportError, Format, Options, Package, gear_pair, turned};
-use centrode_gear::shaft::{MovingBox, ShaftError, SpiralShaft};
 use centrode_geometry::Solid;
+use centrode_groove::{MovingBox, ShaftError, SpiralShaft};
 use centrode_kinematics::machine::Machine as Linked;
 pub use curves::{box_curves, shaft_curves};
 pub use drawings::{developed, side_view, slider};

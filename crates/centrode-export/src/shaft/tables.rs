@@ -1,6 +1,6 @@
 use crate::csv::Column;
-use centrode_gear::shaft::{Schedule, SpiralShaft};
 use centrode_geometry::Tolerance;
+use centrode_groove::{Schedule, SpiralShaft};
 use centrode_kinematics::transmission::Transmission;
 use std::f64::consts::PI;
 

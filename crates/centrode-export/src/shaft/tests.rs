@@ -1,6 +1,6 @@
 use super::*;
-use centrode_gear::shaft::SpiralShaftDesign;
 use centrode_geometry::Tolerance;
+use centrode_groove::SpiralShaftDesign;
 use std::f64::consts::TAU;
 
 fn shaft(holes: u32) -> SpiralShaft {
@@ -186,7 +186,7 @@ fn the_developed_walls_stand_half_the_width_from_the_centre_line() {
 
 #[test]
 fn a_moving_box_has_the_files_of_shaft_and_gears() {
-    use centrode_gear::shaft::{EllipticGears, MovingBox, MovingBoxDesign, Scheme};
+    use centrode_groove::{EllipticGears, MovingBox, MovingBoxDesign, Scheme};
     let mut design = MovingBoxDesign {
         scheme: Scheme::EllipticGear,
         gears: Some(EllipticGears {
@@ -229,7 +229,7 @@ fn a_moving_box_has_the_files_of_shaft_and_gears() {
 
 #[test]
 fn the_gears_of_the_model_turn_the_shaft_as_the_law_has_it() {
-    use centrode_gear::shaft::{EllipticGears, MovingBoxDesign, Scheme};
+    use centrode_groove::{EllipticGears, MovingBoxDesign, Scheme};
     let mut design = MovingBoxDesign {
         scheme: Scheme::EllipticGear,
         gears: Some(EllipticGears {

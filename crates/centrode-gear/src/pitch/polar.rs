@@ -182,7 +182,10 @@ impl Interpolation {
 }
 
 /// Reads a formula; the error says where it cannot be read.
-pub(crate) fn read_formula(key: &'static str, text: &str) -> Result<Formula, PitchError> {
+///
+/// # Errors
+/// [`PitchError`] with the key.
+pub fn read_formula(key: &'static str, text: &str) -> Result<Formula, PitchError> {
     Formula::read(text).map_err(|FormulaError { reason, column }| PitchError::Expression {
         key,
         reason,
@@ -191,7 +194,10 @@ pub(crate) fn read_formula(key: &'static str, text: &str) -> Result<Formula, Pit
 }
 
 /// Angles at which a formula is parted so that nothing narrow in it is stepped over.
-pub(crate) fn formula_parts(key: &'static str, formula: &Formula) -> Result<Vec<f64>, PitchError> {
+///
+/// # Errors
+/// [`PitchError`] with the key, for features too narrow to be followed.
+pub fn formula_parts(key: &'static str, formula: &Formula) -> Result<Vec<f64>, PitchError> {
     let steep = |Steep { width, least }| PitchError::Steep { key, width, least };
     formula.parts(TAU).map_err(steep)
 }

@@ -6,7 +6,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use centrode_gear::IntermittentDrive;
-use centrode_gear::shaft::{Reversal, SpeedLaw, Traverse};
+use centrode_groove::{Reversal, SpeedLaw, Traverse};
 use centrode_kinematics::transmission::Transmission;
 use centrode_spec::SpecError;
 use centrode_spec::degrees;

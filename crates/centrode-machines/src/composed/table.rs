@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::ComposedLawError;
 use super::law::ROUNDING;
 use centrode_gear::pitch::Interpolation;
-use centrode_gear::pitch::periodic::Periodic;
+use centrode_gear::pitch::Periodic;
 use centrode_kinematics::transmission::{FromFn, MotionJet, Transmission};
 use centrode_spec::digits::told;
 

@@ -25,7 +25,7 @@ pub use registry::{Families, Family, PartName, Resolved};
 pub use widening::{Widening, WideningError};
 
 use centrode_gear::GearPair;
-use centrode_gear::shaft::{MovingBox, SpiralShaft};
+use centrode_groove::{MovingBox, SpiralShaft};
 use centrode_machines::composed::Composed;
 use centrode_machines::feeder::Feeder;
 use centrode_machines::three_arm::ThreeArm;

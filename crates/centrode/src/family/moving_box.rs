@@ -4,8 +4,8 @@ use centrode_analysis::{Report, check_moving_box};
 use centrode_export::page::{Curve, Picture};
 use centrode_export::shaft;
 use centrode_export::{Bundle, ExportError, Format, Options};
-use centrode_gear::shaft::{MovingBox, MovingBoxDesign, Scheme};
 use centrode_gear::{GearPair, GearPairError};
+use centrode_groove::{MovingBox, MovingBoxDesign, Scheme};
 use centrode_kinematics::machine::Machine;
 use centrode_spec::{Design, MechanismError};
 

@@ -18,8 +18,8 @@ use crate::{
         treatment_note, view_letters,
     },
 };
-use centrode_gear::shaft::{ShaftSolid, SpiralShaft};
 use centrode_geometry::{Arc, Point};
+use centrode_groove::{ShaftSolid, SpiralShaft};
 use centrode_spec::SheetSize;
 
 /// Letter of the section across the journal; datums have the first ones.

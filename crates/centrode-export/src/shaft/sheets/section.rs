@@ -8,8 +8,8 @@ use crate::{
     drawing::{Anchor, EntityShape},
     sheet::{Draft, Pen, Scale},
 };
-use centrode_gear::shaft::SpiralShaft;
 use centrode_geometry::{Arc, Outline, Point, Segment, Tolerance, Vector};
+use centrode_groove::SpiralShaft;
 use std::f64::consts::PI;
 
 /// Longest side of a section on paper, mm.

@@ -9,8 +9,8 @@ use crate::{
     sheet::{Draft, Pen, Scale},
     turned::{centre, centre_mark, cutting_plane},
 };
-use centrode_gear::shaft::{ShaftSolid, SpiralShaft};
 use centrode_geometry::{Point, Tolerance, Vector};
+use centrode_groove::{ShaftSolid, SpiralShaft};
 use std::f64::consts::TAU;
 
 /// Room between a view and the next, mm.

@@ -4,8 +4,8 @@ use crate::{
     drawing::EntityShape,
     sheet::{Draft, Pen, Scale, fit, number},
 };
-use centrode_gear::shaft::SpiralShaft;
 use centrode_geometry::{Bounds, Outline, Point, Tolerance, Vector};
+use centrode_groove::SpiralShaft;
 use centrode_spec::Projection;
 
 /// Room between a view and the next, mm.

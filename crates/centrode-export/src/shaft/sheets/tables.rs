@@ -3,7 +3,7 @@
 use super::table;
 use crate::sheet::number;
 use crate::{drawing::Anchor, sheet::Table};
-use centrode_gear::shaft::SpiralShaft;
+use centrode_groove::SpiralShaft;
 
 /// Data of the shaft and its motion.
 pub(in crate::shaft) fn data(shaft: &SpiralShaft) -> Table {

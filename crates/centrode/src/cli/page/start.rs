@@ -7,7 +7,7 @@ use centrode_gear::pitch::{
     Bezier, Bspline, Circle, Conjugate, EccentricCircle, Ellipse, Limacon, LobedEllipse, PitchSpec,
     Polar, Ratio, Transmission,
 };
-use centrode_gear::shaft::{RotatedSine, Sine, SpeedFormula, SpeedKnots, SpeedLaw, SpeedTable};
+use centrode_groove::{RotatedSine, Sine, SpeedFormula, SpeedKnots, SpeedLaw, SpeedTable};
 use serde_json::{Map, Value};
 
 /// Measures of the design for a table that changes its kind.

@@ -10,8 +10,9 @@ mod response;
 mod rooms;
 
 /// Folders of the templates and schemas.
-const FOLDERS: [&str; 2] = [
+const FOLDERS: [&str; 3] = [
     concat!(env!("CARGO_MANIFEST_DIR"), "/../centrode-gear/design"),
+    concat!(env!("CARGO_MANIFEST_DIR"), "/../centrode-groove/design"),
     concat!(env!("CARGO_MANIFEST_DIR"), "/../centrode-machines/design"),
 ];
 

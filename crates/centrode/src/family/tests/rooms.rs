@@ -6,9 +6,10 @@ use std::path::{Path, PathBuf};
 use super::FAMILIES;
 
 /// Names of files and folders that are a family's own, wherever they are.
-const OWN: [&str; 9] = [
+const OWN: [&str; 10] = [
     "gear",
     "centrode-gear",
+    "centrode-groove",
     "gear_pair",
     "three_arm",
     "shaft",
@@ -117,6 +118,35 @@ fn no_family_is_named_outside_its_rooms() {
         named_in_rooms > 50,
         "only {named_in_rooms} files of families"
     );
+}
+
+/// Maximum number of lines of a crate, tests aside: what one person can keep in view.
+const MAXIMUM_LINES: usize = 20_000;
+
+#[test]
+fn a_crate_is_small_enough_to_know_and_says_what_it_holds() {
+    let crates = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    for entry in fs::read_dir(crates).expect("the crates") {
+        let source = entry.expect("an entry").path().join("src");
+        let mut files = Vec::new();
+        sources(&source, &mut files);
+        let texts = files
+            .iter()
+            .map(|path| fs::read_to_string(path).expect("text"));
+        let lines: usize = texts.map(|text| text.lines().count()).sum();
+        assert!(lines <= MAXIMUM_LINES, "{}: {lines}", source.display());
+        let head = fs::read_to_string(source.join("lib.rs")).expect("text");
+        let head = head.lines().take_while(|line| line.starts_with("//!"));
+        let head = head.collect::<Vec<_>>().join(" ");
+        let boundary = [
+            "knows no",
+            "know no",
+            "checks nothing",
+            "writes no",
+            "draws nothing",
+        ];
+        assert!(boundary.iter().any(|words| head.contains(words)), "{head}");
+    }
 }
 
 #[test]

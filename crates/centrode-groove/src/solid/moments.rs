@@ -7,7 +7,7 @@ use nalgebra::Vector3;
 
 use super::plan::{Level, Plan};
 use super::{ShaftBody, ends};
-use crate::shaft::Groove;
+use crate::Groove;
 
 /// Nodes and weights of the Gauss rule on `[-1, 1]` that is exact up to degree 5: along the radius and the axis the
 /// moments are polynomials below that.

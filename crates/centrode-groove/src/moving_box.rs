@@ -6,8 +6,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{EllipticDrive, Load, Schedule, ShaftError, SpiralShaft, SpiralShaftDesign};
-use crate::design::{BodySpec, GearPairDesign, GearSpec, SHIFTS, TeethSpec, ToolSpec};
-use crate::pitch::{Ellipse, PitchSpec};
+use centrode_gear::design::{BodySpec, GearPairDesign, GearSpec, SHIFTS, TeethSpec, ToolSpec};
+use centrode_gear::pitch::{Ellipse, PitchSpec};
 use centrode_kinematics::machine::GuideForce;
 use centrode_kinematics::machine::Keyway;
 use centrode_kinematics::transmission::{MotionJet, Transmission};
@@ -169,7 +169,7 @@ impl Default for MovingBoxDesign {
 impl DesignSpec for MovingBoxDesign {
     const FAMILY: &'static str = "moving-box";
     const ABOUT: &'static str = "A seedling box moved at a variable speed.";
-    const TEMPLATE: &'static str = include_str!("../../design/moving_box.toml");
+    const TEMPLATE: &'static str = include_str!("../design/moving_box.toml");
     const TABLES: &'static [&'static str] = &["gears", "shaft"];
 
     fn words(&self) -> [&str; 2] {

@@ -1,7 +1,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::shaft::{Groove, ShaftError};
+use crate::{Groove, ShaftError};
 use centrode_kinematics::machine::Keyway;
 use centrode_kinematics::machine::{hole_class, shaft_class};
 use centrode_spec::SpecError;

@@ -1,6 +1,6 @@
 use thiserror::Error;
 
-use crate::pitch::PitchError;
+use centrode_gear::pitch::PitchError;
 use centrode_spec::MechanismError;
 use centrode_spec::SpecError;
 

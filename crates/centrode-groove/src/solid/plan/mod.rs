@@ -11,7 +11,7 @@ use event::{Event, even};
 pub(super) use level::{Level, columns};
 use level::{levels, rises};
 
-use crate::shaft::{Groove, Wall};
+use crate::{Groove, Wall};
 use centrode_kinematics::transmission::Transmission;
 
 /// Distance, rad, within which angles are one.

@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::ShaftError;
-use crate::cam::law::{Law, LawSpec};
+use centrode_gear::cam::law::{Law, LawSpec};
 use centrode_kinematics::transmission::MotionJet;
 use centrode_spec::degrees;
 use centrode_spec::rule::in_range;

@@ -8,7 +8,7 @@ use super::{
     RotatedSine, Scheme, ShaftError, ShaftLaw, Sine, SpeedFormula, SpeedKnots, SpeedLaw,
     SpeedTable, SpiralShaft, SpiralShaftDesign, Traverse,
 };
-use crate::cam::law::LawSpec;
+use centrode_gear::cam::law::LawSpec;
 use centrode_kinematics::transmission::{MotionJet, Transmission};
 use centrode_spec::{Design, DesignSpec};
 
@@ -311,13 +311,13 @@ fn a_geared_box_is_picked_where_its_gears_are_slow() {
 #[test]
 fn gears_before_a_shaft_have_the_bore_of_its_journal_and_a_keyway_for_its_key() {
     use centrode_kinematics::machine::Keyway;
-    let text = include_str!("../../design/moving_box.toml");
+    let text = include_str!("../design/moving_box.toml");
     let mut design = MovingBoxDesign::from_toml(text).expect("a design");
     design.shaft.pick = 0.4;
     let pair = |design: &MovingBoxDesign| {
         let machine = MovingBox::resolve(design).expect("resolves");
         let pair = design.gear_pair(machine.drive().expect("has gears"));
-        crate::GearPair::resolve(&pair.expect("has gears")).expect("resolves")
+        centrode_gear::GearPair::resolve(&pair.expect("has gears")).expect("resolves")
     };
     let gears = pair(&design);
     for body in [gears.driver().body(), gears.driven().body()] {
@@ -464,19 +464,19 @@ fn both_schemes_together_are_their_chain() {
 
 #[test]
 fn templates_are_sound_designs() {
-    let text = include_str!("../../design/spiral_shaft.toml");
+    let text = include_str!("../design/spiral_shaft.toml");
     let design = SpiralShaftDesign::from_toml(text).expect("a design");
     let shaft = SpiralShaft::resolve(&design).expect("resolves");
     assert!((shaft.amplitude().expect("a sine") - 1.283_333).abs() < 1e-6);
     let written = design.to_toml().expect("written");
     let read = SpiralShaftDesign::from_toml(&written).expect("reads");
     assert_eq!(read, design);
-    let text = include_str!("../../design/moving_box.toml");
+    let text = include_str!("../design/moving_box.toml");
     let design = MovingBoxDesign::from_toml(text).expect("a design");
     let machine = MovingBox::resolve(&design).expect("resolves");
     assert!((machine.moved_in_window() - 1.954_217).abs() < 1e-6);
     let pair = design.gear_pair(machine.drive().expect("has gears"));
-    let pair = crate::GearPair::resolve(&pair.expect("has gears")).expect("resolves");
+    let pair = centrode_gear::GearPair::resolve(&pair.expect("has gears")).expect("resolves");
     assert!((pair.center_distance() - 52.709_22).abs() < 1e-5);
     let written = design.to_toml().expect("written");
     let read = MovingBoxDesign::from_toml(&written).expect("reads");

@@ -108,7 +108,7 @@ impl Default for SpiralShaftDesign {
 impl DesignSpec for SpiralShaftDesign {
     const FAMILY: &'static str = "spiral-shaft";
     const ABOUT: &'static str = "A variable-speed spiral shaft.";
-    const TEMPLATE: &'static str = include_str!("../../design/spiral_shaft.toml");
+    const TEMPLATE: &'static str = include_str!("../design/spiral_shaft.toml");
     const TABLES: &'static [&'static str] = &[
         "law", "reversal", "groove", "slider", "body", "mill", "load",
     ];

@@ -3,7 +3,7 @@ use std::f64::consts::{PI, TAU};
 use centrode_geometry::Tolerance;
 
 use super::{ShaftBody, ShaftSolid};
-use crate::shaft::{Groove, Reversal, Sine, SpeedLaw, Traverse, Wall};
+use crate::{Groove, Reversal, Sine, SpeedLaw, Traverse, Wall};
 use centrode_kinematics::transmission::Transmission;
 
 fn groove(holes: u32, offset: f64, phase: f64, width: f64) -> Groove {

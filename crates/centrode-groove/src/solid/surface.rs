@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use centrode_geometry::{Mesh, Point, checkpoint};
 
 use super::plan::Plan;
-use crate::shaft::Wall;
+use crate::Wall;
 
 /// Mark of a vertex on the shaft's surface, in place of a level of the groove.
 const LAND: usize = usize::MAX;

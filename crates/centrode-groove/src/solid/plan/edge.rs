@@ -1,12 +1,12 @@
-use crate::shaft::Wall;
+use crate::Wall;
 
 /// A wall of one turn of the groove, at one level below the surface: a height over the angle round the
 /// shaft, for the groove is a graph over it.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
-pub(in crate::shaft::solid) struct Edge {
+pub(in crate::solid) struct Edge {
     /// Turn of the cycle.
-    pub(in crate::shaft::solid) turn: usize,
-    pub(in crate::shaft::solid) wall: Wall,
+    pub(in crate::solid) turn: usize,
+    pub(in crate::solid) wall: Wall,
     /// Index into the levels of the plan.
-    pub(in crate::shaft::solid) level: usize,
+    pub(in crate::solid) level: usize,
 }

@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::MOST_HARMONICS;
-use crate::shaft::ShaftError;
+use crate::ShaftError;
 use centrode_kinematics::transmission::{MotionJet, Transmission};
 use centrode_spec::degrees;
 use centrode_spec::rule::{count_in_range, finite};

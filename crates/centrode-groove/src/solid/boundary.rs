@@ -7,7 +7,7 @@ use centrode_geometry::{BezierFit, Shell, ShellBuilder, ShellSide, ShellSurface}
 use super::plan::{Level, Plan};
 use super::surface::Surface;
 use super::{ShaftBody, ends};
-use crate::shaft::{Groove, Wall};
+use crate::{Groove, Wall};
 
 /// Numbers of even lines tried, until every edge is met.
 const LINES: [u32; 4] = [8, 16, 32, MOST_LINES];

@@ -1,18 +1,18 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use crate::shaft::Groove;
+use crate::Groove;
 
 /// Half width and radius of a line along the groove's floor.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::shaft::solid) struct Level {
-    pub(in crate::shaft::solid) half: f64,
-    pub(in crate::shaft::solid) radius: f64,
+pub(in crate::solid) struct Level {
+    pub(in crate::solid) half: f64,
+    pub(in crate::solid) radius: f64,
 }
 
 impl Level {
     /// A line along the fillet: at the angle 0 the foot of the wall, `half` off the middle; at a quarter turn the
     /// floor.
-    pub(in crate::shaft::solid) fn new(half: f64, floor: f64, fillet: f64, angle: f64) -> Self {
+    pub(in crate::solid) fn new(half: f64, floor: f64, fillet: f64, angle: f64) -> Self {
         let (sin, cos) = angle.sin_cos();
         Self {
             half: half - fillet * (1.0 - cos),
@@ -38,7 +38,7 @@ pub(super) fn levels(groove: &Groove, fillet: f64, limit: f64) -> Vec<Level> {
 }
 
 /// Number of columns round the shaft with which a chord is within `limit` (mm) of its arc.
-pub(in crate::shaft::solid) fn columns(radius: f64, limit: f64) -> u32 {
+pub(in crate::solid) fn columns(radius: f64, limit: f64) -> u32 {
     let half = (1.0 - (limit / radius).min(0.5)).acos();
     ((FRAC_PI_2 * 2.0 / half).ceil().min(1e5) as u32).max(16)
 }

@@ -4,11 +4,11 @@ use centrode_geometry::Antiderivative;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::cam::law::{Law, LawSpec};
-use crate::pitch::periodic::Periodic;
-use crate::pitch::polar::{formula_parts, read_formula};
-use crate::pitch::{Interpolation, PitchError};
-use crate::shaft::ShaftError;
+use crate::ShaftError;
+use centrode_gear::cam::law::{Law, LawSpec};
+use centrode_gear::pitch::Periodic;
+use centrode_gear::pitch::{Interpolation, PitchError};
+use centrode_gear::pitch::{formula_parts, read_formula};
 use centrode_kinematics::formula::{Formula, Taylor};
 use centrode_kinematics::transmission::{MotionJet, Transmission};
 use centrode_spec::degrees;
