@@ -1,0 +1,79 @@
+use super::smooth_run::Node;
+use crate::Vector;
+use nalgebra::Rotation2;
+
+/// How arcs within a tolerance best follow a smooth curve: per node, the tangent they have there and
+/// the number of arcs up to there.
+///
+/// Where the curvature changes at the rate `κ'`, arcs of length `l` whose ends are on the curve stay
+/// closest to it, within `e = κ' l³ / 72√3`, if their tangents at the ends are turned from the curve's
+/// own by `-κ' l² / 12`: a third of the error of arcs with the curve's own tangents.
+pub(crate) struct ArcPlan {
+    /// Tangents of the arcs.
+    pub(crate) tangents: Vec<Vector>,
+    /// Number of arcs up to each node.
+    pub(crate) count: Vec<f64>,
+    /// Angle, rad, through which the curve has turned up to each node.
+    pub(crate) turned: Vec<f64>,
+    /// The angle, rad, by which arcs of the planned length leave the curve's own tangent.
+    pub(crate) lean: Vec<f64>,
+}
+
+impl ArcPlan {
+    /// Plans a run; its ends keep the curve's own tangent unless it is free there.
+    pub(crate) fn new(nodes: &[Node], free: [bool; 2], tolerance: f64) -> Self {
+        let scale = 72.0 * 3.0_f64.sqrt() * tolerance;
+        let last = nodes.len() - 1;
+        let mut travelled = vec![0.0; nodes.len()];
+        let mut turned = vec![0.0; nodes.len()];
+        for i in 1..nodes.len() {
+            let (a, b) = (&nodes[i - 1], &nodes[i]);
+            travelled[i] = travelled[i - 1] + (b.point - a.point).norm();
+            turned[i] = turned[i - 1] + a.tangent.perp(&b.tangent).atan2(a.tangent.dot(&b.tangent));
+        }
+        let total = travelled[last];
+        let angle_at = |s: f64| {
+            let k = travelled.partition_point(|&t| t < s).clamp(1, last);
+            let share = (s - travelled[k - 1]) / (travelled[k] - travelled[k - 1]);
+            turned[k - 1] + (turned[k] - turned[k - 1]) * share
+        };
+        let mut plan = Self {
+            tangents: Vec::with_capacity(nodes.len()),
+            count: Vec::with_capacity(nodes.len()),
+            lean: Vec::with_capacity(nodes.len()),
+            turned: Vec::new(),
+        };
+        let (mut count, mut density) = (0.0, 0.0);
+        let mut length = total / 16.0;
+        for (i, node) in nodes.iter().enumerate() {
+            // Curvature rate averaged over one arc; where it changes sign the tangent is not turned.
+            let rate_over = |window: f64| {
+                let middle = travelled[i].clamp(window, total - window);
+                let angles = [middle - window, middle, middle + window].map(angle_at);
+                (angles[2] - 2.0 * angles[1] + angles[0]) / (window * window)
+            };
+            for _ in 0..if i == 0 { 6 } else { 2 } {
+                let allowed = (scale / f64::abs(rate_over(0.5 * length))).cbrt();
+                length = (length * allowed).sqrt().min(total / 4.0);
+            }
+            let rates = [1.0, 0.5].map(|share| rate_over(share * length));
+            let least = rates[0].abs().min(rates[1].abs());
+            let held = (i == 0 && !free[0]) || (i == last && !free[1]);
+            let lean = if held || rates[0] * rates[1] <= 0.0 {
+                0.0
+            } else {
+                -least.copysign(rates[0]) * length * length / 12.0
+            };
+            let before = density;
+            density = 1.0 / length;
+            if i > 0 {
+                count += 0.5 * (before + density) * (travelled[i] - travelled[i - 1]);
+            }
+            plan.count.push(count);
+            plan.lean.push(scale / (12.0 * length));
+            plan.tangents.push(Rotation2::new(lean) * node.tangent);
+        }
+        plan.turned = turned;
+        plan
+    }
+}

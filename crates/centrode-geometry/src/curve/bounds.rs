@@ -1,0 +1,113 @@
+use crate::{Point, curve::Segment};
+
+/// The smallest axis-aligned rectangle around a shape.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// Lower left corner.
+    pub min: Point,
+    /// Upper right corner.
+    pub max: Point,
+}
+
+impl Bounds {
+    /// The empty rectangle: the neutral element of [`with`](Self::with).
+    pub const EMPTY: Self = Self {
+        min: Point::new(f64::INFINITY, f64::INFINITY),
+        max: Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY),
+    };
+
+    /// The smallest rectangle that also holds `point`.
+    #[must_use]
+    pub fn with(self, point: Point) -> Self {
+        Self {
+            min: self.min.inf(&point),
+            max: self.max.sup(&point),
+        }
+    }
+
+    /// The smallest rectangle that holds both.
+    #[must_use]
+    pub fn union(self, other: Self) -> Self {
+        Self {
+            min: self.min.inf(&other.min),
+            max: self.max.sup(&other.max),
+        }
+    }
+
+    /// The middle.
+    #[must_use]
+    pub fn center(&self) -> Point {
+        nalgebra::center(&self.min, &self.max)
+    }
+
+    /// Length of the diagonal, mm.
+    #[must_use]
+    pub fn diagonal(&self) -> f64 {
+        (self.max - self.min).norm()
+    }
+
+    /// Whether the two have a point in common; never where a coordinate is not a number.
+    #[must_use]
+    pub fn meets(&self, other: &Self) -> bool {
+        self.min.x <= other.max.x
+            && other.min.x <= self.max.x
+            && self.min.y <= other.max.y
+            && other.min.y <= self.max.y
+    }
+
+    /// Whether some point of the rectangle has a coordinate beyond those of `self`.
+    pub(crate) fn may_grow_by(&self, other: &Self) -> bool {
+        other.min.x < self.min.x
+            || other.min.y < self.min.y
+            || other.max.x > self.max.x
+            || other.max.y > self.max.y
+    }
+}
+
+/// The smallest rectangle that holds some points.
+impl FromIterator<Point> for Bounds {
+    fn from_iter<I: IntoIterator<Item = Point>>(points: I) -> Self {
+        points.into_iter().fold(Self::EMPTY, Self::with)
+    }
+}
+
+impl Segment {
+    /// A rectangle around the part between two parameters, not always the smallest.
+    pub(crate) fn enclosure(&self, u0: f64, u1: f64) -> Bounds {
+        match self {
+            Self::Line(..) => Bounds::EMPTY
+                .with(self.at(u0).point)
+                .with(self.at(u1).point),
+            Self::Arc(_) => {
+                let (start, end) = (self.at(u0), self.at(u1));
+                let length = start.first.norm() * (u1 - u0);
+                let turned = start.second.norm() / start.first.norm() * (u1 - u0);
+                let sagitta = (length * turned / 8.0).min(0.5 * length);
+                let ends = Bounds::EMPTY.with(start.point).with(end.point);
+                grown(ends, sagitta, sagitta)
+            }
+            Self::Poly(poly) => {
+                let part = poly.part(u0, u1);
+                let c = part.coefficients();
+                let ends = Bounds::EMPTY
+                    .with(part.at(-1.0).point)
+                    .with(part.at(1.0).point);
+                // Each even power is at most one below its value at the ends, each odd one may double
+                // back between them.
+                let reach = |axis: usize| {
+                    let curved: f64 = c.iter().skip(2).map(|c| c[axis].abs()).sum();
+                    2.0 * curved
+                };
+                grown(ends, reach(0), reach(1))
+            }
+        }
+    }
+}
+
+fn grown(bounds: Bounds, x: f64, y: f64) -> Bounds {
+    let margin = crate::Vector::new(x, y);
+    Bounds {
+        min: bounds.min - margin,
+        max: bounds.max + margin,
+    }
+}

@@ -1,0 +1,24 @@
+//! Single curves: segments of three kinds, bounds on them, and where two of them cross.
+//!
+//! Reading order: [`closed_curve`] (the trait of an exact curve), [`poly_segment`] (its polynomial fit), [`segment`] (line, arc or
+//! polynomial), [`bounds`] and [`piece`] (proven bounds), [`crossings`], [`winding`]; [`bezier_fit`] is the fit of curves in space.
+//! Uses `numeric`.
+
+mod bezier_fit;
+mod bounds;
+mod closed_curve;
+mod crossings;
+mod piece;
+mod poly_segment;
+mod segment;
+mod winding;
+
+pub use bezier_fit::BezierFit;
+pub use bounds::Bounds;
+pub use closed_curve::{Curve, Jet};
+pub use crossings::{Unresolved, crossings, self_crossings};
+pub(crate) use piece::Piece;
+pub(crate) use poly_segment::NODES;
+pub use poly_segment::{PolySegment, SegmentJet};
+pub use segment::{Arc, Segment};
+pub(crate) use winding::winding;

@@ -1,0 +1,27 @@
+//! Numbers without geometry: roots, extremes, quadrature, series and tolerances, and the two helpers of every long computation.
+//!
+//! Reading order: [`tolerance`], [`roots`], [`extreme`] (minima and maxima over an interval), [`quadrature`],
+//! [`chebyshev`], [`antiderivative`]; then [`cancel`] (stop a computation, run jobs on two threads) and [`recent`]
+//! (cache results). Uses no other room.
+
+mod antiderivative;
+mod cancel;
+mod chebyshev;
+mod extreme;
+mod quadrature;
+mod recent;
+mod roots;
+mod tolerance;
+
+pub use antiderivative::Antiderivative;
+pub use cancel::{Cancel, Cancelled, Scope, checkpoint, shared_out, stay_on_one_thread, together};
+pub use chebyshev::{CHEBYSHEV_TERMS, chebyshev_roots, chebyshev_series};
+pub use extreme::{
+    Extreme, SampledPiece, extremes, greatest, greatest_each, greatest_of, greatest_sampled, least,
+    pieces, rounding,
+};
+pub(crate) use quadrature::GAUSS_NODES;
+pub use quadrature::gauss_legendre;
+pub use recent::Recent;
+pub use roots::{bracketed_minimum, bracketed_minimum_below, bracketed_newton, bracketed_root};
+pub use tolerance::{BadTolerance, Tolerance};

@@ -1,0 +1,25 @@
+//! Closed outlines and the regions they enclose.
+//!
+//! Reading order: [`outline`], [`position`] (a point of an outline), [`placement`] (move, circle, polygon), [`moments`] (area,
+//! length, centroid), [`extent`], [`containment`]; then the makers [`hull`], [`rounded_polygon`] and [`convex`], the test
+//! [`self_crossing`], and [`loops`], which cuts the loops off a chain that crosses itself. Uses `numeric` and `curve`.
+
+mod containment;
+mod convex;
+mod extent;
+mod hull;
+mod loops;
+mod moments;
+mod outline;
+mod placement;
+mod position;
+mod rounded_polygon;
+mod self_crossing;
+
+pub use convex::{ConvexPieces, convex_hull, convex_pieces};
+pub use loops::{Kept, LoopError, without_loops};
+pub use moments::AreaMoments;
+pub use outline::{OpenOutline, Outline};
+pub(crate) use position::{CORNER, Place};
+pub use rounded_polygon::ShortSide;
+pub use self_crossing::Crossing;

@@ -1,0 +1,114 @@
+use crate::{
+    Point, Vector,
+    curve::{Arc, Segment},
+    region::Outline,
+};
+use nalgebra::Isometry2;
+
+impl Segment {
+    /// Applies one map to every point; `vector` is its linear part, which must keep circles round and
+    /// their sense of turning.
+    fn mapped(&self, point: impl Fn(&Point) -> Point, vector: impl Fn(&Vector) -> Vector) -> Self {
+        match self {
+            Self::Line(start, end) => Self::Line(point(start), point(end)),
+            Self::Arc(arc) => Self::Arc(Arc {
+                start: point(&arc.start),
+                end: point(&arc.end),
+                bulge: arc.bulge,
+            }),
+            Self::Poly(poly) => Self::Poly(poly.mapped(point, vector)),
+        }
+    }
+}
+
+impl Outline {
+    fn mapped(&self, point: impl Fn(&Point) -> Point, vector: impl Fn(&Vector) -> Vector) -> Self {
+        // One map on equal points gives equal points, so the contour stays closed.
+        Self::from_closed(
+            self.segments()
+                .iter()
+                .map(|segment| segment.mapped(&point, &vector))
+                .collect(),
+        )
+    }
+
+    /// The outline moved by a rigid motion.
+    #[must_use]
+    pub fn transformed(&self, motion: &Isometry2<f64>) -> Self {
+        self.mapped(|p| motion * p, |v| motion * v)
+    }
+
+    /// The outline enlarged `k` times about the origin.
+    #[must_use]
+    pub fn scaled(&self, k: f64) -> Self {
+        self.mapped(|p| p * k, |v| v * k)
+    }
+
+    /// The contour with its direction of travel reversed.
+    #[must_use]
+    pub fn reversed(&self) -> Self {
+        Self::from_closed(
+            self.segments()
+                .iter()
+                .rev()
+                .map(Segment::reversed)
+                .collect(),
+        )
+    }
+
+    /// Full circle, counter-clockwise, as two half circles.
+    #[must_use]
+    pub fn circle(center: Point, radius: f64) -> Self {
+        let right = center + Vector::new(radius, 0.0);
+        let left = center - Vector::new(radius, 0.0);
+        let half = |start, end| {
+            Segment::Arc(Arc {
+                start,
+                end,
+                bulge: 1.0,
+            })
+        };
+        Self::from_closed(vec![half(right, left), half(left, right)])
+    }
+
+    /// Polygon with the given corners.
+    #[must_use]
+    pub fn polygon(points: &[Point]) -> Self {
+        let next = points.iter().cycle().skip(1);
+        Self::from_closed(
+            points
+                .iter()
+                .zip(next)
+                .map(|(start, end)| Segment::Line(*start, *end))
+                .collect(),
+        )
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{curve::PolySegment, numeric::Tolerance};
+
+    #[test]
+    fn a_motion_keeps_area_and_closure_and_scaling_multiplies_it() {
+        let wave = |t: f64| Point::from(Vector::new(t.cos(), t.sin()) * (5.0 + (3.0 * t).cos()));
+        let tolerance = Tolerance::new(1e-10).expect("positive");
+        let mut polys = PolySegment::fit(wave, 0.0, std::f64::consts::TAU, tolerance);
+        let first = polys[0].start();
+        if let Some(last) = polys.last_mut() {
+            *last = last.pinned(last.start(), first);
+        }
+        let outline = Outline::new(polys.into_iter().map(Segment::from).collect()).expect("closed");
+        let moved = outline.transformed(&Isometry2::new(Vector::new(3.0, -8.0), 0.7));
+        let again = Outline::new(moved.segments().to_vec()).expect("still closed");
+        assert!((again.area() - outline.area()).abs() < 1e-11);
+        assert!((again.length() - outline.length()).abs() < 1e-11);
+        let motion = Isometry2::new(Vector::new(3.0, -8.0), 0.7);
+        assert!((again.centroid() - motion * outline.centroid()).norm() < 1e-12);
+        let large = Outline::new(outline.scaled(3.0).segments().to_vec()).expect("still closed");
+        assert!((large.area() - 9.0 * outline.area()).abs() < 1e-9);
+        let back = Outline::new(outline.reversed().segments().to_vec()).expect("still closed");
+        assert!((back.area() + outline.area()).abs() < 1e-11);
+    }
+}

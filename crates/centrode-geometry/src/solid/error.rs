@@ -1,0 +1,59 @@
+use thiserror::Error;
+
+/// Error of contours that do not bound a solid.
+#[derive(Clone, Debug, Error, PartialEq)]
+#[non_exhaustive]
+pub enum SolidError {
+    /// The top is not above the bottom.
+    #[error("a solid must be higher than it begins: bottom {bottom} mm, top {top} mm")]
+    NoHeight {
+        /// Lower face, mm.
+        bottom: f64,
+        /// Upper face, mm.
+        top: f64,
+    },
+    /// A point of a contour is not a finite number.
+    #[error("contour {contour} (0 is the outer one) has a point that is not finite")]
+    NotFinite {
+        /// Index of the contour, the outer one first.
+        contour: usize,
+    },
+    /// Contours flattened at the tolerance meet or cross themselves or one another.
+    #[error("contours cross or touch near ({x}, {y}) mm at a tolerance of {tolerance} mm")]
+    Crossing {
+        /// X coordinate, mm.
+        x: f64,
+        /// Y coordinate, mm.
+        y: f64,
+        /// The flattening tolerance, mm.
+        tolerance: f64,
+    },
+    /// A hole is not inside the outer contour, or lies in another hole.
+    #[error("hole {hole} does not lie in the material")]
+    HoleOutside {
+        /// Index of the hole.
+        hole: usize,
+    },
+    /// A section of a turned body is no cylinder or cone of 45°, or does not hold the slot.
+    #[error(
+        "section {section} of a turned body is no cylinder or cone of 45°, or does not hold its slot"
+    )]
+    Turned {
+        /// Index of the section.
+        section: usize,
+    },
+    /// An opening does not lie in a wall of the solid.
+    #[error(
+        "an opening from {from} to {to} mm does not go through a wall between the outline and a hole, from {bottom} to {top} mm"
+    )]
+    Opening {
+        /// Its lower end, mm.
+        from: f64,
+        /// Its upper end, mm.
+        to: f64,
+        /// Lower face of the solid, mm.
+        bottom: f64,
+        /// Upper face, mm.
+        top: f64,
+    },
+}
