@@ -255,7 +255,7 @@ pub fn crossing(pair: &GearPair, speck: f64) -> Option<(Member, Crossing)> {
     [pair.driver(), pair.driven()].into_iter().find_map(|gear| {
         let found = gear
             .outline()
-            .crossing_beyond(speck * pair.module(), 2e-10)?;
+            .crossing_ignoring(speck * pair.module(), 2e-10)?;
         Some((gear.member(), found))
     })
 }

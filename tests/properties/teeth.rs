@@ -1,7 +1,7 @@
 use centrode_gear::design::{Addendum, GearPairDesign};
 use centrode_gear::pitch::{Bspline, PitchSpec};
 use centrode_gear::{ConjugateCurve, GearPair, GearPairError, Member, ProfileError, Rolling};
-use centrode_geometry::{LoopError, Point, Segment, Tolerance, Unresolved};
+use centrode_geometry::{CrossingError, LoopError, Point, Segment, Tolerance};
 use centrode_spec::{Design, DesignSpec};
 use centrode_tests::{Points, bspline_pair, crossing, pitch, sound_pair};
 use proptest::prelude::{ProptestConfig, Strategy, any, prop_assert, prop_assert_eq, proptest};
@@ -190,7 +190,7 @@ proptest! {
                 matches!(
                     error,
                     GearPairError::Pitch(_) | GearPairError::Profile(ProfileError::Looped { .. } | ProfileError::Gap { .. } | ProfileError::Touches { .. })
-                        | GearPairError::Profile(ProfileError::Unresolved { cause: LoopError::Unresolved { cause: Unresolved::Overlap { .. }, .. }, .. })
+                        | GearPairError::Profile(ProfileError::Unresolved { cause: LoopError::Unresolved { cause: CrossingError::Overlap { .. }, .. }, .. })
                 ),
                 "{error}"
             );

@@ -1,4 +1,4 @@
-use centrode_geometry::{Cancel, shared_out, stay_on_one_thread};
+use centrode_geometry::{Cancel, parallel_map, stay_on_one_thread};
 use rayon::ThreadPoolBuilder;
 
 use crate::progress::Part;
@@ -48,6 +48,6 @@ fn filled<T>(part: Option<Part>, job: impl FnOnce() -> T) -> T {
 pub(crate) fn each<T: Sync, R: Send + Sync>(things: &[T], make: impl Fn(&T) -> R + Sync) -> Vec<R> {
     match rayon::current_thread_index() {
         Some(_) => things.iter().map(make).collect(),
-        None => shared_out(things, make),
+        None => parallel_map(things, make),
     }
 }

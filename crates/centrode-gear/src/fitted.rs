@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use centrode_geometry::{Point, bracketed_root, checkpoint, shared_out};
+use centrode_geometry::{Point, bracketed_root, checkpoint, parallel_map};
 
 use super::{
     flank::{Flank, Side},
@@ -76,7 +76,7 @@ impl Fitting<'_> {
         let driven = patterns.driven.first(all_2);
         let reaches = |member: Member, teeth: &[ToothPlan]| -> Vec<Reaches> {
             let reach = |plan: &FlankPlan, side| self.regular(member, side, plan);
-            shared_out(teeth, |t| {
+            parallel_map(teeth, |t| {
                 [
                     reach(&t.leading, Side::Leading),
                     reach(&t.trailing, Side::Trailing),
@@ -152,7 +152,7 @@ impl Fitting<'_> {
                 }));
             }
             let known = |[i, j]: [usize; 2]| (reach_1[i], reach_2[j]);
-            let are_foul = shared_out(&met, |meeting| {
+            let are_foul = parallel_map(&met, |meeting| {
                 let teeth = meeting.candidates(known(meeting.teeth));
                 meeting.passage.is_foul(&teeth)
             });
@@ -172,7 +172,7 @@ impl Fitting<'_> {
                 });
                 left = later;
                 let known = |[i, j]: [usize; 2]| (reach_1[i], reach_2[j]);
-                let cleared = shared_out(&first, |meeting| {
+                let cleared = parallel_map(&first, |meeting| {
                     let teeth = meeting.candidates(known(meeting.teeth));
                     meeting.passage.clear(&teeth)
                 });
@@ -305,7 +305,7 @@ impl Fitting<'_> {
     /// Settles every tip of a gear, wide enough at the top.
     fn tops(&self, member: Member, teeth: &mut [ToothPlan], reaches: &[Reaches]) -> Vec<[Tip; 2]> {
         let known: Vec<_> = teeth.iter().zip(reaches).collect();
-        let found = shared_out(
+        let found = parallel_map(
             &known,
             |&(tooth, &[lead, trail]): &(&ToothPlan, &[f64; 2])| {
                 let leading = self.flank(member, Side::Leading, tooth.leading.crossing);

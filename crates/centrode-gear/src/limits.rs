@@ -1,4 +1,4 @@
-use centrode_geometry::{Extreme, checkpoint, greatest};
+use centrode_geometry::{Extreme, checkpoint, maximum};
 
 use super::{
     design::GearPairDesign,
@@ -87,7 +87,7 @@ impl GearPair {
         // |alpha - mu| and |alpha + mu|: the greater of both.
         let alpha = self.pressure_angle();
         let steeper = |t: f64| alpha + inclination(&rolling.pitch_contact(t)).abs();
-        let found = greatest(steeper, &rolling.pieces());
+        let found = maximum(steeper, &rolling.pieces());
         Extreme {
             input: rolling.angle(found.input),
             ..found

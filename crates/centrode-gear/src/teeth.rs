@@ -1,4 +1,4 @@
-use centrode_geometry::least;
+use centrode_geometry::minimum;
 
 use super::{
     design::{Addendum, Phase},
@@ -241,7 +241,7 @@ fn least_lever(rolling: &Rolling, pressure_angle: f64) -> f64 {
         };
         2.0 / (1.0 / distance(-1.0) + 1.0 / distance(1.0))
     };
-    least(lever, &rolling.pieces()).value
+    minimum(lever, &rolling.pieces()).value
 }
 
 /// Pitches from phi = 0 to the middle of a driver tooth, and whether the gears are congruent.

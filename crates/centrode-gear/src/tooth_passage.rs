@@ -4,7 +4,7 @@ use std::cell::{OnceCell, RefCell};
 use std::collections::VecDeque;
 use std::rc::Rc;
 
-use centrode_geometry::{Point, checkpoint, shared_out};
+use centrode_geometry::{Point, checkpoint, parallel_map};
 
 use super::{
     rolling::{Frame, Member, Rolling},
@@ -85,7 +85,7 @@ impl<'a> Poses<'a> {
         }
         let missing: Vec<i64> = (self.first + self.kept.len() as i64..to).collect();
         let pose = |number: &i64| pose_at(self.rolling, self.origin + self.step * *number as f64);
-        let found = shared_out(&missing, pose);
+        let found = parallel_map(&missing, pose);
         self.kept.extend(found);
     }
 

@@ -16,19 +16,19 @@ mod test_shapes;
 
 pub use approximation::Sample;
 pub use curve::{
-    Arc, BezierFit, Bounds, Curve, Jet, PolySegment, Segment, SegmentJet, Unresolved, crossings,
-    self_crossings,
+    Arc, BezierFit, Bounds, CrossingError, Curve, FittedSpan, Jet, PolySegment, Segment,
+    SegmentJet, SegmentRange, crossings, self_crossings,
 };
 pub use numeric::{
     Antiderivative, BadTolerance, CHEBYSHEV_TERMS, Cancel, Cancelled, Extreme, Recent,
     SampledPiece, Scope, Tolerance, bracketed_minimum, bracketed_minimum_below, bracketed_newton,
     bracketed_root, chebyshev_roots, chebyshev_series, checkpoint, extremes, gauss_legendre,
-    greatest, greatest_each, greatest_of, greatest_sampled, least, pieces, rounding, shared_out,
-    stay_on_one_thread, together,
+    maxima, maximum, maximum_of_each, maximum_of_samples, minimum, parallel_map, piece_ends,
+    rounding, run_both, stay_on_one_thread,
 };
 pub use region::{
-    AreaMoments, ConvexPieces, Crossing, Kept, LoopError, OpenOutline, Outline, ShortSide,
-    convex_hull, convex_pieces, without_loops,
+    AreaMoments, ConvexPieces, Crossing, LoopError, OpenOutline, Outline, ShortSide, convex_hull,
+    convex_pieces, without_loops,
 };
 pub use solid::{
     MassProperties, Mesh, Opening, Shell, ShellBuilder, ShellCurve, ShellEdge, ShellFace,

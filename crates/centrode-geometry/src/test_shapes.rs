@@ -29,7 +29,7 @@ pub(crate) fn rosette(radius: f64, wave: f64, lobes: u32, tolerance: Tolerance) 
     closed(PolySegment::fit(curve, 0.0, TAU, tolerance))
 }
 
-/// A ring of involute teeth cut by a rack with rounded tips: two corners a tooth, smooth in between.
+/// A ring of involute teeth cut by a rack with rounded tips: two corners per tooth, smooth in between.
 pub(crate) fn tooth_ring(teeth: u32, module: f64, tolerance: Tolerance) -> Outline {
     let (sin, cos) = 20_f64.to_radians().sin_cos();
     let r = 0.5 * module * f64::from(teeth);
@@ -56,10 +56,10 @@ pub(crate) fn tooth_ring(teeth: u32, module: f64, tolerance: Tolerance) -> Outli
     let next = TAU / f64::from(teeth);
     let mut polys = Vec::new();
     for tooth in 0..teeth {
-        let place = nalgebra::Rotation2::new(next * f64::from(tooth));
-        let mirrored = |p: Point| place * Point::new(p.x, -p.y);
+        let turn = nalgebra::Rotation2::new(next * f64::from(tooth));
+        let mirrored = |p: Point| turn * Point::new(p.x, -p.y);
         let circle =
-            |radius: f64| move |a: f64| place * Point::new(radius * a.cos(), radius * a.sin());
+            |radius: f64| move |a: f64| turn * Point::new(radius * a.cos(), radius * a.sin());
         polys.extend(PolySegment::fit(
             |a| mirrored(flank(a)),
             highest,
@@ -79,13 +79,13 @@ pub(crate) fn tooth_ring(teeth: u32, module: f64, tolerance: Tolerance) -> Outli
             tolerance,
         ));
         polys.extend(PolySegment::fit(
-            |a| place * fillet(a),
+            |a| turn * fillet(a),
             lowest,
             joint,
             tolerance,
         ));
         polys.extend(PolySegment::fit(
-            |a| place * flank(a),
+            |a| turn * flank(a),
             joint,
             highest,
             tolerance,

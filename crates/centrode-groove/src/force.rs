@@ -1,6 +1,6 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 
-use centrode_geometry::{Extreme, extremes, greatest};
+use centrode_geometry::{Extreme, extremes, maximum};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -143,10 +143,10 @@ impl Groove {
         };
         ForceRange {
             normal: extremes(normal, &out),
-            normal_of_reversal: greatest(normal, &back),
+            normal_of_reversal: maximum(normal, &back),
             torque: extremes(torque, &ends),
-            deceleration: greatest(slowing, &out),
-            deceleration_of_cycle: greatest(slowing, &ends),
+            deceleration: maximum(slowing, &out),
+            deceleration_of_cycle: maximum(slowing, &ends),
         }
     }
 }

@@ -1,4 +1,4 @@
-use centrode_geometry::{Extreme, Point, Vector, greatest};
+use centrode_geometry::{Extreme, Point, Vector, maximum};
 
 use super::{ShaftError, Traverse};
 use centrode_kinematics::transmission::Transmission;
@@ -78,7 +78,7 @@ impl Groove {
             },
         };
         let bend = |theta: f64| groove.curvature(theta).abs();
-        let tightest = greatest(bend, &groove.ends());
+        let tightest = maximum(bend, &groove.ends());
         if tightest.value * 0.5 * width >= 1.0 {
             return Err(ShaftError::Bend {
                 radius: 1.0 / tightest.value,
@@ -166,7 +166,7 @@ impl Groove {
     /// Greatest pressure angle, rad, and the shaft angle of it.
     #[must_use]
     pub fn steepest(&self) -> Extreme {
-        greatest(|theta| self.pressure_angle(theta), &self.ends())
+        maximum(|theta| self.pressure_angle(theta), &self.ends())
     }
 
     /// A point beside the centre line at a normal distance on the development, mm: left for a positive one.
@@ -201,7 +201,7 @@ impl Groove {
     #[must_use]
     pub fn tightest_of_stroke(&self) -> Extreme {
         let ends = self.ends_between(0.0, self.traverse.stroke());
-        greatest(|theta| self.curvature(theta).abs(), &ends)
+        maximum(|theta| self.curvature(theta).abs(), &ends)
     }
 
     /// A point of the development on the shaft, mm.
@@ -253,6 +253,6 @@ impl Groove {
             let normal = Vector::new(-slope, foot).normalize();
             (half - radial.dot(&normal)).abs()
         };
-        greatest(apart, &self.ends()).value
+        maximum(apart, &self.ends()).value
     }
 }

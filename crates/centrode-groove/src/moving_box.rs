@@ -1,7 +1,7 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-use centrode_geometry::pieces;
+use centrode_geometry::piece_ends;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -354,7 +354,7 @@ impl MovingBox {
         if let Some(drive) = &self.drive {
             ends = ends.iter().map(|&theta| drive.input_at(theta)).collect();
         }
-        pieces(pick, pick + TAU, PARTS, &ends)
+        piece_ends(pick, pick + TAU, PARTS, &ends)
     }
 
     /// Forces on the slider at an input, with a load whose speed is that of the input.

@@ -1,6 +1,6 @@
 //! Plates and gears that collide.
 
-use centrode_geometry::{Bounds, Point, Tolerance, Vector, greatest_of};
+use centrode_geometry::{Bounds, Point, Tolerance, Vector, maxima};
 use centrode_kinematics::machine::{JointKind, Machine, Surface};
 use centrode_machines::composed::{Composed, ComposedDesign};
 
@@ -136,7 +136,7 @@ pub(super) fn overlaps<'a>(
         -(places[0].0 - places[1].0).norm()
     };
     let slack = |distance: f64| SLACK * distance.abs();
-    let nearest = greatest_of(pairs.len(), together, alone, |_, v| slack(v), ends);
+    let nearest = maxima(pairs.len(), together, alone, |_, v| slack(v), ends);
     let near = pairs.iter().zip(nearest).filter_map(|(pair, nearest)| {
         let pair = pair.map(|number| &pieces[number]);
         let reach = pair[0].radius + pair[1].radius;

@@ -1,6 +1,6 @@
 use std::sync::{Mutex, PoisonError};
 
-use centrode_geometry::{Antiderivative, Extreme, greatest_of, rounding};
+use centrode_geometry::{Antiderivative, Extreme, maxima, rounding};
 use centrode_kinematics::machine::{JointKind, Load, Machine};
 use centrode_machines::composed::{Composed, ComposedFigure};
 
@@ -69,7 +69,7 @@ impl Loaded {
             Some(forces) => of(&forces, input),
             None => vec![f64::NAN; count],
         };
-        greatest_of(
+        maxima(
             count,
             |input: f64, values: &mut Vec<f64>| values.extend(found(input)),
             |k: usize, input: f64| found(input)[k],
@@ -163,7 +163,7 @@ pub(super) fn forces(
     } else {
         let torque = |input: f64| loaded.value(&ComposedFigure::InputTorque, input);
         let size = ROUNDING * high.abs().max(low.abs()).max(force * arm);
-        Antiderivative::of_size(torque, &loaded.ends, size).total() / loaded.period
+        Antiderivative::with_scale(torque, &loaded.ends, size).total() / loaded.period
     };
     let failed = loaded.failed.lock();
     if let Some(error) = failed.unwrap_or_else(PoisonError::into_inner).as_ref() {

@@ -1,4 +1,4 @@
-use centrode_geometry::{Tolerance, extremes, greatest_of, rounding};
+use centrode_geometry::{Tolerance, extremes, maxima, rounding};
 use centrode_machines::composed::{
     ClearanceEnd, Composed, ComposedFigure, ComposedGoalSpec, Over, PointPart,
 };
@@ -101,7 +101,7 @@ pub fn composed_figures(composed: &Composed) -> Vec<Table> {
         both(value(figure, forces.as_ref(), input))[k % 2]
     };
     let count = 2 * figures.len();
-    let found = greatest_of(count, all, one, |_, v| rounding(v), &ends(composed));
+    let found = maxima(count, all, one, |_, v| rounding(v), &ends(composed));
     let mut tables: Vec<Table> = Vec::new();
     for ((words, figure), found) in words.into_iter().zip(&figures).zip(found.chunks(2)) {
         let unit = unit(&made, figure);

@@ -20,7 +20,7 @@ mod through;
 use std::f64::consts::PI;
 use std::sync::{Arc, OnceLock};
 
-use centrode_geometry::{Extreme, pieces};
+use centrode_geometry::{Extreme, piece_ends};
 use centrode_kinematics::machine::{Machine, Supply};
 use centrode_machines::composed::{Composed, Hardware};
 
@@ -254,7 +254,7 @@ fn within(composed: &Composed, from: f64, to: f64) -> Vec<f64> {
         })
         .collect();
     let parts = (f64::from(PARTS) * (to - from) / std::f64::consts::TAU).ceil();
-    pieces(from, to, parts as u32, &breaks)
+    piece_ends(from, to, parts as u32, &breaks)
 }
 
 /// Transmission angles of the dyads.

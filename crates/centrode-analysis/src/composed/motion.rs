@@ -1,4 +1,4 @@
-use centrode_geometry::{Extreme, Point, greatest_of, rounding};
+use centrode_geometry::{Extreme, Point, maxima, rounding};
 use centrode_machines::composed::Composed;
 
 /// Extremes over the cycle of all that a check tells of the motion, found in one sweep.
@@ -67,7 +67,7 @@ impl Motion {
         let noise = |_: usize, value: f64| rounding(value);
         let first = 2 * (dyads + bodies);
         let count = first + OF_POINT * points.len();
-        let mut found = greatest_of(count, all, one, noise, ends);
+        let mut found = maxima(count, all, one, noise, ends);
         let of_points = found.split_off(first);
         let mut pairs = found.chunks(2).map(|pair| {
             let [mut low, high] = [pair[0], pair[1]];

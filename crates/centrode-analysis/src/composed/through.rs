@@ -223,7 +223,7 @@ fn is_in_slot<'a>(
         let mut others = plate.surfaces.iter();
         others.any(|b| is_level(a, b))
     });
-    let radii = level.map(|surface| surface.outline.farthest(own.1));
+    let radii = level.map(|surface| surface.outline.maximum_distance(own.1));
     let radius = radii.fold(0.0, f64::max);
     let slots = composed.slots(plate.link);
     slots.iter().any(|slot| {

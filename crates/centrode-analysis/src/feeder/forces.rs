@@ -1,6 +1,6 @@
 use std::cell::Cell;
 
-use centrode_geometry::{Extreme, SolidError, Vector, greatest_each};
+use centrode_geometry::{Extreme, SolidError, Vector, maximum_of_each};
 use centrode_kinematics::machine::Key;
 use centrode_machines::feeder::{Feeder, FeederError, FeederPart};
 
@@ -145,7 +145,7 @@ pub(super) fn forces(feeder: &Feeder, report: &mut Report) {
     };
     let ends = feeder.pieces();
     let [still, moving] =
-        [false, true].map(|moving| greatest_each(|input| sizes(input, moving), &ends));
+        [false, true].map(|moving| maximum_of_each(|input| sizes(input, moving), &ends));
     if !balanced.get() {
         return;
     }

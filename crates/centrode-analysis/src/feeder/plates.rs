@@ -1,4 +1,4 @@
-use centrode_geometry::{Extreme, least};
+use centrode_geometry::{Extreme, minimum};
 use centrode_machines::feeder::{Feeder, FeederPart};
 
 use crate::{Finding, Place, Report, Severity, Unit};
@@ -23,7 +23,7 @@ pub(super) fn plates(feeder: &Feeder, report: &mut Report) {
         });
     }
     let room = |input: f64| feeder.shaft_clearance(input);
-    let Extreme { input, value } = least(room, &feeder.pieces());
+    let Extreme { input, value } = minimum(room, &feeder.pieces());
     report.values.insert("shaft_clearance_min", value);
     if value < 0.0 {
         report.findings.push(Finding {

@@ -1,5 +1,5 @@
 use centrode_gear::GearPair;
-use centrode_geometry::{extremes, greatest};
+use centrode_geometry::{extremes, maximum};
 use centrode_groove::{EllipticDrive, MovingBox};
 use centrode_kinematics::machine::Key;
 use centrode_kinematics::transmission::Transmission;
@@ -74,9 +74,9 @@ fn keys(machine: &MovingBox, drive: &EllipticDrive, report: &mut Report) {
         (force.torque, turn.velocity)
     };
     let ends = machine.stroke_pieces();
-    let of_shaft = greatest(|input| torque(input).0.abs(), &ends);
+    let of_shaft = maximum(|input| torque(input).0.abs(), &ends);
     // What the gears carry, they carry without loss.
-    let of_driver = greatest(
+    let of_driver = maximum(
         |input| {
             let (torque, ratio) = torque(input);
             (torque * ratio).abs()

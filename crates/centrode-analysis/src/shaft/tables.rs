@@ -1,6 +1,6 @@
 use std::f64::consts::{FRAC_PI_4, TAU};
 
-use centrode_geometry::{extremes, pieces};
+use centrode_geometry::{extremes, piece_ends};
 use centrode_groove::{MovingBox, SpiralShaft};
 use centrode_kinematics::transmission::{MotionJet, Transmission};
 
@@ -59,7 +59,7 @@ pub(super) fn schemes(machine: &MovingBox) -> Vec<Table> {
     let (pick, half) = (design.pick, 0.5 * design.window);
     // Breaks of the groove alone and as designed: one too many costs little.
     let both = [shaft.law().pieces(pick), machine.stroke_pieces()].concat();
-    let ends = pieces(pick, pick + TAU, 1, &both);
+    let ends = piece_ends(pick, pick + TAU, 1, &both);
     let range = |of: &dyn Fn(f64) -> f64| extremes(of, &ends).map(|extreme| extreme.value).to_vec();
     let table = |name, title, unit, columns: &[&str], of: &dyn Fn(&Way<'_>) -> Vec<f64>| Table {
         name,

@@ -112,7 +112,7 @@ pub(super) fn meshed(form: &Form, tolerance: Tolerance) -> Result<(Mesh, f64), S
     match form {
         Form::Mesh(mesh, off) => Ok((mesh.clone(), *off)),
         Form::Solids(solids) => {
-            let faces = |t| solids.iter().map(|solid| solid.mesh_faces(t)).sum();
+            let faces = |t| solids.iter().map(|solid| solid.mesh_face_count(t)).sum();
             let coarse = shown_tolerance(tolerance, faces);
             let meshes = solids.iter().map(|solid| solid.mesh(coarse));
             let meshes: Vec<Mesh> = meshes.collect::<Result<_, _>>()?;

@@ -1,4 +1,4 @@
-use centrode_geometry::{Tolerance, extremes, greatest, pieces};
+use centrode_geometry::{Tolerance, extremes, maximum, piece_ends};
 use centrode_kinematics::machine::{Form, Joint, JointKind, Machine, Quantity};
 use centrode_kinematics::transmission::Transmission;
 use std::f64::consts::TAU;
@@ -41,8 +41,8 @@ fn bend(machine: &Machine) -> f64 {
             JointKind::Sliding(_) => 1.0,
         };
         let law = &joint.law;
-        let ends = pieces(0.0, machine.input.period, 1, &within(law.as_ref(), machine));
-        size * greatest(|input| law.at(input).acceleration.abs(), &ends).value
+        let ends = piece_ends(0.0, machine.input.period, 1, &within(law.as_ref(), machine));
+        size * maximum(|input| law.at(input).acceleration.abs(), &ends).value
     });
     of.fold(0.0, f64::max)
 }
@@ -106,7 +106,7 @@ pub(crate) fn lines(machine: &Machine) -> Vec<Line> {
     let line = |joint: &Joint| {
         let law = joint.law.as_ref();
         let slope = law.advance() / law.period();
-        let ends = pieces(0.0, machine.input.period, 4, &within(law, machine));
+        let ends = piece_ends(0.0, machine.input.period, 4, &within(law, machine));
         let [low, high] = extremes(|input| law.at(input).position - slope * input, &ends);
         Line {
             slope,

@@ -1,6 +1,6 @@
 use std::f64::consts::{PI, TAU};
 
-use centrode_geometry::{Point, Tolerance, together};
+use centrode_geometry::{Point, Tolerance, run_both};
 use centrode_kinematics::machine::{
     Figure, Line, LinePath, LineRole, Machine, Quantity, Seat, Sketch,
 };
@@ -46,7 +46,7 @@ pub fn picture(machine: &Machine, tolerance: Tolerance) -> Picture {
         still.fit();
         course
     };
-    let (course, ()) = together(course, || still.fit());
+    let (course, ()) = run_both(course, || still.fit());
     let [length, angle, inputs] = [0.1 * tolerance.mm(), ANGLE, INPUT].map(Rounding::to);
     let paths = |(index, figure): (usize, &Figure)| PictureLink {
         name: figure.name.clone(),

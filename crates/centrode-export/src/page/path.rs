@@ -21,7 +21,7 @@ impl Path {
     /// A closed outline, nowhere farther from it than the tolerance.
     #[must_use]
     pub fn closed(role: LineRole, outline: &Outline, tolerance: Tolerance) -> Self {
-        let fitted = outline.arcs_to_see(tolerance.scaled(0.9));
+        let fitted = outline.display_arcs(tolerance.scaled(0.9));
         let unit = unit(tolerance);
         let vertices = fitted
             .segments()

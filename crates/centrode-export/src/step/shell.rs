@@ -46,8 +46,8 @@ pub(super) fn manifold(data: &mut Data, name: &str, shell: &Shell) -> Result<Id,
         for (index, bound) in face.bounds.iter().enumerate() {
             let sides: Vec<Id> = bound
                 .iter()
-                .map(|&(edge, forward)| {
-                    let (edge, way) = (edges[edge], logical(forward));
+                .map(|side| {
+                    let (edge, way) = (edges[side.edge], logical(side.forward));
                     shape
                         .data
                         .add(format_args!("ORIENTED_EDGE('',*,*,{edge},{way})"))

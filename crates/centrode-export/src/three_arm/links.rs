@@ -187,7 +187,7 @@ impl Builder<'_> {
             part: String::new(),
             form: Form::Solids(solids),
         });
-        Ok((shape, MassProperties::together(&masses)))
+        Ok((shape, MassProperties::combined(&masses)))
     }
 
     fn surroundings(&mut self, base: usize) {

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-use centrode_geometry::{LoopError, OpenOutline, extremes, least};
+use centrode_geometry::{LoopError, OpenOutline, extremes, minimum};
 use thiserror::Error;
 
 use super::design::{CamSpec, Follower, Turn};
@@ -281,7 +281,7 @@ impl DiscCam {
                 }
             }
         }
-        let slowest = least(|input| self.face_rate(input), &ends);
+        let slowest = minimum(|input| self.face_rate(input), &ends);
         if slowest.value <= 0.0 {
             return Err(CamError::FaceTurnsBack {
                 degrees: degrees(slowest.input),

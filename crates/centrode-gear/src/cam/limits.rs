@@ -1,6 +1,6 @@
 //! Margins of a cam: pressure angle, radii of curvature, undercut.
 
-use centrode_geometry::{Extreme, bracketed_root, greatest_each};
+use centrode_geometry::{Extreme, bracketed_root, maximum_of_each};
 
 use super::disc::DiscCam;
 
@@ -49,7 +49,7 @@ impl DiscCam {
             let irregular = -contact.regularity;
             [pressure(1.0), pressure(-1.0), irregular, either, -either]
         };
-        let [rise, fall, irregular, most, least] = greatest_each(all, &self.ends());
+        let [rise, fall, irregular, most, least] = maximum_of_each(all, &self.ends());
         let regularity = Extreme {
             value: -irregular.value,
             ..irregular

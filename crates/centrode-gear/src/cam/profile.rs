@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use centrode_geometry::{
-    Arc, LoopError, Outline, Point, PolySegment, Segment, Tolerance, least, without_loops,
+    Arc, LoopError, Outline, Point, PolySegment, Segment, Tolerance, minimum, without_loops,
 };
 
 use super::disc::{CamError, DiscCam};
@@ -142,7 +142,7 @@ impl DiscCam {
         let ends = self.ends();
         let mut turns = vec![ends[0]];
         for pair in ends.windows(2) {
-            let middle = least(|input| self.contact(input).regularity, pair);
+            let middle = minimum(|input| self.contact(input).regularity, pair);
             let inside = middle.input > pair[0] && middle.input < pair[1].next_down();
             if middle.value <= 0.0 && inside {
                 turns.push(middle.input);
@@ -165,15 +165,15 @@ impl DiscCam {
             if self.rests(from, to) {
                 parts.extend(self.dwell(curve, from, to));
             } else {
-                let fitted = PolySegment::fit_spans_up_to(MOST, curve, [from, to], tolerance);
+                let fitted = PolySegment::fit_spans_at_most(MOST, curve, [from, to], tolerance);
                 let fitted = fitted.ok_or(CamError::Wild {
                     degrees: from.to_degrees(),
                     most: MOST,
                 })?;
-                parts.extend(fitted.into_iter().map(|(poly, from, to)| ContourSpan {
-                    segment: Segment::Poly(poly),
-                    from,
-                    to,
+                parts.extend(fitted.into_iter().map(|span| ContourSpan {
+                    segment: Segment::Poly(span.poly),
+                    from: span.from,
+                    to: span.to,
                 }));
             }
         }

@@ -1,4 +1,4 @@
-use centrode_geometry::{Tolerance, together};
+use centrode_geometry::{Tolerance, run_both};
 
 use super::{Gear, GearPairError};
 use crate::design::BodySpec;
@@ -35,7 +35,7 @@ impl Cutting<'_> {
         }
         let made = |member| Ok(self.gear(member, self.cut(member)?));
         let (one, two): (Result<_, ProfileError>, Result<_, ProfileError>) =
-            together(|| made(driver), || made(driven));
+            run_both(|| made(driver), || made(driven));
         // Teeth that cannot be cut are told before bodies that do not fit them.
         let (one, two) = (one?, two?);
         Ok([one?, two?])

@@ -1,6 +1,6 @@
 use std::f64::consts::TAU;
 
-use centrode_geometry::{Antiderivative, least};
+use centrode_geometry::{Antiderivative, minimum};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -285,7 +285,7 @@ fn draft(
     ends.retain(|&t| t > 0.0);
     ends.insert(0, 0.0);
     ends.push(TAU);
-    let low = least(|t| law.ratio(t).derivatives()[0], &ends);
+    let low = minimum(|t| law.ratio(t).derivatives()[0], &ends);
     if low.value <= 0.0 {
         return Err(PitchError::RatioNotPositive {
             key,

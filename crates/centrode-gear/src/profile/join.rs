@@ -1,4 +1,6 @@
-use centrode_geometry::{Kept, Outline, PolySegment, Segment, bracketed_minimum, checkpoint};
+use centrode_geometry::{
+    Outline, PolySegment, Segment, SegmentRange, bracketed_minimum, checkpoint,
+};
 
 use super::{Cutter, Member, Profile, ProfileError, Role, Side, Tooth, ToothCurve};
 
@@ -14,7 +16,7 @@ impl Cutter<'_> {
     pub(super) fn join(
         &self,
         pieces: &[ToothCurve],
-        kept: &[Kept],
+        kept: &[SegmentRange],
         mut teeth: Vec<Tooth>,
     ) -> Result<Profile, ProfileError> {
         let mut polys: Vec<PolySegment> = kept
@@ -58,7 +60,7 @@ impl Cutter<'_> {
                 }
                 Role::Tip => {
                     tooth.cut_through = false;
-                    tooth.tip_width += poly.chords(8);
+                    tooth.tip_width += poly.chord_length(8);
                 }
                 Role::Root => {}
             }
@@ -94,7 +96,7 @@ impl Cutter<'_> {
         let outline = Outline::new(segments)?;
         // Where a flank turns back on its fillet the two part by less than rounding at first.
         let tolerance = self.tolerance.mm();
-        if let Some(found) = outline.crossing_beyond(SPECK * tolerance, THIN * tolerance) {
+        if let Some(found) = outline.crossing_ignoring(SPECK * tolerance, THIN * tolerance) {
             return Err(ProfileError::Touches {
                 member: self.member,
                 point: found.point,

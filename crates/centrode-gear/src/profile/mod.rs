@@ -7,7 +7,8 @@ mod tooth;
 use std::ops::Range;
 
 use centrode_geometry::{
-    Kept, LoopError, Outline, Point, PolySegment, Segment, Tolerance, checkpoint, without_loops,
+    FittedSpan, LoopError, Outline, Point, PolySegment, Segment, SegmentRange, Tolerance,
+    checkpoint, without_loops,
 };
 
 pub use error::ProfileError;
@@ -125,7 +126,7 @@ impl Cutter<'_> {
     }
 
     /// Parts of the pieces without their loops.
-    fn without_loops(&self, pieces: &[ToothCurve]) -> Result<Vec<Kept>, ProfileError> {
+    fn without_loops(&self, pieces: &[ToothCurve]) -> Result<Vec<SegmentRange>, ProfileError> {
         for (piece, next) in pieces.iter().zip(pieces.iter().cycle().skip(1)) {
             let gap = (next.poly.start() - piece.poly.end()).norm();
             if gap > 10.0 * self.tolerance.mm() {
@@ -330,12 +331,12 @@ impl Cutter<'_> {
                 continue;
             }
             let fitted = PolySegment::fit_spans(curve, pair[0], pair[1], self.tolerance);
-            for (poly, t0, t1) in fitted {
+            for FittedSpan { poly, from, to } in fitted {
                 pieces.push(ToothCurve {
                     poly,
                     role,
                     tooth,
-                    span: (t0, t1),
+                    span: (from, to),
                     side,
                     image: None,
                 });

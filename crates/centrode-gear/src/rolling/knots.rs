@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use centrode_geometry::{bracketed_newton, checkpoint, pieces};
+use centrode_geometry::{bracketed_newton, checkpoint, piece_ends};
 
 use super::Rolling;
 
@@ -18,7 +18,7 @@ impl Rolling {
             t if t == end => TAU,
             t => self.polar_angle(t, &self.curve.at(t)),
         };
-        let ends = pieces(start, end, KNOTS, breaks).into_iter();
+        let ends = piece_ends(start, end, KNOTS, breaks).into_iter();
         ends.map(|t| [t, angle(t)]).collect()
     }
 

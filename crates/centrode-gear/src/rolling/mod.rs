@@ -7,7 +7,7 @@ mod resolve;
 use std::f64::consts::{PI, TAU};
 use std::sync::{Arc, OnceLock};
 
-use centrode_geometry::{Antiderivative, Curve, Jet, Point, Vector, pieces};
+use centrode_geometry::{Antiderivative, Curve, Jet, Point, Vector, piece_ends};
 
 pub use error::RollingError;
 pub use pitch_contact::{CurvatureRange, PitchContact};
@@ -367,7 +367,7 @@ impl Rolling {
     /// Parameters of one turn of the driver's pitch curve between which both curves are smooth and short.
     pub(crate) fn pieces(&self) -> Vec<f64> {
         let (start, end) = (self.start, self.start + self.curve.period());
-        pieces(start, end, PIECES, &self.breaks_between(start, end))
+        piece_ends(start, end, PIECES, &self.breaks_between(start, end))
     }
 
     /// Breaks in `[from, to)`.

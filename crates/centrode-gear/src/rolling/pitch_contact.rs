@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use centrode_geometry::{Extreme, Vector, greatest_each};
+use centrode_geometry::{Extreme, Vector, maximum_of_each};
 
 use super::Rolling;
 
@@ -81,7 +81,7 @@ impl Rolling {
                 let [driver, driven] = self.curvatures(t);
                 [-driver, driver, -driven, driven]
             };
-            let found = greatest_each(all, &self.pieces());
+            let found = maximum_of_each(all, &self.pieces());
             let [a, b, c, d] =
                 found.map(|Extreme { input, value }| (self.arc_length(input), value));
             [(a, b), (c, d)].map(|((arc, negative), greatest)| CurvatureRange {

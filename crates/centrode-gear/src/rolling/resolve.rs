@@ -37,9 +37,9 @@ impl Rolling {
         breaks.push(start + period);
 
         let arc = Antiderivative::new(|t| curve.at(t).first.norm(), &breaks);
-        if arc.unsettled() > MOST_UNSETTLED {
+        if arc.unconverged() > MOST_UNSETTLED {
             return Err(RollingError::Unsettled {
-                unsettled: arc.unsettled(),
+                unsettled: arc.unconverged(),
                 most: MOST_UNSETTLED,
             });
         }

@@ -5,25 +5,25 @@ use super::{
 };
 use crate::{Point, Vector, curve::Segment};
 
-/// How thoroughly the fewest arcs are searched for.
+/// Effort of the beam search for the minimum number of arcs.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Beam {
-    /// Chains followed side by side.
+    /// Number of chains that are extended together.
     width: usize,
-    /// End nodes tried for the next arc of a chain.
+    /// Number of end nodes tried for the next arc of a chain.
     branches: usize,
-    /// Offsets tried there, of [`SIDES`].
+    /// Number of offsets of [`SIDES`] tried at an end node.
     sides: usize,
 }
 
 impl Beam {
-    /// For files: hardly ever an arc too many.
+    /// For files: rarely one arc more than necessary.
     pub(crate) const THOROUGH: Self = Self {
         width: 12,
         branches: 2,
         sides: SIDES.len(),
     };
-    /// For what is seen: a few arcs more in a fraction of the time.
+    /// For display: a few more arcs in a fraction of the time.
     pub(crate) const QUICK: Self = Self {
         width: 4,
         branches: 2,
@@ -31,41 +31,44 @@ impl Beam {
     };
 }
 
-/// Lengths tried for the next arc, in arcs as planned.
-const REACHES: [f64; 20] = [
+/// Lengths tried for the next arc, relative to the planned arc, from the longest. More values find a few longer arcs and cost
+/// time.
+const LENGTHS: [f64; 20] = [
     16.0, 4.0, 2.0, 1.7, 1.5, 1.4, 1.3, 1.2, 1.15, 1.1, 1.05, 1.0, 0.95, 0.9, 0.85, 0.8, 0.65, 0.5,
     0.25, 0.0,
 ];
-/// Offsets from the curve at which arcs may join, as shares of the limit.
+/// Offsets from the curve at which arcs may join, relative to the limit. Larger ones leave less tolerance for the arcs.
 const SIDES: [f64; 3] = [0.0, 0.3, -0.3];
-/// Greatest angle, rad, one arc turns through.
-const HALF_TURN: f64 = 2.9;
-/// Cost, in arcs, of reaching a node with the tangent off by one planned deviation.
-const LEAN_COST: f64 = 0.15;
-/// Chains that reach the same node with tangents closer than this share of the planned deviation are duplicates; the
-/// better is kept.
-const LEAN_CLASS: f64 = 0.35;
+/// Maximum angle, rad, of one arc: a little less than half a turn, beyond which it could bend to the wrong side.
+const MAX_TURN: f64 = 2.9;
+/// Cost, in arcs, of a tangent that is off by one planned tangent angle. Ten times larger, the search prefers short arcs; ten
+/// times smaller, arcs end in directions that no long arc can continue.
+const TANGENT_COST: f64 = 0.15;
+/// Difference of tangents, relative to the planned tangent angle, below which two chains at the same node are duplicates: only
+/// the better one stays. Ten times larger drops good chains; ten times smaller fills the beam with copies.
+const TANGENT_CLASS: f64 = 0.35;
 
-/// A chain of arcs from the start of the run to a place at a node.
+/// A chain of arcs from the start of the run to a point at a node.
 #[derive(Clone, Copy, Debug)]
 struct ArcChain {
     node: usize,
     /// Index of the node's offset in [`SIDES`].
     side: usize,
     point: Point,
-    /// Direction of arrival.
+    /// Direction at its end.
     tangent: Vector,
-    /// Deviation of that direction from the planned one, in classes.
-    lean: i32,
+    /// Deviation of that direction from the planned one, in multiples of [`TANGENT_CLASS`].
+    tangent_class: i32,
     /// Index of the chain without its last arc.
     before: usize,
-    /// Merit of the chain: planned arcs up to here, less the cost of a deviating tangent.
+    /// Number of planned arcs up to here, minus the cost of a deviating tangent.
     merit: f64,
 }
 
-/// Chains of arcs along a smooth run, each arc leaving in the direction in which the one before it
-/// arrived. All chains of as many arcs are carried on together, the best few of them: a beam search for
-/// the fewest arcs.
+/// Beam search for the minimum number of arcs along a smooth run.
+///
+/// Each arc starts in the direction in which the previous one ends. The search extends the best few chains of equal number
+/// of arcs together.
 pub(crate) struct ArcChains<'a> {
     nodes: &'a [Node],
     free: [bool; 2],
@@ -75,8 +78,18 @@ pub(crate) struct ArcChains<'a> {
     beam: Beam,
 }
 
+/// A chain that two more arcs complete.
+struct Completion {
+    /// Number of arcs in all.
+    count: usize,
+    /// Index of the chain.
+    link: usize,
+    /// The two arcs.
+    biarc: Biarc,
+}
+
 impl<'a> ArcChains<'a> {
-    /// Plans the chains of a run; `free` says at which ends the tangent need not be the curve's own.
+    /// Plans the chains of a run; `free` states at which ends the arcs need not have the tangent of the curve.
     pub(crate) fn new(nodes: &'a [Node], free: [bool; 2], limit: f64, beam: Beam) -> Self {
         Self {
             beam,
@@ -89,11 +102,11 @@ impl<'a> ArcChains<'a> {
     }
 
     /// Appends the arcs of the shortest chain found.
-    pub(crate) fn fewest(mut self, out: &mut Vec<Segment>) {
+    pub(crate) fn shortest(mut self, out: &mut Vec<Segment>) {
         let last = self.nodes.len() - 1;
         let mut front = self.starts();
-        // The first chain that a pair of arcs could finish, and the count with them.
-        let mut closing: Option<(usize, usize, Biarc)> = None;
+        // The first chain that a pair of arcs completes.
+        let mut completion: Option<Completion> = None;
         let mut count = 0;
         loop {
             crate::checkpoint();
@@ -101,26 +114,29 @@ impl<'a> ArcChains<'a> {
                 self.trace(done, out);
                 return;
             }
-            if let Some((total, link, biarc)) = closing
-                && total <= count + 1
+            if let Some(found) = &completion
+                && found.count <= count + 1
             {
-                self.trace(link, out);
-                out.extend(biarc.segments);
+                self.trace(found.link, out);
+                out.extend(found.biarc.segments);
                 return;
             }
-            if !self.free[1] && closing.is_none() {
-                closing = front.iter().find_map(|&link| {
-                    let biarc = self.close(&self.links[link])?;
-                    Some((count + 2, link, biarc))
+            if !self.free[1] && completion.is_none() {
+                completion = front.iter().find_map(|&link| {
+                    Some(Completion {
+                        count: count + 2,
+                        link,
+                        biarc: self.complete(&self.links[link])?,
+                    })
                 });
             }
             let mut next =
                 Vec::with_capacity(self.beam.width * self.beam.branches * self.beam.sides);
             for &link in &front {
-                self.carry_on(link, &mut next);
+                self.extend(link, &mut next);
             }
-            if next.is_empty() && closing.is_none() {
-                // No arc fits even one step: the curve is bent tighter than its own nodes.
+            if next.is_empty() && completion.is_none() {
+                // No arc fits even one step: the curve bends more sharply than its nodes resolve.
                 front.truncate(1);
                 next = front.iter().map(|&link| self.force(link)).collect();
             }
@@ -129,7 +145,7 @@ impl<'a> ArcChains<'a> {
         }
     }
 
-    /// Chains of no arc yet: with the curve's tangent and, if the tangent is free, also the planned and the mean one.
+    /// Chains without arcs: with the tangent of the curve and, if the tangent is free, also the planned and the mean one.
     fn starts(&mut self) -> Vec<usize> {
         let (own, planned) = (self.nodes[0].tangent, self.plan.tangents[0]);
         let tangents = [own, planned, (own + planned).normalize()];
@@ -140,7 +156,7 @@ impl<'a> ArcChains<'a> {
                 side: 0,
                 point: self.nodes[0].point,
                 tangent,
-                lean: 0,
+                tangent_class: 0,
                 before: usize::MAX,
                 merit: 0.0,
             }));
@@ -148,18 +164,17 @@ impl<'a> ArcChains<'a> {
     }
 
     /// Adds the longest arcs that fit after a chain.
-    fn carry_on(&mut self, before: usize, next: &mut Vec<usize>) {
+    fn extend(&mut self, before: usize, next: &mut Vec<usize>) {
         let from = self.links[before];
         let last = self.nodes.len() - 1;
         let (mut tried, mut found) = (last + 1, 0);
-        for reach in REACHES {
-            let target = self.plan.count[from.node] + reach;
+        for length in LENGTHS {
+            let target = self.plan.count[from.node] + length;
             let end = self.plan.count.partition_point(|&c| c <= target);
             let end = end.saturating_sub(1).max(from.node + 1).min(last);
-            // The last node has a tangent of its own to arrive along, unless that is free; an arc of
-            // more than a half turn could bend to the wrong side.
+            // An arc may end at the last node only if the tangent there is free.
             let turned = self.plan.turned[end] - self.plan.turned[from.node];
-            if end >= tried || (end == last && !self.free[1]) || turned.abs() > HALF_TURN {
+            if end >= tried || (end == last && !self.free[1]) || turned.abs() > MAX_TURN {
                 continue;
             }
             tried = end;
@@ -178,7 +193,7 @@ impl<'a> ArcChains<'a> {
         }
     }
 
-    /// The chain with one more arc, to a side of a node, if that arc stays within the limit.
+    /// The chain with one more arc to an offset of a node; `None` if that arc exceeds the limit.
     fn link(&self, before: usize, node: usize, side: usize) -> Option<ArcChain> {
         let from = &self.links[before];
         let to = &self.nodes[node];
@@ -190,21 +205,21 @@ impl<'a> ArcChains<'a> {
         if along < 0.1 || !circle.follows(&self.nodes[from.node..=node], self.limit) {
             return None;
         }
-        // An arc arrives as it left, mirrored in its chord.
+        // The tangent at the end of an arc is that at its start, mirrored in its chord.
         let tangent = (chord * (2.0 * along) - from.tangent).normalize();
-        let lean = self.plan.tangents[node].perp(&tangent) / self.plan.lean[node];
+        let off = self.plan.tangents[node].perp(&tangent) / self.plan.tangent_angle[node];
         Some(ArcChain {
             node,
             side,
             point,
             tangent,
-            lean: (lean / LEAN_CLASS).round() as i32,
+            tangent_class: (off / TANGENT_CLASS).round() as i32,
             before,
-            merit: self.plan.count[node] - LEAN_COST * lean.abs(),
+            merit: self.plan.count[node] - TANGENT_COST * off.abs(),
         })
     }
 
-    /// A step to the next node whatever its error, after which the curve's own tangent is taken up.
+    /// The chain with an arc to the next node, whatever its error; it continues with the tangent of the curve.
     fn force(&mut self, before: usize) -> usize {
         let node = self.links[before].node + 1;
         self.links.push(ArcChain {
@@ -212,7 +227,7 @@ impl<'a> ArcChains<'a> {
             side: 0,
             point: self.nodes[node].point,
             tangent: self.nodes[node].tangent,
-            lean: 0,
+            tangent_class: 0,
             before,
             merit: 0.0,
         });
@@ -220,7 +235,7 @@ impl<'a> ArcChains<'a> {
     }
 
     /// The pair of arcs from the end of a chain to the end of the run.
-    fn close(&self, link: &ArcChain) -> Option<Biarc> {
+    fn complete(&self, link: &ArcChain) -> Option<Biarc> {
         let last = self.nodes.len() - 1;
         if self.plan.count[last] - self.plan.count[link.node] > 4.0 || link.side != 0 {
             return None;
@@ -229,25 +244,28 @@ impl<'a> ArcChains<'a> {
         Biarc::fit(&self.nodes[link.node..], tangents, self.limit)
     }
 
-    /// The best chains, only one of those that arrive at a place alike.
+    /// The best chains, without duplicates.
     fn best(&self, mut links: Vec<usize>) -> Vec<usize> {
         links.sort_by(|&a, &b| self.links[b].merit.total_cmp(&self.links[a].merit));
-        let mut kept: Vec<usize> = Vec::with_capacity(self.beam.width);
-        let place = |link: usize| {
+        let mut best: Vec<usize> = Vec::with_capacity(self.beam.width);
+        let class = |link: usize| {
             let ArcChain {
-                node, side, lean, ..
+                node,
+                side,
+                tangent_class,
+                ..
             } = self.links[link];
-            (node, side, lean)
+            (node, side, tangent_class)
         };
         for link in links {
-            if kept.iter().all(|&other| place(other) != place(link)) {
-                kept.push(link);
+            if best.iter().all(|&other| class(other) != class(link)) {
+                best.push(link);
             }
-            if kept.len() == self.beam.width {
+            if best.len() == self.beam.width {
                 break;
             }
         }
-        kept
+        best
     }
 
     /// Appends the arcs of a chain.

@@ -7,30 +7,29 @@ use crate::{numeric::Tolerance, region::Outline};
 impl Outline {
     /// The outline as lines and arcs only, nowhere farther from it than the tolerance.
     ///
-    /// Lines, arcs and corners stay exactly where they are; the curves between them become arcs that
-    /// join without a kink. They are few: a tenth of the tolerance costs about twice the arcs.
+    /// Lines, arcs and corners stay exact. The curves between them become arcs that join without a kink. A tenth of the
+    /// tolerance needs about twice the number of arcs.
     #[must_use]
     pub fn arcs(&self, tolerance: Tolerance) -> Self {
-        self.arcs_by(tolerance, Beam::THOROUGH)
+        self.arcs_with(tolerance, Beam::THOROUGH)
     }
 
-    /// Outline of lines and arcs as [`arcs`](Self::arcs), found in a fraction of the time with some arcs more: for what
-    /// is seen.
+    /// Like [`arcs`](Self::arcs), for display: a few more arcs in a fraction of the time.
     #[must_use]
-    pub fn arcs_to_see(&self, tolerance: Tolerance) -> Self {
-        self.arcs_by(tolerance, Beam::QUICK)
+    pub fn display_arcs(&self, tolerance: Tolerance) -> Self {
+        self.arcs_with(tolerance, Beam::QUICK)
     }
 
-    fn arcs_by(&self, tolerance: Tolerance, beam: Beam) -> Self {
-        // The check between nodes is of fourth order: this spacing leaves it a hundredth of the rest.
+    fn arcs_with(&self, tolerance: Tolerance, beam: Beam) -> Self {
+        // The check between nodes is of fourth order: this spacing leaves an error of 1 % of the tolerance.
         let spacing = tolerance.scaled(0.5);
         let limit = 0.985 * tolerance.mm();
         let mut segments = Vec::new();
         for run in self.runs(spacing) {
             match run {
-                Run::Kept(index) => segments.push(self.segments()[index]),
+                Run::Exact(index) => segments.push(self.segments()[index]),
                 Run::Smooth { nodes, free } => {
-                    ArcChains::new(&nodes, free, limit, beam).fewest(&mut segments);
+                    ArcChains::new(&nodes, free, limit, beam).shortest(&mut segments);
                 }
             }
         }
@@ -87,7 +86,11 @@ mod tests {
     }
 
     fn kinks(outline: &Outline) -> usize {
-        outline.jumps().iter().filter(|&&jump| jump > 1e-6).count()
+        outline
+            .tangent_jumps()
+            .iter()
+            .filter(|&&jump| jump > 1e-6)
+            .count()
     }
 
     #[test]
@@ -107,21 +110,21 @@ mod tests {
     }
 
     #[test]
-    fn arcs_to_see_keep_tolerance_and_corners_with_hardly_more_arcs() {
+    fn display_arcs_keep_tolerance_and_corners_with_hardly_more_arcs() {
         for outline in [
             tooth_ring(23, 2.25, tolerance(1e-10)),
             rosette(40.0, 6.0, 5, tolerance(1e-10)),
         ] {
             for tol in [1e-1, 1e-2, 1e-3, 1e-4] {
-                let (seen, fewest) = (
-                    outline.arcs_to_see(tolerance(tol)),
+                let (display, thorough) = (
+                    outline.display_arcs(tolerance(tol)),
                     outline.arcs(tolerance(tol)),
                 );
-                Outline::new(seen.segments().to_vec()).expect("closed");
-                let worst = deviation(&outline, &seen);
+                Outline::new(display.segments().to_vec()).expect("closed");
+                let worst = deviation(&outline, &display);
                 assert!(worst <= tol, "{tol}: {worst}");
-                assert_eq!(kinks(&seen), kinks(&fewest), "{tol}");
-                let [more, few] = [seen, fewest].map(|arcs| arcs.segments().len());
+                assert_eq!(kinks(&display), kinks(&thorough), "{tol}");
+                let [more, few] = [display, thorough].map(|arcs| arcs.segments().len());
                 assert!(4 * more <= 5 * few, "{tol}: {more} arcs instead of {few}");
             }
         }

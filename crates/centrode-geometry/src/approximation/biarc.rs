@@ -1,18 +1,19 @@
-use super::smooth_run::{Node, hermite_peak};
+use super::smooth_run::{Deviation, Node, hermite_peak};
 use crate::{
     Point, Vector,
     curve::{Arc, Segment},
 };
 
-/// Bulge of an arc from one of its end directions to that of its chord: the tangent of a quarter of the turn.
+/// Bulge of an arc, the tangent of a quarter of its turn, from the directions of its start and its chord, or its chord and its
+/// end.
 pub(crate) fn bulge(from: Vector, to: Vector) -> f64 {
     from.perp(&to) / (from.norm() * to.norm() + from.dot(&to))
 }
 
-/// An arc, or a line where the arc bulges by less than the rounding of its ends.
+/// An arc, or a line if the sagitta of the arc is below the rounding of its ends.
 pub(crate) fn arc(start: Point, end: Point, bulge: f64) -> Segment {
     let rounding = 4.0 * f64::EPSILON * start.coords.amax().max(end.coords.amax());
-    // Not a number where the ends are one point: a line as well.
+    // NaN for equal ends: a line as well.
     if bulge.abs() * (end - start).norm() > rounding {
         Segment::Arc(Arc { start, end, bulge })
     } else {
@@ -20,7 +21,7 @@ pub(crate) fn arc(start: Point, end: Point, bulge: f64) -> Segment {
     }
 }
 
-/// Two arcs that leave one node and reach another along their tangents.
+/// Two arcs from one node to another, along the tangents at both.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Biarc {
     joint: Point,
@@ -29,7 +30,7 @@ pub(crate) struct Biarc {
     pub(crate) segments: [Segment; 2],
 }
 
-/// A circle, or a line where the curvature vanishes, through a point in a direction.
+/// A circle, or a line if the curvature is zero, through a point in a direction.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Circle {
     point: Point,
@@ -51,46 +52,50 @@ impl Circle {
     /// Whether the curve through the nodes stays within a distance of the circle.
     pub(crate) fn follows(&self, nodes: &[Node], limit: f64) -> bool {
         let k = self.curvature;
-        // A circle smaller than the distance follows nothing.
+        // A circle with a radius near the limit cannot follow a curve.
         if k.is_nan() || (k * limit).abs() >= 0.1 || !self.is_near(&nodes[nodes.len() / 2], limit) {
             return false;
         }
-        let beside = |node: &Node| {
+        let deviation = |node: &Node| {
             let v = node.point - self.point;
             let twice = 2.0 * v.dot(&self.normal) - k * v.norm_squared();
             // `twice = d (2 - k d)`, solved for the small d.
             let d = 0.5 * twice * (1.0 + 0.25 * k * twice);
-            (d, (self.normal - v * k).dot(&node.tangent) * (1.0 + k * d))
+            Deviation {
+                distance: d,
+                slope: (self.normal - v * k).dot(&node.tangent) * (1.0 + k * d),
+            }
         };
-        let (mut before, mut slope) = beside(&nodes[0]);
+        let mut before = deviation(&nodes[0]);
         for pair in nodes.windows(2) {
-            let (d, s) = beside(&pair[1]);
+            let here = deviation(&pair[1]);
+            let d = here.distance;
             if d.is_nan() || d.abs() > limit {
                 return false;
             }
-            // No cubic rises above its ends by more than its slopes let it.
+            // Cheap bound first: the slopes limit how far a cubic rises above its ends.
             let square = (pair[1].point - pair[0].point).norm_squared();
-            let rise = 4.0 / 27.0 * (slope.abs() + s.abs());
-            let room = limit - before.abs().max(d.abs());
+            let rise = 4.0 / 27.0 * (before.slope.abs() + here.slope.abs());
+            let room = limit - before.distance.abs().max(d.abs());
             if rise * rise * square > room * room
-                && hermite_peak(before, slope, d, s, square.sqrt()) > limit
+                && hermite_peak(before, here, square.sqrt()) > limit
             {
                 return false;
             }
-            (before, slope) = (d, s);
+            before = here;
         }
         true
     }
 
-    /// Whether a node may lie within a distance of the circle that is less than a tenth of its radius.
+    /// Whether a node may lie within `limit` of the circle; the limit is less than a tenth of its radius.
     fn is_near(&self, node: &Node, limit: f64) -> bool {
         let v = node.point - self.point;
         (2.0 * v.dot(&self.normal) - self.curvature * v.norm_squared()).abs() <= 2.2 * limit
     }
 
-    /// Signed distance to the left and its slope along a unit tangent.
-    fn distance(&self, node: &Node) -> (f64, f64) {
-        // 1/K - sqrt((1/K - y)² + x²) in the form that stays exact as K goes to zero.
+    /// Deviation of a node from the circle.
+    fn deviation(&self, node: &Node) -> Deviation {
+        // 1/K - sqrt((1/K - y)² + x²), in a form that is exact for K near zero.
         let v = node.point - self.point;
         let along = v.dot(&self.normal);
         let k = self.curvature;
@@ -98,13 +103,16 @@ impl Circle {
         let root = (1.0 + k * (k * square - 2.0 * along)).max(0.0).sqrt();
         let distance = (2.0 * along - k * square) / (1.0 + root);
         let gradient = (self.normal - v * k) / root.max(f64::MIN_POSITIVE);
-        (distance, gradient.dot(&node.tangent))
+        Deviation {
+            distance,
+            slope: gradient.dot(&node.tangent),
+        }
     }
 }
 
 impl Biarc {
-    /// The biarc whose joint is set by `first`, the length of the first control leg; `None` where a leg
-    /// would be negative or an arc turn by a half turn or more.
+    /// The biarc whose first control leg has the length `first`, mm; `None` if a leg would be negative or an arc would turn by
+    /// half a turn or more.
     fn new(start: &Node, end: &Node, first: f64) -> Option<Self> {
         let v = end.point - start.point;
         let (t0, t1) = (start.tangent, end.tangent);
@@ -142,31 +150,34 @@ impl Biarc {
         })
     }
 
-    /// Greatest distances of the nodes' curve from each of the two arcs; stops above `limit`.
+    /// Maximum distances, mm, of the curve through the nodes from each of the two arcs; infinite above `limit`.
     fn errors(&self, nodes: &[Node], limit: f64) -> [f64; 2] {
         let mut errors = [0.0_f64; 2];
-        let (_, mut slope) = nodes
+        let slope = nodes
             .first()
-            .map_or((0.0, 0.0), |node| self.arcs[0].distance(node));
-        let mut before = 0.0;
+            .map_or(0.0, |node| self.arcs[0].deviation(node).slope);
+        let mut before = Deviation {
+            distance: 0.0,
+            slope,
+        };
         for pair in nodes.windows(2) {
             let node = &pair[1];
             let side = usize::from((node.point - self.joint).dot(&self.tangent) > 0.0);
-            let (d, s) = self.arcs[side].distance(node);
+            let here = self.arcs[side].deviation(node);
             let h = (node.point - pair[0].point).norm();
-            let peak = hermite_peak(before, slope, d, s, h);
+            let peak = hermite_peak(before, here, h);
             errors[side] = errors[side].max(peak);
             if peak > limit {
                 errors[side] = f64::INFINITY;
                 break;
             }
-            (before, slope) = (d, s);
+            before = here;
         }
         errors
     }
 
-    /// A biarc from the first node to the last within the tolerance of the curve through them all,
-    /// with the end tangents given instead of the curve's own.
+    /// A biarc from the first node to the last, with the given end tangents, within the tolerance, mm, of the curve through all
+    /// nodes.
     pub(crate) fn fit(nodes: &[Node], tangents: [Vector; 2], tolerance: f64) -> Option<Self> {
         let mut ends = [*nodes.first()?, *nodes.last()?];
         ends[0].tangent = tangents[0];
@@ -178,8 +189,8 @@ impl Biarc {
         if along <= 0.0 {
             return None;
         }
-        // Equal legs, then the joint moved to where both arcs are equally wrong: the error of an arc
-        // grows with the cube of its length.
+        // Start with equal legs, then move the joint until both errors are equal: the error of an arc is proportional to the cube
+        // of its length.
         let root = (along * along + turn * v.norm_squared()).sqrt();
         let mut first = v.norm_squared() / (along + root);
         for _ in 0..3 {

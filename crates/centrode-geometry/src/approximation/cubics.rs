@@ -1,4 +1,4 @@
-use super::smooth_run::{Node, Run, hermite_peak};
+use super::smooth_run::{Deviation, Node, Run, hermite_peak};
 use crate::{
     Point, Vector,
     curve::{Arc, Segment},
@@ -9,15 +9,14 @@ use crate::{
 impl Outline {
     /// Bézier cubics, joined end to start, nowhere farther from the outline than the tolerance.
     ///
-    /// Each is its four control points. Corners stay exact, and cubics join without a kink wherever the
-    /// outline does.
+    /// Each is its four control points. Corners stay exact, and the cubics join without a kink where the outline does.
     #[must_use]
     pub fn cubics(&self, tolerance: Tolerance) -> Vec<[Point; 4]> {
         let limit = 0.995 * tolerance.mm();
         let mut out = Vec::new();
         for run in self.runs(tolerance.scaled(0.25)) {
             match run {
-                Run::Kept(index) => match &self.segments()[index] {
+                Run::Exact(index) => match &self.segments()[index] {
                     Segment::Arc(arc) => arc_cubics(arc, limit, &mut out),
                     segment => {
                         let (start, end) = (segment.start(), segment.end());
@@ -41,7 +40,8 @@ impl Outline {
     }
 }
 
-/// Longest cubic within the limit, sought around a guess of its steps; one step if none is.
+/// Number of steps and control points of the longest cubic within the limit; one step if none is. The search starts at `guess`
+/// steps.
 fn longest(nodes: &[Node], guess: usize, limit: f64) -> (usize, [Point; 4]) {
     let last = nodes.len() - 1;
     let (mut good, mut bad) = (0, last + 1);
@@ -63,10 +63,10 @@ fn longest(nodes: &[Node], guess: usize, limit: f64) -> (usize, [Point; 4]) {
     (good.max(1), best)
 }
 
-/// The cubic with the end points and tangents of the nodes and handles of a third of their length.
+/// The cubic with the end points and tangents of the nodes and handles of a third of the length of the curve.
 fn hermite(nodes: &[Node]) -> [Point; 4] {
     let (start, end) = (&nodes[0], &nodes[nodes.len() - 1]);
-    // The length of an arc is nearer to the curve's than that of its chord.
+    // Sum over arcs: nearer to the length of the curve than the sum over chords.
     let length: f64 = nodes
         .windows(2)
         .map(|w| {
@@ -91,14 +91,17 @@ fn hermite(nodes: &[Node]) -> [Point; 4] {
     ]
 }
 
-/// Greatest distance of the curve through the nodes from a cubic.
+/// Maximum distance, mm, of the curve through the nodes from a cubic; infinite above `limit`.
 fn error(cubic: &[Point; 4], nodes: &[Node], limit: f64) -> f64 {
     let total: f64 = nodes
         .windows(2)
         .map(|w| (w[1].point - w[0].point).norm())
         .sum();
     let (mut worst, mut travelled) = (0.0_f64, 0.0);
-    let (mut before, mut slope) = (0.0, 0.0);
+    let mut before = Deviation {
+        distance: 0.0,
+        slope: 0.0,
+    };
     for pair in nodes.windows(2) {
         let step = (pair[1].point - pair[0].point).norm();
         travelled += step;
@@ -109,15 +112,15 @@ fn error(cubic: &[Point; 4], nodes: &[Node], limit: f64) -> f64 {
             (point, velocity) = at(cubic, t.clamp(0.0, 1.0));
         }
         let normal = Vector::new(-velocity.y, velocity.x).normalize();
-        let (d, s) = (
-            normal.dot(&(pair[1].point - point)),
-            normal.dot(&pair[1].tangent),
-        );
-        worst = worst.max(hermite_peak(before, slope, d, s, step));
+        let here = Deviation {
+            distance: normal.dot(&(pair[1].point - point)),
+            slope: normal.dot(&pair[1].tangent),
+        };
+        worst = worst.max(hermite_peak(before, here, step));
         if !(worst <= limit && t.is_finite()) {
             return f64::INFINITY;
         }
-        (before, slope) = (d, s);
+        before = here;
     }
     worst
 }
@@ -133,12 +136,12 @@ fn at(c: &[Point; 4], t: f64) -> (Point, Vector) {
     (Point::from(point), velocity)
 }
 
-/// Appends cubics of equal parts of an arc that leave it by less than the limit.
+/// Appends cubics for equal parts of an arc that deviate from it by less than the limit, mm.
 fn arc_cubics(arc: &Arc, limit: f64, out: &mut Vec<[Point; 4]>) {
     let segment = Segment::Arc(*arc);
     let (sweep, radius) = (arc.sweep().abs(), arc.radius());
     let mut parts = (sweep / std::f64::consts::FRAC_PI_2).ceil().max(1.0);
-    // The standard handle leaves the circle by 4/27 sin⁶(θ/4) / cos²(θ/4) of the radius.
+    // With the standard handle the error is 4/27 sin⁶(θ/4) / cos²(θ/4) of the radius.
     while radius * 4.0 / 27.0 * (0.25 * sweep / parts).sin().powi(6)
         / (0.25 * sweep / parts).cos().powi(2)
         > limit

@@ -1,7 +1,7 @@
 use crate::{
     Point, Vector,
     numeric::Tolerance,
-    region::{Outline, Place},
+    region::{Outline, Position},
 };
 
 /// A point of an [`Outline`] with the outward direction and curvature there.
@@ -20,21 +20,21 @@ pub struct Sample {
 impl Outline {
     /// Corners of a closed polygon on the outline that is nowhere farther from it than the tolerance.
     ///
-    /// Where two parts of the outline are nearer than that, beside a cusp even, it has more corners, so that it crosses
-    /// itself only where the outline does or where rounding cannot tell.
-    /// The bound is proven, not sampled. Ends of lines and arcs and every corner are among the points;
-    /// the last is not the first repeated. Cost: linear in segments and points.
+    /// The bound is proven, not sampled. Ends of lines and arcs and every corner are among the points; the first point is
+    /// not repeated at the end. Where two parts of the outline are nearer than the tolerance, for instance near a cusp, the
+    /// polygon has more corners: it crosses itself only where the outline does, or within rounding. Cost: linear in segments
+    /// and points.
     #[must_use]
     pub fn flatten(&self, tolerance: Tolerance) -> Vec<Point> {
-        self.chain(tolerance)
+        self.polygon_positions(tolerance)
             .into_iter()
-            .map(|place| self.point(place))
+            .map(|position| self.point(position))
             .collect()
     }
 
     /// The points of [`flatten`](Self::flatten) with outward normal and curvature.
     ///
-    /// At a corner both are those of the segment that begins there.
+    /// At a corner, both belong to the segment that begins there.
     #[must_use]
     pub fn samples(&self, tolerance: Tolerance) -> Vec<Sample> {
         let side = if self.is_counter_clockwise() {
@@ -42,33 +42,33 @@ impl Outline {
         } else {
             -1.0
         };
-        self.chain(tolerance)
+        self.polygon_positions(tolerance)
             .into_iter()
-            .map(|place| {
-                let segment = &self.segments()[place.segment];
-                let jet = segment.at(place.u);
-                let tangent = segment.tangent(place.u);
+            .map(|position| {
+                let segment = &self.segments()[position.segment];
+                let jet = segment.at(position.u);
+                let tangent = segment.tangent(position.u);
                 Sample {
-                    point: self.point(place),
+                    point: self.point(position),
                     normal: Vector::new(tangent.y, -tangent.x) * side,
                     curvature: side * jet.first.perp(&jet.second) / jet.first.norm().powi(3),
-                    segment: place.segment,
+                    segment: position.segment,
                 }
             })
             .collect()
     }
 
-    /// Places of a chain within the tolerance, at least three however coarse it is.
-    fn chain(&self, tolerance: Tolerance) -> Vec<Place> {
+    /// Positions of a polygon within the tolerance; at min_count three for any tolerance.
+    fn polygon_positions(&self, tolerance: Tolerance) -> Vec<Position> {
         let mut finer = tolerance;
         for _ in 0..60 {
-            let places = self.places(finer);
-            if places.len() >= 3 {
-                return self.untangled(places, tolerance);
+            let positions = self.positions(finer);
+            if positions.len() >= 3 {
+                return self.untangled(positions, tolerance);
             }
             finer = finer.scaled(0.25);
         }
-        self.places(finer)
+        self.positions(finer)
     }
 }
 
@@ -117,7 +117,7 @@ mod tests {
                 let worst = deviation(&outline, &polygon);
                 assert!(worst <= tol, "tolerance {tol}: {worst}");
                 counts.push(polygon.len() as f64);
-                // The least possible count of a smooth closed curve: ∫ sqrt(|κ| / 8 tol) ds.
+                // The minimum count of a smooth closed curve: ∫ sqrt(|κ| / 8 tol) ds.
                 let mut ideal = 0.0;
                 for segment in outline.segments() {
                     for i in 0..100 {
@@ -138,11 +138,11 @@ mod tests {
     }
 
     #[test]
-    fn corners_are_kept_and_scale_does_not_matter() {
+    fn corners_stay_and_scale_does_not_matter() {
         let outline = tooth_ring(23, 2.25, tolerance(1e-9));
         let polygon = outline.flatten(tolerance(1e-3));
         assert!(deviation(&outline, &polygon) <= 1e-3);
-        let jumps = outline.jumps();
+        let jumps = outline.tangent_jumps();
         let mut corners = 0;
         for (segment, jump) in outline.segments().iter().zip(jumps) {
             if jump > 1e-6 {
@@ -166,8 +166,8 @@ mod tests {
         let circle = Outline::circle(Point::new(4.0, 0.0), 10.0);
         for outline in [circle.clone(), circle.reversed()] {
             let samples = outline.samples(tolerance(1e-3));
-            let least = std::f64::consts::PI / (1.0 - 1e-4_f64).acos();
-            assert!((samples.len() as f64) < least + 3.0 && samples.len() as f64 >= least);
+            let min_count = std::f64::consts::PI / (1.0 - 1e-4_f64).acos();
+            assert!((samples.len() as f64) < min_count + 3.0 && samples.len() as f64 >= min_count);
             for sample in &samples {
                 let radial = (sample.point - Point::new(4.0, 0.0)) / 10.0;
                 assert!((sample.normal - radial).norm() < 1e-12);

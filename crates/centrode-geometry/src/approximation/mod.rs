@@ -2,7 +2,7 @@
 //!
 //! Reading order: [`steps`] (longest chords within a tolerance), [`untangle`] and [`flatten`] give polygons; [`smooth_run`]
 //! (an outline between its corners), [`biarc`], [`arc_plan`], [`arc_chains`] and [`arcs`] give arcs, [`polygon_arcs`] the arcs of
-//! a polygon; [`cubics`] and [`offset`] stand alone. Uses `numeric`, `curve` and `region`.
+//! a polygon; [`cubics`] and [`offset`] do not depend on these. Uses `numeric`, `curve` and `region`.
 
 mod arc_chains;
 mod arc_plan;

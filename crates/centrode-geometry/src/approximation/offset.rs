@@ -6,25 +6,24 @@ use crate::{
 };
 
 impl Outline {
-    /// Offset curve at a constant normal distance, outside for a positive distance if the outline runs
-    /// counter-clockwise; curved parts within the tolerance.
+    /// Offset curve at a constant normal distance, mm; polynomial parts within the tolerance.
     ///
-    /// `None` where no smooth simple one exists: at a corner, where the distance is more than the radius
-    /// of a bend towards it, or where the curve would cross itself.
+    /// A positive distance is outside for a counter-clockwise outline. `None` if no smooth simple offset exists: the outline
+    /// has a corner, the distance exceeds a radius of curvature, or the offset would cross itself.
     #[must_use]
     pub fn offset(&self, distance: f64, tolerance: Tolerance) -> Option<Self> {
-        if self.jumps().iter().any(|&jump| jump > CORNER) {
+        if self.tangent_jumps().iter().any(|&jump| jump > CORNER) {
             return None;
         }
-        let bent = self.places(tolerance).into_iter().any(|place| {
-            let jet = self.segments()[place.segment].at(place.u);
+        let bent = self.positions(tolerance).into_iter().any(|position| {
+            let jet = self.segments()[position.segment].at(position.u);
             let curvature = jet.first.perp(&jet.second) / jet.first.norm().powi(3);
             1.0 + curvature * distance <= 0.0
         });
         if bent {
             return None;
         }
-        let beside = |segment: &Segment, u: f64| -> Point {
+        let shifted = |segment: &Segment, u: f64| -> Point {
             let tangent = segment.tangent(u);
             segment.at(u).point + Vector::new(tangent.y, -tangent.x) * distance
         };
@@ -32,8 +31,8 @@ impl Outline {
         for segment in self.segments() {
             let start = segments
                 .last()
-                .map_or_else(|| beside(segment, -1.0), Segment::end);
-            let end = beside(segment, 1.0);
+                .map_or_else(|| shifted(segment, -1.0), Segment::end);
+            let end = shifted(segment, 1.0);
             match segment {
                 Segment::Line(..) => segments.push(Segment::Line(start, end)),
                 Segment::Arc(arc) => segments.push(Segment::Arc(Arc {
@@ -42,7 +41,8 @@ impl Outline {
                     bulge: arc.bulge,
                 })),
                 Segment::Poly(_) => {
-                    let mut fitted = PolySegment::fit(|u| beside(segment, u), -1.0, 1.0, tolerance);
+                    let mut fitted =
+                        PolySegment::fit(|u| shifted(segment, u), -1.0, 1.0, tolerance);
                     if let Some(first) = fitted.first_mut() {
                         *first = first.pinned(start, first.end());
                     }
@@ -50,7 +50,7 @@ impl Outline {
                 }
             }
         }
-        // Close the loop of rounding at the very end.
+        // Close the gap that rounding leaves at the end.
         let first = segments.first()?.start();
         match segments.last_mut()? {
             Segment::Line(_, end) => *end = first,

@@ -4,21 +4,21 @@ use super::{
 };
 use crate::{Point, Vector, curve::Segment, numeric::Tolerance, region::Outline};
 
-/// Turn, rad, above which a vertex is a corner however short its chords.
+/// Turn, rad, above which a vertex is a corner, however short its chords. Much larger rounds off real corners; much smaller makes
+/// corners of coarse curves.
 const SHARP: f64 = 0.5;
-/// Greatest number of pieces into which a chord beside a shorter one is divided.
-const MOST_PIECES: f64 = 64.0;
+/// Maximum number of parts of a chord next to a shorter one. With fewer, the tangents next to long chords are worse; more cost
+/// time.
+const MAX_PARTS: f64 = 64.0;
 
 impl Outline {
-    /// The outline, a polygon whose chords stand for curves within `accuracy`, as few lines and arcs within the
-    /// tolerance of those curves.
+    /// Lines and arcs within the tolerance of the curves that a polygon approximates within `accuracy`.
     ///
-    /// A chord of the length `l` of a smooth curve turns by at most `8 accuracy / l` from the one before it. A vertex
-    /// that turns twice as much is a corner and stays where it is; between corners the vertices go through the same
-    /// fit as [`arcs`](Self::arcs). An outline that is no polygon, and one whose tolerance is not coarser than its
-    /// accuracy, is left to that method.
+    /// A chord of length `l` of a smooth curve turns by at most `8 accuracy / l` from the previous chord. A vertex that turns
+    /// twice as much is a corner and stays exact. Between corners the fit is that of [`arcs`](Self::arcs). An outline that is
+    /// not a polygon, or a tolerance that is not coarser than the accuracy, goes to that method directly.
     #[must_use]
-    pub fn arcs_of_chords(&self, accuracy: Tolerance, tolerance: Tolerance) -> Self {
+    pub fn polygon_arcs(&self, accuracy: Tolerance, tolerance: Tolerance) -> Self {
         let limit = 0.985 * (tolerance.mm() - accuracy.mm());
         let is_line = |segment: &Segment| matches!(segment, Segment::Line(..));
         let mut points: Vec<Point> = self.segments().iter().map(Segment::start).collect();
@@ -57,21 +57,23 @@ impl Outline {
     }
 }
 
-/// Distances, mm, within which arcs follow the vertices of a chain and the curve.
+/// Fit of arcs to a chain of vertices.
 struct Fit {
+    /// Maximum distance of the arcs from the vertices, mm.
     limit: f64,
+    /// Maximum distance of the curve from its chords, mm.
     accuracy: f64,
 }
 
 impl Fit {
-    /// Appends arcs along a chain between two corners; where they cannot follow it, that vertex is a corner, too.
+    /// Appends arcs along a chain between two corners. A vertex that they cannot follow becomes a corner, too.
     fn open(&self, chain: &[Point], out: &mut Vec<Segment>) {
         if let [start, end] = *chain {
             out.push(Segment::Line(start, end));
             return;
         }
         let arcs = self.arcs(chain, true);
-        match self.strays(chain, &arcs) {
+        match self.worst_vertex(chain, &arcs) {
             None => out.extend(arcs),
             Some(vertex) => {
                 self.open(&chain[..=vertex], out);
@@ -80,36 +82,37 @@ impl Fit {
         }
     }
 
-    /// Appends arcs along a closed chain without corners, its last vertex its first.
+    /// Appends arcs along a closed chain without corners; its last vertex equals its first.
     fn closed(&self, chain: &[Point], out: &mut Vec<Segment>) {
         let arcs = self.arcs(chain, false);
-        match self.strays(chain, &arcs) {
+        match self.worst_vertex(chain, &arcs) {
             None => out.extend(arcs),
             Some(_) => self.open(chain, out),
         }
     }
 
+    /// Arcs along a chain; `free` states whether its ends are corners.
     fn arcs(&self, chain: &[Point], free: bool) -> Vec<Segment> {
-        let nodes = nodes(&even(chain), !free);
+        let nodes = nodes(&subdivided(chain), !free);
         let mut arcs = Vec::new();
-        ArcChains::new(&nodes, [free; 2], self.limit, Beam::THOROUGH).fewest(&mut arcs);
+        ArcChains::new(&nodes, [free; 2], self.limit, Beam::THOROUGH).shortest(&mut arcs);
         arcs
     }
 
-    /// The inner vertex at which arcs leave the chain most, if they leave it by more than they may.
-    fn strays(&self, chain: &[Point], arcs: &[Segment]) -> Option<usize> {
-        // Rounding, and the error left at the ends of a beam search.
-        let most = 1.01 * self.limit;
+    /// The inner vertex next to the maximum distance between arcs and chain; `None` if the arcs stay within the limit.
+    fn worst_vertex(&self, chain: &[Point], arcs: &[Segment]) -> Option<usize> {
+        // One percent for rounding and for the error at the ends of a beam search.
+        let max_distance = 1.01 * self.limit;
         let mut worst = (0.0, 0);
         for (i, p) in chain.iter().enumerate() {
             let nearest = arcs.iter().map(|arc| distance(*p, arc));
-            let off = nearest.fold(f64::INFINITY, f64::min) - most;
+            let off = nearest.fold(f64::INFINITY, f64::min) - max_distance;
             if off > worst.0 {
                 worst = (off, i);
             }
         }
-        // The curve, and the arc on it, bulge from a chord by its error.
-        let aside = most + 2.0 * self.accuracy;
+        // Between vertices the curve, and the arc on it, deviate from the chord by the accuracy.
+        let max_from_chord = max_distance + 2.0 * self.accuracy;
         for arc in arcs {
             for step in 1..8 {
                 let p = arc.at(-1.0 + 0.25 * f64::from(step)).point;
@@ -118,9 +121,9 @@ impl Fit {
                     .map(|(i, w)| (distance(p, &Segment::Line(w[0], w[1])), i))
                     .min_by(|a, b| a.0.total_cmp(&b.0));
                 if let Some((off, i)) = nearest
-                    && off - aside > worst.0
+                    && off - max_from_chord > worst.0
                 {
-                    worst = (off - aside, i);
+                    worst = (off - max_from_chord, i);
                 }
             }
         }
@@ -128,16 +131,16 @@ impl Fit {
     }
 }
 
-/// Distance of a point from a line or an arc.
+/// Distance of a point from a line or an arc, mm.
 fn distance(p: Point, segment: &Segment) -> f64 {
     let (start, end) = (segment.start(), segment.end());
     match segment {
         Segment::Arc(arc) => {
             let center = arc.center();
             let middle = segment.at(0.0).point - center;
-            let way = p - center;
-            if way.perp(&middle).atan2(way.dot(&middle)).abs() <= 0.5 * arc.sweep().abs() {
-                (way.norm() - arc.radius()).abs()
+            let radial = p - center;
+            if radial.perp(&middle).atan2(radial.dot(&middle)).abs() <= 0.5 * arc.sweep().abs() {
+                (radial.norm() - arc.radius()).abs()
             } else {
                 (p - start).norm().min((p - end).norm())
             }
@@ -150,25 +153,25 @@ fn distance(p: Point, segment: &Segment) -> f64 {
     }
 }
 
-/// The chain with its long chords divided, so that none is much longer than its neighbours.
-fn even(chain: &[Point]) -> Vec<Point> {
+/// The chain with long chords divided, so that no chord is much longer than its neighbours.
+fn subdivided(chain: &[Point]) -> Vec<Point> {
     let lengths: Vec<f64> = chain.windows(2).map(|w| (w[1] - w[0]).norm()).collect();
-    let mut even = vec![chain[0]];
+    let mut points = vec![chain[0]];
     for (i, pair) in chain.windows(2).enumerate() {
         let before = i.checked_sub(1).map(|k| lengths[k]);
         let after = lengths.get(i + 1).copied();
         let shorter = before.into_iter().chain(after).fold(lengths[i], f64::min);
-        let pieces = (0.5 * lengths[i] / shorter).ceil().clamp(1.0, MOST_PIECES) as u32;
-        even.extend(
+        let pieces = (0.5 * lengths[i] / shorter).ceil().clamp(1.0, MAX_PARTS) as u32;
+        points.extend(
             (1..pieces).map(|k| pair[0] + (pair[1] - pair[0]) * (f64::from(k) / f64::from(pieces))),
         );
-        even.push(pair[1]);
+        points.push(pair[1]);
     }
-    even
+    points
 }
 
-/// The points with the tangent of the circle through each and its neighbours; the last of a closed chain is the
-/// first again.
+/// The points, each with the tangent of the circle through it and its neighbours. The last point of a closed chain equals the
+/// first.
 fn nodes(chain: &[Point], closed: bool) -> Vec<Node> {
     let last = chain.len() - 1;
     let tangent = |[a, b, c]: [Point; 3]| {
@@ -176,7 +179,7 @@ fn nodes(chain: &[Point], closed: bool) -> Vec<Node> {
         let (back, on) = (before.norm(), after.norm());
         (before * (on / back) + after * (back / on)).normalize()
     };
-    // An arc leaves as it arrives, mirrored in its chord.
+    // The tangent at one end of an arc is that at the other, mirrored in its chord.
     let mirrored = |t: Vector, a: Point, b: Point| {
         let chord = (b - a).normalize();
         chord * (2.0 * chord.dot(&t)) - t
@@ -234,7 +237,7 @@ mod tests {
         let accuracy = tolerance(1e-4);
         let corners = ring.flatten(accuracy);
         let polygon = Outline::polygon(&corners);
-        let found = polygon.arcs_of_chords(accuracy, tolerance(1e-3));
+        let found = polygon.polygon_arcs(accuracy, tolerance(1e-3));
         Outline::new(found.segments().to_vec()).expect("closed");
         let (own, few) = (
             ring.arcs(tolerance(1e-3)).segments().len(),
@@ -248,7 +251,7 @@ mod tests {
         let back = deviation(&found.flatten(tolerance(1e-4)), &polygon);
         assert!(back < 1e-3, "{back}");
         // Too fine a tolerance leaves the polygon as it is.
-        assert_eq!(polygon.arcs_of_chords(accuracy, tolerance(1e-4)), polygon);
+        assert_eq!(polygon.polygon_arcs(accuracy, tolerance(1e-4)), polygon);
     }
 
     #[test]
@@ -264,14 +267,14 @@ mod tests {
             end(20.0, -half).chain(end(0.0, half)).collect()
         };
         let accuracy = tolerance(1e-3);
-        let arcs = Outline::polygon(&slot).arcs_of_chords(accuracy, tolerance(5e-3));
+        let arcs = Outline::polygon(&slot).polygon_arcs(accuracy, tolerance(5e-3));
         assert!(arcs.segments().len() <= 12, "{}", arcs.segments().len());
         assert!(deviation(&slot, &arcs) < 4e-3);
         let square =
             Outline::polygon(&[[0.0, 0.0], [9.0, 0.0], [9.0, 9.0], [0.0, 9.0]].map(Point::from));
-        assert_eq!(square.arcs_of_chords(accuracy, tolerance(0.1)), square);
+        assert_eq!(square.polygon_arcs(accuracy, tolerance(0.1)), square);
         let circle = Outline::circle(Point::origin(), 30.0).flatten(accuracy);
-        let arcs = Outline::polygon(&circle).arcs_of_chords(accuracy, tolerance(5e-3));
+        let arcs = Outline::polygon(&circle).polygon_arcs(accuracy, tolerance(5e-3));
         Outline::new(arcs.segments().to_vec()).expect("closed");
         assert!(arcs.segments().len() <= 6, "{}", arcs.segments().len());
     }

@@ -12,16 +12,16 @@ pub(crate) struct Node {
     pub(crate) tangent: Vector,
 }
 
-/// Smooth part of an outline, as long as can be, as closely spaced nodes.
-///
-/// A line or an arc is a run of its own, which is kept exactly.
+/// Part of an outline between corners: one line or arc, or a smooth run of polynomials as long as possible.
 #[derive(Debug)]
 pub(crate) enum Run {
-    /// Index of the segment.
-    Kept(usize),
+    /// Index of a line or an arc, which stays exact.
+    Exact(usize),
+    /// A smooth run.
     Smooth {
+        /// Closely spaced points.
         nodes: Vec<Node>,
-        /// Whether the tangent at the start and at the end is free, the joint there being a corner.
+        /// Whether the start and the end are corners, where the tangent of an approximation is free.
         free: [bool; 2],
     },
 }
@@ -29,9 +29,9 @@ pub(crate) enum Run {
 impl Outline {
     /// The outline as lines, arcs and smooth runs, in order.
     ///
-    /// Between neighbouring nodes the curve leaves its chord by at most `spacing`.
+    /// Between neighbouring nodes the curve deviates from its chord by at most `spacing`.
     pub(crate) fn runs(&self, spacing: Tolerance) -> Vec<Run> {
-        let jumps = self.jumps();
+        let jumps = self.tangent_jumps();
         let corner = |segment: usize| jumps[segment % jumps.len()] > CORNER;
         let mut runs: Vec<Run> = Vec::new();
         let mut nodes: Vec<Node> = Vec::new();
@@ -45,7 +45,7 @@ impl Outline {
                 return;
             };
             nodes.push(Node {
-                // A segment without length may lie between.
+                // A segment without length may follow the last one.
                 point: run[run.len() - 1].end(),
                 tangent: last.tangent(1.0),
             });
@@ -54,23 +54,23 @@ impl Outline {
                 free: [corner(first), corner(next)],
             });
         };
-        // A step over a joint could hide a jump of the curvature from the checks between nodes.
-        for place in self.places_by_segment(spacing) {
-            let segment = &self.segments()[place.segment];
+        // Every joint is a node: the checks between nodes assume a continuous curvature.
+        for position in self.positions_by_segment(spacing) {
+            let segment = &self.segments()[position.segment];
             let is_poly = matches!(segment, Segment::Poly(_));
-            if place.u == -1.0 && (corner(place.segment) || !is_poly) {
-                finish(&mut runs, &mut nodes, first, place.segment);
+            if position.u == -1.0 && (corner(position.segment) || !is_poly) {
+                finish(&mut runs, &mut nodes, first, position.segment);
             }
             if is_poly {
                 if nodes.is_empty() {
-                    first = place.segment;
+                    first = position.segment;
                 }
                 nodes.push(Node {
-                    point: self.point(place),
-                    tangent: segment.tangent(place.u),
+                    point: self.point(position),
+                    tangent: segment.tangent(position.u),
                 });
-            } else if place.u == -1.0 {
-                runs.push(Run::Kept(place.segment));
+            } else if position.u == -1.0 {
+                runs.push(Run::Exact(position.segment));
             }
         }
         finish(&mut runs, &mut nodes, first, self.segments().len());
@@ -78,9 +78,20 @@ impl Outline {
     }
 }
 
-/// Upper bound, to fourth order, of `|d|` over a step of length `h`: the extremes of the cubic Hermite interpolant of
-/// its values and slopes at the ends.
-pub(crate) fn hermite_peak(d0: f64, s0: f64, d1: f64, s1: f64, h: f64) -> f64 {
+/// Deviation of a curve from its approximation at a node.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Deviation {
+    /// Signed distance to the left, mm.
+    pub(crate) distance: f64,
+    /// Change of the distance per length of the curve.
+    pub(crate) slope: f64,
+}
+
+/// Upper bound, to fourth order, of the distance between two nodes that are `h` apart, mm.
+///
+/// It is the maximum of the cubic Hermite interpolant of the deviations at both nodes.
+pub(crate) fn hermite_peak(start: Deviation, end: Deviation, h: f64) -> f64 {
+    let (d0, s0, d1, s1) = (start.distance, start.slope, end.distance, end.slope);
     let mut peak = d0.abs().max(d1.abs());
     if s0 * s1 > 0.0 && (d1 - d0) * s0 > 0.0 {
         return peak;

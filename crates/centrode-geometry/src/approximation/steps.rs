@@ -1,11 +1,11 @@
 use crate::{
     curve::{Piece, Segment},
     numeric::Tolerance,
-    region::{CORNER, Outline, Place},
+    region::{CORNER, Outline, Position},
 };
 
 impl Outline {
-    /// The segments cut where their bounds are loose and it matters at this tolerance.
+    /// The segments, cut where their bounds are loose enough to matter at this tolerance.
     fn pieces(&self, tolerance: Tolerance) -> Vec<Piece> {
         let mut out = Vec::with_capacity(self.segments().len());
         let mut stack = Vec::new();
@@ -17,8 +17,8 @@ impl Outline {
             while let Some((piece, depth)) = stack.pop() {
                 crate::checkpoint();
                 let matters = piece.sagitta() > tolerance.mm();
-                // A cusp's bound stays loose, and true: it is stepped over in chords no longer than the tolerance.
-                if depth < 40 && matters && piece.curvature > 1.4 * piece.middle {
+                // The bound at a cusp stays loose, but valid: the chords there are no longer than the tolerance.
+                if depth < 40 && matters && piece.curvature > 1.4 * piece.middle_curvature {
                     let [first, second] = piece.halves(segment);
                     stack.push((second, depth + 1));
                     stack.push((first, depth + 1));
@@ -30,36 +30,37 @@ impl Outline {
         out
     }
 
-    /// Places whose chords stay within the tolerance of the outline: every corner, and between corners
-    /// the longest steps the bounds allow.
-    pub(crate) fn places(&self, tolerance: Tolerance) -> Vec<Place> {
+    /// Positions whose chords stay within the tolerance of the outline: every corner, and between corners the longest steps
+    /// that the bounds allow.
+    pub(crate) fn positions(&self, tolerance: Tolerance) -> Vec<Position> {
         self.steps(tolerance, true)
     }
 
-    /// Places of [`places`](Self::places) with the start of every segment among them.
-    pub(crate) fn places_by_segment(&self, tolerance: Tolerance) -> Vec<Place> {
+    /// Like [`positions`](Self::positions), with the start of every segment.
+    pub(crate) fn positions_by_segment(&self, tolerance: Tolerance) -> Vec<Position> {
         self.steps(tolerance, false)
     }
 
-    fn steps(&self, tolerance: Tolerance, over_joints: bool) -> Vec<Place> {
+    /// Positions within the tolerance; `over_joints` allows a step to pass smooth joints of polynomials.
+    fn steps(&self, tolerance: Tolerance, over_joints: bool) -> Vec<Position> {
         let pieces = self.pieces(tolerance);
-        let jumps = self.jumps();
+        let jumps = self.tangent_jumps();
         let mut out = Vec::with_capacity(pieces.len());
         let (mut i, mut u) = (0, -1.0);
         while let Some(piece) = pieces.get(i) {
             crate::checkpoint();
-            out.push(Place {
+            out.push(Position {
                 segment: piece.segment,
                 u,
             });
             let rest = piece.after(u);
-            let own = reach(piece.curvature, 0.0, tolerance);
+            let own = max_length(piece.curvature, 0.0, tolerance);
             if rest > own * (1.0 + 1e-9) {
                 u += (piece.u1 - u) / (rest / own).ceil();
                 continue;
             }
             (i, u) = if over_joints {
-                self.stretch(&pieces, &jumps, i, rest, tolerance)
+                self.extend(&pieces, &jumps, i, rest, tolerance)
             } else {
                 (i + 1, pieces.get(i + 1).map_or(1.0, |next| next.u0))
             };
@@ -67,8 +68,8 @@ impl Outline {
         out
     }
 
-    /// Extends a step begun with `length` at the end of piece `i` over the following pieces.
-    fn stretch(
+    /// Extends a step of `length` up to the end of piece `i` over the following pieces: piece and parameter of its end.
+    fn extend(
         &self,
         pieces: &[Piece],
         jumps: &[f64],
@@ -85,13 +86,13 @@ impl Outline {
             } else {
                 0.0
             };
-            // Ends of lines and arcs are kept: they are features of the drawing.
+            // Ends of lines and arcs are features of the drawing and stay.
             if jump > CORNER || !is_poly(piece) || !is_poly(&pieces[next - 1]) {
                 break;
             }
             curvature = piece.curvature.max(curvature);
             turned += jump;
-            let room = reach(curvature, turned, tolerance) - length;
+            let room = max_length(curvature, turned, tolerance) - length;
             if room >= piece.length {
                 length += piece.length;
                 next += 1;
@@ -105,11 +106,11 @@ impl Outline {
     }
 }
 
-/// Longest curve of the given greatest curvature and tangent jump that stays within the tolerance of
-/// its chord, and turns by less than a quarter turn.
-fn reach(curvature: f64, jump: f64, tolerance: Tolerance) -> f64 {
+/// Length, mm, of the longest curve with such a maximum curvature and tangent jump that stays within the tolerance of its
+/// chord and turns by less than a quarter turn.
+fn max_length(curvature: f64, jump: f64, tolerance: Tolerance) -> f64 {
     let tol = tolerance.mm();
-    // L² K / 8 + L δ / 4 = tol, in the form that does not cancel.
+    // L² K / 8 + L δ / 4 = tol, solved without cancellation.
     let chord = 8.0 * tol / (jump + (jump * jump + 8.0 * curvature * tol).sqrt());
     chord
         .min(std::f64::consts::FRAC_PI_2 / curvature)

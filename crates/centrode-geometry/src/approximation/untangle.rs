@@ -1,106 +1,107 @@
-//! Chords of an outline that cross where the outline does not: two of its parts are nearer each other than chords leave them.
+//! Removal of crossings between chords where the outline itself does not cross.
+//!
+//! Such chords cross because two parts of the outline are nearer to each other than the chords are to the outline.
 
 use std::collections::HashSet;
 
 use crate::{
     Point,
-    curve::Bounds,
+    curve::{Bounds, SegmentRange},
     numeric::{Tolerance, bracketed_root},
-    region::{Outline, Place},
+    region::{Outline, Position},
 };
 
-/// Greatest number of passes; each halves the longest chord that crosses another.
-const MOST_PASSES: u32 = 48;
+/// Maximum number of passes, each of which divides the chords that cross. With too few, crossings remain near cusps; more only cost
+/// time.
+const MAX_PASSES: u32 = 48;
 
-/// Share of a chord's parameter, from either end, within which no place is added.
+/// Fraction of a chord's parameter range at each end in which no position is added. Much smaller, chords become as short as
+/// rounding; much larger, crossings near the ends remain.
 const END: f64 = 1e-6;
 
-/// Share of the outline's size below which a loop of chords is a speck, and is left out.
-const SPECK: f64 = 1e-10;
+/// Fraction of the size of the outline below which a loop of chords is dropped. Ten times larger drops real loops; ten times
+/// smaller approaches rounding.
+const SMALL_LOOP: f64 = 1e-10;
 
-/// Share of the outline's size below which a chord is rounding and tells no direction.
+/// Fraction of the size of the outline below which a chord is rounding and has no direction. Ten times larger ignores real
+/// crossings; ten times smaller follows rounding.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 impl Outline {
-    /// Adds places until no chords cross, except where the outline does or its parts are apart by rounding only.
+    /// Adds positions until no chords cross, except where the outline crosses itself or two parts differ only by rounding.
     ///
-    /// Where one chord ends, the other gets a vertex opposite: between such pairs of vertices chords lie beside
-    /// each other as the curves do, however little they part, as beside a cusp.
-    pub(crate) fn untangled(&self, mut places: Vec<Place>, tolerance: Tolerance) -> Vec<Place> {
-        for _ in 0..MOST_PASSES {
-            let points: Vec<Point> = places.iter().map(|&place| self.point(place)).collect();
+    /// Opposite the end of one chord the other chord gets a vertex. Between such pairs of vertices the chords do not cross,
+    /// however close the curves are, for instance near a cusp.
+    pub(crate) fn untangled(
+        &self,
+        mut positions: Vec<Position>,
+        tolerance: Tolerance,
+    ) -> Vec<Position> {
+        for _ in 0..MAX_PASSES {
+            let points: Vec<Point> = positions
+                .iter()
+                .map(|&position| self.point(position))
+                .collect();
             let size = points.iter().copied().collect::<Bounds>().diagonal();
             let crossed = Chords::new(&points).crossed(tolerance.mm(), ROUNDING * size);
             if crossed.is_empty() {
                 break;
             }
-            let specks = specks(&points, &crossed, SPECK * size);
-            if !specks.is_empty() {
+            let dropped = small_loops(&points, &crossed, SMALL_LOOP * size);
+            if !dropped.is_empty() {
                 let mut number = 0..;
-                places.retain(|_| number.next().is_some_and(|k| !specks.contains(&k)));
+                positions.retain(|_| number.next().is_some_and(|k| !dropped.contains(&k)));
                 continue;
             }
-            let mut added: Vec<(usize, Place)> = Vec::new();
+            let mut added: Vec<Insertion> = Vec::new();
             for (i, j) in crossed {
-                let chord = |k: usize| [places[k], places[(k + 1) % places.len()]];
+                let chord = |k: usize| [positions[k], positions[(k + 1) % positions.len()]];
                 let (one, other) = (
                     self.opposite(chord(i), chord(j)),
                     self.opposite(chord(j), chord(i)),
                 );
                 if one.is_empty() && other.is_empty() {
-                    added.extend(
-                        [i, j]
-                            .into_iter()
-                            .filter_map(|k| Some((k, self.middle(chord(k))?))),
-                    );
+                    added.extend([i, j].into_iter().filter_map(|k| {
+                        Some(Insertion {
+                            after: k,
+                            position: self.middle(chord(k))?,
+                        })
+                    }));
                 }
-                added.extend(one.into_iter().map(|place| (i, place)));
-                added.extend(other.into_iter().map(|place| (j, place)));
+                let after = |k: usize| move |position| Insertion { after: k, position };
+                added.extend(one.into_iter().map(after(i)));
+                added.extend(other.into_iter().map(after(j)));
             }
-            let before = places.len();
-            places = self.with(&places, added);
-            if places.len() == before {
+            let before = positions.len();
+            positions = self.with(&positions, added);
+            if positions.len() == before {
                 break;
             }
         }
-        places
+        positions
     }
 
-    /// Segments from a place to the next, with the part of each that lies between.
-    fn between(&self, [start, end]: [Place; 2]) -> Vec<(usize, f64, f64)> {
-        let count = self.segments().len();
-        let ahead = (end.segment + count - start.segment) % count;
-        let steps = if ahead == 0 && end.u <= start.u {
-            count
-        } else {
-            ahead
-        };
-        (0..=steps)
-            .map(|step| {
-                let from = if step == 0 { start.u } else { -1.0 };
-                let to = if step == steps { end.u } else { 1.0 };
-                ((start.segment + step) % count, from, to)
-            })
-            .filter(|(_, from, to)| to > from)
-            .collect()
-    }
-
-    /// Places of a chord's curve beside the ends of another chord.
-    fn opposite(&self, own: [Place; 2], other: [Place; 2]) -> Vec<Place> {
-        let [start, end] = own.map(|place| self.point(place));
+    /// Positions on the curve of a chord that are opposite the ends of another chord.
+    fn opposite(&self, own: [Position; 2], other: [Position; 2]) -> Vec<Position> {
+        let [start, end] = own.map(|position| self.point(position));
         let along = (end - start).normalize();
-        let parts = self.between(own);
+        let parts: Vec<SegmentRange> = own[0].ranges_to(own[1], self.segments().len()).collect();
         let mut found = Vec::new();
-        for target in other.map(|place| self.point(place)) {
+        for target in other.map(|position| self.point(position)) {
             let ahead =
-                |segment: usize, u: f64| along.dot(&(self.point(Place { segment, u }) - target));
-            for &(segment, from, to) in &parts {
+                |segment: usize, u: f64| along.dot(&(self.point(Position { segment, u }) - target));
+            for &SegmentRange {
+                index: segment,
+                from,
+                to,
+            } in &parts
+            {
                 let (low, high) = (ahead(segment, from), ahead(segment, to));
                 if low < 0.0 && high > 0.0 {
                     let u = bracketed_root(|u| ahead(segment, u), from, to, low, high);
                     let margin = END * (to - from);
                     if u > from + margin && u < to - margin {
-                        found.push(Place { segment, u });
+                        found.push(Position { segment, u });
                     }
                 }
             }
@@ -108,41 +109,45 @@ impl Outline {
         found
     }
 
-    /// A place between two, a joint where there is one.
-    fn middle(&self, own: [Place; 2]) -> Option<Place> {
-        let parts = self.between(own);
-        let (segment, from, to) = *parts.get(parts.len() / 2)?;
+    /// A position between two: a joint if there is one, otherwise the middle.
+    fn middle(&self, own: [Position; 2]) -> Option<Position> {
+        let parts: Vec<SegmentRange> = own[0].ranges_to(own[1], self.segments().len()).collect();
+        let SegmentRange {
+            index: segment,
+            from,
+            to,
+        } = *parts.get(parts.len() / 2)?;
         let u = if parts.len() > 1 {
             from
         } else {
             0.5 * (from + to)
         };
-        (u > from && u < to || parts.len() > 1).then_some(Place { segment, u })
+        (u > from && u < to || parts.len() > 1).then_some(Position { segment, u })
     }
 
-    /// Places with others, each after the one of a number, in order.
-    fn with(&self, places: &[Place], mut added: Vec<(usize, Place)>) -> Vec<Place> {
+    /// The positions with insertions between them, in order.
+    fn with(&self, positions: &[Position], mut added: Vec<Insertion>) -> Vec<Position> {
         let count = self.segments().len();
-        let ahead = |(k, place): &(usize, Place)| {
-            let steps = (place.segment + count - places[*k].segment) % count;
-            let round = if steps == 0 && place.u < places[*k].u {
+        let ahead = |Insertion { after, position }: &Insertion| {
+            let steps = (position.segment + count - positions[*after].segment) % count;
+            let round = if steps == 0 && position.u < positions[*after].u {
                 count
             } else {
                 steps
             };
-            (*k, round, place.u)
+            (*after, round, position.u)
         };
         added.sort_by(|a, b| {
             let (a, b) = (ahead(a), ahead(b));
             (a.0, a.1).cmp(&(b.0, b.1)).then(a.2.total_cmp(&b.2))
         });
-        let mut out: Vec<Place> = Vec::with_capacity(places.len() + added.len());
+        let mut out: Vec<Position> = Vec::with_capacity(positions.len() + added.len());
         let mut rest = added.into_iter().peekable();
-        for (k, place) in places.iter().enumerate() {
-            out.push(*place);
-            while let Some((_, next)) = rest.next_if(|(after, _)| *after == k) {
-                if out.last() != Some(&next) {
-                    out.push(next);
+        for (k, position) in positions.iter().enumerate() {
+            out.push(*position);
+            while let Some(next) = rest.next_if(|insertion| insertion.after == k) {
+                if out.last() != Some(&next.position) {
+                    out.push(next.position);
                 }
             }
         }
@@ -150,14 +155,21 @@ impl Outline {
     }
 }
 
-/// Vertices of a closed polygon, but for the first, that lie between two crossing chords and within a distance of each other.
-fn specks(points: &[Point], crossed: &[(usize, usize)], speck: f64) -> HashSet<usize> {
+/// A position to insert between two others.
+struct Insertion {
+    /// Index of the position before it.
+    after: usize,
+    position: Position,
+}
+
+/// Vertices of the loops between two crossing chords that are smaller than `size`, mm; the first vertex of each loop stays.
+fn small_loops(points: &[Point], crossed: &[(usize, usize)], size: f64) -> HashSet<usize> {
     let count = points.len();
     let between = |from: usize, to: usize| -> Vec<usize> {
         let first = (from + 1) % count;
         let steps = (to + count - first) % count;
         let round = (1..=steps).map(|step| (first + step) % count);
-        let near = |k: usize| (points[k] - points[first]).norm() <= speck;
+        let near = |k: usize| (points[k] - points[first]).norm() <= size;
         let all: Option<Vec<usize>> = round.map(|k| near(k).then_some(k)).collect();
         all.unwrap_or_default()
     };
@@ -165,15 +177,37 @@ fn specks(points: &[Point], crossed: &[(usize, usize)], speck: f64) -> HashSet<u
     both.flat_map(|(from, to)| between(from, to)).collect()
 }
 
-/// Chords of a closed polygon with a tree of boxes around them.
+/// Chords of a closed polygon in a binary tree of boxes.
 struct Chords<'a> {
     points: &'a [Point],
-    /// Box of node `k`, whose halves are the nodes `2 k` and `2 k + 1`.
+    /// Box of node `k`; its halves are the nodes `2 k` and `2 k + 1`.
     boxes: Vec<Bounds>,
 }
 
-/// A run of chords: node of the tree, first chord, one after the last.
-type Run = (usize, usize, usize);
+/// A run of chords, one node of the tree.
+#[derive(Clone, Copy, PartialEq)]
+struct ChordRun {
+    node: usize,
+    /// Index of the first chord.
+    first: usize,
+    /// Index after the last chord.
+    end: usize,
+}
+
+impl ChordRun {
+    fn len(self) -> usize {
+        self.end - self.first
+    }
+
+    fn halves(self) -> [Self; 2] {
+        let middle = self.first.midpoint(self.end);
+        [(0, self.first, middle), (1, middle, self.end)].map(|(half, first, end)| Self {
+            node: 2 * self.node + half,
+            first,
+            end,
+        })
+    }
+}
 
 impl<'a> Chords<'a> {
     fn new(points: &'a [Point]) -> Self {
@@ -181,7 +215,7 @@ impl<'a> Chords<'a> {
             points,
             boxes: vec![Bounds::EMPTY; 2 * points.len().next_power_of_two()],
         };
-        tree.fill((1, 0, points.len()));
+        tree.fill(tree.root());
         tree
     }
 
@@ -189,51 +223,53 @@ impl<'a> Chords<'a> {
         [self.points[k], self.points[(k + 1) % self.points.len()]]
     }
 
-    fn halves((node, first, end): Run) -> [Run; 2] {
-        let middle = first.midpoint(end);
-        [(2 * node, first, middle), (2 * node + 1, middle, end)]
+    fn root(&self) -> ChordRun {
+        ChordRun {
+            node: 1,
+            first: 0,
+            end: self.points.len(),
+        }
     }
 
-    fn fill(&mut self, run: Run) -> Bounds {
-        let (node, first, end) = run;
-        let bounds = if end - first == 1 {
-            self.chord(first).into_iter().collect()
+    fn fill(&mut self, run: ChordRun) -> Bounds {
+        let bounds = if run.len() == 1 {
+            self.chord(run.first).into_iter().collect()
         } else {
-            let [low, high] = Self::halves(run);
+            let [low, high] = run.halves();
             self.fill(low).union(self.fill(high))
         };
-        self.boxes[node] = bounds;
+        self.boxes[run.node] = bounds;
         bounds
     }
 
-    /// Pairs of chords that meet though their curves, within the tolerance of them, need not; chords that are rounding do not count.
+    /// Pairs of chords that meet although their curves, within the tolerance, need not. Chords below rounding do not count.
     fn crossed(&self, tolerance: f64, rounding: f64) -> Vec<(usize, usize)> {
         let mut found = Vec::new();
-        let whole = (1, 0, self.points.len());
+        let whole = self.root();
         let mut pending = vec![(whole, whole)];
         while let Some((a, b)) = pending.pop() {
             crate::checkpoint();
-            let length = |run: Run| run.2 - run.1;
             if a == b {
-                if length(a) > 1 {
-                    let [low, high] = Self::halves(a);
+                if a.len() > 1 {
+                    let [low, high] = a.halves();
                     pending.extend([(low, low), (high, high), (low, high)]);
                 }
-            } else if self.boxes[a.0].meets(&self.boxes[b.0]) {
-                if length(a) == 1 && length(b) == 1 {
-                    if self.cross(a.1, b.1, tolerance, rounding) {
-                        found.push((a.1, b.1));
+            } else if self.boxes[a.node].meets(&self.boxes[b.node]) {
+                if a.len() == 1 && b.len() == 1 {
+                    if self.cross(a.first, b.first, tolerance, rounding) {
+                        found.push((a.first, b.first));
                     }
-                } else if length(a) >= length(b) {
-                    pending.extend(Self::halves(a).map(|half| (half, b)));
+                } else if a.len() >= b.len() {
+                    pending.extend(a.halves().map(|half| (half, b)));
                 } else {
-                    pending.extend(Self::halves(b).map(|half| (a, half)));
+                    pending.extend(b.halves().map(|half| (a, half)));
                 }
             }
         }
         found
     }
 
+    /// Whether two chords meet although their curves need not.
     fn cross(&self, i: usize, j: usize, tolerance: f64, rounding: f64) -> bool {
         let count = self.points.len();
         let ([a, b], [p, q]) = (self.chord(i), self.chord(j));
@@ -242,19 +278,19 @@ impl<'a> Chords<'a> {
             return false;
         }
         if (i + 1) % count == j || (j + 1) % count == i {
-            // Chords that follow each other meet where the second lies on the first.
+            // Consecutive chords meet if the second lies on the first.
             return own.perp(&other) == 0.0 && own.dot(&other) < 0.0;
         }
-        let beside_own = [p, q].map(|point| own.perp(&(point - a)));
-        let beside_other = [a, b].map(|point| other.perp(&(point - p)));
-        let parts = |sides: [f64; 2]| sides[0] * sides[1] > 0.0;
-        if parts(beside_own) || parts(beside_other) {
+        let sides_of_own = [p, q].map(|point| own.perp(&(point - a)));
+        let sides_of_other = [a, b].map(|point| other.perp(&(point - p)));
+        let separates = |sides: [f64; 2]| sides[0] * sides[1] > 0.0;
+        if separates(sides_of_own) || separates(sides_of_other) {
             return false;
         }
-        // Ends this far beyond each other's chord: the curves cross as well.
+        // If all ends are this far from the other chord, the curves cross, too.
         let far =
             |sides: [f64; 2], length: f64| sides.iter().all(|s| s.abs() > 2.0 * tolerance * length);
-        !(far(beside_own, own.norm()) && far(beside_other, other.norm()))
+        !(far(sides_of_own, own.norm()) && far(sides_of_other, other.norm()))
     }
 }
 
@@ -305,9 +341,9 @@ mod tests {
             let outline = cusp(bend);
             for mm in [1e-1, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6] {
                 let plain: Vec<Point> = outline
-                    .places(tolerance(mm))
+                    .positions(tolerance(mm))
                     .into_iter()
-                    .map(|place| outline.point(place))
+                    .map(|position| outline.point(position))
                     .collect();
                 tangled += u32::from(crosses(&plain));
                 let polygon = outline.flatten(tolerance(mm));
@@ -328,7 +364,7 @@ mod tests {
         }
         let outline = Outline::new(polys.into_iter().map(Segment::from).collect()).expect("closed");
         for mm in [1e-1, 1e-3, 1e-5] {
-            let plain = outline.places(tolerance(mm)).len();
+            let plain = outline.positions(tolerance(mm)).len();
             let points = outline.flatten(tolerance(mm));
             assert!(crosses(&points));
             assert!(points.len() <= plain + 8, "{plain} {}", points.len());
@@ -342,7 +378,7 @@ mod tests {
             let curve = move |t: f64| Point::new(x + bend * t * t, t);
             Segment::from(PolySegment::fit(curve, -1.0, 1.3, tolerance(1e-13))[0])
         };
-        // Two walls of one bend beside each other, the right one travelled downwards.
+        // Two parallel walls of one bend; the right one runs downwards.
         let (left, right) = (arc(0.0, 0.4), arc(gap, 0.4).reversed());
         let corners = [left.end(), Point::new(-3.0, 3.0), Point::new(-3.0, -3.0)];
         let back = [Point::new(3.0, -3.0), Point::new(3.0, 3.0), right.start()];

@@ -16,7 +16,7 @@ impl Bounds {
         max: Point::new(f64::NEG_INFINITY, f64::NEG_INFINITY),
     };
 
-    /// The smallest rectangle that also holds `point`.
+    /// The smallest rectangle that contains `self` and `point`.
     #[must_use]
     pub fn with(self, point: Point) -> Self {
         Self {
@@ -25,7 +25,7 @@ impl Bounds {
         }
     }
 
-    /// The smallest rectangle that holds both.
+    /// The smallest rectangle that contains both.
     #[must_use]
     pub fn union(self, other: Self) -> Self {
         Self {
@@ -34,7 +34,7 @@ impl Bounds {
         }
     }
 
-    /// The middle.
+    /// Its center.
     #[must_use]
     pub fn center(&self) -> Point {
         nalgebra::center(&self.min, &self.max)
@@ -46,7 +46,7 @@ impl Bounds {
         (self.max - self.min).norm()
     }
 
-    /// Whether the two have a point in common; never where a coordinate is not a number.
+    /// Whether the two rectangles have a common point; false if a coordinate is not a number.
     #[must_use]
     pub fn meets(&self, other: &Self) -> bool {
         self.min.x <= other.max.x
@@ -55,7 +55,7 @@ impl Bounds {
             && other.min.y <= self.max.y
     }
 
-    /// Whether some point of the rectangle has a coordinate beyond those of `self`.
+    /// Whether a point of `other` may lie outside `self`.
     pub(crate) fn may_grow_by(&self, other: &Self) -> bool {
         other.min.x < self.min.x
             || other.min.y < self.min.y
@@ -64,7 +64,7 @@ impl Bounds {
     }
 }
 
-/// The smallest rectangle that holds some points.
+/// The smallest rectangle that contains all points.
 impl FromIterator<Point> for Bounds {
     fn from_iter<I: IntoIterator<Item = Point>>(points: I) -> Self {
         points.into_iter().fold(Self::EMPTY, Self::with)
@@ -72,7 +72,7 @@ impl FromIterator<Point> for Bounds {
 }
 
 impl Segment {
-    /// A rectangle around the part between two parameters, not always the smallest.
+    /// A rectangle that contains the part between two parameters; not always the smallest one.
     pub(crate) fn enclosure(&self, u0: f64, u1: f64) -> Bounds {
         match self {
             Self::Line(..) => Bounds::EMPTY
@@ -84,7 +84,7 @@ impl Segment {
                 let turned = start.second.norm() / start.first.norm() * (u1 - u0);
                 let sagitta = (length * turned / 8.0).min(0.5 * length);
                 let ends = Bounds::EMPTY.with(start.point).with(end.point);
-                grown(ends, sagitta, sagitta)
+                enlarged(ends, sagitta, sagitta)
             }
             Self::Poly(poly) => {
                 let part = poly.part(u0, u1);
@@ -92,19 +92,19 @@ impl Segment {
                 let ends = Bounds::EMPTY
                     .with(part.at(-1.0).point)
                     .with(part.at(1.0).point);
-                // Each even power is at most one below its value at the ends, each odd one may double
-                // back between them.
+                // An even power lies at most 1 below its value at the ends, an odd one at most 2.
                 let reach = |axis: usize| {
                     let curved: f64 = c.iter().skip(2).map(|c| c[axis].abs()).sum();
                     2.0 * curved
                 };
-                grown(ends, reach(0), reach(1))
+                enlarged(ends, reach(0), reach(1))
             }
         }
     }
 }
 
-fn grown(bounds: Bounds, x: f64, y: f64) -> Bounds {
+/// The rectangle with a margin on every side.
+fn enlarged(bounds: Bounds, x: f64, y: f64) -> Bounds {
     let margin = crate::Vector::new(x, y);
     Bounds {
         min: bounds.min - margin,

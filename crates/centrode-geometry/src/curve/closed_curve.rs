@@ -21,7 +21,7 @@ impl Jet {
     }
 }
 
-/// A closed plane curve: one way in for every kind of pitch curve.
+/// A closed plane curve: the common interface of all exact curves.
 ///
 /// The parameter runs over `[0, period)` and is periodic outside it. Between two neighbouring
 /// [`breaks`](Self::breaks) the curve is analytic; at a break the jet is the limit from the right
@@ -30,8 +30,9 @@ pub trait Curve: std::fmt::Debug + Send + Sync {
     /// Length of one turn in parameter units.
     fn period(&self) -> f64;
 
-    /// Parameters in `[0, period)` where a derivative may jump, and others that part a curve of narrow features so that none is
-    /// stepped over, ascending. Empty for an analytic curve without such.
+    /// Parameters in `[0, period)` where a derivative may jump, ascending.
+    ///
+    /// A curve with narrow features adds parameters near them, so that no search steps over a feature. Default: empty.
     fn breaks(&self) -> Vec<f64> {
         Vec::new()
     }

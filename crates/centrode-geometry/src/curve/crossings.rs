@@ -1,5 +1,6 @@
-//! Crossings of curves, by subdivision with tangent cones (Sederberg and Meyers, Loop detection in surface patch
-//! intersections, CAGD 5, 1988).
+//! Crossings of two segments, by subdivision with tangent cones.
+//!
+//! Source: Sederberg and Meyers, Loop detection in surface patch intersections, CAGD 5, 1988.
 
 use crate::{
     Point, Vector,
@@ -7,38 +8,51 @@ use crate::{
     numeric::Tolerance,
 };
 
-/// Pairs of parts to compare for one pair of segments. A crossing, however flat, takes some hundreds; two strands that leave a cusp
-/// in one direction take about 200 sqrt(K/D), where K is their curvature and D the difference of their curvatures. What takes more has no
-/// end: the segments lie on each other.
-const MOST_PAIRS: u32 = 200_000;
+/// Maximum number of pairs of parts compared for one pair of segments.
+///
+/// A flat crossing takes some hundreds. Two strands that leave a cusp in one direction take about `200 sqrt(K / D)`, with
+/// their curvature `K` and the difference `D` of their curvatures. Segments that need more lie on each other: with a tenth,
+/// some strands at a cusp count as such; ten times more only delays the error.
+const MAX_PAIRS: u32 = 200_000;
 
-/// Part of one segment with the bounds that prove it apart from another.
+/// Part of one segment, with the bounds that prove it separate from another part.
 struct Part<'a> {
     segment: &'a Segment,
-    /// Bound of the third derivative over the whole segment.
+    /// Upper bound of the third derivative over the whole segment.
     third: f64,
     from: f64,
     to: f64,
     start: Point,
     end: Point,
     middle: SegmentJet,
-    /// Bound of the distance between any two points.
+    /// Upper bound of the distance between any two of its points, mm.
     size: f64,
-    /// Least and greatest coordinates.
+    /// Minimum and maximum coordinates.
     bounds: [Point; 2],
     cone: Option<Cone>,
-    /// Number of the first of both halves, once they are there.
+    /// Index of the first of its two halves, once they exist.
     halves: Option<usize>,
 }
 
-/// Every tangent of a part: the middle one, and the cosine and sine of the half-angle around it.
+/// Cone that contains every tangent of a part.
 #[derive(Clone, Copy)]
 struct Cone {
+    /// Unit tangent in the middle.
     tangent: Vector,
+    /// Cosine and sine of the half-angle.
     half: [f64; 2],
 }
 
-/// Parts of segments, each found once, whatever it is compared with.
+/// Cosine and sine of the sum of the half-angles of two cones, and of the angle between their middle tangents.
+struct ConeAngles {
+    sum_cos: f64,
+    sum_sin: f64,
+    between_cos: f64,
+    /// Without its sign.
+    between_sin: f64,
+}
+
+/// All parts made so far, so that each is made only once.
 struct Parts<'a>(Vec<Part<'a>>);
 
 impl<'a> Part<'a> {
@@ -77,7 +91,7 @@ impl<'a> Part<'a> {
         self.size < length || self.length() <= 4.0 * f64::EPSILON
     }
 
-    /// Range of the part along an axis.
+    /// Minimum and maximum coordinate of the part along an axis.
     fn along(&self, axis: &Vector) -> (f64, f64) {
         let [a, b] = [self.start, self.end].map(|p| axis.dot(&p.coords));
         let bend =
@@ -86,8 +100,8 @@ impl<'a> Part<'a> {
         (a.min(b) - margin, a.max(b) + margin)
     }
 
-    /// Whether an axis or the normal of a chord keeps the two parts apart.
-    fn apart(&self, other: &Self) -> bool {
+    /// Whether an axis or the normal of a chord separates the two parts.
+    fn is_separate(&self, other: &Self) -> bool {
         let before = |one: &Self, two: &Self| {
             let (high, low) = (one.bounds[1], two.bounds[0]);
             high.x < low.x || high.y < low.y
@@ -103,11 +117,11 @@ impl<'a> Part<'a> {
 }
 
 impl Cone {
-    /// Tangents within `half` of the parameter at the middle; none where they may be of any direction.
+    /// Tangents within `half` of the parameter in the middle; `None` if they may have any direction.
     fn new(middle: &SegmentJet, half: f64, third: f64) -> Option<Self> {
         let size = middle.first.norm();
         let tangent = middle.first / size;
-        // Along and across the tangent apart: near a cusp the speed changes fast and the direction does not.
+        // Along and across the tangent separately: near a cusp the speed changes fast, the direction does not.
         let rest = 0.5 * third * half * half;
         let along = size - half * tangent.dot(&middle.second).abs() - rest;
         let across = half * tangent.perp(&middle.second).abs() + rest;
@@ -120,29 +134,32 @@ impl Cone {
 
     /// Whether all tangents lie within less than half a turn.
     fn is_narrow(&self) -> bool {
-        self.half[1] < WIDEST * self.half[0]
+        self.half[1] < MAX_HALF_ANGLE_TAN * self.half[0]
     }
 
-    /// Cosine and sine of the sum of the half-angles, cosine and size of the sine of the angle between the middle tangents.
-    fn with(&self, other: &Self) -> [[f64; 2]; 2] {
+    /// Angles of two cones that decide whether their tangents can be parallel or opposite.
+    fn with(&self, other: &Self) -> ConeAngles {
         let ([la, ca], [lb, cb]) = (self.half, other.half);
         let (one, two) = (&self.tangent, &other.tangent);
-        [
-            [la * lb - ca * cb, ca * lb + la * cb],
-            [one.dot(two), one.perp(two).abs()],
-        ]
+        ConeAngles {
+            sum_cos: la * lb - ca * cb,
+            sum_sin: ca * lb + la * cb,
+            between_cos: one.dot(two),
+            between_sin: one.perp(two).abs(),
+        }
     }
 
-    /// Whether no tangent of one is parallel or opposed to one of the other.
+    /// Whether no tangent of one cone is parallel or opposite to a tangent of the other.
     fn crosses(&self, other: &Self) -> bool {
-        let [[cos, sin], [_, between]] = self.with(other);
-        cos > 0.0 && between > sin
+        let angles = self.with(other);
+        angles.sum_cos > 0.0 && angles.between_sin > angles.sum_sin
     }
 
-    /// Whether no tangent of one is opposed to one of the other.
-    fn goes_on(&self, other: &Self) -> bool {
-        let [[cos, sin], [ahead, between]] = self.with(other);
-        match (ahead >= 0.0, cos >= 0.0) {
+    /// Whether no tangent of one cone is opposite to a tangent of the other.
+    fn continues_into(&self, other: &Self) -> bool {
+        let angles = self.with(other);
+        let (sin, between) = (angles.sum_sin, angles.between_sin);
+        match (angles.between_cos >= 0.0, angles.sum_cos >= 0.0) {
             (true, true) => true,
             (true, false) => sin > between,
             (false, true) => between > sin,
@@ -151,16 +168,17 @@ impl Cone {
     }
 }
 
-/// Tangent of the half-angle, 86 degrees, below which a curve cannot come back to itself.
-const WIDEST: f64 = 14.1;
+/// Tangent of the half-angle, 86 deg, below which a curve cannot return to itself. It is a little less than 90 deg, for
+/// rounding; 10 times larger would leave 0.4 deg for it.
+const MAX_HALF_ANGLE_TAN: f64 = 14.1;
 
 impl<'a> Parts<'a> {
     fn new() -> Self {
         Self(Vec::with_capacity(16))
     }
 
-    /// Adds a whole segment; its number.
-    fn whole(&mut self, segment: &'a Segment) -> Result<usize, Unresolved> {
+    /// Adds a whole segment and returns its index.
+    fn whole(&mut self, segment: &'a Segment) -> Result<usize, CrossingError> {
         let third = match segment {
             Segment::Line(..) => 0.0,
             Segment::Arc(arc) => (0.5 * arc.sweep().abs()).powi(3) * arc.radius(),
@@ -175,16 +193,16 @@ impl<'a> Parts<'a> {
         let ends = [segment.start(), segment.end()];
         let whole = Part::new(segment, third, [-1.0, 1.0], ends);
         if !whole.size.is_finite() {
-            return Err(Unresolved::NotFinite);
+            return Err(CrossingError::NotFinite);
         }
         self.0.push(whole);
         Ok(self.0.len() - 1)
     }
 
-    /// Both halves of a part.
-    fn halves(&mut self, number: usize) -> [usize; 2] {
+    /// Indices of the two halves of a part.
+    fn halves(&mut self, index: usize) -> [usize; 2] {
         let next = self.0.len();
-        let part = &mut self.0[number];
+        let part = &mut self.0[index];
         let first = *part.halves.get_or_insert(next);
         if first == next {
             let (segment, third) = (part.segment, part.third);
@@ -200,9 +218,9 @@ impl<'a> Parts<'a> {
     }
 }
 
-/// Error of curves whose crossings cannot be determined.
+/// Curves whose crossings cannot be determined.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum Unresolved {
+pub enum CrossingError {
     /// A coordinate of a curve is not a number.
     #[error("a coordinate is not a number")]
     NotFinite,
@@ -214,20 +232,20 @@ pub enum Unresolved {
     },
 }
 
-/// Parameters at which two segments cross; `joined` says that `b` starts where `a` ends, which is then not a
-/// crossing.
+/// Parameters, on `a` and on `b`, at which two segments cross.
 ///
-/// Parts are halved until their bounding boxes part or their tangent cones do; a crossing is then
-/// polished by Newton's method. Parts smaller than `tolerance` are taken to touch, not to cross.
+/// If `joined` is true, `b` starts at the end of `a`; this point is then not a crossing. Parts are halved until their
+/// bounding boxes or their tangent cones separate; Newton's method refines a crossing. Parts smaller than `tolerance`
+/// count as touching, not as crossing.
 ///
 /// # Errors
-/// [`Unresolved`] where the segments lie on each other or a coordinate is not a number.
+/// [`CrossingError`] if the segments lie on each other or a coordinate is not a number.
 pub fn crossings(
     a: &Segment,
     b: &Segment,
     joined: bool,
     tolerance: Tolerance,
-) -> Result<Vec<(f64, f64)>, Unresolved> {
+) -> Result<Vec<(f64, f64)>, CrossingError> {
     let mut parts = Parts::new();
     let both = [parts.whole(a)?, parts.whole(b)?];
     let mut out = Vec::new();
@@ -235,61 +253,62 @@ pub fn crossings(
     Ok(out)
 }
 
-/// Parameters at which a segment crosses itself.
+/// Pairs of parameters at which a segment crosses itself.
 ///
 /// # Errors
-/// [`Unresolved`] where it lies on itself or a coordinate is not a number.
+/// [`CrossingError`] if it lies on itself or a coordinate is not a number.
 pub fn self_crossings(
     segment: &Segment,
     tolerance: Tolerance,
-) -> Result<Vec<(f64, f64)>, Unresolved> {
+) -> Result<Vec<(f64, f64)>, CrossingError> {
     let mut out = Vec::new();
     let shortest = tolerance.mm();
     let mut parts = Parts::new();
-    // A smooth curve is cut a few times, one with a cusp once a level.
+    // A smooth curve is cut a few times, a curve with a cusp once per level.
     let mut pending = vec![parts.whole(segment)?];
-    while let Some(number) = pending.pop() {
+    while let Some(index) = pending.pop() {
         crate::checkpoint();
-        let part = &parts.0[number];
-        // A curve whose tangents fit in half a turn cannot come back to itself.
+        let part = &parts.0[index];
+        // A curve whose tangents fit in half a turn cannot return to itself.
         if part.cone.is_some_and(|cone| cone.is_narrow()) || part.is_shorter(shortest) {
             continue;
         }
-        let halves = parts.halves(number);
+        let halves = parts.halves(index);
         pending.extend(halves);
         search(&mut parts, halves, true, shortest, &mut out)?;
     }
     Ok(out)
 }
 
+/// Adds the crossings of two parts to `out`.
 fn search(
     parts: &mut Parts<'_>,
     [a, b]: [usize; 2],
     joined: bool,
     shortest: f64,
     out: &mut Vec<(f64, f64)>,
-) -> Result<(), Unresolved> {
+) -> Result<(), CrossingError> {
     let mut near = parts.0[a].end;
     let mut pending = vec![(a, b, joined)];
-    for _ in 0..MOST_PAIRS {
+    for _ in 0..MAX_PAIRS {
         crate::checkpoint();
         let Some((first, second, joined)) = pending.pop() else {
             return Ok(());
         };
         let (a, b) = (&parts.0[first], &parts.0[second]);
         near = a.middle.point;
-        if !joined && a.apart(b) {
+        if !joined && a.is_separate(b) {
             continue;
         }
         if let (Some(one), Some(two)) = (&a.cone, &b.cone) {
             if joined {
-                if one.goes_on(two) {
+                if one.continues_into(two) {
                     continue;
                 }
             } else if one.crosses(two) {
-                // Neither parallel nor opposed anywhere: at most one crossing. Newton's method that leads
-                // elsewhere does not prove that there is none.
-                if let Some(found) = polish(a, b) {
+                // Tangents are nowhere parallel or opposite: at most one crossing. If Newton's method leads elsewhere,
+                // that does not prove that there is none.
+                if let Some(found) = refine(a, b) {
                     let mut known = out.iter();
                     if !known.any(|&known| is_same(a, b, known, found, shortest)) {
                         out.push(found);
@@ -305,7 +324,7 @@ fn search(
         if joined {
             let [a0, a1] = parts.halves(first);
             let [b0, b1] = parts.halves(second);
-            // The joint last: parts nearest to it are least likely to cross.
+            // The parts at the joint come last: they are the least likely to cross.
             pending.push((a1, b0, true));
             pending.push((a0, b0, false));
             pending.push((a1, b1, false));
@@ -316,13 +335,14 @@ fn search(
             pending.extend(parts.halves(second).map(|half| (first, half, false)));
         }
     }
-    Err(Unresolved::Overlap { near })
+    Err(CrossingError::Overlap { near })
 }
 
-/// Whether two crossings are one, found from parts beside each other.
+/// Whether two crossings, found from neighbouring parts, are the same.
 ///
-/// Strands that cross twice cross opposite ways, so two crossings of one sense with no length between them are one. Near a
-/// cusp the parameters of one place differ by the root of the rounding, and more; a place is told within [`miss`] on either strand.
+/// Strands that cross twice cross in opposite directions. So two crossings in one direction with no length between them are
+/// the same. Near a cusp the parameters of one point differ by the root of the rounding or more, so the points are compared,
+/// within [`point_error`] on each strand.
 fn is_same(
     a: &Part<'_>,
     b: &Part<'_>,
@@ -335,19 +355,19 @@ fn is_same(
         let (from, to, middle) = (at(x), at(y), at(0.5 * (x + y)));
         let apart = (middle - from).norm() + (to - middle).norm();
         let speed = part.segment.at(x).first.norm();
-        (x - y).abs() < 1e-7 || apart < shortest + 2.0 * miss(part, speed)
+        (x - y).abs() < 1e-7 || apart < shortest + 2.0 * point_error(part, speed)
     };
     let rises = |(u, v): (f64, f64)| a.segment.at(u).first.perp(&b.segment.at(v).first) > 0.0;
     near(a, known.0, found.0) && near(b, known.1, found.1) && rises(known) == rises(found)
 }
 
-/// Distance, mm, by which the places of a crossing on two strands may miss each other for their rounding.
-fn miss(part: &Part<'_>, speed: f64) -> f64 {
+/// Distance, mm, that rounding may leave between the points of a crossing on its two strands.
+fn point_error(part: &Part<'_>, speed: f64) -> f64 {
     1e-11 * (speed + part.start.coords.amax())
 }
 
-/// Newton's method on the two parameters, kept to the parts and a rounding beyond.
-fn polish(a: &Part<'_>, b: &Part<'_>) -> Option<(f64, f64)> {
+/// Newton's method on both parameters; `None` if it ends outside the parts by more than rounding.
+fn refine(a: &Part<'_>, b: &Part<'_>) -> Option<(f64, f64)> {
     let (mut u, mut v) = (0.5 * (a.from + a.to), 0.5 * (b.from + b.to));
     for _ in 0..50 {
         let (p, q) = (a.segment.at(u), b.segment.at(v));
@@ -357,7 +377,7 @@ fn polish(a: &Part<'_>, b: &Part<'_>) -> Option<(f64, f64)> {
         if !(du.is_finite() && dv.is_finite()) {
             return None;
         }
-        // Half a part outside is as far as a straight-line guess may stray.
+        // A step may leave a part by at most half its length.
         let before = (u, v);
         u = (u + du).clamp(a.from - 0.5 * a.length(), a.to + 0.5 * a.length());
         v = (v + dv).clamp(b.from - 0.5 * b.length(), b.to + 0.5 * b.length());
@@ -369,7 +389,7 @@ fn polish(a: &Part<'_>, b: &Part<'_>) -> Option<(f64, f64)> {
     let speed = a.segment.at(u).first.norm();
     let size = speed.max(b.segment.at(v).first.norm());
     let inside = |x: f64, part: &Part<'_>| x >= part.from - 1e-12 && x <= part.to + 1e-12;
-    let hit = gap <= miss(a, size) && inside(u, a) && inside(v, b);
+    let hit = gap <= point_error(a, size) && inside(u, a) && inside(v, b);
     hit.then(|| (u.clamp(-1.0, 1.0), v.clamp(-1.0, 1.0)))
 }
 

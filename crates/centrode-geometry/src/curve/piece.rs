@@ -5,8 +5,8 @@ use crate::{
 
 /// A part of one segment with proven bounds on its length and curvature.
 ///
-/// With the arc length `s` as parameter `|x''| = |κ|`, so a curve of length `L` whose curvature is at
-/// most `K` leaves its chord by at most `L² K / 8`; a tangent jump `δ` inside it adds at most `L δ / 4`.
+/// With the arc length `s` as parameter, `|x''| = |κ|`. So a curve of length `L` with curvature at most `K` deviates from its
+/// chord by at most `L² K / 8`. A tangent jump `δ` inside it adds at most `L δ / 4`.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Piece {
     /// Index of the segment.
@@ -17,24 +17,42 @@ pub(crate) struct Piece {
     pub(crate) u1: f64,
     /// Upper bound on the length, mm.
     pub(crate) length: f64,
-    /// Upper bound on the curvature, 1/mm; infinite where the speed may vanish.
+    /// Upper bound on the curvature, 1/mm; infinite if the speed may vanish.
     pub(crate) curvature: f64,
-    /// Upper bound on the speed.
+    /// Upper bound on the speed, mm per unit of the parameter.
     speed: f64,
     /// Curvature in the middle, 1/mm.
-    pub(crate) middle: f64,
+    pub(crate) middle_curvature: f64,
+}
+
+/// Bounds of a segment's part.
+struct PartBounds {
+    /// Upper bound on the speed, mm per unit of the parameter.
+    speed: f64,
+    /// Upper bound on the curvature, 1/mm.
+    curvature: f64,
+    /// Curvature in the middle, 1/mm.
+    middle_curvature: f64,
 }
 
 impl Piece {
     /// The part of `segment` between two parameters.
     pub(crate) fn new(segment: &Segment, index: usize, u0: f64, u1: f64) -> Self {
-        let (speed, curvature, middle) = match segment {
-            Segment::Line(start, end) => (0.5 * (end - start).norm(), 0.0, 0.0),
+        let bounds = match segment {
+            Segment::Line(start, end) => PartBounds {
+                speed: 0.5 * (end - start).norm(),
+                curvature: 0.0,
+                middle_curvature: 0.0,
+            },
             Segment::Arc(arc) => {
                 let jet = segment.at(0.0);
                 let speed = jet.first.norm();
                 let curvature = 0.5 * arc.sweep().abs() / speed;
-                (speed, curvature, curvature)
+                PartBounds {
+                    speed,
+                    curvature,
+                    middle_curvature: curvature,
+                }
             }
             Segment::Poly(poly) => {
                 if u0 == -1.0 && u1 == 1.0 {
@@ -52,21 +70,21 @@ impl Piece {
             segment: index,
             u0,
             u1,
-            length: speed * (u1 - u0),
-            curvature,
-            speed,
-            middle,
+            length: bounds.speed * (u1 - u0),
+            curvature: bounds.curvature,
+            speed: bounds.speed,
+            middle_curvature: bounds.middle_curvature,
         }
     }
 
-    /// Upper bound on the distance between a point of the piece and the point of its chord at the same
-    /// share of the length.
+    /// Upper bound on the distance, mm, between a point of the piece and the point of its chord at the same fraction of the
+    /// length.
     pub(crate) fn sagitta(&self) -> f64 {
-        // No curve leaves its chord by more than half its length.
+        // No curve deviates from its chord by more than half its length.
         (self.length * self.length * self.curvature / 8.0).min(0.5 * self.length)
     }
 
-    /// Upper bound on the angle through which the tangent turns.
+    /// Upper bound on the angle, rad, by which the tangent turns.
     pub(crate) fn turning(&self) -> f64 {
         if self.length == 0.0 {
             0.0
@@ -84,7 +102,7 @@ impl Piece {
         ]
     }
 
-    /// Upper bound on the length of the part after `u`.
+    /// Upper bound on the length, mm, of the part after `u`.
     pub(crate) fn after(&self, u: f64) -> f64 {
         self.speed * (self.u1 - u)
     }
@@ -100,8 +118,8 @@ fn shift(c: &mut [Vector; NODES], middle: f64) {
     }
 }
 
-/// Bounds of a polynomial's speed and curvature over `[-half, half]`, and its curvature at zero.
-fn poly_bounds(c: &[Vector], half: f64) -> (f64, f64, f64) {
+/// Bounds of a polynomial over `[-half, half]`.
+fn poly_bounds(c: &[Vector], half: f64) -> PartBounds {
     // velocity = c1 + 2 c2 v + rest, acceleration = 2 c2 + more.
     let (velocity, ramp) = (c[1], 2.0 * c[2] * half);
     let (mut rest, mut more) = (0.0, 0.0);
@@ -113,21 +131,24 @@ fn poly_bounds(c: &[Vector], half: f64) -> (f64, f64, f64) {
         rest += k * size * power;
     }
     let at_ends = [(velocity - ramp).norm(), (velocity + ramp).norm()];
-    let greatest = at_ends[0].max(at_ends[1]) + rest;
+    let max_speed = at_ends[0].max(at_ends[1]) + rest;
     let along = (-velocity.dot(&ramp) / ramp.norm_squared()).clamp(-1.0, 1.0);
-    let nearest = if along.is_finite() {
+    let min_linear = if along.is_finite() {
         (velocity + ramp * along).norm()
     } else {
         velocity.norm()
     };
-    let least = nearest - rest;
+    let min_speed = min_linear - rest;
     let acceleration = 2.0 * c[2].norm() + more;
-    let cross = 2.0 * velocity.perp(&c[2]).abs() + greatest * more + rest * acceleration;
-    let curvature = if least > 0.0 {
-        cross.min(greatest * acceleration) / least.powi(3)
+    let cross = 2.0 * velocity.perp(&c[2]).abs() + max_speed * more + rest * acceleration;
+    let curvature = if min_speed > 0.0 {
+        cross.min(max_speed * acceleration) / min_speed.powi(3)
     } else {
         f64::INFINITY
     };
-    let middle = 2.0 * velocity.perp(&c[2]).abs() / velocity.norm().powi(3);
-    (greatest, curvature, middle)
+    PartBounds {
+        speed: max_speed,
+        curvature,
+        middle_curvature: 2.0 * velocity.perp(&c[2]).abs() / velocity.norm().powi(3),
+    }
 }

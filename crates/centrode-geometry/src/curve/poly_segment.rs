@@ -2,19 +2,31 @@ use nalgebra::UnitComplex;
 
 use crate::{Point, Vector, numeric::Tolerance};
 
-/// Number of interpolation nodes of a [`PolySegment`]: degree thirteen.
+/// Number of interpolation nodes of a [`PolySegment`] of degree thirteen. Fewer need more segments per curve, more cost time
+/// per segment; [`GAUSS_NODES`](crate::numeric::GAUSS_NODES) depends on it.
 pub(crate) const NODES: usize = 14;
 
 /// A polynomial curve segment of degree thirteen on the parameter interval `[-1, 1]`.
 ///
-/// Interpolates an exact curve at Chebyshev–Lobatto nodes, so both ends lie on it to rounding and the
-/// error between them falls with the fourteenth power of the length of the segment.
+/// It interpolates an exact curve at Chebyshev-Lobatto nodes. Both ends lie on the curve to rounding; the error between
+/// them decreases with the fourteenth power of the length of the segment.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PolySegment {
     start: Point,
     end: Point,
     /// Monomial coefficients in `u`, constant first.
     coefficients: [Vector; NODES],
+}
+
+/// A polynomial segment and the part of a curve that it fits.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FittedSpan {
+    /// The segment.
+    pub poly: PolySegment,
+    /// Parameter of the curve at its start.
+    pub from: f64,
+    /// Parameter of the curve at its end.
+    pub to: f64,
 }
 
 /// Position, first and second derivative of a segment in its own parameter.
@@ -29,8 +41,9 @@ pub struct SegmentJet {
 }
 
 impl PolySegment {
-    /// Interpolates `curve` over `[t0, t1]` and estimates the greatest distance from it, in the
-    /// curve's units, by the decay of the Chebyshev coefficients.
+    /// Interpolates `curve` over `[t0, t1]`; also returns the estimated maximum distance from it, mm.
+    ///
+    /// The estimate is the size of the last two Chebyshev coefficients.
     pub(crate) fn interpolate(
         curve: &mut impl FnMut(f64) -> Point,
         t0: f64,
@@ -44,12 +57,13 @@ impl PolySegment {
         for (value, node) in inner.take(NODES - 1).skip(1) {
             *value = curve(middle + half * node);
         }
-        // The end nodes must not be moved by rounding in the parameter.
+        // The end points are taken at the exact parameters, without rounding.
         values[0] = curve(t1);
         values[NODES - 1] = curve(t0);
         Self::through(&values, tables)
     }
 
+    /// The polynomial through the values at the nodes, and the estimated error.
     fn through(values: &[Point; NODES], tables: &Tables) -> (Self, f64) {
         let mut chebyshev = [Vector::zeros(); NODES];
         for (k, c) in chebyshev.iter_mut().enumerate() {
@@ -74,8 +88,8 @@ impl PolySegment {
 
     /// Splits `[t0, t1]` until every segment's estimated error is below the tolerance.
     ///
-    /// The segments join exactly: each starts at the point where the one before it ends. `t1` may be
-    /// below `t0`: the curve is then traversed backwards.
+    /// The segments join exactly: each starts at the end point of the previous one. If `t1` is below `t0`, they follow the
+    /// curve backwards.
     #[must_use]
     pub fn fit(
         curve: impl FnMut(f64) -> Point,
@@ -84,47 +98,51 @@ impl PolySegment {
         tolerance: Tolerance,
     ) -> Vec<Self> {
         let spans = Self::fit_spans(curve, t0, t1, tolerance);
-        spans.into_iter().map(|(poly, ..)| poly).collect()
+        spans.into_iter().map(|span| span.poly).collect()
     }
 
-    /// Splits `[t0, t1]` like [`fit`](Self::fit), each segment with its interval of the curve's parameter.
+    /// Splits `[t0, t1]` like [`fit`](Self::fit); each segment comes with its interval of the curve's parameter.
     #[must_use]
     pub fn fit_spans(
         curve: impl FnMut(f64) -> Point,
         t0: f64,
         t1: f64,
         tolerance: Tolerance,
-    ) -> Vec<(Self, f64, f64)> {
-        // Sixteen halvings end it.
-        Self::fit_spans_up_to(usize::MAX, curve, [t0, t1], tolerance).unwrap_or_default()
+    ) -> Vec<FittedSpan> {
+        // The number of halvings is limited to sixteen.
+        Self::fit_spans_at_most(usize::MAX, curve, [t0, t1], tolerance).unwrap_or_default()
     }
 
-    /// Splits an interval like [`fit_spans`](Self::fit_spans); `None` where more than `most` segments would be needed.
+    /// Splits an interval like [`fit_spans`](Self::fit_spans); `None` if that takes more than `max_count` segments.
     #[must_use]
-    pub fn fit_spans_up_to(
-        most: usize,
+    pub fn fit_spans_at_most(
+        max_count: usize,
         mut curve: impl FnMut(f64) -> Point,
         [t0, t1]: [f64; 2],
         tolerance: Tolerance,
-    ) -> Option<Vec<(Self, f64, f64)>> {
-        let mut out: Vec<(Self, f64, f64)> = Vec::new();
+    ) -> Option<Vec<FittedSpan>> {
+        let mut out: Vec<FittedSpan> = Vec::new();
         let mut stack = vec![(t0, t1, 0_u32)];
         while let Some((a, b, depth)) = stack.pop() {
             crate::checkpoint();
             let (mut poly, error) = Self::interpolate(&mut curve, a, b);
-            // Below the rounding of the points no halving helps; nor does it at a jump.
+            // Halving does not help below the rounding of the points, nor at a jump of the curve.
             let rounding =
                 32.0 * f64::EPSILON * poly.start.coords.amax().max(poly.end.coords.amax());
             if error <= tolerance.mm().max(rounding) || depth >= 16 || error.is_nan() {
-                if let Some((last, ..)) = out.last() {
-                    poly.start = last.end;
+                if let Some(last) = out.last() {
+                    poly.start = last.poly.end;
                 }
-                out.push((poly, a, b));
+                out.push(FittedSpan {
+                    poly,
+                    from: a,
+                    to: b,
+                });
             } else {
                 let middle = 0.5 * (a + b);
                 stack.push((middle, b, depth + 1));
                 stack.push((a, middle, depth + 1));
-                if out.len() + stack.len() > most {
+                if out.len() + stack.len() > max_count {
                     return None;
                 }
             }
@@ -132,9 +150,9 @@ impl PolySegment {
         Some(out)
     }
 
-    /// Length of the polygon of `count` chords of equal parameter.
+    /// Length, mm, of the polygon of `count` chords with equal steps of the parameter.
     #[must_use]
-    pub fn chords(&self, count: u32) -> f64 {
+    pub fn chord_length(&self, count: u32) -> f64 {
         let point = |i: u32| self.at(-1.0 + 2.0 * f64::from(i) / f64::from(count)).point;
         (0..count).map(|i| (point(i + 1) - point(i)).norm()).sum()
     }
@@ -186,7 +204,7 @@ impl PolySegment {
         }
     }
 
-    /// The segment with its direction of travel reversed.
+    /// The segment in the opposite direction.
     #[must_use]
     pub fn reversed(&self) -> Self {
         let mut coefficients = self.coefficients;
@@ -212,7 +230,7 @@ impl PolySegment {
         self.mapped(|p| Point::new(p.x, -p.y), |v| Vector::new(v.x, -v.y))
     }
 
-    /// The image under an affine map, `vector` being its linear part.
+    /// The image under an affine map with the linear part `vector`.
     pub(crate) fn mapped(
         &self,
         point: impl Fn(&Point) -> Point,
@@ -254,7 +272,7 @@ impl PolySegment {
 
     /// The segment moved so that it starts and ends exactly at the given points.
     ///
-    /// The correction is linear in the parameter: meant for end points that differ by rounding.
+    /// The correction is linear in the parameter. Use it only for end points that differ by rounding.
     #[must_use]
     pub fn pinned(&self, start: Point, end: Point) -> Self {
         let mut out = *self;
@@ -268,6 +286,7 @@ impl PolySegment {
     }
 }
 
+/// Constants of the interpolation.
 struct Tables {
     nodes: [f64; NODES],
     transform: [[f64; NODES]; NODES],

@@ -5,8 +5,10 @@ use crate::{
 };
 use nalgebra::Rotation2;
 
-/// A circular arc from `start` to `end`; `bulge` is the tangent of a quarter of the turned angle,
-/// positive counter-clockwise.
+/// A circular arc from `start` to `end`.
+///
+/// `bulge` is the number DXF uses (group code 42): the tangent of a quarter of the turned angle, positive
+/// counter-clockwise. It is the sagitta divided by half the chord.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Arc {
     /// First point.
@@ -40,7 +42,7 @@ impl Arc {
     }
 }
 
-/// One smooth part of an [`Outline`], parametrised over `[-1, 1]`.
+/// One smooth part of an outline, parametrised over `[-1, 1]`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[expect(
     clippy::large_enum_variant,
@@ -53,6 +55,17 @@ pub enum Segment {
     Arc(Arc),
     /// A polynomial curve.
     Poly(PolySegment),
+}
+
+/// Part of a segment in a list, between two parameters.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SegmentRange {
+    /// Index of the segment.
+    pub index: usize,
+    /// Parameter of its start.
+    pub from: f64,
+    /// Parameter of its end.
+    pub to: f64,
 }
 
 impl From<PolySegment> for Segment {
@@ -92,7 +105,7 @@ impl Segment {
                 second: Vector::zeros(),
             },
             Self::Arc(arc) => {
-                // Chord form: as good for a nearly straight arc as for a half circle.
+                // Computed from the chord: exact for a nearly straight arc, too.
                 let half = 0.5 * arc.sweep();
                 let chord = arc.end - arc.start;
                 let t = 0.5 * (1.0 + u);
@@ -129,7 +142,7 @@ impl Segment {
         }
     }
 
-    /// The segment with its direction of travel reversed.
+    /// The segment in the opposite direction.
     #[must_use]
     pub fn reversed(&self) -> Self {
         match self {
@@ -145,20 +158,20 @@ impl Segment {
 }
 
 impl Segment {
-    /// Whether the segment is shorter than the rounding of its end points, so its tangent is undefined.
+    /// Whether the segment is shorter than the rounding of its end points, so that it has no tangent.
     pub(crate) fn is_null(&self) -> bool {
         let start = self.start();
         let rounding = 4096.0 * f64::EPSILON * start.coords.amax();
         (self.end() - start).amax() <= rounding && self.length() <= rounding
     }
 
-    /// Whether the part between two parameters stays nearer to a point than a distance, mm, at nine places of it.
-    pub(crate) fn keeps_near(&self, point: Point, distance: f64, from: f64, to: f64) -> bool {
-        let share = |i: u32| from + (to - from) * 0.125 * f64::from(i);
-        (0..=8).all(|i| (point - self.at(share(i)).point).norm() < distance)
+    /// Whether nine samples of the part between two parameters are nearer to a point than `distance`, mm.
+    pub(crate) fn stays_near(&self, point: Point, distance: f64, from: f64, to: f64) -> bool {
+        let parameter = |i: u32| from + (to - from) * 0.125 * f64::from(i);
+        (0..=8).all(|i| (point - self.at(parameter(i)).point).norm() < distance)
     }
 
-    /// Unit tangent at `u`, the limit from inside where the speed vanishes at an end.
+    /// Unit tangent at `u`; at an end where the speed is zero, the limit from inside.
     #[must_use]
     pub fn tangent(&self, u: f64) -> Vector {
         let jet = self.at(u);
@@ -188,7 +201,7 @@ impl Segment {
                     gauss_legendre(low, high, |u, w| sum += w * poly.at(u).first.norm());
                     sum
                 };
-                // Halves until the rule agrees with itself: at once unless the speed nearly vanishes.
+                // Halve until the rule agrees with its halves: at once unless the speed nearly vanishes.
                 let mut total = 0.0;
                 let mut stack = vec![(-1.0, 1.0, over(-1.0, 1.0), 0)];
                 while let Some((low, high, whole, depth)) = stack.pop() {

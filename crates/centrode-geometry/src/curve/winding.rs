@@ -1,7 +1,8 @@
 use crate::{Point, curve::Segment};
 
-/// How often a segment crosses the ray from `point` towards +x upwards, less how often downwards: over a closed chain, the
-/// winding number about the point.
+/// Number of upward minus number of downward crossings of a segment with the ray from `point` towards +x.
+///
+/// The sum over a closed chain is the winding number about the point.
 pub(crate) fn winding(segment: &Segment, point: Point) -> i32 {
     let side = |y: f64| y > point.y;
     let mut count = 0;
@@ -12,10 +13,10 @@ pub(crate) fn winding(segment: &Segment, point: Point) -> i32 {
         if box_.min.y > point.y || box_.max.y <= point.y || box_.max.x < point.x {
             continue;
         }
-        // Whatever happens in a part wholly to the right, its ends tell the count.
-        // The box of a part that is all rounding no longer shrinks with it.
-        let all_rounding = depth >= 20 && (end - start).amax() <= 1e-12 * start.coords.amax();
-        if box_.min.x > point.x || depth >= 50 || all_rounding {
+        // For a part entirely to the right of the point, the ends determine the count.
+        // The box of a part below rounding no longer shrinks with it.
+        let below_rounding = depth >= 20 && (end - start).amax() <= 1e-12 * start.coords.amax();
+        if box_.min.x > point.x || depth >= 50 || below_rounding {
             count += i32::from(side(end.y)) - i32::from(side(start.y));
             continue;
         }

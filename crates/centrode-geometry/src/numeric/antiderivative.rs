@@ -1,26 +1,27 @@
 use crate::numeric::bracketed_newton;
 
-/// Nodes of a panel; the integrand is a polynomial of one degree less on it.
+/// Nodes per panel, on which the integrand is a polynomial of degree 15.
 const NODES: usize = 16;
-/// Relative size of the last two Chebyshev coefficients below which they are taken for rounding.
+/// Relative size of the last two Chebyshev coefficients below which they count as rounding. Ten times larger loses a digit;
+/// ten times smaller halves panels because of rounding.
 const NOISE: f64 = 3e-14;
-/// Relative size of those above which a panel that is accepted as it is counts as unsettled.
-const UNSETTLED: f64 = 1e-9;
-/// Halvings after which a panel is accepted as it is: the integrand is then not analytic there.
-const DEEPEST: u32 = 12;
+/// Relative size of the same coefficients above which a panel of the last halving counts as not converged.
+const UNCONVERGED: f64 = 1e-9;
+/// Maximum number of halvings. A panel that needs more contains a point where the integrand is not analytic.
+const MAX_DEPTH: u32 = 12;
 
 /// Antiderivative of a function from the start of an interval, to the float limit, by Chebyshev series.
 ///
-/// The interval is cut at the function's breaks and then halved until the Chebyshev series of the
-/// integrand on every panel has decayed to rounding; the series is integrated term by term. Cost:
-/// one binary search and Clenshaw sums of seventeen terms in all an evaluation.
+/// The interval is cut at the breaks of the function. Each panel is halved until the Chebyshev series of the integrand
+/// has decayed to rounding, then the series is integrated term by term. An evaluation costs one binary search and a
+/// Clenshaw sum of seventeen terms.
 #[derive(Clone, Debug)]
 pub struct Antiderivative {
-    /// Panel ends; one more than there are panels.
+    /// Panel ends, one more than panels.
     ends: Vec<f64>,
     panels: Vec<Panel>,
     total: f64,
-    unsettled: usize,
+    unconverged: usize,
 }
 
 #[derive(Clone, Debug)]
@@ -29,7 +30,7 @@ struct Panel {
     before: f64,
     /// Chebyshev coefficients of the integral from the start of the panel.
     integral: [f64; NODES + 1],
-    /// Those of the integrand.
+    /// Chebyshev coefficients of the integrand.
     integrand: [f64; NODES],
     /// Values of the integrand at both ends.
     ends: [f64; 2],
@@ -38,21 +39,20 @@ struct Panel {
 impl Antiderivative {
     /// Integrates `f` over the interval from the first to the last of `breaks` (ascending, at least two).
     ///
-    /// Inside two neighbouring breaks `f` must be analytic for the promised accuracy; it is never
-    /// evaluated at a break.
+    /// Between neighbouring breaks `f` must be analytic for this accuracy. It is never evaluated at a break.
     #[must_use]
     pub fn new(f: impl FnMut(f64) -> f64, breaks: &[f64]) -> Self {
-        Self::of_size(f, breaks, 0.0)
+        Self::with_scale(f, breaks, 0.0)
     }
 
-    /// Integrates `f`, whose rounding is that of values of a size, as where it is a difference of such values: panels on which
-    /// it is next to nothing are not halved for their rounding. See [`Self::new`].
+    /// Integrates `f`, whose rounding error is that of values of the size `scale`, for instance a difference of such values.
+    ///
+    /// Panels on which `f` is tiny are then not halved because of rounding. See [`Self::new`].
     #[must_use]
-    pub fn of_size(mut f: impl FnMut(f64) -> f64, breaks: &[f64], size: f64) -> Self {
-        let least = size;
+    pub fn with_scale(mut f: impl FnMut(f64) -> f64, breaks: &[f64], scale: f64) -> Self {
         let mut pending: Vec<(f64, f64, u32)> = Vec::new();
         for pair in breaks.windows(2).rev() {
-            // Two breaks on one place leave no panel between them to be evaluated.
+            // Two equal breaks have no panel between them.
             if pair[0] < pair[1] {
                 pending.push((pair[0], pair[1], 0));
             }
@@ -62,7 +62,7 @@ impl Antiderivative {
         let mut panels: Vec<Panel> = Vec::new();
         let mut before = 0.0;
         let mut lost = 0.0;
-        let mut unsettled = 0;
+        let mut unconverged = 0;
         while let Some((a, b, depth)) = pending.pop() {
             crate::checkpoint();
             let (middle, half) = (0.5 * (a + b), 0.5 * (b - a));
@@ -71,14 +71,14 @@ impl Antiderivative {
                 let row = &tables.transform[k];
                 values.iter().zip(row).map(|(v, w)| v * w).sum()
             });
-            let size = series.iter().fold(least, |m, c| m.max(c.abs()));
+            let size = series.iter().fold(scale, |m, c| m.max(c.abs()));
             let tail = series[NODES - 2..].iter().map(|c| c.abs()).sum::<f64>();
-            if tail > NOISE * size && depth < DEEPEST && tail.is_finite() {
+            if tail > NOISE * size && depth < MAX_DEPTH && tail.is_finite() {
                 pending.push((middle, b, depth + 1));
                 pending.push((a, middle, depth + 1));
                 continue;
             }
-            unsettled += usize::from(tail > UNSETTLED * size);
+            unconverged += usize::from(tail > UNCONVERGED * size);
             let mut integral = [0.0; NODES + 1];
             for k in 1..=NODES {
                 let lower = if k == 1 {
@@ -106,7 +106,7 @@ impl Antiderivative {
                 ends: [-1.0, 1.0].map(|u| sum(series[0], &series[1..], u)),
             });
             ends.push(b);
-            // Compensated: a thousand panels lose no digit.
+            // Kahan summation: a thousand panels lose no digit.
             let y = whole - lost;
             let next = before + y;
             lost = (next - before) - y;
@@ -116,7 +116,7 @@ impl Antiderivative {
             ends,
             panels,
             total: before,
-            unsettled,
+            unconverged,
         }
     }
 
@@ -126,14 +126,14 @@ impl Antiderivative {
         self.total
     }
 
-    /// Number of panels that were halved to the end and on which the series still had not decayed to a billionth.
+    /// Number of panels whose series has not decayed to 1e-9 after the last halving.
     #[must_use]
-    pub fn unsettled(&self) -> usize {
-        self.unsettled
+    pub fn unconverged(&self) -> usize {
+        self.unconverged
     }
 
-    /// Nodes and weights of Fejér's first rule on every panel: they integrate `f`, and functions like it, to the
-    /// float limit over the whole interval.
+    /// Nodes and weights of Fejér's first rule on every panel. They integrate `f`, and functions like it, over the whole
+    /// interval to the float limit.
     pub fn nodes(&self) -> impl Iterator<Item = (f64, f64)> + '_ {
         let tables = tables();
         self.ends.windows(2).flat_map(move |end| {
@@ -156,7 +156,7 @@ impl Antiderivative {
         panel.before + sum(panel.integral[0], &panel.integral[1..], u)
     }
 
-    /// Argument at which the integral of a positive function reaches `value`, between zero and the total.
+    /// Argument at which the integral of a positive function reaches `value`, which is between zero and the total.
     #[must_use]
     pub fn inverse(&self, value: f64) -> f64 {
         let after = self.panels.partition_point(|panel| panel.before <= value);
@@ -181,7 +181,7 @@ impl Antiderivative {
             let u = ((t - a) - (b - t)) / (b - a);
             (off, off / sum(integrand[0], &integrand[1..], u))
         };
-        // The cubic with the slopes of the inverse at both ends begins two digits nearer than a line.
+        // Start on the cubic with the slopes of the inverse at both ends: two digits nearer than a line.
         let share = -low / (high - low);
         let [first, last] = self.panels[index]
             .ends
@@ -193,9 +193,9 @@ impl Antiderivative {
     }
 }
 
-/// A Chebyshev series by its constant and the rest at a place of [-1, 1].
+/// Value of a Chebyshev series, given by its constant and its other terms, at `u` in [-1, 1].
 fn sum(constant: f64, rest: &[f64], u: f64) -> f64 {
-    // Even and odd terms apart, as series in T2(u): two short chains instead of a long one.
+    // Even and odd terms separately, as series in T2(u): two short chains of operations instead of a long one.
     let twice = 4.0 * u * u - 2.0;
     let ([mut even, mut even2], [mut odd, mut odd2]) = ([0.0; 2], [0.0; 2]);
     let pairs = rest.chunks_exact(2);
@@ -280,7 +280,7 @@ mod tests {
             calls.set(calls.get() + 1);
             (1e4 + t.sin()) - 1e4
         };
-        let found = Antiderivative::of_size(difference, &[0.0, 2.0], 1e4).total();
+        let found = Antiderivative::with_scale(difference, &[0.0, 2.0], 1e4).total();
         assert!((found - (1.0 - 2.0_f64.cos())).abs() < 1e-11, "{found}");
         assert_eq!(calls.get(), NODES);
         let _ = Antiderivative::new(difference, &[0.0, 2.0]);
@@ -292,11 +292,11 @@ mod tests {
         // A wave takes two panels or three; of half a million waves none is seen.
         let waves =
             |n: f64| Antiderivative::new(move |t: f64| 1.0 + 0.5 * (n * t).sin(), &[0.0, 6.0]);
-        assert_eq!(waves(500.0).unsettled(), 0);
-        assert_eq!(waves(5e5).unsettled(), 1 << DEEPEST);
+        assert_eq!(waves(500.0).unconverged(), 0);
+        assert_eq!(waves(5e5).unconverged(), 1 << MAX_DEPTH);
         // At a kink one.
         let kink = Antiderivative::new(|t: f64| (t - 1.0).abs(), &[0.0, 6.0]);
-        assert_eq!(kink.unsettled(), 1);
+        assert_eq!(kink.unconverged(), 1);
     }
 
     #[test]

@@ -8,23 +8,23 @@ thread_local! {
     static CURRENT: RefCell<Option<Cancel>> = const { RefCell::new(None) };
 }
 
-/// Whether no thread is started any more.
-static ALONE: AtomicBool = AtomicBool::new(false);
+/// Whether no more threads may start.
+static SINGLE_THREAD: AtomicBool = AtomicBool::new(false);
 
-/// From now on every job of [`together`] and [`shared_out`] runs on the thread that calls them.
+/// Makes every later job of [`run_both`] and [`parallel_map`] run on the calling thread.
 ///
-/// For a program that cannot start threads: work that is handed to another thread could wait for one that never comes.
+/// A program that cannot start threads must call it: otherwise a job could wait for a thread that never starts.
 pub fn stay_on_one_thread() {
-    ALONE.store(true, Ordering::Relaxed);
+    SINGLE_THREAD.store(true, Ordering::Relaxed);
 }
 
 /// Token that stops a long computation from another thread, by cooperative unwinding.
 ///
 /// A computation under [`Cancel::run`] passes a [`checkpoint`] every few microseconds. Once the token is cancelled, the
-/// next checkpoint unwinds the stack to `run`: destructors run, no panic is reported, and every function on the way
-/// needs neither an argument nor an error for it. Tokens are shared by cloning; nothing else is shared.
+/// next checkpoint unwinds the stack to `run`: destructors run and no panic is reported. The functions between need
+/// neither an argument nor an error for it. Clones share the token and nothing else.
 ///
-/// A program built with `panic = "abort"` cannot unwind: there every computation runs to its end.
+/// A program built with `panic = "abort"` cannot unwind: every computation runs to its end.
 ///
 /// ```
 /// use centrode_geometry::{Cancel, Cancelled, checkpoint};
@@ -45,17 +45,17 @@ pub struct Cancel(Arc<AtomicBool>);
 #[error("cancelled before the end")]
 pub struct Cancelled;
 
-/// Payload of the unwinding, with the token it is for.
+/// Payload of the unwinding, with its token.
 struct Unwinding(Cancel);
 
-/// Guard that holds a thread under a token; when it is dropped the token before it holds again.
+/// Guard that puts a thread under a token. Dropping it restores the previous token.
 #[derive(Debug)]
 pub struct Scope {
     before: Option<Cancel>,
 }
 
 impl Cancel {
-    /// Stops whatever runs under this token, now and from now on.
+    /// Stops every computation under this token, running or later.
     pub fn cancel(&self) {
         self.0.store(true, Ordering::Relaxed);
     }
@@ -66,13 +66,13 @@ impl Cancel {
         self.0.load(Ordering::Relaxed)
     }
 
-    /// Result of a job that stops at its next [`checkpoint`] once the token is cancelled.
+    /// Runs a job that stops at its next [`checkpoint`] once the token is cancelled.
     ///
-    /// What the job was changing through references or locks stays as it was at that checkpoint. Where runs are nested
-    /// the innermost token alone is heeded. Panics pass through.
+    /// Data that the job changes through references or locks stays as it was at that checkpoint. In nested runs only the
+    /// innermost token counts. Panics pass through.
     ///
     /// # Errors
-    /// [`Cancelled`] where the job was stopped.
+    /// [`Cancelled`] if the job was stopped.
     pub fn run<T>(&self, job: impl FnOnce() -> T) -> Result<T, Cancelled> {
         let outcome = catch_unwind(AssertUnwindSafe(|| {
             let _scope = self.enter();
@@ -85,15 +85,16 @@ impl Cancel {
         })
     }
 
-    /// Token the calling thread is under, to be carried to threads that work for it; a new one where there is none.
+    /// Token of the calling thread, to pass to threads that work for it; a new one if the thread has none.
     #[must_use]
     pub fn current() -> Self {
         CURRENT.with_borrow(Clone::clone).unwrap_or_default()
     }
 
-    /// Puts the calling thread, a worker of a computation under [`Cancel::run`], under its token too.
+    /// Puts the calling thread, a worker of a computation under [`Cancel::run`], under the same token.
     ///
-    /// Whoever waits for the worker must pass its unwinding on, as rayon does; with its `panic_fuse` no further item begins.
+    /// The thread that waits for the worker must pass its unwinding on, as rayon does. With rayon's `panic_fuse` no further
+    /// item begins.
     #[must_use]
     pub fn enter(&self) -> Scope {
         let before = CURRENT.replace(Some(self.clone()));
@@ -109,33 +110,34 @@ impl Drop for Scope {
     }
 }
 
-/// Point at which a computation can be stopped by the token it runs under; costs about a nanosecond.
+/// Point at which the token of a computation can stop it; costs about a nanosecond.
 ///
-/// Belongs in every loop that may take long, and not in code that must not be left half done.
+/// Call it in every loop that may take long, but not in code that must finish once it has begun.
 #[inline]
 pub fn checkpoint() {
     let cancelled = |current: &Option<Cancel>| current.as_ref().is_some_and(Cancel::is_cancelled);
-    // While a thread ends its token has gone: nothing computes there.
+    // The token of a thread that ends is already dropped; nothing computes there.
     if cfg!(panic = "unwind") && CURRENT.try_with(|c| cancelled(&c.borrow())) == Ok(true) {
         stop();
     }
 }
 
-/// Results of two jobs that run side by side, each on a thread of its own, both under the token of the calling thread.
+/// Results of two jobs that run in parallel, each on its own thread, both under the token of the calling thread.
 ///
 /// A job whose thread cannot be started runs on the calling thread.
 ///
 /// ```
-/// assert_eq!(centrode_geometry::together(|| 6, || 7), (6, 7));
+/// assert_eq!(centrode_geometry::run_both(|| 6, || 7), (6, 7));
 /// ```
-pub fn together<A: Send, B: Send>(
+pub fn run_both<A: Send, B: Send>(
     one: impl FnOnce() -> A + Send,
     other: impl FnOnce() -> B + Send,
 ) -> (A, B) {
     let cancel = Cancel::current();
     let (one, other) = (Mutex::new(Some(one)), Mutex::new(Some(other)));
     std::thread::scope(|scope| {
-        // The caller waits: a single new thread beside one that works is often left on the same core, for some milliseconds.
+        // Both jobs get a new thread and the caller waits: one new thread next to a busy caller often shares its core for some
+        // milliseconds.
         let started = (
             started(scope, &cancel, &one),
             started(scope, &cancel, &other),
@@ -147,16 +149,16 @@ pub fn together<A: Send, B: Send>(
     })
 }
 
-/// A job, until a thread takes it.
+/// A job that no thread has taken yet.
 type Waiting<F> = Mutex<Option<F>>;
 
-/// Thread of a job under a token; `None` if it cannot be started, and the job still waits.
+/// Starts a thread for a job under a token; `None` if it cannot start: then the job still waits.
 fn started<'scope, T: Send + 'scope, F: FnOnce() -> T + Send + 'scope>(
     scope: &'scope std::thread::Scope<'scope, '_>,
     cancel: &'scope Cancel,
     job: &'scope Waiting<F>,
 ) -> Option<ScopedJoinHandle<'scope, Option<T>>> {
-    if ALONE.load(Ordering::Relaxed) {
+    if SINGLE_THREAD.load(Ordering::Relaxed) {
         return None;
     }
     let run = move || {
@@ -166,7 +168,7 @@ fn started<'scope, T: Send + 'scope, F: FnOnce() -> T + Send + 'scope>(
     std::thread::Builder::new().spawn_scoped(scope, run).ok()
 }
 
-/// Result of a job: that of its thread or, if it still waits, that of the calling thread.
+/// Result of a job: from its thread or, if the job still waits, computed on the calling thread.
 fn finished<T, F: FnOnce() -> T>(
     thread: Option<ScopedJoinHandle<'_, Option<T>>>,
     job: &Waiting<F>,
@@ -183,14 +185,17 @@ fn taken<F>(job: &Waiting<F>) -> Option<F> {
     job.lock().unwrap_or_else(PoisonError::into_inner).take()
 }
 
-/// Results for each of several things, in their order, worked out by two threads: each takes the next that is left.
+/// Results for several things, in their order, computed by two threads: each takes the next free thing.
 ///
-/// A [`Cancel`] stops both, and a panic in either comes out of this call.
+/// A [`Cancel`] stops both threads. A panic in either comes out of this call.
 ///
 /// ```
-/// assert_eq!(centrode_geometry::shared_out(&[1, 2, 3], |x| x * x), [1, 4, 9]);
+/// assert_eq!(centrode_geometry::parallel_map(&[1, 2, 3], |x| x * x), [1, 4, 9]);
 /// ```
-pub fn shared_out<T: Sync, R: Send + Sync>(things: &[T], make: impl Fn(&T) -> R + Sync) -> Vec<R> {
+pub fn parallel_map<T: Sync, R: Send + Sync>(
+    things: &[T],
+    make: impl Fn(&T) -> R + Sync,
+) -> Vec<R> {
     if things.len() < 2 {
         return things.iter().map(make).collect();
     }
@@ -201,19 +206,19 @@ pub fn shared_out<T: Sync, R: Send + Sync>(things: &[T], make: impl Fn(&T) -> R 
             made.get_or_init(|| make(thing));
         }
     };
-    together(work, work);
+    run_both(work, work);
     made.into_iter().filter_map(OnceLock::into_inner).collect()
 }
 
-/// The next thing that nobody has taken, and its place.
-fn next<'a, T, P>(taken: &AtomicUsize, things: &'a [T], places: &'a [P]) -> Option<(&'a T, &'a P)> {
+/// The next thing that no thread has taken, and the slot of its result.
+fn next<'a, T, P>(taken: &AtomicUsize, things: &'a [T], slots: &'a [P]) -> Option<(&'a T, &'a P)> {
     let next = taken.fetch_add(1, Ordering::Relaxed);
-    things.get(next).zip(places.get(next))
+    things.get(next).zip(slots.get(next))
 }
 
 #[cold]
 fn stop() {
-    // A destructor that runs while the stack unwinds must end normally.
+    // Destructors that run while the stack unwinds must end normally.
     if !std::thread::panicking() {
         resume_unwind(Box::new(Unwinding(Cancel::current())));
     }
@@ -260,11 +265,11 @@ mod tests {
     }
 
     #[test]
-    fn a_job_stops_soon_after_its_token_is_cancelled_and_unwinds_what_it_held() {
+    fn a_job_stops_soon_after_its_token_is_cancelled_and_unwinds_its_values() {
         struct Held<'a>(&'a AtomicBool);
         impl Drop for Held<'_> {
             fn drop(&mut self) {
-                // Not even here is the unwinding disturbed.
+                // A checkpoint in a destructor does not disturb the unwinding.
                 checkpoint();
                 self.0.store(true, Ordering::Relaxed);
             }
@@ -296,7 +301,7 @@ mod tests {
         let nested = outer.run(|| (inner.run(endless), outer.run(checkpoint)));
         assert_eq!(nested, Ok((Err(Cancelled), Ok(()))));
         let other = Cancel::default();
-        // What unwinds for another token, or from a panic, is not this one's to catch.
+        // A token does not catch the unwinding of another token or of a panic.
         let passed = outer.run(|| {
             let worker = outer.clone();
             worker.cancel();

@@ -1,28 +1,29 @@
 use crate::numeric::bracketed_minimum;
 
-/// A greatest or least value of a function and where it is.
+/// A maximum or minimum of a function.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Extreme {
     /// Argument of the function.
     pub input: f64,
-    /// The value there.
+    /// Value of the function at that argument.
     pub value: f64,
 }
 
-/// Samples a piece, among which each local extreme is bracketed: a smooth piece has a few.
+/// Samples per piece. Each local extreme of a smooth piece must show among them: with a tenth, narrow peaks are missed;
+/// with ten times as many, every search takes ten times as long.
 const SAMPLES: usize = 48;
-/// Fewest samples a piece.
-const FEWEST: usize = 12;
+/// Minimum number of samples per piece of a range with pieces of different length.
+const MIN_SAMPLES: usize = 12;
 
-/// Difference of two values of a size that is rounding.
+/// Difference, below which two values of a size are equal but for rounding.
 #[must_use]
 pub fn rounding(size: f64) -> f64 {
     4.0 * f64::EPSILON * size.abs()
 }
 
-/// Ends of pieces of an interval: those of `count` even parts and the breaks inside, ascending.
+/// Ends of the pieces of an interval, ascending: those of `count` equal parts, and the breaks inside.
 #[must_use]
-pub fn pieces(from: f64, to: f64, count: u32, breaks: &[f64]) -> Vec<f64> {
+pub fn piece_ends(from: f64, to: f64, count: u32, breaks: &[f64]) -> Vec<f64> {
     let even = |i: u32| from + (to - from) * f64::from(i) / f64::from(count.max(1));
     let mut ends: Vec<f64> = (0..count.max(1)).map(even).collect();
     ends.extend(breaks.iter().filter(|&&b| b > from && b < to));
@@ -32,11 +33,12 @@ pub fn pieces(from: f64, to: f64, count: u32, breaks: &[f64]) -> Vec<f64> {
     ends
 }
 
-/// The greatest value of each of several functions that are evaluated together, over the range from the first to
-/// the last of `ends`, between which they are smooth; see [`greatest_of`].
-pub fn greatest_each<const N: usize>(f: impl Fn(f64) -> [f64; N], ends: &[f64]) -> [Extreme; N] {
+/// Maximum of each of several functions that one call evaluates, over the range from the first to the last of `ends`.
+///
+/// The functions are smooth between neighbouring ends; see [`maxima`].
+pub fn maximum_of_each<const N: usize>(f: impl Fn(f64) -> [f64; N], ends: &[f64]) -> [Extreme; N] {
     let all = |x: f64, values: &mut Vec<f64>| values.extend(f(x));
-    let found = greatest_among(
+    let found = sampled_maxima(
         N,
         all,
         |k, x| f(x)[k],
@@ -46,16 +48,19 @@ pub fn greatest_each<const N: usize>(f: impl Fn(f64) -> [f64; N], ends: &[f64]) 
     std::array::from_fn(|k| found[k])
 }
 
-/// The greatest value of each of `count` functions, over the range from the first to the last of `ends`, between which
-/// they are smooth. `all` adds the value of every function at an argument to a list, `one` is the value of a single one;
-/// `noise` is the difference of its values that is rounding where it has a value, [`rounding`] where it is computed without loss.
+/// Maximum of each of `count` functions over the range from the first to the last of `ends`.
 ///
-/// Samples are as close together as 48 to the longest piece, but a dozen to a piece at least. The local extremes among the
-/// samples of a piece are refined by Brent's method: the value is exact to the float limit, the input to its square root
-/// where the function is smooth. One is left as it is where even several times the height of the parabola through its
-/// samples, or of a kink between them, would not reach the greatest sample. At a break both limits count. A value that is
-/// no number never counts; where there is none at all the value is minus infinity.
-pub fn greatest_of(
+/// The functions are smooth between neighbouring ends.
+/// - `all` appends the value of every function at an argument to a list;
+/// - `one` returns the value of one function;
+/// - `noise` returns the rounding error of a function near a value: [`rounding`] if it is computed without loss.
+///
+/// The longest piece has 48 samples, a shorter one fewer, but at least 12. Brent's method refines the local maxima among
+/// the samples of a piece: the value is exact to the float limit, the input of a smooth function to its square root. A
+/// local maximum is not refined if several times the height of the parabola through its samples, or of a kink between
+/// them, does not reach the maximum sample. At a break both limits count. A value that is not a number never counts; if
+/// there is no other, the result is minus infinity.
+pub fn maxima(
     count: usize,
     all: impl Fn(f64, &mut Vec<f64>),
     one: impl Fn(usize, f64) -> f64,
@@ -65,23 +70,23 @@ pub fn greatest_of(
     let lengths = ends.windows(2).map(|pair| pair[1] - pair[0]);
     let longest = lengths.fold(0.0, f64::max);
     let samples = |length: f64| (SAMPLES as f64 * length / longest).ceil() as usize;
-    let parts = parts(ends, |length| samples(length).max(FEWEST));
-    greatest_among(count, all, one, noise, &parts)
+    let parts = parts(ends, |length| samples(length).max(MIN_SAMPLES));
+    sampled_maxima(count, all, one, noise, &parts)
 }
 
-/// A piece of a range on which a function is smooth, and the number of even steps in which it is sampled.
+/// A piece of a range on which a function is smooth, sampled in equal steps.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SampledPiece {
     /// Start of the piece.
     pub from: f64,
     /// End of the piece.
     pub to: f64,
-    /// Number of steps; there is one sample more.
+    /// Number of steps, one less than the number of samples.
     pub steps: usize,
 }
 
 impl SampledPiece {
-    /// Argument of a sample, numbered from zero; the last is the limit at the end.
+    /// Argument of sample `i`, counted from 0. The last one is the limit at the end.
     #[must_use]
     pub fn at(&self, i: usize) -> f64 {
         let share = i as f64 / self.steps as f64;
@@ -89,7 +94,7 @@ impl SampledPiece {
     }
 }
 
-/// The pieces between neighbouring ends, each with a number of steps by its length.
+/// The pieces between neighbouring ends; `steps` returns the number of steps for a length.
 fn parts(ends: &[f64], steps: impl Fn(f64) -> usize) -> Vec<SampledPiece> {
     let part = |pair: &[f64]| SampledPiece {
         from: pair[0],
@@ -99,7 +104,8 @@ fn parts(ends: &[f64], steps: impl Fn(f64) -> usize) -> Vec<SampledPiece> {
     ends.windows(2).map(part).collect()
 }
 
-fn greatest_among(
+/// Samples `count` functions on all pieces and refines their maxima.
+fn sampled_maxima(
     count: usize,
     all: impl Fn(f64, &mut Vec<f64>),
     one: impl Fn(usize, f64) -> f64,
@@ -112,18 +118,17 @@ fn greatest_among(
         crate::checkpoint();
         (0..=part.steps).for_each(|i| all(part.at(i), &mut values));
     }
-    let greatest = |k: usize| {
+    let of_function = |k: usize| {
         let samples: Vec<f64> = values.iter().skip(k).step_by(count).copied().collect();
-        greatest_sampled(&samples, |x| one(k, x), |value| noise(k, value), parts)
+        maximum_of_samples(&samples, |x| one(k, x), |value| noise(k, value), parts)
     };
-    (0..count).map(greatest).collect()
+    (0..count).map(of_function).collect()
 }
 
-/// The greatest value of a function whose samples are known, those of each piece after those of the piece before.
+/// Maximum of a function whose samples are known, piece by piece.
 ///
-/// The local extremes among them are refined as by [`greatest_of`]; `noise` is the difference of values of a size that is
-/// rounding.
-pub fn greatest_sampled(
+/// Its local maxima are refined as in [`maxima`]; `noise` returns the rounding error near a value.
+pub fn maximum_of_samples(
     samples: &[f64],
     f: impl Fn(f64) -> f64,
     noise: impl Fn(f64) -> f64,
@@ -160,17 +165,18 @@ pub fn greatest_sampled(
     best
 }
 
-/// Height above a sample at most reached near it, where it is a local extreme among those of its piece: eight times that of
-/// a parabola, twice that of a kink.
+/// Maximum height of the function above a sample that is a local maximum of its piece; `None` for any other sample.
+///
+/// The estimate is eight times the height of the parabola through three samples, or twice that of a kink.
 fn peak(samples: &[f64], i: usize) -> Option<f64> {
     let sample = samples[i];
-    let beside = [i.checked_sub(1), Some(i + 1)].map(|j| samples.get(j?).copied());
-    let is_peak = beside.iter().flatten().all(|&v| v <= sample)
-        && beside.iter().flatten().any(|&v| v < sample);
+    let neighbours = [i.checked_sub(1), Some(i + 1)].map(|j| samples.get(j?).copied());
+    let is_peak = neighbours.iter().flatten().all(|&v| v <= sample)
+        && neighbours.iter().flatten().any(|&v| v < sample);
     if !is_peak {
         return None;
     }
-    match beside {
+    match neighbours {
         [Some(before), Some(after)] => Some(2.0 * sample - before - after),
         _ => {
             let inwards = |step: usize| samples[if i == 0 { step } else { i - step }];
@@ -180,31 +186,30 @@ fn peak(samples: &[f64], i: usize) -> Option<f64> {
     }
 }
 
-/// The greatest value of a function over the range of `ends`, between which it is smooth; see [`greatest_each`].
-pub fn greatest(f: impl Fn(f64) -> f64, ends: &[f64]) -> Extreme {
-    let [greatest] = greatest_each(|x| [f(x)], ends);
-    greatest
+/// Maximum of a function over the range of `ends`, between which it is smooth; see [`maximum_of_each`].
+pub fn maximum(f: impl Fn(f64) -> f64, ends: &[f64]) -> Extreme {
+    let [maximum] = maximum_of_each(|x| [f(x)], ends);
+    maximum
 }
 
-/// The least value of a function over the range of `ends`, between which it is smooth; see [`greatest_each`].
-pub fn least(f: impl Fn(f64) -> f64, ends: &[f64]) -> Extreme {
-    let Extreme { input, value } = greatest(|x| -f(x), ends);
+/// Minimum of a function over the range of `ends`, between which it is smooth; see [`maximum_of_each`].
+pub fn minimum(f: impl Fn(f64) -> f64, ends: &[f64]) -> Extreme {
+    let Extreme { input, value } = maximum(|x| -f(x), ends);
     Extreme {
         input,
         value: -value,
     }
 }
 
-/// The least and the greatest value of a function over the range of `ends`, between which it is smooth; see
-/// [`greatest_each`].
+/// Minimum and maximum of a function over the range of `ends`, between which it is smooth; see [`maximum_of_each`].
 pub fn extremes(f: impl Fn(f64) -> f64, ends: &[f64]) -> [Extreme; 2] {
     let both = |x: f64| {
         let value = f(x);
         [-value, value]
     };
-    let [mut least, greatest] = greatest_each(both, ends);
-    least.value = -least.value;
-    [least, greatest]
+    let [mut minimum, maximum] = maximum_of_each(both, ends);
+    minimum.value = -minimum.value;
+    [minimum, maximum]
 }
 
 #[cfg(test)]
@@ -217,42 +222,42 @@ mod tests {
         let f = |x: f64| (7.0 * x).sin() + 0.1 * (x - 2.0);
         // Where 7 cos 7x = -0.1, the last peak and the first trough.
         let turn = (-0.1_f64 / 7.0).acos();
-        let [low, high] = extremes(f, &pieces(0.0, TAU, 4, &[]));
+        let [low, high] = extremes(f, &piece_ends(0.0, TAU, 4, &[]));
         let peak = (turn + 6.0 * TAU) / 7.0;
         let trough = (TAU - turn) / 7.0;
         assert!((high.value - f(peak)).abs() < 1e-15 && (high.input - peak).abs() < 1e-7);
         assert!((low.value - f(trough)).abs() < 1e-15 && (low.input - trough).abs() < 1e-7);
-        assert_eq!(greatest(f, &pieces(0.0, TAU, 4, &[])), high);
-        assert_eq!(least(f, &pieces(0.0, TAU, 4, &[])), low);
+        assert_eq!(maximum(f, &piece_ends(0.0, TAU, 4, &[])), high);
+        assert_eq!(minimum(f, &piece_ends(0.0, TAU, 4, &[])), low);
     }
 
     #[test]
-    fn the_greatest_of_near_peaks_is_found_whichever_sample_is_greatest() {
-        // A sharp peak of height 1 that lies between samples, by and by, beside a flat one a little lower.
+    fn the_highest_of_near_peaks_is_found_whichever_sample_is_highest() {
+        // A sharp peak of height 1 moves between samples, near a flat peak that is a little lower.
         for i in 0..40 {
             let at = 1.0 + 0.002 * f64::from(i);
             for width in [0.03, 0.1, 0.3] {
                 let bell =
                     |x: f64, middle: f64, width: f64| (-((x - middle) / width).powi(2)).exp();
                 let f = |x: f64| bell(x, at, width) + 0.995 * bell(x, 3.0, 0.6);
-                let found = greatest(f, &pieces(0.0, 4.0, 4, &[]));
+                let found = maximum(f, &piece_ends(0.0, 4.0, 4, &[]));
                 assert!((found.input - at).abs() < 1e-2, "{at} {width}: {found:?}");
                 assert!(found.value >= f(at) - 1e-15, "{at} {width}: {found:?}");
             }
             let kink = |x: f64| (0.3 - (x - at).abs()).max(0.299 - 0.01 * (x - 3.0).powi(2));
-            let found = greatest(kink, &pieces(0.0, 4.0, 4, &[]));
+            let found = maximum(kink, &piece_ends(0.0, 4.0, 4, &[]));
             assert!((found.value - 0.3).abs() < 1e-10, "{at}: {found:?}");
         }
     }
 
     #[test]
-    fn a_function_that_is_noise_is_not_followed() {
+    fn a_function_that_is_noise_is_not_refined() {
         let calls = std::cell::Cell::new(0);
         let noise = |x: f64| {
             calls.set(calls.get() + 1);
             1.0 + f64::EPSILON * (1e6 * x).sin().round()
         };
-        let found = greatest(noise, &pieces(0.0, 4.0, 4, &[]));
+        let found = maximum(noise, &piece_ends(0.0, 4.0, 4, &[]));
         assert!((found.value - 1.0).abs() <= 2.0 * f64::EPSILON);
         assert!(calls.get() <= 4 * (SAMPLES + 1), "{}", calls.get());
     }
@@ -260,15 +265,15 @@ mod tests {
     #[test]
     fn both_limits_at_a_break_count() {
         let saw = |x: f64| x - x.floor();
-        let [low, high] = extremes(saw, &pieces(0.0, 3.0, 1, &[1.0, 2.0, 7.0]));
+        let [low, high] = extremes(saw, &piece_ends(0.0, 3.0, 1, &[1.0, 2.0, 7.0]));
         assert_eq!(low.value, 0.0);
         assert_eq!(high.value, 1.0_f64.next_down());
     }
 
     #[test]
-    fn functions_evaluated_together_have_their_own_places() {
+    fn functions_evaluated_together_have_their_own_maxima() {
         let f = |x: f64| [x.cos(), x.sin(), f64::NAN];
-        let [a, b, none] = greatest_each(f, &pieces(-1.0, 4.0, 3, &[]));
+        let [a, b, none] = maximum_of_each(f, &piece_ends(-1.0, 4.0, 3, &[]));
         assert!(a.input.abs() < 1e-7 && (b.input - 0.5 * PI).abs() < 1e-7);
         assert_eq!(
             [a.value, b.value, none.value],

@@ -14,11 +14,13 @@ mod roots;
 mod tolerance;
 
 pub use antiderivative::Antiderivative;
-pub use cancel::{Cancel, Cancelled, Scope, checkpoint, shared_out, stay_on_one_thread, together};
+pub use cancel::{
+    Cancel, Cancelled, Scope, checkpoint, parallel_map, run_both, stay_on_one_thread,
+};
 pub use chebyshev::{CHEBYSHEV_TERMS, chebyshev_roots, chebyshev_series};
 pub use extreme::{
-    Extreme, SampledPiece, extremes, greatest, greatest_each, greatest_of, greatest_sampled, least,
-    pieces, rounding,
+    Extreme, SampledPiece, extremes, maxima, maximum, maximum_of_each, maximum_of_samples, minimum,
+    piece_ends, rounding,
 };
 pub(crate) use quadrature::GAUSS_NODES;
 pub use quadrature::gauss_legendre;

@@ -3,7 +3,7 @@ use std::sync::OnceLock;
 /// Nodes of the rule, which is exact up to degree 51. Fewer would make the moments of polynomial segments inexact.
 pub(crate) const GAUSS_NODES: usize = 26;
 
-/// Nodes and weights of the Gauss–Legendre rule on `[-1, 1]`, found by Newton steps on the polynomial.
+/// Nodes and weights of the Gauss-Legendre rule on `[-1, 1]`: Newton steps on the Legendre polynomial.
 fn rule() -> &'static [(f64, f64); GAUSS_NODES] {
     static RULE: OnceLock<[(f64, f64); GAUSS_NODES]> = OnceLock::new();
     RULE.get_or_init(|| {
@@ -30,8 +30,9 @@ fn rule() -> &'static [(f64, f64); GAUSS_NODES] {
     })
 }
 
-/// Visits the 26 nodes of the Gauss-Legendre rule on `[low, high]` with their weights: exact for polynomials up to degree 51,
-/// every moment integral of a polynomial segment among them.
+/// Visits the 26 nodes of the Gauss-Legendre rule on `[low, high]` with their weights.
+///
+/// The rule is exact for polynomials up to degree 51, which includes every moment integral of a polynomial segment.
 pub fn gauss_legendre(low: f64, high: f64, mut visit: impl FnMut(f64, f64)) {
     let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
     for &(node, weight) in rule() {

@@ -1,7 +1,7 @@
-/// The root of `f` between `low` and `high`, to the float limit.
+/// The root of `f` between `low` and `high`, to the float limit, by Brent's method.
 ///
-/// Brent's method: bracketed, superlinear. `f_low` and `f_high` are the values at the ends and must
-/// not have the same sign; where one of them is zero that end is the answer.
+/// `f_low` and `f_high` are the values at the ends; they must not have the same sign. If one of them is zero, that end is
+/// the root.
 pub fn bracketed_root(
     mut f: impl FnMut(f64) -> f64,
     low: f64,
@@ -70,15 +70,16 @@ pub fn bracketed_root(
     b
 }
 
-/// Step of [`bracketed_newton`], as a share of the bracket, after which the next one is rounding.
-const SURE: f64 = 1e-11;
-/// Steps after which halving alone has come to rounding.
-const MOST_STEPS: u32 = 60;
+/// Step of [`bracketed_newton`], as a fraction of the bracket, after which the next step is below rounding. Ten times
+/// larger loses two digits of the root; ten times smaller costs a step.
+const LAST_STEP: f64 = 1e-11;
+/// Maximum number of steps: that many halvings alone reach rounding.
+const MAX_STEPS: u32 = 60;
 
-/// Root of a function that grows from `low` to `high`, by Newton's method from a start, kept between them: where a step leaves what
-/// is known to hold the root, that is halved.
+/// Root of a function that increases from `low` to `high`, by Newton's method inside a bracket.
 ///
-/// `at` gives the function's value and Newton's step, the value over the slope.
+/// A step that leaves the bracket is replaced by halving it. `at` returns the value of the function and the Newton step,
+/// which is the value divided by the slope.
 ///
 /// ```
 /// let root = centrode_geometry::bracketed_newton(|x| (x * x - 2.0, (x * x - 2.0) / (2.0 * x)), 1.0, 2.0, 1.5);
@@ -90,9 +91,9 @@ pub fn bracketed_newton(
     mut high: f64,
     start: f64,
 ) -> f64 {
-    let sure = SURE * (high - low);
+    let last_step = LAST_STEP * (high - low);
     let mut t = start;
-    for _ in 0..MOST_STEPS {
+    for _ in 0..MAX_STEPS {
         let (value, step) = at(t);
         if value > 0.0 {
             high = t;
@@ -105,57 +106,58 @@ pub fn bracketed_newton(
         } else {
             0.5 * (low + high)
         };
-        if step.abs() <= sure {
+        if step.abs() <= last_step {
             break;
         }
     }
     t
 }
 
-/// The point and value of a minimum of `f` inside `[low, high]`, by golden section and parabolas.
+/// Argument and value of a minimum of `f` inside `[low, high]`, by Brent's method: golden section and parabolas.
 ///
-/// The value is exact to the float limit; the point to the square root of it where `f` is smooth.
+/// The value is exact to the float limit. The argument of a smooth `f` is exact to the square root of that.
 pub fn bracketed_minimum(mut f: impl FnMut(f64) -> f64, low: f64, high: f64) -> (f64, f64) {
     let x = low + GOLDEN * (high - low);
     let value = (x, f(x));
-    minimum(f, [low, high], [value; 3], |_, _| false)
+    brent_minimum(f, [low, high], [value; 3], |_, _| false)
 }
 
-/// The point and value of a minimum of `f` between the first and the last of three points with their values, the middle one the
-/// least, as far as it matters beside a value known already.
+/// Argument and value of a minimum of `f` between the first and the last of three pairs of argument and value.
 ///
-/// Ends where the last two steps changed the value by at most `rounding`, or where three times their change does not lead from
-/// the least value below `known`.
+/// The middle pair has the minimum value of the three. The search stops early in two cases:
+/// 1. the last two steps changed the value by at most `rounding`;
+/// 2. three more such changes would not bring the value below `known`.
 pub fn bracketed_minimum_below(
     f: impl FnMut(f64) -> f64,
     [low, middle, high]: [(f64, f64); 3],
     known: f64,
     rounding: f64,
 ) -> (f64, f64) {
-    minimum(f, [low.0, high.0], [middle, low, high], |least, change| {
-        change <= rounding || least - 3.0 * change >= known
+    brent_minimum(f, [low.0, high.0], [middle, low, high], |value, change| {
+        change <= rounding || value - 3.0 * change >= known
     })
 }
 
-/// Share of golden section.
+/// Fraction of an interval at which golden section divides it.
 const GOLDEN: f64 = 0.381_966_011_250_105_1;
 
-/// Brent's method from the least of known values and two more; `ends` tells by the least value and the greater change of the
-/// last two steps whether that will do.
-fn minimum(
+/// Brent's method from three pairs of argument and value, the minimum first.
+///
+/// It stops if `stops` returns true for the minimum value so far and the larger change of the last two steps.
+fn brent_minimum(
     mut f: impl FnMut(f64) -> f64,
     [low, high]: [f64; 2],
     [(mut x, mut fx), (mut w, mut fw), (mut v, mut fv)]: [(f64, f64); 3],
-    ends: impl Fn(f64, f64) -> bool,
+    stops: impl Fn(f64, f64) -> bool,
 ) -> (f64, f64) {
     let (mut a, mut b) = (low, high);
-    // A parabola through three points may be followed at once.
+    // Three different points allow a parabola in the first step.
     let start = if w == x { 0.0 } else { high - low };
     let (mut d, mut e) = (start, start);
     let mut changes = [f64::INFINITY; 2];
     for _ in 0..120 {
         crate::checkpoint();
-        if ends(fx, changes[0].max(changes[1])) {
+        if stops(fx, changes[0].max(changes[1])) {
             break;
         }
         let middle = 0.5 * (a + b);
@@ -244,20 +246,20 @@ mod tests {
     }
 
     #[test]
-    fn a_minimum_that_a_known_value_leaves_aside_is_not_followed_to_its_end() {
-        let looks = |known: f64, rounding: f64| {
-            let looks = std::cell::Cell::new(0);
+    fn a_minimum_above_a_known_value_is_not_refined() {
+        let search = |known: f64, rounding: f64| {
+            let evaluations = std::cell::Cell::new(0);
             let f = |x: f64| {
-                looks.set(looks.get() + 1);
+                evaluations.set(evaluations.get() + 1);
                 2.0 + (x - 0.7).powi(2) + 0.1 * (x - 0.7).powi(4)
             };
             let points = [-2.0, 0.0, 3.0].map(|x| (x, f(x)));
-            looks.set(0);
+            evaluations.set(0);
             let (_, value) = bracketed_minimum_below(f, points, known, rounding);
-            (looks.get(), value - 2.0)
+            (evaluations.get(), value - 2.0)
         };
-        let (few, some) = looks(1.0, 1e-12);
-        let (more, near) = looks(3.0, 1e-12);
+        let (few, some) = search(1.0, 1e-12);
+        let (more, near) = search(3.0, 1e-12);
         assert!(few < more && more < 14, "{few} {more}");
         assert!(some < 0.1 && near < 1e-12, "{some} {near}");
     }

@@ -1,9 +1,9 @@
 use thiserror::Error;
 
-/// Greatest distance, in millimetres, between a curve and its approximation.
+/// Maximum distance, in millimetres, between a curve and its approximation.
 ///
-/// Last argument of every approximating function. Scale a shape and its tolerance by the same
-/// factor and every output scales by that factor.
+/// It is the last argument of every approximating function. If you scale a shape and its tolerance by the
+/// same factor, every output scales by that factor.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
 pub struct Tolerance(f64);
 

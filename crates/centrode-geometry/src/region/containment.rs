@@ -1,9 +1,9 @@
 use crate::{Point, curve::winding, region::Outline};
 
 impl Outline {
-    /// Whether a point lies inside, by the parity of crossings with a ray to the right.
+    /// Whether a point lies inside, by the parity of the crossings with a ray to the right.
     ///
-    /// Exact up to rounding for points not on the contour itself; a point on it may get either answer.
+    /// Exact up to rounding for a point that is not on the contour. For a point on the contour either answer may come.
     #[must_use]
     pub fn contains(&self, point: Point) -> bool {
         let turns = self
@@ -24,7 +24,7 @@ mod tests {
     };
 
     #[test]
-    fn points_a_hair_inside_and_outside_are_told_apart() {
+    fn points_slightly_inside_and_outside_are_distinguished() {
         let fine = Tolerance::new(1e-11).expect("positive");
         for outline in [
             rosette(20.0, 3.0, 5, fine),

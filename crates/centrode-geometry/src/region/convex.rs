@@ -1,24 +1,23 @@
 use crate::{Point, Vector, numeric::Tolerance};
 
-/// Convex pieces that cover a region, each the hull of a part of it.
+/// Convex pieces that cover a region. Each is the hull of a part of it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ConvexPieces {
     /// Corners of the pieces, each counter-clockwise.
     pub pieces: Vec<Vec<Point>>,
-    /// Greatest distance by which a piece exceeds the region, mm.
+    /// Maximum distance by which a piece exceeds the region, mm.
     pub excess: f64,
 }
 
-/// Cuts the region inside a simple polygon, walked counter-clockwise, into convex pieces that cover it and
-/// exceed it by no more than the tolerance.
+/// Cuts the region inside a simple counter-clockwise polygon into convex pieces that cover it.
 ///
-/// A part with a concavity deeper than the tolerance is split at its deepest vertex, along the chord to the second
-/// contact point of the maximal inscribed circle touching there. Halving a smooth concavity quarters its depth, so
-/// the pieces are as many as the root of depth over tolerance, within a factor of two. Where no such cut exists, as
-/// in a polygon that crosses itself, the hull of the part is taken and [`ConvexPieces::excess`] says by how much it
-/// exceeds it. Cost: the square of the corners for each cut.
+/// The pieces exceed the region by at most the tolerance. A part with a deeper concavity is split at its deepest vertex,
+/// along the chord to the second contact point of the maximum inscribed circle that touches there. Halving a smooth concavity
+/// quarters its depth, so the number of pieces is about the root of depth over tolerance. If no such cut exists, as in a
+/// polygon that crosses itself, the piece is the hull of the part and [`ConvexPieces::excess`] reports the difference. Each
+/// cut costs the square of the number of corners.
 ///
-/// Parts of less area than the tolerance squared are left out.
+/// Parts with less area than the square of the tolerance are omitted.
 #[must_use]
 pub fn convex_pieces(polygon: &[Point], tolerance: Tolerance) -> ConvexPieces {
     let mut found = ConvexPieces {
@@ -34,12 +33,15 @@ pub fn convex_pieces(polygon: &[Point], tolerance: Tolerance) -> ConvexPieces {
         let corners = convex_hull(&part);
         let concavity = deepest(&part, &corners);
         let cut = concavity
-            .filter(|(_, depth)| *depth > tolerance.mm())
-            .and_then(|(bottom, _)| across(&part, bottom).map(|end| split(&part, bottom, end)));
+            .as_ref()
+            .filter(|concavity| concavity.depth > tolerance.mm())
+            .and_then(|Concavity { corner, .. }| {
+                cut_end(&part, *corner).map(|end| split(&part, *corner, end))
+            });
         if let Some([one, other]) = cut {
             parts.extend([other, one]);
         } else {
-            found.excess = concavity.map_or(found.excess, |(_, depth)| depth.max(found.excess));
+            found.excess = concavity.map_or(found.excess, |c| c.depth.max(found.excess));
             found
                 .pieces
                 .push(corners.iter().map(|&i| part[i]).collect());
@@ -48,6 +50,7 @@ pub fn convex_pieces(polygon: &[Point], tolerance: Tolerance) -> ConvexPieces {
     found
 }
 
+/// The polygon without repeated corners.
 fn without_repeats(polygon: &[Point]) -> Vec<Point> {
     let mut points = polygon.to_vec();
     points.dedup();
@@ -68,10 +71,10 @@ fn area(polygon: &[Point]) -> f64 {
         .sum::<f64>()
 }
 
-/// Indices of the corners of the convex hull of points, counter-clockwise from the lowest index on: those of a simple
-/// polygon in its own order.
+/// Indices of the corners of the convex hull of points, by Andrew's monotone chain.
 ///
-/// Andrew's monotone chain; points on an edge of the hull are no corners, and of equal points one is.
+/// They run counter-clockwise from the lowest index, for a simple polygon in its own order. Points on an edge of the hull are
+/// not corners; of equal points one is.
 #[must_use]
 pub fn convex_hull(polygon: &[Point]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..polygon.len()).collect();
@@ -104,8 +107,16 @@ pub fn convex_hull(polygon: &[Point]) -> Vec<usize> {
     corners
 }
 
-/// Index and depth of the corner of a polygon that lies deepest below its hull.
-fn deepest(polygon: &[Point], corners: &[usize]) -> Option<(usize, f64)> {
+/// Deepest corner of a polygon below its hull.
+struct Concavity {
+    /// Index of the corner.
+    corner: usize,
+    /// Its distance from the hull, mm.
+    depth: f64,
+}
+
+/// The deepest corner of a polygon below its hull.
+fn deepest(polygon: &[Point], corners: &[usize]) -> Option<Concavity> {
     let n = polygon.len();
     let next = corners.iter().cycle().skip(1);
     corners
@@ -116,16 +127,19 @@ fn deepest(polygon: &[Point], corners: &[usize]) -> Option<(usize, f64)> {
             let along = (b - a).normalize();
             let count = (j + n - i) % n;
             (1..count).map(move |k| {
-                let k = (i + k) % n;
-                (k, along.perp(&(polygon[k] - a)))
+                let corner = (i + k) % n;
+                Concavity {
+                    corner,
+                    depth: along.perp(&(polygon[corner] - a)),
+                }
             })
         })
-        .max_by(|a, b| a.1.total_cmp(&b.1))
+        .max_by(|a, b| a.depth.total_cmp(&b.depth))
 }
 
 /// Index of the corner at the other end of a cut from the deepest vertex of a concavity: the second contact point of
-/// the maximal inscribed circle touching at that vertex.
-fn across(polygon: &[Point], bottom: usize) -> Option<usize> {
+/// the maximum inscribed circle that touches at that vertex.
+fn cut_end(polygon: &[Point], bottom: usize) -> Option<usize> {
     let n = polygon.len();
     let at = polygon[bottom];
     let (before, after) = (polygon[(bottom + n - 1) % n], polygon[(bottom + 1) % n]);
@@ -145,7 +159,7 @@ fn across(polygon: &[Point], bottom: usize) -> Option<usize> {
         .find(|&end| is_free(polygon, bottom, end))
 }
 
-/// Whether the straight line between two corners meets no edge but those that end there.
+/// Whether the straight line between two corners meets no edge except those that end there.
 fn is_free(polygon: &[Point], from: usize, to: usize) -> bool {
     crate::checkpoint();
     let n = polygon.len();
@@ -218,7 +232,7 @@ mod tests {
     }
 
     #[test]
-    fn pieces_are_convex_cover_the_region_and_stand_out_by_no_more_than_the_tolerance() {
+    fn pieces_are_convex_cover_the_region_and_exceed_it_by_no_more_than_the_tolerance() {
         let post = post(1.0);
         let exact = area(&post);
         for (mm, most) in [(1.0, 1), (0.3, 2), (0.1, 4), (0.01, 16), (0.001, 64)] {
@@ -269,7 +283,7 @@ mod tests {
     }
 
     #[test]
-    fn what_cannot_be_cut_says_how_far_it_stands_out_and_nothing_gives_nothing() {
+    fn a_polygon_that_cannot_be_cut_reports_its_excess_and_an_empty_one_has_no_pieces() {
         for nothing in [
             &[][..],
             &[Point::origin()],

@@ -1,7 +1,7 @@
 use crate::{
     Point,
     curve::{Bounds, Segment},
-    numeric::{bracketed_root, greatest},
+    numeric::{bracketed_root, maximum},
     region::Outline,
 };
 
@@ -14,7 +14,7 @@ impl Outline {
             if !bounds.may_grow_by(&segment.enclosure(-1.0, 1.0)) {
                 continue;
             }
-            // Extremes lie where a coordinate of the velocity changes sign.
+            // A coordinate has an extreme where the velocity in its direction changes sign.
             let cells = 24;
             let mut before = (-1.0, segment.at(-1.0).first);
             for i in 1..=cells {
@@ -34,9 +34,9 @@ impl Outline {
         bounds
     }
 
-    /// Distance of the farthest point of the outline from a place, exact to rounding.
+    /// Maximum distance of the outline from a point, mm, exact to rounding.
     #[must_use]
-    pub fn farthest(&self, from: Point) -> f64 {
+    pub fn maximum_distance(&self, from: Point) -> f64 {
         let corner = |bounds: Bounds| {
             let [low, high] = [bounds.min - from, bounds.max - from].map(|v| v.abs());
             low.x.max(high.x).hypot(low.y.max(high.y))
@@ -49,10 +49,10 @@ impl Outline {
             parts.map(corner).fold(0.0, f64::max)
         };
         for segment in self.segments() {
-            // First by one rectangle, then by closer ones.
+            // First compare one rectangle, then four smaller ones.
             if corner(segment.enclosure(-1.0, 1.0)) > farthest && reach(segment) > farthest {
-                let far = |u: f64| (segment.at(u).point - from).norm();
-                farthest = farthest.max(greatest(far, &[-1.0, 1.0]).value);
+                let distance = |u: f64| (segment.at(u).point - from).norm();
+                farthest = farthest.max(maximum(distance, &[-1.0, 1.0]).value);
             }
         }
         farthest
@@ -64,14 +64,14 @@ mod tests {
     use crate::{Point, numeric::Tolerance, region::Outline, test_shapes::rosette};
 
     #[test]
-    fn no_point_is_farther_than_the_farthest() {
+    fn no_point_is_farther_than_the_maximum_distance() {
         let circle = Outline::circle(Point::new(3.0, 4.0), 5.0);
-        assert!((circle.farthest(Point::origin()) - 10.0).abs() < 1e-12);
+        assert!((circle.maximum_distance(Point::origin()) - 10.0).abs() < 1e-12);
         let outline = rosette(20.0, 3.0, 7, Tolerance::new(1e-9).expect("positive"));
         let points = outline.flatten(Tolerance::new(1e-6).expect("positive"));
         for from in [[0.0, 0.0], [3.0, -1.0], [40.0, 25.0]].map(Point::from) {
             let near = points.iter().map(|p| (p - from).norm());
-            let off = outline.farthest(from) - near.fold(0.0, f64::max);
+            let off = outline.maximum_distance(from) - near.fold(0.0, f64::max);
             assert!((0.0..2e-6).contains(&off), "{from}: {off}");
         }
     }

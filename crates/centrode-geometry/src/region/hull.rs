@@ -7,20 +7,20 @@ use crate::{
 };
 
 impl Outline {
-    /// Tightest convex contour around circles, like a belt: arcs of them joined by common tangents.
+    /// Convex hull of circles, like a belt around them: arcs joined by common tangents. A circle is its center and radius, mm.
     ///
-    /// Exact and counter-clockwise; a circle of radius zero is a corner. `None` where it would enclose
-    /// nothing, or where a number is not finite or a radius negative. Cost: arcs times circles.
+    /// It is exact and counter-clockwise; a circle of radius zero is a corner. `None` if it encloses nothing, a number is not
+    /// finite or a radius is negative. Cost: number of arcs times number of circles.
     #[must_use]
     pub fn hull(circles: &[(Point, f64)]) -> Option<Self> {
-        let sound = |(center, radius): &(Point, f64)| {
+        let is_valid = |(center, radius): &(Point, f64)| {
             center.x.is_finite() && center.y.is_finite() && radius.is_finite() && *radius >= 0.0
         };
-        if !circles.iter().all(sound) {
+        if !circles.iter().all(is_valid) {
             return None;
         }
-        let arcs = belt(circles)?;
-        let place = |circle: usize, normal: f64| {
+        let arcs = hull_arcs(circles)?;
+        let point_at = |circle: usize, normal: f64| {
             let (center, radius) = circles[circle];
             center + Vector::new(normal.cos(), normal.sin()) * radius
         };
@@ -29,13 +29,13 @@ impl Outline {
             return (radius > 0.0).then(|| Self::circle(center, radius));
         }
         let mut segments = Vec::new();
-        let mut from = place(arcs[arcs.len() - 1].circle, arcs[arcs.len() - 1].to);
+        let mut from = point_at(arcs[arcs.len() - 1].circle, arcs[arcs.len() - 1].to);
         for arc in &arcs {
-            let start = place(arc.circle, arc.from);
+            let start = point_at(arc.circle, arc.from);
             if start != from {
                 segments.push(Segment::Line(from, start));
             }
-            let end = place(arc.circle, arc.to);
+            let end = point_at(arc.circle, arc.to);
             if end != start {
                 segments.push(Segment::Arc(Arc {
                     start,
@@ -45,31 +45,31 @@ impl Outline {
             }
             from = end;
         }
-        // Points in a row enclose rounding at most.
+        // Points on a line enclose no more than rounding.
         let encloses = |hull: &Self| hull.area() > 1e-13 * hull.length().powi(2);
         Self::new(segments).ok().filter(encloses)
     }
 }
 
-/// Part of a circle on the hull, by the directions of its outward normals.
-struct Touched {
+/// Arc of the hull on one circle, from one direction of the outward normal to another, rad.
+struct HullArc {
     circle: usize,
     from: f64,
     to: f64,
 }
 
-/// The circles the hull touches, from the lowest on, counter-clockwise.
-fn belt(circles: &[(Point, f64)]) -> Option<Vec<Touched>> {
+/// Arcs of the hull, counter-clockwise from the lowest circle.
+fn hull_arcs(circles: &[(Point, f64)]) -> Option<Vec<HullArc>> {
     let lowest = |i: &usize| circles[*i].0.y - circles[*i].1;
     let order = |i: &usize, j: &usize| {
         let by_height = lowest(i).total_cmp(&lowest(j));
-        // Of equally low ones the rightmost: the hull leaves downward normals there.
+        // Of equally low circles take the rightmost: the downward normal of the hull ends there.
         by_height.then(circles[*j].0.x.total_cmp(&circles[*i].0.x))
     };
     let first = (0..circles.len()).min_by(order)?;
     let start = -FRAC_PI_2;
     let (mut circle, mut normal) = (first, start);
-    let mut arcs: Vec<Touched> = Vec::new();
+    let mut arcs: Vec<HullArc> = Vec::new();
     // Two circles have at most two common tangents that keep both on one side.
     for _ in 0..=2 * circles.len() {
         let next = (0..circles.len())
@@ -77,19 +77,19 @@ fn belt(circles: &[(Point, f64)]) -> Option<Vec<Touched>> {
             .min_by(|(_, a), (_, b)| a.total_cmp(b));
         let end = next.map_or(f64::INFINITY, |(_, turn)| normal + turn);
         if end >= start + TAU {
-            let last = Touched {
+            let last = HullArc {
                 circle,
                 from: normal,
                 to: start + TAU,
             };
-            // The belt began in the middle of an arc.
+            // The first arc began in its middle.
             match arcs.first_mut() {
                 Some(whole) if whole.circle == circle => whole.from = last.from - TAU,
                 _ => arcs.push(last),
             }
             return Some(arcs);
         }
-        arcs.push(Touched {
+        arcs.push(HullArc {
             circle,
             from: normal,
             to: end,
@@ -99,17 +99,17 @@ fn belt(circles: &[(Point, f64)]) -> Option<Vec<Touched>> {
     None
 }
 
-/// Angle by which the normal turns on until the tangent of one circle touches another one that then goes on.
+/// Angle, rad, by which the normal turns on one circle until the tangent touches another; `None` if it never does.
 fn turn(circles: &[(Point, f64)], circle: usize, other: usize, normal: f64) -> Option<f64> {
     let ((from, radius), (to, other_radius)) = (circles[circle], circles[other]);
-    let (way, shrink) = (to - from, radius - other_radius);
-    let distance = way.norm();
+    let (offset, shrink) = (to - from, radius - other_radius);
+    let distance = offset.norm();
     if distance <= shrink.abs() {
         return None;
     }
-    let leaves = way.y.atan2(way.x) - (shrink / distance).acos();
+    let leaves = offset.y.atan2(offset.x) - (shrink / distance).acos();
     let turn = (leaves - normal).rem_euclid(TAU);
-    // Rounding: a tangent just left behind is not a whole turn ahead.
+    // With rounding, a tangent just passed would be a whole turn ahead.
     Some(if turn > TAU - 1e-9 { 0.0 } else { turn })
 }
 
@@ -127,8 +127,8 @@ mod tests {
         assert!((hull.area() - (60.0 + 9.0 * PI)).abs() < 1e-11);
         let unequal = [(Point::origin(), 5.0), (Point::new(0.0, -13.0), 1.0)];
         let hull = Outline::hull(&unequal).expect("a hull");
-        let (straight, lean) = ((169.0_f64 - 16.0).sqrt(), (4.0_f64 / 13.0).asin());
-        let length = 2.0 * straight + 5.0 * (PI + 2.0 * lean) + (PI - 2.0 * lean);
+        let (straight, tangent_angle) = ((169.0_f64 - 16.0).sqrt(), (4.0_f64 / 13.0).asin());
+        let length = 2.0 * straight + 5.0 * (PI + 2.0 * tangent_angle) + (PI - 2.0 * tangent_angle);
         assert!((hull.length() - length).abs() < 1e-12, "{}", hull.length());
         let corners = [[0.0, 0.0], [4.0, 0.0], [1.0, 0.5], [0.0, 3.0]];
         let points = corners.map(|p| (Point::from(p), 0.0));

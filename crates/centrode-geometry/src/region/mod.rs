@@ -17,9 +17,9 @@ mod rounded_polygon;
 mod self_crossing;
 
 pub use convex::{ConvexPieces, convex_hull, convex_pieces};
-pub use loops::{Kept, LoopError, without_loops};
+pub use loops::{LoopError, without_loops};
 pub use moments::AreaMoments;
 pub use outline::{OpenOutline, Outline};
-pub(crate) use position::{CORNER, Place};
+pub(crate) use position::{CORNER, Position};
 pub use rounded_polygon::ShortSide;
 pub use self_crossing::Crossing;

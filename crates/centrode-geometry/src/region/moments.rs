@@ -5,9 +5,9 @@ use crate::{
     region::Outline,
 };
 
-/// Area and first and second moments of the region an [`Outline`] encloses, about the origin.
+/// Area, first and second moments about the origin of the region inside an [`Outline`].
 ///
-/// Signed: an outline walked clockwise has them all negative.
+/// For a clockwise outline all are negative.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AreaMoments {
     /// `∫ dA`, mm².
@@ -29,13 +29,14 @@ impl AreaMoments {
         Point::from(self.first / self.area)
     }
 
-    /// Moments less those of a region cut out.
+    /// Moments minus those of a region that is cut out.
     #[must_use]
     pub fn without(self, other: Self) -> Self {
         self.plus(other.times(-1.0))
     }
 
-    fn times(self, k: f64) -> Self {
+    /// All moments times a factor.
+    pub(crate) fn times(self, k: f64) -> Self {
         Self {
             area: k * self.area,
             first: k * self.first,
@@ -60,7 +61,7 @@ impl AreaMoments {
 const _: () = assert!(4 * (NODES - 1) <= 2 * GAUSS_NODES);
 
 impl Segment {
-    /// Bounds in `u` of parts on which the quadrature rule is exact to rounding.
+    /// Number of equal parts on which the quadrature rule is exact to rounding.
     fn parts(&self) -> usize {
         match self {
             Self::Arc(arc) => (arc.sweep().abs() / std::f64::consts::FRAC_PI_2)
@@ -96,7 +97,7 @@ impl Outline {
         sum
     }
 
-    /// Enclosed area, mm², negative for an outline walked clockwise; exact to rounding.
+    /// Enclosed area, mm², exact to rounding; negative for a clockwise outline.
     #[must_use]
     pub fn area(&self) -> f64 {
         self.moments().area
@@ -114,7 +115,7 @@ impl Outline {
         self.segments().iter().map(Segment::length).sum()
     }
 
-    /// Whether the enclosed area lies to the left of the direction of travel.
+    /// Whether the outline runs counter-clockwise, so that the enclosed area lies to its left.
     #[must_use]
     pub fn is_counter_clockwise(&self) -> bool {
         self.area() > 0.0

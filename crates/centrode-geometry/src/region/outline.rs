@@ -10,15 +10,15 @@ impl Outline {
     /// Joins segments into a closed contour.
     ///
     /// # Errors
-    /// [`OpenOutline`] where a segment does not start exactly where the one before it ends, or is not a number.
+    /// [`OpenOutline`] if a segment does not start exactly at the end of the previous one, or is not a number.
     pub fn new(segments: Vec<Segment>) -> Result<Self, OpenOutline> {
         let mut before = segments.last().map_or(Point::origin(), Segment::end);
         for (index, segment) in segments.iter().enumerate() {
-            let is_somewhere = segment.at(0.0).point.coords.norm().is_finite();
-            if segment.start() != before || !is_somewhere {
+            let is_finite = segment.at(0.0).point.coords.norm().is_finite();
+            if segment.start() != before || !is_finite {
                 return Err(OpenOutline {
                     index,
-                    gap: if is_somewhere {
+                    gap: if is_finite {
                         (segment.start() - before).norm()
                     } else {
                         f64::NAN
@@ -30,7 +30,7 @@ impl Outline {
         Ok(Self { segments })
     }
 
-    /// Outline of segments already known to join exactly.
+    /// Outline of segments that are known to join exactly.
     pub(crate) fn from_closed(segments: Vec<Segment>) -> Self {
         Self { segments }
     }
@@ -48,9 +48,9 @@ impl Outline {
     "outline is open: segment {index} starts {gap:e} mm away from the end of the one before it"
 )]
 pub struct OpenOutline {
-    /// The segment that does not start where the one before it ends.
+    /// The segment that does not start at the end of the previous one.
     pub index: usize,
-    /// The distance between the two, mm; not a number where a coordinate is none.
+    /// The distance between the two, mm; NaN if a coordinate is not a number.
     pub gap: f64,
 }
 

@@ -6,8 +6,7 @@ use crate::{
 use nalgebra::Isometry2;
 
 impl Segment {
-    /// Applies one map to every point; `vector` is its linear part, which must keep circles round and
-    /// their sense of turning.
+    /// Applies one map to every point; `vector` is its linear part. The map must preserve circles and their sense.
     fn mapped(&self, point: impl Fn(&Point) -> Point, vector: impl Fn(&Vector) -> Vector) -> Self {
         match self {
             Self::Line(start, end) => Self::Line(point(start), point(end)),
@@ -23,7 +22,7 @@ impl Segment {
 
 impl Outline {
     fn mapped(&self, point: impl Fn(&Point) -> Point, vector: impl Fn(&Vector) -> Vector) -> Self {
-        // One map on equal points gives equal points, so the contour stays closed.
+        // Equal points have equal images, so the contour stays closed.
         Self::from_closed(
             self.segments()
                 .iter()
@@ -38,13 +37,13 @@ impl Outline {
         self.mapped(|p| motion * p, |v| motion * v)
     }
 
-    /// The outline enlarged `k` times about the origin.
+    /// The outline scaled by `k` about the origin.
     #[must_use]
     pub fn scaled(&self, k: f64) -> Self {
         self.mapped(|p| p * k, |v| v * k)
     }
 
-    /// The contour with its direction of travel reversed.
+    /// The contour in the opposite direction.
     #[must_use]
     pub fn reversed(&self) -> Self {
         Self::from_closed(

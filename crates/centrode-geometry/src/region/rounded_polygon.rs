@@ -14,18 +14,17 @@ pub struct ShortSide {
     pub side: usize,
     /// Its length, mm.
     pub length: f64,
-    /// Length that the roundings of its two corners take, mm.
+    /// Length that the roundings of its two corners need, mm.
     pub taken: f64,
 }
 
 impl Outline {
-    /// Polygon with every corner, concave ones too, rounded to a radius by an arc tangent to both sides.
+    /// Polygon with every corner, convex or concave, rounded by an arc of `radius`, mm, tangent to both sides.
     ///
-    /// An arc takes the radius times the tangent of half the corner's turn from each of its sides; a corner in a straight
-    /// line takes nothing.
+    /// An arc needs the radius times the tangent of half the turn on each side of the corner, nothing in a straight line.
     ///
     /// # Errors
-    /// [`ShortSide`] where a side has no room for the arcs at its ends, as none has at a corner that turns back.
+    /// [`ShortSide`] if a side is too short for the arcs at its ends, as always at a corner that turns back.
     pub fn rounded_polygon(points: &[Point], radius: f64) -> Result<Self, ShortSide> {
         let count = points.len();
         let turn = |i: usize| {
@@ -39,8 +38,8 @@ impl Outline {
         let mut corners = Vec::new();
         for i in 0..count {
             let next = (i + 1) % count;
-            let (way, both) = (points[next] - points[i], taken(i) + taken(next));
-            let length = way.norm();
+            let (side, both) = (points[next] - points[i], taken(i) + taken(next));
+            let length = side.norm();
             if both > length || both.is_nan() {
                 return Err(ShortSide {
                     side: i,
@@ -49,8 +48,8 @@ impl Outline {
                 });
             }
             corners.push((
-                points[i] + way * (taken(i) / length),
-                points[next] - way * (taken(next) / length),
+                points[i] + side * (taken(i) / length),
+                points[next] - side * (taken(next) / length),
             ));
         }
         for (i, &(start, end)) in corners.iter().enumerate() {
@@ -101,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn a_side_too_short_for_its_roundings_is_told() {
+    fn a_side_too_short_for_its_roundings_is_an_error() {
         let rectangle = [[0.0, 0.0], [30.0, 0.0], [30.0, 20.0], [0.0, 20.0]].map(Point::from);
         let short = Outline::rounded_polygon(&rectangle, 10.1).expect_err("no room");
         assert_eq!(short.side, 1);

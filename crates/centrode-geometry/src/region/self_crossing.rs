@@ -2,7 +2,7 @@ use crate::{
     Point,
     curve::{Bounds, Piece},
     numeric::bracketed_root,
-    region::Outline,
+    region::{Outline, Position},
 };
 use std::f64::consts::PI;
 
@@ -15,16 +15,18 @@ pub struct Crossing {
     pub segments: [usize; 2],
 }
 
-/// Share of the outline's size below which two parts count as touching.
+/// Fraction of the size of the outline below which two parts count as touching. Ten times smaller approaches rounding; ten
+/// times larger refuses outlines with narrow gaps.
 const TOUCH: f64 = 1e-12;
 
-/// Tangent jump, rad, from which an outline turns back at a joint.
+/// Tangent jump, rad, from which an outline counts as turning back at a joint: a little less than pi.
 const FOLD: f64 = 3.0;
 
-/// Share of the outline's size that is rounding.
+/// Fraction of the size of the outline that is rounding. Ten times smaller, rounding reports crossings at cusps; ten times
+/// larger misses crossings near them.
 const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
-/// Piece with its end points and an axis-aligned box around it.
+/// Piece with its end points and its sagitta, which give a box around it.
 #[derive(Clone, Copy, Debug)]
 struct Strand {
     piece: Piece,
@@ -36,7 +38,7 @@ struct Strand {
 impl Strand {
     fn new(outline: &Outline, piece: Piece) -> Self {
         let at = |u| {
-            outline.point(crate::region::Place {
+            outline.point(Position {
                 segment: piece.segment,
                 u,
             })
@@ -82,18 +84,20 @@ impl Strand {
 impl Outline {
     /// Point where the contour crosses or touches itself, or `None` if it is simple.
     ///
-    /// Decided on the exact segments with proven bounds, not on a polygon in their place: parts that
-    /// come closer than 1e-12 of the outline's size count as touching. Two that leave a joint in one direction touch
-    /// unless they part from it to one side, which is told by their distances ever nearer to the joint.
+    /// The test uses the exact segments with proven bounds, not a polygon. Parts closer than 1e-12 of the size of the outline
+    /// count as touching. Two parts that leave a joint in one direction touch unless they separate to one side, judged by
+    /// their distances ever nearer to the joint.
     #[must_use]
     pub fn crossing(&self) -> Option<Crossing> {
-        self.crossing_beyond(0.0, 0.0)
+        self.crossing_ignoring(0.0, 0.0)
     }
 
-    /// [`crossing`](Self::crossing), where loops smaller than a distance, mm, are let pass in a segment and at its ends,
-    /// and those at the blunt end of a cusp that are thinner than another, mm.
+    /// Like [`crossing`](Self::crossing), but ignores small loops and narrow overlaps.
+    ///
+    /// It ignores loops smaller than `loop_size`, mm, in a segment or at its ends, and overlaps at the end of a cusp that are
+    /// narrower than `band`, mm.
     #[must_use]
-    pub fn crossing_beyond(&self, speck: f64, thin: f64) -> Option<Crossing> {
+    pub fn crossing_ignoring(&self, loop_size: f64, band: f64) -> Option<Crossing> {
         let strands = self.strands();
         let bounds: Bounds = strands.iter().map(|s| s.start).collect();
         let size = bounds.diagonal();
@@ -101,15 +105,15 @@ impl Outline {
             outline: self,
             touch: TOUCH * size,
             rounding: ROUNDING * size,
-            speck,
-            thin,
+            loop_size,
+            band,
         };
         let strands: Vec<Strand> = strands
             .into_iter()
             .filter(|s| s.piece.length > search.touch)
             .collect();
         let n = strands.len();
-        let jumps = self.jumps();
+        let jumps = self.tangent_jumps();
         for (i, strand) in strands.iter().enumerate() {
             let next = &strands[(i + 1) % n];
             let jump = if next.piece.u0 == -1.0 {
@@ -146,14 +150,14 @@ impl Outline {
 
     /// Splits the segments into pieces that turn by less than half a radian, at least four.
     fn strands(&self) -> Vec<Strand> {
-        let least_depth = if self.segments().len() < 4 { 2 } else { 0 };
+        let min_depth = if self.segments().len() < 4 { 2 } else { 0 };
         let mut out = Vec::with_capacity(self.segments().len());
         let mut stack = Vec::new();
         for (index, segment) in self.segments().iter().enumerate() {
             stack.push((Piece::new(segment, index, -1.0, 1.0), 0));
             while let Some((piece, depth)) = stack.pop() {
-                // A cusp turns at once, however short: it stays one strand, with bounds as true as any other's.
-                if depth < least_depth || (piece.turning() > 0.5 && depth < 24) {
+                // A cusp turns at one point, however short the piece: it remains one strand, and its bounds are valid.
+                if depth < min_depth || (piece.turning() > 0.5 && depth < 24) {
                     let [first, second] = piece.halves(segment);
                     stack.push((second, depth + 1));
                     stack.push((first, depth + 1));
@@ -166,22 +170,24 @@ impl Outline {
     }
 }
 
+/// Search for a crossing of an outline.
 struct Search<'a> {
     outline: &'a Outline,
     /// Distance below which parts touch, mm.
     touch: f64,
-    /// Distance below which rounding does not tell one side from the other, mm.
+    /// Distance, mm, below which rounding hides on which side a point is.
     rounding: f64,
-    /// Size, mm, of a loop in a segment or at its ends that is let pass.
-    speck: f64,
-    /// Distance, mm, that two strands at a cusp may lie over each other.
-    thin: f64,
+    /// Size, mm, below which a loop in a segment or at its ends is ignored.
+    loop_size: f64,
+    /// Width, mm, by which two strands at a cusp may overlap.
+    band: f64,
 }
 
 impl Search<'_> {
-    fn found(&self, a: &Strand, b: &Strand) -> Crossing {
+    /// The crossing of two short strands.
+    fn crossing_of(&self, a: &Strand, b: &Strand) -> Crossing {
         let (i, j) = (a.piece.segment, b.piece.segment);
-        // Where the chords cross; they are as good as the curves by now.
+        // The crossing of the chords: at this size they are as exact as the curves.
         let (u, v) = (a.end - a.start, b.end - b.start);
         let share = (b.start - a.start).perp(&v) / u.perp(&v);
         let share = if share.is_finite() {
@@ -195,74 +201,74 @@ impl Search<'_> {
         }
     }
 
-    /// Whether what a crossing cuts off is small: a loop in one segment, or from the end of one to the start of another.
-    fn is_speck(&self, a: &Strand, b: &Strand, found: &Crossing) -> bool {
+    /// Whether the loop at a crossing is smaller than `loop_size`: in one segment, or between the ends of two.
+    fn is_below_size(&self, a: &Strand, b: &Strand, found: &Crossing) -> bool {
         let (segments, [one, other]) = (self.outline.segments(), found.segments);
-        let near = |point: Point| (found.point - point).norm() < self.speck;
+        let near = |point: Point| (found.point - point).norm() < self.loop_size;
         let within = |segment: usize, from: f64, to: f64| {
-            segments[segment].keeps_near(found.point, self.speck, from, to)
+            segments[segment].stays_near(found.point, self.loop_size, from, to)
         };
         if one == other {
-            // Rounding makes a loop or a blunt end of a cusp.
+            // A loop, or the blunt end of a cusp, made by rounding.
             let (from, to) = (a.piece.u0.min(b.piece.u0), a.piece.u1.max(b.piece.u1));
             return within(one, from, to);
         }
-        // What lies between the two may be a cusp's segments of no length to speak of.
+        // Between the two there may be very short segments of a cusp.
         let between = |from: usize, to: usize| {
             let next = |i: &usize| Some((i + 1) % segments.len());
-            let mut way = std::iter::successors(next(&from), next).take_while(|&i| i != to);
-            way.all(|i| within(i, -1.0, 1.0)) && near(segments[to].start())
+            let mut path = std::iter::successors(next(&from), next).take_while(|&i| i != to);
+            path.all(|i| within(i, -1.0, 1.0)) && near(segments[to].start())
         };
         between(one, other) || between(other, one)
     }
 
-    /// Whether two strands, of which the second goes back from the end of the first, part to one side all the way.
-    fn part(&self, a: &Strand, b: &Strand) -> bool {
+    /// Whether two strands, the second of which turns back at the end of the first, separate to one side over their length.
+    fn separate(&self, a: &Strand, b: &Strand) -> bool {
         let joint = a.end;
         let along = -self.outline.segments()[a.piece.segment].tangent(a.piece.u1);
-        let least = [a.start, b.end].map(|end| along.dot(&(end - joint)));
-        let least = least[0].min(least[1]) * (1.0 - 1e-9);
-        // How far a strand is aside of the direction at a distance along it.
-        let aside = |strand: &Strand, s: f64| {
+        let lengths = [a.start, b.end].map(|end| along.dot(&(end - joint)));
+        let shorter = lengths[0].min(lengths[1]) * (1.0 - 1e-9);
+        // Offset of a strand from the direction `along`, at a distance from the joint.
+        let offset = |strand: &Strand, s: f64| {
             let segment = &self.outline.segments()[strand.piece.segment];
-            let way = |u: f64| segment.at(u).point - joint;
-            let ahead = |u: f64| along.dot(&way(u)) - s;
+            let from_joint = |u: f64| segment.at(u).point - joint;
+            let ahead = |u: f64| along.dot(&from_joint(u)) - s;
             let (u0, u1) = (strand.piece.u0, strand.piece.u1);
             let u = bracketed_root(ahead, u0, u1, ahead(u0), ahead(u1));
-            along.perp(&way(u))
+            along.perp(&from_joint(u))
         };
-        let places = std::iter::successors(Some(least), |s| Some(0.8 * s));
-        let mut gaps = places
-            .map(|s| (s, aside(b, s) - aside(a, s)))
+        let distances = std::iter::successors(Some(shorter), |s| Some(0.8 * s));
+        let mut gaps = distances
+            .map(|s| (s, offset(b, s) - offset(a, s)))
             .take_while(|(s, _)| *s > self.rounding);
-        let (mut side, close) = (0.0, self.rounding.max(self.thin));
+        let (mut side, close) = (0.0, self.rounding.max(self.band));
         for (s, gap) in gaps.by_ref() {
             if gap.abs() <= close {
-                // They lie on each other where they part by no more than rounding for long.
-                let mut rest = || self.thin > 0.0 && gaps.all(|(_, gap)| gap.abs() <= close);
-                return side != 0.0 && (s < 1e-2 * least || rest());
+                // Strands that stay within rounding over a long distance lie on each other.
+                let mut rest = || self.band > 0.0 && gaps.all(|(_, gap)| gap.abs() <= close);
+                return side != 0.0 && (s < 1e-2 * shorter || rest());
             }
             if side * gap < 0.0 {
                 return false;
             }
             side = gap;
         }
-        side != 0.0 && self.rounding < 1e-2 * least
+        side != 0.0 && self.rounding < 1e-2 * shorter
     }
 
-    /// Whether two strands that share no end meet.
+    /// Crossing of two strands that share no end.
     fn pair(&self, a: &Strand, b: &Strand) -> Option<Crossing> {
         let mut stack = vec![(*a, *b)];
         while let Some((a, b)) = stack.pop() {
             crate::checkpoint();
             let slack = a.sagitta + b.sagitta;
-            // Either proof, apart or touching, is found by halving: a bound shrinks with its part.
+            // Halving ends in a proof of either case: the bounds shrink with the parts.
             if gap(&a, &b) > slack + self.touch {
                 continue;
             }
             if slack <= self.touch {
-                let found = self.found(&a, &b);
-                if self.is_speck(&a, &b, &found) {
+                let found = self.crossing_of(&a, &b);
+                if self.is_below_size(&a, &b, &found) {
                     continue;
                 }
                 return Some(found);
@@ -280,20 +286,20 @@ impl Search<'_> {
         None
     }
 
-    /// Whether two strands of which the second starts at the end of the first meet anywhere else.
+    /// Crossing of two consecutive strands, other than their shared end point.
     fn neighbours(&self, a: &Strand, b: &Strand, jump: f64) -> Option<Crossing> {
-        if jump > FOLD && self.part(a, b) {
+        if jump > FOLD && self.separate(a, b) {
             return None;
         }
         let (mut a, mut b) = (*a, *b);
-        // A curve that turns by less than a half turn in all cannot meet itself.
+        // A curve that turns by less than half a turn in total cannot meet itself.
         while a.piece.turning() + b.piece.turning() + jump >= PI {
             crate::checkpoint();
             if a.piece.length + b.piece.length <= self.touch.max(f64::MIN_POSITIVE) {
-                // A cusp within the rounding of its own end is a doubled point, not an overlap, unless
-                // it folds back onto itself.
-                let found = self.found(&a, &b);
-                return (jump >= PI - 1e-9 && !self.is_speck(&a, &b, &found)).then_some(found);
+                // A cusp within the rounding of its end is a double point, not an overlap, unless it folds back onto
+                // itself.
+                let found = self.crossing_of(&a, &b);
+                return (jump >= PI - 1e-9 && !self.is_below_size(&a, &b, &found)).then_some(found);
             }
             let [a0, a1] = a.halves(self.outline);
             let [b0, b1] = b.halves(self.outline);

@@ -5,8 +5,9 @@ use crate::{
     solid::{MassProperties, Mesh, Opening, SolidError},
 };
 
-/// A straight extrusion: the region inside an outline and outside its holes, from `bottom` to `top`
-/// along z; it may have an [`Opening`] through a wall.
+/// A straight extrusion along z: the region inside an outline and outside its holes, from `bottom` to `top`.
+///
+/// It may have an [`Opening`] through a wall.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Solid {
     outline: Outline,
@@ -17,7 +18,7 @@ pub struct Solid {
 }
 
 impl Solid {
-    /// A solid between the heights `bottom` and `top`; contours may be walked either way.
+    /// A solid between the heights `bottom` and `top`, mm. Contours may have either sense.
     ///
     /// # Errors
     /// [`SolidError::NoHeight`] unless `bottom < top`.
@@ -35,15 +36,16 @@ impl Solid {
             }
         };
         let holes = holes.into_iter().map(forward).collect();
-        Self::counter_clockwise(forward(outline), holes, bottom, top)
+        Self::from_counter_clockwise(forward(outline), holes, bottom, top)
     }
 
-    /// A solid between the heights `bottom` and `top` of contours that are all counter-clockwise: [`new`](Self::new) without
-    /// looking which way they are walked, which for teeth of many curves takes some tenths of a millisecond.
+    /// A solid between the heights `bottom` and `top`, mm, of counter-clockwise contours.
+    ///
+    /// Like [`new`](Self::new), without the test of their sense, which takes some tenths of a millisecond for many curves.
     ///
     /// # Errors
     /// [`SolidError::NoHeight`] unless `bottom < top`.
-    pub fn counter_clockwise(
+    pub fn from_counter_clockwise(
         outline: Outline,
         holes: Vec<Outline>,
         bottom: f64,
@@ -64,8 +66,10 @@ impl Solid {
     /// Cuts an opening through the wall between the outline and a hole.
     ///
     /// # Errors
-    /// [`SolidError::Opening`] unless it lies within the height, a side of the outline runs from its first outer
-    /// corner to the second, and a side of a hole, counter-clockwise, from its first inner corner to the second.
+    /// [`SolidError::Opening`] unless all of these hold:
+    /// - the opening lies within the height of the solid;
+    /// - a segment of the outline runs from its first outer corner to the second;
+    /// - a segment of a hole, counter-clockwise, runs from its first inner corner to the second.
     pub fn with_opening(mut self, opening: Opening) -> Result<Self, SolidError> {
         let [from, to] = opening.span;
         let (bottom, top) = (self.bottom, self.top);
@@ -111,7 +115,7 @@ impl Solid {
         self.top
     }
 
-    /// Area moments of the cross-section about the origin, beside an opening, exact to rounding.
+    /// Area moments of the cross-section without an opening about the origin, exact to rounding.
     #[must_use]
     pub fn section(&self) -> AreaMoments {
         self.holes.iter().fold(self.outline.moments(), |sum, hole| {
@@ -123,13 +127,13 @@ impl Solid {
     #[must_use]
     pub fn volume(&self) -> f64 {
         let opened = self
-            .opened()
+            .opening_region()
             .map_or(0.0, |(region, [from, to])| region.area() * (to - from));
         self.section().area * (self.top - self.bottom) - opened
     }
 
-    /// Section removed by the opening, and its lower and upper height.
-    fn opened(&self) -> Option<(Outline, [f64; 2])> {
+    /// Cross-section of the opening, and its lower and upper height, mm.
+    fn opening_region(&self) -> Option<(Outline, [f64; 2])> {
         let opening = self.opening.as_ref()?;
         Some((opening.region(self)?, opening.span))
     }
@@ -138,30 +142,31 @@ impl Solid {
     #[must_use]
     pub fn mass_properties(&self, density: f64) -> MassProperties {
         let whole = MassProperties::of_extrusion(&self.section(), self.bottom, self.top, density);
-        let Some((region, [from, to])) = self.opened() else {
+        let Some((region, [from, to])) = self.opening_region() else {
             return whole;
         };
         let missing = MassProperties::of_extrusion(&region.moments(), from, to, -density);
-        MassProperties::together(&[whole, missing]).unwrap_or(whole)
+        MassProperties::combined(&[whole, missing]).unwrap_or(whole)
     }
 
     /// Number of triangles of [`mesh`](Self::mesh) at a tolerance.
     #[must_use]
-    pub fn mesh_faces(&self, tolerance: Tolerance) -> usize {
+    pub fn mesh_face_count(&self, tolerance: Tolerance) -> usize {
         let contours = std::iter::once(&self.outline).chain(&self.holes);
         let points: usize = contours.map(|c| c.flatten(tolerance).len()).sum();
-        // A cap of n corners and h holes has n + 2 h - 2, the walls have 2 n; with an opening three times as many,
-        // and about as many round it as it takes away.
+        // A cap with n corners and h holes has n + 2 h - 2 triangles, the walls have 2 n. With an opening the walls have three
+        // times as many; the triangles around the opening about equal those it removes.
         let walls = if self.opening.is_some() { 6 } else { 2 };
         ((2 + walls) * points + 4 * self.holes.len()).saturating_sub(4)
     }
 
-    /// Closed triangle mesh with outward normals whose side walls follow the contours within the tolerance. Its
-    /// vertices are shared: the bottom ones first, then the top ones in the same order, with those of an opening's
-    /// ends between.
+    /// Closed triangle mesh with outward normals; its side walls follow the contours within the tolerance.
+    ///
+    /// Triangles share vertices: first those of the bottom, then those at the ends of an opening, then those of the top, all
+    /// in the same order.
     ///
     /// # Errors
-    /// [`SolidError`] where the flattened contours cross or touch, or a hole is not in the material.
+    /// [`SolidError`] if the flattened contours cross or touch, or a hole is not in the material.
     pub fn mesh(&self, tolerance: Tolerance) -> Result<Mesh, SolidError> {
         let mut contours = vec![self.outline.flatten(tolerance)];
         for hole in &self.holes {

@@ -13,8 +13,7 @@ pub struct MassProperties {
 }
 
 impl MassProperties {
-    /// An extrusion of a cross-section with the given moments between two heights (mm), at a density
-    /// in kg/m³.
+    /// Extrusion of a cross-section with the given moments between two heights, mm, at a density in kg/m³.
     #[must_use]
     pub fn of_extrusion(section: &AreaMoments, bottom: f64, top: f64, density: f64) -> Self {
         let height = top - bottom;
@@ -33,20 +32,20 @@ impl MassProperties {
         }
     }
 
-    /// The body moved to another place.
+    /// The body after a rigid motion.
     #[must_use]
-    pub fn placed(&self, place: &Isometry3<f64>) -> Self {
-        let turn = place.rotation.to_rotation_matrix();
+    pub fn placed(&self, motion: &Isometry3<f64>) -> Self {
+        let turn = motion.rotation.to_rotation_matrix();
         Self {
             mass: self.mass,
-            center: place * self.center,
+            center: motion * self.center,
             inertia: turn.matrix() * self.inertia * turn.matrix().transpose(),
         }
     }
 
-    /// Combines several bodies fixed to each other, by the parallel axis theorem; `None` without mass.
+    /// Several bodies fixed to each other, combined by the parallel axis theorem; `None` if they have no mass.
     #[must_use]
-    pub fn together(bodies: &[Self]) -> Option<Self> {
+    pub fn combined(bodies: &[Self]) -> Option<Self> {
         let mass: f64 = bodies.iter().map(|b| b.mass).sum();
         if mass.is_nan() || mass <= 0.0 {
             return None;
@@ -78,7 +77,7 @@ pub struct VolumeMoments {
 }
 
 impl VolumeMoments {
-    /// Adds a point (mm) with its volume (mm³): the node of a quadrature rule and its weight.
+    /// Adds a point, mm, with its volume, mm³: the node of a quadrature rule with its weight.
     pub fn add(&mut self, point: Vector3<f64>, volume: f64) {
         self.volume += volume;
         self.first += point * volume;
@@ -145,11 +144,11 @@ mod tests {
         };
         let whole = block(-3.0, 11.0);
         let halves = [block(-3.0, 2.0), block(2.0, 11.0)];
-        let sum = crate::MassProperties::together(&halves).expect("has mass");
+        let sum = crate::MassProperties::combined(&halves).expect("has mass");
         assert!((sum.mass - whole.mass).abs() < 1e-15);
         assert!((sum.center - whole.center).norm() < 1e-12);
         assert!((sum.inertia - whole.inertia).norm() < 1e-12 * whole.inertia.norm());
-        assert_eq!(crate::MassProperties::together(&[]), None);
+        assert_eq!(crate::MassProperties::combined(&[]), None);
     }
 
     #[test]
@@ -205,8 +204,8 @@ mod tests {
         };
         let want = body(&motion, 3.0);
         let axis = Vector3::z() * 0.7;
-        let place = Isometry3::new(Vector3::new(5.0, -2.0, 3.0), axis);
-        let found = body(&Isometry2::identity(), 0.0).placed(&place);
+        let motion = Isometry3::new(Vector3::new(5.0, -2.0, 3.0), axis);
+        let found = body(&Isometry2::identity(), 0.0).placed(&motion);
         assert!((found.mass - want.mass).abs() < 1e-12);
         assert!((found.center - want.center).norm() < 1e-9);
         assert!((found.inertia - want.inertia).norm() < 1e-9 * want.inertia.norm());

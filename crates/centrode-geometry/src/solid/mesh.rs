@@ -1,6 +1,6 @@
 use crate::Point;
 
-/// A triangle mesh; a face lists its vertices counter-clockwise seen from outside.
+/// A triangle mesh. Each face lists its vertices counter-clockwise, seen from outside.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mesh {
     /// Corners, mm.
@@ -10,8 +10,9 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// The prism between two heights over a convex section, its corners counter-clockwise; the bottom
-    /// vertices come first, then the top ones in the same order.
+    /// The prism between two heights over a convex section with counter-clockwise corners.
+    ///
+    /// The bottom vertices come first, then the top ones in the same order.
     #[must_use]
     pub fn prism(section: &[Point], bottom: f64, top: f64) -> Self {
         let n = section.len() as u32;
@@ -27,7 +28,7 @@ impl Mesh {
         }
     }
 
-    /// Joins several bodies into one mesh; they may touch or overlap, each stays closed.
+    /// Joins several bodies into one mesh. They may touch or overlap; each stays closed.
     #[must_use]
     pub fn joined<'a>(bodies: impl IntoIterator<Item = &'a Self>) -> Self {
         let mut whole = Self::default();
@@ -48,7 +49,7 @@ impl Mesh {
         face.map(|vertex| self.vertices[vertex as usize])
     }
 
-    /// Enclosed volume, mm³, by the divergence theorem: positive if the normals point outward.
+    /// Enclosed volume, mm³, by the divergence theorem; positive if the normals point outward.
     #[must_use]
     pub fn volume(&self) -> f64 {
         let mut six = 0.0;
@@ -132,7 +133,7 @@ mod tests {
                 assert!(mesh.is_watertight());
                 let n = mesh.vertices.len() / 2;
                 assert_eq!(mesh.faces.len(), 4 * n);
-                assert_eq!(mesh.faces.len(), solid.mesh_faces(tolerance(tol)));
+                assert_eq!(mesh.faces.len(), solid.mesh_face_count(tolerance(tol)));
                 let difference = (mesh.volume() - solid.volume()).abs();
                 assert!(
                     difference < tol * 10.0 * (outline.length() + 60.0),

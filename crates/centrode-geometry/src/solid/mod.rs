@@ -18,6 +18,6 @@ pub use extrusion::Solid;
 pub use mass::{MassProperties, VolumeMoments};
 pub use mesh::Mesh;
 pub use opening::Opening;
-pub use shell::{Shell, ShellCurve, ShellEdge, ShellFace, ShellSurface};
-pub use shell_builder::{ShellBuilder, ShellSide};
+pub use shell::{Shell, ShellCurve, ShellEdge, ShellFace, ShellSide, ShellSurface};
+pub use shell_builder::ShellBuilder;
 pub use turned::{Turned, TurnedEnd, TurnedSection, TurnedSlot};

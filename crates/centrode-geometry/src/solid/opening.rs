@@ -7,13 +7,14 @@ use crate::{
     solid::{Mesh, Solid, SolidError},
 };
 
-/// A straight-sided opening through the wall between the outline of a [`Solid`] and one of its holes, between two
-/// heights: square to the extrusion, with flat sides, floor and ceiling.
+/// An opening through the wall between the outline of a [`Solid`] and one of its holes, between two heights.
+///
+/// Its sides, floor and ceiling are plane; floor and ceiling are square to the extrusion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Opening {
-    /// Its corners on the outline, in the order the outline, counter-clockwise, passes them: ends of one segment.
+    /// Its corners on the outline: the ends of one segment, in counter-clockwise order.
     pub outer: [Point; 2],
-    /// Its corners on the hole, in the order the hole, counter-clockwise, passes them: ends of one segment.
+    /// Its corners on the hole: the ends of one segment, in counter-clockwise order.
     pub inner: [Point; 2],
     /// Lower and upper end, mm.
     pub span: [f64; 2],
@@ -51,8 +52,9 @@ impl Opening {
             .filter(Outline::is_counter_clockwise)
     }
 
-    /// Mesh of the solid over its flattened contours, every one with the material on its left: every point at all
-    /// four heights, so that the walls beside the opening meet its corners.
+    /// Mesh of the solid over its flattened contours, which have the material on their left.
+    ///
+    /// Every point of the contours has a vertex at all four heights, so that the walls meet the corners of the opening.
     pub(crate) fn mesh(
         &self,
         solid: &Solid,
@@ -66,7 +68,7 @@ impl Opening {
             top: solid.top(),
         };
         let cap = triangulate(&contours, tolerance)?;
-        // Contours of holes run clockwise here.
+        // Here the contours of holes run clockwise.
         let [b0, b1] = self.inner;
         let (outer, inner) = (
             Stretch::new(&contours, self.outer).ok_or_else(missing)?,
@@ -83,9 +85,9 @@ impl Opening {
         faces.extend(cap.iter().map(|face| face.map(|v| v + 3 * n)));
         // Floor and ceiling.
         let rim: Vec<u32> = outer
-            .numbers
+            .indices
             .iter()
-            .chain(&inner.numbers)
+            .chain(&inner.indices)
             .copied()
             .collect();
         let corners = rim.iter().map(|&v| points[v as usize]).collect();
@@ -112,9 +114,9 @@ impl Opening {
     }
 }
 
-/// Point numbers along a contour from one corner to another.
+/// Point indices along a contour from one corner to another.
 struct Stretch {
-    numbers: Vec<u32>,
+    indices: Vec<u32>,
 }
 
 impl Stretch {
@@ -127,7 +129,7 @@ impl Stretch {
                 let steps = (end + count - start) % count;
                 let number = |k: usize| (first + (start + k) % count) as u32;
                 return Some(Self {
-                    numbers: (0..=steps).map(number).collect(),
+                    indices: (0..=steps).map(number).collect(),
                 });
             }
             first += contour.len();
@@ -136,15 +138,15 @@ impl Stretch {
     }
 
     fn has(&self, edge: [u32; 2]) -> bool {
-        self.numbers.windows(2).any(|pair| *pair == edge)
+        self.indices.windows(2).any(|pair| *pair == edge)
     }
 
     fn first(&self) -> u32 {
-        self.numbers[0]
+        self.indices[0]
     }
 
     fn last(&self) -> u32 {
-        self.numbers[self.numbers.len() - 1]
+        self.indices[self.indices.len() - 1]
     }
 }
 
@@ -214,12 +216,12 @@ mod tests {
         assert!((exact.center - found.center).norm() < 1e-3, "{exact:?}");
         assert!((exact.inertia - found.inertia).norm() < 1e-4 * exact.inertia.norm());
         assert!(exact.center.x < -0.01);
-        let faces = mesh.faces.len().abs_diff(opened.mesh_faces(tolerance));
+        let faces = mesh.faces.len().abs_diff(opened.mesh_face_count(tolerance));
         assert!(faces * 10 < mesh.faces.len(), "{faces}");
     }
 
     #[test]
-    fn an_opening_beside_the_wall_is_refused() {
+    fn an_opening_outside_the_wall_is_refused() {
         for span in [[-16.0, 3.0], [3.0, 3.0], [0.0, 15.0]] {
             let (whole, opening) = tube(2.75, span);
             assert!(matches!(

@@ -1,13 +1,13 @@
 use std::collections::HashMap;
 
-/// Closed boundary of a body: faces on exact surfaces, joined along shared edges, as a CAD kernel holds it.
+/// Closed boundary of a body: faces on exact surfaces that share edges, as in a CAD kernel.
 ///
 /// Surfaces of revolution are about the z axis.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Shell {
     /// Corners, mm.
     pub vertices: Vec<[f64; 3]>,
-    /// Edges between them, each between two faces.
+    /// Edges between the corners; each joins two faces.
     pub edges: Vec<ShellEdge>,
     /// The faces.
     pub faces: Vec<ShellFace>,
@@ -16,7 +16,7 @@ pub struct Shell {
 /// An edge from one vertex to another.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ShellEdge {
-    /// Indices of its ends.
+    /// Indices of its start and end vertex.
     pub ends: [usize; 2],
     /// Curve of the edge.
     pub curve: ShellCurve,
@@ -27,13 +27,33 @@ pub struct ShellEdge {
 pub enum ShellCurve {
     /// A straight line.
     Line,
-    /// Counter-clockwise about the z axis, seen from above, at a constant height.
+    /// An arc about the z axis at a constant height, counter-clockwise seen from above.
     Circle {
         /// Radius, mm.
         radius: f64,
     },
-    /// A polynomial by its Bézier points, which begin and end at the ends.
+    /// A polynomial curve by its Bézier points; the first and last are the ends of the edge.
     Bezier(Vec<[f64; 3]>),
+}
+
+/// An edge as part of a bound.
+#[derive(Clone, Copy, Debug, Eq, Hash, PartialEq)]
+pub struct ShellSide {
+    /// Index of the edge.
+    pub edge: usize,
+    /// Whether the bound runs from the start of the edge to its end.
+    pub forward: bool,
+}
+
+impl ShellSide {
+    /// The same edge in the opposite direction.
+    #[must_use]
+    pub fn reversed(self) -> Self {
+        Self {
+            forward: !self.forward,
+            ..self
+        }
+    }
 }
 
 /// Face of a shell: a part of a surface within bounds.
@@ -41,56 +61,55 @@ pub enum ShellCurve {
 pub struct ShellFace {
     /// Surface of the face.
     pub surface: ShellSurface,
-    /// Its bounds, the outer one first: edges, and whether each is walked from its first end to its second.
-    /// Seen from outside the body the face lies to the left.
-    pub bounds: Vec<Vec<(usize, bool)>>,
+    /// Its closed bounds, the outer one first. Seen from outside the body, the face lies to their left.
+    pub bounds: Vec<Vec<ShellSide>>,
 }
 
 /// Surface of a face.
 #[derive(Clone, Debug, PartialEq)]
 pub enum ShellSurface {
-    /// A plane through a point, its normal pointing out of the body.
+    /// A plane through a point; its normal points out of the body.
     Plane {
         /// The point, mm.
         point: [f64; 3],
         /// The normal.
         normal: [f64; 3],
     },
-    /// A cylinder, the body inside.
+    /// A cylinder with the body inside.
     Cylinder {
         /// Radius, mm.
         radius: f64,
     },
-    /// A cone of 45 deg, the body inside.
+    /// A cone of 45 deg with the body inside.
     Cone {
-        /// Height at which the radius holds, mm.
+        /// Height at which it has this radius, mm.
         height: f64,
         /// Radius there, mm.
         radius: f64,
-        /// Whether the radius grows upwards.
+        /// Whether the radius increases upwards.
         widens: bool,
     },
     /// Ruled surface between two Bézier curves of one degree: straight lines join the points of equal parameter.
     Ruled {
         /// Points of both curves, mm.
         points: [Vec<[f64; 3]>; 2],
-        /// Whether the direction along the curves, crossed with that from the first to the second, points out
-        /// of the body.
+        /// Whether the cross product of the direction along the curves and that from the first to the second points out of
+        /// the body.
         outward: bool,
     },
 }
 
 impl Shell {
-    /// Whether every edge bounds two faces, once each way: then the shell has no gap.
+    /// Whether every edge bounds two faces, once in each direction: then the shell has no gap.
     #[must_use]
     pub fn is_closed(&self) -> bool {
-        let mut uses: HashMap<(usize, bool), u32> = HashMap::new();
+        let mut uses: HashMap<ShellSide, u32> = HashMap::new();
         for face in &self.faces {
             for bound in &face.bounds {
                 for &side in bound {
                     *uses.entry(side).or_default() += 1;
                 }
-                let end = |&(edge, forward): &(usize, bool), last: bool| {
+                let end = |&ShellSide { edge, forward }: &ShellSide, last: bool| {
                     self.edges[edge].ends[usize::from(forward == last)]
                 };
                 let next = bound.iter().cycle().skip(1);
@@ -106,7 +125,7 @@ impl Shell {
         (0..self.edges.len()).all(|edge| {
             [true, false]
                 .iter()
-                .all(|&forward| uses.get(&(edge, forward)) == Some(&1))
+                .all(|&forward| uses.get(&ShellSide { edge, forward }) == Some(&1))
         })
     }
 }

@@ -1,25 +1,25 @@
 use std::collections::HashMap;
 
-use crate::solid::{Shell, ShellCurve, ShellEdge, ShellFace, ShellSurface};
+use crate::solid::{Shell, ShellCurve, ShellEdge, ShellFace, ShellSide, ShellSurface};
 
-/// Shell under construction; vertices and edges are shared.
+/// A shell under construction. Faces share its vertices and edges.
 #[derive(Debug, Default)]
 pub struct ShellBuilder {
     shell: Shell,
     vertices: HashMap<[u64; 3], usize>,
-    edges: HashMap<(usize, usize, u8), usize>,
+    edges: HashMap<([usize; 2], EdgeKind), usize>,
 }
 
-/// Edge of a bound, and whether it is walked from its first end to its second.
-pub type ShellSide = (usize, bool);
-
-/// Kinds of curves, to distinguish edges between the same ends.
-const STRAIGHT: u8 = 0;
-const ROUND: u8 = 1;
-const FREE: u8 = 2;
+/// Kind of curve, which distinguishes edges between the same ends.
+#[derive(Clone, Copy, Debug, Eq, Hash, PartialEq)]
+enum EdgeKind {
+    Line,
+    Arc,
+    Bezier,
+}
 
 impl ShellBuilder {
-    /// Vertex at a place, the one there is where there is one.
+    /// Index of the vertex at a position; a new one if there is none.
     pub fn vertex(&mut self, at: [f64; 3]) -> usize {
         let vertices = &mut self.shell.vertices;
         let key = at.map(|x| (x + 0.0).to_bits());
@@ -29,35 +29,42 @@ impl ShellBuilder {
         })
     }
 
-    fn edge(&mut self, from: usize, to: usize, kind: u8, curve: ShellCurve) -> ShellSide {
-        if let Some(&edge) = self.edges.get(&(to, from, kind))
-            && kind != ROUND
+    /// The edge between two vertices, an existing one if there is one; only an arc has no opposite direction.
+    fn edge(&mut self, from: usize, to: usize, kind: EdgeKind, curve: ShellCurve) -> ShellSide {
+        if let Some(&edge) = self.edges.get(&([to, from], kind))
+            && kind != EdgeKind::Arc
         {
-            return (edge, false);
+            return ShellSide {
+                edge,
+                forward: false,
+            };
         }
         let edges = &mut self.shell.edges;
-        let edge = *self.edges.entry((from, to, kind)).or_insert_with(|| {
+        let edge = *self.edges.entry(([from, to], kind)).or_insert_with(|| {
             edges.push(ShellEdge {
                 ends: [from, to],
                 curve,
             });
             edges.len() - 1
         });
-        (edge, true)
+        ShellSide {
+            edge,
+            forward: true,
+        }
     }
 
-    /// Position of a vertex.
+    /// Position of a vertex, mm.
     #[must_use]
-    pub fn place(&self, vertex: usize) -> [f64; 3] {
+    pub fn position(&self, vertex: usize) -> [f64; 3] {
         self.shell.vertices[vertex]
     }
 
-    /// A straight edge, walked from one vertex to the other.
+    /// A straight edge from one vertex to another.
     pub fn line(&mut self, from: usize, to: usize) -> ShellSide {
-        self.edge(from, to, STRAIGHT, ShellCurve::Line)
+        self.edge(from, to, EdgeKind::Line, ShellCurve::Line)
     }
 
-    /// Straight edges from vertex to vertex.
+    /// Straight edges through vertices, in order.
     pub fn lines(&mut self, through: &[usize]) -> Vec<ShellSide> {
         let mut sides = Vec::new();
         for pair in through.windows(2) {
@@ -68,15 +75,15 @@ impl ShellBuilder {
         sides
     }
 
-    /// An arc about the axis, counter-clockwise from the first vertex to the second.
+    /// An arc about the z axis, counter-clockwise from one vertex to another; radius in mm.
     pub fn arc(&mut self, from: usize, to: usize, radius: f64) -> ShellSide {
-        self.edge(from, to, ROUND, ShellCurve::Circle { radius })
+        self.edge(from, to, EdgeKind::Arc, ShellCurve::Circle { radius })
     }
 
-    /// A polynomial edge, walked from its first point to its last.
-    pub fn free(&mut self, points: Vec<[f64; 3]>) -> ShellSide {
+    /// A polynomial edge from its first Bézier point to its last.
+    pub fn bezier(&mut self, points: Vec<[f64; 3]>) -> ShellSide {
         let [from, to] = [points[0], points[points.len() - 1]].map(|p| self.vertex(p));
-        self.edge(from, to, FREE, ShellCurve::Bezier(points))
+        self.edge(from, to, EdgeKind::Bezier, ShellCurve::Bezier(points))
     }
 
     /// Adds a face with its bounds, the outer one first.
@@ -84,15 +91,9 @@ impl ShellBuilder {
         self.shell.faces.push(ShellFace { surface, bounds });
     }
 
-    /// The shell of all faces.
+    /// The finished shell.
     #[must_use]
     pub fn finish(self) -> Shell {
         self.shell
-    }
-
-    /// A side walked the other way.
-    #[must_use]
-    pub fn back((edge, forward): ShellSide) -> ShellSide {
-        (edge, !forward)
     }
 }

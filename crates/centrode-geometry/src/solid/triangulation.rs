@@ -1,7 +1,7 @@
 use crate::{Point, numeric::Tolerance, solid::SolidError};
 use spade::{ConstrainedDelaunayTriangulation, Point2, Triangulation};
 
-/// Edges of closed polygons whose points are numbered through.
+/// Edges of closed polygons as pairs of point indices; the points of all polygons are counted together.
 pub(crate) fn edges(contours: &[Vec<Point>]) -> Vec<[u32; 2]> {
     let mut out = Vec::new();
     let mut first = 0;
@@ -13,10 +13,10 @@ pub(crate) fn edges(contours: &[Vec<Point>]) -> Vec<[u32; 2]> {
     out
 }
 
-/// Counter-clockwise triangles of the region left of every contour, with the contours' own points.
+/// Counter-clockwise triangles of the region to the left of every contour; their corners are the points of the contours.
 ///
-/// A constrained Delaunay triangulation keeps every point and edge, also along a straight line, so the
-/// caps meet the walls without gaps.
+/// A constrained Delaunay triangulation contains every point and edge, also along a straight line. So caps meet walls without
+/// gaps.
 pub(crate) fn triangulate(
     contours: &[Vec<Point>],
     tolerance: Tolerance,
@@ -33,7 +33,7 @@ pub(crate) fn triangulate(
     {
         return Err(SolidError::NotFinite { contour });
     }
-    // The library refuses numbers it cannot square; next to any machine part they are zero.
+    // The library refuses numbers too small to square; compared with any machine part they are zero.
     let snap = |x: f64| if x.abs() < 1e-100 { 0.0 } else { x };
     let vertices = points
         .iter()
@@ -58,15 +58,14 @@ pub(crate) fn triangulate(
         return Err(crossing(&points[twin.unwrap_or(0)]));
     }
     if triangulation.num_constraints() != edges.len() {
-        // A contour runs through a point of another: some edge has been split there.
+        // A contour runs through a point of another: the library has split an edge there.
         let split = edges.iter().find(|[a, b]| {
             let handle = |i: &usize| spade::handles::FixedVertexHandle::from_index(*i);
             !triangulation.exists_constraint(handle(a), handle(b))
         });
         return Err(crossing(&points[split.map_or(0, |edge| edge[0])]));
     }
-    // Every edge of a contour has the material on its left: the state of a face is that of its
-    // neighbour, changed where the edge between them belongs to a contour.
+    // A face is inside or outside like its neighbour; this changes at an edge of a contour.
     let mut inside = vec![None; triangulation.num_all_faces()];
     inside[triangulation.outer_face().fix().index()] = Some(false);
     let mut stack = vec![triangulation.outer_face().fix()];

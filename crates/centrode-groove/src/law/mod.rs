@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use centrode_geometry::{Extreme, extremes, greatest, pieces};
+use centrode_geometry::{Extreme, extremes, maximum, piece_ends};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -148,7 +148,7 @@ impl ShaftLaw {
     #[must_use]
     pub fn departure(&self, other: &Self, from: f64) -> f64 {
         let apart = |theta: f64| (self.moved(from, theta) - other.moved(from, theta)).abs();
-        greatest(apart, &self.pieces(from)).value
+        maximum(apart, &self.pieces(from)).value
     }
 }
 
@@ -158,7 +158,7 @@ const PARTS: u32 = 16;
 fn turn_pieces(form: &dyn Transmission, from: f64) -> Vec<f64> {
     let within = |theta: &f64| from + (theta - from).rem_euclid(TAU);
     let breaks: Vec<f64> = form.breaks().iter().map(within).collect();
-    pieces(from, from + TAU, PARTS, &breaks)
+    piece_ends(from, from + TAU, PARTS, &breaks)
 }
 
 impl Transmission for ShaftLaw {

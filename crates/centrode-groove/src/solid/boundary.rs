@@ -57,7 +57,7 @@ fn grooved(
             let top = fitted(fit, radius, [start, end], angles, heights, &at)?;
             let foot = fitted(fit, floor, [start, end], angles, heights, &at)?;
             let raised = plan.edge(edge).wall == Wall::Left;
-            let sides = (boundary.free(top.clone()), boundary.free(foot.clone()));
+            let sides = (boundary.bezier(top.clone()), boundary.bezier(foot.clone()));
             wall(boundary, [foot, top], sides, raised);
             walls.push((heights, sides));
         }
@@ -88,7 +88,7 @@ fn grooved(
             };
             let mut bound = vec![bottom];
             bound.extend(boundary.lines(&right));
-            bound.push(ShellBuilder::back(above));
+            bound.push(above.reversed());
             let down: Vec<usize> = left.into_iter().rev().collect();
             bound.extend(boundary.lines(&down));
             boundary.face(ShellSurface::Cylinder { radius: r }, vec![bound]);
@@ -108,19 +108,9 @@ fn wall(
     let [feet, tops] = [0, 1].map(|k| [points[k][0], points[k][last]].map(|p| boundary.vertex(p)));
     let out = [0, 1].map(|side| boundary.line(feet[side], tops[side]));
     let bound = if raised {
-        vec![
-            foot,
-            out[1],
-            ShellBuilder::back(top),
-            ShellBuilder::back(out[0]),
-        ]
+        vec![foot, out[1], top.reversed(), out[0].reversed()]
     } else {
-        vec![
-            out[0],
-            top,
-            ShellBuilder::back(out[1]),
-            ShellBuilder::back(foot),
-        ]
+        vec![out[0], top, out[1].reversed(), foot.reversed()]
     };
     // Round the shaft crossed with outwards points down.
     let surface = ShellSurface::Ruled {

@@ -20,9 +20,9 @@ pub(super) fn close(
     });
     let [below, above] = [true, false].map(|near| body.journal(radius, near));
     let journal = Turned::new(thick[0] - length(&below), below, body.slot()).ok()?;
-    journal.close(builder, [TurnedEnd::Flat, near]);
+    journal.add_faces(builder, [TurnedEnd::Flat, near]);
     let journal = Turned::new(thick[1], above, None).ok()?;
-    journal.close(builder, [far, TurnedEnd::Flat]);
+    journal.add_faces(builder, [far, TurnedEnd::Flat]);
     Some(())
 }
 
@@ -43,7 +43,7 @@ impl ShaftBody {
     fn slot(&self) -> Option<TurnedSlot> {
         self.keyway.map(|key| TurnedSlot {
             width: key.width,
-            foot: 0.5 * self.journal_diameter - key.depth,
+            floor: 0.5 * self.journal_diameter - key.depth,
             rounded: self.keyway_rounding() > 0.0,
         })
     }

@@ -210,7 +210,7 @@ fn through(points: &[Vec<[f64; 3]>; 2]) -> f64 {
 /// Enclosed volume of a shell, mm³, by Gauss points over fine pieces of every surface: the flux of (0, 0, z)
 /// through walls and planes, and through cylinders and cones none.
 fn enclosed(shell: &centrode_geometry::Shell) -> f64 {
-    use centrode_geometry::{ShellCurve, ShellSurface};
+    use centrode_geometry::{ShellCurve, ShellSide, ShellSurface};
     // The flux of (x, y, 0) / 2 through each face: round the bounds by Green where the surface has a radius.
     let mut volume = 0.0;
     let sample = |edge: usize, x: f64| -> [f64; 3] {
@@ -236,7 +236,7 @@ fn enclosed(shell: &centrode_geometry::Shell) -> f64 {
         let mut rings: Vec<Vec<[f64; 3]>> = Vec::new();
         for bound in &face.bounds {
             let mut ring = Vec::new();
-            for &(edge, forward) in bound {
+            for &ShellSide { edge, forward } in bound {
                 for k in 0..40 {
                     let x = f64::from(k) / 40.0;
                     ring.push(sample(edge, if forward { x } else { 1.0 - x }));

@@ -1,6 +1,6 @@
 use std::f64::consts::TAU;
 
-use centrode_geometry::{Extreme, bracketed_minimum, bracketed_root, greatest, pieces};
+use centrode_geometry::{Extreme, bracketed_minimum, bracketed_root, maximum, piece_ends};
 
 use super::assembly::{Linkage, Step};
 use super::error::LinkageError;
@@ -75,7 +75,7 @@ impl Linkage {
         let missing = |input: f64| self.missing(dyad, input).max(0.0);
         let gaps = gaps(&closing.given, &closing.open).into_iter();
         let found =
-            gaps.map(|(low, high)| greatest(missing, &pieces(low, high, PARTS, &self.breaks)));
+            gaps.map(|(low, high)| maximum(missing, &piece_ends(low, high, PARTS, &self.breaks)));
         let worst = found.reduce(|worst, found| {
             if found.value > worst.value {
                 found

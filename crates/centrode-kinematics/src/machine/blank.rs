@@ -45,7 +45,7 @@ impl Blank {
         });
         if most - least < 2.0 * FINE {
             return Some(Self::Round {
-                diameter: 2.0 * outline.farthest(middle),
+                diameter: 2.0 * outline.maximum_distance(middle),
                 length: thickness,
             });
         }
@@ -74,7 +74,7 @@ impl Blank {
     /// Round bar about the origin of a contour, as a turned part has it.
     #[must_use]
     pub fn round(outline: &Outline, length: f64) -> Option<Self> {
-        let diameter = 2.0 * outline.farthest(Point::origin());
+        let diameter = 2.0 * outline.maximum_distance(Point::origin());
         (diameter > 0.0).then_some(Self::Round { diameter, length })
     }
 }

@@ -76,7 +76,7 @@ impl Piecewise {
         // A break beside another, or beside an end, by rounding leaves no piece whose derivatives mean anything.
         let apart = |b: &&f64| **b > SHORTEST * period && **b < (1.0 - SHORTEST) * period;
         let inside: Vec<f64> = breaks.iter().filter(apart).copied().collect();
-        let mut cuts = centrode_geometry::pieces(0.0, period, 1, &inside);
+        let mut cuts = centrode_geometry::piece_ends(0.0, period, 1, &inside);
         cuts.dedup_by(|b, a| *b - *a <= SHORTEST * period);
         let slope = law.advance() / period;
         let rest = |input: f64| law.at(input).position - slope * input;

@@ -100,7 +100,7 @@ impl Link {
     fn mount(&mut self, body: Mounted, own: Option<MassProperties>) {
         let carried = own.map(|own| own.placed(&body.place()));
         let all: Vec<MassProperties> = self.mass.into_iter().chain(carried).collect();
-        self.mass = MassProperties::together(&all).or(self.mass);
+        self.mass = MassProperties::combined(&all).or(self.mass);
         self.mounted.push(body);
     }
 }

@@ -114,6 +114,6 @@ impl Machine {
             let place = places[link].as_ref()?;
             Some(self.links[link].mass?.placed(place))
         });
-        MassProperties::together(&placed.collect::<Vec<_>>())
+        MassProperties::combined(&placed.collect::<Vec<_>>())
     }
 }

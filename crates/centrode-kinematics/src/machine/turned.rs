@@ -185,14 +185,14 @@ impl TurnedPart {
     fn slot(&self) -> Option<TurnedSlot> {
         self.keyway.map(|key| TurnedSlot {
             width: key.width,
-            foot: 0.5 * self.diameter() - key.depth,
+            floor: 0.5 * self.diameter() - key.depth,
             rounded: true,
         })
     }
 
     /// Distance of the keyway's floor from the axis, mm; zero without one.
     pub(super) fn key_foot(&self) -> f64 {
-        self.slot().map_or(0.0, |slot| slot.foot)
+        self.slot().map_or(0.0, |slot| slot.floor)
     }
 
     /// Exact body, from z = 0.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use centrode_geometry::{bracketed_root, pieces};
+use centrode_geometry::{bracketed_root, piece_ends};
 
 use super::Transmission;
 
@@ -33,7 +33,7 @@ pub fn crossings(
         return found;
     }
     let parts = PARTS * (period / TAU).round().max(1.0) as u32;
-    let ends = pieces(0.0, period, parts, breaks);
+    let ends = piece_ends(0.0, period, parts, breaks);
     let mut before = position(0.0);
     for pair in ends.windows(2) {
         let (from, to) = (pair[0], pair[1]);

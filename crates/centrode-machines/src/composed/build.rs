@@ -1,6 +1,6 @@
 use std::sync::Arc;
 
-use centrode_geometry::{Point, extremes, pieces};
+use centrode_geometry::{Point, extremes, piece_ends};
 
 use super::copying;
 use super::resolve::{Builder, blame};
@@ -252,6 +252,6 @@ impl Builder<'_> {
 
 /// Least and greatest value of a law over the cycle.
 pub(super) fn range(law: &dyn Transmission, linkage: &Linkage) -> [f64; 2] {
-    let ends = pieces(0.0, linkage.period(), PARTS, linkage.breaks());
+    let ends = piece_ends(0.0, linkage.period(), PARTS, linkage.breaks());
     extremes(|input| law.at(input).position, &ends).map(|extreme| extreme.value)
 }

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use centrode_geometry::{Extreme, Point, bracketed_root, greatest, pieces, together};
+use centrode_geometry::{Extreme, Point, bracketed_root, maximum, piece_ends, run_both};
 use nalgebra::Rotation2;
 
 use super::copies::{self, ComposedCopiesSpec, Spin};
@@ -72,7 +72,7 @@ impl Composed {
             made.map_err(|error| of_copy(error, &expansion))
         };
         // A cam takes as long to cut as the copies to assemble, which know nothing of it.
-        let (one, made) = together(cut, copied);
+        let (one, made) = run_both(cut, copied);
         let (one, mut made) = (one?, made?);
         made.bare = Some(&one);
         let made = made.cut_cams().and_then(|()| made.finished(design));
@@ -160,7 +160,7 @@ impl Composed {
     /// Ends of the parts of a cycle between which all motion is smooth.
     fn parts(&self) -> Vec<f64> {
         let parts = PARTS * self.design.input.turns;
-        pieces(0.0, self.period(), parts, self.linkage.breaks())
+        piece_ends(0.0, self.period(), parts, self.linkage.breaks())
     }
 
     /// Checks that each copy stands as its original does where the body in the middle has turned on.
@@ -193,7 +193,7 @@ impl Composed {
                 continue;
             };
             let off = |input: f64| self.off(about, (body, copy), (spin, turn), input);
-            let [length, angle] = [0, 1].map(|i| greatest(|input| off(input)[i], &self.parts()));
+            let [length, angle] = [0, 1].map(|i| maximum(|input| off(input)[i], &self.parts()));
             if length.value > ROUNDING * size || angle.value > ROUNDING {
                 return Err(ComposedError::NoCopies {
                     key: key.into(),

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use centrode_geometry::{Extreme, Point, extremes, greatest, pieces};
+use centrode_geometry::{Extreme, Point, extremes, maximum, piece_ends};
 use nalgebra::Rotation2;
 
 use super::points::{FACE, LocalPoint, ROLLER};
@@ -144,14 +144,14 @@ impl Builder<'_> {
         let of_law = repeated(&*law, period).into_iter();
         let breaks = sorted(of_law.chain(turn.jumps(period)), period);
         let parts = PARTS * self.design.input.turns;
-        let ends = pieces(0.0, period, parts, &breaks);
+        let ends = piece_ends(0.0, period, parts, &breaks);
         let [low, high] = extremes(|input| sense * law.at(input).position, &ends);
         let stroke = high.value - low.value;
         if stroke <= ROUNDING {
             let why = format!("body {body} stands still: there is no cam to cut");
             return wrong(key, why);
         }
-        let rate = greatest(|input| law.at(input).velocity.abs(), &ends).value;
+        let rate = maximum(|input| law.at(input).velocity.abs(), &ends).value;
         let step = BESIDE * period;
         for &at in &breaks {
             let [before, after] = [-step, step].map(|step| law.at(at + step));
@@ -229,11 +229,11 @@ impl Moved<'_> {
             lift.position -= low;
             lift
         };
-        let ends = pieces(0.0, TAU, PARTS, &breaks);
+        let ends = piece_ends(0.0, TAU, PARTS, &breaks);
         for turn in 1..turns as u32 {
             let later = f64::from(turn) * TAU;
             let off = |angle: f64| (lift(angle + later).position - lift(angle).position).abs();
-            let off = greatest(off, &ends);
+            let off = maximum(off, &ends);
             if off.value > ROUNDING * self.stroke {
                 let at = |angle: f64| inverse.at(angle).position.rem_euclid(self.period);
                 let [first, then] = [off.input, off.input + later].map(at);

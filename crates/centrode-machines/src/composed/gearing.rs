@@ -68,7 +68,7 @@ impl ComposedGear {
         let (gear, place) = (self.gear(), self.place());
         let bore = gear.bore().map(|bore| bore.transformed(&place));
         let top = bottom + gear.body().width;
-        Solid::counter_clockwise(
+        Solid::from_counter_clockwise(
             gear.outline().transformed(&place),
             bore.into_iter().collect(),
             bottom,

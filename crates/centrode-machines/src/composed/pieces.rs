@@ -64,7 +64,7 @@ impl Pieces<'_> {
         let density = self.composed.design.plates.density;
         let top = self.top.iter().map(|top| top.mass_properties(density));
         let all = self.mass().into_iter().chain(top).chain(gears).chain(cams);
-        MassProperties::together(&all.collect::<Vec<_>>())
+        MassProperties::combined(&all.collect::<Vec<_>>())
     }
 
     /// Plates, gears and cams.

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use centrode_geometry::{Point, Vector, extremes, pieces};
+use centrode_geometry::{Point, Vector, extremes, piece_ends};
 
 use super::mesh::Angle;
 use super::resolve::Builder;
@@ -169,7 +169,7 @@ impl Builder<'_> {
             return wrong(key, why);
         }
         let jumps: Vec<f64> = turn.jumps(period).collect();
-        let parts = pieces(0.0, period, PARTS * self.design.input.turns, &jumps);
+        let parts = piece_ends(0.0, period, PARTS * self.design.input.turns, &jumps);
         let rate = |input: f64| turn.at(input).velocity;
         let stands = || {
             let [slow, fast] = extremes(rate, &parts);

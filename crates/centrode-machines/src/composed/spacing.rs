@@ -161,7 +161,7 @@ impl Composed {
     /// Plates, gears, cams and rollers.
     fn passing(&self) -> Vec<Passing> {
         let round = |body: &str, at: Point, outline: &Outline| {
-            let reach = outline.farthest(Point::origin());
+            let reach = outline.maximum_distance(Point::origin());
             Some((self.body_named(body)?, Outline::circle(at, reach)))
         };
         let first = usize::from(self.has_frame_plates());
@@ -202,7 +202,7 @@ impl Passing {
             body,
             span,
             corners: outline.flatten(Tolerance::new(FINE).ok()?),
-            reach: outline.farthest(Point::origin()),
+            reach: outline.maximum_distance(Point::origin()),
             outline,
         })
     }

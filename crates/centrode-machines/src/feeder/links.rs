@@ -125,7 +125,7 @@ impl Feeder {
             .iter()
             .map(|solid| solid.mass_properties(spec.density))
             .collect();
-        let together = MassProperties::together(&masses).unwrap_or(masses[0]);
+        let together = MassProperties::combined(&masses).unwrap_or(masses[0]);
         Ok((solids, together))
     }
 

@@ -19,7 +19,7 @@ mod shafts;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-use centrode_geometry::{Extreme, Point, Recent, bracketed_root, greatest, pieces};
+use centrode_geometry::{Extreme, Point, Recent, bracketed_root, maximum, piece_ends};
 
 pub use design::{BoundsSpec, DriveSpec, FeederDesign, FeederGoals, LinkageSpec, MakingSpec};
 pub use dimension::{Dimension, UnknownDimension};
@@ -176,7 +176,7 @@ impl Feeder {
     /// Inputs of one cycle between which the motion is smooth and short, from 0 to a whole turn.
     #[must_use]
     pub fn pieces(&self) -> Vec<f64> {
-        pieces(0.0, TAU, 2 * PARTS, &self.breaks())
+        piece_ends(0.0, TAU, 2 * PARTS, &self.breaks())
     }
 
     /// Input at which the crank has turned by an angle from where it rests, up to a turn, rad.
@@ -207,8 +207,8 @@ impl Feeder {
 
     fn stroke(&self, from: f64, to: f64) -> Stroke {
         let speed = |input: f64| self.effector(input).velocity.abs();
-        let ends = pieces(from, to, PARTS, &self.breaks());
-        let Extreme { input, value } = greatest(speed, &ends);
+        let ends = piece_ends(from, to, PARTS, &self.breaks());
+        let Extreme { input, value } = maximum(speed, &ends);
         Stroke {
             from,
             to,

@@ -38,7 +38,7 @@ impl GearBody {
     pub fn all(gears: &IntermittentPair, tolerance: Tolerance) -> Vec<Self> {
         let pair = gears.pair();
         // Cut as short chords: lines and arcs of the same accuracy, which a solid can have, too.
-        let cut = |outline: &Outline| outline.arcs_of_chords(gears.accuracy(), tolerance);
+        let cut = |outline: &Outline| outline.polygon_arcs(gears.accuracy(), tolerance);
         let body = |name, outline: &Outline, bore: Option<Outline>| Self {
             name,
             outline: cut(outline),

@@ -1,6 +1,6 @@
 use std::f64::consts::TAU;
 
-use centrode_geometry::{Extreme, Outline, Point, least, pieces};
+use centrode_geometry::{Extreme, Outline, Point, minimum, piece_ends};
 
 use super::ThreeArm;
 
@@ -32,11 +32,11 @@ impl ThreeArm {
     pub fn seedling_clearance(&self) -> SeedlingClearance {
         let release = self.planting(0);
         let half_turn = 0.5 * TAU;
-        let from = |start: f64| pieces(start, release + half_turn, PARTS, &[]);
+        let from = |start: f64| piece_ends(start, release + half_turn, PARTS, &[]);
         let planted = self.over_ground(&self.tip(release, 0), release).position;
-        let own = least(|input| self.behind(input, planted), &from(release));
+        let own = minimum(|input| self.behind(input, planted), &from(release));
         let front = |input| self.in_front(input, planted);
-        let before = least(front, &from(release - half_turn));
+        let before = minimum(front, &from(release - half_turn));
         let (seedling, Extreme { input, value }) = if before.value < own.value {
             (1, before)
         } else {

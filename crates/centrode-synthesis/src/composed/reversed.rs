@@ -1,7 +1,7 @@
 use std::collections::BTreeMap;
 use std::f64::consts::PI;
 
-use centrode_geometry::{Extreme, Point, Vector, greatest};
+use centrode_geometry::{Extreme, Point, Vector, maximum};
 use thiserror::Error;
 
 use crate::reverse::{KeepOut, Split, SplitKind, TwoBar, leg};
@@ -158,7 +158,7 @@ impl ReversedMachine {
             let tip = train.tip(chain, chain.at(t).carrier[0]);
             chain.path().distance_near(tip, t)
         };
-        let tip_error = greatest(off, &chain.path().parts(chain.stretched()));
+        let tip_error = maximum(off, &chain.path().parts(chain.stretched()));
         Ok(Self {
             design: design(chain, split, pairs, arms),
             steps,

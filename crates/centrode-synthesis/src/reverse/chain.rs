@@ -1,7 +1,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use centrode_geometry::{Extreme, Jet, Point, Vector, greatest_sampled, rounding};
+use centrode_geometry::{Extreme, Jet, Point, Vector, maximum_of_samples, rounding};
 
 use super::distance::{Distance, Series, taylor};
 use super::limit::squares;
@@ -146,7 +146,7 @@ impl TwoBar {
         let greatest = |of: fn([f64; 2]) -> f64| {
             let samples: Vec<f64> = known.iter().map(|speeds| of(*speeds)).collect();
             let at = |t: f64| of(self.speeds(t, &self.path.at(t)));
-            greatest_sampled(&samples, at, rounding, &looks.pieces)
+            maximum_of_samples(&samples, at, rounding, &looks.pieces)
         };
         let at = |extreme: Extreme| self.path.at(extreme.input).point;
         let turns_on = |slowest: Extreme| -slowest.value > least;

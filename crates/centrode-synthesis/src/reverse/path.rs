@@ -2,7 +2,7 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use centrode_geometry::{
-    Bounds, Curve, Jet, Outline, Point, SampledPiece, Segment, Vector, pieces,
+    Bounds, Curve, Jet, Outline, Point, SampledPiece, Segment, Vector, piece_ends,
 };
 
 use super::{PathError, WantedPoints};
@@ -156,7 +156,7 @@ impl WantedPath {
             .collect();
         let mut samples = Vec::new();
         let mut smooth = Vec::new();
-        for pair in pieces(0.0, period, 1, &breaks).windows(2) {
+        for pair in piece_ends(0.0, period, 1, &breaks).windows(2) {
             let share = (pair[1] - pair[0]) / period;
             let steps = (SAMPLES * share).ceil().max(LEAST_SAMPLES);
             let piece = SampledPiece {
@@ -257,14 +257,14 @@ impl WantedPath {
     pub(crate) fn parts(&self, from: f64) -> Vec<f64> {
         let to = from + self.period();
         if self.breaks.len() > MOST_PARTS {
-            return pieces(from, to, MOST_PARTS as u32, &[]);
+            return piece_ends(from, to, MOST_PARTS as u32, &[]);
         }
         let even = if self.breaks.len() < EVEN_PARTS as usize / 2 {
             EVEN_PARTS
         } else {
             1
         };
-        pieces(from, to, even, &self.breaks_between(from, to))
+        piece_ends(from, to, even, &self.breaks_between(from, to))
     }
 
     /// Breaks strictly between two parameters, ascending.

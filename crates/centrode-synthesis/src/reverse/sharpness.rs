@@ -1,6 +1,6 @@
 use std::f64::consts::TAU;
 
-use centrode_geometry::{Extreme, greatest_sampled, rounding};
+use centrode_geometry::{Extreme, maximum_of_samples, rounding};
 
 use super::TwoBar;
 use super::curvature::curvatures;
@@ -88,7 +88,7 @@ impl TwoBar {
         let sharpest = |speeds: [Series; 2]| of(by_powers(scale, speeds, law(speeds)));
         let samples: Vec<f64> = speeds.iter().map(|speeds| sharpest(*speeds)).collect();
         let at = |t: f64| sharpest(self.speed_series(t, &self.path().at(t)));
-        greatest_sampled(&samples, at, rounding, &looks.pieces)
+        maximum_of_samples(&samples, at, rounding, &looks.pieces)
     }
 
     /// Logarithm of the mean ratio of the first stage's ratio to the power of the total one, by samples in order.

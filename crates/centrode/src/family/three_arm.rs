@@ -8,7 +8,7 @@ use centrode_export::page::{Curve, Picture};
 use centrode_export::{Bundle, ExportError, Format, Options};
 use centrode_export::{machine, three_arm};
 use centrode_gear::{GearPair, GearPairError, Member};
-use centrode_geometry::{Tolerance, together};
+use centrode_geometry::{Tolerance, run_both};
 use centrode_kinematics::machine::Machine;
 use centrode_machines::three_arm::ThreeArm;
 use centrode_machines::three_arm::design::ThreeArmDesign;
@@ -187,7 +187,7 @@ fn drawn(mechanism: &ThreeArm, teeth: Option<&GearPair>) -> Picture {
     let Ok(machine) = three_arm::drawn(mechanism, teeth) else {
         return Picture::default();
     };
-    let (mut picture, contacts) = together(
+    let (mut picture, contacts) = run_both(
         || machine::picture(&machine, tolerance),
         || three_arm::contacts(mechanism, teeth),
     );

@@ -1,4 +1,4 @@
-use centrode_geometry::{Tolerance, greatest, pieces};
+use centrode_geometry::{Tolerance, maximum, piece_ends};
 use centrode_kinematics::machine::{Part, Supply};
 
 use super::*;
@@ -130,7 +130,7 @@ fn plates_of_one_layer_that_collide_are_found_with_the_depth_and_others_are_not(
             0.0
         }
     };
-    let deepest = greatest(depth, &pieces(-0.2, 0.2, 4, &[])).value;
+    let deepest = maximum(depth, &piece_ends(-0.2, 0.2, 4, &[])).value;
     assert!((deepest - 3.0).abs() < 1e-9);
     let measured = found.measured.expect("a depth");
     assert!((measured + deepest).abs() < 2e-2, "{measured} {deepest}");

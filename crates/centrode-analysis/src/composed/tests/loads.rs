@@ -1,6 +1,6 @@
 use std::f64::consts::TAU;
 
-use centrode_geometry::greatest;
+use centrode_geometry::maximum;
 
 use super::*;
 use crate::contact::tests::closed_forms::mean_ratio;
@@ -94,7 +94,7 @@ fn the_mean_torque_times_a_turn_is_the_work_of_the_loads() {
             let (sin, cos) = t.sin_cos();
             -30.0 * sin - 900.0 * sin * cos / (1e4 - 900.0 * sin * sin).sqrt()
         };
-        let greatest = greatest(rate, &pieces(0.0, TAU, 16, &[])).value * 150.0;
+        let greatest = maximum(rate, &piece_ends(0.0, TAU, 16, &[])).value * 150.0;
         assert!((value("input_torque_max") - greatest).abs() < 1e-9 * greatest);
         let forces = table(&report, "joint-forces");
         let names: Vec<&str> = forces.rows.iter().map(|(name, _)| name.as_str()).collect();

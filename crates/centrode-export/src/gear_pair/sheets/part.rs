@@ -2,7 +2,7 @@ use super::Label;
 use centrode_gear::design::BodySpec;
 use centrode_gear::{Frame, Gear, GearPair, Member, Role};
 use centrode_geometry::{
-    Bounds, Extreme, Outline, Point, Tolerance, Vector, bracketed_root, least,
+    Bounds, Extreme, Outline, Point, Tolerance, Vector, bracketed_root, minimum,
 };
 use centrode_spec::DrawingSpec;
 use nalgebra::Rotation2;
@@ -118,7 +118,7 @@ impl<'a> SheetGear<'a> {
                 _ => (&mut tips[owner as usize], -1.0),
             };
             let radius = |u: f64| sign * segment.at(u).point.coords.norm();
-            let Extreme { input, value } = least(radius, &[-1.0, 1.0]);
+            let Extreme { input, value } = minimum(radius, &[-1.0, 1.0]);
             if found.is_none_or(|(best, _)| value < best) {
                 *found = Some((value, segment.at(input).point));
             }

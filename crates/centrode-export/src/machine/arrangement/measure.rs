@@ -1,4 +1,4 @@
-use centrode_geometry::{Extreme, Point, Vector, greatest_each, pieces};
+use centrode_geometry::{Extreme, Point, Vector, maximum_of_each, piece_ends};
 use centrode_kinematics::machine::{Axis as Along, Machine};
 
 use super::super::motion::within;
@@ -78,9 +78,9 @@ pub(super) fn dimensions(scene: &Scene<'_>, axes: &[Axis]) -> Vec<Measured> {
 fn travel(machine: &Machine, point: usize) -> [Point; 4] {
     let laws = machine.joints.iter().map(|joint| joint.law.as_ref());
     let breaks: Vec<f64> = laws.flat_map(|law| within(law, machine)).collect();
-    let ends = pieces(0.0, machine.input.period, PIECES, &breaks);
+    let ends = piece_ends(0.0, machine.input.period, PIECES, &breaks);
     let at = |input: f64| machine.point(point, input).position.xy();
-    let found = greatest_each(
+    let found = maximum_of_each(
         |input| {
             let at = at(input);
             [-at.x, at.x, -at.y, at.y]

@@ -271,7 +271,9 @@ impl Placed<'_> {
                         return Vec::new();
                     }
                     let about = self.place.inverse() * Point3::new(plane.0.x, plane.0.y, z);
-                    let about = solid.outline().farthest(Point::new(about.x, about.y));
+                    let about = solid
+                        .outline()
+                        .maximum_distance(Point::new(about.x, about.y));
                     let spans = self.spans(solid, plane, half, tolerance);
                     let spans = spans.into_iter().map(|[left, right]| {
                         let bounds = Bounds {

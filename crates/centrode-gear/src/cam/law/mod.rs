@@ -5,7 +5,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use centrode_geometry::{Extreme, greatest};
+use centrode_geometry::{Extreme, maximum};
 use schemars::JsonSchema;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -249,7 +249,7 @@ impl Law {
         ends.extend(self.breaks());
         ends.push(1.0);
         let peak = |of: &dyn Fn(MotionJet) -> f64| -> f64 {
-            let Extreme { value, .. } = greatest(|x| of(self.at(x)).abs(), &ends);
+            let Extreme { value, .. } = maximum(|x| of(self.at(x)).abs(), &ends);
             value
         };
         let [start, end] = self.outside;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use centrode_geometry::{Extreme, greatest};
+use centrode_geometry::{Extreme, maximum};
 use thiserror::Error;
 
 use super::design::{MotionSpec, SegmentSpec};
@@ -219,7 +219,7 @@ impl Motion {
 #[must_use]
 pub(crate) fn peaks(motion: &dyn Transmission) -> Peaks {
     let ends = ends(motion);
-    let peak = |of: &dyn Fn(MotionJet) -> f64| greatest(|input| of(motion.at(input)), &ends);
+    let peak = |of: &dyn Fn(MotionJet) -> f64| maximum(|input| of(motion.at(input)), &ends);
     Peaks {
         lift: peak(&|m| m.position),
         velocity: peak(&|m| m.velocity.abs()),

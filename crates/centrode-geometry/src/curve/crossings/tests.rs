@@ -20,9 +20,9 @@ fn the_loop_of_a_folium_is_found_at_every_size() {
         let e = 10_f64.powi(-exponent);
         let whole = polys(|t| Point::new(t * t, t * (t * t - e)), -1.2, 1.2);
         let found: Vec<_> = if whole.len() == 1 {
-            self_crossings(&whole[0], fine()).expect("told")
+            self_crossings(&whole[0], fine()).expect("determined")
         } else {
-            crossings(&whole[0], &whole[1], true, fine()).expect("told")
+            crossings(&whole[0], &whole[1], true, fine()).expect("determined")
         };
         assert_eq!(found.len(), 1, "{e}");
         let point = whole[0].at(found[0].0).point;
@@ -40,13 +40,13 @@ fn a_loop_a_ten_thousandth_of_its_curve_between_two_cusps_is_found() {
         Point::new(y, x)
     };
     let curve = polys(tail, -1.0, 0.93)[0];
-    let found = self_crossings(&curve, fine()).expect("told");
+    let found = self_crossings(&curve, fine()).expect("determined");
     assert_eq!(found.len(), 1, "{found:?}");
     let [p, q] = [found[0].0, found[0].1].map(|u| curve.at(u).point);
     // At t = -+ a sqrt 3, where x is zero again.
-    let place = Point::new(0.75 * a.powi(4), 0.0);
+    let expected = Point::new(0.75 * a.powi(4), 0.0);
     assert!(
-        (p - place).norm() < 1e-13 && (q - place).norm() < 1e-13,
+        (p - expected).norm() < 1e-13 && (q - expected).norm() < 1e-13,
         "{p} {q}"
     );
 }
@@ -57,7 +57,7 @@ fn a_loop_as_small_as_rounding_is_found_at_most_once() {
         let [start, end] = [start, end].map(|[x, y]| Point::new(x, y));
         let coefficients = coefficients.map(|[x, y]| Vector::new(x, y));
         let fillet = Segment::from(PolySegment::new(start, end, coefficients));
-        self_crossings(&fillet, Tolerance::new(shortest).expect("positive")).expect("told")
+        self_crossings(&fillet, Tolerance::new(shortest).expect("positive")).expect("determined")
     };
     // Fillet of 24 teeth by the law phi - 0.03278 sin 3 phi: it turns back twice within 1e-11 mm.
     let of_a_law = found(
@@ -116,7 +116,7 @@ fn strands_that_leave_a_cusp_in_one_direction_are_apart_however_little_their_cur
             Segment::from(part[0])
         };
         let (there, back) = (bend(0.3, 1.0, 0.0), bend(0.3 * (1.0 + share), 0.0, 1.0));
-        let told = crossings(
+        let found = crossings(
             &there,
             &back,
             true,
@@ -124,7 +124,7 @@ fn strands_that_leave_a_cusp_in_one_direction_are_apart_however_little_their_cur
         );
         // Rounding may have them cross where they part by no more than it.
         let parted = |u: f64| 0.15 * share * (0.5 * (1.0 - u)).powi(2);
-        let crossed = told.expect("told");
+        let crossed = found.expect("determined");
         assert!(
             crossed.iter().all(|&(u, _)| parted(u) < 1e-15),
             "{share}: {crossed:?}"
@@ -133,10 +133,10 @@ fn strands_that_leave_a_cusp_in_one_direction_are_apart_however_little_their_cur
 }
 
 #[test]
-fn curves_that_lie_on_each_other_are_an_error_that_names_a_place() {
+fn curves_that_lie_on_each_other_are_an_error_that_names_a_point() {
     let quarter = polys(|t| Point::new(t.cos(), t.sin()), 0.0, 1.5)[0];
     let found = crossings(&quarter, &quarter.reversed(), false, fine());
-    let Err(Unresolved::Overlap { near }) = found else {
+    let Err(CrossingError::Overlap { near }) = found else {
         panic!("{found:?}")
     };
     assert!((near.coords.norm() - 1.0).abs() < 1e-9, "{near}");
@@ -150,10 +150,13 @@ fn a_curve_that_is_not_a_number_is_an_error_and_ends() {
         Segment::Line(Point::origin(), Point::new(f64::NAN, 1.0)),
     ] {
         let line = Segment::Line(Point::origin(), Point::new(1.0, 1.0));
-        assert_eq!(self_crossings(&nowhere, fine()), Err(Unresolved::NotFinite));
+        assert_eq!(
+            self_crossings(&nowhere, fine()),
+            Err(CrossingError::NotFinite)
+        );
         assert_eq!(
             crossings(&line, &nowhere, true, fine()),
-            Err(Unresolved::NotFinite)
+            Err(CrossingError::NotFinite)
         );
     }
 }

@@ -1,45 +1,42 @@
-//! Crossings of a closed chain of curves with itself, and the edge they leave.
+//! Crossings of a closed chain with itself, and the edge of its largest region.
 
 use std::{cmp::Ordering, collections::BTreeMap};
 
-use super::{Kept, LoopError};
+use super::LoopError;
 use crate::{
     Point, Vector,
-    curve::{Bounds, Segment, Unresolved, crossings, self_crossings, winding},
+    curve::{Bounds, CrossingError, Segment, SegmentRange, crossings, self_crossings, winding},
     numeric::Tolerance,
+    region::Position,
 };
 
-/// Share of a segment's parameter within which crossings are one, and a crossing is at the segment's end.
+/// Difference of the parameter of a segment below which two crossings are the same, or a crossing is at the end. Ten times
+/// smaller, rounding makes two crossings of one; ten times larger joins crossings of very small loops.
 const SAME: f64 = 1e-11;
 
-/// Stretches between crossings, the longest ones, whose winding number is counted as well as summed up.
+/// Number of stretches between crossings, the longest ones, whose winding number is also counted directly. More only cost
+/// time; with too few, a missed crossing may go unnoticed.
 const COUNTED: usize = 16;
 
-/// Size, in tolerances, below which loops are specks: they may stay where crossings in them do not fit.
-const SPECK: f64 = 1e3;
+/// Size of a loop, in tolerances, below which it may remain if its crossings contradict others. Ten times larger leaves
+/// visible loops; ten times smaller refuses contours because of rounding.
+const SMALL_LOOP: f64 = 1e3;
 
-/// Place of a chain: segment, and parameter from -1 to below 1.
-type Place = (usize, f64);
-
-/// The chain passing through one of its crossings, one of two times.
+/// One of the two passages of the chain through a crossing.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Passage {
-    pub(crate) place: Place,
-    /// Number of the crossing.
+    pub(crate) position: Position,
+    /// Index of the crossing.
     crossing: usize,
     /// Change of the winding number on the left of the chain.
     rise: i32,
-}
-
-fn order(a: &Place, b: &Place) -> Ordering {
-    a.0.cmp(&b.0).then(a.1.total_cmp(&b.1))
 }
 
 fn are_same(u: f64, v: f64) -> bool {
     (u - v).abs() <= SAME
 }
 
-/// The other passage of each one's crossing.
+/// For each passage the other passage of its crossing.
 fn partners(passages: &[Passage]) -> Vec<usize> {
     let crossings = passages.iter().map(|p| p.crossing + 1).max();
     let mut of_crossing = vec![usize::MAX; crossings.unwrap_or(0)];
@@ -55,15 +52,16 @@ fn partners(passages: &[Passage]) -> Vec<usize> {
     others
 }
 
-/// The crossings of a chain, as it passes through them.
+/// All passages of a chain through its crossings, in order along it.
 pub(crate) struct Passages {
     pub(crate) all: Vec<Passage>,
-    /// The other passage of each one's crossing.
+    /// For each passage the other passage of its crossing.
     pub(crate) others: Vec<usize>,
-    /// Winding number on the left of the chain after each.
+    /// Winding number on the left of the chain after each passage.
     pub(crate) left: Vec<i32>,
 }
 
+/// A closed chain of segments.
 pub(crate) struct Chain<'a> {
     segments: &'a [Segment],
     boxes: Vec<Bounds>,
@@ -79,7 +77,7 @@ impl<'a> Chain<'a> {
         }
     }
 
-    /// Edge of the largest region, of all stretches that have such a region on their inner side.
+    /// Edge of the largest region that the chain surrounds once.
     pub(crate) fn edge(
         &self,
         Passages {
@@ -88,40 +86,45 @@ impl<'a> Chain<'a> {
             left,
         }: &Passages,
         counter_clockwise: bool,
-    ) -> Vec<Kept> {
-        // The region is on the left, or on the right where the chain is clockwise.
+    ) -> Vec<SegmentRange> {
+        // The region is on the left of a counter-clockwise chain, on the right of a clockwise one.
         let inside = i32::from(counter_clockwise);
         let sense = if counter_clockwise { 1.0 } else { -1.0 };
         let mut seen: Vec<bool> = left.iter().map(|w| *w != inside).collect();
-        let mut best: (f64, Vec<Kept>) = (0.0, Vec::new());
+        let mut best: (f64, Vec<SegmentRange>) = (0.0, Vec::new());
         for first in 0..passages.len() {
-            let (mut kept, mut at) = (Vec::new(), first);
+            let (mut parts, mut at) = (Vec::new(), first);
             while !seen[at] {
                 seen[at] = true;
-                kept.extend(self.between(passages, at));
-                // At a crossing the edge goes over to the other strand.
+                parts.extend(self.between(passages, at));
+                // At a crossing the edge continues on the other strand.
                 at = others[(at + 1) % passages.len()];
             }
-            let area = sense * self.area(&kept);
+            let area = sense * self.area(&parts);
             if area > best.0 {
-                best = (area, kept);
+                best = (area, parts);
             }
         }
-        let mut kept = best.1;
-        let along = |k: &Kept| (k.index, k.from);
-        let first = (0..kept.len()).min_by(|&a, &b| order(&along(&kept[a]), &along(&kept[b])));
-        kept.rotate_left(first.unwrap_or(0));
-        kept
+        let mut parts = best.1;
+        let start = |k: usize| Position {
+            segment: parts[k].index,
+            u: parts[k].from,
+        };
+        let first = (0..parts.len()).min_by(|&a, &b| start(a).order(&start(b)));
+        parts.rotate_left(first.unwrap_or(0));
+        parts
     }
 
-    /// Every passage through a crossing. Where a curve turns back within rounding crossings in a speck may not fit each other:
-    /// then none of these is one.
+    /// All passages through crossings.
+    ///
+    /// If a curve turns back within rounding, crossings in a very small loop may contradict each other. Then they are
+    /// dropped.
     pub(crate) fn passages(&self) -> Result<Passages, LoopError> {
         let mut all = self.found()?;
         let mut others = partners(&all);
         let mut left = self.left(&all, &others);
         if let Err(LoopError::Inconsistent { .. }) = left {
-            all = self.without_specks(&all, &others);
+            all = self.without_small_loops(&all, &others);
             others = partners(&all);
             left = self.left(&all, &others);
         }
@@ -129,16 +132,17 @@ impl<'a> Chain<'a> {
         Ok(Passages { all, others, left })
     }
 
-    /// The passages but those from which the chain comes back to their crossing within a speck.
-    fn without_specks(&self, passages: &[Passage], others: &[usize]) -> Vec<Passage> {
-        let speck = SPECK * self.tolerance.mm();
-        let is_speck = |from: Place, to: Place| {
-            let point = self.segments[from.0].at(from.1).point;
-            self.way(from, to)
-                .all(|part| self.segments[part.index].keeps_near(point, speck, part.from, part.to))
+    /// The passages, except those from which the chain returns to their crossing within a very small loop.
+    fn without_small_loops(&self, passages: &[Passage], others: &[usize]) -> Vec<Passage> {
+        let size = SMALL_LOOP * self.tolerance.mm();
+        let is_small = |from: Position, to: Position| {
+            let point = self.segments[from.segment].at(from.u).point;
+            from.ranges_to(to, self.segments.len())
+                .all(|part| self.segments[part.index].stays_near(point, size, part.from, part.to))
         };
         let is_loop = |passage: &Passage, other: &Passage| {
-            !is_speck(passage.place, other.place) && !is_speck(other.place, passage.place)
+            !is_small(passage.position, other.position)
+                && !is_small(other.position, passage.position)
         };
         let pairs = passages.iter().zip(others);
         pairs
@@ -147,20 +151,20 @@ impl<'a> Chain<'a> {
             .collect()
     }
 
-    /// Every passage through a crossing that is found, in order along the chain.
+    /// All passages through the crossings found, in order along the chain.
     fn found(&self) -> Result<Vec<Passage>, LoopError> {
         let count = self.segments.len();
-        // By their two segments: parameters on these, and the rise where the chain passes first.
+        // Key: the two segments. Value: the parameters on them, and the rise at the first passage.
         let mut found: BTreeMap<[usize; 2], Vec<([f64; 2], i32)>> = BTreeMap::new();
-        let mut add = |i: usize, j: usize, list: Result<Vec<(f64, f64)>, Unresolved>| {
+        let mut add = |i: usize, j: usize, list: Result<Vec<(f64, f64)>, CrossingError>| {
             let segments = [i.min(j), i.max(j)];
             for (u, v) in list.map_err(|cause| LoopError::Unresolved { segments, cause })? {
-                let (p, q) = (self.place(i, u), self.place(j, v));
+                let (p, q) = (self.position(i, u), self.position(j, v));
                 let (one, other) = (self.segments[i].at(u), self.segments[j].at(v));
-                // Ends meet only within rounding after a cut.
+                // After a cut, ends meet only within rounding.
                 let apart = (one.point - self.segments[i].end()).norm();
                 let joined = (i + 1) % count == j && apart <= 0.1 * self.tolerance.mm();
-                if joined || p.0 == q.0 && are_same(p.1, q.1) {
+                if joined || p.segment == q.segment && are_same(p.u, q.u) {
                     continue;
                 }
                 let rise = if one.first.perp(&other.first) < 0.0 {
@@ -168,24 +172,24 @@ impl<'a> Chain<'a> {
                 } else {
                     -1
                 };
-                let (first, second, rise) = if order(&p, &q) == Ordering::Less {
+                let (first, second, rise) = if p.order(&q) == Ordering::Less {
                     (p, q, rise)
                 } else {
                     (q, p, -rise)
                 };
-                let known = found.entry([first.0, second.0]).or_default();
-                // At a joint both segments tell of the crossing, or of a touch from one side.
+                let known = found.entry([first.segment, second.segment]).or_default();
+                // A crossing at a joint is found on both its segments; so is a touch from one side.
                 let same =
-                    |&([a, b], _): &([f64; 2], i32)| are_same(a, first.1) && are_same(b, second.1);
+                    |&([a, b], _): &([f64; 2], i32)| are_same(a, first.u) && are_same(b, second.u);
                 match known.iter().position(same) {
                     Some(k) if known[k].1 == rise => {}
                     Some(k) => drop(known.swap_remove(k)),
-                    None => known.push(([first.1, second.1], rise)),
+                    None => known.push(([first.u, second.u], rise)),
                 }
             }
             Ok(())
         };
-        for (i, j) in self.meeting() {
+        for (i, j) in self.candidates() {
             if i == j {
                 add(i, i, self_crossings(&self.segments[i], self.tolerance))?;
                 continue;
@@ -196,25 +200,27 @@ impl<'a> Chain<'a> {
             add(i, j, list)?;
         }
         let found = found.into_iter().flat_map(|([i, j], known)| {
-            let places = known.into_iter();
-            places.map(move |([u, v], rise)| [((i, u), rise), ((j, v), -rise)])
+            known.into_iter().map(move |([u, v], rise)| {
+                let at = |segment: usize, u: f64| Position { segment, u };
+                [(at(i, u), rise), (at(j, v), -rise)]
+            })
         });
         let mut passages: Vec<Passage> = found
             .enumerate()
             .flat_map(|(crossing, both)| {
-                both.map(|(place, rise)| Passage {
-                    place,
+                both.map(|(position, rise)| Passage {
+                    position,
                     crossing,
                     rise,
                 })
             })
             .collect();
-        passages.sort_by(|a, b| order(&a.place, &b.place));
+        passages.sort_by(|a, b| a.position.order(&b.position));
         Ok(passages)
     }
 
-    /// Pairs of segments that follow each other or whose boxes meet, and each with itself.
-    fn meeting(&self) -> Vec<(usize, usize)> {
+    /// Pairs of segments that may meet: neighbours, those whose boxes meet, and each segment with itself.
+    fn candidates(&self) -> Vec<(usize, usize)> {
         let (boxes, count) = (&self.boxes, self.segments.len());
         let follow = |i: usize, j: usize| (i + 1) % count == j || (j + 1) % count == i;
         let mut pairs: Vec<(usize, usize)> = (0..count)
@@ -237,12 +243,16 @@ impl<'a> Chain<'a> {
         pairs
     }
 
-    /// A place; the end of a segment is the start of the next.
-    fn place(&self, index: usize, u: f64) -> Place {
+    /// A position with a parameter below 1: the end of a segment is the start of the next.
+    fn position(&self, segment: usize, u: f64) -> Position {
         if u >= 1.0 - SAME {
-            ((index + 1) % self.segments.len(), -1.0)
+            Position {
+                segment: (segment + 1) % self.segments.len(),
+                u: -1.0,
+            }
         } else {
-            (index, if u <= -1.0 + SAME { -1.0 } else { u })
+            let u = if u <= -1.0 + SAME { -1.0 } else { u };
+            Position { segment, u }
         }
     }
 
@@ -256,109 +266,103 @@ impl<'a> Chain<'a> {
                 Some(*w)
             })
             .collect();
-        let doubt = |k: usize| LoopError::Inconsistent {
-            segments: [passages[k].place.0, passages[others[k]].place.0],
+        let inconsistent = |k: usize| LoopError::Inconsistent {
+            segments: [
+                passages[k].position.segment,
+                passages[others[k]].position.segment,
+            ],
         };
-        // Round a crossing the four stretches share four winding numbers.
+        // The four stretches at a crossing must agree on the winding numbers between them.
         for k in 0..count {
             if left[(k + count - 1) % count] != left[others[k]] {
-                return Err(doubt(k));
+                return Err(inconsistent(k));
             }
         }
         let mut longest: Vec<(f64, usize)> = (0..count)
-            .map(|k| (self.between(passages, k).map(|k| self.length(&k)).sum(), k))
+            .map(|k| (self.between(passages, k).map(|k| self.chord(&k)).sum(), k))
             .collect();
         longest.sort_by(|a, b| b.0.total_cmp(&a.0));
         longest.truncate(COUNTED);
-        let least = longest.first().map_or(0.0, |l| l.0.min(1e4 * self.aside()));
+        let min_length = longest
+            .first()
+            .map_or(0.0, |l| l.0.min(1e4 * self.side_step()));
         let mut base = None;
-        for &(_, k) in longest.iter().filter(|l| l.0 >= least) {
-            let longer = |a: &Kept, b: &Kept| self.length(a).total_cmp(&self.length(b));
+        for &(_, k) in longest.iter().filter(|l| l.0 >= min_length) {
+            let longer =
+                |a: &SegmentRange, b: &SegmentRange| self.chord(a).total_cmp(&self.chord(b));
             let Some(part) = self.between(passages, k).max_by(longer) else {
                 continue;
             };
             let at = 0.5 * (part.from + part.to);
-            let own = self.winding_beside(part.index, at, 1.0) - left[k];
+            let own = self.winding_next_to(part.index, at, 1.0) - left[k];
             if base == Some(own) {
                 continue;
             }
-            // Beside strands that lie on each other, as at the tip of a pointed tooth, the place tells nothing.
-            if self.winding_beside(part.index, at, -1.0) != own + left[k] - 1 {
+            // Next to strands that lie on each other, as at a pointed tip, the count is meaningless.
+            if self.winding_next_to(part.index, at, -1.0) != own + left[k] - 1 {
                 continue;
             }
             if base.is_some() {
-                return Err(doubt(k));
+                return Err(inconsistent(k));
             }
             base = Some(own);
         }
         let base = match (base, longest.first()) {
-            (None, Some(&(_, k))) => return Err(doubt(k)),
+            (None, Some(&(_, k))) => return Err(inconsistent(k)),
             (base, _) => base.unwrap_or(0),
         };
         left.iter_mut().for_each(|w| *w += base);
         Ok(left)
     }
 
-    /// Winding number of the chain about a point a little to the left of one of its own, or to the right (side -1).
-    fn winding_beside(&self, index: usize, u: f64, side: f64) -> i32 {
+    /// Winding number of the chain about a point a little to the left (`side` = 1) or right (-1) of one of its points.
+    fn winding_next_to(&self, index: usize, u: f64, side: f64) -> i32 {
         let segment = &self.segments[index];
         let tangent = segment.tangent(u);
-        let aside = Vector::new(-tangent.y, tangent.x) * (side * self.aside());
-        let point = segment.at(u).point + aside;
+        let step = Vector::new(-tangent.y, tangent.x) * (side * self.side_step());
+        let point = segment.at(u).point + step;
         let level = |b: &Bounds| b.min.y <= point.y && b.max.y >= point.y && b.max.x >= point.x;
-        let places = self.segments.iter().zip(&self.boxes);
-        places
+        let boxed = self.segments.iter().zip(&self.boxes);
+        boxed
             .filter(|(_, b)| level(b))
             .map(|(s, _)| winding(s, point))
             .sum()
     }
 
-    /// Parts of segments from a passage to the next.
-    fn between(&self, passages: &[Passage], k: usize) -> impl Iterator<Item = Kept> + use<> {
+    /// Parts of segments from passage `k` to the next.
+    fn between(
+        &self,
+        passages: &[Passage],
+        k: usize,
+    ) -> impl Iterator<Item = SegmentRange> + use<> {
         let next = &passages[(k + 1) % passages.len()];
-        self.way(passages[k].place, next.place)
+        passages[k]
+            .position
+            .ranges_to(next.position, self.segments.len())
     }
 
-    /// Parts of segments from a place on to another.
-    fn way(&self, (first, start): Place, (last, end): Place) -> impl Iterator<Item = Kept> + use<> {
-        let count = self.segments.len();
-        let ahead = (last + count - first) % count;
-        let steps = if ahead == 0 && end <= start {
-            count
-        } else {
-            ahead
-        };
-        (0..=steps)
-            .map(move |step| Kept {
-                index: (first + step) % count,
-                from: if step == 0 { start } else { -1.0 },
-                to: if step == steps { end } else { 1.0 },
-            })
-            .filter(|part| part.to > part.from)
+    /// Length of the chord of a part, mm.
+    fn chord(&self, parts: &SegmentRange) -> f64 {
+        let segment = &self.segments[parts.index];
+        (segment.at(parts.to).point - segment.at(parts.from).point).norm()
     }
 
-    /// Length of a part's chord.
-    fn length(&self, kept: &Kept) -> f64 {
-        let segment = &self.segments[kept.index];
-        (segment.at(kept.to).point - segment.at(kept.from).point).norm()
-    }
-
-    /// Distance from the chain at which its winding number is counted, far beyond rounding and the tolerance.
-    fn aside(&self) -> f64 {
+    /// Distance from the chain, mm, at which its winding number is counted: far above rounding and the tolerance.
+    fn side_step(&self) -> f64 {
         let whole = self.boxes.iter().fold(Bounds::EMPTY, |b, o| b.union(*o));
         (10.0 * self.tolerance.mm()).max(1e-9 * whole.diagonal())
     }
 
-    /// Area, about, within parts that follow one another.
-    fn area(&self, kept: &[Kept]) -> f64 {
+    /// Approximate area, mm², inside parts that form a closed chain.
+    fn area(&self, parts: &[SegmentRange]) -> f64 {
         const CHORDS: u32 = 4;
-        let places = kept.iter().flat_map(|k| {
+        let samples = parts.iter().flat_map(|k| {
             (0..CHORDS).map(|i| {
                 let u = k.from + (k.to - k.from) * f64::from(i) / f64::from(CHORDS);
                 self.segments[k.index].at(u).point
             })
         });
-        let points: Vec<Point> = places.collect();
+        let points: Vec<Point> = samples.collect();
         let next = points.iter().cycle().skip(1);
         0.5 * points
             .iter()

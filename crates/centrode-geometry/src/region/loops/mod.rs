@@ -1,37 +1,38 @@
-//! Removal of loops from closed chains of curves.
+//! Removal of loops from closed chains of segments, by winding numbers.
 
 mod chain;
 
 use crate::{
-    curve::{Segment, Unresolved},
+    curve::{CrossingError, Segment, SegmentRange},
     numeric::Tolerance,
 };
 use chain::Chain;
 
-/// Greatest number of passes; each may find loops which the one before laid bare.
-const MOST_PASSES: u32 = 16;
+/// Maximum number of passes. Each may find loops that the previous pass uncovered: with fewer, contours with nested loops are
+/// refused; more only delay the error.
+const MAX_PASSES: u32 = 16;
 
 /// Error of a closed chain that has no contour.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum LoopError {
-    /// Every place of the chain lies in a loop.
+    /// Every point of the chain lies in a loop.
     #[error("every part of its contour lies in a loop")]
     Everywhere,
-    /// Two segments, or one and itself, whose crossings cannot be determined.
+    /// The crossings of two segments, or of one with itself, cannot be determined.
     #[error("where segments {} and {} of its contour cross cannot be told: {cause}", .segments[0], .segments[1])]
     Unresolved {
         /// The segments, counted from 0.
         segments: [usize; 2],
-        /// Cause.
-        cause: Unresolved,
+        /// The cause.
+        cause: CrossingError,
     },
-    /// Loops that remain after the greatest number of passes.
-    #[error("its contour still crosses itself at segments {} and {} after its loops were cut off {MOST_PASSES} times", .segments[0], .segments[1])]
+    /// Loops remain after the maximum number of passes.
+    #[error("its contour still crosses itself at segments {} and {} after its loops were cut off {MAX_PASSES} times", .segments[0], .segments[1])]
     Endless {
         /// Two segments that cross, counted from 0.
         segments: [usize; 2],
     },
-    /// Crossings of which one was overlooked: the contour would have to be on both sides of itself.
+    /// The crossings contradict each other: one of them was not found.
     #[error("its contour crosses itself at segments {} and {} in a way that does not fit the other crossings", .segments[0], .segments[1])]
     Inconsistent {
         /// Two segments that cross, counted from 0.
@@ -39,18 +40,7 @@ pub enum LoopError {
     },
 }
 
-/// A part of a segment that is left after the loops of its chain are cut off.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Kept {
-    /// Index of the segment.
-    pub index: usize,
-    /// Parameter of its new start.
-    pub from: f64,
-    /// Parameter of its new end.
-    pub to: f64,
-}
-
-impl Kept {
+impl SegmentRange {
     fn whole(index: usize) -> Self {
         Self {
             index,
@@ -59,43 +49,43 @@ impl Kept {
         }
     }
 
-    /// The part of `self` that a second cut keeps.
-    fn cut(&self, again: &Self) -> Self {
+    /// The part of `self` that remains after a second cut, in parameters of the segment.
+    fn cut(&self, second: &Self) -> Self {
         let at = |u: f64| self.from + 0.5 * (1.0 + u) * (self.to - self.from);
         Self {
             index: self.index,
-            from: if again.from == -1.0 {
+            from: if second.from == -1.0 {
                 self.from
             } else {
-                at(again.from)
+                at(second.from)
             },
-            to: if again.to == 1.0 {
+            to: if second.to == 1.0 {
                 self.to
             } else {
-                at(again.to)
+                at(second.to)
             },
         }
     }
 }
 
-/// Contour of a closed chain of segments that crosses itself: the outer edge of the largest region round which the chain
-/// winds in its own sense, counter-clockwise or not, at least once.
+/// Contour of a closed chain of segments that crosses itself.
 ///
-/// Loops of undercut, of pointed tips, and of offsets beyond the radius of curvature wind the other way, or twice, and are
-/// dropped; so are whole pieces that are cut off. The winding number on the left changes by one at each crossing; so the
-/// crossings alone tell which stretches are the edge.
+/// It is the outer edge of the largest region that the chain surrounds once in the given sense. Loops at undercuts and
+/// cusps, and of offsets larger than the radius of curvature, run in the opposite sense or twice; they are cut off, and so
+/// are separate pieces. The winding number on the left changes by one at each crossing, so the crossings alone determine the
+/// edge.
 ///
 /// # Errors
-/// [`LoopError`] where there is no such region, or where the chain's crossings with itself cannot be determined.
+/// [`LoopError`] if there is no such region, or if the crossings of the chain cannot be determined.
 pub fn without_loops(
     segments: &[Segment],
     counter_clockwise: bool,
     tolerance: Tolerance,
-) -> Result<Vec<Kept>, LoopError> {
-    let mut left: Vec<Kept> = (0..segments.len()).map(Kept::whole).collect();
+) -> Result<Vec<SegmentRange>, LoopError> {
+    let mut left: Vec<SegmentRange> = (0..segments.len()).map(SegmentRange::whole).collect();
     let mut last = [0, 0];
-    // A crossing may be found only after the loop it lies in is gone.
-    for _ in 0..MOST_PASSES {
+    // Some crossings are found only after the loop around them is cut off.
+    for _ in 0..MAX_PASSES {
         let parts: Vec<Segment> = left
             .iter()
             .map(|k| segments[k.index].part(k.from, k.to))
@@ -106,18 +96,18 @@ pub fn without_loops(
         if passages.all.is_empty() {
             return Ok(left);
         }
-        last = [0, passages.others[0]].map(|k| left[passages.all[k].place.0].index);
-        let kept = chain.edge(&passages, counter_clockwise);
-        if kept.is_empty() {
+        last = [0, passages.others[0]].map(|k| left[passages.all[k].position.segment].index);
+        let remaining = chain.edge(&passages, counter_clockwise);
+        if remaining.is_empty() {
             return Err(LoopError::Everywhere);
         }
-        left = kept.iter().map(|k| left[k.index].cut(k)).collect();
+        left = remaining.iter().map(|k| left[k.index].cut(k)).collect();
     }
     Err(LoopError::Endless { segments: last })
 }
 
-/// An error of a chain of parts, with the segments they are parts of.
-fn named(error: LoopError, parts: &[Kept]) -> LoopError {
+/// An error of a chain of parts, with the indices of the whole segments.
+fn named(error: LoopError, parts: &[SegmentRange]) -> LoopError {
     let own = |segments: [usize; 2]| segments.map(|i| parts[i].index);
     match error {
         LoopError::Unresolved { segments, cause } => LoopError::Unresolved {
@@ -141,14 +131,14 @@ mod tests {
     }
 
     #[test]
-    fn a_chain_without_crossings_is_kept_whole() {
+    fn a_chain_without_crossings_stays_whole() {
         let square =
             [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(x, y)| Point::new(x, y));
         let chain: Vec<Segment> = (0..4)
             .map(|i| Segment::Line(square[i], square[(i + 1) % 4]))
             .collect();
-        let kept = without_loops(&chain, true, fine()).expect("sound");
-        assert_eq!(kept.len(), 4);
+        let remaining = without_loops(&chain, true, fine()).expect("sound");
+        assert_eq!(remaining.len(), 4);
     }
 
     #[test]
@@ -166,18 +156,18 @@ mod tests {
         let chain: Vec<Segment> = (0..7)
             .map(|i| Segment::Line(points[i], points[(i + 1) % 7]))
             .collect();
-        let kept = without_loops(&chain, true, fine()).expect("sound");
-        let at = |k: &Kept| {
+        let remaining = without_loops(&chain, true, fine()).expect("sound");
+        let at = |k: &SegmentRange| {
             (
                 chain[k.index].at(k.from).point,
                 chain[k.index].at(k.to).point,
             )
         };
-        assert_eq!(kept.len(), 6);
-        for pair in kept.windows(2) {
+        assert_eq!(remaining.len(), 6);
+        for pair in remaining.windows(2) {
             assert!((at(&pair[0]).1 - at(&pair[1]).0).norm() < 1e-12);
         }
-        assert!((at(&kept[0]).1 - Point::new(3.0, 0.0)).norm() < 1e-12);
+        assert!((at(&remaining[0]).1 - Point::new(3.0, 0.0)).norm() < 1e-12);
     }
 
     #[test]
@@ -190,7 +180,7 @@ mod tests {
         let refused = without_loops(&chain, true, fine());
         let named = LoopError::Unresolved {
             segments: [0, 1],
-            cause: Unresolved::NotFinite,
+            cause: CrossingError::NotFinite,
         };
         assert_eq!(refused, Err(named));
     }
@@ -215,7 +205,7 @@ mod tests {
                 refused,
                 Err(LoopError::Unresolved {
                     segments: [0, 4],
-                    cause: Unresolved::Overlap { .. }
+                    cause: CrossingError::Overlap { .. }
                 })
             ),
             "{refused:?}"
@@ -230,27 +220,27 @@ mod tests {
     }
 
     fn indices(chain: &[Segment], counter_clockwise: bool) -> Result<Vec<usize>, LoopError> {
-        let kept = without_loops(chain, counter_clockwise, fine())?;
-        Ok(kept.iter().map(|k| k.index).collect())
+        let remaining = without_loops(chain, counter_clockwise, fine())?;
+        Ok(remaining.iter().map(|k| k.index).collect())
     }
 
     #[test]
-    fn of_an_eight_the_lobe_of_the_sense_asked_for_is_left() {
+    fn an_eight_is_cut_to_the_lobe_of_the_given_sense() {
         let eight = polygon(&[(0.0, 0.0), (4.0, 4.0), (4.0, 0.0), (0.0, 4.0)]);
         assert_eq!(indices(&eight, true), Ok(vec![0, 2, 3]));
         assert_eq!(indices(&eight, false), Ok(vec![0, 1, 2]));
     }
 
     #[test]
-    fn a_star_is_left_with_its_outer_edge_or_is_an_error_where_it_turns_the_other_way() {
+    fn a_star_is_cut_to_its_outer_edge_or_is_an_error_if_it_turns_clockwise() {
         let corner = |k: u32| {
             let angle = std::f64::consts::TAU * 2.0 * f64::from(k) / 5.0;
             (angle.cos(), angle.sin())
         };
         let star = polygon(&[0, 1, 2, 3, 4].map(corner));
-        let kept = without_loops(&star, true, fine()).expect("an edge");
-        assert_eq!(kept.len(), 10);
-        let short = (kept[0].to - kept[0].from) / 2.0;
+        let remaining = without_loops(&star, true, fine()).expect("an edge");
+        assert_eq!(remaining.len(), 10);
+        let short = (remaining[0].to - remaining[0].from) / 2.0;
         assert!((short - 0.5 * (3.0 - 5_f64.sqrt())).abs() < 1e-12);
         assert_eq!(indices(&star, false), Err(LoopError::Everywhere));
     }
@@ -265,10 +255,10 @@ mod tests {
             (8.0, 5.0 - 3e-9),
             (0.0, 5.0 + 3e-9),
         ]);
-        let kept = without_loops(&folded, true, fine()).expect("sound");
-        let indices: Vec<usize> = kept.iter().map(|k| k.index).collect();
+        let remaining = without_loops(&folded, true, fine()).expect("sound");
+        let indices: Vec<usize> = remaining.iter().map(|k| k.index).collect();
         assert_eq!(indices, [0, 1, 2, 4, 5]);
-        let x = folded[2].at(kept[2].to).point.x;
+        let x = folded[2].at(remaining[2].to).point.x;
         assert!((x - 4.0).abs() < 1e-5, "{x}");
     }
 

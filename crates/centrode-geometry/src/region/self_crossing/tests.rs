@@ -49,7 +49,7 @@ fn a_limacon_crosses_at_its_node_only_with_an_inner_loop() {
 
 #[test]
 fn a_gap_a_billionth_wide_is_no_crossing_and_an_overlap_is() {
-    // A slot whose bulging sides nearly meet in the middle.
+    // A slot whose curved sides nearly meet in the middle.
     let slot = |gap: f64| {
         let p = Point::new;
         let line = Segment::Line;
@@ -72,7 +72,7 @@ fn a_gap_a_billionth_wide_is_no_crossing_and_an_overlap_is() {
         ])
         .expect("closed")
     };
-    // The sides bulge towards one another by exactly the sagitta.
+    // Each side has a sagitta of exactly its depth.
     assert_eq!(slot(4.0).crossing(), None);
     let closing = |gap: f64| {
         let outline = slot(gap);
@@ -130,18 +130,18 @@ fn curves_that_part_from_a_cusp_do_not_touch_however_flat_and_those_that_swap_si
         found.segments == [0, 3] && found.point.x < 0.11,
         "{found:?}"
     );
-    assert!(swapped.crossing_beyond(0.05, 0.0).is_some());
-    // What is within the speck is let pass, and nothing but it.
-    assert_eq!(swapped.crossing_beyond(0.12, 0.0), None);
-    // They lie over each other by up to 4e-3/27.
-    assert!(swapped.crossing_beyond(0.0, 1.4e-4).is_some());
-    assert_eq!(swapped.crossing_beyond(0.0, 1.5e-4), None);
+    assert!(swapped.crossing_ignoring(0.05, 0.0).is_some());
+    // A loop below the size is ignored, a larger one is not.
+    assert_eq!(swapped.crossing_ignoring(0.12, 0.0), None);
+    // They overlap by up to 4e-3/27.
+    assert!(swapped.crossing_ignoring(0.0, 1.4e-4).is_some());
+    assert_eq!(swapped.crossing_ignoring(0.0, 1.5e-4), None);
     let coincident = cusp(|t| t * t, |t| t * t);
     assert!(coincident.crossing().is_some());
 }
 
 #[test]
-fn a_loop_in_a_segment_smaller_than_the_speck_is_let_pass() {
+fn a_loop_in_a_segment_below_the_size_is_ignored() {
     // x = t^2, y = t (t^2 - e) has a loop e long.
     let looped = |e: f64| {
         let polys = PolySegment::fit(
@@ -160,14 +160,14 @@ fn a_loop_in_a_segment_smaller_than_the_speck_is_let_pass() {
         let outline = looped(e);
         let found = outline.crossing().expect("crosses");
         assert_eq!(found.segments, [0, 0]);
-        assert!(outline.crossing_beyond(0.5 * e, 0.0).is_some());
-        assert_eq!(outline.crossing_beyond(1.5 * e, 0.0), None);
+        assert!(outline.crossing_ignoring(0.5 * e, 0.0).is_some());
+        assert_eq!(outline.crossing_ignoring(1.5 * e, 0.0), None);
     }
 }
 
 #[test]
-fn a_loop_over_segments_of_no_length_to_speak_of_is_let_pass() {
-    // The way up and the way down cross below the short segments that join them.
+fn a_small_loop_over_very_short_segments_is_ignored() {
+    // The two long sides cross below the short segments that join them.
     let tip = |e: f64, count: usize| {
         let mut corners = vec![Point::new(0.0, 0.0), Point::new(1.0 + e, 1.0)];
         corners.extend((1..count).map(|i| {
@@ -185,10 +185,10 @@ fn a_loop_over_segments_of_no_length_to_speak_of_is_let_pass() {
                 [0, count + 1]
             );
             assert!(
-                outline.crossing_beyond(0.9 * e, 0.0).is_some(),
+                outline.crossing_ignoring(0.9 * e, 0.0).is_some(),
                 "{count} {e}"
             );
-            assert_eq!(outline.crossing_beyond(3.0 * e, 0.0), None, "{count} {e}");
+            assert_eq!(outline.crossing_ignoring(3.0 * e, 0.0), None, "{count} {e}");
         }
     }
 }

@@ -6,30 +6,36 @@ use crate::solid::triangulation::triangulate;
 use crate::{
     Point,
     numeric::Tolerance,
-    solid::{Mesh, ShellCurve, ShellFace, ShellSurface, SolidError},
+    solid::{Mesh, ShellCurve, ShellFace, ShellSide, ShellSurface, SolidError},
 };
 
-/// Fewest and most chords of a quarter of a turn.
-const CHORDS: [f64; 2] = [3.0, 2048.0];
-/// Share of the greatest radius by which the ends of an edge beside the axis may be off a plane: rounding.
-const ASIDE: f64 = 1e-9;
-/// Most parts of a slotted cone, whose slot's edges are straight in each.
-const PARTS: f64 = 256.0;
+/// Minimum number of chords per quarter turn, so that a coarse circle is still a circle.
+const MIN_CHORDS: f64 = 3.0;
+/// Maximum number of chords per quarter turn: limits the size of a mesh at a very small tolerance.
+const MAX_CHORDS: f64 = 2048.0;
+/// Fraction of the maximum radius by which the ends of a plane edge may differ in y: rounding. Much larger, short round edges
+/// become straight.
+const PLANE_ERROR: f64 = 1e-9;
+/// Maximum number of parts of a slotted cone; in each the edges of the slot are straight. It limits the size of a mesh at a very
+/// small tolerance.
+const MAX_PARTS: f64 = 256.0;
 
-/// Mesh of a body, by the edges and faces of its shell: arcs in chords, all of one number.
+/// Mesh of a body from the edges and faces of its shell; every arc has the same number of chords.
 pub(super) fn mesh(body: &Turned, tolerance: Tolerance) -> Result<Mesh, SolidError> {
     let body = body.with_straight_edges(tolerance);
     let widest = body.sections.iter().flat_map(|section| section.radii);
     let widest = widest.fold(0.0, f64::max);
-    // A chord's rise is the radius less its distance from the axis.
+    // The sagitta of a chord is the radius minus its distance from the axis.
     let half = (1.0 - (tolerance.mm() / widest).min(1.0)).acos();
-    let chords = (0.5 * FRAC_PI_2 / half).ceil().clamp(CHORDS[0], CHORDS[1]) as u32;
+    let chords = (0.5 * FRAC_PI_2 / half)
+        .ceil()
+        .clamp(MIN_CHORDS, MAX_CHORDS) as u32;
     let shell = body.shell();
     let mut mesh = Mesh {
         vertices: shell.vertices.clone(),
         faces: Vec::new(),
     };
-    // Vertices along every edge, from its first end to its second.
+    // Vertices along every edge, from its start to its end.
     let edges: Vec<Vec<u32>> = shell
         .edges
         .iter()
@@ -38,8 +44,8 @@ pub(super) fn mesh(body: &Turned, tolerance: Tolerance) -> Result<Mesh, SolidErr
             let [from, to] = edge.ends.map(|end| shell.vertices[end]);
             let radius = match &edge.curve {
                 ShellCurve::Circle { radius } => *radius,
-                // A quarter of a half round end: edges of walls beside the axis are straight.
-                ShellCurve::Bezier(points) if (from[1] - to[1]).abs() > ASIDE * widest => {
+                // A quarter of a half round end. Other polynomial edges are straight here.
+                ShellCurve::Bezier(points) if (from[1] - to[1]).abs() > PLANE_ERROR * widest => {
                     let between = (1..chords).map(|i| {
                         let x = f64::from(i) / f64::from(chords);
                         mesh.vertices.push(BezierFit::at(points, x));
@@ -66,7 +72,7 @@ pub(super) fn mesh(body: &Turned, tolerance: Tolerance) -> Result<Mesh, SolidErr
             along
         })
         .collect();
-    let walked = |&(edge, forward): &(usize, bool)| -> Vec<u32> {
+    let vertices_along = |&ShellSide { edge, forward }: &ShellSide| -> Vec<u32> {
         let along = &edges[edge];
         match forward {
             true => along.clone(),
@@ -74,7 +80,7 @@ pub(super) fn mesh(body: &Turned, tolerance: Tolerance) -> Result<Mesh, SolidErr
         }
     };
     for ShellFace { surface, bounds } in &shell.faces {
-        let sides = || -> Vec<Vec<u32>> { bounds[0].iter().map(walked).collect() };
+        let sides = || -> Vec<Vec<u32>> { bounds[0].iter().map(vertices_along).collect() };
         match surface {
             ShellSurface::Ruled { .. } => {
                 mesh.faces.extend(wall(&sides()));
@@ -90,7 +96,7 @@ pub(super) fn mesh(body: &Turned, tolerance: Tolerance) -> Result<Mesh, SolidErr
         }
         let ShellSurface::Plane { normal, .. } = surface else {
             // Bottom, right, top and left of a round face.
-            let (bottom, mut top) = (walked(&bounds[0][0]), walked(&bounds[0][2]));
+            let (bottom, mut top) = (vertices_along(&bounds[0][0]), vertices_along(&bounds[0][2]));
             top.reverse();
             for (low, high) in bottom.windows(2).zip(top.windows(2)) {
                 mesh.faces.push([low[0], low[1], high[1]]);
@@ -101,7 +107,7 @@ pub(super) fn mesh(body: &Turned, tolerance: Tolerance) -> Result<Mesh, SolidErr
         let rings: Vec<Vec<u32>> = bounds
             .iter()
             .map(|bound| {
-                let sides = bound.iter().map(walked);
+                let sides = bound.iter().map(vertices_along);
                 sides
                     .flat_map(|mut side| {
                         side.pop();
@@ -123,11 +129,11 @@ pub(super) fn mesh(body: &Turned, tolerance: Tolerance) -> Result<Mesh, SolidErr
     Ok(mesh)
 }
 
-/// Triangles of a cylinder over the end of the slot: between an arc and the two quarters of the end, vertex by vertex in the order of
-/// their angles.
+/// Triangles of a cylinder over the end of the slot, between an arc and the two quarters of the end, in the order of the angles
+/// of their vertices.
 fn over_end(vertices: &[[f64; 3]], sides: &[Vec<u32>]) -> Vec<[u32; 3]> {
     let joined = |one: &[u32], other: &[u32]| [one, &other[1..]].concat();
-    // Both counter-clockwise about the axis, the quarters below the arc or above it.
+    // Both run counter-clockwise about the axis; the quarters are below the arc or above it.
     let (low, mut high) = match sides[1].len() > 2 {
         true => (joined(&sides[0], &sides[1]), sides[3].clone()),
         false => (sides[0].clone(), joined(&sides[2], &sides[3])),
@@ -155,12 +161,12 @@ fn over_end(vertices: &[[f64; 3]], sides: &[Vec<u32>]) -> Vec<[u32; 3]> {
     faces
 }
 
-/// Triangles of a quarter of the wall of a half round end: between its long sides, of as many chords each, and through corners of
-/// neighbours on the straight ones.
+/// Triangles of a quarter of the wall of a half round end: between its two long sides, which have equal numbers of chords, and
+/// through corners of neighbours on the straight sides.
 fn wall(sides: &[Vec<u32>]) -> Vec<[u32; 3]> {
     let first = sides.iter().position(|side| side.len() > 2).unwrap_or(0);
     let mut around = sides.iter().cycle().skip(first).take(sides.len());
-    // Along one long side, and back along the other.
+    // One long side, and the other in the opposite direction.
     let one = around.next().cloned().unwrap_or_default();
     let mut other = Vec::new();
     let mut corners = [Vec::new(), Vec::new()];
@@ -174,23 +180,23 @@ fn wall(sides: &[Vec<u32>]) -> Vec<[u32; 3]> {
     }
     // The first vertex of the straight sides is an end of a long one.
     let between = |end: usize| corners[end].iter().skip(1).copied();
-    let [before, beyond] = [0, 1].map(|end| between(end).collect::<Vec<u32>>());
+    let [first_corners, last_corners] = [0, 1].map(|end| between(end).collect::<Vec<u32>>());
     other.reverse();
     let last = one.len() - 2;
     let mut faces = Vec::new();
     for (i, (low, high)) in one.windows(2).zip(other.windows(2)).enumerate() {
         let mut contour = vec![low[0], low[1]];
         if i == last {
-            contour.extend(&beyond);
+            contour.extend(&last_corners);
         }
         contour.extend([high[1], high[0]]);
         if i == 0 {
-            contour.extend(&before);
+            contour.extend(&first_corners);
         }
-        // From a corner on a straight side all others are seen.
+        // Fan of triangles from a corner on a straight side, which sees all other vertices.
         let from = match (
-            i == 0 && !before.is_empty(),
-            i == last && !beyond.is_empty(),
+            i == 0 && !first_corners.is_empty(),
+            i == last && !last_corners.is_empty(),
         ) {
             (true, _) => contour.len() - 1,
             (_, true) => 2,
@@ -206,7 +212,7 @@ fn wall(sides: &[Vec<u32>]) -> Vec<[u32; 3]> {
     faces
 }
 
-/// A point of a plane along an axis, as seen against its normal.
+/// Coordinates of a point in a plane with such a normal, seen against the normal.
 fn projected([x, y, z]: [f64; 3], normal: [f64; 3]) -> Point {
     match normal {
         [a, _, _] if a != 0.0 => Point::new(a * y, z),
@@ -216,18 +222,20 @@ fn projected([x, y, z]: [f64; 3], normal: [f64; 3]) -> Point {
 }
 
 impl Turned {
-    /// The body with its slotted cones in parts, in which the slot's edges are straight within a tolerance.
+    /// The body with its slotted cones divided so that the edges of the slot are straight within a tolerance.
     fn with_straight_edges(&self, tolerance: Tolerance) -> Self {
         let parts = |section: &TurnedSection| -> Vec<TurnedSection> {
             let [low, high] = section.radii;
             let Some(slot) = self.slot.filter(|_| section.slotted && low != high) else {
                 return vec![*section];
             };
-            // Greatest second derivative of the edge's distance along x by the radius.
-            let edge = self.edge(section.least()).unwrap_or(slot.foot);
+            // Maximum second derivative of the edge's x with respect to the radius.
+            let edge = self
+                .edge_distance(section.minimum_radius())
+                .unwrap_or(slot.floor);
             let bend = 0.25 * slot.width * slot.width / edge.powi(3);
             let chord = (bend * section.length.powi(2) / (8.0 * tolerance.mm())).sqrt();
-            let count = chord.ceil().clamp(1.0, PARTS);
+            let count = chord.ceil().clamp(1.0, MAX_PARTS);
             let at = |i: f64| low + (high - low) * i / count;
             (0..count as u32)
                 .map(|i| TurnedSection {

@@ -3,7 +3,7 @@ use std::f64::consts::{PI, TAU};
 use super::{Turned, TurnedSection};
 use crate::solid::{ShellBuilder, ShellSide, ShellSurface};
 
-/// Circle about the axis with the vertices on it.
+/// Circle about the axis with its vertices.
 pub(super) struct Ring {
     pub(super) radius: f64,
     pub(super) height: f64,
@@ -32,11 +32,12 @@ impl Ring {
         self.vertices.len()
     }
 
+    /// Vertex `i`, counted on around the circle.
     pub(super) fn at(&self, i: usize) -> usize {
         self.vertices[i % self.len()]
     }
 
-    /// Number of its last vertex.
+    /// Index of its last vertex.
     pub(super) fn last(&self) -> usize {
         self.len() - 1
     }
@@ -46,22 +47,22 @@ impl Ring {
         builder.arc(self.at(i), self.at(i + 1), self.radius)
     }
 
-    /// Arcs but the last, which a slot has its place under, counter-clockwise seen from above.
-    pub(super) fn beside_slot(&self, builder: &mut ShellBuilder) -> Vec<ShellSide> {
+    /// All arcs except the last, which lies over a slot; counter-clockwise seen from above.
+    pub(super) fn arcs_outside_slot(&self, builder: &mut ShellBuilder) -> Vec<ShellSide> {
         (0..self.last()).map(|i| self.arc(builder, i)).collect()
     }
 
     /// All arcs, counter-clockwise seen from above.
-    pub(super) fn round(&self, builder: &mut ShellBuilder) -> Vec<ShellSide> {
+    pub(super) fn all_arcs(&self, builder: &mut ShellBuilder) -> Vec<ShellSide> {
         (0..self.len()).map(|i| self.arc(builder, i)).collect()
     }
 }
 
 impl Turned {
-    /// Angles of the vertices of a circle: quarters, or, where it holds the slot, from its upper edge round to its lower one,
-    /// the last arc the one over the slot.
+    /// Angles of the vertices of a circle, rad: quarters of a turn, or, if it contains the slot, from one edge of the slot around
+    /// to the other. The last arc is then the one over the slot.
     pub(super) fn angles(&self, radius: f64) -> Vec<f64> {
-        let slot = self.slot.filter(|_| self.edge(radius).is_some());
+        let slot = self.slot.filter(|_| self.edge_distance(radius).is_some());
         match slot {
             None => (0..4).map(|i| 0.5 * PI * f64::from(i)).collect(),
             Some(slot) => {
@@ -73,7 +74,7 @@ impl Turned {
     }
 }
 
-/// Cylinder or cone of a section from a height on.
+/// Cylinder or cone of a section that begins at the height `bottom`, mm.
 pub(super) fn surface(section: &TurnedSection, bottom: f64) -> ShellSurface {
     let [low, high] = section.radii;
     if low == high {
@@ -86,23 +87,23 @@ pub(super) fn surface(section: &TurnedSection, bottom: f64) -> ShellSurface {
         } else {
             bottom + section.length
         },
-        radius: section.least(),
+        radius: section.minimum_radius(),
         widens,
     }
 }
 
-/// A bound seen from the side `way` points to.
-pub(super) fn seen(mut bound: Vec<ShellSide>, way: f64) -> Vec<ShellSide> {
-    if way < 0.0 {
-        bound = bound.into_iter().rev().map(ShellBuilder::back).collect();
+/// A bound, reversed if `sign` is negative: counter-clockwise seen against a normal of that sign.
+pub(super) fn oriented(mut bound: Vec<ShellSide>, sign: f64) -> Vec<ShellSide> {
+    if sign < 0.0 {
+        bound = bound.into_iter().rev().map(ShellSide::reversed).collect();
     }
     bound
 }
 
-/// Plane across the axis.
-pub(super) fn flat(height: f64, way: f64) -> ShellSurface {
+/// Plane across the axis; its normal points up for `sign` = 1 and down for -1.
+pub(super) fn plane_across(height: f64, sign: f64) -> ShellSurface {
     ShellSurface::Plane {
         point: [0.0, 0.0, height],
-        normal: [0.0, 0.0, way],
+        normal: [0.0, 0.0, sign],
     }
 }

@@ -4,7 +4,7 @@ use super::*;
 
 const SLOT: TurnedSlot = TurnedSlot {
     width: 5.0,
-    foot: 5.0,
+    floor: 5.0,
     rounded: false,
 };
 
@@ -88,8 +88,8 @@ fn a_half_round_end_takes_less_than_a_plane_one_by_the_corners() {
     let corners: f64 = (0..count)
         .map(|i| {
             let y: f64 = 2.5 * (f64::from(i) + 0.5) / f64::from(count);
-            let beyond = 2.5 - (6.25 - y * y).sqrt();
-            2.0 * beyond * ((64.0 - y * y).sqrt() - 5.0) * 2.5 / f64::from(count)
+            let depth = 2.5 - (6.25 - y * y).sqrt();
+            2.0 * depth * ((64.0 - y * y).sqrt() - 5.0) * 2.5 / f64::from(count)
         })
         .sum();
     let more = shaft(true).volume() - shaft(false).volume();
@@ -125,7 +125,7 @@ fn the_volume_is_the_closed_form_and_that_of_the_mesh() {
 }
 
 #[test]
-fn sections_that_are_none_are_told() {
+fn impossible_sections_are_errors() {
     let section = |sections: Vec<TurnedSection>| match Turned::new(0.0, sections, Some(SLOT)) {
         Err(SolidError::Turned { section }) => section,
         other => panic!("{other:?}"),
@@ -133,7 +133,7 @@ fn sections_that_are_none_are_told() {
     assert_eq!(section(vec![]), 0);
     assert_eq!(section(vec![cylinder(1.0, 8.0), cylinder(0.0, 8.0)]), 1);
     assert_eq!(section(vec![chamfer(2.0, [3.0, 4.0])]), 0);
-    // The floor of the slot lies outside, and a circle beside it cuts its floor.
+    // The floor of the slot lies outside, and a circle next to it cuts its floor.
     assert_eq!(section(vec![cylinder(5.0, 10.0).slotted()]), 0);
     let cut = vec![cylinder(5.0, 16.0).slotted(), cylinder(5.0, 10.5)];
     assert_eq!(section(cut), 1);

@@ -1,6 +1,6 @@
 use std::f64::consts::{PI, TAU};
 
-use centrode_geometry::{Extreme, greatest, pieces};
+use centrode_geometry::{Extreme, maximum, piece_ends};
 
 use super::{GearDriveError, GearDriveSpec, table_pair};
 use crate::reverse::Timing;
@@ -129,7 +129,7 @@ impl<'a> Crank<'a> {
             let place = |angle: f64| output.at(angle).position;
             (place(start + self.sense * driven) - place(timing.at(input).position)).abs()
         };
-        greatest(off, &pieces(0.0, TAU, PARTS, &timing.breaks()))
+        maximum(off, &piece_ends(0.0, TAU, PARTS, &timing.breaks()))
     }
 
     /// The design with the drive.

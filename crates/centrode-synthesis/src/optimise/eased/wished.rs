@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 
 use crate::reverse::{KeepOut, ReversedMachine, TwoBar, WantedTurn, Wishes};
-use centrode_geometry::{Outline, Point, SampledPiece, greatest_sampled, rounding};
+use centrode_geometry::{Outline, Point, SampledPiece, maximum_of_samples, rounding};
 
 use centrode_analysis::{Goal, Unit};
 
@@ -236,7 +236,7 @@ impl Room {
             steps: LOOKS,
         };
         let samples: Vec<f64> = (0..=LOOKS).map(|i| nearness(piece.at(i))).collect();
-        -greatest_sampled(&samples, nearness, rounding, &[piece]).value
+        -maximum_of_samples(&samples, nearness, rounding, &[piece]).value
     }
 
     /// Distance of a bar, mm; where it stands in the shape, less how long a part of it does, or how deep.

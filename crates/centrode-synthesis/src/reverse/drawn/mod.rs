@@ -2,7 +2,7 @@
 
 mod svg;
 
-use centrode_geometry::{Extreme, Point, greatest, pieces};
+use centrode_geometry::{Extreme, Point, maximum, piece_ends};
 use kurbo::{ParamCurve as _, ParamCurveArclen as _, ParamCurveDeriv as _, PathSeg};
 use thiserror::Error;
 
@@ -51,9 +51,9 @@ impl DrawnPath {
             let path = WantedPath::through(&points)?;
             let step = drawing.length / count as f64;
             // Pieces of the spline, and the drawing's own joints.
-            let ends = pieces(0.0, drawing.length, count as u32, &drawing.joints());
+            let ends = piece_ends(0.0, drawing.length, count as u32, &drawing.joints());
             let off = |s: f64| path.distance_near(drawing.at(s), s / step);
-            let deviation = greatest(off, &ends);
+            let deviation = maximum(off, &ends);
             if deviation.value <= within {
                 return Ok(Self { points, deviation });
             }

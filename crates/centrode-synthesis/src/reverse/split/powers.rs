@@ -1,7 +1,7 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-use centrode_geometry::{Antiderivative, pieces};
+use centrode_geometry::{Antiderivative, piece_ends};
 
 use super::{Split, SplitError, SplitKind, StageLaw};
 use crate::reverse::TwoBar;
@@ -42,9 +42,9 @@ pub(super) fn split_with(
         }
     };
     let size = NOISE * TAU / period;
-    let turned = Arc::new(Antiderivative::of_size(
+    let turned = Arc::new(Antiderivative::with_scale(
         rate,
-        &pieces(from, to, 1, &breaks),
+        &piece_ends(from, to, 1, &breaks),
         size,
     ));
     let sense = chain.sense();

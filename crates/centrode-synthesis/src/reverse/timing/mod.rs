@@ -7,7 +7,7 @@ mod search;
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use centrode_geometry::{Extreme, bracketed_root, greatest_each, pieces};
+use centrode_geometry::{Extreme, bracketed_root, maximum_of_each, piece_ends};
 use thiserror::Error;
 
 use self::free::Free;
@@ -330,7 +330,8 @@ impl Timing {
             [-ratio, ratio]
         };
         let ends: Vec<f64> = self.stretches.iter().map(|s| s.within[0]).collect();
-        let [least, greatest] = greatest_each(ratio, &pieces(start, start + TAU, PARTS, &ends));
+        let [least, greatest] =
+            maximum_of_each(ratio, &piece_ends(start, start + TAU, PARTS, &ends));
         let value = |of: Extreme, log: f64| Extreme {
             value: log.exp(),
             ..of

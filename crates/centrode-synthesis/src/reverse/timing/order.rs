@@ -1,6 +1,6 @@
 use std::f64::consts::TAU;
 
-use centrode_geometry::{bracketed_root, pieces};
+use centrode_geometry::{bracketed_root, piece_ends};
 
 use super::{Section, TimingError, Wanted};
 use centrode_kinematics::transmission::Transmission;
@@ -39,7 +39,7 @@ impl Swing {
         if advance != 0.0 {
             return Err(TimingError::Advances { advance });
         }
-        let mut looks = pieces(0.0, TAU, LOOKS, &output.breaks());
+        let mut looks = piece_ends(0.0, TAU, LOOKS, &output.breaks());
         looks.pop();
         let speed = |angle: f64| output.at(angle).velocity;
         let speeds: Vec<f64> = looks.iter().map(|&angle| speed(angle)).collect();

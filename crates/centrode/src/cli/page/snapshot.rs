@@ -3,7 +3,7 @@ use std::sync::{Arc, OnceLock};
 use crate::analysis::Report;
 use crate::export::page::{Curve, CurveList, Picture};
 use crate::family::{FAMILIES, Limit, Mechanism};
-use crate::geometry::together;
+use crate::geometry::run_both;
 use centrode_spec::{DesignError, visible};
 use serde::Serialize;
 
@@ -181,7 +181,7 @@ impl Snapshot {
     /// Snapshot as JSON; numbers that are not finite are null.
     pub(crate) fn json(&self) -> serde_json::Result<String> {
         // What is long is written by two threads.
-        let (head, beside) = together(|| self.head(), || self.beside.json());
+        let (head, beside) = run_both(|| self.head(), || self.beside.json());
         Ok(head? + &beside?)
     }
 
