@@ -23,7 +23,7 @@ pub fn rounded(radians: f64) -> f64 {
 
 /// One angle, or several in a list or an option.
 pub trait Angles: DeserializeOwned + Serialize {
-    /// The same with each angle converted.
+    /// Converts each angle.
     #[must_use]
     fn converted(&self, convert: fn(f64) -> f64) -> Self;
 }

@@ -36,7 +36,7 @@ const ELSEWHERE: [(&str, &str); 6] = [
 #[derive(Clone, Debug, Error, PartialEq)]
 #[error("{reason} at character {column}")]
 pub struct FormulaError {
-    /// What the formula breaks.
+    /// Rule of the notation that is broken.
     pub reason: String,
     /// Position in the formula, from one.
     pub column: usize,

@@ -69,7 +69,7 @@ pub(super) enum Step {
 ///
 /// ```
 /// use centrode_geometry::Point;
-/// use crate::linkage::{Branch, LinkId, Linkage};
+/// use centrode_kinematics::linkage::{Branch, LinkId, Linkage};
 ///
 /// let mut linkage = Linkage::new();
 /// let a = linkage.point(LinkId::FRAME, Point::new(0.0, 0.0))?;

@@ -28,8 +28,8 @@ use stage::Stage;
 ///
 /// ```
 /// use centrode_spec::DesignSpec;
-/// use crate::three_arm::Sweep;
-/// use crate::three_arm::design::ThreeArmDesign;
+/// use centrode_machines::three_arm::Sweep;
+/// use centrode_machines::three_arm::design::ThreeArmDesign;
 ///
 /// let mut design = ThreeArmDesign::from_toml(ThreeArmDesign::TEMPLATE)?;
 /// let mut sweep = Sweep::like(&design, 360)?;
