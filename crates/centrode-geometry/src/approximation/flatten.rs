@@ -58,7 +58,7 @@ impl Outline {
             .collect()
     }
 
-    /// Positions of a polygon within the tolerance; at min_count three for any tolerance.
+    /// Positions of a polygon within the tolerance; three or more for any tolerance.
     fn polygon_positions(&self, tolerance: Tolerance) -> Vec<Position> {
         let mut finer = tolerance;
         for _ in 0..60 {

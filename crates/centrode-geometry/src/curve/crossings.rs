@@ -324,7 +324,7 @@ fn search(
         if joined {
             let [a0, a1] = parts.halves(first);
             let [b0, b1] = parts.halves(second);
-            // The parts at the joint come last: they are the least likely to cross.
+            // The parts at the joint come last: they rarely cross.
             pending.push((a1, b0, true));
             pending.push((a0, b0, false));
             pending.push((a1, b1, false));

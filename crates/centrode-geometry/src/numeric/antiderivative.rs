@@ -37,7 +37,7 @@ struct Panel {
 }
 
 impl Antiderivative {
-    /// Integrates `f` over the interval from the first to the last of `breaks` (ascending, at least two).
+    /// Integrates `f` over the interval from the first to the last of `breaks` (ascending, two or more).
     ///
     /// Between neighbouring breaks `f` must be analytic for this accuracy. It is never evaluated at a break.
     #[must_use]

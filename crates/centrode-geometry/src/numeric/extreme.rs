@@ -55,7 +55,7 @@ pub fn maximum_of_each<const N: usize>(f: impl Fn(f64) -> [f64; N], ends: &[f64]
 /// - `one` returns the value of one function;
 /// - `noise` returns the rounding error of a function near a value: [`rounding`] if it is computed without loss.
 ///
-/// The longest piece has 48 samples, a shorter one fewer, but at least 12. Brent's method refines the local maxima among
+/// The longest piece has 48 samples, a shorter one fewer, down to 12. Brent's method refines the local maxima among
 /// the samples of a piece: the value is exact to the float limit, the input of a smooth function to its square root. A
 /// local maximum is not refined if several times the height of the parabola through its samples, or of a kink between
 /// them, does not reach the maximum sample. At a break both limits count. A value that is not a number never counts; if

@@ -2,7 +2,7 @@ use std::sync::{Mutex, PoisonError};
 
 /// Cache of the last few results of a long computation, each stored by its input. Default capacity: 4.
 ///
-/// It serves the parts of a design that stay the same while other parts change. The least recently used result is dropped
+/// It serves the parts of a design that stay the same while other parts change. The result used longest ago is dropped
 /// first. A cached result equals a new one, so the cache changes only the time. Two threads may compute the same result.
 ///
 /// ```
@@ -57,7 +57,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_least_recently_used_result_is_dropped_first() {
+    fn the_result_used_longest_ago_is_dropped_first() {
         let recent: Recent<i32, ()> = Recent::new();
         let mut made = Vec::new();
         for key in [1, 2, 3, 4, 1, 5, 1, 3, 2] {

@@ -148,7 +148,7 @@ impl Outline {
         None
     }
 
-    /// Splits the segments into pieces that turn by less than half a radian, at least four.
+    /// Splits the segments into pieces that turn by less than half a radian, four or more.
     fn strands(&self) -> Vec<Strand> {
         let min_depth = if self.segments().len() < 4 { 2 } else { 0 };
         let mut out = Vec::with_capacity(self.segments().len());

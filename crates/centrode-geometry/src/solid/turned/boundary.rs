@@ -256,7 +256,7 @@ impl Turned {
         builder.face(plane_across(ring.height, sign), vec![oriented(bound, sign)]);
     }
 
-    /// Outline of a section across the axis, counter-clockwise oriented from above.
+    /// Outline of a section across the axis, counter-clockwise seen from above.
     fn outline(&self, builder: &mut ShellBuilder, side: &PlaneSide<'_>) -> Vec<ShellSide> {
         let ring = side.ring;
         let Some(slot) = self.slot.filter(|_| side.slotted) else {
