@@ -7,8 +7,11 @@ use centrode_machines::three_arm::design::ThreeArmDesign;
 use centrode_spec::DesignSpec as _;
 
 use super::{
-    Contact, ProofError, ProofStretch, at_angle, meshing::Meshing, prove, touch::Pose,
-    window::Allowance,
+    Contact, Meshing, ProofError, ProofStretch,
+    contour::{Pose, PoseTolerance},
+    cycle::at_angle,
+    prove,
+    seat::CandidatePair,
 };
 
 /// Many teeth on a circle off its centre by half its radius.
@@ -21,22 +24,25 @@ fn many(teeth: u32) -> GearPair {
 }
 
 #[test]
-fn parts_near_in_a_window_are_those_near_in_every_pose() {
+fn cached_pairs_of_parts_are_those_near_in_every_pose() {
     let pair = many(300);
-    let kept = Meshing::new(&pair);
+    let cached = Meshing::new(&pair);
     let mut anew = Meshing::new(&pair);
-    anew.allowance = Allowance::none();
+    anew.pose_tolerance = PoseTolerance::none();
     let pairs = |meshing: &Meshing<'_>, pose: &Pose| -> Vec<(usize, usize)> {
         let found = meshing.candidates(pose);
-        let part = |&(k, j): &(usize, usize)| (found.posed[k].0.whole.part, j);
+        let part = |pair: &CandidatePair| {
+            let driver = &found.driver[pair.driver].stretch;
+            (driver.whole.part, pair.driven)
+        };
         found.pairs.iter().map(part).collect()
     };
-    // Small steps, with the driven gear off its law now and then, and a leap.
+    // Small steps, sometimes with the driven gear off its law, and one large step.
     for i in 0..400 {
         let phi = 0.7 + 0.0021 * f64::from(i) + if i > 200 { 1.3 } else { 0.0 };
         let psi = pair.driven_angle(phi) + [0.0, 3e-4, -5e-3][i as usize % 3];
         let pose = Pose::new(phi, psi, pair.center_distance());
-        let found = pairs(&kept, &pose);
+        let found = pairs(&cached, &pose);
         assert!(!found.is_empty());
         assert_eq!(found, pairs(&anew, &pose), "{phi}");
     }
@@ -64,18 +70,20 @@ fn design(name: &str) -> GearPair {
 }
 
 #[test]
-fn what_the_law_alone_tells_is_what_the_seats_tell_too() {
+fn clearances_at_the_law_are_those_at_the_seats() {
     for name in ["elliptic-pair-2018", "law-pair", "quintic-pair"] {
         let pair = design(name);
         let (mut with, mut without) = (Meshing::new(&pair), Meshing::new(&pair));
         for i in 0..60 {
             let point = at_angle(&pair, 0.1 + 0.1037 * f64::from(i));
             let sample = with.sample(&point);
-            let gaps = without.gaps_at_law(&point).expect("nothing penetrates");
-            for (one, other) in gaps
-                .into_iter()
-                .zip([sample.clearance, sample.fillet_clearance])
-            {
+            let at_law = without
+                .clearances_at_law(&point)
+                .expect("nothing penetrates");
+            for (one, other) in [
+                (at_law.root, sample.clearance),
+                (at_law.fillet, sample.fillet_clearance),
+            ] {
                 assert!(
                     one == other || (one - other).abs() < 1e-9,
                     "{name}: {one} {other}"
@@ -108,7 +116,7 @@ fn edges_that_touch_bound_the_backlash_of_trimmed_teeth() {
 }
 
 #[test]
-fn the_error_where_an_edge_touches_is_from_where_the_designed_flank_would_stand() {
+fn the_error_at_an_edge_is_measured_from_the_designed_flank() {
     let pair = design("transplanter-pair-2021");
     let phi = 3.5343;
     let contact = Contact::analyse_at(&pair, &[phi]);
@@ -123,7 +131,7 @@ fn the_error_where_an_edge_touches_is_from_where_the_designed_flank_would_stand(
 
 /// Turning the driven gear by half the backlash takes at both inputs the contact past the end of a flank.
 #[test]
-fn flanks_thinned_for_backlash_stand_where_designed_at_their_ends_too() {
+fn flanks_thinned_for_backlash_have_no_error_at_their_ends() {
     let contact = Contact::analyse_at(&design("quintic-pair"), &[0.0, 4.476_110_580_575_04]);
     let errors = contact.transmission_error.iter();
     for error in errors.chain(&contact.reverse_transmission_error) {
@@ -162,7 +170,7 @@ fn a_certificate_follows_the_contact_over_the_ends_of_trimmed_flanks() {
     let proof = prove(&pair).expect("a certificate");
     let ends = proof.stretches.windows(2);
     assert!(ends.into_iter().all(|two| two[0].to == two[1].from));
-    // Here a tooth stands within the backlash.
+    // Here a tooth lies within the backlash.
     let found = prove(&design("transplanter-pair-2021"));
     let angle = |error: &ProofError| match error {
         ProofError::Step { phi, .. } => *phi,
@@ -172,7 +180,7 @@ fn a_certificate_follows_the_contact_over_the_ends_of_trimmed_flanks() {
     assert!(at.is_some_and(|phi| (3.42..3.44).contains(&phi)), "{at:?}");
 }
 
-/// The place comes from turning one outline against the other as polygons.
+/// The angle comes from turning one outline against the other as polygons.
 #[test]
 fn a_tooth_that_comes_into_the_backlash_makes_a_seat_jump() {
     let pair = design("transplanter-pair-2021");
@@ -181,9 +189,9 @@ fn a_tooth_that_comes_into_the_backlash_makes_a_seat_jump() {
     assert!((first.input - 3.43).abs() < 1e-4, "{first:?}");
     assert!((first.turn - 1.1e-3).abs() < 1e-5, "{first:?}");
     assert!(!first.is_reverse && first.teeth == (22, 21), "{first:?}");
-    // Just before it the driven gear stands where it stood, just after it where the tooth came.
-    let beside = [first.input - 1e-6, first.input + 1e-6];
-    let contact = Contact::analyse_at(&pair, &beside);
+    // Just before it the driven gear is at the old seat, just after it at the new one.
+    let neighbours = [first.input - 1e-6, first.input + 1e-6];
+    let contact = Contact::analyse_at(&pair, &neighbours);
     let off = |k: usize| contact.driven_angle[k] - contact.law[k];
     assert!(((off(1) - off(0)).abs() - first.turn).abs() < 1e-5);
     for sound in ["law-pair", "quintic-pair"] {
@@ -196,13 +204,13 @@ fn a_tooth_that_comes_into_the_backlash_makes_a_seat_jump() {
 }
 
 #[test]
-fn gears_that_jam_are_told_by_few_samples() {
+fn interfering_gears_are_analysed_at_few_samples() {
     // Roots too shallow for the tips by a quarter of the module.
     let text = "family = \"gear-pair\"\n[pitch]\nkind = \"ellipse\"\nmodule = 2\neccentricity = 0.2\ntooth_count = 41\n[tool]\nkind = \"rack\"\ndedendum_coefficient = 0.75\ntip_radius_coefficient = 0.1\n";
     let jammed = GearPairDesign::from_toml(text).expect("a design");
     let jammed = GearPair::resolve(&jammed).expect("a pair");
     let contact = Contact::analyse(&jammed);
-    assert!(contact.is_jammed(&jammed));
+    assert!(contact.interferes(&jammed));
     assert!(contact.input.len() <= 4 * 41 + 2, "{}", contact.input.len());
     assert!(contact.seat_jumps(&jammed).is_empty());
     let deepest = contact.penetration.iter().copied().fold(0.0, f64::max);
@@ -210,13 +218,13 @@ fn gears_that_jam_are_told_by_few_samples() {
     assert!(deepest > 0.1 && found.value.to_bits() == deepest.to_bits());
     for runs in ["law-pair", "transplanter-pair-2021"] {
         let pair = design(runs);
-        assert!(!Contact::analyse(&pair).is_jammed(&pair), "{runs}");
+        assert!(!Contact::analyse(&pair).interferes(&pair), "{runs}");
     }
 }
 
-/// Their tips come by the roundings of the roots, which are as large as that allows.
+/// Their tips pass the root fillets, which are as large as that allows.
 #[test]
-fn fitted_teeth_of_circles_at_a_small_pressure_angle_carry() {
+fn fitted_teeth_of_circles_at_a_small_pressure_angle_carry_the_motion() {
     let kinds = ["kind = \"rack\"", "kind = \"shaper\"\ntooth_count = 24"];
     for (z, kind) in [14, 16, 20, 21, 36, 40, 44, 60]
         .map(|z| kinds.map(|kind| (z, kind)))
@@ -238,7 +246,7 @@ fn fitted_teeth_of_circles_at_a_small_pressure_angle_carry() {
 }
 
 #[test]
-fn gears_that_stray_are_told_by_few_samples() {
+fn gears_that_run_on_edges_are_analysed_at_few_samples() {
     // A pitch curve that swings as often as there are teeth, and 24 times as often.
     for (radius, off) in [
         ("1+0.02*cos(40*phi)", 1e-3),
@@ -251,29 +259,29 @@ fn gears_that_stray_are_told_by_few_samples() {
         let pair = GearPair::resolve(&design).expect("a pair");
         let contact = Contact::analyse(&pair);
         assert!(
-            contact.strays(&pair) && !contact.is_followed(&pair),
+            contact.runs_on_edges(&pair) && !contact.is_followed(&pair),
             "{radius}"
         );
         assert!(contact.input.len() <= 40 + 2, "{}", contact.input.len());
         assert!(contact.seat_jumps(&pair).is_empty());
         let errors = contact.transmission_error.iter().map(|e| e.abs());
-        let greatest = errors.fold(0.0, f64::max);
+        let largest = errors.fold(0.0, f64::max);
         let found = contact.extremes(&pair).transmission_error;
-        assert!(greatest > off, "{radius}: {greatest}");
-        assert_eq!(found.value.to_bits(), greatest.to_bits(), "{radius}");
+        assert!(largest > off, "{radius}: {largest}");
+        assert_eq!(found.value.to_bits(), largest.to_bits(), "{radius}");
         let findings = crate::gear_pair::check(&pair).findings;
         let lost = findings.iter().find(|f| f.rule == "contact-lost");
         let message = &lost.expect("a finding").message;
         assert!(message.contains("the driven gear is at least"), "{message}");
     }
-    // A few degrees of the cycle on an edge are followed.
+    // Contact on an edge over a few degrees of the cycle does not prevent the search between samples.
     let pair = design("transplanter-pair-2021");
-    assert!(!Contact::analyse(&pair).strays(&pair));
+    assert!(!Contact::analyse(&pair).runs_on_edges(&pair));
 }
 
 #[test]
-fn a_corner_beside_a_sharp_bend_has_its_foot_there() {
-    // Of the sun of this mechanism a flank bends by 4.8/mm where it meets its fillet.
+fn a_corner_next_to_a_sharp_bend_has_its_foot_there() {
+    // A flank of this mechanism's sun has a curvature of 4.8/mm where it meets its fillet.
     let text = include_str!("../../../../tests/designs/three-arm-all-goals.toml");
     let design = ThreeArmDesign::from_toml(text).expect("a design");
     let arms = ThreeArm::resolve(&design).expect("a mechanism");
@@ -285,8 +293,8 @@ fn a_corner_beside_a_sharp_bend_has_its_foot_there() {
 }
 
 #[test]
-fn gears_that_cannot_be_followed_have_no_certificate_and_it_says_where() {
-    // Five deep lobes ask more of fifty teeth than they can do.
+fn gears_without_room_have_no_certificate_and_the_error_says_where() {
+    // Five deep lobes are too much for fifty teeth.
     let text = r#"
         family = "gear-pair"
         pitch = { kind = "polar", expression = "(1 + 0.45*cos(5*phi))/(2 + 0.45*cos(5*phi))", module = 1, tooth_count = 50 }
@@ -296,7 +304,7 @@ fn gears_that_cannot_be_followed_have_no_certificate_and_it_says_where() {
     let Err(ProofError::NoRoom { phi, overlap }) = prove(&pair) else {
         panic!("no room");
     };
-    // There the pair has no backlash, and lacks it by so much.
+    // There the backlash is negative by the missing room.
     let contact = Contact::analyse_at(&pair, &[phi]);
     assert!(
         (contact.backlash[0] + overlap).abs() < 1e-9 && overlap > 1e-6,
@@ -320,9 +328,9 @@ fn sides_of_neighbouring_teeth_that_face_each_other_do_not_penetrate() {
     }
 }
 
-/// Flanks of this driver end beside a cusp, where they bend by 25,000/mm.
+/// Flanks of this driver end next to a cusp, where their curvature is 25,000/mm.
 #[test]
-fn a_contact_near_a_cusp_is_found_whatever_was_looked_at_before() {
+fn a_contact_near_a_cusp_is_found_from_any_previous_sample() {
     let text = r#"
         family = "gear-pair"
         pitch = { kind = "ellipse", eccentricity = 0.6758549005856598, module = 0.5, tooth_count = 31 }
@@ -352,8 +360,8 @@ fn pair_of(text: &str) -> GearPair {
 }
 
 #[test]
-fn what_one_period_or_half_of_it_tells_is_what_the_whole_cycle_tells() {
-    // One curve by its kind, whose symmetry is known, and by a formula, of which nothing is known.
+fn figures_of_one_period_or_half_of_it_are_those_of_the_cycle() {
+    // One curve by its kind, with known symmetry, and by a formula without.
     let kinds = [
         "kind = \"limacon\"\nmean_radius = 30\namplitude = 2.5\nlobes = 3\n",
         "kind = \"polar\"\nexpression = \"30 + 2.5*cos(3*phi)\"\n",
@@ -443,8 +451,8 @@ fn the_mean_of_contacts_of_a_circle_is_the_contact_ratio_of_the_standard() {
 }
 
 #[test]
-fn flanks_with_play_that_part_for_less_than_a_sample_are_found_apart() {
-    // Less than a base pitch of contact: edges drive in between, over the share that is missing.
+fn contact_lost_between_two_samples_is_found_with_backlash() {
+    // The path of contact is shorter than a base pitch: over the missing share edges drive.
     let (addendum, module, teeth) = (0.5667, 2.0, 24.0);
     let pair = pair_of(&format!(
         "[pitch]\nkind = \"circle\"\nmodule = {module}\ntooth_count = {teeth}\n\
@@ -465,16 +473,16 @@ fn flanks_with_play_that_part_for_less_than_a_sample_are_found_apart() {
         .map(|k| pair.cycle() / teeth * f64::from(k) / 4000.0)
         .collect();
     let seen = Contact::analyse_at(&pair, &inputs).transmission_error;
-    let greatest = seen
+    let largest = seen
         .iter()
         .fold(0.0_f64, |most, error| most.max(error.abs()));
-    assert!(greatest > 5e-6, "{greatest}");
-    assert!(found.transmission_error.value >= greatest * (1.0 - 1e-9));
-    assert!(found.transmission_error.value < greatest * 1.01);
+    assert!(largest > 5e-6, "{largest}");
+    assert!(found.transmission_error.value >= largest * (1.0 - 1e-9));
+    assert!(found.transmission_error.value < largest * 1.01);
 }
 
 #[test]
-fn play_is_no_turn_where_the_normal_of_the_law_passes_by_the_axis() {
+fn backlash_is_no_turn_where_the_normal_of_the_law_passes_the_axis() {
     let pair = pair_of(
         "[pitch]\nkind = \"polar\"\nexpression = \"1 + 0.1*cos(40*phi)\"\nmodule = 2\ntooth_count = 40\n\
          [teeth]\naddendum = \"fitted\"\nbacklash = 0.05\n",
@@ -496,8 +504,8 @@ fn play_is_no_turn_where_the_normal_of_the_law_passes_by_the_axis() {
 }
 
 #[test]
-fn an_edge_that_comes_to_its_flank_holds_no_gear_early() {
-    // The way of an edge only touches the mate's flank, where the contact begins: the tip beside it must not be taken to lie before it.
+fn an_edge_does_not_touch_before_its_flank() {
+    // The path of an edge only touches the mate's flank, where the contact begins: the tip next to it must not count as in front of it.
     for pair in [design("elliptic-pair-2018"), many(30)] {
         let pitch = pair.cycle() / 30.0;
         let inputs: Vec<f64> = (0..60_000)

@@ -16,7 +16,7 @@ use centrode_geometry::Extreme;
 
 use self::remedy::remedy;
 use self::teeth::teeth;
-use crate::contact::{Meshing, is_restless};
+use crate::contact::{Meshing, oscillates_per_tooth};
 use crate::progress::filling;
 use crate::rounding::exceeds;
 use crate::{Contact, ContactExtremes, Finding, Place, Report, Severity, Unit};
@@ -39,7 +39,7 @@ pub const SLIGHT_TRANSMISSION_ERROR: f64 = 2e-5;
 #[must_use]
 pub fn check(pair: &GearPair) -> Report {
     let mut ready = None;
-    let contact = filling([0.0, 0.6], || Contact::analysed(pair, &mut ready));
+    let contact = filling([0.0, 0.6], || Contact::analyse_with(pair, &mut ready));
     filling([0.6, 1.0], || {
         let mut report = checked(pair, &contact, ready);
         circular::name_remedy(pair, &mut report);
@@ -66,7 +66,7 @@ fn checked<'a>(pair: &'a GearPair, contact: &'a Contact, ready: Option<Meshing<'
     for gear in [pair.driver(), pair.driven()] {
         teeth(pair, gear, &limits, &mut report);
     }
-    let extremes = contact.extremes_by(pair, ready);
+    let extremes = contact.extremes_with(pair, ready);
     mesh(pair, contact, &extremes, &mut report);
     report.worst_first();
     report
@@ -303,7 +303,7 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
             place: place(input),
         });
     }
-    let is_jammed = contact.is_jammed(pair);
+    let interferes = contact.interferes(pair);
     let mm = |depth: f64| Unit::Millimetre.tell(depth);
     let overlap = |rule, (depth, input): (f64, f64), message: String| Finding {
         rule,
@@ -316,7 +316,7 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
         place: place(input),
     };
     if penetration.0 > PENETRATION * module {
-        let words = if is_jammed { "the gears jam: " } else { "" };
+        let words = if interferes { "the gears jam: " } else { "" };
         let message = format!(
             "{words}there is no room for the teeth: the flanks on both sides of them overlap by {}",
             mm(penetration.0)
@@ -347,7 +347,7 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
         LOST
     };
     // Gears that jam carry no motion at all.
-    if worst.0.is_finite() && worst.0 > allowed && !is_jammed {
+    if worst.0.is_finite() && worst.0 > allowed && !interferes {
         report.findings.push(Finding {
             rule: "contact-lost",
             remedy: remedy("contact-lost"),
@@ -402,7 +402,7 @@ pub(crate) fn negative_backlash(pair: &GearPair, backlash: f64) -> Option<Findin
 /// Pitch curves that swing so often that figures of the mesh are those of samples, as a finding.
 fn restless(pair: &GearPair, contact: &Contact) -> Option<Finding> {
     let (swings, teeth) = (pair.rolling().swings(), pair.driver().tooth_count());
-    is_restless(pair).then(|| Finding {
+    oscillates_per_tooth(pair).then(|| Finding {
         rule: "pitch-curve-swings",
         remedy: remedy("pitch-curve-swings"),
         severity: Severity::Note,

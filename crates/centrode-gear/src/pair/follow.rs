@@ -15,7 +15,7 @@ pub(super) const MOST_SWINGS: usize = 4;
 
 /// Checks that teeth can follow the pitch curves: these may swing often, and have small arcs, but not both.
 pub(super) fn follow(rolling: &Rolling, teeth: u32, module: f64) -> Result<(), GearPairError> {
-    if !rolling.is_restless(teeth) {
+    if !rolling.oscillates_per_tooth(teeth) {
         return Ok(());
     }
     let (swings, count) = (rolling.swings(), teeth as usize);

@@ -188,7 +188,7 @@ impl Rolling {
     /// Whether the pitch curves swing more than twice a tooth of a driver with `teeth`: every wave has its peak, and their teeth are
     /// looked at at few places.
     #[must_use]
-    pub fn is_restless(&self, teeth: u32) -> bool {
+    pub fn oscillates_per_tooth(&self, teeth: u32) -> bool {
         self.swings > 2 * teeth as usize
     }
 

@@ -52,7 +52,7 @@ fn path(pair: &GearPair, alpha: f64) -> [f64; 2] {
     [driven[1].min(driver[0]), driver[1].min(driven[0])]
 }
 
-/// The 8:8 and 20:8, and neighbours that lose contact or just keep it, with and without backlash.
+/// The 8:8 and 20:8, and neighbours that lose contact or just do not, with and without backlash.
 const CIRCULAR: [(f64, [u32; 2], f64, f64); 14] = [
     (3.0, [8, 8], 20.0, 0.0),
     (3.0, [20, 8], 14.5, 0.0),
@@ -154,7 +154,7 @@ fn sliding_is_no_less_than_at_dense_samples() {
     }
 }
 
-/// A kind whose symmetry is known and the same curve by a formula, of which nothing is known.
+/// One curve by a kind with known symmetry, and by a formula without.
 #[test]
 fn one_pair_written_in_two_ways_has_one_contact_ratio() {
     for (lobes, e, z, ratio, teeth) in [

@@ -1,0 +1,164 @@
+//! The certificate as it is written.
+
+use centrode_gear::{Gear, Member};
+use centrode_geometry::{Point, Segment};
+use centrode_kinematics::machine::Piecewise;
+use centrode_spec::DesignError;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::prover::SHORTEST;
+
+/// Certificate of a pair's contact at every driver angle of its cycle: lengths in mm, angles in rad.
+#[derive(Clone, Debug, JsonSchema, Serialize)]
+pub struct Proof {
+    /// Always `centrode-proof`.
+    pub format: String,
+    /// Version of the format.
+    pub version: u32,
+    /// The design the pair was made from, as a design file.
+    pub design: String,
+    /// Name of the pair in it.
+    pub pair: String,
+    /// Centre distance, mm.
+    pub center_distance: f64,
+    /// Driver angle of a whole cycle, rad.
+    pub cycle: f64,
+    /// Driven angle by driver angle in pieces: the law to which every error in this file is relative.
+    pub law: Piecewise,
+    /// Half of the width of the interval in which every seat lies, rad.
+    pub half_width: f64,
+    /// The driver's contour, counter-clockwise: of each piece the coefficients in u from -1 to 1, constant first, [x, y] in mm.
+    pub driver: Vec<Vec<[f64; 2]>>,
+    /// The driven gear's contour.
+    pub driven: Vec<Vec<[f64; 2]>>,
+    /// Equal parts of the cycle, after each of which both contours and the law are as before it but for rounding.
+    pub sectors: u32,
+    /// Stretches of the first part of the cycle from 0 on, each starting where the one before it ends.
+    pub stretches: Vec<ProofStretch>,
+}
+
+/// Stretch of the cycle on which the same two features hold the driven gear.
+#[derive(Clone, Debug, JsonSchema, Serialize)]
+pub struct ProofStretch {
+    /// First driver angle, rad.
+    pub from: f64,
+    /// Last driver angle, rad.
+    pub to: f64,
+    /// Chebyshev coefficients of the seat less the law, rad: pushed on, pushed back.
+    pub seats: [Vec<f64>; 2],
+    /// Which of the meetings holds the driven gear: pushed on, pushed back.
+    pub held_by: [usize; 2],
+    /// Features that meet or nearly do.
+    pub meetings: Vec<ProofMeeting>,
+}
+
+/// Features of the two contours that meet when the driven gear is turned.
+#[derive(Clone, Debug, JsonSchema, Serialize)]
+pub struct ProofMeeting {
+    /// 0 where it holds the gear pushed on, 1 pushed back.
+    pub side: usize,
+    /// Pieces of the driver's and of the driven gear's contour.
+    pub pieces: [usize; 2],
+    /// The gear that meets the other with a corner, 0 the driver, 1 the driven gear; neither where it is left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub corner: Option<usize>,
+    /// Chebyshev coefficients of the parameters on the two pieces.
+    pub parameters: [Vec<f64>; 2],
+    /// Coefficients k of parabolas y = k x^2 that part the contours, in axes along their tangent, 1/mm: that which parts them
+    /// the farthest first, then those that hold where it does not.
+    pub bends: Vec<f64>,
+}
+
+impl Proof {
+    /// The file, the same bytes every time.
+    ///
+    /// # Errors
+    /// [`serde_json::Error`] for a certificate that cannot be written.
+    pub fn file(&self) -> serde_json::Result<Vec<u8>> {
+        let mut bytes = serde_json::to_vec(self)?;
+        bytes.push(b'\n');
+        Ok(bytes)
+    }
+
+    /// The JSON schema of the file.
+    #[must_use]
+    pub fn schema() -> serde_json::Value {
+        schemars::schema_for!(Self).to_value()
+    }
+}
+
+/// Reason why there is no certificate.
+#[derive(Debug, thiserror::Error)]
+pub enum ProofError {
+    /// The design cannot be written.
+    #[error(transparent)]
+    Design(#[from] DesignError),
+    /// Nothing holds the driven gear.
+    #[error(
+        "the gears do not hold each other at the driver angle {phi:.6} rad: nothing can be proved of a mesh that has come apart"
+    )]
+    Apart {
+        /// Driver angle, rad.
+        phi: f64,
+    },
+    /// The gears have no room for each other.
+    #[error(
+        "at the driver angle {phi:.6} rad the gears penetrate each other however the driven gear stands: pushed on it would stand {overlap:.3e} rad beyond where it stands pushed back; take more backlash, a pitch curve of gentler curvature, or more teeth of a smaller module"
+    )]
+    NoRoom {
+        /// Driver angle, rad.
+        phi: f64,
+        /// Missing room, rad of the driven gear.
+        overlap: f64,
+    },
+    /// Holding features change too often to be told apart.
+    #[error(
+        "what holds the driven gear at the driver angle {phi:.9} rad cannot be told within {SHORTEST} rad"
+    )]
+    Unresolved {
+        /// Driver angle, rad.
+        phi: f64,
+    },
+    /// A seat jumps: teeth meet within the backlash.
+    #[error(
+        "at the driver angle {phi:.6} rad tooth {} of the driver meets tooth {} of the driven gear at ({:.4}, {:.4}) mm within the backlash, \
+        {turn:.3e} rad from where the driven gear stands pushed {side}, so it is not held at every angle: take a pitch curve of \
+        gentler curvature, or more teeth of a smaller module", .teeth.0, .teeth.1, .point.x, .point.y
+    )]
+    Step {
+        /// Driver angle, rad.
+        phi: f64,
+        /// Which way the driven gear is pushed, on or back.
+        side: &'static str,
+        /// From the seat to where the teeth meet, rad.
+        turn: f64,
+        /// Tooth of the driver, tooth of the driven gear.
+        teeth: (u32, u32),
+        /// Where they meet, mm, in the driver's axes.
+        point: Point,
+    },
+    /// A contour has a piece that is no polynomial.
+    #[error("piece {piece} of the {}'s contour is an arc, the proof knows polynomials alone", .member.name())]
+    Arc {
+        /// Which gear.
+        member: Member,
+        /// Which piece, from 0.
+        piece: usize,
+    },
+}
+
+/// Coefficients of a contour's pieces.
+pub(super) fn contour(gear: &Gear, member: Member) -> Result<Vec<Vec<[f64; 2]>>, ProofError> {
+    let segments = gear.outline().segments().iter().enumerate();
+    let coefficients = |(piece, segment): (usize, &Segment)| match segment {
+        Segment::Poly(poly) => Ok(poly.coefficients().iter().map(|c| [c.x, c.y]).collect()),
+        Segment::Line(start, end) => {
+            let middle = nalgebra::center(start, end);
+            let half = (end - start) * 0.5;
+            Ok(vec![[middle.x, middle.y], [half.x, half.y]])
+        }
+        Segment::Arc(_) => Err(ProofError::Arc { member, piece }),
+    };
+    segments.map(coefficients).collect()
+}

@@ -1,0 +1,156 @@
+//! The turn of the driven gear at which two features of the contours meet, followed along the driver's angle.
+
+use centrode_gear::Member;
+use centrode_geometry::Vector;
+use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
+
+use crate::contact::contour::Pose;
+use crate::contact::seat::{AngularContact, Meshing, SeatedPose};
+
+/// Sine of the angle between tangents from which on a corner touches and no flank.
+const SMOOTH: f64 = 1e-4;
+
+/// Change of parameters below which Newton's method, whose errors square, has come to rounding.
+const SETTLED: f64 = 1e-9;
+
+/// Parameter beyond an end up to which a meeting counts as on its part: two pairs that come to their ends at almost the
+/// same angle need no stretch between.
+const OVERHANG: f64 = 1e-6;
+
+/// That of a corner, whose seat has a bend there.
+const CORNER_OVERHANG: f64 = 1e-8;
+
+/// Parameter beyond an end up to which a part is continued.
+const CONTINUED: f64 = 0.3;
+
+/// Two features that meet: smooth parts whose tangents agree there, or the corner at an end of one on the other.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Feature {
+    /// Parts of driver and driven gear.
+    pub(super) parts: (usize, usize),
+    /// The gear whose corner meets, and the parameter of its part there.
+    pub(super) corner: Option<(Member, f64)>,
+}
+
+/// Place and turn at which two features meet.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Meeting {
+    /// Parameters on the two parts.
+    pub(super) at: (f64, f64),
+    /// Driven angle, rad.
+    pub(super) angle: f64,
+}
+
+impl Meeting {
+    /// Whether it lies on both parts, or so little beyond that the seat is the same but for rounding.
+    pub(super) fn is_on_parts(&self) -> bool {
+        let at = [self.at.0.abs(), self.at.1.abs()];
+        let overhang = if at.contains(&1.0) {
+            CORNER_OVERHANG
+        } else {
+            OVERHANG
+        };
+        at[0].max(at[1]) <= 1.0 + overhang
+    }
+}
+
+impl AngularContact {
+    /// Features that meet, each with the meeting, for a driven gear turned from an angle.
+    ///
+    /// Where a contact comes to a corner that it leaves as the corner's own these are both: which it is, rounding hides.
+    fn features(&self, from: f64) -> impl Iterator<Item = (Feature, Meeting)> {
+        let at = self.parameters();
+        let [first, second] = self.tangents();
+        let slant = first.perp(&second).abs() / (first.norm() * second.norm());
+        let corner = match at {
+            (end, _) if end.abs() == 1.0 => Some((Member::Driver, end)),
+            (_, end) if end.abs() == 1.0 => Some((Member::Driven, end)),
+            _ => None,
+        };
+        let smooth = (slant < SMOOTH || corner.is_none()).then_some(None);
+        let angle = from + self.turn;
+        let parts = self.parts;
+        let kinds = smooth.into_iter().chain(corner.map(Some));
+        kinds.map(move |corner| (Feature { parts, corner }, Meeting { at, angle }))
+    }
+}
+
+impl SeatedPose {
+    /// Features that meet in its contacts.
+    pub(super) fn features(&self) -> Vec<(Feature, Meeting)> {
+        self.angular_contacts
+            .iter()
+            .flat_map(|contact| contact.features(self.search_angle))
+            .collect()
+    }
+}
+
+impl Meshing<'_> {
+    /// Meeting of two features at a driver angle, by Newton's method from a meeting nearby.
+    pub(super) fn meeting(&self, feature: &Feature, phi: f64, near: Meeting) -> Option<Meeting> {
+        let a = self.pair.center_distance();
+        let (first, second) = (
+            &self.driver.parts[feature.parts.0],
+            &self.driven.parts[feature.parts.1],
+        );
+        let Meeting {
+            at: (mut u, mut v),
+            mut angle,
+        } = near;
+        match feature.corner {
+            Some((Member::Driver, end)) => u = end,
+            Some((Member::Driven, end)) => v = end,
+            None => {}
+        }
+        for _ in 0..20 {
+            let pose = Pose::new(phi, angle, a);
+            let (p, q) = (
+                first.segment.at(u),
+                pose.jet_to_driver(&second.segment.at(v)),
+            );
+            let apart = q.point - p.point;
+            let arm = q.point - pose.axis;
+            let swing = Vector::new(-arm.y, arm.x);
+            let [du, dv, turn] = match feature.corner {
+                None => {
+                    let slant = p.first.perp(&q.first);
+                    let rates = [
+                        p.second.perp(&q.first),
+                        p.first.perp(&q.second),
+                        p.first.dot(&q.first),
+                    ];
+                    let system = Matrix3::new(
+                        -p.first.x, q.first.x, swing.x, -p.first.y, q.first.y, swing.y, rates[0],
+                        rates[1], rates[2],
+                    );
+                    let step = system
+                        .lu()
+                        .solve(&Vector3::new(-apart.x, -apart.y, -slant))?;
+                    [step.x, step.y, step.z]
+                }
+                Some((member, _)) => {
+                    let along = if member == Member::Driver {
+                        q.first
+                    } else {
+                        -p.first
+                    };
+                    let system = Matrix2::new(along.x, swing.x, along.y, swing.y);
+                    let step = system.lu().solve(&Vector2::new(-apart.x, -apart.y))?;
+                    if member == Member::Driver {
+                        [0.0, step.x, step.y]
+                    } else {
+                        [step.x, 0.0, step.y]
+                    }
+                }
+            };
+            (u, v, angle) = (u + du, v + dv, angle + turn);
+            if !(u.abs() <= 1.0 + CONTINUED && v.abs() <= 1.0 + CONTINUED && angle.is_finite()) {
+                return None;
+            }
+            if du.abs() < SETTLED && dv.abs() < SETTLED {
+                return Some(Meeting { at: (u, v), angle });
+            }
+        }
+        None
+    }
+}
