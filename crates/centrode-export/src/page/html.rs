@@ -52,14 +52,23 @@ pub const START: &str = include_str!("site/start.html");
 pub const PATH: &str = include_str!("site/path.html");
 
 macro_rules! assets {
-    ($media_type:literal: $($name:literal),+ $(,)?) => {
-        [$(Asset { name: $name, media_type: $media_type, text: include_str!(concat!("site/", $name)) }),+]
+    ($media_type:literal: $($name:literal $(= $text:expr)?),+ $(,)?) => {
+        [$(Asset { name: $name, media_type: $media_type, text: assets!(@text $name $($text)?) }),+]
     };
+    (@text $name:literal) => { include_str!(concat!("site/", $name)) };
+    (@text $name:literal $text:expr) => { $text };
 }
+
+/// uPlot, which draws the charts, as it is published minified; its last line here makes it a module. A report holds
+/// it as text, so it is not packed by gzip.
+const UPLOT: &str = concat!(
+    include_str!("vendor/uplot-1.6.32/uPlot.iife.min.js"),
+    "export { uPlot as default };\n"
+);
 
 const STYLES: [Asset; 4] = assets!(
     "text/css; charset=utf-8":
-    "uplot.css",
+    "uplot.css" = include_str!("vendor/uplot-1.6.32/uPlot.min.css"),
     "page.css",
     "picture.css",
     "windows.css",
@@ -68,7 +77,7 @@ const STYLES: [Asset; 4] = assets!(
 /// The scripts; `main.js` is the one to start.
 const SCRIPTS: [Asset; 43] = assets!(
     "text/javascript; charset=utf-8":
-    "uplot.js",
+    "uplot.js" = UPLOT,
     "axes.js",
     "chart-files.js",
     "charts.js",
