@@ -2,7 +2,7 @@
 
 use std::hint::black_box;
 
-use centrode_export::{step, stl};
+use centrode_formats::{step, stl};
 use centrode_geometry::Tolerance;
 use centrode_groove::{SpiralShaft, SpiralShaftDesign};
 use centrode_kinematics::transmission::Transmission;

@@ -1,10 +1,9 @@
-use std::error::Error;
-
 use centrode::family::NotProved;
 use centrode_analysis::forces::ForcesError;
 use centrode_analysis::interference::LinkClearanceError;
 use centrode_analysis::{ArmClearanceError, FeederForcesError, NoSoundTeeth};
-use centrode_export::{BundleError, ExportError};
+use centrode_export::ExportError;
+use centrode_formats::BundleError;
 use centrode_gear::cam::CamError;
 use centrode_gear::pitch::PitchError;
 use centrode_gear::{BaseTangentFault, GearPairError};
@@ -14,16 +13,15 @@ use centrode_kinematics::linkage::{FourBarError, SixBarError};
 use centrode_machines::arm::ArmError;
 use centrode_machines::three_arm::PusherError;
 use centrode_optimise::SearchError;
-use centrode_spec::SpecError;
-use centrode_spec::{DesignError, DesignFault, MechanismError, shortened};
+use centrode_spec::{DesignError, DesignFault, MechanismError, SpecError, shortened};
 use centrode_synthesis::optimise::feeder::NotWidened;
 use centrode_synthesis::optimise::{EasingError, NotSearched};
-use centrode_synthesis::reverse::NotPosed;
 use centrode_synthesis::reverse::{
-    AxisFault, GearDriveError, MachineError, PathError, PoseError, SplitError,
+    AxisFault, GearDriveError, MachineError, NotPosed, PathError, PoseError, SplitError,
 };
 use pyo3::exceptions::PyOSError;
 use pyo3::prelude::{PyErr, Python};
+use std::error::Error;
 
 /// The exceptions, as the Python part of the package defines them.
 pub(crate) mod class {

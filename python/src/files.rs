@@ -3,7 +3,8 @@
 use std::path::PathBuf;
 
 use centrode::family::PartName;
-use centrode_export::{Bundle, Format, Options, write_file};
+use centrode_export::Options;
+use centrode_formats::{Bundle, Format, write_file};
 use centrode_geometry::Tolerance;
 use pyo3::prelude::{Bound, PyResult, Python, pyfunction};
 use pyo3::types::{PyBytes, PyDict, PyDictMethods};

@@ -1,25 +1,23 @@
-use std::path::PathBuf;
-use std::sync::Arc;
-
+use crate::array::{MeshRows, Rows, mesh};
+use crate::body::Body;
+use crate::error::{Answer, positive, tolerance as within};
+use crate::files::_write;
+use crate::made::{Made, Reduced};
+use crate::sheet::{drawing, sheet};
+use crate::solid::Sides;
+use crate::wait::wait;
+use crate::{record, tool};
+use centrode_export::Options;
 use centrode_export::gear_pair::{self, subject_files};
-use centrode_export::{Format, Options};
+use centrode_formats::Format;
 use centrode_gear as mechanism;
 use centrode_gear::Member;
 use centrode_geometry::{Solid, Tolerance};
 use numpy::{IntoPyArray, PyArray1, PyFixedUnicode};
 use pyo3::prelude::{Bound, Py, PyAny, PyDictMethods, PyResult, Python, pyclass, pymethods};
 use pyo3::types::{PyDict, PyTuple};
-
-use crate::array::{MeshRows, Rows, mesh};
-use crate::body::Body;
-use crate::error::{Answer, positive, tolerance as within};
-use crate::files::_write;
-use crate::made::{Made, Reduced};
-use crate::record;
-use crate::sheet::{drawing, sheet};
-use crate::solid::Sides;
-use crate::tool;
-use crate::wait::wait;
+use std::path::PathBuf;
+use std::sync::Arc;
 
 /// One gear of a pair, in its own frame: axes parallel to the world's at phi = 0.
 #[pyclass(frozen, eq, module = "centrode")]

@@ -1,19 +1,18 @@
 //! Drawing sheets and cutting drawings of gears.
 
-use std::sync::Arc;
-
-use centrode::sheet_data;
-use centrode_analysis::check;
-use centrode_export::gear_pair::{Subject, sheets, subject_files};
-use centrode_export::{Bundle, ExportError, Format, Options, Package, SheetOptions};
-use centrode_gear::{GearPair, Member};
-use centrode_geometry::Tolerance;
-use pyo3::prelude::{Bound, PyAny, Python};
-
 use crate::error::{Answer, tolerance as within};
 use crate::record;
 use crate::wait::wait;
 use crate::word::Word;
+use centrode::sheet_data;
+use centrode_analysis::check;
+use centrode_export::gear_pair::{Subject, sheets, subject_files};
+use centrode_export::{ExportError, Options, Package, SheetOptions};
+use centrode_formats::{Bundle, Format};
+use centrode_gear::{GearPair, Member};
+use centrode_geometry::Tolerance;
+use pyo3::prelude::{Bound, PyAny, Python};
+use std::sync::Arc;
 
 /// The sheets of a subject; the contact analysis is made for their tables.
 pub(crate) fn sheet<'py>(

@@ -1,8 +1,9 @@
 //! Exact edges of straight extrusions, and links with their bodies, handed over as records.
 
 use centrode::family::FINEST;
-use centrode_export::step::{StepError, contours, poles, write_shell};
-use centrode_export::{Bundle, ExportError};
+use centrode_export::ExportError;
+use centrode_formats::Bundle;
+use centrode_formats::step::{StepError, contours, poles, write_shell};
 use centrode_geometry::{Opening, Segment, Solid, Tolerance};
 use centrode_kinematics::machine::{Form, Joint, JointKind, Machine, Mounted, Shape};
 use pyo3::prelude::{Bound, PyAny, PyDictMethods, PyResult, Python};

@@ -1,6 +1,7 @@
 //! Words of design files and calls, and what each stands for.
 
-use centrode_export::dxf::{Curves, Version};
+use crate::error::{Answer, Raised};
+use centrode_formats::dxf::{Curves, Version};
 use centrode_gear::cam::design::Turn;
 use centrode_gear::design::{Addendum, Fit, Phase, TipShortening};
 use centrode_gear::pitch::{Interpolation, Plane};
@@ -10,8 +11,6 @@ use centrode_machines::three_arm::design::Direction;
 use centrode_spec::{Projection, SheetSize};
 use centrode_synthesis::optimise::Strategy;
 use centrode_synthesis::reverse::{Aim, SplitKind};
-
-use crate::error::{Answer, Raised};
 
 /// One of a few, each known by a word.
 pub(crate) trait Word: Copy + PartialEq + 'static {

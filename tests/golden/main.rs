@@ -13,7 +13,8 @@ use std::thread;
 
 use centrode::FAMILIES;
 use centrode::family::Mechanism;
-use centrode_export::{Bundle, Format, Options};
+use centrode_export::Options;
+use centrode_formats::{Bundle, Format};
 use centrode_geometry::Tolerance;
 use serde_json::{Value, json};
 

@@ -1,10 +1,7 @@
-use std::fs;
-use std::path::Path;
-
 use centrode::FAMILIES;
 use centrode_export::SheetOptions;
 use centrode_export::gear_pair::{Subject, sheets};
-use centrode_export::sheet::overlaps;
+use centrode_formats::sheet::overlaps;
 use centrode_gear::GearPair;
 use centrode_gear::design::GearPairDesign;
 use centrode_geometry::Tolerance;
@@ -12,6 +9,8 @@ use centrode_kinematics::machine::Keyway;
 use centrode_spec::{DesignSpec as _, Projection, SheetSize};
 use centrode_tests::sound_pair;
 use proptest::prelude::{ProptestConfig, any, prop_assert, proptest};
+use std::fs;
+use std::path::Path;
 
 const PROJECTIONS: [Projection; 2] = [Projection::FirstAngle, Projection::ThirdAngle];
 

@@ -95,7 +95,7 @@ def test_a_package_holds_every_file_it_needs(name):
                 included.append((path.parent / target).resolve())
     for target in included:
         assert target.relative_to(folder).as_posix() in listed, target
-    assert included or name not in ("centrode-export", "centrode-gear", "centrode-groove", "centrode-machines")
+    assert included or name not in ("centrode-formats", "centrode-gear", "centrode-groove", "centrode-machines")
 
 
 def test_the_python_package_has_its_command_and_its_licences():
@@ -108,7 +108,7 @@ def test_the_python_package_has_its_command_and_its_licences():
     assert texts == {
         "LICENSE-MIT": (ROOT / "LICENSE-MIT").read_bytes(),
         "LICENSE-APACHE": (ROOT / "LICENSE-APACHE").read_bytes(),
-        "LICENSE-OFL": (ROOT / "crates/centrode-export/font/OFL.txt").read_bytes(),
+        "LICENSE-OFL": (ROOT / "crates/centrode-formats/font/OFL.txt").read_bytes(),
     }
     assert [word.split(">")[0] for word in project["optional-dependencies"]["plot"]] == ["matplotlib"]
 

@@ -1,12 +1,11 @@
 use std::error::Error;
 
-use centrode_geometry::SolidError;
-use thiserror::Error as Explained;
-
-use crate::{
-    Format, bundle::BundleError, csv::TableError, dxf::DxfError, mjcf::MjcfError, pdf::PdfError,
+use centrode_formats::{
+    BundleError, Format, csv::TableError, dxf::DxfError, mjcf::MjcfError, pdf::PdfError,
     sheet::SheetError, step::StepError, threemf::PackageError, urdf::UrdfError,
 };
+use centrode_geometry::SolidError;
+use thiserror::Error as Explained;
 
 /// Why the files of a machine could not be made.
 #[derive(Debug, Explained)]

@@ -1,40 +1,29 @@
-//! One writer for each file format: DXF, SVG, PDF, STL, STEP, 3MF, CSV, URDF, MJCF.
+//! Files, pictures and curves of each family of machine and of machines in general.
 //!
-//! Writers are pure: they turn a plain value into bytes. Only [`Bundle`], [`write_file`] and [`write_new_file`] touch the disk.
+//! Here is decided which drawings, sheets, solids, tables and models a machine has, and how a plate, a turned part and a
+//! general arrangement are drawn. The bytes are written by `centrode-formats`.
+//! It may not know: checks and searches (`centrode-analysis`), the list of families, the command line, the page's server.
+//! Nothing here touches the disk; a [`Package`] collects files in a bundle.
 
-mod bundle;
 pub mod cam;
 pub mod composed;
-pub mod csv;
-pub mod drawing;
-pub mod dxf;
+mod cutting;
 mod error;
 pub mod feeder;
-mod format;
+mod fit;
 pub mod gear_pair;
-mod hash;
+mod grade;
 pub mod machine;
-pub mod mjcf;
-pub mod model;
+mod number;
 mod options;
 mod package;
 pub mod page;
-pub mod pdf;
 mod plate;
 pub mod shaft;
-pub mod sheet;
-mod stage;
-pub mod step;
-pub mod stl;
-pub mod svg;
 pub mod three_arm;
-pub mod threemf;
+mod treatment;
 mod turned;
-pub mod urdf;
-mod xml;
 
-pub use bundle::{Bundle, BundleError, write_file, write_new_file};
 pub use error::ExportError;
-pub use format::{Format, UnknownFormat};
 pub use options::{Options, SheetOptions};
 pub use package::Package;

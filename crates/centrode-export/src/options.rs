@@ -1,8 +1,7 @@
+use centrode_formats::dxf;
 use centrode_geometry::Tolerance;
 use centrode_kinematics::machine::Datum;
 use centrode_spec::{Projection, SheetSize};
-
-use crate::dxf;
 
 /// How files are written.
 #[derive(Clone, Debug, PartialEq)]

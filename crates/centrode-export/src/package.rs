@@ -1,17 +1,20 @@
 mod solids;
 
+use centrode_formats::{
+    Bundle, Format,
+    csv::{self, Column},
+    drawing::Drawing,
+    dxf::{self, Curves},
+    pdf,
+    sheet::Sheet,
+    svg,
+};
 use centrode_geometry::Tolerance;
 use centrode_kinematics::machine::Machine;
 
 use crate::{
-    Bundle, ExportError, Format, Options,
-    csv::{self, Column},
-    drawing::Drawing,
-    dxf::{self, Curves},
+    ExportError, Options,
     machine::{self, ARRANGEMENT},
-    pdf,
-    sheet::Sheet,
-    svg,
 };
 
 /// Formats of drawing sheets.

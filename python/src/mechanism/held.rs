@@ -1,22 +1,20 @@
 //! How an object of Python holds its machine, and asks it.
 
-use std::sync::{Arc, OnceLock};
-
-use centrode::family::{self, Depth, Family};
-use centrode::sheet_data;
-use centrode_export::machine::tabulated;
-use centrode_export::{Bundle, ExportError, Format, Options};
-use centrode_kinematics::machine::{FrameJet, Machine};
-use pyo3::prelude::{Bound, PyAny, PyClassInitializer, PyDictMethods, PyResult, Python, pyclass};
-use pyo3::types::PyDict;
-
 use crate::array::{Course, Values};
 use crate::design::named;
 use crate::error::{Answer, Raised, finite, tolerance as within};
-use crate::files;
 use crate::forces::{self, Names};
-use crate::solid;
 use crate::wait::wait;
+use crate::{files, solid};
+use centrode::family::{self, Depth, Family};
+use centrode::sheet_data;
+use centrode_export::machine::tabulated;
+use centrode_export::{ExportError, Options};
+use centrode_formats::{Bundle, Format};
+use centrode_kinematics::machine::{FrameJet, Machine};
+use pyo3::prelude::{Bound, PyAny, PyClassInitializer, PyDictMethods, PyResult, Python, pyclass};
+use pyo3::types::PyDict;
+use std::sync::{Arc, OnceLock};
 
 /// A machine of whatever family: what `load` gives is one of its subclasses.
 ///

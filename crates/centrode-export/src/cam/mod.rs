@@ -5,7 +5,10 @@ mod sheet;
 mod solid;
 mod table;
 
-use crate::{Bundle, ExportError, Format, Options, Package, drawing::Drawing, dxf::Curves};
+use crate::{ExportError, Options, Package};
+use centrode_formats::drawing::Drawing;
+use centrode_formats::dxf::Curves;
+use centrode_formats::{Bundle, Format};
 use centrode_gear::cam::{Cam, CamError};
 use centrode_geometry::Tolerance;
 pub(crate) use plate::plate;

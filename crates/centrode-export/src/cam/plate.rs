@@ -1,8 +1,7 @@
-use centrode_gear::cam::Cam;
-
 use super::{ROWS, columns};
 use crate::plate::{Exactness, Plate};
-use crate::sheet::Table;
+use centrode_formats::sheet::Table;
+use centrode_gear::cam::Cam;
 
 /// A cam as a plate, with the file of its profile; in a machine that has so many of it.
 pub(crate) fn plate(cam: &Cam, [name, title]: [&str; 2], quantity: usize) -> Plate {

@@ -1,5 +1,6 @@
-use crate::drawing::{Anchor, CENTER, Color, Drawing, EntityShape, HOLE, LineType, PROFILE, Text};
+use crate::cutting::{CENTER, HOLE, PROFILE};
 use crate::package::title_or_name;
+use centrode_formats::drawing::{Anchor, Color, Drawing, EntityShape, LineType, Text};
 use centrode_gear::cam::design::{Follower, Turn};
 use centrode_gear::cam::{Cam, CamError};
 use centrode_geometry::{Bounds, Outline, Point, Tolerance, Vector};

@@ -1,4 +1,4 @@
-use crate::csv::Column;
+use centrode_formats::csv::Column;
 use centrode_gear::cam::{Cam, Contact};
 use std::f64::consts::TAU;
 

@@ -1,8 +1,8 @@
 use super::{FORMATS, drawing, files, mesh, solid};
-use crate::csv::Values;
-use crate::drawing::EntityShape;
-use crate::dxf;
-use crate::{ExportError, Format, Options};
+use crate::{ExportError, Options};
+use centrode_formats::csv::Values;
+use centrode_formats::drawing::EntityShape;
+use centrode_formats::{Format, dxf};
 use centrode_gear::cam::Cam;
 use centrode_gear::cam::design::{
     CamSpec, Dwell, Follower, MotionSpec, SegmentSpec, SwingingRoller, TranslatingFlat, Travel,

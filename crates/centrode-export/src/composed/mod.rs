@@ -3,13 +3,14 @@
 mod curves;
 mod parts;
 
+use centrode_formats::drawing::{Color, Drawing, EntityShape, LineType};
+use centrode_formats::{Bundle, Format};
 use centrode_geometry::{MassProperties, Point, Solid};
 use centrode_kinematics::machine::{Form, LinePath, Machine};
 use centrode_machines::composed::{Composed, Hardware};
 use nalgebra::{Isometry2, Matrix3, Point3};
 
-use crate::drawing::{Color, Drawing, EntityShape, LineType};
-use crate::{Bundle, ExportError, Format, Options, Package, turned};
+use crate::{ExportError, Options, Package, turned};
 pub use curves::curves;
 
 const PATH: &str = "PATH";

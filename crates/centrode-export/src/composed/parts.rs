@@ -1,3 +1,4 @@
+use centrode_formats::sheet::number;
 use centrode_geometry::{Outline, Solid};
 use centrode_kinematics::machine::Machine;
 use centrode_machines::composed::{Composed, Hardware, PinHole};
@@ -5,8 +6,8 @@ use centrode_machines::composed::{Composed, Hardware, PinHole};
 use super::plates;
 use crate::gear_pair::{self, Label};
 use crate::plate::{Hole, Plate, hold_apart};
-use crate::sheet::{capital, fit, number};
 use crate::{ExportError, Package, cam, turned};
+use crate::{fit, number::capital};
 
 /// Offers plates, gears and cams; copies have the files of their originals.
 pub(super) fn add(

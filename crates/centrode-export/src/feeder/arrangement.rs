@@ -1,5 +1,6 @@
 use std::f64::consts::TAU;
 
+use centrode_formats::sheet::number;
 use centrode_geometry::Point;
 use centrode_kinematics::machine::{
     self, Axis, Blank, Datum, Dimension, Fit, Form, Line, LineRole, Machine,
@@ -8,7 +9,6 @@ use centrode_machines::feeder::{Feeder, FeederPart, GearBody, Plate};
 
 use super::gears::TITLES;
 use super::plates::spacer;
-use crate::sheet::number;
 use crate::turned;
 
 /// Corners of a path.

@@ -1,15 +1,17 @@
+use super::pins::pins;
+use crate::cutting::{self, CENTER, HOLE, PROFILE};
+use crate::fit;
+use crate::gear_pair::{by_thickness, measured, over_pins, tooth_runout};
+use crate::number::capital;
+use crate::plate::{Exactness, Hole, Plate};
+use centrode_formats::csv::Column;
+use centrode_formats::drawing::{Anchor, Color, Drawing, EntityShape, LineType};
+use centrode_formats::sheet::{Table, broken, number};
 use centrode_gear::{IntermittentPair, Member};
 use centrode_geometry::{Arc, Outline, Point, Segment, Tolerance};
 use centrode_kinematics::machine::Datum;
 use centrode_machines::feeder::{Feeder, GearBody};
 use nalgebra::Isometry2;
-
-use super::pins::pins;
-use crate::csv::Column;
-use crate::drawing::{Anchor, CENTER, Color, Drawing, EntityShape, HOLE, LineType, PROFILE};
-use crate::gear_pair::{by_thickness, measured, over_pins, tooth_runout};
-use crate::plate::{Exactness, Hole, Plate};
-use crate::sheet::{Table, broken, capital, fit, number};
 
 /// Names of gears and cams in lists and titles, in the order of [`GearBody::NAMES`].
 pub(super) const TITLES: [&str; 4] = [
@@ -198,7 +200,7 @@ pub(super) fn columns(part: &Plate) -> Vec<Column> {
 
 /// The gears in place as the motion begins.
 pub(super) fn assembly(gears: &IntermittentPair, parts: &[Plate]) -> Drawing {
-    let mut drawing = Drawing::cutting().layer(CAM, Color::Green, LineType::Continuous, 0.25);
+    let mut drawing = cutting::drawing().layer(CAM, Color::Green, LineType::Continuous, 0.25);
     for part in parts {
         let x = match &*part.name {
             name if name == GearBody::NAMES[1] => gears.center_distance(),

@@ -9,7 +9,8 @@ mod pins;
 mod plates;
 
 use crate::package::title_or_name;
-use crate::{Bundle, ExportError, Format, Options, Package, turned};
+use crate::{ExportError, Options, Package, turned};
+use centrode_formats::{Bundle, Format};
 use centrode_gear::IntermittentPair;
 use centrode_kinematics::machine::Machine;
 use centrode_machines::feeder::{Feeder, FeederError, FeederPart, Plate};

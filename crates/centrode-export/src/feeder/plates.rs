@@ -1,6 +1,8 @@
-use crate::drawing::{Anchor, CENTER, Color, Drawing, EntityShape, LineType, Text};
+use crate::cutting::CENTER;
+use crate::number::capital;
 use crate::plate::{self, Hole};
-use crate::sheet::{capital, number};
+use centrode_formats::drawing::{Anchor, Color, Drawing, EntityShape, LineType, Text};
+use centrode_formats::sheet::number;
 use centrode_geometry::{Bounds, Point, Vector};
 use centrode_kinematics::machine::Stock;
 use centrode_machines::feeder::{Feeder, FeederPart, Plate};

@@ -1,11 +1,9 @@
 //! Flank tolerances of the teeth, ISO 1328-1:2013.
 
-use std::f64::consts::PI;
-
+use centrode_formats::sheet::number;
 use centrode_gear::{GearPair, Member};
 use centrode_kinematics::machine::Datum;
-
-use crate::sheet::number;
+use std::f64::consts::PI;
 
 /// Sizes that the tolerances of a gear depend on, mm.
 #[derive(Clone, Copy, Debug)]

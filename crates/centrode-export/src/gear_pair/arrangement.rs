@@ -1,9 +1,10 @@
+use crate::fit;
+use crate::grade::grade;
+use crate::number::range;
+use centrode_formats::sheet::number;
 use centrode_gear::design::BodySpec;
 use centrode_gear::{Gear, GearPair, Member};
 use centrode_kinematics::machine::{Blank, Callout, Datum, Fit, Key, Machine, Part, Supply};
-
-use crate::sheet::geometrical::grade;
-use crate::sheet::{fit, number, range};
 
 /// Material of keys; their mass is that of the shaft's link, which is the customer's.
 const KEY: &str = "steel";

@@ -1,6 +1,7 @@
 use super::Subject;
 use super::sheet::{self, Contours};
-use crate::{drawing::Drawing, dxf::Curves};
+use centrode_formats::drawing::Drawing;
+use centrode_formats::dxf::Curves;
 use centrode_gear::{GearPair, Member};
 use centrode_geometry::Tolerance;
 use std::cell::OnceCell;

@@ -12,10 +12,11 @@ mod sheet;
 mod sheets;
 mod solid;
 
-use crate::{Bundle, ExportError, Format, Options, Package};
+use crate::{ExportError, Options, Package};
 pub(crate) use accuracy::{flank_tolerances, tooth_runout};
 pub use arrangement::contact_data;
 pub(crate) use arrangement::{by_thickness, half_play, list, list_keys, list_pair, of_both};
+use centrode_formats::{Bundle, Format};
 use centrode_gear::{GearPair, GearPairError, Member};
 pub use contacts::contacts;
 pub(crate) use contacts::{Flanks, PITCH_SAMPLES, ROUNDING, paths, track};

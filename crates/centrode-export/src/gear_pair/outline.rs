@@ -1,4 +1,4 @@
-use crate::csv::Column;
+use centrode_formats::csv::Column;
 use centrode_gear::Gear;
 use centrode_geometry::Tolerance;
 

@@ -1,4 +1,4 @@
-use crate::csv::Column;
+use centrode_formats::csv::Column;
 use centrode_gear::{GearPair, Member, OverPins, Pin};
 
 /// Measuring pins, a row a tooth space: where the pin lies, and the measures over it. Cells of a space

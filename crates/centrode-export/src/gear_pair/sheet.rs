@@ -1,4 +1,5 @@
-use crate::drawing::{Anchor, CENTER, Color, Drawing, EntityShape, HOLE, LineType, PROFILE, Text};
+use crate::cutting::{CENTER, HOLE, PROFILE};
+use centrode_formats::drawing::{Anchor, Color, Drawing, EntityShape, LineType, Text};
 use centrode_gear::design::Addendum;
 use centrode_gear::{Gear, GearPair, Member};
 use centrode_geometry::{Bounds, Outline, Point, Tolerance, Vector};

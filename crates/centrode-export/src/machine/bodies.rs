@@ -1,4 +1,4 @@
-use crate::model::Convex;
+use centrode_formats::model::Convex;
 use centrode_geometry::{ConvexPieces, Mesh, Point, Tolerance, Vector, convex_pieces};
 use centrode_kinematics::machine::Surface;
 use std::collections::BTreeMap;

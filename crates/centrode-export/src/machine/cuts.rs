@@ -1,7 +1,6 @@
+use centrode_formats::drawing::Anchor;
+use centrode_formats::sheet::Table;
 use centrode_kinematics::machine::{Blank, Machine, Part};
-
-use crate::drawing::Anchor;
-use crate::sheet::Table;
 
 /// Parts from which on a list of what is cut pays: those of a gear pair are told by their own sheets.
 const WORTH_IT: usize = 4;

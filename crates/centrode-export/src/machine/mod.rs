@@ -15,11 +15,11 @@ mod spatial;
 mod still;
 mod whole;
 
-use centrode_kinematics::machine::Machine;
-
-use crate::{ExportError, Format, Package, csv, mjcf, step, threemf, urdf};
+use crate::{ExportError, Package};
 pub(crate) use arrangement::NAME as ARRANGEMENT;
 pub use arrangement::arrangement;
+use centrode_formats::{Format, csv, mjcf, step, threemf, urdf};
+use centrode_kinematics::machine::Machine;
 pub use file::{MachineFileError, plain, read, schema, write};
 pub use motion_file::{
     ClosureWords, ColumnWords, InputWords, Interpolation, JointWords, LinearWords, MeshWords,
@@ -28,6 +28,7 @@ pub use motion_file::{
 pub use parts::parts_list;
 pub use picture::picture;
 pub use spatial::spatial;
+
 #[cfg(test)]
 pub(crate) use {model::simulated, motion::lines};
 

@@ -1,10 +1,10 @@
+use centrode_formats::mjcf::Closure;
+use centrode_formats::model::{self, Convex, MOST_FACES, Mimic, Model, ModelJoint};
 use centrode_geometry::{Mesh, SolidError, Tolerance};
 use centrode_kinematics::machine::{Form, JointKind, Link, Machine, Shape};
 
 use super::motion::Line;
 use super::{bodies, motion};
-use crate::mjcf::Closure;
-use crate::model::{self, Convex, MOST_FACES, Mimic, Model, ModelJoint, shown_tolerance};
 
 /// A machine as simulators want it.
 pub(crate) struct Simulated {
@@ -219,4 +219,32 @@ fn note(
         note += &machine.note;
     }
     note
+}
+
+/// The tolerance of a mesh that a model shows: the one given, or as many times its double as brings the mesh down
+/// to [`MOST_FACES`]. `faces` counts the triangles of the mesh at a tolerance.
+fn shown_tolerance(tolerance: Tolerance, mut faces: impl FnMut(Tolerance) -> usize) -> Tolerance {
+    // A mesh that coarser tolerances do not thin out stays as it is in the end.
+    const DOUBLINGS: i32 = 30;
+    let coarser = |times: i32| tolerance.scaled(2.0_f64.powi(times));
+    (0..DOUBLINGS)
+        .map(coarser)
+        .find(|&coarse| faces(coarse) <= MOST_FACES)
+        .unwrap_or(tolerance)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mesh_is_shown_at_its_own_tolerance_or_as_finely_as_the_budget_allows() {
+        let tolerance = Tolerance::new(1e-3).expect("positive");
+        let shown = |faces: f64| {
+            shown_tolerance(tolerance, |t| (faces * tolerance.mm() / t.mm()) as usize).mm()
+        };
+        assert_eq!(shown(100_000.0), 1e-3);
+        assert_eq!(shown(150_000.0), 2e-3);
+        assert_eq!(shown(900_000.0), 16e-3);
+    }
 }

@@ -1,14 +1,13 @@
-use centrode_geometry::{Tolerance, extremes, maximum, piece_ends};
-use centrode_kinematics::machine::{Form, Joint, JointKind, Machine, Quantity};
-use centrode_kinematics::transmission::Transmission;
-use std::f64::consts::TAU;
-
 use super::MODEL;
 use super::motion_file::{
     ClosureWords, ColumnWords, InputWords, Interpolation, JointWords, LinearWords, MeshWords,
     MotionFile, PointWords,
 };
-use crate::csv::Column;
+use centrode_formats::csv::Column;
+use centrode_geometry::{Tolerance, extremes, maximum, piece_ends};
+use centrode_kinematics::machine::{Form, Joint, JointKind, Machine, Quantity};
+use centrode_kinematics::transmission::Transmission;
+use std::f64::consts::TAU;
 
 /// Name of the table.
 pub(super) const TABLE: &str = "motion.csv";

@@ -1,8 +1,8 @@
+use crate::number::mass;
+use centrode_formats::csv::Column;
+use centrode_formats::drawing::Anchor;
+use centrode_formats::sheet::Table;
 use centrode_kinematics::machine::{Machine, Part, Supply};
-
-use crate::csv::Column;
-use crate::drawing::Anchor;
-use crate::sheet::{Table, mass};
 
 /// The parts list of a machine, numbered from one; columns that say nothing of any part are left out.
 #[must_use]

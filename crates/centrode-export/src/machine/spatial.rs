@@ -1,11 +1,10 @@
+use super::model;
+use crate::ExportError;
+use centrode_formats::stl;
+use centrode_geometry::{Tolerance, checkpoint};
 use centrode_kinematics::machine::Machine;
 use nalgebra::Isometry3;
 use serde::Serialize;
-
-use centrode_geometry::{Tolerance, checkpoint};
-
-use super::model;
-use crate::{ExportError, stl};
 
 /// Head of a machine in space: the files of its meshes, its links, and where they stand.
 #[derive(Serialize)]

@@ -1,11 +1,10 @@
 use std::collections::BTreeSet;
 
+use centrode_formats::step::{Component, Exact};
+use centrode_formats::threemf::Object;
 use centrode_geometry::{Mesh, Shell, SolidError, Tolerance};
 use centrode_kinematics::machine::{Form, Machine, Part, Shape, Supply};
 use nalgebra::Isometry3;
-
-use crate::step::{Component, Exact};
-use crate::threemf::Object;
 
 /// Colours of links, one after the other.
 const COLORS: [[u8; 3]; 8] = [

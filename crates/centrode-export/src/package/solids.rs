@@ -1,11 +1,12 @@
-use centrode_geometry::{Mesh, Shell, Solid, Tolerance};
-
-use super::Package;
-use crate::{
-    ExportError, Format,
+use centrode_formats::{
+    Format,
     step::{self, StepError},
     stl, threemf,
 };
+use centrode_geometry::{Mesh, Shell, Solid, Tolerance};
+
+use super::Package;
+use crate::ExportError;
 
 impl Package<'_> {
     /// Offers a part as a solid, which its files call by a title.

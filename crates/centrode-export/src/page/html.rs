@@ -1,5 +1,4 @@
-use super::bundle;
-use crate::hash;
+use super::{bundle, policy};
 
 /// A file of the page.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
@@ -153,14 +152,14 @@ pub fn asset(name: &str) -> Option<&'static Asset> {
 }
 
 /// Only what is in the file: no request leaves a report, and its script and styles are named by their hashes.
-fn policy(script: &str) -> String {
+fn allowed(script: &str) -> String {
     let styles: Vec<String> = STYLES
         .iter()
-        .map(|a| hash::source(&inline(a.text)))
+        .map(|a| policy::source(&inline(a.text)))
         .collect();
     format!(
         "default-src 'none'; script-src {}; style-src {}; img-src data: blob:",
-        hash::source(script),
+        policy::source(script),
         styles.join(" ")
     )
 }
@@ -180,7 +179,7 @@ pub fn report(title: &str, snapshot: &str) -> String {
         .map(|a| format!("<style>{}</style>\n", inline(a.text)))
         .collect();
     let script = bundle::script("main.js", &SCRIPTS);
-    let policy = policy(&script);
+    let policy = allowed(&script);
     let script = format!(
         "<script type=\"application/json\" id=\"snapshot\">{}</script>\n\
          <script type=\"module\">{script}</script>\n",
@@ -241,7 +240,7 @@ mod tests {
         let script = between("<script type=\"module\">", "</script>");
         assert_eq!(
             rule("script-src"),
-            Some(&*format!("script-src {}", hash::source(script)))
+            Some(&*format!("script-src {}", policy::source(script)))
         );
         assert_eq!(rule("default-src"), Some("default-src 'none'"));
         assert!(

@@ -8,6 +8,7 @@ mod bundle;
 mod curves;
 mod html;
 mod path;
+mod policy;
 mod scene;
 
 pub use curves::CurveList;

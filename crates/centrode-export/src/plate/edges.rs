@@ -1,11 +1,12 @@
 //! Views of a plate's edge, and of the wall that an opening goes through.
 
+use centrode_formats::sheet::{Draft, Pen, number, steady};
 use centrode_geometry::{Bounds, Point, Vector};
 use centrode_spec::Projection;
 
 use super::hole::circle;
 use super::{Exactness, Plate};
-use crate::sheet::{Draft, Pen, fit, number, steady};
+use crate::fit;
 
 /// Words of the runout of both faces.
 const FACES: &str = "both faces";

@@ -1,9 +1,10 @@
 //! Datums of a plate and what is toleranced to them.
 
+use centrode_formats::sheet::geometrical::Frame;
 use centrode_geometry::Point;
 
 use super::{Exactness, Hole, Plate};
-use crate::sheet::geometrical::Frame;
+use crate::grade;
 
 impl Plate {
     /// Frames of each hole. The first datum is the seat of a shaft, or else the first hole with a class; the second is the hole
@@ -33,7 +34,7 @@ impl Plate {
                 _ => one.to_string(),
             };
             let Hole { off, apart, .. } = self.holes[index];
-            let position = Frame::position(distance, off, apart, &datums);
+            let position = grade::position(distance, off, apart, &datums);
             frames[index].extend(position);
         }
         for (index, hole) in self.holes.iter().enumerate() {
@@ -42,7 +43,7 @@ impl Plate {
                 None => one.to_string(),
             };
             let distance = hole.fitted_slot().map(|at| (at - origin).norm());
-            let position = distance.and_then(|mm| Frame::position_of_slot(mm, &datums));
+            let position = distance.and_then(|mm| grade::position_of_slot(mm, &datums));
             frames[index].extend(position);
         }
         // A letter that nothing lies to is not told.
@@ -52,7 +53,7 @@ impl Plate {
             frames[second].push(Frame::datum(two));
         }
         let keyed = self.holes[first].keyed;
-        let keyway = Frame::symmetry(keyed, &one.to_string());
+        let keyway = grade::symmetry(keyed, &one.to_string());
         let is_used = self.face_runout().is_some()
             || self.contour_frame().is_some()
             || keyway.is_some()
@@ -72,7 +73,7 @@ impl Plate {
             return None;
         }
         let [one, _] = self.letters();
-        Frame::runout(2.0 * self.reach(origin), &one.to_string())
+        grade::runout(2.0 * self.reach(origin), &one.to_string())
     }
 
     /// Frame of the contour to the datum of the bore, and words behind it.
@@ -84,10 +85,10 @@ impl Plate {
         }
         let [one, _] = self.letters().map(String::from);
         match exactness {
-            Exactness::Profile => Some((Frame::profile(self.reach(origin), &one)?, "")),
-            Exactness::Rim => Some((Frame::runout(2.0 * self.reach(origin), &one)?, "rim")),
+            Exactness::Profile => Some((grade::profile(self.reach(origin), &one)?, "")),
+            Exactness::Rim => Some((grade::runout(2.0 * self.reach(origin), &one)?, "rim")),
             Exactness::Teeth(width) => {
-                Some((Frame::runout_within(width, &one), "teeth, over pins"))
+                Some((grade::runout_within(width, &one), "teeth, over pins"))
             }
         }
     }

@@ -1,10 +1,9 @@
-use std::f64::consts::TAU;
-
+use crate::fit;
+use centrode_formats::sheet::number;
 use centrode_gear::design::BodySpec;
 use centrode_geometry::{Outline, Point, Segment};
 use centrode_kinematics::machine::{Fastening, Screw};
-
-use crate::sheet::{fit, number};
+use std::f64::consts::TAU;
 
 /// Share of a radius by which arcs of one circle may differ: rounding.
 const ROUNDING: f64 = 1e-9;

@@ -5,21 +5,21 @@ mod geometrical;
 mod hole;
 mod sheet;
 
+use crate::cutting::{self, CENTER, HOLE, PROFILE};
+use crate::number::mass;
+use crate::{ExportError, Package};
+use centrode_formats::drawing::{Drawing, EntityShape};
+use centrode_formats::dxf::Curves;
+use centrode_formats::sheet::Table;
 use centrode_gear::design::BodySpec;
 use centrode_geometry::{
     MassProperties, Opening, Outline, Point, Solid, SolidError, Tolerance, Vector,
 };
 use centrode_kinematics::machine::{Fastening, Stock};
 use centrode_spec::DrawingSpec;
-
-use nalgebra::Isometry2;
-
-use crate::drawing::{CENTER, Drawing, EntityShape, HOLE, PROFILE};
-use crate::dxf::Curves;
-use crate::sheet::{Table, mass};
-use crate::{ExportError, Package};
 pub(crate) use hole::{Hole, hold_apart};
 use hole::{HoleKind, ScrewHole};
+use nalgebra::Isometry2;
 
 /// A part of one thickness.
 #[derive(Clone, Debug)]
@@ -207,7 +207,7 @@ impl Plate {
             Curves::Arcs => outline.arcs(tolerance),
             Curves::Splines => outline.clone(),
         };
-        let mut drawing = Drawing::cutting();
+        let mut drawing = cutting::drawing();
         drawing.draw(PROFILE, EntityShape::Contour(plain(&self.outline)));
         for hole in &self.holes {
             drawing.draw(HOLE, EntityShape::Contour(plain(&hole.outline)));

@@ -1,15 +1,16 @@
+use centrode_formats::drawing::{Anchor, EntityShape};
+use centrode_formats::sheet::geometrical::{Characteristic, NoteLine};
+use centrode_formats::sheet::{
+    Draft, Pen, Scale, Sheet, SheetBlock, SheetError, Table, TitleBlock, compose, lettering,
+    number, steady, view_letters,
+};
 use centrode_geometry::{Arc, Bounds, Outline, Point, Segment, Tolerance, Vector};
 use centrode_spec::{DrawingSpec, Projection, SheetSize};
 
 use super::hole::circle;
 use super::{Exactness, Hole, HoleKind, Plate, ScrewHole};
 use crate::SheetOptions;
-use crate::drawing::{Anchor, EntityShape};
-use crate::sheet::geometrical::{Characteristic, NoteLine};
-use crate::sheet::{
-    Draft, Pen, Scale, Sheet, SheetBlock, SheetError, Table, TitleBlock, compose, fixed, lettering,
-    number, steady, treatment_note, view_letters,
-};
+use crate::{number::fixed, treatment::treatment_note};
 
 /// Most holes with their size and place beside the view; more have a table.
 const CALLED_OUT: usize = 6;
@@ -33,7 +34,7 @@ impl Plate {
         tolerance: Tolerance,
     ) -> Result<Vec<Sheet>, SheetError> {
         let words = [&*self.name, &*self.title];
-        let mut block = TitleBlock::of_part(spec, words, supplement, options);
+        let mut block = TitleBlock::of_part(spec, words, supplement, options.projection);
         block.material.clone_from(&self.material);
         block.mass = self.weight();
         let plain = Plate {

@@ -1,18 +1,15 @@
-use std::f64::consts::TAU;
-
+use super::figures;
+use super::links::{BOX, GEARS};
+use super::machine::Machine;
+use super::sheets::data;
+use crate::{ExportError, fit, gear_pair, turned};
+use centrode_formats::sheet::number;
 use centrode_gear::Member;
 use centrode_groove::ShaftSolid;
 use centrode_kinematics::machine::{
     Axis, Blank, Datum, Dimension, Machine as Linked, Part, Supply,
 };
-
-use super::figures;
-use super::links::{BOX, GEARS};
-use super::machine::Machine;
-use super::sheets::data;
-use crate::ExportError;
-use crate::sheet::{fit, number};
-use crate::{gear_pair, turned};
+use std::f64::consts::TAU;
 
 /// Lists shaft, slider, box and gears with their masses, and tells the arrangement: the groove unrolled, the slider in it.
 pub(super) fn tell(parts: &Machine<'_>, machine: &mut Linked) -> Result<(), ExportError> {

@@ -1,4 +1,5 @@
-use crate::drawing::{Anchor, CENTER, Color, Drawing, EntityShape, HOLE, LineType, PROFILE, Text};
+use crate::cutting::{self, CENTER, HOLE, PROFILE};
+use centrode_formats::drawing::{Anchor, Color, Drawing, EntityShape, LineType, Text};
 use centrode_geometry::{Arc, Outline, Point, Tolerance};
 use centrode_groove::{ShaftError, ShaftSolid, SpiralShaft};
 use std::f64::consts::TAU;
@@ -251,7 +252,7 @@ fn passed(edges: &[Vec<Point>], x: f64) -> Vec<f64> {
 pub fn slider(shaft: &SpiralShaft) -> Drawing {
     let slider = shaft.slider();
     let mut drawing =
-        Drawing::cutting().layer("TEXT", Color::Foreground, LineType::Continuous, 0.25);
+        cutting::drawing().layer("TEXT", Color::Foreground, LineType::Continuous, 0.25);
     let width = slider.width(shaft.groove().width());
     drawing.draw(
         PROFILE,

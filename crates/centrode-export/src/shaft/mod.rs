@@ -10,7 +10,8 @@ mod machine;
 mod sheets;
 mod tables;
 
-use crate::{Bundle, ExportError, Format, Options, Package, gear_pair, turned};
+use crate::{ExportError, Options, Package, gear_pair, turned};
+use centrode_formats::{Bundle, Format};
 use centrode_geometry::Solid;
 use centrode_groove::{MovingBox, ShaftError, SpiralShaft};
 use centrode_kinematics::machine::Machine as Linked;

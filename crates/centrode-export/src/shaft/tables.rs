@@ -1,4 +1,4 @@
-use crate::csv::Column;
+use centrode_formats::csv::Column;
 use centrode_geometry::Tolerance;
 use centrode_groove::{Schedule, SpiralShaft};
 use centrode_kinematics::transmission::Transmission;

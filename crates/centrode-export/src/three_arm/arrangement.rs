@@ -1,13 +1,12 @@
+use super::ThreeArmPart;
+use super::machine::{Machine, PASSING};
+use crate::{fit, gear_pair, turned};
+use centrode_formats::sheet::number;
 use centrode_gear::Member;
 use centrode_gear::design::BodySpec;
 use centrode_geometry::Point;
 use centrode_kinematics::machine::{self, Axis, Blank, Callout, Datum, Dimension, Fit, Supply};
 use centrode_machines::three_arm::ThreeArm;
-
-use super::ThreeArmPart;
-use super::machine::{Machine, PASSING};
-use crate::sheet::{fit, number};
-use crate::{gear_pair, turned};
 
 /// Lists the parts and tells the arrangement: the mechanism as its first arm picks.
 pub(super) fn tell(parts: &Machine<'_>, machine: &mut machine::Machine) {

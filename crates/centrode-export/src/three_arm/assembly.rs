@@ -1,12 +1,10 @@
-use std::f64::consts::TAU;
-
+use super::machine::Machine;
+use centrode_formats::drawing::{Anchor, Color, Drawing, EntityShape, LineType, Text};
 use centrode_gear::Member;
 use centrode_geometry::{Outline, Point, Tolerance};
 use centrode_machines::three_arm::{ThreeArm, ThreeArmLink};
 use nalgebra::Isometry2;
-
-use super::machine::Machine;
-use crate::drawing::{Anchor, Color, Drawing, EntityShape, LineType, Text};
+use std::f64::consts::TAU;
 
 /// Points of the tip's path.
 const PATH: u32 = 720;

@@ -1,15 +1,14 @@
+use super::ThreeArmPart;
+use crate::gear_pair::half_play;
+use crate::plate::{Exactness, Hole, Plate, hold_apart};
+use crate::{ExportError, cam, fit};
+use centrode_formats::sheet::number;
 use centrode_gear::{GearPair, Member};
 use centrode_geometry::{Bounds, Outline, Point};
 use centrode_kinematics::machine::{Fastening, Fit, Stock, TurnedPieces, with_bosses};
 use centrode_machines::arm::{ArmBody, ArmPart};
 use centrode_machines::three_arm::making::{self, LIGHT, PRESSED, RINGS, SLIDING, SPRING, STEEL};
 use centrode_machines::three_arm::{GearboxBody, Pusher, ThreeArm};
-
-use super::ThreeArmPart;
-use crate::gear_pair::half_play;
-use crate::plate::{Exactness, Hole, Plate, hold_apart};
-use crate::sheet::{fit, number};
-use crate::{ExportError, cam};
 
 /// Tolerance class, ISO 286, of the holes in which the shafts of the gears turn, which are made to fit the gears.
 const BEARING: &str = "F7";

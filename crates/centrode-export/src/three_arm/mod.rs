@@ -14,14 +14,14 @@ mod pieces;
 mod pushed;
 mod surroundings;
 
+use crate::gear_pair::{self, Label};
+use crate::{ExportError, Options, Package, cam, turned};
+use centrode_formats::{Bundle, Format};
 use centrode_gear::GearPair;
 use centrode_kinematics::machine::Machine as Linked;
 use centrode_machines::arm::ArmError;
 use centrode_machines::three_arm::{PusherError, ThreeArm};
 use centrode_spec::DrawingSpec;
-
-use crate::gear_pair::{self, Label};
-use crate::{Bundle, ExportError, Format, Options, Package, cam, turned};
 pub use contacts::contacts;
 pub use curves::{arm_curves, curves};
 use machine::Machine;

@@ -1,6 +1,7 @@
 use std::collections::BTreeSet;
 use std::f64::consts::TAU;
 
+use centrode_formats::sheet::{number, overlaps};
 use centrode_geometry::{Point, Solid, Tolerance};
 use centrode_kinematics::machine::{Column, Form, JointKind, LineRole, Quantity};
 use centrode_machines::three_arm::design::ThreeArmDesign;
@@ -9,7 +10,6 @@ use centrode_spec::DesignSpec as _;
 use super::*;
 use crate::machine::{self, arrangement};
 use crate::page::Picture;
-use crate::sheet::{number, overlaps};
 
 fn mechanism(change: impl Fn(&mut ThreeArmDesign)) -> ThreeArm {
     let mut design = ThreeArmDesign::from_toml(ThreeArmDesign::TEMPLATE).expect("sound");
@@ -154,7 +154,7 @@ fn the_general_arrangement_lists_every_part_and_its_words_touch_nothing() {
             .iter()
             .flat_map(|sheet| sheet.drawing.plain())
             .filter_map(|entity| match &entity.shape {
-                crate::drawing::EntityShape::Text(text) => Some(text.words.as_str()),
+                centrode_formats::drawing::EntityShape::Text(text) => Some(text.words.as_str()),
                 _ => None,
             })
             .collect();

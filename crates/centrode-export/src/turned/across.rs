@@ -2,12 +2,13 @@
 
 use std::f64::consts::PI;
 
+use centrode_formats::drawing::{Anchor, EntityShape};
+use centrode_formats::sheet::geometrical::NoteLine;
+use centrode_formats::sheet::{Draft, Pen, Scale};
 use centrode_geometry::{Arc, Bounds, Outline, Point, Segment, Tolerance, Vector};
 use centrode_kinematics::machine::Keyway;
 
-use crate::drawing::{Anchor, EntityShape};
-use crate::sheet::geometrical::{Frame, NoteLine};
-use crate::sheet::{Draft, Pen, Scale, fit};
+use crate::{fit, grade};
 
 /// Longest side of a section on paper, mm.
 const ROOM: f64 = 45.0;
@@ -54,7 +55,7 @@ pub(crate) fn across(
     let tip = p(0.6 * radius, 0.8 * radius);
     let elbow = p(0.8 * reach, reach + 3.0);
     let width = keyway.map_or(0.0, |key| key.width);
-    let symmetry = Frame::symmetry(width, "A").filter(|_| has_datum);
+    let symmetry = grade::symmetry(width, "A").filter(|_| has_datum);
     let symmetry = symmetry.map(|frame| [NoteLine::from("keyway".to_owned()), frame.into()]);
     let lines: Vec<NoteLine> = words
         .iter()

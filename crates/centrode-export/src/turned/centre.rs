@@ -1,6 +1,5 @@
+use centrode_formats::sheet::{Draft, Pen};
 use centrode_geometry::{Point, Vector};
-
-use crate::sheet::{Draft, Pen};
 
 /// Centre hole of a turned part, of form A: the widest that takes no more than a third of the end's diameter.
 pub(crate) fn centre(diameter: f64) -> Option<String> {

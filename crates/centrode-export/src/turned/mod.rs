@@ -4,19 +4,17 @@ mod across;
 mod centre;
 mod sheet;
 
-use std::ops::Deref;
-
+use crate::cutting::{self, CENTER, PROFILE};
+use crate::plate::{Exactness, Plate};
+use crate::{ExportError, Package, fit};
+pub(crate) use across::{across, cutting_plane};
+pub(crate) use centre::{centre, centre_mark};
+use centrode_formats::drawing::{Drawing, EntityShape};
 use centrode_gear::design::BodySpec;
 use centrode_geometry::{Outline, Point};
 use centrode_kinematics::machine::{Machine, Spacer, SpacerKind, TurnedPart, TurnedPieces};
 use centrode_spec::DrawingSpec;
-
-use crate::drawing::{CENTER, Drawing, EntityShape, PROFILE};
-use crate::plate::{Exactness, Plate};
-use crate::sheet::fit;
-use crate::{ExportError, Package};
-pub(crate) use across::{across, cutting_plane};
-pub(crate) use centre::{centre, centre_mark};
+use std::ops::Deref;
 
 /// Lists turned parts in a machine, their size with its limits as the remark.
 pub(crate) fn list(all: &[TurnedPieces], machine: &mut Machine) {
@@ -162,7 +160,7 @@ impl Drawn<'_> {
     }
 
     fn drawing(&self) -> Drawing {
-        let mut drawing = Drawing::cutting();
+        let mut drawing = cutting::drawing();
         drawing.draw(PROFILE, EntityShape::Contour(self.silhouette()));
         let [from, to] = [-3.0, self.length() + 3.0].map(|x| Point::new(x, 0.0));
         drawing.draw(CENTER, EntityShape::Line(from, to));

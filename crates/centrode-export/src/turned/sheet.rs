@@ -1,15 +1,16 @@
+use centrode_formats::drawing::EntityShape;
+use centrode_formats::sheet::geometrical::{Frame, NoteLine};
+use centrode_formats::sheet::{
+    Corner, Draft, Pen, Scale, Sheet, SheetBlock, SheetError, TitleBlock, compose, number, steady,
+    view_letters,
+};
 use centrode_geometry::{Arc, Point, Tolerance, Vector};
 use centrode_kinematics::machine::HeldLength;
 use centrode_spec::{DrawingSpec, SheetSize};
 
 use super::{Drawn, across, centre, centre_mark, cutting_plane};
 use crate::SheetOptions;
-use crate::drawing::EntityShape;
-use crate::sheet::geometrical::{Frame, NoteLine};
-use crate::sheet::{
-    Corner, Draft, Pen, Scale, Sheet, SheetBlock, SheetError, TitleBlock, compose, fit, mass,
-    number, steady, treatment_note, view_letters,
-};
+use crate::{fit, grade, number::mass, treatment::treatment_note};
 
 /// Letter of the section; datums have the first two.
 const SECTION: char = 'C';
@@ -36,7 +37,7 @@ impl Drawn<'_> {
         tolerance: Tolerance,
     ) -> Result<Vec<Sheet>, SheetError> {
         let words = [&*self.name, &*self.title];
-        let mut block = TitleBlock::of_part(spec, words, supplement, options);
+        let mut block = TitleBlock::of_part(spec, words, supplement, options.projection);
         block.material.clone_from(&self.material);
         block.mass = self.mass().map(|kg| mass(kg * 1e3)).unwrap_or_default();
         let mut lines = vec![format!("{quantity} for each machine.")];
@@ -264,7 +265,7 @@ impl Drawn<'_> {
                 if Some(index) == datum {
                     lines.push(Frame::datum('A').into());
                 } else if datum.is_some() && step.ring.is_none() && !step.class.is_empty() {
-                    lines.extend(Frame::runout(step.diameter, "A").map(NoteLine::from));
+                    lines.extend(grade::runout(step.diameter, "A").map(NoteLine::from));
                 }
                 (tip, lines)
             })

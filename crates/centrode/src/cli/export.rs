@@ -1,18 +1,14 @@
-use std::io::Write;
-
 use crate::analysis::Report;
-use crate::export::{Bundle, ExportError, Format, Options, SheetOptions, dxf};
-use crate::family::{Family, Mechanism, PartName};
-use centrode_spec::{Projection, SheetSize};
-
-use crate::cli::Status;
 use crate::cli::args::{Dxf, Export, File, Method, Size, TOLERANCE, tolerance};
 use crate::cli::failure::Failure;
 use crate::cli::input::Source;
-use crate::cli::output;
 use crate::cli::progress::Progress;
-use crate::cli::report;
-use crate::cli::sheet;
+use crate::cli::{Status, output, report, sheet};
+use crate::export::{ExportError, Options, SheetOptions};
+use crate::family::{Family, Mechanism, PartName};
+use crate::formats::{Bundle, Format, dxf};
+use centrode_spec::{Projection, SheetSize};
+use std::io::Write;
 
 /// Resolves a design, checks it and writes its files.
 pub(crate) fn run(command: &Export, out: &mut impl Write) -> Result<Status, Failure> {

@@ -1,9 +1,9 @@
-use std::io::{self, Write};
-
 use crate::InternalFault;
-use crate::export::{BundleError, ExportError};
+use crate::export::ExportError;
+use crate::formats::BundleError;
 use anstyle::{AnsiColor, Style};
 use centrode_spec::{DesignError, visible};
+use std::io::{self, Write};
 
 /// Longest part of a line shown below an error, in characters.
 const WIDEST: usize = 100;

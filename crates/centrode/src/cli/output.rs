@@ -1,7 +1,7 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use crate::export::{Bundle, BundleError};
+use crate::formats::{Bundle, BundleError};
 
 use crate::cli::failure::Failure;
 use crate::cli::interrupt::{Interrupt, has_descriptors};

@@ -1,12 +1,11 @@
-use std::sync::Arc;
-
+use super::{Limit, Mechanism, Resolved};
 use centrode_analysis::{
     Report, Table, Unit, check_composed, check_composed_goals, check_composed_motion,
     composed_figures, composed_layers,
 };
 use centrode_export::page::{Curve, Handle, HandlePlane, Picture};
-use centrode_export::{Bundle, ExportError, Format, Options};
-use centrode_export::{composed, machine};
+use centrode_export::{ExportError, Options, composed, machine};
+use centrode_formats::{Bundle, Format};
 use centrode_gear::{GearPair, GearPairError};
 use centrode_geometry::Tolerance;
 use centrode_kinematics::machine::Machine;
@@ -15,8 +14,7 @@ use centrode_spec::{Design, MechanismError};
 use centrode_synthesis::optimise::composed::ComposedProblem;
 use centrode_synthesis::optimise::{DesignProblem, NotSearched};
 use centrode_synthesis::reverse::{GearDrive, GearDriveError, GearDriveSpec};
-
-use super::{Limit, Mechanism, Resolved};
+use std::sync::Arc;
 
 /// Tolerance of the picture, as a share of a plate's width.
 const DRAWN: f64 = 2e-3;

@@ -1,10 +1,9 @@
-use std::f64::consts::TAU;
-
+use super::{Limit, Mechanism, Resolved, Widening, WideningError};
 use centrode_analysis::{FeederForces, Report, check_feeder, check_strokes};
-use centrode_export::feeder;
 use centrode_export::machine::picture;
 use centrode_export::page::{Curve, Handle, HandlePlane, Picture};
-use centrode_export::{Bundle, ExportError, Format, Options};
+use centrode_export::{ExportError, Options, feeder};
+use centrode_formats::{Bundle, Format};
 use centrode_gear::IntermittentPair;
 use centrode_geometry::Tolerance;
 use centrode_kinematics::machine::Machine;
@@ -13,8 +12,7 @@ use centrode_spec::{Design, MechanismError};
 use centrode_synthesis::optimise::feeder::{FeederProblem, Widened};
 use centrode_synthesis::optimise::{DesignProblem, NotSearched};
 use serde_json::json;
-
-use super::{Limit, Mechanism, Resolved, Widening, WideningError};
+use std::f64::consts::TAU;
 
 /// Points of a cycle at which the torque is computed.
 const LOOKS: u32 = 360;

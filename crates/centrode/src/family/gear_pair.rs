@@ -1,20 +1,18 @@
-use std::sync::Arc;
-
+use super::contact::contact_curves;
+use super::handles::handles;
+use super::{Limit, Mechanism, PartName, Resolved};
 use centrode_analysis::{
     Contact, PairRemedy, Report, check, check_contact, pitch_overlap, remedies,
 };
 use centrode_export::page::{Curve, Picture};
-use centrode_export::{Bundle, ExportError, Format, Options};
-use centrode_export::{gear_pair, machine};
+use centrode_export::{ExportError, Options, gear_pair, machine};
+use centrode_formats::{Bundle, Format};
 use centrode_gear::design::{Addendum, GearPairDesign};
 use centrode_gear::{GearPair, GearPairError};
 use centrode_geometry::Tolerance;
 use centrode_kinematics::machine::Machine;
 use centrode_spec::{Design, MechanismError};
-
-use super::contact::contact_curves;
-use super::handles::handles;
-use super::{Limit, Mechanism, PartName, Resolved};
+use std::sync::Arc;
 
 /// Tolerance of the picture, as a share of the module: a tenth of a pixel when a tooth is as high as a hand.
 const DRAWN: f64 = 2e-3;

@@ -1,16 +1,15 @@
-use std::any::Any;
-use std::fmt::Debug;
-use std::sync::Arc;
-
+use super::Limit;
 use centrode_analysis::{Report, Table};
 use centrode_export::page::{Curve, Picture};
-use centrode_export::{Bundle, ExportError, Format, Options};
+use centrode_export::{ExportError, Options};
+use centrode_formats::{Bundle, Format};
 use centrode_gear::{GearPair, GearPairError};
 use centrode_kinematics::machine::Machine;
 use centrode_spec::Design;
 use centrode_synthesis::reverse::{GearDrive, GearDriveError, GearDriveSpec};
-
-use super::Limit;
+use std::any::Any;
+use std::fmt::Debug;
+use std::sync::Arc;
 
 /// Finest tolerance that has a meaning for curves without a step of their own, mm.
 pub const FINEST: f64 = 1e-9;

@@ -1,16 +1,14 @@
-use std::sync::Arc;
-
+use super::spiral_shaft::{drawn, in_words, window};
+use super::{Mechanism, Resolved};
 use centrode_analysis::{Report, check_moving_box};
 use centrode_export::page::{Curve, Picture};
-use centrode_export::shaft;
-use centrode_export::{Bundle, ExportError, Format, Options};
+use centrode_export::{ExportError, Options, shaft};
+use centrode_formats::{Bundle, Format};
 use centrode_gear::{GearPair, GearPairError};
 use centrode_groove::{MovingBox, MovingBoxDesign, Scheme};
 use centrode_kinematics::machine::Machine;
 use centrode_spec::{Design, MechanismError};
-
-use super::spiral_shaft::{drawn, in_words, window};
-use super::{Mechanism, Resolved};
+use std::sync::Arc;
 
 impl Mechanism for MovingBox {
     fn design(&self) -> &dyn Design {

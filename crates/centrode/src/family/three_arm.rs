@@ -1,12 +1,13 @@
-use std::sync::Arc;
-
+use super::contact::contact_curves;
+use super::handles::handles;
+use super::{Limit, Mechanism, PartName, Resolved};
 use centrode_analysis::{
     Report, TrainTeeth, arm_clearance_course, carrier_turn, check_arms, check_three_arm,
     check_three_arm_teeth,
 };
 use centrode_export::page::{Curve, Picture};
-use centrode_export::{Bundle, ExportError, Format, Options};
-use centrode_export::{machine, three_arm};
+use centrode_export::{ExportError, Options, machine, three_arm};
+use centrode_formats::{Bundle, Format};
 use centrode_gear::{GearPair, GearPairError, Member};
 use centrode_geometry::{Tolerance, run_both};
 use centrode_kinematics::machine::Machine;
@@ -15,10 +16,7 @@ use centrode_machines::three_arm::design::ThreeArmDesign;
 use centrode_spec::{Design, MechanismError};
 use centrode_synthesis::optimise::three_arm::ThreeArmProblem;
 use centrode_synthesis::optimise::{DesignProblem, NotSearched};
-
-use super::contact::contact_curves;
-use super::handles::handles;
-use super::{Limit, Mechanism, PartName, Resolved};
+use std::sync::Arc;
 
 /// Chart of the arms' clearance from one another and from the tray.
 const ARM_CLEARANCE: &str = "Clearance of the arms";

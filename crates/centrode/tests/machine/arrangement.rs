@@ -1,9 +1,9 @@
 //! Parts list, masses and general arrangement of the machine of every shipped design.
 
 use centrode::export::Options;
-use centrode::export::drawing::EntityShape;
 use centrode::export::machine::{arrangement, parts_list};
-use centrode::export::sheet::{Sheet, overlaps};
+use centrode::formats::drawing::EntityShape;
+use centrode::formats::sheet::{Sheet, overlaps};
 use centrode::geometry::Tolerance;
 use centrode_kinematics::machine::Machine;
 

@@ -2,10 +2,11 @@
 
 use super::part::{Extremes, SheetGear, degrees};
 use crate::gear_pair::accuracy::tooth_runout;
-use crate::{
+use crate::{fit, grade};
+use centrode_formats::{
     drawing::{Anchor, EntityShape},
     sheet::{
-        Draft, Pen, Scale, fit,
+        Draft, Pen, Scale,
         geometrical::{Frame, NoteLine},
         lettering, number,
     },
@@ -142,7 +143,7 @@ fn notes(part: &SheetGear<'_>, k: f64) -> Vec<(Point, Vec<NoteLine>)> {
     }
     let runout = tooth_runout(part.pair, part.member).filter(|_| body.bore > 0.0);
     if let Some(width) = runout {
-        words.push(Frame::runout_within(width, "A").into());
+        words.push(grade::runout_within(width, "A").into());
         words.push("teeth, over pins".to_owned().into());
     }
     notes.push((start * k, words));
@@ -263,7 +264,7 @@ fn section(part: &SheetGear<'_>, scale: Scale) -> Draft {
     draft.dimension(edges, Vector::y(), beside, &number(body.width, 3));
     let face = part.tips().map(|tips| 2.0 * tips.greatest.coords.norm());
     let runout = face.filter(|_| half > 0.0);
-    if let Some(frame) = runout.and_then(|face| Frame::runout(face, "A")) {
+    if let Some(frame) = runout.and_then(|face| grade::runout(face, "A")) {
         let tip = p(0.5 * (left_root - half), 0.0);
         draft.pointed_frame(tip, tip + Vector::new(4.0, -12.0), &frame, "both faces");
     }
@@ -303,7 +304,7 @@ pub(super) fn bore(part: &SheetGear<'_>) -> Option<Draft> {
     let elbow = p(-0.75 * reach, reach + 3.0);
     let size = fit::bore(body.bore, &body.bore_fit);
     let mut lines = vec![size.into(), Frame::datum('A').into()];
-    let symmetry = Frame::symmetry(key.width, "A").into_iter();
+    let symmetry = grade::symmetry(key.width, "A").into_iter();
     lines.extend(symmetry.flat_map(|frame| [NoteLine::from("keyway".to_owned()), frame.into()]));
     draft.note(tip, elbow, &lines);
     let bounds = draft.bounds();

@@ -7,13 +7,10 @@ mod tooth;
 
 use super::drawn;
 use crate::{
-    ExportError, SheetOptions,
-    machine::arrangement,
-    package::title_or_name,
-    sheet::{
-        Corner, Draft, Scale, Sheet, SheetBlock, SheetError, TitleBlock, compose, fit, mass,
-        view_letters,
-    },
+    ExportError, SheetOptions, fit, machine::arrangement, number::mass, package::title_or_name,
+};
+use centrode_formats::sheet::{
+    Corner, Draft, Scale, Sheet, SheetBlock, SheetError, TitleBlock, compose, view_letters,
 };
 use centrode_gear::{GearPair, Member, OverPins};
 use centrode_geometry::Tolerance;
@@ -134,7 +131,7 @@ fn block(part: &SheetGear<'_>, options: &SheetOptions) -> TitleBlock {
             Some(label) => label.machine.to_owned(),
             None => title_or_name(pair.title(), pair.name()).to_owned(),
         },
-        ..TitleBlock::new(part.drawing(), part.name(), options)
+        ..TitleBlock::new(part.drawing(), part.name(), options.projection)
     }
 }
 

@@ -3,8 +3,12 @@
 use super::part::{Likeness, SheetGear, degrees, likeness};
 use crate::gear_pair::{arrangement, flank_tolerances, outline};
 use crate::{
+    number::{fixed, range},
+    treatment::treatment,
+};
+use centrode_formats::{
     drawing::Anchor,
-    sheet::{Table, broken, fixed, number, range, treatment},
+    sheet::{Table, broken, number},
 };
 use centrode_gear::design::Addendum;
 use centrode_gear::{GearPair, Member, OverPins, PinFault, ToolKind};

@@ -1,7 +1,7 @@
 //! One tooth, enlarged.
 
 use super::part::{SheetGear, degrees};
-use crate::{
+use centrode_formats::{
     drawing::{Anchor, EntityShape},
     sheet::{Draft, Pen, Scale, lettering, number},
 };

@@ -1,7 +1,7 @@
+use crate::fit;
+use centrode_formats::drawing::Anchor;
+use centrode_formats::sheet::{Table, broken, number};
 use centrode_kinematics::machine::{Fit, Machine};
-
-use crate::drawing::Anchor;
-use crate::sheet::{Table, broken, fit, number};
 
 /// The fits of a machine: size with both classes, least and greatest clearance.
 pub(super) fn table(machine: &Machine) -> Table {

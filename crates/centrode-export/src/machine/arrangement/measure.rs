@@ -1,10 +1,9 @@
-use centrode_geometry::{Extreme, Point, Vector, maximum_of_each, piece_ends};
-use centrode_kinematics::machine::{Axis as Along, Machine};
-
 use super::super::motion::within;
 use super::axes::Axis;
 use super::scene::Scene;
-use crate::sheet::number;
+use centrode_formats::sheet::number;
+use centrode_geometry::{Extreme, Point, Vector, maximum_of_each, piece_ends};
+use centrode_kinematics::machine::{Axis as Along, Machine};
 
 /// Pieces of a period, among which each extreme of a way is bracketed.
 const PIECES: u32 = 12;

@@ -7,6 +7,10 @@ mod scene;
 mod stacks;
 mod view;
 
+use centrode_formats::drawing::Anchor;
+use centrode_formats::sheet::{
+    Corner, Draft, Scale, Sheet, SheetBlock, SheetError, Table, TitleBlock, broken, compose, number,
+};
 use centrode_geometry::Tolerance;
 use centrode_kinematics::machine::{Column, Machine, Place};
 use centrode_spec::SheetSize;
@@ -14,11 +18,7 @@ use centrode_spec::SheetSize;
 use super::cuts::cut_list;
 use super::parts::parts_list;
 use crate::SheetOptions;
-use crate::drawing::Anchor;
-use crate::sheet::{
-    Corner, Draft, Scale, Sheet, SheetBlock, SheetError, Table, TitleBlock, broken, compose, fixed,
-    mass, number,
-};
+use crate::number::{fixed, mass};
 use axes::Length;
 use scene::Scene;
 use stacks::Stack;
@@ -49,7 +49,7 @@ pub fn arrangement(
     tolerance: Tolerance,
 ) -> Result<Vec<Sheet>, SheetError> {
     let told = &machine.arrangement;
-    let mut block = TitleBlock::new(&told.drawing, NAME, options);
+    let mut block = TitleBlock::new(&told.drawing, NAME, options.projection);
     block.title = match &*told.title {
         "" => "Machine".into(),
         title => title.into(),

@@ -1,3 +1,4 @@
+use centrode_formats::sheet::Pen;
 use centrode_geometry::{Bounds, Outline, Point, Tolerance, Vector};
 use centrode_kinematics::machine::{
     Figure, LinePath, LineRole, LinkPoint, Machine, Place, Quantity, Seat,
@@ -5,7 +6,6 @@ use centrode_kinematics::machine::{
 use nalgebra::{Isometry2, Isometry3};
 
 use super::super::picture::{placed, pose};
-use crate::sheet::Pen;
 
 /// Parts of a period in which the way of a point is drawn.
 const STEPS: u32 = 720;

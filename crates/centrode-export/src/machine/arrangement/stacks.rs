@@ -1,11 +1,10 @@
 //! Sections along shafts, pins and screws: what is on them and what they are in.
 
+use centrode_formats::drawing::Anchor;
+use centrode_formats::sheet::{Draft, Pen, Scale};
 use centrode_geometry::{Bounds, Outline, Point, Solid, Tolerance, Vector};
 use centrode_kinematics::machine::{Blank, Form, Machine, Part, Shape, Supply, TurnedPart};
 use nalgebra::{Isometry3, Point3, Vector3};
-
-use crate::drawing::Anchor;
-use crate::sheet::{Draft, Pen, Scale};
 
 /// Greatest height of a section on paper, mm.
 const HIGH: f64 = 90.0;

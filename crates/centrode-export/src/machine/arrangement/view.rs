@@ -1,3 +1,7 @@
+use centrode_formats::drawing::{Anchor, EntityShape};
+use centrode_formats::sheet::{
+    Draft, Pen, Scale, dimension_words, lettering, steady, view_letters,
+};
 use centrode_geometry::{Bounds, Point, Vector};
 use centrode_kinematics::machine::{Axis as Along, Place};
 use centrode_spec::SheetSize;
@@ -5,8 +9,6 @@ use centrode_spec::SheetSize;
 use super::axes::Axis;
 use super::measure::Measured;
 use super::scene::{Drawn, Scene};
-use crate::drawing::{Anchor, EntityShape};
-use crate::sheet::{Draft, Pen, Scale, dimension_words, lettering, steady, view_letters};
 
 /// Room between the view and its first dimension line, mm, and from one line to the next.
 const FIRST: f64 = 12.0;

@@ -10,13 +10,11 @@ pub(super) use tables::data;
 use super::slider_solid;
 use crate::turned::centre;
 use crate::{
-    ExportError, Options,
+    ExportError, Options, fit, number::mass, package::title_or_name, treatment::treatment_note,
+};
+use centrode_formats::{
     drawing::{Anchor, EntityShape},
-    package::title_or_name,
-    sheet::{
-        Corner, Draft, Scale, Sheet, SheetBlock, Table, TitleBlock, compose, fit, mass,
-        treatment_note, view_letters,
-    },
+    sheet::{Corner, Draft, Scale, Sheet, SheetBlock, Table, TitleBlock, compose, view_letters},
 };
 use centrode_geometry::{Arc, Point};
 use centrode_groove::{ShaftSolid, SpiralShaft};
@@ -90,7 +88,12 @@ pub fn slider_sheets(shaft: &SpiralShaft, options: &Options) -> Result<Vec<Sheet
 
 fn block(shaft: &SpiralShaft, part: &str, title: &str, options: &Options) -> TitleBlock {
     let supplement = title_or_name(&shaft.design().title, &shaft.design().name);
-    TitleBlock::of_part(shaft.drawing(), [part, title], supplement, &options.sheet)
+    TitleBlock::of_part(
+        shaft.drawing(),
+        [part, title],
+        supplement,
+        options.sheet.projection,
+    )
 }
 
 fn notes(shaft: &SpiralShaft) -> Vec<String> {

@@ -1,10 +1,11 @@
 //! Sections of the shaft: its journal with the keyway, and the groove.
 
 use super::SECTION;
-use crate::sheet::geometrical::{Frame, NoteLine};
-use crate::sheet::{fit, number};
+use crate::fit;
 use crate::turned::across;
-use crate::{
+use centrode_formats::sheet::geometrical::{Frame, NoteLine};
+use centrode_formats::sheet::number;
+use centrode_formats::{
     drawing::{Anchor, EntityShape},
     sheet::{Draft, Pen, Scale},
 };

@@ -1,13 +1,16 @@
 //! The shaft from the side, and its surface unrolled below.
 
 use super::{SECTION, scaled};
-use crate::sheet::{fit, geometrical::Frame, number};
 use crate::{
     ExportError,
-    drawing::{Anchor, Drawing},
     shaft::{developed, side_view},
-    sheet::{Draft, Pen, Scale},
     turned::{centre, centre_mark, cutting_plane},
+};
+use crate::{fit, grade};
+use centrode_formats::sheet::number;
+use centrode_formats::{
+    drawing::{Anchor, Drawing},
+    sheet::{Draft, Pen, Scale},
 };
 use centrode_geometry::{Point, Tolerance, Vector};
 use centrode_groove::{ShaftSolid, SpiralShaft};
@@ -111,7 +114,7 @@ impl<'a> Views<'a> {
             );
             cutting_plane(&mut draft, [start, to].map(|x| k * x), k * j + 2.0, SECTION);
         }
-        if let Some(frame) = Frame::runout(2.0 * r, "A") {
+        if let Some(frame) = grade::runout(2.0 * r, "A") {
             let tip = p(0.5 * (low + high), r);
             draft.pointed_frame(tip, tip + Vector::new(5.0, 16.0), &frame, "");
         }

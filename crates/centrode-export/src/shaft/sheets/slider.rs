@@ -1,8 +1,9 @@
 //! The slider along its pin, and a section through it.
 
-use crate::{
+use crate::fit;
+use centrode_formats::{
     drawing::EntityShape,
-    sheet::{Draft, Pen, Scale, fit, number},
+    sheet::{Draft, Pen, Scale, number},
 };
 use centrode_geometry::{Bounds, Outline, Point, Tolerance, Vector};
 use centrode_groove::SpiralShaft;

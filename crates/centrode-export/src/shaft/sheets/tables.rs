@@ -1,8 +1,8 @@
 //! The tables of a shaft's sheets.
 
 use super::table;
-use crate::sheet::number;
-use crate::{drawing::Anchor, sheet::Table};
+use centrode_formats::drawing::Anchor;
+use centrode_formats::sheet::{Table, number};
 use centrode_groove::SpiralShaft;
 
 /// Data of the shaft and its motion.

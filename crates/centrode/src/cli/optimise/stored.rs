@@ -1,11 +1,9 @@
-use std::fs;
-use std::path::{Path, PathBuf};
-
-use crate::export::Bundle;
+use crate::cli::failure::Failure;
+use crate::formats::Bundle;
 use centrode_synthesis::optimise::{DesignProblem, DesignSearch};
 use serde::Deserialize;
-
-use crate::cli::failure::Failure;
+use std::fs;
+use std::path::{Path, PathBuf};
 
 /// File of the better design, and its search beside it.
 pub(super) struct Stored {

@@ -1,14 +1,12 @@
+use crate::cli::failure::Failure;
+use crate::cli::input::{self, Source};
+use crate::formats::{Bundle, BundleError};
+use centrode_spec::DesignFile;
+use serde::Serialize;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
-
-use crate::export::{Bundle, BundleError};
-use centrode_spec::DesignFile;
-use serde::Serialize;
-
-use crate::cli::failure::Failure;
-use crate::cli::input::{self, Source};
 
 /// Design file of a page, and its autosaves beside it: nothing else is ever written.
 pub(crate) struct Document {

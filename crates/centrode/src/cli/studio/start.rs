@@ -1,19 +1,16 @@
-use std::fs;
-use std::io;
-use std::path::{Path, PathBuf};
-use std::sync::{Mutex, MutexGuard, PoisonError};
-use std::time::SystemTime;
-
-use axum::Router;
-use serde::{Deserialize, Serialize};
-
 use super::StudioState;
 use super::document::Document;
 use super::shipped::{SHIPPED, shipped};
 use crate::FAMILIES;
 use crate::cli::failure::Failure;
-use crate::export::{BundleError, write_new_file};
+use crate::formats::{BundleError, write_new_file};
+use axum::Router;
 use centrode_spec::DesignFile;
+use serde::{Deserialize, Serialize};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard, PoisonError};
+use std::time::SystemTime;
+use std::{fs, io};
 
 /// Most designs of the folder that are listed.
 const MOST: usize = 100;

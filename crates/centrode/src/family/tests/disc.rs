@@ -1,21 +1,19 @@
 //! Family of machine in a list of its own: the whole cost of a new one.
 
-use std::f64::consts::TAU;
-use std::sync::Arc;
-
+use super::{Depth, Families, Family, Mechanism, PartName, Resolved};
 use centrode_analysis::Report;
-use centrode_export::csv::Column;
 use centrode_export::page::{Curve, Picture};
-use centrode_export::{Bundle, ExportError, Format, Options, Package};
+use centrode_export::{ExportError, Options, Package};
+use centrode_formats::csv::Column;
+use centrode_formats::{Bundle, Format};
 use centrode_geometry::{Outline, Point, Solid, Tolerance};
 use centrode_kinematics::machine::{Input, Joint, Linear, Link, Machine, Quantity};
-use centrode_spec::SpecError;
-use centrode_spec::{Design, DesignSpec, MechanismError};
+use centrode_spec::{Design, DesignSpec, MechanismError, SpecError};
 use centrode_synthesis::optimise::NotSearched;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
-
-use super::{Depth, Families, Family, Mechanism, PartName, Resolved};
+use std::f64::consts::TAU;
+use std::sync::Arc;
 
 /// A disc on a shaft.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]

@@ -26,7 +26,7 @@ impl Draft {
     }
 
     /// Draws a dimension whose words leave lines square to it free, given by their places along the direction, mm.
-    pub(crate) fn dimension_clear_of(
+    pub fn dimension_clear_of(
         &mut self,
         [a, b]: [Point; 2],
         along: Vector,
@@ -92,7 +92,7 @@ impl Draft {
     }
 
     /// Whether the words of a dimension of a length, mm, go between its arrows, which are between its ends.
-    pub(crate) fn holds(&self, length: f64, words: &str) -> bool {
+    pub fn holds(&self, length: f64, words: &str) -> bool {
         let (inside, between, _) = fitting(length, lettering::width(words, self.letters));
         inside && between
     }
@@ -105,7 +105,7 @@ impl Draft {
     }
 
     /// Draws a note with an arrow, some of its lines frames.
-    pub(crate) fn note(&mut self, tip: Point, elbow: Point, words: &[NoteLine]) {
+    pub fn note(&mut self, tip: Point, elbow: Point, words: &[NoteLine]) {
         self.arrow(tip, tip - elbow);
         self.line(Pen::Dimension, tip, elbow);
         let width = words
@@ -138,12 +138,7 @@ impl Draft {
     }
 
     /// Draws notes left and right of a view, some of their lines frames.
-    pub(crate) fn call_out(
-        &mut self,
-        around: Bounds,
-        band: [f64; 2],
-        notes: &[(Point, Vec<NoteLine>)],
-    ) {
+    pub fn call_out(&mut self, around: Bounds, band: [f64; 2], notes: &[(Point, Vec<NoteLine>)]) {
         let middle = steady(0.5 * (around.min.x + around.max.x));
         for right in [false, true] {
             let mut column: Vec<&(Point, Vec<NoteLine>)> = notes
@@ -241,7 +236,7 @@ fn clear_middle((length, width): (f64, f64), (between, usual): (bool, f64), line
 }
 
 /// Stretch of its line that the words of a dimension take with some air, mm.
-pub(crate) fn dimension_words([a, b]: [f64; 2], words: &str, letters: f64) -> [f64; 2] {
+pub fn dimension_words([a, b]: [f64; 2], words: &str, letters: f64) -> [f64; 2] {
     let width = lettering::width(words, letters);
     let (_, _, middle) = fitting((b - a).abs(), width);
     let middle = a.min(b) + middle;

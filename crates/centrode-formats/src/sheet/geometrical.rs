@@ -1,12 +1,10 @@
 //! Datums and geometrical tolerances, ISO 5459 and ISO 1101.
 
-use std::fmt;
-
-use centrode_geometry::{Arc, Bounds, Outline, Point, Vector};
-use centrode_kinematics::machine::limits_of_size;
-
-use super::{Draft, Pen, draft::ARROW, lettering, number};
+use super::draft::ARROW;
+use super::{Draft, Pen, lettering};
 use crate::drawing::{Anchor, EntityShape};
+use centrode_geometry::{Arc, Bounds, Outline, Point, Vector};
+use std::fmt;
 
 /// Room beside the words of a cell, mm.
 const PAD: f64 = 1.0;
@@ -17,7 +15,7 @@ const HALF: f64 = 2.15;
 
 /// Tolerated property of a feature.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
-pub(crate) enum Characteristic {
+pub enum Characteristic {
     /// Place of an axis; the zone is a cylinder.
     Position,
     /// Form and place of a profile, the zone equally on both sides of it.
@@ -44,7 +42,7 @@ impl Characteristic {
 
 /// A line of a note beside a feature.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) enum NoteLine {
+pub enum NoteLine {
     /// Words.
     Words(String),
     /// A geometrical tolerance or a datum.
@@ -85,70 +83,24 @@ impl fmt::Display for NoteLine {
 
 /// Geometrical tolerance of a feature, or its datum letter.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Frame {
-    pub(crate) characteristic: Characteristic,
+pub struct Frame {
+    /// Kind of tolerance.
+    pub characteristic: Characteristic,
     /// Value and letters, each in a cell.
     cells: Vec<String>,
 }
 
 impl Frame {
     /// Datum of a letter.
-    pub(crate) fn datum(letter: char) -> Self {
+    pub fn datum(letter: char) -> Self {
         Self {
             characteristic: Characteristic::Datum,
             cells: vec![letter.to_string()],
         }
     }
 
-    /// Position of an axis at a distance from its datum: within the eighth grade of that distance, or twice what it may be off
-    /// either way. None beyond the grades of ISO 286-1.
-    pub(crate) fn position(
-        distance: f64,
-        off: f64,
-        apart: Option<f64>,
-        datums: &str,
-    ) -> Option<Self> {
-        let width = match off > 0.0 {
-            true => 2.0 * off,
-            false => grade(distance, "H8")?,
-        };
-        // Two holes that each are off by half of it are so far off their distance.
-        let width = apart.map_or(width, |apart| width.min((apart * 1e3).floor() / 1e3));
-        let value = format!("Ø{}", number(width, 3));
-        Some(Self::new(Characteristic::Position, value, datums))
-    }
-
-    /// Position of the median plane of a slot at a distance from its datum: within the eighth grade of that distance. None beyond the
-    /// grades of ISO 286-1.
-    pub(crate) fn position_of_slot(distance: f64, datums: &str) -> Option<Self> {
-        let value = number(grade(distance, "H8")?, 3);
-        Some(Self::new(Characteristic::Position, value, datums))
-    }
-
-    /// Symmetry of a keyway of a width: within the ninth grade of that, as the width itself. None beyond the grades of ISO 286-1.
-    pub(crate) fn symmetry(width: f64, datums: &str) -> Option<Self> {
-        let value = number(grade(width, SYMMETRY)?, 3);
-        Some(Self::new(Characteristic::Symmetry, value, datums))
-    }
-
-    /// Runout of a feature of a diameter: within the seventh grade of that. None beyond the grades of ISO 286-1.
-    pub(crate) fn runout(diameter: f64, datums: &str) -> Option<Self> {
-        Some(Self::runout_within(grade(diameter, "H7")?, datums))
-    }
-
-    /// Runout within a width, mm.
-    pub(crate) fn runout_within(width: f64, datums: &str) -> Self {
-        Self::new(Characteristic::Runout, number(width, 4), datums)
-    }
-
-    /// Profile of a contour that reaches so far from its datum, mm: within the eighth grade of that. None beyond the grades of
-    /// ISO 286-1.
-    pub(crate) fn profile(reach: f64, datums: &str) -> Option<Self> {
-        let value = number(grade(reach, "H8")?, 3);
-        Some(Self::new(Characteristic::Profile, value, datums))
-    }
-
-    fn new(characteristic: Characteristic, value: String, datums: &str) -> Self {
+    /// Tolerance of a value, with its unit mm unwritten, and the letters of its datums, a space between them.
+    pub fn new(characteristic: Characteristic, value: String, datums: &str) -> Self {
         let letters = datums.split(' ').map(String::from);
         Self {
             characteristic,
@@ -157,7 +109,7 @@ impl Frame {
     }
 
     /// Width of the frame and of words above it on a sheet, mm.
-    pub(crate) fn width(&self, words: &str) -> f64 {
+    pub fn width(&self, words: &str) -> f64 {
         let own: f64 = self.widths().iter().sum();
         own.max(lettering::width(words, LETTERS))
     }
@@ -176,14 +128,6 @@ impl fmt::Display for Frame {
     }
 }
 
-/// Class whose width is the symmetry of a keyway, by the width of that.
-pub(crate) const SYMMETRY: &str = "H9";
-
-/// Width of a tolerance grade for a size, mm, ISO 286-1, by a class of holes of that grade.
-pub(crate) fn grade(size: f64, class: &str) -> Option<f64> {
-    limits_of_size(size, class).map(|[low, high]| high - low)
-}
-
 impl Draft {
     /// Writes a line of a note from the left end of its baseline, or draws its frame.
     pub(super) fn line_of_note(&mut self, at: Point, line: &NoteLine) {
@@ -194,7 +138,7 @@ impl Draft {
     }
 
     /// Draws a frame from the middle of its left side, with a leader from a feature and words above it.
-    pub(crate) fn pointed_frame(&mut self, tip: Point, at: Point, frame: &Frame, words: &str) {
+    pub fn pointed_frame(&mut self, tip: Point, at: Point, frame: &Frame, words: &str) {
         self.arrow(tip, tip - at);
         self.line(Pen::Dimension, tip, at);
         self.frame(at, frame);
@@ -272,45 +216,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn values_are_grades_of_iso_286_and_frames_have_words() {
-        // IT8 of 50 to 80 mm is 46 um, IT7 of 80 to 120 mm 35 um.
-        let position = Frame::position(60.0, 0.0, None, "A B").expect("a grade");
-        assert_eq!(position.to_string(), "position Ø0.046 A B");
-        let off = Frame::position(60.0, 0.02, None, "A").expect("a grade");
-        assert_eq!(off.to_string(), "position Ø0.04 A");
-        // Two holes each off by half of it are so much off their distance, rounded down.
-        let meshing = Frame::position(60.0, 0.0, Some(0.0379), "A").expect("a grade");
-        assert_eq!(meshing.to_string(), "position Ø0.037 A");
-        let wide = Frame::position(60.0, 0.0, Some(0.2), "A").expect("a grade");
-        assert_eq!(wide.to_string(), "position Ø0.046 A");
-        let runout = Frame::runout(100.0, "A").expect("a grade");
-        assert_eq!(runout.to_string(), "runout 0.035 A");
-        // IT8 of 30 to 50 mm is 39 um.
-        let profile = Frame::profile(40.0, "A").expect("a grade");
-        assert_eq!(profile.to_string(), "profile 0.039 A");
-        assert_eq!(
-            Frame::runout_within(0.0465, "A").to_string(),
-            "runout 0.0465 A"
-        );
-        assert_eq!(Frame::runout(501.0, "A"), None);
-        // IT9 of 3 to 6 mm is 30 um.
-        let keyway = Frame::symmetry(5.0, "A").expect("a grade");
-        assert_eq!(keyway.to_string(), "symmetry 0.03 A");
-        let slot = Frame::position_of_slot(60.0, "A B").expect("a grade");
-        assert_eq!(slot.to_string(), "position 0.046 A B");
-        assert_eq!(NoteLine::from(Frame::datum('A')).to_string(), "datum A");
-    }
-
-    #[test]
     fn a_frame_is_as_wide_as_its_line_says() {
         for frame in [
-            Frame::runout(30.0, "A"),
-            Frame::position(30.0, 0.0, None, "A B"),
-            Frame::profile(30.0, "A"),
-            Frame::symmetry(5.0, "A"),
-            Some(Frame::datum('B')),
+            Frame::new(Characteristic::Runout, "0.021".into(), "A"),
+            Frame::new(Characteristic::Position, "Ø0.033".into(), "A B"),
+            Frame::new(Characteristic::Profile, "0.033".into(), "A"),
+            Frame::new(Characteristic::Symmetry, "0.03".into(), "A"),
+            Frame::datum('B'),
         ] {
-            let frame = frame.expect("a grade");
             let mut draft = Draft::default();
             draft.frame(Point::new(5.0, 0.0), &frame);
             let bounds = draft.bounds();

@@ -1,8 +1,7 @@
 //! Text within XML files: SVG, 3MF, URDF and MJCF.
 
-use centrode_spec::is_control;
-
 /// Text for an element or an attribute in double quotes: reserved characters become entities, those that XML cannot hold a space.
+
 pub(crate) fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
@@ -31,7 +30,11 @@ pub(crate) fn comment(text: &str) -> String {
 
 /// A character, or a space where XML cannot hold it.
 fn held(c: char) -> char {
-    if is_control(c) { ' ' } else { c }
+    match c {
+        '\u{fffe}' | '\u{ffff}' => ' ',
+        c if c.is_control() => ' ',
+        c => c,
+    }
 }
 
 #[cfg(test)]

@@ -16,13 +16,6 @@ pub struct Drawing {
     pub entities: Vec<Entity>,
 }
 
-/// Layer of the outer contour that is cut.
-pub(crate) const PROFILE: &str = "PROFILE";
-/// Layer of the contours that are cut out of it.
-pub(crate) const HOLE: &str = "HOLE";
-/// Layer of centre lines.
-pub(crate) const CENTER: &str = "CENTER";
-
 /// A named layer; its entities look as it says.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
@@ -205,14 +198,6 @@ pub enum Anchor {
 }
 
 impl Drawing {
-    /// Empty drawing with the layers of a part to cut: centre lines, holes, and last, over all, the profile.
-    pub(crate) fn cutting() -> Self {
-        Self::default()
-            .layer(CENTER, Color::Red, LineType::Center, 0.13)
-            .layer(HOLE, Color::Foreground, LineType::Continuous, 0.35)
-            .layer(PROFILE, Color::Foreground, LineType::Continuous, 0.35)
-    }
-
     /// Adds a layer.
     #[must_use]
     pub fn layer(mut self, name: &str, color: Color, line_type: LineType, line_width: f64) -> Self {

@@ -1,10 +1,8 @@
 //! Holes, keyways and shafts as written on a drawing, with their limits.
 
-use centrode_kinematics::machine::Keyway;
-use centrode_kinematics::machine::{Fit, limits_of_size};
-
-use super::geometrical::{SYMMETRY, grade};
-use super::number;
+use crate::grade::{SYMMETRY, grade};
+use centrode_formats::sheet::number;
+use centrode_kinematics::machine::{Fit, Keyway, limits_of_size};
 
 /// Tolerance class of the width of a keyway in a shaft, ISO 286.
 pub(crate) const SHAFT_KEYWAY: &str = "N9";

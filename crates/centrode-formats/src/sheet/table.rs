@@ -32,7 +32,7 @@ pub struct Table {
 
 impl Table {
     /// Table that names a CSV file of points with the number of its rows and its columns.
-    pub(crate) fn of_file(title: &str, file: &str, columns: &[Column]) -> Self {
+    pub fn of_file(title: &str, file: &str, columns: &[Column]) -> Self {
         let rows = columns.first().map_or(0, Column::len);
         let headings: Vec<&str> = columns.iter().map(|c| c.heading.as_str()).collect();
         let lines = [
@@ -54,7 +54,7 @@ impl Table {
     }
 
     /// Table without the columns in which no row says anything.
-    pub(crate) fn filled(mut self) -> Self {
+    pub fn filled(mut self) -> Self {
         let said = |k: usize| {
             self.rows
                 .iter()
@@ -112,7 +112,7 @@ impl Table {
     }
 
     /// Draft of the whole table, the upper left corner in the origin.
-    pub(crate) fn whole(&self) -> Draft {
+    pub fn whole(&self) -> Draft {
         self.draft(0..self.rows.len(), false, true)
     }
 
@@ -185,7 +185,7 @@ fn width(words: &str) -> f64 {
 const LINE: usize = 38;
 
 /// Rows of a name, a symbol and a value, which is broken at blanks, and within a word longer than a line.
-pub(crate) fn broken(name: &str, symbol: &str, value: &str) -> Vec<Vec<String>> {
+pub fn broken(name: &str, symbol: &str, value: &str) -> Vec<Vec<String>> {
     let mut lines: Vec<String> = vec![String::new()];
     for word in value.split(' ') {
         let letters: Vec<char> = word.chars().collect();

@@ -1,5 +1,4 @@
 use super::{Draft, Pen, lettering, projection};
-use crate::SheetOptions;
 use crate::drawing::Anchor;
 use centrode_geometry::{Bounds, Point};
 use centrode_spec::{DrawingSpec, Projection};
@@ -58,9 +57,9 @@ pub struct TitleBlock {
 }
 
 impl TitleBlock {
-    /// Fields that a design's file gives for a part, whose name ends the drawing number.
+    /// Fields that a design's file gives for a part, whose name ends the drawing number. A projection replaces that of the file.
     #[must_use]
-    pub fn new(spec: &DrawingSpec, part: &str, options: &SheetOptions) -> Self {
+    pub fn new(spec: &DrawingSpec, part: &str, projection: Option<Projection>) -> Self {
         let number = match spec.number.as_str() {
             "" => String::new(),
             number => format!("{number}-{part}"),
@@ -76,23 +75,23 @@ impl TitleBlock {
             edges: spec.edges.clone(),
             surface: spec.surface.clone(),
             fitted_surface: spec.fitted_surface.clone(),
-            projection: options.projection.unwrap_or(spec.projection),
+            projection: projection.unwrap_or(spec.projection),
             ..Self::default()
         }
     }
 
     /// Fields of a part drawing, of a part by name and title, with the machine's title below.
-    pub(crate) fn of_part(
+    pub fn of_part(
         spec: &DrawingSpec,
         [name, title]: [&str; 2],
         supplement: &str,
-        options: &SheetOptions,
+        projection: Option<Projection>,
     ) -> Self {
         Self {
             title: title.to_owned(),
             supplement: supplement.to_owned(),
             document: "Part drawing".into(),
-            ..Self::new(spec, name, options)
+            ..Self::new(spec, name, projection)
         }
     }
 
@@ -101,7 +100,7 @@ impl TitleBlock {
 
     /// Names the texture of fitted surfaces behind that of the others, where some of these tolerance classes are fine or the part has
     /// flanks or a profile, in words; the note that tells where it holds.
-    pub(crate) fn fitted<'a>(
+    pub fn fitted<'a>(
         &mut self,
         classes: impl IntoIterator<Item = &'a str>,
         contour: &str,

@@ -3,10 +3,10 @@
 use crate::model::{Convex, JointKind, Model, ModelJoint, ModelLink};
 use crate::xml::{comment, escaped};
 use centrode_geometry::MassProperties;
-use centrode_kinematics::machine::loose_link;
 use nalgebra::UnitQuaternion;
 use std::collections::BTreeSet;
 use std::fmt::Write;
+use std::iter::successors;
 use thiserror::Error;
 
 /// Metres to the millimetre.
@@ -130,13 +130,20 @@ fn is_tree(model: &Model) -> Result<(), MjcfError> {
     let ends = model.joints.iter();
     let ends = ends.map(|j| Ok([index(j, &j.parent)?, index(j, &j.child)?]));
     let ends: Vec<[usize; 2]> = ends.collect::<Result<_, _>>()?;
-    match loose_link(model.links.len(), &ends) {
-        None => Ok(()),
-        Some((link, ways)) => Err(MjcfError::Tree {
-            link: model.links[link].name.clone(),
-            ways,
-        }),
+    let carrier = |link: &usize| ends.iter().find(|[_, child]| child == link);
+    for (index, link) in model.links.iter().enumerate() {
+        let carriers = ends.iter().filter(|[_, child]| *child == index).count();
+        let ways = carriers + usize::from(index == 0);
+        // Carried once each, links that never come to the first make a ring.
+        let chain = successors(Some(index), |link| Some(carrier(link)?[0]));
+        let is_ring = || chain.take(ends.len() + 2).count() > ends.len() + 1;
+        let ways = if ways == 1 && is_ring() { 0 } else { ways };
+        if ways != 1 {
+            let link = link.name.clone();
+            return Err(MjcfError::Tree { link, ways });
+        }
     }
+    Ok(())
 }
 
 fn assets<'a>(xml: &mut String, link: &'a ModelLink, written: &mut BTreeSet<&'a str>) {

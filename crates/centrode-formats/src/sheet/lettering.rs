@@ -106,13 +106,13 @@ pub(crate) fn letters(words: &str) -> impl Iterator<Item = Letter> + '_ {
 
 /// Length of a line of words with capitals this high, mm.
 #[must_use]
-pub(crate) fn width(words: &str, height: f64) -> f64 {
+pub fn width(words: &str, height: f64) -> f64 {
     letters(words).map(|l| l.advance).sum::<f64>() * em(height)
 }
 
 /// Rectangle around the ink of a line that starts at the origin, mm.
 #[must_use]
-pub(crate) fn ink(words: &str, height: f64) -> Bounds {
+pub fn ink(words: &str, height: f64) -> Bounds {
     let (mut bounds, mut x) = (Bounds::EMPTY, 0.0);
     let em = em(height);
     for letter in letters(words) {

@@ -5,7 +5,7 @@ use centrode_geometry::Solid;
 
 impl Bundle {
     /// Keeps a part as it is.
-    pub(crate) fn keep(&mut self, part: &str, solid: Solid) {
+    pub fn keep(&mut self, part: &str, solid: Solid) {
         self.solids.push((part.to_owned(), solid));
     }
 

@@ -1,3 +1,5 @@
+//! Heat treatment of a part as sheets have it.
+
 /// Heat treatment in words: as stated, or that there is none.
 pub(crate) fn treatment(stated: &str) -> &str {
     match stated {

@@ -1,12 +1,6 @@
-/// Number to so many places, without trailing zeros.
-pub(crate) fn number(x: f64, places: usize) -> String {
-    let text = format!("{x:.places$}");
-    let text = match text.contains('.') {
-        true => text.trim_end_matches('0').trim_end_matches('.'),
-        false => &text,
-    };
-    if text == "-0" { "0" } else { text }.to_owned()
-}
+//! Numbers and names as sheets and tables have them.
+
+use centrode_formats::sheet::number;
 
 /// Number to so many places, zeros and all, without a sign to a zero.
 pub(crate) fn fixed(x: f64, places: usize) -> String {
@@ -48,27 +42,12 @@ pub(crate) fn capital(name: &str) -> String {
     title
 }
 
-/// A length on paper, mm, without its rounding errors: the order of things must not hang on them.
-pub(crate) fn steady(length: f64) -> f64 {
-    const PARTS: f64 = 1e6;
-    (length * PARTS).round() / PARTS
-}
-
 #[cfg(test)]
 mod tests {
-    use super::{fixed, number};
+    use super::fixed;
 
     #[test]
-    fn zeros_that_say_nothing_are_left_out() {
-        let written = [
-            (12.5, 3),
-            (12.0, 2),
-            (-0.0001, 2),
-            (1000.0, 0),
-            (0.1 + 0.2, 4),
-        ];
-        let written = written.map(|(x, places)| number(x, places));
-        assert_eq!(written, ["12.5", "12", "0", "1000", "0.3"]);
+    fn a_zero_has_no_sign() {
         assert_eq!(
             [-4e-5, -6e-5, 2.5].map(|x| fixed(x, 4)),
             ["0.0000", "-0.0001", "2.5000"]

@@ -59,7 +59,7 @@ impl Draft {
     }
 
     /// Height of the letters of dimensions and notes, mm.
-    pub(crate) fn lettering(&self) -> f64 {
+    pub fn lettering(&self) -> f64 {
         self.letters
     }
 
@@ -163,7 +163,7 @@ impl Draft {
     }
 
     /// Whether a straight line runs through words.
-    pub(crate) fn strikes(&self, line: [Point; 2]) -> bool {
+    pub fn strikes(&self, line: [Point; 2]) -> bool {
         self.any(|covered| covered.is_struck(line))
     }
 

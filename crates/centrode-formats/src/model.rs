@@ -1,25 +1,10 @@
 //! Models for simulators: links and joints.
 
-use centrode_geometry::{MassProperties, Mesh, Tolerance};
+use centrode_geometry::{MassProperties, Mesh};
 use nalgebra::{Rotation3, Unit, Vector3};
 
 /// Most triangles of a mesh that a model shows. `MuJoCo` reads no STL file of more than 200 000.
 pub const MOST_FACES: usize = 100_000;
-
-/// The tolerance of a mesh that a model shows: the one given, or as many times its double as brings the mesh down
-/// to [`MOST_FACES`]. `faces` counts the triangles of the mesh at a tolerance.
-pub(crate) fn shown_tolerance(
-    tolerance: Tolerance,
-    mut faces: impl FnMut(Tolerance) -> usize,
-) -> Tolerance {
-    // A mesh that coarser tolerances do not thin out stays as it is in the end.
-    const DOUBLINGS: i32 = 30;
-    let coarser = |times: i32| tolerance.scaled(2.0_f64.powi(times));
-    (0..DOUBLINGS)
-        .map(coarser)
-        .find(|&coarse| faces(coarse) <= MOST_FACES)
-        .unwrap_or(tolerance)
-}
 
 /// Rigid links joined by joints, as simulators want them; lengths in mm here, whatever a format uses.
 #[derive(Clone, Debug, PartialEq)]
@@ -153,17 +138,6 @@ pub struct Mimic {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn a_mesh_is_shown_at_its_own_tolerance_or_as_finely_as_the_budget_allows() {
-        let tolerance = Tolerance::new(1e-3).expect("positive");
-        let shown = |faces: f64| {
-            shown_tolerance(tolerance, |t| (faces * tolerance.mm() / t.mm()) as usize).mm()
-        };
-        assert_eq!(shown(100_000.0), 1e-3);
-        assert_eq!(shown(150_000.0), 2e-3);
-        assert_eq!(shown(900_000.0), 16e-3);
-    }
 
     #[test]
     fn a_joint_with_another_zero_carries_its_child_to_the_same_places() {

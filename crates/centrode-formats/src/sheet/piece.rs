@@ -22,7 +22,7 @@ pub struct SheetBlock {
 
 impl SheetBlock {
     /// Main view, at the upper left of the first page.
-    pub(crate) fn view(name: &'static str, draft: Draft) -> Self {
+    pub fn view(name: &'static str, draft: Draft) -> Self {
         Self {
             leads: true,
             ..Self::detail(name, draft, Corner::UpperLeft)
@@ -30,7 +30,7 @@ impl SheetBlock {
     }
 
     /// Section or detail.
-    pub(crate) fn detail(name: &'static str, draft: Draft, corner: Corner) -> Self {
+    pub fn detail(name: &'static str, draft: Draft, corner: Corner) -> Self {
         Self {
             name,
             draft,
@@ -42,7 +42,7 @@ impl SheetBlock {
     }
 
     /// Section that may stand on a further page.
-    pub(crate) fn further(name: &'static str, draft: Draft) -> Self {
+    pub fn further(name: &'static str, draft: Draft) -> Self {
         Self {
             floats: false,
             waits: true,
@@ -51,7 +51,7 @@ impl SheetBlock {
     }
 
     /// Table of one block, at the upper right.
-    pub(crate) fn table(name: &'static str, table: &Table) -> Self {
+    pub fn table(name: &'static str, table: &Table) -> Self {
         Self {
             floats: false,
             ..Self::detail(name, table.whole(), Corner::UpperRight)
@@ -59,7 +59,7 @@ impl SheetBlock {
     }
 
     /// Lines of words, at the upper right.
-    pub(crate) fn notes(lines: &[String]) -> Self {
+    pub fn notes(lines: &[String]) -> Self {
         let mut draft = Draft::default();
         for (row, line) in lines.iter().enumerate() {
             let at = Point::new(0.0, -4.6 * row as f64);
@@ -73,7 +73,7 @@ impl SheetBlock {
 }
 
 /// Height of the letters of views, mm: smaller on the smallest sheet.
-pub(crate) fn view_letters(size: SheetSize) -> f64 {
+pub fn view_letters(size: SheetSize) -> f64 {
     match size {
         SheetSize::A4 => 2.5,
         _ => 3.5,

@@ -2,12 +2,11 @@
 
 mod dimension;
 mod draft;
-pub(crate) mod fit;
 mod frame;
-pub(crate) mod geometrical;
+pub mod geometrical;
 mod hatch;
 mod layout;
-pub(crate) mod lettering;
+pub mod lettering;
 mod number;
 mod overlap;
 mod pen;
@@ -16,26 +15,22 @@ mod projection;
 mod scale;
 mod table;
 mod title_block;
-mod treatment;
 
 use crate::drawing::Drawing;
 use centrode_geometry::{Bounds, Vector};
 use centrode_spec::SheetSize;
-pub(crate) use dimension::dimension_words;
+pub use dimension::dimension_words;
 pub use draft::Draft;
 pub use layout::Corner;
 use layout::Page;
-pub(crate) use number::{capital, fixed, mass, number, range, steady};
+pub use number::{number, steady};
 pub use overlap::{Overlap, overlaps};
 pub use pen::Pen;
-pub use piece::SheetBlock;
-pub(crate) use piece::view_letters;
+pub use piece::{SheetBlock, view_letters};
 pub use scale::Scale;
-pub use table::Table;
-pub(crate) use table::broken;
+pub use table::{Table, broken};
 use thiserror::Error;
 pub use title_block::TitleBlock;
-pub(crate) use treatment::{treatment, treatment_note};
 
 /// Distance of everything from the frame, mm: room for the centring marks.
 const INSET: f64 = 7.0;

@@ -1,0 +1,18 @@
+//! Layers of a part to cut.
+
+use centrode_formats::drawing::{Color, Drawing, LineType};
+
+/// Layer of the outer contour that is cut.
+pub(crate) const PROFILE: &str = "PROFILE";
+/// Layer of the contours that are cut out of it.
+pub(crate) const HOLE: &str = "HOLE";
+/// Layer of centre lines.
+pub(crate) const CENTER: &str = "CENTER";
+
+/// Empty drawing with the layers of a part to cut: centre lines, holes, and last, over all, the profile.
+pub(crate) fn drawing() -> Drawing {
+    Drawing::default()
+        .layer(CENTER, Color::Red, LineType::Center, 0.13)
+        .layer(HOLE, Color::Foreground, LineType::Continuous, 0.35)
+        .layer(PROFILE, Color::Foreground, LineType::Continuous, 0.35)
+}
