@@ -2,21 +2,26 @@
 //!
 //! One dependency for the whole toolkit: every crate under its own name.
 
-use centrode_kinematics::machine::Datum;
-use export::gear_pair::contact_data;
-pub use family::FAMILIES;
-pub use internal_fault::InternalFault;
-pub use {
-    centrode_analysis as analysis, centrode_export as export, centrode_formats as formats,
-    centrode_gear as gear, centrode_geometry as geometry, centrode_groove as groove,
-    centrode_kinematics as kinematics, centrode_machines as machines,
-    centrode_optimise as optimise, centrode_spec as spec, centrode_synthesis as synthesis,
-};
+pub use centrode_analysis as analysis;
+pub use centrode_export as export;
+pub use centrode_families as family;
+pub use centrode_formats as formats;
+pub use centrode_gear as gear;
+pub use centrode_geometry as geometry;
+pub use centrode_groove as groove;
+pub use centrode_kinematics as kinematics;
+pub use centrode_machines as machines;
+pub use centrode_optimise as optimise;
+pub use centrode_spec as spec;
+pub use centrode_synthesis as synthesis;
 
 #[cfg(feature = "cli")]
 pub mod cli;
-pub mod family;
-mod internal_fault;
+
+pub use family::{FAMILIES, InternalFault};
+
+use centrode_export::gear_pair::contact_data;
+use centrode_kinematics::machine::Datum;
 
 /// Figures of a report for drawing sheets: the pairs of teeth in contact, and the normal backlash,
 /// mm. None for gears that do not hold each other, and for machines without a pair of their own.

@@ -1,10 +1,15 @@
 //! Families of machine: the one list of them, and the parts of the lower crates that each binds.
+//!
+//! An entry of [`FAMILIES`] makes a [`Mechanism`] of a design file; through it every program checks a machine, draws it, writes
+//! its files and searches a better one without the name of a family. Here, too, a panic becomes an [`InternalFault`].
+//! It may not know: the command line, the design page, its server, Python, or how any file is laid out.
 
 mod composed;
 mod contact;
 mod feeder;
 mod gear_pair;
 mod handles;
+mod internal_fault;
 mod limit;
 mod mechanism;
 mod moving_box;
@@ -17,6 +22,7 @@ mod tests;
 mod three_arm;
 mod widening;
 
+pub use internal_fault::InternalFault;
 pub use limit::Limit;
 pub use mechanism::{Depth, FINEST, Mechanism};
 pub use open::OpenDesign;
