@@ -1,6 +1,7 @@
 //! Non-circular gears, cams and linkages: geometry, proof and shop files.
 //!
-//! One dependency for the whole toolkit: every crate under its own name.
+//! One dependency for the whole toolkit: every crate under its own name. The command line, with the local server of the
+//! design page, is in `cli`, behind the feature of that name. It knows no formula: what is computed is computed below.
 
 pub use centrode_analysis as analysis;
 pub use centrode_export as export;
