@@ -17,7 +17,7 @@ pub mod machine;
 mod number;
 mod options;
 mod package;
-pub mod page;
+pub mod picture;
 mod plate;
 pub mod shaft;
 pub mod three_arm;

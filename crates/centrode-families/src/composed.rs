@@ -3,7 +3,7 @@ use centrode_analysis::{
     Report, Table, Unit, check_composed, check_composed_goals, check_composed_motion,
     composed_figures, composed_layers,
 };
-use centrode_export::page::{Curve, Handle, HandlePlane, Picture};
+use centrode_export::picture::{Curve, Handle, HandlePlane, Picture};
 use centrode_export::{ExportError, Options, composed, machine};
 use centrode_formats::{Bundle, Format};
 use centrode_gear::{GearPair, GearPairError};

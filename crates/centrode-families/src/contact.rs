@@ -1,5 +1,5 @@
 use centrode_analysis::Contact;
-use centrode_export::page::Curve;
+use centrode_export::picture::Curve;
 
 /// Findings of running finished gears together, along the cycle.
 pub(super) fn contact_curves(contact: &Contact) -> Vec<Curve> {

@@ -1,7 +1,7 @@
 use super::{Limit, Mechanism, Resolved, Widening, WideningError};
 use centrode_analysis::{FeederForces, Report, check_feeder, check_strokes};
 use centrode_export::machine::picture;
-use centrode_export::page::{Curve, Handle, HandlePlane, Picture};
+use centrode_export::picture::{Curve, Handle, HandlePlane, Picture};
 use centrode_export::{ExportError, Options, feeder};
 use centrode_formats::{Bundle, Format};
 use centrode_gear::IntermittentPair;

@@ -4,7 +4,7 @@ use super::{Limit, Mechanism, PartName, Resolved};
 use centrode_analysis::{
     Contact, PairRemedy, Report, check, check_contact, pitch_overlap, remedies,
 };
-use centrode_export::page::{Curve, Picture};
+use centrode_export::picture::{Curve, Picture};
 use centrode_export::{ExportError, Options, gear_pair, machine};
 use centrode_formats::{Bundle, Format};
 use centrode_gear::design::{Addendum, GearPairDesign};

@@ -1,7 +1,6 @@
-use std::f64::consts::{PI, TAU};
-
-use centrode_export::page::{Handle, HandlePlane};
+use centrode_export::picture::{Handle, HandlePlane};
 use centrode_gear::pitch::{PitchSpec, Plane};
+use std::f64::consts::{PI, TAU};
 
 /// Greatest number of points of a pitch curve that get a handle each: more would hide the curve.
 const MOST_HANDLES: usize = 60;

@@ -1,6 +1,6 @@
 use super::Limit;
 use centrode_analysis::{Report, Table};
-use centrode_export::page::{Curve, Picture};
+use centrode_export::picture::{Curve, Picture};
 use centrode_export::{ExportError, Options};
 use centrode_formats::{Bundle, Format};
 use centrode_gear::{GearPair, GearPairError};

@@ -1,7 +1,7 @@
 use super::spiral_shaft::{drawn, in_words, window};
 use super::{Mechanism, Resolved};
 use centrode_analysis::{Report, check_moving_box};
-use centrode_export::page::{Curve, Picture};
+use centrode_export::picture::{Curve, Picture};
 use centrode_export::{ExportError, Options, shaft};
 use centrode_formats::{Bundle, Format};
 use centrode_gear::{GearPair, GearPairError};

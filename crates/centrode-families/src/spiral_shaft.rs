@@ -2,7 +2,7 @@ use std::f64::consts::TAU;
 
 use centrode_analysis::{Report, check_shaft};
 use centrode_export::machine::picture;
-use centrode_export::page::{Curve, Handle, HandlePlane, Picture};
+use centrode_export::picture::{Curve, Handle, HandlePlane, Picture};
 use centrode_export::shaft;
 use centrode_export::{ExportError, Options};
 use centrode_formats::{Bundle, Format};

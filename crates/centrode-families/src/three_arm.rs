@@ -5,7 +5,7 @@ use centrode_analysis::{
     Report, TrainTeeth, arm_clearance_course, carrier_turn, check_arms, check_three_arm,
     check_three_arm_teeth,
 };
-use centrode_export::page::{Curve, Picture};
+use centrode_export::picture::{Curve, Picture};
 use centrode_export::{ExportError, Options, machine, three_arm};
 use centrode_formats::{Bundle, Format};
 use centrode_gear::{GearPair, GearPairError, Member};

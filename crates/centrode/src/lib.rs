@@ -17,6 +17,9 @@ pub use centrode_spec as spec;
 pub use centrode_synthesis as synthesis;
 
 #[cfg(feature = "cli")]
+pub use centrode_page as page;
+
+#[cfg(feature = "cli")]
 pub mod cli;
 
 pub use family::{FAMILIES, InternalFault};

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use centrode_kinematics::machine::JointKind;
 use centrode_machines::composed::{Composed, ComposedBody};
 
-use crate::page::Curve;
+use crate::picture::Curve;
 
 /// Samples of one turn of the input, and the most of all turns.
 const SAMPLES: u32 = 720;

@@ -2,7 +2,7 @@ use std::f64::consts::TAU;
 
 use centrode_machines::feeder::Feeder;
 
-use crate::page::Curve;
+use crate::picture::Curve;
 
 /// Samples of one cycle.
 const SAMPLES: u32 = 720;

@@ -1,7 +1,7 @@
 use centrode_gear::{GearPair, Member, Tooth, ToothSide};
 use centrode_geometry::Point;
 
-use crate::page::{Contacts, Track, short};
+use crate::picture::{Contacts, Track, short};
 
 /// Samples of the path of one contact.
 const SAMPLES: u32 = 8;

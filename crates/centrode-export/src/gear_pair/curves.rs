@@ -1,4 +1,4 @@
-use crate::page::Curve;
+use crate::picture::Curve;
 use centrode_gear::GearPair;
 
 /// Samples of one driver turn.

@@ -10,7 +10,7 @@ use nalgebra::{Isometry2, Isometry3, Vector3};
 use super::motion::within;
 use super::rim::rim;
 use super::still::Still;
-use crate::page::{Mark, Motion, Path, Picture, PictureLink, Rounding};
+use crate::picture::{Mark, Motion, Path, Picture, PictureLink, Rounding};
 
 /// Fewest steps of a period: half of the samples of its curves, so that what laws remember serves both.
 const FEWEST: f64 = 360.0;

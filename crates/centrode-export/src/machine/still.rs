@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use centrode_geometry::{Outline, Point, Recent, Tolerance};
 use centrode_kinematics::machine::{Line, LinePath, Machine};
 
-use crate::page::Path;
+use crate::picture::Path;
 
 /// Contours remembered, and the most segments of one: a machine has some dozens, of which a change alters a few.
 const KEPT: usize = 64;

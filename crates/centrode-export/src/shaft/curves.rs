@@ -1,6 +1,6 @@
 use super::machine::Machine;
 use crate::ExportError;
-use crate::page::Curve;
+use crate::picture::Curve;
 use centrode_groove::{MovingBox, SpiralShaft};
 use std::f64::consts::PI;
 

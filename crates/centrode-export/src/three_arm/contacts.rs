@@ -6,7 +6,7 @@ use centrode_machines::three_arm::ThreeArm;
 use nalgebra::Rotation2;
 
 use crate::gear_pair::{Flanks, PITCH_SAMPLES, ROUNDING, paths, track};
-use crate::page::Contacts;
+use crate::picture::Contacts;
 
 /// A mesh of the first chain: of its intermediate gear with the sun, or with the planet.
 #[derive(Clone, Copy, Eq, PartialEq)]

@@ -2,7 +2,7 @@ use std::f64::consts::TAU;
 
 use centrode_machines::three_arm::{Chain, PointMotion, ThreeArm};
 
-use crate::page::Curve;
+use crate::picture::Curve;
 
 /// Samples of one carrier turn.
 const SAMPLES: u32 = 360;

@@ -9,7 +9,7 @@ use centrode_spec::DesignSpec as _;
 
 use super::*;
 use crate::machine::{self, arrangement};
-use crate::page::Picture;
+use crate::picture::Picture;
 
 fn mechanism(change: impl Fn(&mut ThreeArmDesign)) -> ThreeArm {
     let mut design = ThreeArmDesign::from_toml(ThreeArmDesign::TEMPLATE).expect("sound");

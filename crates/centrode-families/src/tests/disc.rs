@@ -2,7 +2,7 @@
 
 use super::{Depth, Families, Family, Mechanism, PartName, Resolved};
 use centrode_analysis::Report;
-use centrode_export::page::{Curve, Picture};
+use centrode_export::picture::{Curve, Picture};
 use centrode_export::{ExportError, Options, Package};
 use centrode_formats::csv::Column;
 use centrode_formats::{Bundle, Format};

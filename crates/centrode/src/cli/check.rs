@@ -6,11 +6,11 @@ use centrode_spec::{Design, DesignError};
 
 use crate::cli::Status;
 use crate::cli::args::Check;
-use crate::cli::detail::Made;
 use crate::cli::failure::Failure;
 use crate::cli::input::Source;
 use crate::cli::progress::Progress;
 use crate::cli::report;
+use crate::page::Made;
 
 /// Resolves a design and prints its report.
 pub(crate) fn run(command: &Check, out: &mut impl Write) -> Result<Status, Failure> {

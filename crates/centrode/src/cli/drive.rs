@@ -10,7 +10,8 @@ use crate::cli::failure::Failure;
 use crate::cli::input::Source;
 use crate::cli::output;
 use crate::cli::progress::Progress;
-use crate::cli::reverse::{least_radii, line, teeth, words::range};
+use crate::cli::reverse::{least_radii, line, teeth};
+use crate::page::reverse::words::range;
 
 /// Finds the gears of a drive, prints what they do and writes the design.
 pub(crate) fn run(command: &Drive, out: &mut impl Write) -> Result<Status, Failure> {

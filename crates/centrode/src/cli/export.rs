@@ -7,6 +7,7 @@ use crate::cli::{Status, output, report, sheet};
 use crate::export::{ExportError, Options, SheetOptions};
 use crate::family::{Family, Mechanism, PartName};
 use crate::formats::{Bundle, Format, dxf};
+use crate::page::words::summary;
 use centrode_spec::{Projection, SheetSize};
 use std::io::Write;
 
@@ -108,7 +109,7 @@ fn bundle(
 /// Writes a line on standard error: the findings, and that the files are there all the same.
 fn tell(found: &crate::analysis::Report, files: usize, command: &Export) {
     let mut err = anstream::stderr();
-    let summary = report::summary(found);
+    let summary = summary(found);
     let design = command.design.display();
     // Nobody reads it when standard error is closed.
     let _ = if found.ok() {

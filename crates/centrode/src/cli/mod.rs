@@ -6,7 +6,6 @@
 mod args;
 mod check;
 mod completions;
-mod detail;
 mod drive;
 mod export;
 mod failure;
@@ -16,7 +15,6 @@ mod man;
 mod new;
 mod optimise;
 mod output;
-mod page;
 mod progress;
 mod prove;
 mod report;

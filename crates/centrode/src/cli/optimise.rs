@@ -15,7 +15,7 @@ use crate::cli::args::Optimise;
 use crate::cli::failure::Failure;
 use crate::cli::input::Source;
 use crate::cli::interrupt::Interrupt;
-use crate::cli::page::{Edit, edited};
+use crate::page::search::better;
 use outcome::Outcome;
 use stored::Stored;
 
@@ -77,7 +77,8 @@ pub(crate) fn run(command: &Optimise, out: &mut impl Write) -> Result<Status, Fa
     let text = source.text()?;
     let (ended, seconds) = watched(problem, &mut search, &stored)?;
     let best = search.best();
-    stored.write_design(&better(&text, problem, &best)?)?;
+    let better = better(&text, problem, &best);
+    stored.write_design(&better.map_err(|error| Failure::Usage(error.to_string()))?)?;
     stored.write(problem, &search)?;
     let outcome = Outcome::new(problem, &search, &best, ended, seconds);
     if command.json {
@@ -157,18 +158,4 @@ fn target() -> ProgressDrawTarget {
     } else {
         ProgressDrawTarget::hidden()
     }
-}
-
-/// Text of the design with the numbers of a point.
-pub(crate) fn better(
-    text: &str,
-    problem: &dyn DesignProblem,
-    point: &[f64],
-) -> Result<String, Failure> {
-    let variables = problem.variables().iter().zip(point);
-    let moved = variables.map(|(v, &value)| Edit::number(&v.key, v.written(value), false));
-    let followers = problem.followers(point).into_iter();
-    let followers = followers.map(|(key, value)| Edit::number(&key, value, value.fract() == 0.0));
-    let edits: Vec<Edit> = moved.chain(followers).collect();
-    edited(text, &edits).map_err(|error| Failure::Usage(error.to_string()))
 }

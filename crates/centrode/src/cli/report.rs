@@ -7,9 +7,7 @@ use std::io::Write;
 use crate::analysis::{Report, ReportFile};
 use crate::family::Mechanism;
 
-pub(crate) use figures::{Section, sections, write as write_figures};
-pub(crate) use findings::{Words, summary, words};
-pub(crate) use goals::{GoalWords, goal_words};
+pub(crate) use figures::write as write_figures;
 
 /// The report as JSON with every digit; an infinite figure is the string "Infinity". Ends with a newline.
 pub(crate) fn json(report: &Report) -> std::io::Result<String> {

@@ -1,8 +1,5 @@
-pub(crate) mod asked;
-pub(crate) mod found;
-pub(crate) mod made;
+mod asked;
 mod posed;
-pub(crate) mod words;
 
 use std::io::Write;
 use std::ops::ControlFlow;
@@ -23,9 +20,8 @@ use crate::cli::interrupt::Interrupt;
 use crate::cli::output;
 use crate::cli::progress::Progress;
 
+use crate::page::reverse::{Found, NotFound, Toothed, rolled, sharpest, words};
 use asked::Asked;
-use found::{Found, NotFound};
-use made::Toothed;
 
 /// Width of the names of figures.
 const NAME: usize = 24;
@@ -66,7 +62,7 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
     let split = Split::new(chain, kind, bend)
         .map_err(|error| asked.blame(command.bend.is_some(), ["--bend", "bend_deg"], error))?;
     progress.step("rolling the pitch curves");
-    let made = made::rolled(design, chain, &split);
+    let made = rolled(design, chain, &split);
     let made = made.map_err(|error| Failure::Files(Box::new(error)))?;
     progress.step("looking for sound teeth");
     let toothed = command.output.as_ref().map(|_| Toothed::new(&made));
@@ -248,17 +244,6 @@ fn others(chain: &TwoBar, kind: SplitKind, bend: f64, out: &mut impl Write) -> s
         line(out, &format!("split {name}"), &words)?;
     }
     Ok(())
-}
-
-/// The sharpest pitch curve of a split that was not chosen.
-pub(crate) fn sharpest(chain: &TwoBar, split: &Split) -> String {
-    match ReversedMachine::new(chain, split, 1, None) {
-        Ok(made) => {
-            let least = Unit::Millimetre.tell(made.minimum_radius());
-            format!("possible, least convex radius {least}")
-        }
-        Err(error) => error.to_string(),
-    }
 }
 
 pub(crate) fn teeth(found: &[SoundTeeth], out: &mut impl Write) -> std::io::Result<()> {

@@ -1,15 +1,15 @@
 use std::io::Write;
 
-use crate::export::page;
 use crate::family::OpenDesign;
+use crate::page;
 
 use crate::cli::Status;
 use crate::cli::args::Report;
 use crate::cli::failure::Failure;
 use crate::cli::input::Source;
 use crate::cli::output;
-use crate::cli::page::Subject;
 use crate::cli::progress::Progress;
+use crate::page::Subject;
 
 /// Writes a design's page as one file that needs no other.
 pub(crate) fn run(command: &Report, out: &mut impl Write) -> Result<Status, Failure> {

@@ -9,7 +9,7 @@ use centrode::FAMILIES;
 use centrode::analysis::forces::{Balance, Forces};
 use centrode::analysis::interference::{Clearance, LinkPair, between_links};
 use centrode::export::machine::{picture, plain, read, schema, write};
-use centrode::export::page::{self, Picture};
+use centrode::export::picture::{self as page, Picture};
 use centrode::export::{Options, Package};
 use centrode::formats::{Bundle, Format};
 use centrode::geometry::Tolerance;

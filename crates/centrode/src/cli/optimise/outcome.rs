@@ -5,7 +5,7 @@ use centrode_optimise::{Ended, Progress};
 use centrode_synthesis::optimise::{DesignProblem, DesignSearch, GuidedStep};
 use serde::Serialize;
 
-use crate::cli::report::goal_words;
+use crate::page::words::goal_words;
 
 /// Result of a search.
 #[derive(Serialize)]
@@ -99,7 +99,7 @@ impl<'a> Outcome<'a> {
         for goal in &self.after {
             let words = goal_words(goal);
             let before = self.before.iter().find(|b| b.name == goal.name);
-            let before = before.map_or("-".into(), |b| goal_words(b).value().to_owned());
+            let before = before.map_or("-".into(), |b| goal_words(b).value);
             let number = match goal.number {
                 0 => String::new(),
                 number => number.to_string(),
@@ -107,11 +107,7 @@ impl<'a> Outcome<'a> {
             writeln!(
                 out,
                 "  {number:>2} {:<35} {before:>12} {:>12} {:<3}  {:<14} {}",
-                goal.title,
-                words.value(),
-                words.unit(),
-                words.wanted(),
-                words.verdict()
+                goal.title, words.value, words.unit, words.wanted, words.verdict
             )?;
         }
         writeln!(

@@ -7,7 +7,7 @@ use super::stored::Stored;
 use crate::cli::Status;
 use crate::cli::args::Optimise;
 use crate::cli::failure::Failure;
-use crate::cli::page::{Edit, edited};
+use crate::page::{Edit, edited};
 
 /// Writes a design with the least widening of its bounds.
 pub(super) fn run(

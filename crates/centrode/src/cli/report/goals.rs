@@ -1,10 +1,10 @@
 use std::io::{Result, Write};
 
 use crate::analysis::{Goal, Report};
+use crate::page::words::goal_words;
 use anstyle::{AnsiColor, Style};
-use serde::Serialize;
 
-use super::figures::{HEADING, exact};
+use super::figures::HEADING;
 
 /// Characters of a progress bar.
 const BAR: usize = 12;
@@ -31,95 +31,6 @@ pub(super) fn write(report: &Report, out: &mut impl Write) -> Result<()> {
         one(goal, out)?;
     }
     Ok(())
-}
-
-/// A goal in words.
-#[derive(Clone, Debug, Serialize)]
-pub(crate) struct GoalWords {
-    number: u32,
-    /// Number in the paper it is from, where that is another.
-    paper: Option<u32>,
-    name: String,
-    title: String,
-    value: String,
-    /// Figure as in the JSON report, to the last digit.
-    exact: Option<String>,
-    unit: &'static str,
-    /// The range it is wanted in.
-    wanted: String,
-    /// Met, missed by how much, or not checked.
-    verdict: String,
-    /// By how much it is met, with its unit.
-    spare: Option<String>,
-    met: Option<bool>,
-    progress: Option<f64>,
-}
-
-impl GoalWords {
-    /// The figure, without its unit.
-    pub(crate) fn value(&self) -> &str {
-        &self.value
-    }
-
-    pub(crate) fn unit(&self) -> &'static str {
-        self.unit
-    }
-
-    /// The range it is wanted in.
-    pub(crate) fn wanted(&self) -> &str {
-        &self.wanted
-    }
-
-    /// Met, missed by how much, or not checked.
-    pub(crate) fn verdict(&self) -> &str {
-        &self.verdict
-    }
-}
-
-/// The words for a goal.
-pub(crate) fn goal_words(goal: &Goal) -> GoalWords {
-    let short = |value: f64| end(value * goal.unit.factor());
-    let wanted = match goal.wanted {
-        [Some(least), Some(greatest)] => format!("{} to {}", short(least), short(greatest)),
-        [Some(least), None] => format!("at least {}", short(least)),
-        [None, Some(greatest)] => format!("at most {}", short(greatest)),
-        [None, None] => String::new(),
-    };
-    let verdict = match (goal.met(), goal.margin) {
-        (Some(true), _) => "met".into(),
-        (Some(false), Some(margin)) => {
-            format!("missed by {}", goal.unit.tell(-margin))
-        }
-        _ => "not checked".into(),
-    };
-    let spare = goal.margin.filter(|_| goal.met() == Some(true));
-    GoalWords {
-        spare: spare.map(|margin| goal.unit.tell(margin)),
-        number: goal.number,
-        paper: goal.paper,
-        name: goal.name.clone().into_owned(),
-        title: goal.title.clone().into_owned(),
-        value: goal.value.map_or("-".into(), |value| goal.unit.show(value)),
-        exact: goal.value.map(exact),
-        unit: goal.unit.shown(),
-        wanted,
-        verdict,
-        met: goal.met(),
-        progress: goal.progress,
-    }
-}
-
-/// End of a range, to a millionth; a smaller one keeps its leading digits.
-fn end(value: f64) -> String {
-    let rounded = (value * 1e6).round() / 1e6;
-    if rounded == 0.0 && value != 0.0 {
-        // Of six digits those that are not trailing zeros.
-        let short = format!("{value:.5e}").parse().unwrap_or(value);
-        format!("{short:e}")
-    } else {
-        // No zero below zero.
-        format!("{}", rounded + 0.0)
-    }
 }
 
 fn one(goal: &Goal, out: &mut impl Write) -> Result<()> {
@@ -164,24 +75,6 @@ mod tests {
         assert_eq!(bar(0.999), "###########-");
         assert_eq!(bar(0.5), "######------");
         assert_eq!(bar(0.0), "------------");
-    }
-
-    #[test]
-    fn ends_of_ranges_are_short_and_never_hidden() {
-        let ends = [
-            -0.0,
-            0.0,
-            -1e-9,
-            1e-9,
-            1.234_567_89e-8,
-            -15.0,
-            0.123_456_789,
-        ]
-        .map(end);
-        assert_eq!(
-            ends,
-            ["0", "0", "-1e-9", "1e-9", "1.23457e-8", "-15", "0.123457"]
-        );
     }
 
     #[test]

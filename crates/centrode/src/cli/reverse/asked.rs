@@ -1,19 +1,12 @@
-use std::path::Path;
-
 use crate::analysis::Unit;
-use crate::geometry::Point;
-use centrode_spec::SpecError;
-use centrode_spec::{DesignFamily, DesignFile, MechanismError};
-use centrode_synthesis::reverse::{
-    Aim, DrawnPath, PathDesign, PathError, SplitKind, WantedPath, WantedPoints,
-};
-
 use crate::cli::args::Reverse;
 use crate::cli::failure::Failure;
 use crate::cli::input::Source;
-
-/// Distance within which a path lies of a drawing where none is given, mm.
-pub(crate) const WITHIN: f64 = 0.01;
+use crate::geometry::Point;
+use crate::page::reverse::{WITHIN, drawn};
+use centrode_spec::{DesignFamily, DesignFile, MechanismError, SpecError};
+use centrode_synthesis::reverse::{Aim, PathDesign, SplitKind, WantedPath, WantedPoints};
+use std::path::Path;
 
 /// A path and what is wanted of its machine, on the command line and in files.
 pub(super) struct Asked {
@@ -216,13 +209,4 @@ fn path_design(source: &Source) -> Result<Option<(PathDesign, DesignFile)>, Fail
         DesignFile::read(source.bytes(), &family).map_err(|error| source.blame(error))?;
     let design = file.design().downcast_ref::<PathDesign>().cloned();
     Ok(design.map(|design| (design, file)))
-}
-
-/// Points along the path of an SVG file; none where the file is another.
-pub(crate) fn drawn(bytes: &[u8], within: f64) -> Result<Option<DrawnPath>, PathError> {
-    let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-    let is_drawing = text.trim_ascii_start().starts_with(b"<");
-    is_drawing
-        .then(|| DrawnPath::from_svg(bytes, within))
-        .transpose()
 }

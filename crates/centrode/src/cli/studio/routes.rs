@@ -1,9 +1,10 @@
-use std::convert::Infallible;
-use std::sync::Arc;
-use std::time::Duration;
-
-use crate::export::page;
+use super::document::SaveError;
+use super::guard::{self, Guard};
+use super::solver::{Depth, Unsolved};
+use super::{StudioState, files, meshes};
+use crate::cli::export;
 use crate::geometry::Cancel;
+use crate::page::{self, Edit, Fault, edited, response, search};
 use crate::{FAMILIES, InternalFault};
 use axum::body::{Body, Bytes};
 use axum::extract::{Path, State};
@@ -15,16 +16,11 @@ use centrode_synthesis::optimise::{NotSearched, Strategy};
 use futures_util::stream::unfold;
 use serde::Deserialize;
 use serde_json::json;
+use std::convert::Infallible;
+use std::sync::Arc;
+use std::time::Duration;
 use tower_http::limit::RequestBodyLimitLayer;
 use tower_http::timeout::RequestBodyTimeoutLayer;
-
-use super::StudioState;
-use super::document::SaveError;
-use super::guard::{self, Guard};
-use super::solver::{Depth, Unsolved};
-use super::{files, meshes, response, search};
-use crate::cli::export;
-use crate::cli::page::{Edit, Fault, edited};
 
 /// Largest body of a request: a design file at its largest, as JSON, and some edits.
 const LARGEST: usize = 4 << 20;

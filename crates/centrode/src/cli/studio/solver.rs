@@ -8,7 +8,7 @@ use serde::Deserialize;
 use serde_json::json;
 use tokio::sync::mpsc::{UnboundedReceiver, unbounded_channel};
 
-use crate::cli::page::{Snapshot, Subject};
+use crate::page::{Snapshot, Subject};
 
 /// Solves the designs of the pages that are open, for each page the latest asked for.
 ///

@@ -14,8 +14,8 @@ use serde_json::json;
 
 use super::routes::{Refused, apart, as_json, asset, computed, limited};
 use super::start::{OpenError, Pattern, StartPage};
-use crate::cli::page::drawn;
-use crate::export::page;
+use crate::page;
+use crate::page::drawn;
 
 type Shared = State<Arc<StartPage>>;
 

@@ -1,27 +1,17 @@
 //! The page on which a machine is made from a path: what it asks for, and the answers.
 
-mod answer;
-mod drawing;
-mod field;
-mod made;
-mod opened;
-mod sought;
-mod stages;
 mod stream;
-mod wish;
 
+use super::routes::{Refused, computed};
+use crate::page::path::{self, Answer, Kept, Wish, field};
+use crate::page::{self};
 use axum::extract::State;
 use axum::response::{Html, IntoResponse as _, Response};
 use axum::routing::{get, post};
 use axum::{Json, Router};
-use serde::Serialize;
-
-use super::routes::{Refused, computed};
-use crate::export::page;
 use centrode_spec::Design as _;
-use sought::Kept;
+use serde::Serialize;
 use stream::streamed;
-use wish::Wish;
 
 /// Every address of the page, below that of the start page.
 pub(crate) fn routes<S: Clone + Send + Sync + 'static>() -> Router<S> {
@@ -39,12 +29,12 @@ pub(crate) fn routes<S: Clone + Send + Sync + 'static>() -> Router<S> {
 
 /// Machine of a path and an axis, or why there is none.
 async fn solve(Json(ask): Json<Wish>) -> Result<Response, Refused> {
-    answered(move || answer::Answer::new(&ask)).await
+    answered(move || Answer::new(&ask)).await
 }
 
 /// Machine that is sought: of key poses, of the working part of a path, or of a path with more wishes.
 async fn find(State(kept): State<Kept>, Json(ask): Json<Wish>) -> Response {
-    streamed(move |observe| answer::Answer::found(&ask, &kept, observe))
+    streamed(move |observe| Answer::found(&ask, &kept, observe))
 }
 
 /// Possible axes about a path.
@@ -59,12 +49,12 @@ async fn axis(Json(ask): Json<field::Best>) -> Result<Response, Refused> {
 
 /// Points of a file, or all that it wants.
 async fn open(Json(ask): Json<super::routes::Text>) -> Result<Response, Refused> {
-    answered(move || told(opened::opened(&ask.text))).await
+    answered(move || told(path::opened(&ask.text))).await
 }
 
 /// Design of the machine, with sound teeth.
 async fn machine(State(kept): State<Kept>, Json(ask): Json<Wish>) -> Response {
-    streamed(move |observe| made::machine(&ask, &kept, observe))
+    streamed(move |observe| path::machine(&ask, &kept, observe))
 }
 
 /// A wish as a design file that `centrode reverse` reads.

@@ -1,0 +1,17 @@
+//! Snapshot of a design for the page: its numbers, picture, curves, figures and findings, as one JSON value.
+
+mod composed;
+mod detail;
+mod edit;
+mod family;
+mod field;
+mod follower;
+mod kind;
+mod plane;
+mod schema;
+mod snapshot;
+mod start;
+
+pub use detail::{LeftOut, Made};
+pub use edit::{Edit, EditError, edited};
+pub use snapshot::{Fault, Goals, Snapshot, Subject, drawn};

@@ -1,0 +1,313 @@
+use super::detail::{LeftOut, Made};
+use super::field::{Table, tables};
+use crate::words::{self, FindingWords, GoalWords, Section};
+use centrode_analysis::Report;
+use centrode_export::picture::{Curve, CurveList, Picture};
+use centrode_families::{FAMILIES, Limit, Mechanism};
+use centrode_geometry::run_both;
+use centrode_spec::{DesignError, visible};
+use serde::Serialize;
+use std::sync::{Arc, OnceLock};
+
+/// Snapshot of one design state for the page.
+#[derive(Clone, Debug, Default, Serialize)]
+pub struct Snapshot {
+    /// Text of the design file.
+    text: String,
+    name: String,
+    title: String,
+    /// Definition of the mechanism, in a line.
+    definition: String,
+    /// Reason why there is no mechanism.
+    error: Option<Fault>,
+    /// Error of a detail of a body: picture, curves and checks are those of the design without it.
+    detail: Option<Fault>,
+    #[serde(skip)]
+    left_out: Option<Arc<LeftOut>>,
+    #[serde(skip)]
+    picture: Option<Picture>,
+    /// Whether the picture lacks details that take longer to make.
+    coarse: bool,
+    /// Whether its goals are told before the rest of the checks.
+    goals_first: bool,
+    #[serde(skip)]
+    beside: Beside,
+    /// Speed of the input, rad/s, where the design has one.
+    speed: Option<f64>,
+    verdict: Option<Verdict>,
+}
+
+/// Numbers and curves, which the eye has after the picture.
+#[derive(Clone, Debug, Default)]
+struct Beside {
+    /// The numbers of the design, table by table.
+    tables: Vec<Table>,
+    curves: Vec<Curve>,
+}
+
+/// An error at its key, in the words of the command line.
+#[derive(Clone, Debug, Serialize)]
+pub struct Fault {
+    key: String,
+    /// Line from one; zero where no place in the file is to blame.
+    line: usize,
+    column: usize,
+    message: String,
+    /// The message without the key: it stands beside its field.
+    rule: String,
+}
+
+/// Results of the checks.
+#[derive(Clone, Debug, Serialize)]
+struct Verdict {
+    ok: bool,
+    summary: String,
+    findings: Vec<FindingWords>,
+    #[serde(flatten)]
+    goals: Goals,
+    figures: Vec<Section>,
+}
+
+/// Goals, and what is required of the figures drawn along the cycle.
+#[derive(Clone, Debug, Serialize)]
+pub struct Goals {
+    goals: Vec<GoalWords>,
+    limits: Vec<Limit>,
+}
+
+impl From<&DesignError> for Fault {
+    fn from(error: &DesignError) -> Self {
+        Self {
+            key: error.key.clone(),
+            line: error.line,
+            column: error.column,
+            message: error.message(),
+            rule: visible(&error.fault.to_string()),
+        }
+    }
+}
+
+impl Verdict {
+    fn new(mechanism: &dyn Mechanism, found: &Report) -> Self {
+        Self {
+            ok: found.ok(),
+            summary: words::summary(found),
+            findings: found.findings.iter().map(words::finding_words).collect(),
+            goals: Goals::new(mechanism, found),
+            figures: words::sections(found),
+        }
+    }
+}
+
+impl Goals {
+    fn new(mechanism: &dyn Mechanism, found: &Report) -> Self {
+        Self {
+            goals: found.goals.iter().map(words::goal_words).collect(),
+            limits: mechanism.limits(found),
+        }
+    }
+}
+
+/// Picture of a design alone, as JSON: that of its page before the details are made.
+///
+/// # Errors
+/// The reason in words if there is no mechanism.
+pub fn drawn(text: &str) -> Result<String, String> {
+    let mechanism = resolved(text).map_err(|error| error.message())?;
+    serde_json::to_string(&mechanism.picture()).map_err(|error| error.to_string())
+}
+
+/// Mechanism of a design file.
+pub(super) fn resolved(text: &str) -> Result<Arc<dyn Mechanism>, DesignError> {
+    FAMILIES.read(text.as_bytes())?.mechanism()
+}
+
+/// Design that has become a mechanism.
+#[derive(Debug)]
+pub struct Subject {
+    snapshot: Snapshot,
+    mechanism: Arc<dyn Mechanism>,
+    beside: OnceLock<Beside>,
+    /// Picture in detail, once it has been asked for.
+    detailed: OnceLock<Option<Picture>>,
+}
+
+impl Snapshot {
+    /// Snapshot of the design alone: its text and numbers.
+    fn of(text: String) -> Self {
+        let tables = tables(&text);
+        let curves = Vec::new();
+        Self {
+            text,
+            beside: Beside { tables, curves },
+            ..Self::default()
+        }
+    }
+
+    /// Snapshot with the reason why there is no mechanism.
+    fn with_error(text: String, error: &DesignError) -> Self {
+        Self {
+            error: Some(error.into()),
+            ..Self::of(text)
+        }
+    }
+
+    /// Snapshot of a design whose solving was cancelled: its numbers, so that they can be changed.
+    pub fn cancelled(text: String) -> Self {
+        Self {
+            error: Some(Fault {
+                key: String::new(),
+                line: 0,
+                column: 0,
+                message: "cancelled; the next change solves it anew".into(),
+                rule: String::new(),
+            }),
+            ..Self::of(text)
+        }
+    }
+
+    /// Title, or name where there is none.
+    pub fn heading(&self) -> &str {
+        if self.title.is_empty() {
+            &self.name
+        } else {
+            &self.title
+        }
+    }
+
+    /// Whether there is a mechanism without a finding of severity error.
+    pub fn ok(&self) -> bool {
+        self.verdict.as_ref().is_some_and(|verdict| verdict.ok)
+    }
+
+    /// Snapshot as JSON; numbers that are not finite are null.
+    ///
+    /// # Errors
+    /// That of the JSON writer.
+    pub fn json(&self) -> serde_json::Result<String> {
+        // What is long is written by two threads.
+        let (head, beside) = run_both(|| self.head(), || self.beside.json());
+        Ok(head? + &beside?)
+    }
+
+    /// The beginning of its JSON, to which that of what is beside the picture belongs.
+    fn head(&self) -> serde_json::Result<String> {
+        let picture = serde_json::to_string(&self.picture)?;
+        let rest = serde_json::to_string(self)?;
+        // Its braces are those of the whole.
+        let rest = &rest[1..rest.len() - 1];
+        Ok(format!("{{\"picture\":{picture},{rest}"))
+    }
+}
+
+impl Beside {
+    fn json(&self) -> serde_json::Result<String> {
+        let tables = serde_json::to_string(&self.tables)?;
+        let curves = serde_json::to_string(&CurveList(&self.curves))?;
+        Ok(format!(",\"tables\":{tables},\"curves\":{curves}}}"))
+    }
+}
+
+impl Subject {
+    /// Resolves a design file and draws it; without a mechanism, the snapshot says why.
+    ///
+    /// # Errors
+    /// The snapshot with the reason.
+    pub fn from_text(text: String) -> Result<Self, Box<Snapshot>> {
+        match resolved(&text) {
+            Ok(mechanism) => Ok(Self::new(text, mechanism)),
+            Err(error) => Err(Box::new(Snapshot::with_error(text, &error))),
+        }
+    }
+
+    /// Resolves and draws a design that is worked on: a detail of a body that cannot be is a finding, and the rest is drawn without it.
+    ///
+    /// # Errors
+    /// The snapshot with the reason.
+    pub fn without_faulty_details(text: String) -> Result<Self, Box<Snapshot>> {
+        match Made::new(&text) {
+            Ok(made) => {
+                let mut subject = Self::new(text, made.mechanism);
+                subject.snapshot.detail = made.left_out.as_ref().map(|left_out| Fault {
+                    message: left_out.message(),
+                    ..Fault::from(&left_out.error)
+                });
+                subject.snapshot.left_out = made.left_out.map(Arc::new);
+                Ok(subject)
+            }
+            Err(error) => Err(Box::new(Snapshot::with_error(text, &error))),
+        }
+    }
+
+    fn new(text: String, mechanism: Arc<dyn Mechanism>) -> Self {
+        let snapshot = Snapshot {
+            text,
+            name: mechanism.design().name().into(),
+            title: mechanism.design().title().into(),
+            definition: mechanism.definition(),
+            picture: Some(mechanism.picture()),
+            coarse: mechanism.is_coarse(),
+            goals_first: mechanism.goals_come_first(),
+            speed: mechanism.input_speed(),
+            ..Snapshot::default()
+        };
+        Self {
+            snapshot,
+            mechanism,
+            beside: OnceLock::new(),
+            detailed: OnceLock::new(),
+        }
+    }
+
+    /// Whether this is the mechanism of a text.
+    pub fn is_of(&self, text: &str) -> bool {
+        self.snapshot.text == text
+    }
+
+    /// Snapshot with the picture but without the results of the checks, as JSON in two parts: the picture is in the first.
+    ///
+    /// # Errors
+    /// That of the JSON writer.
+    pub fn drawn(&self, tell: &dyn Fn(String)) -> serde_json::Result<()> {
+        tell(self.snapshot.head()? + "\n");
+        tell(self.beside().json()?);
+        Ok(())
+    }
+
+    fn beside(&self) -> &Beside {
+        // By one thread: the browser draws the picture meanwhile.
+        self.beside.get_or_init(|| Beside {
+            tables: tables(&self.snapshot.text),
+            curves: self.mechanism.curves(),
+        })
+    }
+
+    /// Snapshot with the picture in detail.
+    pub fn detailed(&self) -> Snapshot {
+        let mut snapshot = self.snapshot.clone();
+        snapshot.coarse = false;
+        snapshot.beside = self.beside().clone();
+        let detailed = self.detailed.get_or_init(|| self.mechanism.detailed());
+        if let Some(picture) = detailed {
+            snapshot.picture = Some(picture.clone());
+        }
+        snapshot
+    }
+
+    /// Goals, checked as far as the motion tells.
+    pub fn goals(&self) -> Goals {
+        Goals::new(&*self.mechanism, &self.mechanism.check_goals())
+    }
+
+    /// Snapshot with the results of the checks.
+    pub fn checked(&self) -> Snapshot {
+        let mut snapshot = self.detailed();
+        let (mut found, curves) = self.mechanism.check_with_curves();
+        if let Some(left_out) = &snapshot.left_out {
+            left_out.report(&mut found);
+        }
+        snapshot.beside.curves.extend(curves);
+        snapshot.verdict = Some(Verdict::new(&*self.mechanism, &found));
+        snapshot
+    }
+}

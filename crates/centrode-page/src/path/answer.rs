@@ -1,0 +1,241 @@
+use super::drawing::{self, Drawing, mark};
+use super::sought::Kept;
+use super::wish::{Wish, points};
+use crate::reverse::words::Labelled;
+use crate::reverse::{sharpest, words};
+use centrode_analysis::{Goal, Unit};
+use centrode_export::picture::{Curve, Mark, Picture};
+use centrode_gear::Limits;
+use centrode_geometry::Point;
+use centrode_synthesis::optimise::reached;
+use centrode_synthesis::reverse::{
+    AxisFault, PathDesign, PathError, ReversedMachine, Split, SplitKind, TwoBar, WantedPath,
+};
+use serde::Serialize;
+use std::ops::ControlFlow;
+
+/// Machine of a path and an axis, for the page.
+#[derive(Debug, Default, Serialize)]
+pub struct Answer {
+    /// The machine, or the path alone.
+    picture: Picture,
+    curves: Vec<Curve>,
+    figures: Vec<Figure>,
+    /// Further wishes, and how far they are reached.
+    goals: Vec<GoalAnswer>,
+    /// Findings: names of rules and words.
+    findings: Vec<Labelled>,
+    fault: Option<Fault>,
+}
+
+/// A further wish, in the words of `centrode reverse`.
+#[derive(Debug, Serialize)]
+pub struct GoalAnswer {
+    name: String,
+    words: String,
+    met: bool,
+}
+
+/// Wishes in words.
+pub(super) fn goals(goals: &[Goal]) -> Vec<GoalAnswer> {
+    let answer = |goal: &Goal| GoalAnswer {
+        name: goal.name.to_string(),
+        words: words::goal(goal).1,
+        met: goal.met() != Some(false),
+    };
+    goals.iter().map(answer).collect()
+}
+
+/// A figure in the words of `centrode reverse`.
+#[derive(Debug, Serialize)]
+struct Figure {
+    name: String,
+    words: String,
+}
+
+/// Reason why there is no machine.
+#[derive(Debug, Serialize)]
+struct Fault {
+    /// Input to blame: `path`, `axis`, `split`, or `wish` for a key of the design.
+    of: &'static str,
+    message: String,
+}
+
+impl Answer {
+    /// Machine of the path and the axis of a wish, or the reason why there is none.
+    #[must_use]
+    pub fn new(ask: &Wish) -> Self {
+        let design = match ask.design() {
+            Ok(design) => design,
+            Err(reason) => return Self::without(Picture::default(), "wish", reason),
+        };
+        let passed = points(&design);
+        let wanted = match WantedPath::through(&passed) {
+            Ok(wanted) => wanted,
+            Err(error) => return Self::no_path(&passed, &error),
+        };
+        if let (false, Err(error)) = (design.path.crossing, wanted.check_simple()) {
+            return Self::crossing(&wanted, &error);
+        }
+        let Some(axis) = design.axis else {
+            let words = "the axis is missing".to_owned();
+            return Self::without(drawing::path(&wanted, Vec::new()), "axis", words);
+        };
+        let chain = match TwoBar::new(&wanted, axis.into(), None) {
+            Ok(chain) => chain,
+            Err(fault) => {
+                let picture = drawing::path(&wanted, places(&fault));
+                return Self::without(picture, "axis", fault.to_string());
+            }
+        };
+        let answer = Self::of_chain(&design, &chain, ask.rest);
+        let mut answer = answer.unwrap_or_else(|reason| {
+            let mut answer = Self::without(drawing::path(&wanted, Vec::new()), "split", reason);
+            answer.figures = figures(&chain, None);
+            answer
+        });
+        // The machine as it is drawn; what is sought may reach more.
+        let count = passed.len() - usize::from(passed.first() == passed.last());
+        answer.goals = goals(&reached(&design.wishes, &chain, design.bend, count));
+        if ask.others {
+            answer.figures.extend(others(&design, &chain));
+        }
+        answer
+    }
+
+    /// The machine that is sought.
+    ///
+    /// # Errors
+    /// The reason in words if there is no machine.
+    pub fn found(
+        ask: &Wish,
+        kept: &Kept,
+        observe: &mut dyn FnMut(u64) -> ControlFlow<()>,
+    ) -> Result<Self, String> {
+        let design = ask.design()?;
+        let found = kept.found(ask, observe)?;
+        let mut answer = Self::of_chain(&design, &found.chain, true)?;
+        let told = found.told.iter();
+        answer
+            .figures
+            .extend(told.map(|(name, words)| figure(name, words.clone())));
+        answer.goals = goals(&found.goals);
+        answer.findings = found.findings.iter().map(words::finding).collect();
+        Ok(answer)
+    }
+
+    fn of_chain(design: &PathDesign, chain: &TwoBar, rest: bool) -> Result<Self, String> {
+        let (bend, arms) = (design.bend, design.arms);
+        let split = Split::new(chain, design.split, bend).map_err(|error| error.to_string())?;
+        let drawn = Drawing::new(chain, &split, arms).map_err(|error| error.to_string())?;
+        let mut figures = figures(chain, Some(bend));
+        if rest {
+            figures.extend(rested(chain, &split, design)?);
+        }
+        Ok(Self {
+            picture: drawn.picture(),
+            curves: drawn.curves(),
+            figures,
+            ..Self::default()
+        })
+    }
+
+    fn without(picture: Picture, of: &'static str, message: String) -> Self {
+        Self {
+            picture,
+            fault: Some(Fault { of, message }),
+            ..Self::default()
+        }
+    }
+
+    fn no_path(points: &[Point], error: &PathError) -> Self {
+        let mut marks = Vec::new();
+        if let PathError::Twice { x, y, .. } = error {
+            marks.push(mark("twice", Point::new(*x, *y)));
+        }
+        let picture = drawing::polygon(points, marks);
+        Self::without(picture, "path", error.to_string())
+    }
+
+    fn crossing(wanted: &WantedPath, error: &PathError) -> Self {
+        let mut marks = Vec::new();
+        if let PathError::Crossing { x, y } = error {
+            marks.push(mark("crosses itself", Point::new(*x, *y)));
+        }
+        let picture = drawing::path(wanted, marks);
+        Self::without(picture, "path", error.to_string())
+    }
+}
+
+/// Places on the path where an axis is not possible.
+fn places(fault: &AxisFault) -> Vec<Mark> {
+    match fault {
+        AxisFault::Extremes { maxima } => {
+            let far = maxima.iter().map(|at| mark("farthest", *at));
+            far.collect()
+        }
+        AxisFault::CarrierTurnsBack { at, .. } => vec![mark("carrier turns back", *at)],
+        AxisFault::ArmStops { at } => vec![mark("arm stands still", *at)],
+        _ => Vec::new(),
+    }
+}
+
+fn figures(chain: &TwoBar, bend: Option<f64>) -> Vec<Figure> {
+    let mm = |x: f64| Unit::Millimetre.tell(x);
+    let axis = chain.axis();
+    let at = format!("{:.4}, {:.4} mm", axis.x, axis.y);
+    let mut found = vec![figure("axis of the carrier", at)];
+    found.extend(words::bars(chain).map(|(name, words)| figure(name, words)));
+    found.push(figure(
+        "tip passes the shaft at",
+        mm(chain.shaft_distance()),
+    ));
+    if let Some(bend) = bend {
+        let module = Limits::largest_full_module(chain.curvatures(bend));
+        let full = format!("surely sound up to module {} by powers", mm(module));
+        found.push(figure("full teeth", full));
+    }
+    found
+}
+
+/// Figures that take longer: of the pitch curves as they are written.
+fn rested(chain: &TwoBar, split: &Split, design: &PathDesign) -> Result<Vec<Figure>, String> {
+    let made = ReversedMachine::new(chain, split, design.arms, design.steps);
+    let made = made.map_err(|error| error.to_string())?;
+    let (name, words) = words::least_radius(&made);
+    let mut found = vec![figure(name, words)];
+    let pairs = made.design.pairs.keys().zip(&made.least_radii);
+    let pairs = pairs.map(|(name, radii)| words::least_radii(name, *radii));
+    found.extend(pairs.map(|(name, words)| figure(&name, words)));
+    let (name, words) = words::tip_error(&made);
+    found.push(figure(name, words));
+    if split.kind() == SplitKind::OnePair {
+        found.push(figure(
+            "one pair twice misses by",
+            format!("{:.1e} rad", split.miss()),
+        ));
+    }
+    Ok(found)
+}
+
+/// Figures of the splits that were not chosen.
+fn others(design: &PathDesign, chain: &TwoBar) -> Vec<Figure> {
+    let kinds = SplitKind::NAMES.into_iter();
+    let kinds = kinds.filter(|(_, kind)| design.split != *kind);
+    kinds
+        .map(|(name, kind)| {
+            let words = match Split::new(chain, kind, design.bend) {
+                Ok(split) => sharpest(chain, &split),
+                Err(error) => error.to_string(),
+            };
+            figure(&format!("split {name}"), words)
+        })
+        .collect()
+}
+
+fn figure(name: &str, words: String) -> Figure {
+    Figure {
+        name: name.into(),
+        words,
+    }
+}

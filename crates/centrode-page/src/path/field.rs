@@ -1,0 +1,146 @@
+//! Axes about a path: which are possible, and the best one.
+
+use super::wish::path;
+use centrode_synthesis::reverse::{AxisFault, AxisMap, AxisRange, PossibleAxis};
+use serde::{Deserialize, Serialize};
+
+/// Most axes along a side of a map.
+const MOST: u32 = 200;
+
+/// Request of the map.
+#[derive(Debug, Deserialize)]
+pub struct Ask {
+    points: Vec<[f64; 2]>,
+    bend_deg: f64,
+    /// Axes along each side.
+    count: u32,
+}
+
+/// Map of possible axes, row by row from the least y, each row from the least x.
+#[derive(Debug, Serialize)]
+pub struct Field {
+    x: [f64; 2],
+    y: [f64; 2],
+    count: [u32; 2],
+    /// Factor of 1 within which the ratio is; none where the axis is not possible.
+    factor: Vec<Option<f64>>,
+    /// Least and greatest ratio.
+    ratios: Vec<Option<[f64; 2]>>,
+    /// Least convex radius of the split by powers, mm.
+    radius: Vec<Option<f64>>,
+    /// Number of the reason why an axis is not possible.
+    fault: Vec<Option<usize>>,
+    /// The reasons found: name, words, and how many axes they forbid.
+    faults: Vec<(&'static str, &'static str, usize)>,
+    possible: usize,
+    /// Number of possible axes inside the path.
+    inside: usize,
+}
+
+impl Field {
+    /// Map about a path.
+    ///
+    /// # Errors
+    /// The reason in words if the points make no path, or the count is out of range.
+    pub fn new(ask: &Ask) -> Result<Self, String> {
+        let wanted = path(&ask.points).map_err(|error| error.to_string())?;
+        if !(2..=MOST).contains(&ask.count) {
+            return Err(format!(
+                "a map has 2 to {MOST} axes a side, not {}",
+                ask.count
+            ));
+        }
+        let range = AxisRange {
+            count: [ask.count; 2],
+            ..AxisRange::about(&wanted)
+        };
+        let map = AxisMap::new(&wanted, range);
+        let bend = ask.bend_deg.to_radians();
+        let mut faults: Vec<(&'static str, &'static str, usize)> = Vec::new();
+        let mut number = |fault: &AxisFault| {
+            let name = fault.name();
+            let known = faults.iter().position(|(known, ..)| *known == name);
+            let number = known.unwrap_or_else(|| {
+                faults.push((name, words(name), 0));
+                faults.len() - 1
+            });
+            faults[number].2 += 1;
+            number
+        };
+        let found = map.found();
+        let fault = found
+            .iter()
+            .map(|one| one.as_ref().err().map(&mut number))
+            .collect();
+        let figure = |of: &dyn Fn(&PossibleAxis) -> f64| {
+            let figures = found
+                .iter()
+                .map(|one| one.as_ref().ok().map(|axis| short(of(axis))));
+            figures.collect()
+        };
+        let ratios = found
+            .iter()
+            .map(|one| one.as_ref().ok().map(|axis| axis.ratios.map(short)));
+        let possible = found.iter().flatten();
+        Ok(Self {
+            x: range.x,
+            y: range.y,
+            count: range.count,
+            factor: figure(&|axis| axis.unevenness().exp()),
+            ratios: ratios.collect(),
+            radius: figure(&|axis| axis.least_radius(bend)),
+            fault,
+            faults,
+            possible: map.possible(),
+            inside: possible.filter(|axis| axis.carrier > axis.arm).count(),
+        })
+    }
+}
+
+/// Five digits after the point: more cannot be seen in a map.
+fn short(value: f64) -> f64 {
+    (value * 1e5).round() / 1e5
+}
+
+/// A reason in words that fit any axis.
+fn words(name: &str) -> &'static str {
+    match name {
+        "extremes" => "the distance along the path has several greatest and least places",
+        "circle" => "the path is a circle about the axis",
+        "on-axis" => "the path passes through the axis",
+        "winding" => "the path goes round the axis more than once",
+        "carrier-turns-back" => "the carrier would turn back",
+        "arm-stops" => "the arm would stand still on the carrier",
+        "too-far" => "the axis is more than 1000 times the size of the path away from it",
+        _ => "the axis is no place for this path",
+    }
+}
+
+/// Request of the best axis.
+#[derive(Debug, Deserialize)]
+pub struct Best {
+    points: Vec<[f64; 2]>,
+    bend_deg: f64,
+    /// Whether the bluntest gears are wanted, not the mildest ratio.
+    bluntest: bool,
+}
+
+/// The mildest axis, or that of the bluntest gears.
+///
+/// # Errors
+/// The reason in words if the points make no path, or no axis is possible.
+pub fn best(ask: &Best) -> Result<[f64; 2], String> {
+    let wanted = path(&ask.points).map_err(|error| error.to_string())?;
+    let map = AxisMap::new(&wanted, AxisRange::about(&wanted));
+    let axis = if ask.bluntest {
+        map.bluntest(ask.bend_deg.to_radians())
+    } else {
+        map.mildest(&wanted).map(|chain| chain.axis())
+    };
+    let tried = map.found().len();
+    let axis = axis.ok_or_else(|| {
+        format!("of {tried} axes tried on and about the path none is possible: change the path")
+    })?;
+    // As many digits as the page shows.
+    Ok([axis.x, axis.y].map(|x| (x * 1e4).round() / 1e4))
+}

@@ -1,0 +1,75 @@
+use centrode_geometry::Point;
+use centrode_spec::{Design as _, DesignSpec as _};
+use centrode_synthesis::reverse::{KeyPose, PathDesign, PathError, WantedPath};
+use serde::Deserialize;
+
+/// Wish of the page: the design that `centrode reverse` reads, or key poses with its choices.
+#[derive(Clone, Debug, Deserialize)]
+pub struct Wish {
+    /// The design; of key poses, its bend, split and arms count.
+    design: PathDesign,
+    /// Key poses in the place of a path: places of the tip, mm, and directions of the clamp, degrees.
+    #[serde(default)]
+    poses: Vec<[f64; 3]>,
+    /// Whether the hand rests: what takes longer is told, too.
+    #[serde(default)]
+    pub(super) rest: bool,
+    /// Whether the other splits are told, too.
+    #[serde(default)]
+    pub(super) others: bool,
+}
+
+impl Wish {
+    /// The design as the command reads it from its file, or the key and the rule that it breaks.
+    ///
+    /// # Errors
+    /// The key and the rule that it breaks.
+    pub fn design(&self) -> Result<PathDesign, String> {
+        let mut design = self.design.clone();
+        if !self.poses.is_empty() {
+            design.path.points = self.poses.iter().map(|[x, y, _]| [*x, *y]).collect();
+        }
+        if let Some(file) = &design.path.file {
+            return Err(format!(
+                "path.file: the points are in {file}, which the page cannot read: open that file"
+            ));
+        }
+        // Points that make no path are told in the words of the path.
+        let text = design.to_toml().map_err(|error| error.message())?;
+        PathDesign::from_toml(&text).map_err(|error| error.message())
+    }
+
+    /// Key poses; none where a path is given.
+    pub(super) fn poses(&self) -> Option<Vec<KeyPose>> {
+        let pose = |[x, y, direction]: &[f64; 3]| KeyPose {
+            point: Point::new(*x, *y),
+            direction: direction.to_radians(),
+        };
+        (!self.poses.is_empty()).then(|| self.poses.iter().map(pose).collect())
+    }
+
+    /// Words by which the answer to one wish is known from that to another.
+    pub(super) fn key(&self) -> String {
+        let poses = &self.poses;
+        let text = self.design.to_toml();
+        text.map_or_else(|_| String::new(), |text| format!("{text}{poses:?}"))
+    }
+}
+
+/// Points of a design's path: those it passes.
+pub(super) fn points(design: &PathDesign) -> Vec<Point> {
+    let rows = self::rows(&design.path.points);
+    match design.path.control {
+        true => WantedPath::knots(&rows),
+        false => rows,
+    }
+}
+
+pub(super) fn rows(rows: &[[f64; 2]]) -> Vec<Point> {
+    rows.iter().copied().map(Point::from).collect()
+}
+
+/// Path through the points of the page.
+pub(super) fn path(rows: &[[f64; 2]]) -> Result<WantedPath, PathError> {
+    WantedPath::through(&self::rows(rows))
+}

@@ -1,0 +1,75 @@
+//! The machine of a chain, for the command and the page.
+
+use centrode_analysis::{Finding, NoSoundTeeth, SoundTeeth, composed_collisions, with_sound_teeth};
+use centrode_spec::Design;
+use centrode_synthesis::reverse::{MachineError, PathDesign, ReversedMachine, Split, TwoBar};
+
+/// The machine of a chain, with the names and the shapes to keep out of of a design.
+///
+/// # Errors
+/// [`MachineError`] if no gears have this law.
+pub fn rolled(
+    design: &PathDesign,
+    chain: &TwoBar,
+    split: &Split,
+) -> Result<ReversedMachine, MachineError> {
+    let made = ReversedMachine::new(chain, split, design.arms, design.steps)?;
+    let mut made = made.with_obstacles(&design.wishes.keep_out);
+    made.design.name.clone_from(&design.name);
+    if !design.title.is_empty() {
+        made.design.title.clone_from(&design.title);
+    }
+    Ok(made)
+}
+
+/// A machine with sound teeth.
+#[derive(Debug)]
+pub struct Toothed {
+    /// The design.
+    pub design: Box<dyn Design>,
+    /// The teeth, pair by pair.
+    pub teeth: Vec<SoundTeeth>,
+    /// Plates and gears of several arms that collide, as its check tells them: the deepest of each kind.
+    pub findings: Vec<Finding>,
+}
+
+impl Toothed {
+    /// Cuts the teeth.
+    ///
+    /// # Errors
+    /// [`NoSoundTeeth`] if a pair has none.
+    pub fn new(made: &ReversedMachine) -> Result<Self, NoSoundTeeth> {
+        let (design, teeth) = with_sound_teeth(&made.design, |_| true)?;
+        Ok(Self {
+            findings: deepest(composed_collisions(&design)),
+            design: Box::new(design),
+            teeth,
+        })
+    }
+}
+
+/// The deepest collision of each kind, with how many more there are.
+fn deepest(all: Vec<Finding>) -> Vec<Finding> {
+    let mut told: Vec<(Finding, usize)> = Vec::new();
+    for finding in all {
+        match told
+            .iter_mut()
+            .find(|(first, _)| first.rule == finding.rule)
+        {
+            Some((_, more)) => *more += 1,
+            None => told.push((finding, 0)),
+        }
+    }
+    let counted = |(mut finding, more): (Finding, usize)| {
+        let pairs = if more == 1 {
+            "pair collides,"
+        } else {
+            "pairs collide,"
+        };
+        if more > 0 {
+            finding.message += &format!(" ({more} more {pairs} none deeper)");
+        }
+        finding
+    };
+    told.into_iter().map(counted).collect()
+}

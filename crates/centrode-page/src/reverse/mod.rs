@@ -1,0 +1,37 @@
+//! A machine made from a path or of key poses, in words: for the page and the command.
+
+mod found;
+mod made;
+pub mod words;
+
+use centrode_analysis::Unit;
+use centrode_synthesis::reverse::{DrawnPath, PathError, ReversedMachine, Split, TwoBar};
+
+pub use found::{Found, NotFound};
+pub use made::{Toothed, rolled};
+
+/// Distance within which a path lies of a drawing where none is given, mm.
+pub const WITHIN: f64 = 0.01;
+
+/// Points along the path of an SVG file; none where the file is another.
+///
+/// # Errors
+/// [`PathError`] if the drawing has no single path.
+pub fn drawn(bytes: &[u8], within: f64) -> Result<Option<DrawnPath>, PathError> {
+    let text = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let is_drawing = text.trim_ascii_start().starts_with(b"<");
+    is_drawing
+        .then(|| DrawnPath::from_svg(bytes, within))
+        .transpose()
+}
+
+/// The sharpest pitch curve of a split that was not chosen.
+pub fn sharpest(chain: &TwoBar, split: &Split) -> String {
+    match ReversedMachine::new(chain, split, 1, None) {
+        Ok(made) => {
+            let least = Unit::Millimetre.tell(made.minimum_radius());
+            format!("possible, least convex radius {least}")
+        }
+        Err(error) => error.to_string(),
+    }
+}

@@ -1,0 +1,123 @@
+//! Words on a machine made from a path, for the command and the page.
+
+use centrode_analysis::{Finding, Goal, SoundTeeth, Unit};
+use centrode_gear::design::Addendum;
+use centrode_machines::three_arm::design::Direction;
+use centrode_synthesis::reverse::{ReversedMachine, TwoBar};
+
+/// Name of a figure, and its words.
+pub type Labelled = (String, String);
+
+fn mm(x: f64) -> String {
+    Unit::Millimetre.tell(x)
+}
+
+/// Range of ratios.
+#[must_use]
+pub fn range(ratios: [f64; 2]) -> String {
+    format!("{:.4} to {:.4}", ratios[0], ratios[1])
+}
+
+/// Lines on carrier, arm and ratio.
+pub fn bars(chain: &TwoBar) -> [(&'static str, String); 3] {
+    let sense = match chain.direction() {
+        Direction::CounterClockwise => "counter-clockwise",
+        Direction::Clockwise => "clockwise",
+    };
+    let ratios = range(chain.ratios().map(|ratio| ratio.value));
+    let factor = chain.unevenness().exp();
+    [
+        ("carrier", format!("{}, turns {sense}", mm(chain.carrier()))),
+        ("arm", mm(chain.arm())),
+        (
+            "ratio",
+            format!("{ratios}, within a factor of {factor:.4} of 1"),
+        ),
+    ]
+}
+
+/// Line on the minimum convex radius of the gears that are written.
+pub fn least_radius(made: &ReversedMachine) -> (&'static str, String) {
+    ("least convex radius", mm(made.minimum_radius()))
+}
+
+/// Line on the least convex radii of a pair's pitch curves.
+pub fn least_radii(pair: &str, [driver, driven]: [f64; 2]) -> Labelled {
+    let words = format!(
+        "least convex radius {} (driver), {} (driven)",
+        mm(driver),
+        mm(driven)
+    );
+    (format!("pair {pair}"), words)
+}
+
+/// Line on how far the tip is off the path.
+pub fn tip_error(made: &ReversedMachine) -> (&'static str, String) {
+    let error = mm(made.tip_error.value);
+    let words = format!("{error} at most, with laws of {} steps", made.steps);
+    ("tip off the path", words)
+}
+
+/// Line on the clamp.
+pub(crate) fn clamp(angle: f64) -> Labelled {
+    let words = format!("{} from the arm", Unit::Angle.tell(angle));
+    ("clamp".to_owned(), words)
+}
+
+/// Lines on the clamp and on how far each pose is missed.
+pub fn poses(angle: f64, misses: &[[f64; 2]]) -> Vec<Labelled> {
+    let pose = |(index, [off, turned]): (usize, &[f64; 2])| {
+        let (off, turned) = (mm(*off), Unit::Angle.tell(*turned));
+        let name = format!("pose {}", index + 1);
+        (name, format!("missed by {off} and {turned}"))
+    };
+    let poses = misses.iter().enumerate().map(pose);
+    std::iter::once(clamp(angle)).chain(poses).collect()
+}
+
+/// Line on a goal: its figure, what was wanted, and by how much it is missed.
+pub fn goal(goal: &Goal) -> Labelled {
+    let tell = |x: f64| goal.unit.tell(x);
+    let value = goal.value.map_or_else(String::new, tell);
+    let wanted = match goal.wanted {
+        [Some(least), Some(most)] => format!("{} to {}", tell(least), tell(most)),
+        [Some(least), None] => format!("at least {}", tell(least)),
+        [None, Some(most)] => format!("at most {}", tell(most)),
+        [None, None] => String::new(),
+    };
+    let missed = match goal.margin {
+        Some(margin) if margin < 0.0 => format!(", missed by {}", tell(-margin)),
+        _ => String::new(),
+    };
+    let words = format!("{} {value}, wanted {wanted}{missed}", goal.title);
+    (format!("goal {}", goal.number), words)
+}
+
+/// Line on a finding.
+pub fn finding(finding: &Finding) -> Labelled {
+    let remedy = finding
+        .remedy
+        .map_or_else(String::new, |remedy| format!("; what helps: {remedy}"));
+    (
+        finding.rule.to_owned(),
+        format!("{}{remedy}", finding.message),
+    )
+}
+
+/// Line on the teeth of a pair.
+pub fn teeth(teeth: &SoundTeeth) -> Labelled {
+    let mm = |x: f64| Unit::Millimetre.tell(x);
+    let (kind, full) = match teeth.addendum {
+        Addendum::Full => ("full", String::new()),
+        Addendum::Fitted => {
+            let words = format!("; full ones are undercut above {}", mm(teeth.full_module));
+            ("fitted", words)
+        }
+    };
+    let words = format!(
+        "{} {kind} teeth, module {}{full}",
+        teeth.tooth_count,
+        mm(teeth.module)
+    );
+    (format!("teeth of {}", teeth.pair), words)
+}

@@ -1,0 +1,102 @@
+use centrode_analysis::Goal;
+use serde::Serialize;
+
+use super::figures::exact;
+
+/// A goal in words.
+#[derive(Clone, Debug, Serialize)]
+pub struct GoalWords {
+    /// Number.
+    pub number: u32,
+    /// Number in the paper it is from, where that is another.
+    pub paper: Option<u32>,
+    /// Name in the report.
+    pub name: String,
+    /// Title.
+    pub title: String,
+    /// Figure as shown, without its unit.
+    pub value: String,
+    /// Figure as in the JSON report, to the last digit.
+    pub exact: Option<String>,
+    /// Unit of the figure.
+    pub unit: &'static str,
+    /// The range it is wanted in.
+    pub wanted: String,
+    /// Met, missed by how much, or not checked.
+    pub verdict: String,
+    /// By how much it is met, with its unit.
+    pub spare: Option<String>,
+    /// Whether it is met; `None` if it is not checked.
+    pub met: Option<bool>,
+    /// Share of the way to it, 1 where it is met.
+    pub progress: Option<f64>,
+}
+
+/// The words for a goal.
+pub fn goal_words(goal: &Goal) -> GoalWords {
+    let short = |value: f64| end(value * goal.unit.factor());
+    let wanted = match goal.wanted {
+        [Some(least), Some(greatest)] => format!("{} to {}", short(least), short(greatest)),
+        [Some(least), None] => format!("at least {}", short(least)),
+        [None, Some(greatest)] => format!("at most {}", short(greatest)),
+        [None, None] => String::new(),
+    };
+    let verdict = match (goal.met(), goal.margin) {
+        (Some(true), _) => "met".into(),
+        (Some(false), Some(margin)) => {
+            format!("missed by {}", goal.unit.tell(-margin))
+        }
+        _ => "not checked".into(),
+    };
+    let spare = goal.margin.filter(|_| goal.met() == Some(true));
+    GoalWords {
+        spare: spare.map(|margin| goal.unit.tell(margin)),
+        number: goal.number,
+        paper: goal.paper,
+        name: goal.name.clone().into_owned(),
+        title: goal.title.clone().into_owned(),
+        value: goal.value.map_or("-".into(), |value| goal.unit.show(value)),
+        exact: goal.value.map(exact),
+        unit: goal.unit.shown(),
+        wanted,
+        verdict,
+        met: goal.met(),
+        progress: goal.progress,
+    }
+}
+
+/// End of a range, to a millionth; a smaller one keeps its leading digits.
+fn end(value: f64) -> String {
+    let rounded = (value * 1e6).round() / 1e6;
+    if rounded == 0.0 && value != 0.0 {
+        // Of six digits those that are not trailing zeros.
+        let short = format!("{value:.5e}").parse().unwrap_or(value);
+        format!("{short:e}")
+    } else {
+        // No zero below zero.
+        format!("{}", rounded + 0.0)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn ends_of_ranges_are_short_and_never_hidden() {
+        let ends = [
+            -0.0,
+            0.0,
+            -1e-9,
+            1e-9,
+            1.234_567_89e-8,
+            -15.0,
+            0.123_456_789,
+        ]
+        .map(end);
+        assert_eq!(
+            ends,
+            ["0", "0", "-1e-9", "1e-9", "1.23457e-8", "-15", "0.123457"]
+        );
+    }
+}
