@@ -87,7 +87,7 @@ fn bench(c: &mut Criterion) {
     group.sample_size(10);
     let (name, cam) = &cams[0];
     group.bench_function(*name, |b| {
-        b.iter(|| cam.least_base_radius(black_box(0.4), std::f64::consts::FRAC_PI_2));
+        b.iter(|| cam.minimum_base_radius(black_box(0.4), std::f64::consts::FRAC_PI_2));
     });
     group.finish();
 }

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::hint::black_box;
 
 use centrode_analysis::interference::{
-    Body, Motion, Moving, PoseJet, Tabulated, clearance, least_clearance,
+    Body, Motion, Moving, PoseJet, Tabulated, clearance, minimum_clearance,
 };
 use centrode_analysis::{ArmClearance, between_arms};
 use centrode_gear::pitch::{Bspline, PitchSpec};
@@ -90,11 +90,11 @@ fn arms(c: &mut Criterion) {
                 let cycle = [0.0, TAU];
                 let one = || clearance(&bodies[0], &bodies[1], cycle, tolerance(mm));
                 let found = one().expect("finite");
-                assert_eq!(found.least > 0.0, what == "clear", "{found:?}");
+                assert_eq!(found.minimum > 0.0, what == "clear", "{found:?}");
                 group.bench_function(BenchmarkId::new("three pairs", &name), |b| {
                     b.iter(|| {
                         let mm = tolerance(mm);
-                        least_clearance(black_box(&bodies), &PAIRS, cycle, mm)
+                        minimum_clearance(black_box(&bodies), &PAIRS, cycle, mm)
                     });
                 });
                 group.bench_function(BenchmarkId::new("one pair tells all", &name), |b| {

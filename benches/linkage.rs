@@ -3,7 +3,7 @@
 use std::hint::black_box;
 use std::ops::ControlFlow;
 
-use centrode_analysis::six_bar::{PUBLISHED_BOUNDS, WantedSwing};
+use centrode_analysis::six_bar::{PUBLISHED_BOUNDS, RequiredSwing};
 use centrode_geometry::Point;
 use centrode_kinematics::linkage::{Branch, FourBar, LinkId, Linkage, SixBar};
 use centrode_optimise::{Method, Settings, minimise};
@@ -81,12 +81,12 @@ fn positions(c: &mut Criterion) {
 
 /// Lengths that swing the effector half a turn within a millionth of a degree.
 fn search(c: &mut Criterion) {
-    let problem = WantedSwing {
+    let problem = RequiredSwing {
         bounds: PUBLISHED_BOUNDS,
         pivot: PIVOT,
         branch: Branch::Upper,
         swing: std::f64::consts::PI,
-        least_transmission_angle: None,
+        minimum_transmission_angle: None,
     };
     let mut group = c.benchmark_group("linkage/search");
     for (name, method) in Method::NAMES {

@@ -3,7 +3,7 @@
 use std::hint::black_box;
 
 use centrode_geometry::Point;
-use centrode_synthesis::reverse::{AxisMap, AxisRange, Split, SplitKind, TwoBar, WantedPath};
+use centrode_synthesis::reverse::{AxisMap, AxisRange, RequiredPath, Split, SplitKind, TwoBar};
 use criterion::{Criterion, criterion_group};
 
 /// A path drawn by hand, mm.
@@ -25,9 +25,9 @@ const DRAWN: [[f64; 2]; 13] = [
 /// Bend of the carrier, degrees, away from small fractions of a turn.
 const BEND: f64 = 40.3;
 
-fn path() -> WantedPath {
+fn path() -> RequiredPath {
     let points: Vec<Point> = DRAWN.iter().map(|&p| p.into()).collect();
-    WantedPath::through(&points).expect("a path")
+    RequiredPath::through(&points).expect("a path")
 }
 
 fn map(c: &mut Criterion) {
@@ -52,7 +52,7 @@ fn one_axis(c: &mut Criterion) {
     let chain = TwoBar::new(&path, axis, None).expect("a chain");
     group.bench_function("law", |b| b.iter(|| chain.law()));
     group.bench_function("least-radius", |b| {
-        b.iter(|| chain.least_radius(BEND.to_radians()));
+        b.iter(|| chain.minimum_radius(BEND.to_radians()));
     });
     group.sample_size(10);
     for (name, kind) in SplitKind::NAMES {

@@ -2,9 +2,9 @@
 
 use std::hint::black_box;
 
-use centrode_analysis::{check_composed, check_three_arm};
+use centrode_analysis::{check_machine, check_three_arm};
 use centrode_gear::pitch::PitchSpec;
-use centrode_machines::composed::{Composed, ComposedDesign};
+use centrode_machines::machine::{Machine, MachineDesign};
 use centrode_machines::three_arm::design::ThreeArmDesign;
 use centrode_machines::three_arm::{Sweep, ThreeArm};
 use centrode_optimise::Problem;
@@ -108,7 +108,7 @@ fn check(c: &mut Criterion) {
     let own = include_str!("../tests/designs/three-arm-2021.toml");
     let own = ThreeArmDesign::from_toml(own).expect("a good design");
     let composed = include_str!("../tests/designs/composed-three-arm.toml");
-    let composed = ComposedDesign::from_toml(composed).expect("a good design");
+    let composed = MachineDesign::from_toml(composed).expect("a good design");
     let mut backlash = 0.05;
     let mut another = || {
         backlash += 1e-9;
@@ -127,7 +127,7 @@ fn check(c: &mut Criterion) {
             for pair in design.pairs.values_mut() {
                 pair.teeth.backlash = another();
             }
-            check_composed(&Composed::resolve(&design).expect("a machine"))
+            check_machine(&Machine::resolve(&design).expect("a machine"))
         });
     });
     group.finish();
@@ -146,10 +146,10 @@ fn bodies(c: &mut Criterion) {
             text += &format!("[bodies.b{i}]\non = \"frame.P{i}\"\npoints = {{ T = [20, 0] }}\n");
             text += "law = { expression = \"phi\" }\n";
         }
-        let design = ComposedDesign::from_toml(&text).expect("a good design");
+        let design = MachineDesign::from_toml(&text).expect("a good design");
         group.throughput(Throughput::Elements(count.into()));
         group.bench_function(count.to_string(), |b| {
-            b.iter(|| check_composed(&Composed::resolve(&design).expect("a machine")));
+            b.iter(|| check_machine(&Machine::resolve(&design).expect("a machine")));
         });
     }
     group.finish();

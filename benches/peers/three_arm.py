@@ -119,7 +119,7 @@ def interference(arms, title, tolerance):
     print(
         f"\n{title}: three arms of {len(contour)} corners, {len(mesh[1])} triangles, over a turn\n"
         f"  {'centrode, continuous':34} {seconds(ours):>10} {'':>8}  "
-        f"{found.least:.4f} mm, proven {found.lower_bound:.4f}"
+        f"{found.minimum:.4f} mm, proven {found.lower_bound:.4f}"
     )
     for name, run in [
         ("python-fcl", sampled_by_fcl(mesh, placed)),
@@ -131,7 +131,7 @@ def interference(arms, title, tolerance):
         again, _ = worked(lambda: arms.arm_clearance(tolerance))
         what = f"{name}, {SAMPLES} samples"
         print(f"  {what:34} {seconds(theirs):>10} {times(theirs, again):>8}  {least:.4f} mm", flush=True)
-        assert found.lower_bound < least < found.least + 0.2, "not the same arms"
+        assert found.lower_bound < least < found.minimum + 0.2, "not the same arms"
 
 
 def published():

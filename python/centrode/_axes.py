@@ -24,7 +24,7 @@ class AxisMap:
     """Length of the arm, mm."""
     ratios: NDArray[float64]
     """Least and greatest ratio of the total law along the last axis of the array."""
-    least_radius: NDArray[float64]
+    minimum_radius: NDArray[float64]
     """Minimum convex radius of the four pitch curves by powers, mm, mostly within 5 % of the gears as they are written.
 
     Up to 40 % more where the law has a narrow peak. Of a path of more than 64 pieces 64 are sampled.
@@ -41,7 +41,7 @@ class SplitFigures:
 
     name: str
     """Word for the split: "powers", "mildest" or "one-pair"."""
-    least_radii: tuple[tuple[float, float], ...]
+    minimum_radii: tuple[tuple[float, float], ...]
     """Least convex radii of driver and driven gear of each pair, mm; none where there is no split."""
     convex: tuple[tuple[bool, bool], ...]
     """Whether driver and driven gear of each pair are convex all round."""
@@ -51,6 +51,6 @@ class SplitFigures:
     """Why the motion cannot be split so; None where it can."""
 
     @property
-    def least_radius(self) -> float:
+    def minimum_radius(self) -> float:
         """The least of all least radii, mm; NaN where there is no split."""
-        return min((radius for pair in self.least_radii for radius in pair), default=float("nan"))
+        return min((radius for pair in self.minimum_radii for radius in pair), default=float("nan"))

@@ -7,11 +7,11 @@ class Clearance:
 
     __module__ = "centrode"
 
-    least: float
+    minimum: float
     """Least distance found, mm; negative where they overlap: how deep one lies in the other."""
     lower_bound: float
     """The clearance is proven to be nowhere smaller, mm."""
     input: float
-    """Carrier turn at which it is least, rad."""
+    """Carrier turn of the minimum, rad."""
     arms: tuple[int, int]
     """The two arms."""

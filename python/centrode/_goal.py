@@ -17,8 +17,8 @@ class Goal:
     """The goal in a few words."""
     value: float | None
     """The figure, in `unit`; None where it was not looked at."""
-    wanted: tuple[float | None, float | None]
-    """Least and greatest figure wanted; None where it is open."""
+    required: tuple[float | None, float | None]
+    """Minimum and maximum of the figure; None where it is open."""
     unit: str
     """"mm", "rad", or empty for a plain number."""
     scale: float

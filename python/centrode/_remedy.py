@@ -17,7 +17,7 @@ class PairRemedy:
     """Height of the teeth."""
     fit: tuple[Literal["thickness_split", "pressure_angle", "phase"], ...]
     """What was chosen beside it, and is written in the pair."""
-    least_tooth_count: int
+    minimum_tooth_count: int
     """Tooth count of the driver at which they do, and with one step fewer do not; a greater one may fail again."""
     pair: GearPair
     """The pair with such teeth, as many as it had where those are enough."""

@@ -276,7 +276,7 @@ def response(
         figures = _shown(goal, np.asarray(answers[goal.name]))
         ax.plot(values, figures, ".-", color=_DRIVER, markersize=4)
         low, high = ax.get_ylim()
-        least, most = (None if end is None else _shown(goal, end) for end in goal.wanted)
+        least, most = (None if end is None else _shown(goal, end) for end in goal.required)
         shaded = (low if least is None else least, high if most is None else most)
         ax.axhspan(min(shaded), max(shaded), color=_MET, alpha=0.15, linewidth=0)
         ax.set_ylim(low, high)
@@ -298,7 +298,7 @@ def _unit(goal: Goal) -> str:
 
 
 def _range(goal: Goal) -> str:
-    least, most = (None if end is None else f"{_shown(goal, end):g}" for end in goal.wanted)
+    least, most = (None if end is None else f"{_shown(goal, end):g}" for end in goal.required)
     if least is None or most is None:
         return f"at most {most}" if least is None else f"at least {least}"
     return f"{least} to {most}"

@@ -33,13 +33,13 @@ impl Count {
     }
 
     /// The number, or an error that names the key and its range.
-    pub(crate) fn within(self, key: &str, least: u32, greatest: u32) -> Answer<u32> {
+    pub(crate) fn within(self, key: &str, minimum: u32, maximum: u32) -> Answer<u32> {
         let given = match self {
-            Self::Fits(count) if (least..=greatest).contains(&count) => return Ok(count),
+            Self::Fits(count) if (minimum..=maximum).contains(&count) => return Ok(count),
             Self::Fits(count) => count.to_string(),
             Self::Absurd(text) => text,
         };
-        let rule = format!("must be a whole number from {least} to {greatest}, not {given}");
+        let rule = format!("must be a whole number from {minimum} to {maximum}, not {given}");
         Err(Raised::rule(key, &rule))
     }
 }

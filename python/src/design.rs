@@ -12,10 +12,10 @@ use pyo3::prelude::{
 use pyo3::types::PyType;
 
 use crate::array::{Course, Values};
-use crate::composed::Machine;
 use crate::error::{Answer, Raised};
 use crate::feeder::Feeder;
 use crate::gear_pair::GearPair;
+use crate::machine::Machine;
 use crate::shaft::{MovingBox, SpiralShaft};
 use crate::three_arm::ThreeArm;
 use crate::wait::wait;

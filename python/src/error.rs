@@ -17,7 +17,7 @@ use centrode_spec::{DesignError, DesignFault, MechanismError, SpecError, shorten
 use centrode_synthesis::optimise::feeder::NotWidened;
 use centrode_synthesis::optimise::{EasingError, NotSearched};
 use centrode_synthesis::reverse::{
-    AxisFault, GearDriveError, MachineError, NotPosed, PathError, PoseError, SplitError,
+    AxisFault, GearDriveError, NotPosed, PathError, PoseError, ReversedMachineError, SplitError,
 };
 use pyo3::exceptions::PyOSError;
 use pyo3::prelude::{PyErr, Python};
@@ -100,9 +100,9 @@ raised! {
     SplitError { _ => MechanismError("split"), }
     NotPosed { _ => MechanismError("poses"), }
     NoSoundTeeth { _ => MechanismError("pairs"), }
-    MachineError {
-        MachineError::Arms { .. } => DesignError("arms"),
-        MachineError::Steps { .. } => DesignError("steps"),
+    ReversedMachineError {
+        ReversedMachineError::Arms { .. } => DesignError("arms"),
+        ReversedMachineError::Steps { .. } => DesignError("steps"),
         _ => MechanismError("split"),
     }
     GearDriveError {

@@ -33,8 +33,8 @@ pub(crate) fn parts(names: Option<Vec<String>>, known: &[PartName]) -> Answer<Op
     if known.is_empty() {
         return Ok(names);
     }
-    let mut asked = names.iter().flatten();
-    match asked.find(|word| !known.contains(&word.as_str())) {
+    let mut requested = names.iter().flatten();
+    match requested.find(|word| !known.contains(&word.as_str())) {
         Some(word) => Err(Raised::word("parts", word, &known)),
         None => Ok(names),
     }

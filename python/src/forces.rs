@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use centrode_analysis::forces::{Balance, Forces};
-use centrode_kinematics::machine::{GuideForce, JointKind, Machine};
+use centrode_kinematics::machine::{GuideForce, JointKind, LinkedMachine};
 use pyo3::prelude::{Bound, PyAny, PyResult, Python};
 use pyo3::types::{PyDict, PyDictMethods};
 
@@ -44,8 +44,8 @@ impl Found {
 /// Names of the joints and meshes of a machine, by their numbers.
 #[derive(Clone, Copy)]
 pub(crate) struct Names {
-    joint: fn(&Machine, usize) -> String,
-    mesh: fn(&Machine, usize) -> String,
+    joint: fn(&LinkedMachine, usize) -> String,
+    mesh: fn(&LinkedMachine, usize) -> String,
 }
 
 impl Names {
@@ -62,11 +62,11 @@ impl Names {
     };
 }
 
-fn carried(machine: &Machine, joint: usize) -> String {
+fn carried(machine: &LinkedMachine, joint: usize) -> String {
     machine.links[machine.joints[joint].child].name.clone()
 }
 
-fn pair(machine: &Machine, links: [usize; 2]) -> String {
+fn pair(machine: &LinkedMachine, links: [usize; 2]) -> String {
     let names = links.map(|link| machine.links[link].name.as_str());
     names.join("-")
 }
@@ -74,7 +74,7 @@ fn pair(machine: &Machine, links: [usize; 2]) -> String {
 /// The record of the forces at inputs and a speed, rad/s.
 pub(crate) fn found(
     py: Python<'_>,
-    machine: Arc<Machine>,
+    machine: Arc<LinkedMachine>,
     (inputs, speed): (Values, f64),
     names: Names,
 ) -> Answer<Bound<'_, PyAny>> {
@@ -96,7 +96,7 @@ pub(crate) fn found(
 /// The parts of the record, each by its name.
 fn named<'py>(
     py: Python<'py>,
-    machine: &Machine,
+    machine: &LinkedMachine,
     found: &Found,
     names: Names,
 ) -> PyResult<Bound<'py, PyAny>> {

@@ -29,7 +29,7 @@ use crate::wait::wait;
 use crate::word::Word;
 
 /// Most inputs a pitch of a contact analysis.
-const MOST_PER_PITCH: u32 = 10_000;
+const MAX_PER_PITCH: u32 = 10_000;
 
 /// Greatest driver angle of a contact analysis, rad: with all its digits one is known to 1e-10 rad.
 const FARTHEST: f64 = 1e6;
@@ -114,7 +114,7 @@ impl GearPair {
 #[pymethods]
 impl GearPair {
     #[new]
-    #[pyo3(signature = (pitch, *, mean_ratio=[Count::Fits(1), Count::Fits(1)], tooth_count=None, center_distance=None, tool=None, addendum="full", fit=Vec::new(), phase=Place(Phase::Auto), backlash=0.0, backlash_angle=None, thickness_split=0.5, least_tip_width_coefficient=0.2, thickness_deviations=None, pin_diameter=None, driver=None, driven=None, driver_shift=None, driven_shift=None, driver_addendum=None, driven_addendum=None, driver_dedendum=None, driven_dedendum=None, driver_tool=None, driven_tool=None, tip_shortening=Shortening(TipShortening::KeepClearance), drawing=None, name="gear-pair", title=""), text_signature = "(pitch, *, mean_ratio=(1, 1), tooth_count=None, center_distance=None, tool=None, addendum='full', fit=(), phase='auto', backlash=0.0, backlash_angle=None, thickness_split=0.5, least_tip_width_coefficient=0.2, thickness_deviations=None, pin_diameter=None, driver=None, driven=None, driver_shift=None, driven_shift=None, driver_addendum=None, driven_addendum=None, driver_dedendum=None, driven_dedendum=None, driver_tool=None, driven_tool=None, tip_shortening='keep-clearance', drawing=None, name='gear-pair', title='')")]
+    #[pyo3(signature = (pitch, *, mean_ratio=[Count::Fits(1), Count::Fits(1)], tooth_count=None, center_distance=None, tool=None, addendum="full", fit=Vec::new(), phase=Place(Phase::Auto), backlash=0.0, backlash_angle=None, thickness_split=0.5, minimum_tip_width_coefficient=0.2, thickness_deviations=None, pin_diameter=None, driver=None, driven=None, driver_shift=None, driven_shift=None, driver_addendum=None, driven_addendum=None, driver_dedendum=None, driven_dedendum=None, driver_tool=None, driven_tool=None, tip_shortening=Shortening(TipShortening::KeepClearance), drawing=None, name="gear-pair", title=""), text_signature = "(pitch, *, mean_ratio=(1, 1), tooth_count=None, center_distance=None, tool=None, addendum='full', fit=(), phase='auto', backlash=0.0, backlash_angle=None, thickness_split=0.5, minimum_tip_width_coefficient=0.2, thickness_deviations=None, pin_diameter=None, driver=None, driven=None, driver_shift=None, driven_shift=None, driver_addendum=None, driven_addendum=None, driver_dedendum=None, driven_dedendum=None, driver_tool=None, driven_tool=None, tip_shortening='keep-clearance', drawing=None, name='gear-pair', title='')")]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn new(
         py: Python<'_>,
@@ -129,7 +129,7 @@ impl GearPair {
         backlash: f64,
         backlash_angle: Option<f64>,
         thickness_split: f64,
-        least_tip_width_coefficient: f64,
+        minimum_tip_width_coefficient: f64,
         thickness_deviations: Option<[f64; 2]>,
         pin_diameter: Option<f64>,
         driver: Option<PyRef<'_, Body>>,
@@ -170,7 +170,7 @@ impl GearPair {
                 backlash,
                 backlash_angle,
                 thickness_split,
-                least_tip_width_coefficient,
+                minimum_tip_width_coefficient,
                 thickness_deviations,
                 pin_diameter,
             },
@@ -393,7 +393,7 @@ impl GearPair {
         per_pitch: Count,
         inputs: Option<Numbers>,
     ) -> Answer<Bound<'py, PyAny>> {
-        let per_pitch = per_pitch.within("per_pitch", 1, MOST_PER_PITCH)?;
+        let per_pitch = per_pitch.within("per_pitch", 1, MAX_PER_PITCH)?;
         let pair = Arc::clone(&self.0);
         let contact = match inputs {
             None => wait(py, move || Contact::sampled(&pair, per_pitch)),

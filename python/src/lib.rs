@@ -6,7 +6,6 @@ mod array;
 mod body;
 mod cam;
 mod command;
-mod composed;
 mod count;
 mod design;
 mod drawing;
@@ -16,6 +15,7 @@ mod files;
 mod forces;
 mod gear;
 mod gear_pair;
+mod machine;
 mod made;
 mod mechanism;
 mod pitch;
@@ -46,14 +46,14 @@ mod _centrode {
             swinging_flat, swinging_roller, transition, translating_flat, translating_roller,
         },
         command::_run,
-        composed::Machine,
-        composed::drive::{GearDrive, gear_drive},
         design::{_load, _schema, template},
         drawing::DrawingSpec,
         feeder::Feeder,
         files::_write,
         gear::Gear,
         gear_pair::GearPair,
+        machine::Machine,
+        machine::drive::{GearDrive, gear_drive},
         mechanism::Mechanism,
         pitch::kinds::{
             bezier, bspline, circle, conjugate, eccentric_circle, ellipse, from_ratio,

@@ -6,7 +6,7 @@ use centrode_analysis::interference::Clearance;
 use centrode_analysis::{Contact, Finding, Goal, PairRemedy, Report, Severity, Table};
 use centrode_gear::{OverPins, Pin, Tooth, ToothSide};
 use centrode_kinematics::linkage;
-use centrode_kinematics::machine::{Machine, Part};
+use centrode_kinematics::machine::{LinkedMachine, Part};
 use centrode_optimise::{Ended, Progress};
 use numpy::{IntoPyArray, PyArrayMethods};
 use pyo3::IntoPyObjectExt;
@@ -125,7 +125,7 @@ pub(crate) fn remedy<'py>(
     remedy: &PairRemedy,
     pair: &Py<PyAny>,
 ) -> PyResult<Bound<'py, PyAny>> {
-    record!(py, "centrode._remedy" "PairRemedy", remedy => [least_tooth_count]
+    record!(py, "centrode._remedy" "PairRemedy", remedy => [minimum_tooth_count]
         addendum: remedy.addendum.word(),
         fit: PyTuple::new(py, remedy.fit.iter().map(|fit| fit.word()))?,
         pair: pair,
@@ -134,7 +134,7 @@ pub(crate) fn remedy<'py>(
 
 /// Clearance of two arms.
 pub(crate) fn clearance<'py>(py: Python<'py>, found: &Clearance) -> PyResult<Bound<'py, PyAny>> {
-    record!(py, "centrode._clearance" "Clearance", found => [least, lower_bound, input]
+    record!(py, "centrode._clearance" "Clearance", found => [minimum, lower_bound, input]
         arms: PyTuple::new(py, found.pair)?,
     )
 }
@@ -194,7 +194,7 @@ pub(crate) fn goals<'py>(py: Python<'py>, goals: &[Goal]) -> PyResult<Bound<'py,
             name: &*goal.name,
             title: &*goal.title,
             unit: goal.unit.symbol(),
-            wanted: PyTuple::new(py, goal.wanted)?,
+            required: PyTuple::new(py, goal.required)?,
             met: goal.met(),
         )
     };
@@ -202,7 +202,10 @@ pub(crate) fn goals<'py>(py: Python<'py>, goals: &[Goal]) -> PyResult<Bound<'py,
 }
 
 /// The parts of a machine.
-pub(crate) fn parts<'py>(py: Python<'py>, machine: &Machine) -> PyResult<Bound<'py, PyTuple>> {
+pub(crate) fn parts<'py>(
+    py: Python<'py>,
+    machine: &LinkedMachine,
+) -> PyResult<Bound<'py, PyTuple>> {
     let one = |part: &Part| {
         let links = part.links.iter().map(|&link| &machine.links[link].name);
         record!(py, "centrode._part" "Part", () => []

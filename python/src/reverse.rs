@@ -6,21 +6,21 @@ mod wished;
 use std::ops::ControlFlow;
 use std::sync::{Arc, OnceLock};
 
-use centrode_analysis::{composed_collisions, with_sound_teeth};
+use centrode_analysis::{machine_collisions, with_sound_teeth};
 use centrode_kinematics::machine::Piecewise;
 use centrode_kinematics::transmission::Transmission as _;
 use centrode_spec::Design as _;
 use centrode_synthesis::optimise::three_arm::PosedProblem;
 use centrode_synthesis::reverse::{
-    Aim, AxisMap, KeyPoses, PathDesign, ReversedMachine, Split, SplitKind, TwoBar, WantedPath,
+    Aim, AxisMap, KeyPoses, PathDesign, RequiredPath, ReversedMachine, Split, SplitKind, TwoBar,
 };
 use pyo3::prelude::{Bound, Py, PyAny, PyResult, Python, pyclass, pymethods};
 use pyo3::types::PyTuple;
 
 use crate::array::{Course, Rows, Values};
-use crate::composed::Machine;
 use crate::design::{Class, object, read};
 use crate::error::{Answer, Raised};
+use crate::machine::Machine;
 use crate::made::{Reduced, by};
 use crate::record::{self, Keywords};
 use crate::wait::wait;
@@ -34,7 +34,7 @@ pub(crate) use eased::_drawn_path;
 pub(crate) use given::{reverse, reverse_poses};
 
 /// Bytes read of a path's file: one more than it may have.
-pub(crate) const LARGEST: usize = WantedPath::LARGEST + 1;
+pub(crate) const LARGEST: usize = RequiredPath::LARGEST + 1;
 
 /// A machine made from the path wanted of its tip, by `reverse`, or from key poses, by `reverse_poses`.
 ///
@@ -73,7 +73,7 @@ impl Reversed {
             eased: Some(eased), ..
         } = &given
         {
-            made = made.with_obstacles(&eased.asked.wishes.keep_out);
+            made = made.with_obstacles(&eased.requested.wishes.keep_out);
         }
         let law = chain
             .law()
@@ -120,13 +120,13 @@ impl Reversed {
     /// Least and greatest ratio of the total law.
     #[getter]
     fn ratios(&self) -> (f64, f64) {
-        let [least, greatest] = self.chain.ratios();
-        (least.value, greatest.value)
+        let [minimum, maximum] = self.chain.ratios();
+        (minimum.value, maximum.value)
     }
 
     /// Minimum radius of curvature of the pitch curves where they are convex, mm, of the gears as they are written.
     #[getter]
-    fn least_radius(&self) -> f64 {
+    fn minimum_radius(&self) -> f64 {
         self.made.minimum_radius()
     }
 
@@ -174,7 +174,7 @@ impl Reversed {
             let design = self.made.design.clone();
             // Without sound teeth there is no machine.
             let collisions = move || match with_sound_teeth(&design, |_| true) {
-                Ok((design, _)) => composed_collisions(&design),
+                Ok((design, _)) => machine_collisions(&design),
                 Err(_) => Vec::new(),
             };
             found.extend(wait(py, collisions)?);
@@ -204,8 +204,8 @@ impl Reversed {
         match &self.given {
             Given::Path { .. } => None,
             Given::Poses { found, .. } => {
-                let told = |[off, turned]: &[f64; 2]| [*off, turned.to_degrees()];
-                Some(Rows(found.misses.iter().map(told).collect()))
+                let stated = |[off, turned]: &[f64; 2]| [*off, turned.to_degrees()];
+                Some(Rows(found.misses.iter().map(stated).collect()))
             }
         }
     }
@@ -324,14 +324,16 @@ impl Reversed {
             } => {
                 let keywords = keywords.with("path", Rows::new(points))?;
                 let keywords = keywords.with("axis", *axis)?.with("axis_box", *axis_box)?;
-                let asked = eased.as_ref().map(|eased| &eased.asked);
-                let keywords = keywords.with("band", asked.map(|asked| asked.bands.clone()))?;
-                let keywords = keywords.with("open", asked.is_some_and(|asked| asked.is_open))?;
-                let module = asked.and_then(|asked| asked.module);
+                let requested = eased.as_ref().map(|eased| &eased.requested);
+                let keywords =
+                    keywords.with("band", requested.map(|requested| requested.bands.clone()))?;
+                let keywords =
+                    keywords.with("open", requested.is_some_and(|requested| requested.is_open))?;
+                let module = requested.and_then(|requested| requested.module);
                 let keywords = keywords.with("module", module)?;
-                let aim = asked.and_then(|asked| asked.aim.map(Aim::name));
-                let wishes = asked.filter(|asked| !asked.wishes.is_free());
-                let wishes = wishes.map(|asked| wished::keywords(py, &asked.wishes));
+                let aim = requested.and_then(|requested| requested.aim.map(Aim::name));
+                let wishes = requested.filter(|requested| !requested.wishes.is_free());
+                let wishes = wishes.map(|requested| wished::keywords(py, &requested.wishes));
                 let keywords = keywords.with("aim", aim)?;
                 ("reverse", keywords.with("wishes", wishes.transpose()?)?)
             }

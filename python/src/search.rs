@@ -56,7 +56,7 @@ fn search(
 ) -> Answer<Found> {
     let stop = Arc::new(AtomicBool::new(false));
     let stopped = Arc::clone(&stop);
-    let job = move |told: &Sender<Progress>| {
+    let job = move |stated: &Sender<Progress>| {
         searched(
             &family,
             machine.design(),
@@ -64,7 +64,7 @@ fn search(
             settings,
             &mut |progress| {
                 // Whoever asked may have gone.
-                let gone = told.send(*progress).is_err();
+                let gone = stated.send(*progress).is_err();
                 if gone || stopped.load(Ordering::Relaxed) {
                     ControlFlow::Break(())
                 } else {

@@ -145,8 +145,8 @@ impl SixBar {
 
     /// Least angle between the lines of coupler and rocker over the cycle, rad.
     #[getter]
-    fn least_transmission_angle(&self) -> f64 {
-        self.0.four_bar().least_transmission_angle()
+    fn minimum_transmission_angle(&self) -> f64 {
+        self.0.four_bar().minimum_transmission_angle()
     }
 
     /// Angle between the rocker's ends, rad.

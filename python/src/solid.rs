@@ -5,7 +5,7 @@ use centrode_export::ExportError;
 use centrode_formats::Bundle;
 use centrode_formats::step::{StepError, contours, poles, write_shell};
 use centrode_geometry::{Opening, Segment, Solid, Tolerance};
-use centrode_kinematics::machine::{Form, Joint, JointKind, Machine, Mounted, Shape};
+use centrode_kinematics::machine::{Form, Joint, JointKind, LinkedMachine, Mounted, Shape};
 use pyo3::prelude::{Bound, PyAny, PyDictMethods, PyResult, Python};
 use pyo3::types::{PyBytes, PyDict, PyTuple};
 
@@ -95,7 +95,7 @@ pub(crate) fn solids<'py>(
 /// Links of a machine, those that carry others before these, with their bodies unless there is no shortest side.
 pub(crate) fn links<'py>(
     py: Python<'py>,
-    machine: &Machine,
+    machine: &LinkedMachine,
     shortest: Option<Tolerance>,
 ) -> Answer<Bound<'py, PyTuple>> {
     let mut found = Vec::with_capacity(machine.links.len());
@@ -106,7 +106,7 @@ pub(crate) fn links<'py>(
 }
 
 /// Indices of links with those of the joints that carry them, parents first.
-fn in_order(machine: &Machine) -> Vec<(usize, Option<usize>)> {
+fn in_order(machine: &LinkedMachine) -> Vec<(usize, Option<usize>)> {
     let carried = |link: usize| machine.joints.iter().position(|j| j.child == link);
     let mut order: Vec<(usize, Option<usize>)> = Vec::new();
     let mut open: Vec<usize> = (0..machine.links.len()).collect();
@@ -129,7 +129,7 @@ fn in_order(machine: &Machine) -> Vec<(usize, Option<usize>)> {
 
 fn link<'py>(
     py: Python<'py>,
-    machine: &Machine,
+    machine: &LinkedMachine,
     (index, joint): (usize, Option<usize>),
     shortest: Option<Tolerance>,
 ) -> Answer<Bound<'py, PyAny>> {
@@ -210,7 +210,11 @@ fn mounted<'py>(
     Ok(made?)
 }
 
-fn joined<'py>(py: Python<'py>, machine: &Machine, index: usize) -> PyResult<Bound<'py, PyAny>> {
+fn joined<'py>(
+    py: Python<'py>,
+    machine: &LinkedMachine,
+    index: usize,
+) -> PyResult<Bound<'py, PyAny>> {
     let joint: &Joint = &machine.joints[index];
     let (kind, range) = match joint.kind {
         JointKind::Fixed => ("fixed", None),

@@ -32,11 +32,11 @@ pub(crate) fn attend<T: Send + 'static, N: Send + 'static>(
     heed: impl FnMut(N) -> PyResult<()>,
 ) -> PyResult<T> {
     let cancel = Cancel::default();
-    let (told, news) = channel();
+    let (stated, news) = channel();
     let under = cancel.clone();
     let worker = Builder::new()
         .stack_size(STACK)
-        .spawn(move || under.run(|| job(&told)))?;
+        .spawn(move || under.run(|| job(&stated)))?;
     hear(py, news, &cancel, heed)?;
     outcome(worker.join())
 }
@@ -85,7 +85,7 @@ fn hear<N: Send>(
         let heard;
         (news, heard) = next(py, news);
         let fine = match heard {
-            Ok(told) => heed(told),
+            Ok(stated) => heed(stated),
             Err(RecvTimeoutError::Timeout) => Ok(()),
             Err(RecvTimeoutError::Disconnected) => return Ok(()),
         };

@@ -100,11 +100,11 @@ def test_a_quick_drop_undercuts_and_says_where():
     ((start, end),) = quick.undercut
     assert start < quick.limits["regularity"][0] < end
     assert quick.limits["regularity"][1] <= 0
-    assert quick.limits["least_radius"][1] <= 0
+    assert quick.limits["minimum_radius"][1] <= 0
 
 
 def test_the_least_base_radius_meets_the_limit():
-    radius = cam().least_base_radius(rise=0.4)
+    radius = cam().minimum_base_radius(rise=0.4)
     assert cam(base_radius=radius).limits["rise_pressure_angle"][1] == pytest.approx(0.4, rel=1e-9)
 
 

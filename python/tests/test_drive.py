@@ -11,8 +11,8 @@ frame.points = { O = [0, 0] }
 bodies.crank = { on = "frame.O", law = { ratio = 1 }, points = { A = [30, 0] } }
 dyads.ram = { type = "RRP", from = "crank.A", lengths = [120], line = "frame.O", line_deg = 0, side = "forward",
     bodies = ["rod", "ram"], joint = "B" }
-goals.steady = { figure = "ram.travel", over = "departure", within_deg = [30, 120], course = [110, 140], at_most = 1e-4}
-goals.rest = { figure = "ram.travel", over = "span", within_deg = [170, 210], at_most = 1.5 }
+goals.steady = { figure = "ram.travel", over = "deviation", within_deg = [30, 120], uniform = [110, 140], maximum = 1e-4}
+goals.rest = { figure = "ram.travel", over = "span", within_deg = [170, 210], maximum = 1.5 }
 """
 
 
@@ -46,7 +46,7 @@ def test_the_machine_driven_goes_steadily_and_rests(drive):
     assert rests.min() > 148.5 - 1e-6
     assert drive.miss < 1e-5
     assert 0 < drive.ratios[0] < 1 < drive.ratios[1]
-    assert min(drive.least_radii) > 13
+    assert min(drive.minimum_radii) > 13
 
 
 def test_what_is_asked_wrongly_is_refused(drive):
@@ -56,6 +56,6 @@ def test_what_is_asked_wrongly_is_refused(drive):
     with pytest.raises(ct.DesignError, match=r"rod is tied by dyads\.ram"):
         ct.gear_drive(machine, "rod", center_distance=130)
     with pytest.raises(ct.MechanismError, match=r"goals\.rest"):
-        ct.gear_drive(ct.Machine.from_toml(SLIDER.replace("at_most = 1.5", "at_most = 40")), center_distance=130)
+        ct.gear_drive(ct.Machine.from_toml(SLIDER.replace("maximum = 1.5", "maximum = 40")), center_distance=130)
     with pytest.raises(ct.MechanismError, match="no goal says"):
         ct.gear_drive(ct.Machine.from_toml(SLIDER.split("goals.steady")[0]), center_distance=130)

@@ -140,7 +140,7 @@ GOALS = """
 [goals.stride]
 figure = "foot.x"
 over = "span"
-at_least = 70
+minimum = 70
 [goals.lift]
 figure = "foot.y"
 over = "span"

@@ -101,7 +101,7 @@ def test_the_least_radius_is_that_of_the_law_by_differences():
         *curvatures(scale - share * np.log(first), *turned),
     ]
     leg = 0.5 * made.carrier / np.cos(np.radians(20))
-    assert made.least_radius == pytest.approx(leg / np.max(both), rel=5e-3)
+    assert made.minimum_radius == pytest.approx(leg / np.max(both), rel=5e-3)
 
 
 @pytest.mark.parametrize(
@@ -132,15 +132,15 @@ def test_every_split_has_its_figures_or_its_refusal():
     arms = ct.reverse(DRAWN, (260, 160), bend_deg=47)
     powers, mildest, one_pair = arms.splits
     assert (powers.name, mildest.name, one_pair.name) == ("powers", "mildest", "one-pair")
-    assert [len(split.least_radii) for split in (powers, mildest, one_pair)] == [2, 2, 1]
-    assert powers.least_radius == pytest.approx(arms.least_radius, rel=1e-3)
-    assert mildest.least_radius > 1.2 * powers.least_radius
+    assert [len(split.minimum_radii) for split in (powers, mildest, one_pair)] == [2, 2, 1]
+    assert powers.minimum_radius == pytest.approx(arms.minimum_radius, rel=1e-3)
+    assert mildest.minimum_radius > 1.2 * powers.minimum_radius
     assert all(split.refusal is None and split.tip_error < 1e-4 for split in (powers, mildest, one_pair))
     assert "mildest" in repr(mildest)
     refused = ct.reverse(DRAWN, (260, 160), bend_deg=60).splits[2]
     assert "2/3" in refused.refusal
-    assert refused.least_radii == ()
-    assert np.isnan(refused.least_radius)
+    assert refused.minimum_radii == ()
+    assert np.isnan(refused.minimum_radius)
 
 
 def drawing(tmp_path, data, **keys):
@@ -353,8 +353,8 @@ def test_a_machine_of_an_eased_path_follows_it_through_tooth_contact_alone(tmp_p
 
 
 WISHES = {
-    "carrier": {"at_most": 130},
-    "arm": {"at_least": 150, "at_most": 190},
+    "carrier": {"maximum": 130},
+    "arm": {"minimum": 150, "maximum": 190},
     "directions": [
         {"point": 5, "direction_deg": 40, "tolerance_deg": 5},
         {"point": 9, "direction_deg": 85, "tolerance_deg": 5},
@@ -429,7 +429,7 @@ def test_an_aim_is_the_better_for_being_sought():
 
 @pytest.mark.campaign
 def test_a_wish_out_of_reach_is_come_near_to_and_told():
-    made = ct.reverse(DRAWN, bend_deg=40, wishes={"carrier": {"at_most": 20}})
+    made = ct.reverse(DRAWN, bend_deg=40, wishes={"carrier": {"maximum": 20}})
     (goal,) = made.goals
     assert not goal.met
     assert goal.value == pytest.approx(made.carrier)
@@ -442,7 +442,7 @@ def test_a_wish_out_of_reach_is_come_near_to_and_told():
     ("wishes", "key"),
     [
         ({"clamp_deg": "up"}, "wishes.clamp_deg"),
-        ({"arm": {"at_least": "long"}}, "wishes.arm.at_least"),
+        ({"arm": {"minimum": "long"}}, "wishes.arm.minimum"),
         ({"arm": 5}, "wishes.arm"),
         (
             {"directions": [{"point": 1, "direction_deg": 0}, {"point": "two", "direction_deg": 1}]},
@@ -501,7 +501,7 @@ def test_arms_that_collide_are_findings_with_their_place():
 @pytest.mark.parametrize(
     ("wishes", "key"),
     [
-        ({"arm": {"at_least": -1}}, "arm.at_least"),
+        ({"arm": {"minimum": -1}}, "arm.minimum"),
         ({"arms": {}}, "unknown field `arms`"),
         ({"directions": [{"point": 99, "direction_deg": 1}]}, "directions"),
         ({"keep_out": {"tray": {}}}, "keep_out.tray.corners"),

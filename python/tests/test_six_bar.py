@@ -59,10 +59,10 @@ def test_published_figures():
     assert np.allclose(dead.stretched_at, (214.628571, 64.113776))
     assert np.allclose(dead.folded_at, (-0.971429, 69.993259))
     assert np.isclose(np.degrees(six.rocker_swing), 116.235306)
-    assert np.isclose(np.degrees(six.least_transmission_angle), 8.224332)
+    assert np.isclose(np.degrees(six.minimum_transmission_angle), 8.224332)
     assert np.isclose(np.degrees(six.slow_stroke), 254.163, atol=1e-3)
     turn = np.linspace(0, 2 * np.pi, 10001)
-    assert np.isclose(six.transmission_angle(turn).min(), six.least_transmission_angle, atol=1e-7)
+    assert np.isclose(six.transmission_angle(turn).min(), six.minimum_transmission_angle, atol=1e-7)
 
 
 def test_the_sensitivity_is_the_derivative_of_the_swing():

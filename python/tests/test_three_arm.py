@@ -108,8 +108,8 @@ def test_the_clearance_of_arms_is_that_of_their_contours(arms):
     shapely = pytest.importorskip("shapely")
     found = arms.arm_clearance(1e-3)
     goals = {goal.name: goal for goal in arms.goals()}
-    assert found.least == pytest.approx(goals["arm-clearance"].value, abs=2e-2)
-    assert found.least - 6e-3 < found.lower_bound <= found.least
+    assert found.minimum == pytest.approx(goals["arm-clearance"].value, abs=2e-2)
+    assert found.minimum - 6e-3 < found.lower_bound <= found.minimum
     contour = arms.arm_contour(1e-3)
     pose = arms.pose(np.append(np.linspace(0, 2 * math.pi, 721), found.input))
 
@@ -122,8 +122,8 @@ def test_the_clearance_of_arms_is_that_of_their_contours(arms):
 
     distance = shapely.distance(placed(found.arms[0]), placed(found.arms[1]))
     assert (distance > found.lower_bound).all()
-    assert distance[-1] == pytest.approx(found.least, abs=2e-3)
-    assert distance.min() == pytest.approx(found.least, abs=0.1)
+    assert distance[-1] == pytest.approx(found.minimum, abs=2e-3)
+    assert distance.min() == pytest.approx(found.minimum, abs=0.1)
     assert published(arms=1).arm_clearance() is None
 
 

@@ -5,11 +5,9 @@
 mod entities;
 
 use std::collections::BTreeMap;
-use std::fs;
-use std::iter;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::thread;
+use std::{fs, iter, thread};
 
 use centrode::FAMILIES;
 use centrode::family::Mechanism;

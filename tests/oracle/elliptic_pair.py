@@ -121,7 +121,7 @@ if __name__ == "__main__":
     rack = BasicRack(MODULE)
     roll = RollingRack(rack, ellipse.point, ellipse.arc)
     pitch = perimeter / TOOTH_COUNT
-    least_curvature_radius = semi_major * (1 - ECCENTRICITY**2)
+    minimum_curvature_radius = semi_major * (1 - ECCENTRICITY**2)
     write(
         "elliptic_pair",
         """Driver r = A (1 - k^2)/(1 - k cos phi) about its focus, far apex on +x. mm, rad.
@@ -138,10 +138,10 @@ fillet: tooth index, side, angle in degrees of the rack tip's normal from the bo
                 "perimeter": perimeter,
                 "semi_major_axis": semi_major,
                 "center_distance": a,
-                "least_radius": semi_major * (1 - ECCENTRICITY),
-                "greatest_radius": semi_major * (1 + ECCENTRICITY),
-                "least_curvature_radius": least_curvature_radius,
-                "greatest_module_without_undercut": least_curvature_radius * sin(pi / 9) ** 2,
+                "minimum_radius": semi_major * (1 - ECCENTRICITY),
+                "maximum_radius": semi_major * (1 + ECCENTRICITY),
+                "minimum_curvature_radius": minimum_curvature_radius,
+                "maximum_module_without_undercut": minimum_curvature_radius * sin(pi / 9) ** 2,
                 "driven_angle": [
                     [phi, driven_angle(phi, a, semi_major)] for phi in (2 * pi * i / 24 for i in range(1, 25))
                 ],

@@ -9,7 +9,7 @@ use nalgebra::Matrix2;
 use proptest::prelude::{Just, ProptestConfig, Strategy, any, prop_assert, prop_oneof, proptest};
 
 /// Least transmission angle: nearer to a change point nothing is known to ten digits.
-const LEAST: f64 = 0.25;
+const MINIMUM: f64 = 0.25;
 
 /// Two equations that a joint fulfils, each a distance to a moving point.
 struct Bars<'a> {
@@ -126,7 +126,7 @@ fn four_bars() -> impl Strategy<Value = FourBar> {
         let branch = if upper { Branch::Upper } else { Branch::Lower };
         let four_bar = FourBar::new(a, b, c, d, branch).ok()?;
         let turns = four_bar.grashof_margin() > 2.0 && four_bar.dead_centers().is_some();
-        (turns && four_bar.least_transmission_angle() > LEAST).then_some(four_bar)
+        (turns && four_bar.minimum_transmission_angle() > MINIMUM).then_some(four_bar)
     })
 }
 
@@ -134,7 +134,7 @@ fn six_bars() -> impl Strategy<Value = SixBar> {
     let pivot = (-100.0..250.0_f64, -200.0..200.0_f64);
     (four_bars(), pivot).prop_filter_map("a pivot off the path", |(four_bar, (x, y))| {
         let six_bar = SixBar::new(four_bar, Point::new(x, y), 200.0).ok()?;
-        (six_bar.least_slider_distance() > 15.0).then_some(six_bar)
+        (six_bar.minimum_slider_distance() > 15.0).then_some(six_bar)
     })
 }
 
@@ -258,7 +258,7 @@ proptest! {
         // Which dyads close is a matter of two lengths.
         prop_assert!(pose.is_ok() == (way < long && way > short));
         let cosine = (lengths.0.powi(2) + lengths.1.powi(2) - way * way) / (2.0 * lengths.0 * lengths.1);
-        if cosine.abs() < LEAST.cos() {
+        if cosine.abs() < MINIMUM.cos() {
             let pose = pose.expect("closes");
             let second = Bars { from: [&p, &ground], lengths: [lengths.0, lengths.1] };
             let solved = second.joint(branch).expect("solved");

@@ -89,11 +89,11 @@ proptest! {
             ("backlash", |c| &c.backlash, extremes.backlash.map(Some), angle),
             ("normal backlash", |c| &c.normal_backlash, extremes.normal_backlash.map(Some), length),
         ];
-        for (name, pick, [least, greatest], rounding) in cases {
+        for (name, pick, [minimum, maximum], rounding) in cases {
             let samples = pick(&contact).clone();
             for (found, samples, sign) in [
-                (least.map(negative), less(&samples), -1.0),
-                (greatest, samples.clone(), 1.0),
+                (minimum.map(negative), less(&samples), -1.0),
+                (maximum, samples.clone(), 1.0),
             ] {
                 let Some(found) = found else { continue };
                 let most = samples.iter().copied().fold(f64::NEG_INFINITY, f64::max);
@@ -123,7 +123,7 @@ proptest! {
         design.teeth.backlash = 0.0;
         design.teeth.backlash_angle = Some(bound);
         let report = check(&GearPair::resolve(&design).expect("valid"));
-        let greatest = report.values["backlash_max"];
-        prop_assert!(greatest < bound * (1.0 + 2.0 * bound) && greatest > 0.99 * bound, "{greatest} of {bound}");
+        let maximum = report.values["backlash_max"];
+        prop_assert!(maximum < bound * (1.0 + 2.0 * bound) && maximum > 0.99 * bound, "{maximum} of {bound}");
     }
 }

@@ -23,8 +23,8 @@ fn unreadable(pair: &GearPair, sheet: SheetOptions) -> Vec<String> {
             Ok(pages) => {
                 for (page, sheet) in pages.iter().enumerate() {
                     let faults = overlaps(sheet);
-                    let told = faults.iter().map(|f| format!("{subject:?} {page}: {f:?}"));
-                    found.extend(told);
+                    let stated = faults.iter().map(|f| format!("{subject:?} {page}: {f:?}"));
+                    found.extend(stated);
                 }
             }
             Err(error) => found.push(error.to_string()),

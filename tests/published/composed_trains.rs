@@ -1,10 +1,9 @@
 use std::f64::consts::{PI, TAU};
 
-use centrode_analysis::between_arms;
-use centrode_analysis::composed_clearance;
+use centrode_analysis::{between_arms, machine_clearance};
 use centrode_geometry::{Outline, Point, Segment, Tolerance, Vector, extremes};
 use centrode_kinematics::transmission::MotionJet;
-use centrode_machines::composed::{Composed, ComposedDesign};
+use centrode_machines::machine::{Machine, MachineDesign};
 use centrode_machines::three_arm::ThreeArm;
 use centrode_machines::three_arm::design::ThreeArmDesign;
 use centrode_spec::DesignSpec as _;
@@ -17,9 +16,9 @@ fn text(name: &str) -> String {
     std::fs::read_to_string(path).expect("text")
 }
 
-fn made(name: &str) -> Composed {
-    let design = ComposedDesign::from_toml(&text(name)).expect("a design");
-    Composed::resolve(&design).expect("a machine")
+fn made(name: &str) -> Machine {
+    let design = MachineDesign::from_toml(&text(name)).expect("a design");
+    Machine::resolve(&design).expect("a machine")
 }
 
 /// Greatest difference of two motions, whole turns aside.
@@ -179,25 +178,25 @@ fn arms_of_the_composed_transplanter_keep_as_clear_of_each_other_as_those_of_the
     let outline = corners(arm.outline(), arm.tip().y.atan2(arm.tip().x));
     let drawn =
         text("composed-three-arm").replace("[bodies.arm]", &format!("[bodies.arm]\n{outline}"));
-    let composed = ComposedDesign::from_toml(&drawn).expect("a design");
-    let composed = Composed::resolve(&composed).expect("a machine");
+    let composed = MachineDesign::from_toml(&drawn).expect("a design");
+    let composed = Machine::resolve(&composed).expect("a machine");
     let machine = composed.machine().expect("links");
     let clearance = |tolerance: Tolerance, inputs: [f64; 2]| {
         let ends = composed.clearance_ends("", ["arm", "arm-2"]);
         let ends = ends.expect("bodies");
-        let pair = composed_clearance(&composed, &machine, ends, tolerance).expect("bodies");
+        let pair = machine_clearance(&composed, &machine, ends, tolerance).expect("bodies");
         let pair = pair.expect("in one plane");
         pair.over(inputs).expect("determined")
     };
     let coarse = Tolerance::new(1e-5).expect("positive");
     let found = clearance(coarse, [0.0, TAU]);
     assert!(
-        (found.least - theirs.least).abs() < coarse.mm(),
+        (found.minimum - theirs.minimum).abs() < coarse.mm(),
         "{found:?}"
     );
     let found = clearance(fine, [found.input - 0.01, found.input + 0.01]);
     assert!(
-        (found.least - theirs.least).abs() < 1e-9,
+        (found.minimum - theirs.minimum).abs() < 1e-9,
         "{found:?} {theirs:?}"
     );
 }

@@ -24,9 +24,9 @@ pub(crate) struct EllipticPair {
     pub(crate) tooth_count: u32,
     pub(crate) perimeter: f64,
     pub(crate) center_distance: f64,
-    pub(crate) least_radius: f64,
-    pub(crate) greatest_radius: f64,
-    pub(crate) least_curvature_radius: f64,
+    pub(crate) minimum_radius: f64,
+    pub(crate) maximum_radius: f64,
+    pub(crate) minimum_curvature_radius: f64,
     /// Driver angle, driven angle.
     pub(crate) driven_angle: Vec<[f64; 2]>,
     /// Tooth, side, height, driver angle, driven angle, x and y on the driver, x and y on the driven gear.

@@ -4,7 +4,7 @@ use std::f64::consts::PI;
 use std::ops::ControlFlow;
 
 use centrode_analysis::six_bar::{
-    BestTransmissionAngle, LeastWidening, PUBLISHED_BOUNDS, WantedSwing,
+    BestTransmissionAngle, MinimumWidening, PUBLISHED_BOUNDS, RequiredSwing,
 };
 use centrode_kinematics::linkage::{Branch, FourBar, Grashof, SixBar};
 use centrode_optimise::{Candidate, Method, Problem, Settings, minimise};
@@ -48,12 +48,12 @@ fn dead_centers_and_strokes_of_the_published_lengths() {
 #[test]
 fn least_transmission_angle_of_the_published_lengths() {
     let four_bar = four_bar(PUBLISHED);
-    let least = four_bar.least_transmission_angle();
-    close(least.to_degrees(), 8.224332, 5e-7);
+    let minimum = four_bar.minimum_transmission_angle();
+    close(minimum.to_degrees(), 8.224332, 5e-7);
     close(four_bar.transmission_angle(PI).to_degrees(), 82.9016, 5e-5);
     // No crank-rocker of this rocker swing could have more than 90 - swing/2.
     let swing = four_bar.rocker_swing().expect("a crank-rocker");
-    assert!(least < PI / 2.0 - 0.5 * swing);
+    assert!(minimum < PI / 2.0 - 0.5 * swing);
 }
 
 #[test]
@@ -82,16 +82,16 @@ fn roundings_of_half_a_millimeter_move_the_swing_by_degrees() {
     let six_bar = on_the_chord(&four_bar(PUBLISHED), 0.5);
     let first = half_a_millimeter(&six_bar);
     close(first.to_degrees(), 3.9, 0.05);
-    let (mut least, mut greatest) = (0.0_f64, 0.0_f64);
+    let (mut minimum, mut maximum) = (0.0_f64, 0.0_f64);
     for corner in 0..16_u32 {
         let lengths =
             std::array::from_fn(|k| PUBLISHED[k] + if corner >> k & 1 == 1 { 0.5 } else { -0.5 });
         let moved = SixBar::new(four_bar(lengths), six_bar.pivot(), 200.0).expect("a six-bar");
         let change = moved.swing() - PI;
-        (least, greatest) = (least.min(change), greatest.max(change));
+        (minimum, maximum) = (minimum.min(change), maximum.max(change));
     }
-    close(greatest.to_degrees(), 4.0974, 5e-5);
-    close(least.to_degrees(), -3.7324, 5e-5);
+    close(maximum.to_degrees(), 4.0974, 5e-5);
+    close(minimum.to_degrees(), -3.7324, 5e-5);
     let near_the_end = half_a_millimeter(&on_the_chord(&four_bar(PUBLISHED), 0.9));
     assert!(near_the_end > 4.0 * first);
 }
@@ -129,7 +129,7 @@ fn search(
     found.expect("a good problem").0.best()
 }
 
-fn least_transmission_angle(candidate: &Candidate) -> f64 {
+fn minimum_transmission_angle(candidate: &Candidate) -> f64 {
     90.0 - candidate.evaluation.objective.to_degrees()
 }
 
@@ -142,7 +142,7 @@ fn the_best_transmission_angle_of_the_published_bounds_is_12_degrees() {
     for method in [Method::DifferentialEvolution, Method::CmaEs] {
         let best = search(&problem, method, 40_000, None);
         assert!(best.evaluation.feasible());
-        close(least_transmission_angle(&best), 12.312, 5e-4);
+        close(minimum_transmission_angle(&best), 12.312, 5e-4);
         for (found, expected) in best.point.iter().zip([77.0, 136.0, 132.872, 106.0]) {
             close(*found, expected, 2e-3);
         }
@@ -154,10 +154,10 @@ fn the_best_transmission_angle_of_the_published_bounds_is_12_degrees() {
 #[test]
 fn bounds_widened_by_less_than_a_quarter_hold_forty_degrees() {
     let given = four_bar([58.25, 111.21, 96.08, 130.56]);
-    close(given.least_transmission_angle().to_degrees(), 40.0, 1e-3);
-    let problem = LeastWidening {
+    close(given.minimum_transmission_angle().to_degrees(), 40.0, 1e-3);
+    let problem = MinimumWidening {
         bounds: PUBLISHED_BOUNDS,
-        least_transmission_angle: 40_f64.to_radians(),
+        minimum_transmission_angle: 40_f64.to_radians(),
     };
     for method in [Method::DifferentialEvolution, Method::CmaEs] {
         let best = search(&problem, method, 100_000, None);
@@ -170,7 +170,11 @@ fn bounds_widened_by_less_than_a_quarter_hold_forty_degrees() {
             close(*found, expected, 1e-3);
         }
         let four_bar = four_bar(lengths.try_into().expect("four of them"));
-        close(four_bar.least_transmission_angle().to_degrees(), 40.0, 1e-6);
+        close(
+            four_bar.minimum_transmission_angle().to_degrees(),
+            40.0,
+            1e-6,
+        );
         close(on_the_chord(&four_bar, 0.4).swing(), PI, 1e-12);
     }
 }
@@ -178,12 +182,12 @@ fn bounds_widened_by_less_than_a_quarter_hold_forty_degrees() {
 /// With the pivot fixed, (14), (15) and (17) can be met, but not with (16).
 #[test]
 fn half_a_turn_is_reached_without_the_transmission_angle_and_not_with_it() {
-    let mut problem = WantedSwing {
+    let mut problem = RequiredSwing {
         bounds: PUBLISHED_BOUNDS,
         pivot: on_the_chord(&four_bar([79.0, 141.0, 132.0, 103.0]), 0.4).pivot(),
         branch: Branch::Upper,
         swing: PI,
-        least_transmission_angle: None,
+        minimum_transmission_angle: None,
     };
     for (_, method) in Method::NAMES {
         let target = 1e-6_f64.to_radians();
@@ -191,7 +195,7 @@ fn half_a_turn_is_reached_without_the_transmission_angle_and_not_with_it() {
         assert!(best.evaluation.feasible());
         assert!(best.evaluation.objective < target, "{method:?}");
     }
-    problem.least_transmission_angle = Some(40_f64.to_radians());
+    problem.minimum_transmission_angle = Some(40_f64.to_radians());
     let best = search(&problem, Method::DifferentialEvolution, 20_000, None);
     assert!(!best.evaluation.feasible());
     // What is missing is what the best attainable lacks.

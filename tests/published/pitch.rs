@@ -47,9 +47,9 @@ fn elliptic_pair_of_2018() {
         .expect("the pair exists");
         assert_perimeter(&pitch, case.perimeter);
         let (far, near) = (pitch.curve.at(0.0), pitch.curve.at(PI));
-        assert!((far.point.x - case.greatest_radius).abs() < 1e-12);
-        assert!((near.point.x + case.least_radius).abs() < 1e-12);
-        assert!((1.0 / far.curvature() - case.least_curvature_radius).abs() < 1e-11);
+        assert!((far.point.x - case.maximum_radius).abs() < 1e-12);
+        assert!((near.point.x + case.minimum_radius).abs() < 1e-12);
+        assert!((1.0 / far.curvature() - case.minimum_curvature_radius).abs() < 1e-11);
         let turn = driven_turn(&pitch, case.center_distance);
         assert!((turn.total() - TAU).abs() < 1e-12);
         for [phi, driven] in case.driven_angle {

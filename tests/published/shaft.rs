@@ -59,15 +59,15 @@ fn near(value: f64, printed: f64, digit: f64) {
 
 #[test]
 fn amplitudes_and_speeds_for_2_05_mm_in_60_degrees() {
-    for (harmonic, amplitude, least) in [(1, 1.283_333, 0.596_829), (2, 0.740_933, 0.534_458)] {
+    for (harmonic, amplitude, minimum) in [(1, 1.283_333, 0.596_829), (2, 0.740_933, 0.534_458)] {
         let law = sine(harmonic);
         near(
             law.at(0.25 * TAU / f64::from(harmonic)).position,
             LEAD * 0.25 / f64::from(harmonic) - amplitude,
             1e-6,
         );
-        near(law.slowest().value / law.mean_speed(), least, 1e-6);
-        near(law.fastest().value / law.mean_speed(), 2.0 - least, 1e-6);
+        near(law.slowest().value / law.mean_speed(), minimum, 1e-6);
+        near(law.fastest().value / law.mean_speed(), 2.0 - minimum, 1e-6);
         assert!((law.moved(-0.5 * WINDOW, 0.5 * WINDOW) - 2.05).abs() < 1e-13);
     }
     // The amplitude is the one the paper measured: 3.33 less 1.28.
@@ -127,7 +127,7 @@ fn the_rotated_sine_is_another_curve() {
     let along = sine(1).at(0.75 * TAU).position - 15.0;
     let b = (TAU * RADIUS / LEAD).atan();
     let alike = rotated(along * b.sin());
-    near(alike.departure(&sine(1), 0.0), 0.0112, 1e-4);
+    near(alike.deviation(&sine(1), 0.0), 0.0112, 1e-4);
     // "kappa = 1 is constant speed": there it is 0.
     let plain = rotated(0.0);
     assert!((plain.slowest().value - plain.fastest().value).abs() < 1e-15);
@@ -185,7 +185,7 @@ fn the_groove_crosses_itself_27_times_and_slow_places_lie_on_crossings() {
     let traverse = Traverse::new(mean, 14, &Reversal::default(), 0.0).expect("closes");
     let plain = Groove::new(traverse, RADIUS, 10.0, 4.0).expect("fits");
     near(plain.crossings()[13].gap, 24.6, 0.1);
-    near(groove.least_slider_length(), 40.1, 0.1);
+    near(groove.minimum_slider_length(), 40.1, 0.1);
 }
 
 #[test]

@@ -262,10 +262,10 @@ fn shifts_that_no_pair_can_have_are_refused_with_the_reason() {
     let ellipse = "[pitch]\nkind = \"ellipse\"\neccentricity = 0.2\nmodule = 2\ntooth_count = 23\n";
     let error = read(&format!("{ellipse}{shifts}")).expect_err("no pair");
     assert_eq!(error.key(), "driven.shift");
-    let told = error.to_string();
+    let stated = error.to_string();
     assert!(
-        told.contains("is 0.5") && told.contains("driven.shift = -0.3"),
-        "{told}"
+        stated.contains("is 0.5") && stated.contains("driven.shift = -0.3"),
+        "{stated}"
     );
     let circle = "[pitch]\nkind = \"circle\"\nmodule = 2\ntooth_count = 20\n";
     let fitted = read(&format!("{circle}{shifts}[teeth]\naddendum = \"fitted\"\n"));
@@ -276,11 +276,11 @@ fn shifts_that_no_pair_can_have_are_refused_with_the_reason() {
     let small = "[driver]\nshift = -0.5\n[driven]\nshift = -0.4\n";
     let error = read(&format!("{circle}{small}")).expect_err("no pair");
     // -inv(20 deg) 40 / (2 tan(20 deg)) = -0.818958...
-    let least = -involute(EXAMPLE.alpha) * 20.0 / EXAMPLE.alpha.tan();
-    let GearPairError::ShiftsTooSmall { least: found, .. } = error else {
+    let minimum = -involute(EXAMPLE.alpha) * 20.0 / EXAMPLE.alpha.tan();
+    let GearPairError::ShiftsTooSmall { minimum: found, .. } = error else {
         panic!("{error}");
     };
-    near(found, least, 1e-12, &EXAMPLE);
+    near(found, minimum, 1e-12, &EXAMPLE);
 }
 
 #[test]

@@ -123,7 +123,7 @@ fn a_strong_law_is_carried_from_the_tooth_count_on_that_is_named_and_not_below()
         panic!("{found:?}");
     };
     assert_eq!(
-        (remedy.addendum, remedy.least_tooth_count),
+        (remedy.addendum, remedy.minimum_tooth_count),
         (Addendum::Fitted, 27)
     );
     let sound = error(&remedy.design);
@@ -140,7 +140,7 @@ fn a_strong_law_is_carried_from_the_tooth_count_on_that_is_named_and_not_below()
     assert!(error(&one_below).0 > CARRIED);
 
     // With thickness, pressure angle and phase chosen as many teeth as written are enough, and one fewer is not.
-    assert_eq!(chosen.least_tooth_count, 24);
+    assert_eq!(chosen.minimum_tooth_count, 24);
     assert!(chosen.design.teeth.fit.is_empty());
     let sound = error(&chosen.design);
     assert!(sound.0 <= CARRIED && sound.1, "{sound:?}");
@@ -248,8 +248,8 @@ fn the_check_tells_of_each_undercut_flank_from_where_on_it_is_there() {
     });
     let flanks = &of_driver.expect("undercut").place.flanks;
     assert_eq!(flanks.len(), 26);
-    let told = |tooth, side| flanks.iter().any(|f| (f.tooth, f.side) == (tooth, side));
-    assert!(!told(1, "leading") && !told(13, "trailing"));
+    let stated = |tooth, side| flanks.iter().any(|f| (f.tooth, f.side) == (tooth, side));
+    assert!(!stated(1, "leading") && !stated(13, "trailing"));
     // The root's corner of what is left of the flank stands on the contour, and nothing of the flank lies below it.
     for flank in flanks {
         let radius = flank.radius.expect("some flank is left");

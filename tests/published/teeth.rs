@@ -41,15 +41,15 @@ fn distance_to_segment(segment: &Segment, point: Point) -> f64 {
     let mut u = samples
         .min_by(|a, b| away(*a).total_cmp(&away(*b)))
         .unwrap_or(0.0);
-    let mut least = away(u);
+    let mut minimum = away(u);
     for _ in 0..12 {
         let jet = segment.at(u);
         let gap = jet.point - point;
         let rate = jet.first.norm_squared() + gap.dot(&jet.second);
         u = (u - gap.dot(&jet.first) / rate).clamp(-1.0, 1.0);
-        least = least.min(away(u));
+        minimum = minimum.min(away(u));
     }
-    least
+    minimum
 }
 
 fn distance(outline: &Outline, point: Point) -> f64 {
@@ -98,9 +98,9 @@ fn circular_gears_are_the_exact_involute_and_trochoid() {
             }
         }
         assert!(worst < EXACT, "z = {z}: {worst:e} mm");
-        let (least, greatest) = pair.driver().radii();
-        assert!((least - case.root_radius).abs() < EXACT);
-        assert!((greatest - case.tip_radius).abs() < EXACT);
+        let (minimum, maximum) = pair.driver().radii();
+        assert!((minimum - case.root_radius).abs() < EXACT);
+        assert!((maximum - case.tip_radius).abs() < EXACT);
         let area = area(outline);
         assert!(
             (area - case.area).abs() < 1e-9 * case.area,

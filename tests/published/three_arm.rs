@@ -137,21 +137,21 @@ fn as_many_flanks_are_undercut_as_the_oracle_counts_wherever_the_teeth_sit() {
     let arms = read_as(cubic.expect("among them"));
     let mut design = arms.design().pair();
     design.teeth.backlash = 0.0;
-    let mut told = Vec::new();
+    let mut stated = Vec::new();
     for case in cases::<UndercutAtPhase>("undercut") {
         design.teeth.phase = Phase::Pitches(case.phase);
         let [sun, _] = FlankCount::new(&design, arms.rolling()).expect("teeth");
         let found = (sun.flanks, sun.undercut);
         assert_eq!(found, (66, case.undercut), "{}", case.phase);
-        told.push((sun.undercut, sun.short));
+        stated.push((sun.undercut, sun.short));
     }
-    let [least, most] = [
-        told.iter().map(|t| t.0).min(),
-        told.iter().map(|t| t.0).max(),
+    let [minimum, most] = [
+        stated.iter().map(|t| t.0).min(),
+        stated.iter().map(|t| t.0).max(),
     ];
-    assert_eq!([least, most], [Some(12), Some(15)]);
+    assert_eq!([minimum, most], [Some(12), Some(15)]);
     // What theory finds is among them: 13 undercut with 3 short.
-    assert!(told.contains(&(13, 3)), "{told:?}");
+    assert!(stated.contains(&(13, 3)), "{stated:?}");
 }
 
 fn miss(goal: &Goal) -> String {

@@ -164,7 +164,7 @@ FEEDER = [
         "has more than {} (at {}, {}, {}, {} mm)",
         lambda: [least_transmission(best_in_bounds()), *best_in_bounds()],
     ),
-    Said("go together: by {} %.", lambda: 100 * values("feeder-2022")["least_widening"]),
+    Said("go together: by {} %.", lambda: 100 * values("feeder-2022")["minimum_widening"]),
     Said("reach more than {} deg", lambda: least_transmission(best_in_bounds())),
     Said(
         "| deg | {} | {} | {} | {} | {} | {} |",

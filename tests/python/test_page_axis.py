@@ -44,7 +44,7 @@ def test_what_a_goal_wants_is_a_line_across_its_figure(browser, tmp_path, design
     with opened(browser, tmp_path, design) as (page, copy):
         report = json.loads(centrode("check", copy, "--json", check=False).stdout)
         [own] = [one for one in report["goals"] if one["name"] == goal]
-        least = own["wanted"][0] * (57.29577951308232 if own["unit"] == "rad" else 1)
+        least = own["required"][0] * (57.29577951308232 if own["unit"] == "rad" else 1)
         assert least == pytest.approx(wanted[0])
         expect(chart(page, name).locator(".series-limit")).to_contain_text(f"at least {wanted[0]}")
         near = limits(taken(page, name, "SVG"))
@@ -57,9 +57,9 @@ def test_a_limit_goes_with_the_goal_that_sets_it(browser, tmp_path):
     with opened(browser, tmp_path, COMPOSED) as (page, copy):
         expect(page.locator(".series-limit:visible")).to_have_count(1)
         text = copy.read_text()
-        assert "at_least = 40" in text
+        assert "minimum = 40" in text
         page.locator("#source").click()
-        page.get_by_role("textbox", name="Design file").fill(text.replace("at_least = 40", "at_least = 12.5"))
+        page.get_by_role("textbox", name="Design file").fill(text.replace("minimum = 40", "minimum = 12.5"))
         page.get_by_role("button", name="Apply").click()
         expect(page.locator(".series-limit:visible")).to_have_text("at least 12.5")
         assert limits(taken(page, "Least transmission angle", "SVG")) == [12.5]

@@ -150,7 +150,7 @@ def test_what_a_search_counts_as_missed_is_named_with_start_and_bounds(browser, 
         rows = page.evaluate(
             "[...document.querySelectorAll('.missed tr')].map(row => [...row.cells].map(cell => cell.textContent))"
         )
-        assert rows[0] == ["", "start", "now", "wanted"]
+        assert rows[0] == ["", "start", "now", "required"]
         assert len(rows) > 1
         assert all(len(row) == 4 and all(row) for row in rows[1:])
         expect(page.locator("#search-drop")).to_be_visible(timeout=120_000)

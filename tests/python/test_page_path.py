@@ -608,8 +608,8 @@ axis = [264.9914, 162.9171]
 points = {[list(point) for point in EXAMPLE]}
 band = 5
 [wishes]
-carrier = {{ at_most = 131 }}
-arm = {{ at_least = 150, at_most = 190 }}
+carrier = {{ maximum = 131 }}
+arm = {{ minimum = 150, maximum = 190 }}
 directions = [
     {{ point = 5, direction_deg = 40, tolerance_deg = 5 }},
     {{ point = 9, direction_deg = 85, tolerance_deg = 5 }},

@@ -114,7 +114,7 @@ def test_a_value_given_since_is_not_put_back_by_a_slow_answer(browser, tmp_path)
     with studio(copy) as running, shown(browser, running.url, script=SLOW) as page:
         page.evaluate("window.late = 700")
         backlash, split, tip = (
-            field(page, f"teeth.{key}") for key in ["backlash", "thickness_split", "least_tip_width_coefficient"]
+            field(page, f"teeth.{key}") for key in ["backlash", "thickness_split", "minimum_tip_width_coefficient"]
         )
         addendum = field(page, "teeth.addendum")
         backlash.fill("0.07")
@@ -130,7 +130,7 @@ def test_a_value_given_since_is_not_put_back_by_a_slow_answer(browser, tmp_path)
               window.seen = [];
               const look = () => {
                 const value = (key) => document.getElementById(`field-teeth.${key}`).value;
-                window.seen.push(["thickness_split", "addendum", "least_tip_width_coefficient"].map(value).join(" "));
+                window.seen.push(["thickness_split", "addendum", "minimum_tip_width_coefficient"].map(value).join(" "));
                 requestAnimationFrame(look);
               };
               look();

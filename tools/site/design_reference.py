@@ -171,7 +171,7 @@ def shown(value: dict) -> str:
 
 def title(name: str) -> str:
     """The name of a table for people: no capitals in the middle, no "Spec"."""
-    words = re.findall(r"[A-Z][a-z]*", re.sub(r"^Composed|Spec$|Design$", "", name))
+    words = re.findall(r"[A-Z][a-z]*", re.sub(r"^Machine(?=[A-Z])|Spec$|Design$", "", name))
     return " ".join(words).capitalize() or name
 
 

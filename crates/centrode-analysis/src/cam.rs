@@ -35,7 +35,7 @@ impl CheckedCam<'_> {
                 rule: "cam-undercut",
                 severity: Severity::Error,
                 message: self.undercut,
-                measured: Some(limits.least_radius.value),
+                measured: Some(limits.minimum_radius.value),
                 required: Some(0.0),
                 unit: Unit::Millimetre,
                 remedy: Some(self.remedies[0]),

@@ -26,7 +26,7 @@ pub struct Goal {
     #[schemars(with = "Option<JsonNumber>")]
     pub value: Option<f64>,
     /// Least and greatest figure wanted; none where it is open.
-    pub wanted: [Option<f64>; 2],
+    pub required: [Option<f64>; 2],
     /// Unit of the figures.
     pub unit: Unit,
     /// Size of a miss that leaves half the progress, in `unit`.
@@ -50,7 +50,7 @@ impl Goal {
             impl Into<Cow<'static, str>>,
         ),
         value: Option<f64>,
-        wanted: [Option<f64>; 2],
+        required: [Option<f64>; 2],
         unit: Unit,
         scale: f64,
     ) -> Self {
@@ -60,7 +60,7 @@ impl Goal {
             name: name.into(),
             title: title.into(),
             value: None,
-            wanted,
+            required,
             unit,
             scale,
             margin: None,
@@ -84,8 +84,8 @@ impl Goal {
     /// Goal with another figure.
     #[must_use]
     pub fn with(self, value: f64) -> Self {
-        let above = self.wanted[0].map_or(f64::INFINITY, |least| value - least);
-        let below = self.wanted[1].map_or(f64::INFINITY, |greatest| greatest - value);
+        let above = self.required[0].map_or(f64::INFINITY, |minimum| value - minimum);
+        let below = self.required[1].map_or(f64::INFINITY, |maximum| maximum - value);
         let margin = match above.min(below) {
             // At its limit but for rounding: the goal is met.
             margin if margin.abs() <= ROUNDING * value.abs().min(f64::MAX).max(self.scale) => 0.0,

@@ -128,7 +128,7 @@ impl IntermittentContact {
 
     /// Greatest of a column where the driven gear moves, or where it rests.
     #[must_use]
-    pub fn greatest(&self, column: &[f64], moving: bool) -> f64 {
+    pub fn maximum(&self, column: &[f64], moving: bool) -> f64 {
         let of = column.iter().zip(&self.moving).filter(|c| *c.1 == moving);
         of.map(|c| *c.0).fold(f64::NEG_INFINITY, f64::max)
     }

@@ -1,6 +1,5 @@
 use centrode_geometry::Extreme;
-use centrode_kinematics::machine::Keyway;
-use centrode_kinematics::machine::{Key, allowed_pressure};
+use centrode_kinematics::machine::{Key, Keyway, allowed_pressure};
 
 use crate::rounding::exceeds;
 use crate::{Finding, Place, Report, Severity, Unit};

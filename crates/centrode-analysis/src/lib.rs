@@ -6,7 +6,6 @@
 //! changes no design.
 
 mod cam;
-mod composed;
 mod contact;
 mod feeder;
 mod figure;
@@ -16,6 +15,7 @@ mod goal;
 pub mod interference;
 mod intermittent_contact;
 mod key_pressure;
+mod machine;
 mod no_screws;
 mod progress;
 mod report;
@@ -28,11 +28,6 @@ pub mod six_bar;
 mod three_arm;
 mod unit;
 
-pub use composed::{
-    NoSoundTeeth, SoundTeeth, check_composed, check_composed_goals, check_composed_motion,
-    composed_clearance, composed_collisions, composed_figures, composed_layers, machine_goals,
-    with_sound_teeth,
-};
 pub use contact::{
     Contact, ContactExtremes, Proof, ProofError, ProofMeeting, ProofStretch, SeatJump, prove,
 };
@@ -42,11 +37,15 @@ pub use feeder::{
 };
 pub use figure::{FigureGroup, FigureRow, JsonNumber};
 pub use gear_pair::{
-    MOST_TEETH, PairRemedy, SLIGHT_TRANSMISSION_ERROR, check, check_contact, pitch_overlap,
-    remedies,
+    MAX_TEETH, PairRemedy, SLIGHT_TRANSMISSION_ERROR, check, check_contact, pitch_overlap, remedies,
 };
 pub use goal::Goal;
 pub use intermittent_contact::IntermittentContact;
+pub use machine::{
+    NoSoundTeeth, SoundTeeth, check_machine, check_machine_goals, check_machine_motion,
+    machine_clearance, machine_collisions, machine_figures, machine_goals, machine_layers,
+    with_sound_teeth,
+};
 pub use progress::Progress;
 pub use report::{Finding, FlankPlace, Place, Report, ReportFile, Table};
 pub use response::{Answer, Response};

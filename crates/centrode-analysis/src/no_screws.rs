@@ -10,7 +10,9 @@ pub(crate) fn no_screws(
 ) -> Option<Finding> {
     let error = screws?.err()?;
     let (measured, required) = match &error {
-        FasteningError::TooShort { between, least, .. } => (Some(*between), Some(2.0 * least)),
+        FasteningError::TooShort {
+            between, minimum, ..
+        } => (Some(*between), Some(2.0 * minimum)),
         _ => (None, None),
     };
     Some(Finding {

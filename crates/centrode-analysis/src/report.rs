@@ -152,7 +152,7 @@ impl Report {
                 unit,
                 ..
             } = goal;
-            let [value_told, margin_told] = [value, -margin].map(|figure| unit.tell(figure));
+            let [value_stated, margin_stated] = [value, -margin].map(|figure| unit.tell(figure));
             Some(Finding {
                 // A goal that a design names has no rule of its own.
                 rule: match &goal.name {
@@ -161,12 +161,12 @@ impl Report {
                 },
                 severity: Severity::Error,
                 message: format!(
-                    "goal {number}, {title}: {value_told}, missed by {margin_told}{words}"
+                    "goal {number}, {title}: {value_stated}, missed by {margin_stated}{words}"
                 ),
                 measured: Some(value),
-                required: match goal.wanted {
-                    [Some(least), _] if value < least => Some(least),
-                    [_, greatest] => greatest,
+                required: match goal.required {
+                    [Some(minimum), _] if value < minimum => Some(minimum),
+                    [_, maximum] => maximum,
                 },
                 unit: *unit,
                 remedy,

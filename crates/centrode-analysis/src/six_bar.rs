@@ -36,7 +36,7 @@ fn not_crank_rocker(point: &[f64]) -> f64 {
 /// Problem of lengths that swing the effector by a wanted angle about a fixed pivot, with a wanted least
 /// transmission angle: variables are crank, coupler, rocker and frame, mm.
 #[derive(Clone, Debug)]
-pub struct WantedSwing {
+pub struct RequiredSwing {
     /// Bounds of the lengths, mm.
     pub bounds: Lengths,
     /// The effector's pivot, mm. Left free it makes the objective vacuous: on the chord between the
@@ -47,12 +47,12 @@ pub struct WantedSwing {
     /// Wanted swing, rad.
     pub swing: f64,
     /// Wanted least transmission angle, rad; none leaves constraint (16) out.
-    pub least_transmission_angle: Option<f64>,
+    pub minimum_transmission_angle: Option<f64>,
 }
 
-impl WantedSwing {
+impl RequiredSwing {
     /// Evaluation of lengths about a pivot, and the six-bar, if there is one.
-    pub fn judged(&self, lengths: &[f64], pivot: Point) -> (Evaluation, Option<SixBar>) {
+    pub fn evaluated(&self, lengths: &[f64], pivot: Point) -> (Evaluation, Option<SixBar>) {
         let mut constraints = vec![not_crank_rocker(lengths)];
         let six_bar = four_bar(lengths, self.branch).and_then(|f| SixBar::new(f, pivot, 1.0).ok());
         let Some(bar) = six_bar else {
@@ -65,8 +65,8 @@ impl WantedSwing {
             };
             return (nothing, None);
         };
-        if let Some(wanted) = self.least_transmission_angle {
-            constraints.push(wanted - bar.four_bar().least_transmission_angle());
+        if let Some(required) = self.minimum_transmission_angle {
+            constraints.push(required - bar.four_bar().minimum_transmission_angle());
         }
         let evaluation = Evaluation {
             objective: (bar.swing() - self.swing).abs(),
@@ -76,14 +76,14 @@ impl WantedSwing {
     }
 }
 
-impl Problem for WantedSwing {
+impl Problem for RequiredSwing {
     fn bounds(&self) -> Vec<(f64, f64)> {
         self.bounds.to_vec()
     }
 
     /// Evaluates a point: the objective is the swing's distance from the wanted one, rad.
     fn evaluate(&self, point: &[f64]) -> Evaluation {
-        self.judged(point, self.pivot).0
+        self.evaluated(point, self.pivot).0
     }
 
     fn is_costly(&self) -> bool {
@@ -108,9 +108,10 @@ impl Problem for BestTransmissionAngle {
 
     /// Evaluates a point: the objective is a right angle less the least transmission angle, rad.
     fn evaluate(&self, point: &[f64]) -> Evaluation {
-        let least = four_bar(point, Branch::Upper).map_or(0.0, |f| f.least_transmission_angle());
+        let minimum =
+            four_bar(point, Branch::Upper).map_or(0.0, |f| f.minimum_transmission_angle());
         Evaluation {
-            objective: FRAC_PI_2 - least,
+            objective: FRAC_PI_2 - minimum,
             constraints: vec![not_crank_rocker(point)],
         }
     }
@@ -123,14 +124,14 @@ impl Problem for BestTransmissionAngle {
 /// Problem of the least common widening of all bounds with which they hold a crank-rocker with a wanted least
 /// transmission angle: variables are the widening and each length's place within its widened bounds, from 0 to 1.
 #[derive(Clone, Debug)]
-pub struct LeastWidening {
+pub struct MinimumWidening {
     /// Bounds to be widened, mm.
     pub bounds: Lengths,
     /// Wanted least transmission angle, rad.
-    pub least_transmission_angle: f64,
+    pub minimum_transmission_angle: f64,
 }
 
-impl LeastWidening {
+impl MinimumWidening {
     /// Bounds with every least value made smaller and every greatest value made greater by a share.
     #[must_use]
     pub fn widened(&self, share: f64) -> Lengths {
@@ -151,7 +152,7 @@ impl LeastWidening {
     }
 }
 
-impl Problem for LeastWidening {
+impl Problem for MinimumWidening {
     fn bounds(&self) -> Vec<(f64, f64)> {
         let mut bounds = vec![(0.0, 0.9)];
         bounds.extend([(0.0, 1.0); 4]);
@@ -161,12 +162,13 @@ impl Problem for LeastWidening {
     /// Evaluates a point: the objective is the widening, a share.
     fn evaluate(&self, point: &[f64]) -> Evaluation {
         let lengths = self.lengths(point);
-        let least = four_bar(&lengths, Branch::Upper).map_or(0.0, |f| f.least_transmission_angle());
+        let minimum =
+            four_bar(&lengths, Branch::Upper).map_or(0.0, |f| f.minimum_transmission_angle());
         Evaluation {
             objective: point.first().copied().unwrap_or(f64::INFINITY),
             constraints: vec![
                 not_crank_rocker(&lengths),
-                (self.least_transmission_angle - least) / PI,
+                (self.minimum_transmission_angle - minimum) / PI,
             ],
         }
     }

@@ -25,13 +25,13 @@ pub enum ExportError {
     },
     /// The tolerance is so fine that a part would take more pieces than anyone can use.
     #[error(
-        "a tolerance of {tolerance} mm is too fine: at least a billionth of the {of}, {least:.3e} mm"
+        "a tolerance of {tolerance} mm is too fine: at least a billionth of the {of}, {minimum:.3e} mm"
     )]
     FineTolerance {
         /// The tolerance, mm.
         tolerance: f64,
         /// The finest one possible, mm.
-        least: f64,
+        minimum: f64,
         /// The size of the machine that counts.
         of: &'static str,
     },

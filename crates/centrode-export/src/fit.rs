@@ -19,11 +19,11 @@ pub(crate) fn keyway(width: f64, class: &str) -> String {
 
 /// Polar angle of a keyway in a bore, rad, in degrees with what its symmetry lets it turn about the middle.
 pub(crate) fn keyway_angle(angle: f64, bore: f64, width: f64) -> String {
-    let told = number(angle.to_degrees(), 4);
+    let stated = number(angle.to_degrees(), 4);
     let off = grade(width, SYMMETRY).map(|zone| (zone / bore).to_degrees());
     match off.map(|off| (off * 1e2).floor() / 1e2) {
-        Some(off) if off > 0.0 => format!("{told}° ±{}°", number(off, 2)),
-        _ => format!("{told}°"),
+        Some(off) if off > 0.0 => format!("{stated}° ±{}°", number(off, 2)),
+        _ => format!("{stated}°"),
     }
 }
 

@@ -6,13 +6,13 @@
 //! Nothing here touches the disk; a [`Package`] collects files in a bundle.
 
 pub mod cam;
-pub mod composed;
 mod cutting;
 mod error;
 pub mod feeder;
 mod fit;
 pub mod gear_pair;
 mod grade;
+pub mod linked;
 pub mod machine;
 mod number;
 mod options;

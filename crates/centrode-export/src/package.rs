@@ -10,11 +10,11 @@ use centrode_formats::{
     svg,
 };
 use centrode_geometry::Tolerance;
-use centrode_kinematics::machine::Machine;
+use centrode_kinematics::machine::LinkedMachine;
 
 use crate::{
     ExportError, Options,
-    machine::{self, ARRANGEMENT},
+    linked::{self, ARRANGEMENT},
 };
 
 /// Formats of drawing sheets.
@@ -104,11 +104,11 @@ impl<'a> Package<'a> {
     /// Whether a part is asked for, and in one of these formats.
     fn takes(&mut self, part: &str, formats: &[Format]) -> bool {
         let part = self.name_of(part);
-        let wanted = self.options.wants(&part) && self.wants(formats);
+        let required = self.options.wants(&part) && self.wants(formats);
         if !self.known.contains(&part) {
             self.known.push(part);
         }
-        wanted
+        required
     }
 
     /// Adds a file.
@@ -132,12 +132,12 @@ impl<'a> Package<'a> {
     /// Refuses a tolerance of less than a billionth of a size of the machine, mm, for files that take more pieces for it; in STEP
     /// curves are as they are.
     pub(crate) fn coarser_than(&self, size: f64, of: &'static str) -> Result<(), ExportError> {
-        let (tolerance, least) = (self.tolerance().mm(), FINEST * size);
+        let (tolerance, minimum) = (self.tolerance().mm(), FINEST * size);
         let is_exact = self.formats.iter().all(|format| *format == Format::Step);
-        if tolerance < least && !is_exact {
+        if tolerance < minimum && !is_exact {
             return Err(ExportError::FineTolerance {
                 tolerance,
-                least,
+                minimum,
                 of,
             });
         }
@@ -267,7 +267,7 @@ impl<'a> Package<'a> {
     /// [`ExportError`] where it cannot be made or written.
     pub fn machine(
         &mut self,
-        make: impl FnOnce() -> Result<Machine, ExportError>,
+        make: impl FnOnce() -> Result<LinkedMachine, ExportError>,
     ) -> Result<(), ExportError> {
         // A smaller machine within this one is in its models.
         let own = self.prefix.is_empty();
@@ -284,22 +284,22 @@ impl<'a> Package<'a> {
         }
         self.arrangement(&made)?;
         if whole {
-            machine::add_whole(&made, self)?;
+            linked::add_whole(&made, self)?;
         }
         if models {
-            machine::add(&made, self)?;
+            linked::add(&made, self)?;
         }
         Ok(())
     }
 
     /// Offers the general arrangement of a machine, unless nothing is drawn of it.
-    pub(crate) fn arrangement(&mut self, machine: &Machine) -> Result<(), ExportError> {
+    pub(crate) fn arrangement(&mut self, machine: &LinkedMachine) -> Result<(), ExportError> {
         if machine.figures.is_empty() {
             return Ok(());
         }
         let (sheet, tolerance) = (self.options.sheet.clone(), self.tolerance());
         self.sheets(ARRANGEMENT, || {
-            machine::arrangement(machine, &sheet, tolerance)
+            linked::arrangement(machine, &sheet, tolerance)
                 .map_err(ExportError::no_sheet(ARRANGEMENT))
         })
     }
@@ -345,8 +345,8 @@ impl<'a> Package<'a> {
     /// parts make no file.
     pub fn finish(mut self) -> Result<Bundle, ExportError> {
         self.bind()?;
-        let wanted = self.options.parts.iter().flatten();
-        match wanted.into_iter().find(|part| !self.known.contains(part)) {
+        let required = self.options.parts.iter().flatten();
+        match required.into_iter().find(|part| !self.known.contains(part)) {
             None => Ok(self.bundle),
             Some(part) => Err(ExportError::UnknownPart {
                 machine: self.machine,

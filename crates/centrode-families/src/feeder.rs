@@ -1,12 +1,12 @@
 use super::{Limit, Mechanism, Resolved, Widening, WideningError};
 use centrode_analysis::{FeederForces, Report, check_feeder, check_strokes};
-use centrode_export::machine::picture;
+use centrode_export::linked::picture;
 use centrode_export::picture::{Curve, Handle, HandlePlane, Picture};
 use centrode_export::{ExportError, Options, feeder};
 use centrode_formats::{Bundle, Format};
 use centrode_gear::IntermittentPair;
 use centrode_geometry::Tolerance;
-use centrode_kinematics::machine::Machine;
+use centrode_kinematics::machine::LinkedMachine;
 use centrode_machines::feeder::{Dimension, Feeder, FeederDesign, FeederPart};
 use centrode_spec::{Design, MechanismError};
 use centrode_synthesis::optimise::feeder::{FeederProblem, Widened};
@@ -15,7 +15,7 @@ use serde_json::json;
 use std::f64::consts::TAU;
 
 /// Points of a cycle at which the torque is computed.
-const LOOKS: u32 = 360;
+const SAMPLES: u32 = 360;
 
 /// Tolerance of the picture, as a share of the frame.
 const DRAWN: f64 = 1e-4;
@@ -54,13 +54,13 @@ impl Mechanism for Feeder {
     /// The angle of coupler and rocker is wanted as far from a straight line as from none.
     fn limits(&self, report: &Report) -> Vec<Limit> {
         let mut all = Limit::of_goal(report, "transmission-angle", "Angle of coupler and rocker");
-        if let Some(least) = all.first() {
-            let greatest = Limit {
-                value: 180.0 - least.value,
-                least: false,
-                ..least.clone()
+        if let Some(minimum) = all.first() {
+            let maximum = Limit {
+                value: 180.0 - minimum.value,
+                minimum: false,
+                ..minimum.clone()
             };
-            all.push(greatest);
+            all.push(maximum);
         }
         all
     }
@@ -88,7 +88,7 @@ impl Mechanism for Feeder {
         Some(drawn(self, Some(&pair)))
     }
 
-    fn machine(&self) -> Result<Machine, ExportError> {
+    fn machine(&self) -> Result<LinkedMachine, ExportError> {
         feeder::machine(self)
     }
 
@@ -145,8 +145,8 @@ fn torques(machine: &Feeder) -> Vec<Curve> {
     let Ok(system) = FeederForces::analyse(machine) else {
         return Vec::new();
     };
-    let input: Vec<f64> = (0..=LOOKS)
-        .map(|i| TAU * f64::from(i) / f64::from(LOOKS))
+    let input: Vec<f64> = (0..=SAMPLES)
+        .map(|i| TAU * f64::from(i) / f64::from(SAMPLES))
         .collect();
     let curve = |name, moving| {
         let torque = |&phi: &f64| {

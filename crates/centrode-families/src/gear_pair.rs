@@ -5,12 +5,12 @@ use centrode_analysis::{
     Contact, PairRemedy, Report, check, check_contact, pitch_overlap, remedies,
 };
 use centrode_export::picture::{Curve, Picture};
-use centrode_export::{ExportError, Options, gear_pair, machine};
+use centrode_export::{ExportError, Options, gear_pair, linked};
 use centrode_formats::{Bundle, Format};
 use centrode_gear::design::{Addendum, GearPairDesign};
 use centrode_gear::{GearPair, GearPairError};
 use centrode_geometry::Tolerance;
-use centrode_kinematics::machine::Machine;
+use centrode_kinematics::machine::LinkedMachine;
 use centrode_spec::{Design, MechanismError};
 use std::sync::Arc;
 
@@ -33,9 +33,9 @@ fn words(pair: &GearPair, remedy: &PairRemedy) -> String {
             spec.thickness_split
         );
     }
-    let (least, written) = (remedy.least_tooth_count, pair.driver().tooth_count());
+    let (minimum, written) = (remedy.minimum_tooth_count, pair.driver().tooth_count());
     // The driven gear has a whole number of teeth.
-    let fewer = least - pair.mean_ratio().1;
+    let fewer = minimum - pair.mean_ratio().1;
     let below = match fewer {
         0 => String::new(),
         _ => format!(
@@ -43,15 +43,15 @@ fn words(pair: &GearPair, remedy: &PairRemedy) -> String {
         ),
     };
     let start = format!(
-        "{teeth} carry the motion by their flanks alone with {least} teeth of the driver{below}"
+        "{teeth} carry the motion by their flanks alone with {minimum} teeth of the driver{below}"
     );
-    if least == written && !remedy.fit.is_empty() {
+    if minimum == written && !remedy.fit.is_empty() {
         return format!("{start}, as many as written");
     }
-    if least <= written {
+    if minimum <= written {
         return format!("{start}, and with the {written} written");
     }
-    let share = f64::from(least) / f64::from(written);
+    let share = f64::from(minimum) / f64::from(written);
     format!(
         "{start}: of module {:.4} mm on these pitch curves, or of {:.4} mm on curves {share:.4} times as large",
         pair.module() / share,
@@ -107,7 +107,7 @@ impl Mechanism for GearPair {
         let Ok(tolerance) = Tolerance::new(DRAWN * self.module()) else {
             return Picture::default();
         };
-        let mut picture = machine::picture(&gear_pair::drawn(self), tolerance);
+        let mut picture = linked::picture(&gear_pair::drawn(self), tolerance);
         let mut links = picture.links.iter();
         if let Some(link) = links.position(|link| link.name == picture.motion.input_name) {
             let length = self.driver().pitch_length();
@@ -117,7 +117,7 @@ impl Mechanism for GearPair {
         picture
     }
 
-    fn machine(&self) -> Result<Machine, ExportError> {
+    fn machine(&self) -> Result<LinkedMachine, ExportError> {
         gear_pair::machine(self)
     }
 

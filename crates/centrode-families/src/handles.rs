@@ -3,7 +3,7 @@ use centrode_gear::pitch::{PitchSpec, Plane};
 use std::f64::consts::{PI, TAU};
 
 /// Greatest number of points of a pitch curve that get a handle each: more would hide the curve.
-const MOST_HANDLES: usize = 60;
+const MAX_HANDLES: usize = 60;
 
 /// Handles at the points of a pitch curve whose length is `length` mm in the picture, on a link.
 pub(super) fn handles(pitch: &PitchSpec, length: f64, link: usize) -> Vec<Handle> {
@@ -19,7 +19,7 @@ pub(super) fn handles(pitch: &PitchSpec, length: f64, link: usize) -> Vec<Handle
         PitchSpec::Polar(s) => (HandlePlane::Polar, &s.radius, &s.angle),
         _ => return Vec::new(),
     };
-    if first.len() > MOST_HANDLES {
+    if first.len() > MAX_HANDLES {
         return Vec::new();
     }
     let scale = scale(pitch, length);

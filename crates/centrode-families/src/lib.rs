@@ -4,13 +4,13 @@
 //! its files and searches a better one without the name of a family. Here, too, a panic becomes an [`InternalFault`].
 //! It may not know: the command line, the design page, its server, Python, or how any file is laid out.
 
-mod composed;
 mod contact;
 mod feeder;
 mod gear_pair;
 mod handles;
 mod internal_fault;
 mod limit;
+mod machine;
 mod mechanism;
 mod moving_box;
 mod open;
@@ -32,8 +32,8 @@ pub use widening::{Widening, WideningError};
 
 use centrode_gear::GearPair;
 use centrode_groove::{MovingBox, SpiralShaft};
-use centrode_machines::composed::Composed;
 use centrode_machines::feeder::Feeder;
+use centrode_machines::machine::Machine;
 use centrode_machines::three_arm::ThreeArm;
 
 /// Every family there is.
@@ -43,5 +43,5 @@ pub static FAMILIES: Families = Families(&[
     Family::new::<SpiralShaft>(),
     Family::new::<MovingBox>(),
     Family::new::<Feeder>(),
-    Family::new::<Composed>(),
+    Family::new::<Machine>(),
 ]);

@@ -11,7 +11,7 @@ pub struct Limit {
     /// Least or greatest figure wanted.
     pub value: f64,
     /// Whether the figure is to be no less.
-    pub least: bool,
+    pub minimum: bool,
 }
 
 impl Limit {
@@ -24,16 +24,16 @@ impl Limit {
     ) -> Vec<Self> {
         let goals = report.goals.iter().filter(|found| found.name == goal);
         let ends = goals.flat_map(|goal| {
-            let [least, greatest] = goal
-                .wanted
+            let [minimum, maximum] = goal
+                .required
                 .map(|end| end.map(|end| end * goal.unit.factor()));
-            [(least, true), (greatest, false)]
+            [(minimum, true), (maximum, false)]
         });
-        ends.filter_map(|(end, least)| {
+        ends.filter_map(|(end, minimum)| {
             Some(Self {
                 chart: chart.clone().into(),
                 value: end?,
-                least,
+                minimum,
             })
         })
         .collect()
@@ -49,7 +49,7 @@ impl Limit {
                 Some(Self {
                     chart: chart.into(),
                     value: required * found.unit.factor(),
-                    least: found.measured? < required,
+                    minimum: found.measured? < required,
                 })
             })
             .collect()

@@ -4,7 +4,7 @@ use centrode_export::picture::{Curve, Picture};
 use centrode_export::{ExportError, Options};
 use centrode_formats::{Bundle, Format};
 use centrode_gear::{GearPair, GearPairError};
-use centrode_kinematics::machine::Machine;
+use centrode_kinematics::machine::LinkedMachine;
 use centrode_spec::Design;
 use centrode_synthesis::reverse::{GearDrive, GearDriveError, GearDriveSpec};
 use std::any::Any;
@@ -103,7 +103,7 @@ pub trait Mechanism: Any + Debug + Send + Sync {
     ///
     /// # Errors
     /// [`ExportError`] where a part cannot be made.
-    fn machine(&self) -> Result<Machine, ExportError>;
+    fn machine(&self) -> Result<LinkedMachine, ExportError>;
 
     /// Finest tolerance of its files that has a meaning, mm.
     fn accuracy(&self) -> f64 {

@@ -6,7 +6,7 @@ use centrode_export::{ExportError, Options, shaft};
 use centrode_formats::{Bundle, Format};
 use centrode_gear::{GearPair, GearPairError};
 use centrode_groove::{MovingBox, MovingBoxDesign, Scheme};
-use centrode_kinematics::machine::Machine;
+use centrode_kinematics::machine::LinkedMachine;
 use centrode_spec::{Design, MechanismError};
 use std::sync::Arc;
 
@@ -46,7 +46,7 @@ impl Mechanism for MovingBox {
         picture
     }
 
-    fn machine(&self) -> Result<Machine, ExportError> {
+    fn machine(&self) -> Result<LinkedMachine, ExportError> {
         shaft::moving_box_machine(self)
     }
 

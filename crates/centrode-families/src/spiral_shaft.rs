@@ -1,14 +1,13 @@
 use std::f64::consts::TAU;
 
 use centrode_analysis::{Report, check_shaft};
-use centrode_export::machine::picture;
+use centrode_export::linked::picture;
 use centrode_export::picture::{Curve, Handle, HandlePlane, Picture};
-use centrode_export::shaft;
-use centrode_export::{ExportError, Options};
+use centrode_export::{ExportError, Options, shaft};
 use centrode_formats::{Bundle, Format};
 use centrode_geometry::Tolerance;
 use centrode_groove::{ShaftSolid, SpiralShaft, SpiralShaftDesign};
-use centrode_kinematics::machine::Machine;
+use centrode_kinematics::machine::LinkedMachine;
 use centrode_kinematics::transmission::MotionJet;
 use centrode_spec::{Design, MechanismError};
 
@@ -47,7 +46,7 @@ impl Mechanism for SpiralShaft {
         picture
     }
 
-    fn machine(&self) -> Result<Machine, ExportError> {
+    fn machine(&self) -> Result<LinkedMachine, ExportError> {
         shaft::machine(self)
     }
 
@@ -67,7 +66,7 @@ impl Resolved for SpiralShaft {
 }
 
 /// The picture of a machine round a shaft; an empty one where there is none.
-pub(super) fn drawn(shaft: &SpiralShaft, machine: Result<Machine, ExportError>) -> Picture {
+pub(super) fn drawn(shaft: &SpiralShaft, machine: Result<LinkedMachine, ExportError>) -> Picture {
     let tolerance = Tolerance::new(DRAWN * shaft.groove().width());
     match (machine, tolerance) {
         (Ok(machine), Ok(tolerance)) => picture(&machine, tolerance),

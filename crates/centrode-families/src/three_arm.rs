@@ -6,11 +6,11 @@ use centrode_analysis::{
     check_three_arm_teeth,
 };
 use centrode_export::picture::{Curve, Picture};
-use centrode_export::{ExportError, Options, machine, three_arm};
+use centrode_export::{ExportError, Options, linked, three_arm};
 use centrode_formats::{Bundle, Format};
 use centrode_gear::{GearPair, GearPairError, Member};
 use centrode_geometry::{Tolerance, run_both};
-use centrode_kinematics::machine::Machine;
+use centrode_kinematics::machine::LinkedMachine;
 use centrode_machines::three_arm::ThreeArm;
 use centrode_machines::three_arm::design::ThreeArmDesign;
 use centrode_spec::{Design, MechanismError};
@@ -91,7 +91,7 @@ impl Mechanism for ThreeArm {
         Some(drawn(self, Some(&pair)))
     }
 
-    fn machine(&self) -> Result<Machine, ExportError> {
+    fn machine(&self) -> Result<LinkedMachine, ExportError> {
         three_arm::machine(self)
     }
 
@@ -186,7 +186,7 @@ fn drawn(mechanism: &ThreeArm, teeth: Option<&GearPair>) -> Picture {
         return Picture::default();
     };
     let (mut picture, contacts) = run_both(
-        || machine::picture(&machine, tolerance),
+        || linked::picture(&machine, tolerance),
         || three_arm::contacts(mechanism, teeth),
     );
     picture.contacts = contacts;

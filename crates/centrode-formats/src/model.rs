@@ -4,7 +4,7 @@ use centrode_geometry::{MassProperties, Mesh};
 use nalgebra::{Rotation3, Unit, Vector3};
 
 /// Most triangles of a mesh that a model shows. `MuJoCo` reads no STL file of more than 200 000.
-pub const MOST_FACES: usize = 100_000;
+pub const MAX_FACES: usize = 100_000;
 
 /// Rigid links joined by joints, as simulators want them; lengths in mm here, whatever a format uses.
 #[derive(Clone, Debug, PartialEq)]

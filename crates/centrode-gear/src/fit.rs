@@ -223,7 +223,7 @@ impl Fits<'_> {
                 Side::Leading => (&driver[(m + 1) % driver.len()][0], trailing),
             }
         };
-        let mut least = f64::INFINITY;
+        let mut minimum = f64::INFINITY;
         let mut sum = 0.0;
         for side in [Side::Leading, Side::Trailing] {
             for m in 0..meshes {
@@ -237,17 +237,17 @@ impl Fits<'_> {
                         above(one, Side::Leading, its) + above(mate, Side::Trailing, next)
                     }
                 };
-                least = least.min(along / pitch);
+                minimum = minimum.min(along / pitch);
                 sum += along / pitch;
             }
         }
-        (least, sum / (2 * meshes) as f64)
+        (minimum, sum / (2 * meshes) as f64)
     }
 }
 
 /// The least contact ratio, and a little of the mean.
-fn weighed((least, mean): (f64, f64)) -> f64 {
-    least + MEAN * mean
+fn weighed((minimum, mean): (f64, f64)) -> f64 {
+    minimum + MEAN * mean
 }
 
 /// Values of what is free.

@@ -17,7 +17,7 @@ use super::{
 
 /// Least share of a straight rack's flank speed kept at the end of a trimmed flank: below it the
 /// flank ends in a knife edge of no radius of curvature.
-const LEAST_SPEED: f64 = 0.05;
+const MIN_SPEED: f64 = 0.05;
 
 /// Data of the trimming.
 #[derive(Clone, Copy, Debug)]
@@ -25,7 +25,7 @@ pub(crate) struct Fitting<'a> {
     pub(crate) rolling: &'a Rolling,
     /// Tools of driver and driven gear.
     pub(crate) tools: &'a [Tool; 2],
-    pub(crate) least_tip_width: f64,
+    pub(crate) minimum_tip_width: f64,
 }
 
 /// Teeth whose passages are held against each other at a time.
@@ -311,7 +311,7 @@ impl Fitting<'_> {
                 let leading = self.flank(member, Side::Leading, tooth.leading.crossing);
                 let trailing = self.flank(member, Side::Trailing, tooth.trailing.crossing);
                 let share =
-                    share_for_width((&leading, lead), (&trailing, trail), self.least_tip_width);
+                    share_for_width((&leading, lead), (&trailing, trail), self.minimum_tip_width);
                 let (lead, trail) = (share * lead, share * trail);
                 let tip = |flank: &Flank<'_>, reach: f64| {
                     let t = self
@@ -349,10 +349,10 @@ pub(crate) fn reach(
         let t = rolling.parameter(crossing - side.sign() * v);
         let own = sin + rolling.frame(member, t).curvature * v * cos;
         let other = sin - rolling.frame(mate, t).curvature * v * cos;
-        own.min(other) - LEAST_SPEED * sin
+        own.min(other) - MIN_SPEED * sin
     };
     let limit = limit.min(tool.addendum_reach());
-    let mut before = (0.0, sin * (1.0 - LEAST_SPEED));
+    let mut before = (0.0, sin * (1.0 - MIN_SPEED));
     for i in 1..=STEPS {
         let v = limit * f64::from(i) / f64::from(STEPS);
         let value = margin(v);

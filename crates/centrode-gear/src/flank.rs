@@ -79,23 +79,23 @@ impl Flank<'_> {
         frame.tangent * sin - frame.normal * (self.side.sign() * cos)
     }
 
-    /// First parameter between `from` and `to` at which the flank moves on more slowly than `least`
+    /// First parameter between `from` and `to` at which the flank moves on more slowly than `minimum`
     /// times a straight rack's would.
-    pub(crate) fn slower(&self, least: f64, from: f64, to: f64) -> Option<f64> {
+    pub(crate) fn slower(&self, minimum: f64, from: f64, to: f64) -> Option<f64> {
         let mut ends = vec![from];
         ends.extend(self.rolling.breaks_between(from, to));
         ends.push(to);
         ends.windows(2)
-            .find_map(|pair| self.slower_between(least, pair[0], pair[1]))
+            .find_map(|pair| self.slower_between(minimum, pair[0], pair[1]))
     }
 
     /// [`slower`](Self::slower) between breaks of the pitch curve: at steps that are short beside what a tooth rolls, and at
     /// the least speed about a step that is slower than its neighbours.
-    fn slower_between(&self, least: f64, a: f64, b: f64) -> Option<f64> {
+    fn slower_between(&self, minimum: f64, a: f64, b: f64) -> Option<f64> {
         /// Steps for the length that a rack rolls from the pitch line to its tip, and the fewest.
         const STEPS: f64 = 12.0;
         let (sin, cos) = self.tool.pressure_angle.sin_cos();
-        let floor = least * sin;
+        let floor = minimum * sin;
         let speed = |t: f64| self.speed_in(&self.frame(t)) - floor;
         let inward = if b > a { b.next_down() } else { b };
         let start = if b > a { a } else { a.next_down() };
@@ -122,10 +122,10 @@ impl Flank<'_> {
             let bend = earlier - 2.0 * slow + now.1;
             let lowest = middle + 0.5 * (t - middle) * (earlier - now.1) / bend;
             if i > 1 && slow <= earlier && slow <= now.1 && lowest.is_finite() {
-                let least = (lowest, speed(lowest));
-                if least.1 <= 0.0 {
+                let minimum = (lowest, speed(lowest));
+                if minimum.1 <= 0.0 {
                     let is_beyond = (lowest - middle) * (b - a) > 0.0;
-                    return Some(root(before[usize::from(is_beyond)], least));
+                    return Some(root(before[usize::from(is_beyond)], minimum));
                 }
             }
             if now.1 <= 0.0 {

@@ -59,12 +59,12 @@ impl Generation {
         let needed = rolling.center_distance();
         let other = design
             .center_distance
-            .filter(|wanted| is_other(*wanted, needed));
+            .filter(|required| is_other(*required, needed));
         let by_distance = |known: f64, member: Member| -> Result<Option<f64>, GearPairError> {
-            let (Some(circles), Some(wanted)) = (&circles, other) else {
+            let (Some(circles), Some(required)) = (&circles, other) else {
                 return Ok(None);
             };
-            let shift = circles.sum(wanted)? - known;
+            let shift = circles.sum(required)? - known;
             in_range("shift", shift, SHIFTS, "").map_err(|error| error.inside(member.name()))?;
             Ok(Some(shift))
         };
@@ -86,8 +86,8 @@ impl Generation {
             angles,
         };
         if sum.abs() <= ROUNDING {
-            if let Some(wanted) = other {
-                return Err(GearPairError::CenterDistance { wanted, needed });
+            if let Some(required) = other {
+                return Err(GearPairError::CenterDistance { required, needed });
             }
             return Ok((made([angle; 2], 0.0), rolling));
         }
@@ -104,10 +104,10 @@ impl Generation {
         let scale = angle.cos() / operating_angle.cos();
         let operating = circles.operating(&rolling, scale)?;
         let needed = operating.center_distance();
-        if let Some(wanted) = design.center_distance
-            && is_other(wanted, needed)
+        if let Some(required) = design.center_distance
+            && is_other(required, needed)
         {
-            return Err(GearPairError::ShiftedDistance { wanted, needed });
+            return Err(GearPairError::ShiftedDistance { required, needed });
         }
         let keep = 0.5 * circles.teeth * (scale - 1.0) - sum;
         let made = made([angle, operating_angle], keep);
@@ -206,8 +206,8 @@ impl Generation {
 }
 
 /// Whether a written centre distance is another than the computed one.
-fn is_other(wanted: f64, needed: f64) -> bool {
-    (wanted - needed).abs() > WRITTEN * needed
+fn is_other(required: f64, needed: f64) -> bool {
+    (required - needed).abs() > WRITTEN * needed
 }
 
 /// Involute function, rad.
@@ -241,23 +241,23 @@ impl Circles {
     }
 
     /// Sum of the shifts at a centre distance: `(inv(alpha_w) - inv(alpha)) (z1 + z2) / (2 tan(alpha))`.
-    fn sum(&self, wanted: f64) -> Result<f64, GearPairError> {
-        let least = self.center_distance * self.angle.cos();
-        if wanted <= least {
-            return Err(GearPairError::BaseCircles { wanted, least });
+    fn sum(&self, required: f64) -> Result<f64, GearPairError> {
+        let minimum = self.center_distance * self.angle.cos();
+        if required <= minimum {
+            return Err(GearPairError::BaseCircles { required, minimum });
         }
-        let operating = (least / wanted).acos();
+        let operating = (minimum / required).acos();
         Ok((involute(operating) - involute(self.angle)) / self.rate())
     }
 
     /// Pressure angle of the pair: `inv(alpha_w) = inv(alpha) + 2 tan(alpha) (x1 + x2) / (z1 + z2)`.
     fn operating_angle(&self, sum: f64) -> Result<f64, GearPairError> {
-        let wanted = involute(self.angle) + self.rate() * sum;
-        let miss = |angle: f64| involute(angle) - wanted;
+        let required = involute(self.angle) + self.rate() * sum;
+        let miss = |angle: f64| involute(angle) - required;
         let ends = [miss(0.0), miss(STEEPEST)];
         if !(ends[0] < 0.0 && ends[1] > 0.0) {
-            let least = -involute(self.angle) / self.rate();
-            return Err(GearPairError::ShiftsTooSmall { sum, least });
+            let minimum = -involute(self.angle) / self.rate();
+            return Err(GearPairError::ShiftsTooSmall { sum, minimum });
         }
         Ok(bracketed_root(miss, 0.0, STEEPEST, ends[0], ends[1]))
     }
@@ -278,7 +278,7 @@ impl Circles {
 impl Rolling {
     /// Whether the pitch curves are circles.
     pub(super) fn is_round(&self) -> bool {
-        let (least, greatest) = self.radii(Member::Driver);
-        greatest - least <= ROUND * greatest
+        let (minimum, maximum) = self.radii(Member::Driver);
+        maximum - minimum <= ROUND * maximum
     }
 }

@@ -20,7 +20,7 @@ mod pattern;
 pub mod pitch;
 mod profile;
 mod rolling;
-mod served;
+mod space_rounding;
 mod stage;
 mod teeth;
 mod thickness;

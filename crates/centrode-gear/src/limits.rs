@@ -82,7 +82,7 @@ impl GearPair {
 
     /// Greatest pressure angle over the cycle, whichever way the driver pushes, and the driver angle at which it is, rad.
     #[must_use]
-    pub fn greatest_pressure_angle(&self) -> Extreme {
+    pub fn maximum_pressure_angle(&self) -> Extreme {
         let rolling = self.rolling();
         // |alpha - mu| and |alpha + mu|: the greater of both.
         let alpha = self.pressure_angle();
@@ -100,8 +100,8 @@ impl GearPair {
         let teeth = self.teeth();
         let sin = self.pressure_angle().sin();
         let ranges = self.rolling().curvature_ranges();
-        let convex = ranges.iter().map(|r| r.greatest.1).fold(0.0, f64::max);
-        let concave = ranges.iter().map(|r| -r.least.1).fold(0.0, f64::max);
+        let convex = ranges.iter().map(|r| r.maximum.1).fold(0.0, f64::max);
+        let concave = ranges.iter().map(|r| -r.minimum.1).fold(0.0, f64::max);
         let regular = sin * sin / convex.max(concave);
         let regular = teeth
             .tools
@@ -119,13 +119,13 @@ impl GearPair {
             convex_curvature: convex,
             concave_curvature: concave,
             largest_module: of_both(&|member, shift| {
-                let bends = [ranges[member].greatest.1, -ranges[member].least.1];
+                let bends = [ranges[member].maximum.1, -ranges[member].minimum.1];
                 // The tool rolls on the generating pitch curve.
                 let bends = bends.map(|bend| scale * bend.max(0.0));
                 largest_module(&teeth.tools[member], self.module(), shift, bends)
             }),
             largest_module_of_fillets: of_both(&|member, shift| {
-                let concave = (-ranges[member].least.1).max(0.0);
+                let concave = (-ranges[member].minimum.1).max(0.0);
                 fillet_module(&teeth.tools[member], self.module(), shift, concave)
             }),
             largest_addendum: self.widest_height(regular),
@@ -152,7 +152,8 @@ impl GearPair {
                 let leading = flank(Side::Leading, tooth.leading.crossing);
                 let trailing = flank(Side::Trailing, tooth.trailing.crossing);
                 let spare = |h: f64| {
-                    land(&leading, &trailing, h).map_or(-1.0, |w| w - self.teeth().least_tip_width)
+                    land(&leading, &trailing, h)
+                        .map_or(-1.0, |w| w - self.teeth().minimum_tip_width)
                 };
                 // Most teeth are wide enough at the height the others leave.
                 if spare(height) >= 0.0 {

@@ -83,7 +83,7 @@ impl GearPair {
         let limits = self.thickness_deviations(member)?.limits;
         let (gear, diameter) = (self.gear(member), self.pin_diameter(member));
         let normal = 0.5 * self.pressure_angle().cos();
-        Some(limits.map(|deviation| gear.pins_beside(diameter, normal * deviation)))
+        Some(limits.map(|deviation| gear.pins_next_to(diameter, normal * deviation)))
     }
 
     /// Diameter of the measuring pin for a member, mm: as written in the design, or the pin that would
@@ -116,11 +116,11 @@ impl Gear {
     /// fits no space.
     #[must_use]
     pub fn over_pins(&self, diameter: f64) -> OverPins {
-        self.pins_beside(diameter, 0.0)
+        self.pins_next_to(diameter, 0.0)
     }
 
     /// Pins of a diameter between flanks that are moved along their normals into the spaces, mm.
-    fn pins_beside(&self, diameter: f64, moved: f64) -> OverPins {
+    fn pins_next_to(&self, diameter: f64, moved: f64) -> OverPins {
         let radius = 0.5 * diameter;
         let far = radius + moved;
         let pins = self.spaces().into_iter().map(|walls| {

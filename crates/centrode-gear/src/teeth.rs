@@ -30,7 +30,7 @@ pub struct TeethParameters {
     /// The driver's share of the pitch, tooth against space; 0.5 for equal teeth.
     pub thickness_split: f64,
     /// Least width of the top land, mm.
-    pub least_tip_width: f64,
+    pub minimum_tip_width: f64,
 }
 
 impl TeethParameters {
@@ -58,7 +58,7 @@ impl TeethParameters {
 #[non_exhaustive]
 pub enum TeethError {
     /// The tool's tip has no room for its rounding.
-    #[error("tip radius {radius} mm does not fit the tool: a space {space} mm wide and {depth} mm deep on the {} takes at most {greatest} mm", .member.name())]
+    #[error("tip radius {radius} mm does not fit the tool: a space {space} mm wide and {depth} mm deep on the {} takes at most {maximum} mm", .member.name())]
     TipRadius {
         /// Gear of the space.
         member: Member,
@@ -69,7 +69,7 @@ pub enum TeethError {
         /// Depth of the space, mm.
         depth: f64,
         /// Greatest radius that fits, mm.
-        greatest: f64,
+        maximum: f64,
     },
     /// The tool comes to a point before it is as deep as it must cut.
     #[error("the tool comes to a point {short:.6} mm above its tip: a space {space:.6} mm wide on the {} is to be cut {depth:.6} mm deep", .member.name())]
@@ -130,7 +130,7 @@ pub(crate) fn layout(
     let pitch = rolling.pitch_length(Member::Driver) / f64::from(counts.driver);
     let (phase, congruent) = phase(rolling, pitch, parameters)?;
     let backlash = match parameters.backlash_angle {
-        Some(angle) => angle * least_lever(rolling, alpha),
+        Some(angle) => angle * minimum_lever(rolling, alpha),
         None => parameters.backlash,
     };
     let thinning = backlash / (4.0 * alpha.cos());
@@ -175,9 +175,9 @@ pub(crate) fn layout(
         };
         let shift = parameters.profile_shift(member);
         let depth = tool.dedendum - shift;
-        let greatest = tool.greatest_tip_radius(depth, space(member));
+        let maximum = tool.maximum_tip_radius(depth, space(member));
         let short = depth - tool.pointed_depth(space(member), depth);
-        if greatest < 0.0 {
+        if maximum < 0.0 {
             return Err(TeethError::NoTip {
                 member,
                 space: space(member),
@@ -186,13 +186,13 @@ pub(crate) fn layout(
             });
         }
         // The two roundings may just touch: leave that to rounding.
-        if tool.tip_radius > greatest * (1.0 + 1e-12) {
+        if tool.tip_radius > maximum * (1.0 + 1e-12) {
             return Err(TeethError::TipRadius {
                 member,
                 radius: tool.tip_radius,
                 space: space(member),
                 depth,
-                greatest,
+                maximum,
             });
         }
         let corner = tool.corner(depth, tool.tip_radius);
@@ -220,7 +220,7 @@ pub(crate) fn layout(
         let fitting = Fitting {
             rolling,
             tools: &parameters.tools,
-            least_tip_width: parameters.least_tip_width,
+            minimum_tip_width: parameters.minimum_tip_width,
         };
         let patterns = Patterns::new(rolling.symmetry(), counts, &layout, pitch);
         let all = [&mut layout.driver[..], &mut layout.driven[..]];
@@ -231,7 +231,7 @@ pub(crate) fn layout(
 
 /// Length that turns normal backlash into the greatest angular backlash over the cycle, mm: the least harmonic mean
 /// of the driven shaft's distances from the two common normals.
-fn least_lever(rolling: &Rolling, pressure_angle: f64) -> f64 {
+fn minimum_lever(rolling: &Rolling, pressure_angle: f64) -> f64 {
     let (sin, cos) = pressure_angle.sin_cos();
     let lever = |t: f64| {
         let frame = rolling.frame(Member::Driven, t);
@@ -259,20 +259,20 @@ fn phase(
     let [one, two] = &parameters.tools;
     let symmetric = parameters.thickness_split == 0.5 && driver == driven && one == two;
     let small = 1e-9 * rolling.center_distance();
-    let wanted = |mirror: f64| (0.5 * (mirror / pitch - 0.5)).rem_euclid(0.5);
+    let required = |mirror: f64| (0.5 * (mirror / pitch - 0.5)).rem_euclid(0.5);
     let congruent_at = |phase: f64| {
         difference.is_some_and(|(mirror, d)| {
-            let off = 2.0 * (phase - wanted(mirror));
+            let off = 2.0 * (phase - required(mirror));
             symmetric && d < small && (off - off.round()).abs() < 1e-9
         })
     };
     match (parameters.phase, difference) {
-        (Phase::Auto, Some((mirror, d))) if d < small => Ok((wanted(mirror), symmetric)),
+        (Phase::Auto, Some((mirror, d))) if d < small => Ok((required(mirror), symmetric)),
         (Phase::Auto | Phase::Tooth, _) => Ok((0.0, congruent_at(0.0))),
         (Phase::Space, _) => Ok((0.5, congruent_at(0.5))),
         (Phase::Pitches(pitches), _) => Ok((pitches, congruent_at(pitches))),
         (Phase::Congruent, Some((mirror, d))) if d < small && symmetric => {
-            Ok((wanted(mirror), true))
+            Ok((required(mirror), true))
         }
         (Phase::Congruent, found) => Err(TeethError::NotCongruent {
             difference: found.map_or(f64::INFINITY, |(_, d)| d),
@@ -288,8 +288,8 @@ fn self_mating_difference(rolling: &Rolling, pitch: f64) -> Option<(f64, f64)> {
     }
     let length = rolling.pitch_length(Member::Driver);
     let radius = |s: f64| rolling.curve().at(rolling.parameter(s)).point.coords.norm();
-    let (least, greatest) = rolling.radii(Member::Driver);
-    if greatest - least < 1e-12 * greatest {
+    let (minimum, maximum) = rolling.radii(Member::Driver);
+    if maximum - minimum < 1e-12 * maximum {
         // A circle mirrors about anything: half a pitch puts tooth 0 at phi = 0.
         return Some((0.5 * pitch, 0.0));
     }

@@ -74,7 +74,7 @@ const FIRST: u32 = 21;
 /// one gear of the class varies by, as DIN 3967 asks.
 const ABOVE_CLASS: u32 = 18;
 /// Least module of the standard, mm.
-const LEAST_MODULE: f64 = 1.0;
+const MIN_MODULE: f64 = 1.0;
 
 /// Upper and lower deviation of the thickness of a gear's teeth.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -121,7 +121,7 @@ impl GearPair {
         let class: u32 = gear.body().accuracy_class().parse().ok()?;
         let series = class.checked_add(ABOVE_CLASS)?;
         let tolerance = tolerance(self.reference_diameter(member), series)?;
-        (self.module() >= LEAST_MODULE).then_some(ThicknessDeviations {
+        (self.module() >= MIN_MODULE).then_some(ThicknessDeviations {
             limits: [0.0, -tolerance],
             series: Some(series),
         })

@@ -109,7 +109,7 @@ impl Tool {
     /// Greatest rounding that leaves the tool's tip a flat, for a space of pitch-line width `space`
     /// and `depth`, mm: the two roundings of a tool tooth meet at its middle. Not positive where the tip is
     /// pointed without any.
-    pub(crate) fn greatest_tip_radius(&self, depth: f64, space: f64) -> f64 {
+    pub(crate) fn maximum_tip_radius(&self, depth: f64, space: f64) -> f64 {
         let (sin, cos) = self.pressure_angle.sin_cos();
         match self.kind {
             ToolKind::Rack => ((0.5 * space - depth * sin / cos) * cos / (1.0 - sin)).min(depth),
@@ -186,7 +186,7 @@ mod tests {
             ToolKind::Shaper { radius: 40.0 },
         ] {
             let tool = tool(kind);
-            let radius = tool.greatest_tip_radius(1.25, space);
+            let radius = tool.maximum_tip_radius(1.25, space);
             assert!((0.2..0.5).contains(&radius), "{kind:?}: {radius}");
             assert!((2.0 * tool.corner(1.25, radius).center - space).abs() < 1e-14);
         }
@@ -206,22 +206,22 @@ mod tests {
             let shaper = tool(ToolKind::Shaper { radius });
             let depth = shaper.pointed_depth(space, 9.0);
             assert!(depth < rack.pointed_depth(space, 9.0), "{radius}");
-            assert!(shaper.greatest_tip_radius(depth, space).abs() < 1e-13);
+            assert!(shaper.maximum_tip_radius(depth, space).abs() < 1e-13);
         }
     }
 
     #[test]
     fn a_shapers_tip_is_narrower_than_a_racks_and_may_be_pointed() {
         let space = 0.5 * std::f64::consts::PI;
-        let greatest = |kind: ToolKind, space: f64| tool(kind).greatest_tip_radius(1.25, space);
-        let rack = greatest(ToolKind::Rack, space);
-        let shaper = greatest(ToolKind::Shaper { radius: 10.0 }, space);
+        let maximum = |kind: ToolKind, space: f64| tool(kind).maximum_tip_radius(1.25, space);
+        let rack = maximum(ToolKind::Rack, space);
+        let shaper = maximum(ToolKind::Shaper { radius: 10.0 }, space);
         assert!(shaper < 0.9 * rack, "{shaper}, {rack}");
-        let large = greatest(ToolKind::Shaper { radius: 1e6 }, space);
+        let large = maximum(ToolKind::Shaper { radius: 1e6 }, space);
         assert!((large - rack).abs() < 1e-5, "{large}, {rack}");
         // The flanks meet below the tip.
-        assert!(greatest(ToolKind::Shaper { radius: 10.0 }, 1.0) < 0.0);
+        assert!(maximum(ToolKind::Shaper { radius: 10.0 }, 1.0) < 0.0);
         // Wider than any rounding of the whole depth.
-        assert_eq!(greatest(ToolKind::Shaper { radius: 10.0 }, 9.0), 1.25);
+        assert_eq!(maximum(ToolKind::Shaper { radius: 10.0 }, 9.0), 1.25);
     }
 }

@@ -22,7 +22,7 @@ const WAY: f64 = 0.02;
 /// Penetration that may be the approximation's own, as a share of the pitch.
 const PENETRATION: f64 = 3e-5;
 /// Safety factor on a limiting reach; covers what lies between sampled poses.
-const KEPT: f64 = 0.95;
+const CACHED: f64 = 0.95;
 /// Least share of a whole reach that is taken off a limiting one.
 const SPARE: f64 = 0.02;
 
@@ -213,15 +213,15 @@ impl<'a> ToothPassage<'a> {
             let left = |[first, second]: [f64; 2]| [driver.reaches(first), driven.reaches(second)];
             let kept = |part: u32| -> f64 { left(shares(margined(part))).iter().flatten().sum() };
             // What keeps less than another way does is not looked for.
-            let least = first_part(|part| kept(part) >= best.0);
-            if least == PARTS {
+            let minimum = first_part(|part| kept(part) >= best.0);
+            if minimum == PARTS {
                 continue;
             }
             let clear = |pose: &(Frame, Frame), part: u32| {
                 let shapes = shapes(shares(share(part)));
                 !penetrate(pose, &shapes, self.pitch)
             };
-            let Some(part) = clear_part(&foul, least, clear) else {
+            let Some(part) = clear_part(&foul, minimum, clear) else {
                 continue;
             };
             let nothing = share(part) < SPARE;
@@ -318,7 +318,7 @@ fn share(part: u32) -> f64 {
 /// Share that is kept of a number of parts at which nothing penetrates.
 fn margined(part: u32) -> f64 {
     let share = share(part);
-    (KEPT * share).min(share - SPARE).max(0.0)
+    (CACHED * share).min(share - SPARE).max(0.0)
 }
 
 /// First number of parts of which something holds that holds of all from some one on; found by bisection.
@@ -335,16 +335,16 @@ fn first_part(holds: impl Fn(u32) -> bool) -> u32 {
     from
 }
 
-/// Greatest number of parts that is clear at every one of some poses, if it is one of `least` parts at least. Fewer parts are clear wherever
+/// Greatest number of parts that is clear at every one of some poses, if it is one of `minimum` parts at least. Fewer parts are clear wherever
 /// more are.
-fn clear_part<P>(poses: &[P], least: u32, clear: impl Fn(&P, u32) -> bool) -> Option<u32> {
+fn clear_part<P>(poses: &[P], minimum: u32, clear: impl Fn(&P, u32) -> bool) -> Option<u32> {
     let mut part = PARTS;
     for number in scattered(poses.len()) {
         let clear = |part| clear(&poses[number], part);
         if !clear(part) {
             part = first_part(|less| less > 0 && (less >= part || !clear(less))) - 1;
         }
-        if part < least {
+        if part < minimum {
             return None;
         }
     }

@@ -79,7 +79,7 @@ impl Groove {
 
     /// Least length of a slider that bridges every crossing, mm.
     #[must_use]
-    pub fn least_slider_length(&self) -> f64 {
+    pub fn minimum_slider_length(&self) -> f64 {
         longest(&self.crossings(), false)
     }
 

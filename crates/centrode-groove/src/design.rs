@@ -4,12 +4,10 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{AmplitudeFor, Load, Mill, Reversal, ShaftBody, ShaftError, SliderSpec, SpeedLaw};
-use centrode_spec::SpecError;
-use centrode_spec::degrees;
 use centrode_spec::rule::{
     Rule, broken, count_in_range, file_name, finite, in_range, positive, single_line,
 };
-use centrode_spec::{DesignSpec, DrawingSpec};
+use centrode_spec::{DesignSpec, DrawingSpec, SpecError, degrees};
 
 /// A variable-speed spiral shaft as written: the same words in the file, in Rust and in Python.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]

@@ -38,9 +38,9 @@ impl EllipticDrive {
             })
         } else {
             Err(ShaftError::MovedDistance {
-                wanted: moved,
-                least: 0.0,
-                greatest: lead * window / TAU,
+                required: moved,
+                minimum: 0.0,
+                maximum: lead * window / TAU,
             })
         }
     }

@@ -1,8 +1,7 @@
 use thiserror::Error;
 
 use centrode_gear::pitch::PitchError;
-use centrode_spec::MechanismError;
-use centrode_spec::SpecError;
+use centrode_spec::{MechanismError, SpecError};
 
 /// Reason why a spiral shaft does not exist.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -40,15 +39,15 @@ pub enum ShaftError {
     },
     /// A distance no amplitude gives.
     #[error(
-        "moved_distance must lie between {least:.6} mm, where the slider stands still, and {greatest:.6} mm, where its speed is constant, not {wanted}"
+        "moved_distance must lie between {minimum:.6} mm, where the slider stands still, and {maximum:.6} mm, where its speed is constant, not {required}"
     )]
     MovedDistance {
         /// Distance asked for, mm.
-        wanted: f64,
+        required: f64,
         /// Lower bound, mm.
-        least: f64,
+        minimum: f64,
         /// Upper bound, mm.
-        greatest: f64,
+        maximum: f64,
     },
     /// A window that holds whole waves, over which no amplitude changes the distance.
     #[error(

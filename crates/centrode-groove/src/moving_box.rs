@@ -8,14 +8,12 @@ use serde::{Deserialize, Serialize};
 use super::{EllipticDrive, Load, Schedule, ShaftError, SpiralShaft, SpiralShaftDesign};
 use centrode_gear::design::{BodySpec, GearPairDesign, GearSpec, SHIFTS, TeethSpec, ToolSpec};
 use centrode_gear::pitch::{Ellipse, PitchSpec};
-use centrode_kinematics::machine::GuideForce;
-use centrode_kinematics::machine::Keyway;
+use centrode_kinematics::machine::{GuideForce, Keyway};
 use centrode_kinematics::transmission::{MotionJet, Transmission};
-use centrode_spec::DesignSpec;
-use centrode_spec::SpecError;
 use centrode_spec::rule::{
     Rule, broken, count_in_range, file_name, in_range, is_zero, positive, single_line,
 };
+use centrode_spec::{DesignSpec, SpecError};
 
 /// Even parts of a turn in each of which a stroke has few extremes.
 const PARTS: u32 = 16;

@@ -71,21 +71,21 @@ impl SliderSpec {
         shaft_class("pin_fit", &self.pin_fit)?;
         single_line("material", &self.material)?;
         single_line("heat_treatment", &self.heat_treatment)?;
-        let least = width - self.clearance;
-        let range = |value, least, greatest| Rule::OutOfRange {
+        let minimum = width - self.clearance;
+        let range = |value, minimum, maximum| Rule::OutOfRange {
             value,
-            least,
-            greatest,
+            minimum,
+            maximum,
             unit: " mm",
         };
-        if least <= 0.0 {
+        if minimum <= 0.0 {
             return broken("clearance", range(self.clearance, 0.0, width));
         }
-        if self.length < least {
-            return broken("length", range(self.length, least, f64::INFINITY));
+        if self.length < minimum {
+            return broken("length", range(self.length, minimum, f64::INFINITY));
         }
-        if self.pin_diameter >= least {
-            return broken("pin_diameter", range(self.pin_diameter, 0.0, least));
+        if self.pin_diameter >= minimum {
+            return broken("pin_diameter", range(self.pin_diameter, 0.0, minimum));
         }
         if self.reach > depth {
             return broken("reach", range(self.reach, 0.0, depth));

@@ -163,7 +163,7 @@ proptest! {
             prop_assert!((one.lead_angle(theta) - other.lead_angle(theta)).abs() < 1e-12);
             prop_assert!((one.curvature(theta) - k * other.curvature(theta)).abs() < 1e-12);
         }
-        let gaps = one.least_slider_length() * k / other.least_slider_length();
+        let gaps = one.minimum_slider_length() * k / other.minimum_slider_length();
         prop_assert!((gaps - 1.0).abs() < 1e-9);
     }
 
@@ -210,18 +210,18 @@ proptest! {
         harmonic in 1..3_u32,
     ) {
         let plain = LEAD * window / TAU;
-        let least = plain - LEAD / (PI * f64::from(harmonic))
+        let minimum = plain - LEAD / (PI * f64::from(harmonic))
             * (0.5 * f64::from(harmonic) * window).sin();
-        let wanted = least + share * (plain - least);
-        let request = AmplitudeFor { moved_distance: wanted, window, lead: LEAD, harmonic };
+        let required = minimum + share * (plain - minimum);
+        let request = AmplitudeFor { moved_distance: required, window, lead: LEAD, harmonic };
         let amplitude = request.solve().expect("between the bounds");
         let sine = SpeedLaw::Sine(Sine { amplitude, harmonic, phase: 0.7 });
         let moved = law(&sine).moved(0.7 - 0.5 * window, 0.7 + 0.5 * window);
-        prop_assert!((moved - wanted).abs() < 1e-12 * LEAD);
-        let wanted = share * plain;
-        let drive = EllipticDrive::for_moved_distance(wanted, window, LEAD).expect("below plain");
+        prop_assert!((moved - required).abs() < 1e-12 * LEAD);
+        let required = share * plain;
+        let drive = EllipticDrive::for_moved_distance(required, window, LEAD).expect("below plain");
         let turned = drive.at(0.5 * window).position - drive.at(-0.5 * window).position;
-        prop_assert!((LEAD * turned / TAU - wanted).abs() < 1e-11);
+        prop_assert!((LEAD * turned / TAU - required).abs() < 1e-11);
     }
 }
 

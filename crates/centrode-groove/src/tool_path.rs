@@ -46,8 +46,8 @@ impl Mill {
         if diameter > width || 2.0 * diameter < width {
             let rule = Rule::OutOfRange {
                 value: diameter,
-                least: 0.5 * width,
-                greatest: width,
+                minimum: 0.5 * width,
+                maximum: width,
                 unit: " mm",
             };
             return broken("diameter", rule);

@@ -8,7 +8,7 @@ use centrode_kinematics::transmission::{MotionJet, Transmission};
 use centrode_spec::rule::{count_in_range, finite};
 
 /// Number of samples of a reversal in the search for where the slider turns round.
-const LOOKS: u32 = 512;
+const SAMPLES: u32 = 512;
 
 /// The slider's whole way out and back: forward stroke, reversal, return stroke, reversal.
 ///
@@ -80,9 +80,9 @@ impl Traverse {
     /// Shaft angle in a reversal at which the slider rests.
     fn tip(&self, from: f64) -> Result<f64, ShaftError> {
         let speed = |theta: f64| self.at(theta).velocity;
-        let at = |i: u32| from + self.reversal() * f64::from(i) / f64::from(LOOKS);
-        let speeds: Vec<f64> = (0..=LOOKS).map(|i| speed(at(i))).collect();
-        let mut found = (0..LOOKS).filter(|&i| {
+        let at = |i: u32| from + self.reversal() * f64::from(i) / f64::from(SAMPLES);
+        let speeds: Vec<f64> = (0..=SAMPLES).map(|i| speed(at(i))).collect();
+        let mut found = (0..SAMPLES).filter(|&i| {
             let pair = [speeds[i as usize], speeds[i as usize + 1]];
             (pair[0] > 0.0) != (pair[1] > 0.0)
         });
@@ -173,9 +173,9 @@ impl Traverse {
             .chain(inside)
             .map(|theta| self.at(theta).position)
             .collect();
-        let least = places.iter().copied().fold(f64::INFINITY, f64::min);
-        let greatest = places.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        greatest - least
+        let minimum = places.iter().copied().fold(f64::INFINITY, f64::min);
+        let maximum = places.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        maximum - minimum
     }
 
     /// Shaft angle since the forward stroke last started, rad.

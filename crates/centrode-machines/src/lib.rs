@@ -1,10 +1,10 @@
 //! Machines: how bodies, gears, cams and dyads become links and joints.
 //!
-//! The general machine of a design file is in [`composed`]; the published families, with their arm, gear train and six-bar,
+//! The general machine of a design file is in [`machine`]; the published families, with their arm, gear train and six-bar,
 //! in [`three_arm`], [`arm`] and [`feeder`]. It checks nothing, searches nothing and writes no file.
 
 pub mod arm;
-pub mod composed;
 pub mod feeder;
+pub mod machine;
 mod screw_room;
 pub mod three_arm;

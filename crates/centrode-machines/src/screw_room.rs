@@ -2,7 +2,7 @@ use centrode_geometry::{Outline, Point};
 use centrode_kinematics::machine::FasteningError;
 
 /// Most places looked at along a segment of a line.
-const MOST_PLACES: f64 = 500.0;
+const MAX_PLACES: f64 = 500.0;
 
 /// Fewest screws that hold a plate.
 const FEWEST: usize = 3;
@@ -35,7 +35,7 @@ impl ScrewRoom {
         let mut free: Vec<(Point, f64)> = Vec::new();
         for segment in self.line.iter().flat_map(Outline::segments) {
             let long = 2.0 * segment.at(-1.0).first.norm();
-            let parts = (long / step).ceil().clamp(1.0, MOST_PLACES);
+            let parts = (long / step).ceil().clamp(1.0, MAX_PLACES);
             for i in 0..parts as usize {
                 let at = self.stepped(segment.at(2.0 * i as f64 / parts - 1.0).point);
                 let room = self.room(at);

@@ -2,7 +2,7 @@
 
 use centrode_gear::GearPair;
 use centrode_gear::design::GearPairDesign;
-use centrode_machines::composed::ComposedDesign;
+use centrode_machines::machine::MachineDesign;
 use centrode_machines::three_arm::design::ThreeArmDesign;
 use centrode_spec::{Design, DesignError, DesignFamily, DesignFile, DesignSpec};
 use proptest::prelude::*;
@@ -405,7 +405,7 @@ swing_deg = 30
         ),
     ] {
         assert!(CAM.contains(old), "{old}");
-        let found = ComposedDesign::from_toml(&CAM.replacen(old, new, 1));
+        let found = MachineDesign::from_toml(&CAM.replacen(old, new, 1));
         let message = found.expect_err(new).to_string();
         assert!(message.starts_with(expected), "{new:?}:\n  {message}");
     }
@@ -735,5 +735,23 @@ fn titles_hold_no_character_that_xml_has_not() {
         '\u{a0}',
     ] {
         assert!(GearPairDesign::from_toml(&title(c)).is_ok(), "{c:?}");
+    }
+}
+
+#[test]
+fn an_old_key_is_an_error_that_names_the_new_one() {
+    for (goal, new) in [
+        ("over = \"least\"\nminimum = 1", "minimum"),
+        ("over = \"span\"\nat_most = 1", "maximum"),
+        (
+            "over = \"deviation\"\ncourse = [0, 1]\nmaximum = 1",
+            "uniform",
+        ),
+    ] {
+        let template = MachineDesign::TEMPLATE;
+        let text = format!("{template}\n[goals.old]\nfigure = \"crank.angle\"\n{goal}\n");
+        let error = MachineDesign::from_toml(&text).expect_err("an old key");
+        let hint = format!("did you mean {new:?}?");
+        assert!(error.to_string().contains(&hint), "{error}");
     }
 }

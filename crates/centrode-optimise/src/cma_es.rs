@@ -9,7 +9,7 @@ const FIRST_STEP: f64 = 0.3;
 /// First step about a point to start from, as a share of the bounds.
 const NEAR_STEP: f64 = 0.1;
 /// Step and spread of the distribution at which it starts again, with twice the points.
-const LEAST_STEP: f64 = 1e-14;
+const MIN_STEP: f64 = 1e-14;
 
 /// Covariance matrix adaptation (Hansen 2016, arXiv 1604.00772), started again with twice the points
 /// where it has shrunk (IPOP, Auger and Hansen 2005). The bounds are mirrors.
@@ -74,7 +74,7 @@ impl CmaEs {
         let n = self.mean.len();
         let (axes, sizes) = self.eigen();
         let spread = self.step * sizes.max();
-        if !(spread > LEAST_STEP && spread < 1e6) {
+        if !(spread > MIN_STEP && spread < 1e6) {
             *self = Self::new(n, 2 * self.count, None, random);
             return self.points(random);
         }

@@ -56,9 +56,9 @@ impl Settings {
     /// # Errors
     /// [`SearchError::Population`].
     pub fn validate(&self) -> Result<(), SearchError> {
-        let least = LEAST_POPULATION;
+        let minimum = MIN_POPULATION;
         match self.population {
-            Some(count) if count < least => Err(SearchError::Population { count, least }),
+            Some(count) if count < minimum => Err(SearchError::Population { count, minimum }),
             _ => Ok(()),
         }
     }
@@ -123,17 +123,17 @@ pub enum SearchError {
         high: f64,
     },
     /// Too few points for a generation.
-    #[error("population is {count}, but it must be at least {least}")]
+    #[error("population is {count}, but it must be at least {minimum}")]
     Population {
         /// Number given.
         count: usize,
         /// Number that the methods need.
-        least: usize,
+        minimum: usize,
     },
 }
 
 /// Least number of points a generation.
-const LEAST_POPULATION: usize = 5;
+const MIN_POPULATION: usize = 5;
 
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 enum State {

@@ -54,7 +54,7 @@ fn settings(method: Method, evaluations: u64) -> Settings {
 
 #[test]
 fn a_curved_valley_is_followed_to_its_bottom() {
-    for (method, n, evaluations, least) in [
+    for (method, n, evaluations, minimum) in [
         (Method::DifferentialEvolution, 5, 40_000, 1e-10),
         (Method::CmaEs, 10, 40_000, 1e-12),
         (Method::Genetic, 2, 20_000, 1e-3),
@@ -62,7 +62,7 @@ fn a_curved_valley_is_followed_to_its_bottom() {
         let (search, _) = minimise(&Rosenbrock(n), settings(method, evaluations), &mut on)
             .expect("a good problem");
         let best = search.best().evaluation.objective;
-        assert!(best < least, "{method:?}: {best:e}");
+        assert!(best < minimum, "{method:?}: {best:e}");
     }
 }
 
@@ -70,13 +70,13 @@ fn a_curved_valley_is_followed_to_its_bottom() {
 #[test]
 fn constraints_are_held() {
     let x = 1.5_f64.cbrt();
-    let least = x * x + 3.0 / x;
+    let minimum = x * x + 3.0 / x;
     for (_, method) in Method::NAMES {
         let (search, _) =
             minimise(&AboveAHyperbola, settings(method, 20_000), &mut on).expect("a good problem");
         let best = search.best();
         assert!(best.evaluation.feasible());
-        let off = best.evaluation.objective - least;
+        let off = best.evaluation.objective - minimum;
         assert!((-1e-12..1e-3).contains(&off), "{method:?}: {off:e}");
     }
 }

@@ -1,4 +1,4 @@
-use centrode_export::machine;
+use centrode_export::linked;
 use centrode_families::FAMILIES;
 use centrode_geometry::Tolerance;
 
@@ -12,6 +12,6 @@ pub fn meshes(text: &str, tolerance: Tolerance) -> Result<Vec<u8>, String> {
     let mechanism = mechanism.map_err(|error| error.message())?;
     let input = mechanism.picture().motion.input;
     let made = mechanism.machine();
-    let made = made.and_then(|made| machine::spatial(&made, &input, tolerance));
+    let made = made.and_then(|made| linked::spatial(&made, &input, tolerance));
     made.map_err(|error| error.to_string())
 }

@@ -34,7 +34,7 @@ struct Chart {
     /// Figures; none where there is no mechanism.
     figures: Vec<Option<f64>>,
     /// Least and greatest figure wanted.
-    wanted: [Option<f64>; 2],
+    required: [Option<f64>; 2],
 }
 
 /// Checks the design at every value.
@@ -82,7 +82,7 @@ pub fn answers(ask: &Ask) -> Result<Answers, String> {
                 title: answer.name.replace('_', " "),
                 unit: answer.unit.shown(),
                 figures: scaled(answer.unit, &answer.figures),
-                wanted: [None, None],
+                required: [None, None],
             })
             .collect()
     } else {
@@ -92,8 +92,8 @@ pub fn answers(ask: &Ask) -> Result<Answers, String> {
                 title: format!("{}. {}", goal.number, goal.title),
                 unit: goal.unit.shown(),
                 figures: scaled(goal.unit, &answer.figures),
-                wanted: goal
-                    .wanted
+                required: goal
+                    .required
                     .map(|end| end.map(|end| end * goal.unit.factor())),
             })
         };

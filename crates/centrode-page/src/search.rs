@@ -60,7 +60,7 @@ struct Missed {
     start: String,
     best: String,
     /// Range it is wanted in.
-    wanted: String,
+    required: String,
     met: bool,
 }
 
@@ -209,13 +209,13 @@ fn missed(start: &[Goal], best: &[Goal]) -> Vec<Missed> {
         (fails(before) || fails(now)).then_some((before, now))
     });
     let missed = pairs.map(|(before, now)| {
-        let [told, words] = [before, now].map(goal_words);
+        let [stated, words] = [before, now].map(goal_words);
         Missed {
             title: now.title.clone().into_owned(),
             unit: words.unit,
-            start: told.value.to_owned(),
+            start: stated.value.to_owned(),
             best: words.value.to_owned(),
-            wanted: words.wanted.to_owned(),
+            required: words.required.to_owned(),
             met: !fails(now),
         }
     });
@@ -247,11 +247,11 @@ fn work(run: &Run, text: &str, problem: &dyn DesignProblem, mut search: DesignSe
             let mut state = run.state();
             (state.text, state.goals) = (best, goals);
             drop(state);
-            let asked = Instant::now();
-            if asked >= next {
+            let requested = Instant::now();
+            if requested >= next {
                 let now = missed(&start, &at(&search.best()));
                 run.state().missed = now;
-                next = Instant::now() + 9 * asked.elapsed();
+                next = Instant::now() + 9 * requested.elapsed();
             }
         }
         if !shown || run.stopped() {

@@ -1,7 +1,7 @@
 //! Numbers in messages.
 
 /// A number in as many digits as mean something: ten at most, and in powers of ten where it is very large or small.
-pub fn told(value: f64) -> String {
+pub fn stated(value: f64) -> String {
     digits(value, 10)
 }
 
@@ -31,7 +31,7 @@ pub fn shortened(text: &str) -> String {
         let is_long = digits > if number.contains('.') { 10 } else { 20 };
         let value = number.parse().ok().filter(|_| is_long && !in_word);
         short.push_str(before);
-        short.push_str(&value.map_or_else(|| number.to_owned(), told));
+        short.push_str(&value.map_or_else(|| number.to_owned(), stated));
         rest = after;
     }
     short + rest
@@ -58,12 +58,12 @@ pub fn thousandths(mm: f64) -> String {
 /// A number to so many decimals, without zeros at the end.
 pub fn rounded(value: f64, decimals: i32) -> String {
     let scale = 10.0_f64.powi(decimals);
-    told((scale * value).round() / scale)
+    stated((scale * value).round() / scale)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::{shortened, told};
+    use super::{shortened, stated};
 
     #[test]
     fn numbers_in_a_text_have_the_digits_that_mean_something() {
@@ -106,7 +106,7 @@ mod tests {
             (59.123_456_789_012, "59.12345679"),
             (f64::INFINITY, "inf"),
         ] {
-            assert_eq!(told(value), words);
+            assert_eq!(stated(value), words);
         }
     }
 }

@@ -165,8 +165,29 @@ fn named(key: &str, fault: &DesignFault) -> String {
     }
 }
 
-/// The known word nearest to `word`, if it is near at all.
+/// Keys and words of an earlier file format, and those that replace them.
+const RENAMED: [(&str, &str); 8] = [
+    ("at_least", "minimum"),
+    ("at_most", "maximum"),
+    ("least", "minimum"),
+    ("greatest", "maximum"),
+    ("departure", "deviation"),
+    ("course", "uniform"),
+    ("least-change", "minimum-change"),
+    (
+        "least_tip_width_coefficient",
+        "minimum_tip_width_coefficient",
+    ),
+];
+
+/// The known word that replaces `word`, or the nearest one, if any is near at all.
 pub(super) fn nearest(word: &str, known: &[String]) -> Option<String> {
+    let renamed = RENAMED.iter().find(|(old, _)| *old == word);
+    if let Some((_, new)) = renamed
+        && known.iter().any(|known| known == new)
+    {
+        return Some((*new).to_owned());
+    }
     let short: String = word.chars().take(60).collect();
     known
         .iter()

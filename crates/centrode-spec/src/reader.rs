@@ -143,7 +143,7 @@ impl<'a> Reader<'a> {
             let mut known: Vec<String> = names.iter().skip(1).cloned().collect();
             // Serde does not list the keys of a table that is read in two parts.
             if known.is_empty() {
-                known = family.keys_beside(&key);
+                known = family.keys_next_to(&key);
             }
             let name = names.first().map_or("", String::as_str);
             let near = nearest(name, &known);

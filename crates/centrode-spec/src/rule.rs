@@ -2,7 +2,7 @@
 
 use thiserror::Error;
 
-use crate::digits::told;
+use crate::digits::stated;
 use crate::is_control;
 
 /// A value of a description that breaks a rule.
@@ -23,25 +23,25 @@ pub enum Rule {
     #[error("must be a finite number, not {0}")]
     NotFinite(f64),
     /// Zero or less where a size is needed.
-    #[error("must be greater than 0, not {}", told(*.0))]
+    #[error("must be greater than 0, not {}", stated(*.0))]
     NotPositive(f64),
     /// Less than zero.
-    #[error("must not be negative, but is {}", told(*.0))]
+    #[error("must not be negative, but is {}", stated(*.0))]
     Negative(f64),
     /// Outside a range.
-    #[error("must be {}{unit}, not {}{unit}", range(*least, *greatest), told(*value))]
+    #[error("must be {}{unit}, not {}{unit}", range(*minimum, *maximum), stated(*value))]
     OutOfRange {
         /// Value given.
         value: f64,
         /// Least value allowed.
-        least: f64,
+        minimum: f64,
         /// Greatest value allowed.
-        greatest: f64,
+        maximum: f64,
         /// Unit with a leading space, or empty.
         unit: &'static str,
     },
     /// A range whose ends are not in order.
-    #[error("must be a range from less to more, not {} to {}", told(*.0), told(*.1))]
+    #[error("must be a range from less to more, not {} to {}", stated(*.0), stated(*.1))]
     NotInOrder(f64, f64),
     /// Two keys that exclude each other.
     #[error("cannot be given together with {0}")]
@@ -53,7 +53,7 @@ pub enum Rule {
     #[error("needs {0} in every segment, for this follower")]
     Stroke(&'static str),
     /// A number that must not come twice.
-    #[error("is {} a second time", told(*.0))]
+    #[error("is {} a second time", stated(*.0))]
     Twice(f64),
     /// A key that must be given.
     #[error("is needed {0}")]
@@ -62,7 +62,7 @@ pub enum Rule {
     #[error("has no meaning {0}")]
     Unused(&'static str),
     /// A screw that there is none of.
-    #[error("must be 0 or the size of a screw, 1.6, 2, 2.5, 3, 4, 5, 6, 8, 10 or 12 mm, not {}", told(*.0))]
+    #[error("must be 0 or the size of a screw, 1.6, 2, 2.5, 3, 4, 5, 6, 8, 10 or 12 mm, not {}", stated(*.0))]
     NoScrew(f64),
     /// A name that cannot name a file.
     #[error("must be 1 to 64 letters, digits, '-' or '_', not {0:?}")]
@@ -109,8 +109,8 @@ pub enum Rule {
     /// Two tools of a pair with unlike pressure angles.
     #[error(
         "is {} deg, but tool.pressure_angle_deg is {} deg: mating flanks touch on one line of action, so both tools need the same",
-        told(*.own),
-        told(*.tool)
+        stated(*.own),
+        stated(*.tool)
     )]
     PressureAngles {
         /// Pressure angle of the gear's own tool, degrees.
@@ -120,24 +120,24 @@ pub enum Rule {
     },
     /// A tip rounding that does not fit the tool's tooth.
     #[error(
-        "is {value}, but at this pressure angle and addendum at most {greatest:.6} fits the tip of the tool"
+        "is {value}, but at this pressure angle and addendum at most {maximum:.6} fits the tip of the tool"
     )]
     TipRadius {
         /// Value given.
         value: f64,
         /// Greatest that fits.
-        greatest: f64,
+        maximum: f64,
     },
 }
 
 /// A range in words, one without an end by where it begins.
-fn range(least: f64, greatest: f64) -> String {
-    if greatest <= least {
-        told(least)
-    } else if greatest.is_finite() {
-        format!("{} to {}", told(least), told(greatest))
+fn range(minimum: f64, maximum: f64) -> String {
+    if maximum <= minimum {
+        stated(minimum)
+    } else if maximum.is_finite() {
+        format!("{} to {}", stated(minimum), stated(maximum))
     } else {
-        format!("at least {}", told(least))
+        format!("at least {}", stated(minimum))
     }
 }
 
@@ -201,8 +201,8 @@ pub fn not_negative(key: &str, value: f64) -> Result<(), SpecError> {
 
 /// Checks that a size is no greater than any part could be, so that what follows from it is a number.
 fn not_too_great(key: &str, value: f64) -> Result<(), SpecError> {
-    const GREATEST: f64 = 1e12;
-    in_range(key, value, [0.0, GREATEST], "")
+    const MAXIMUM: f64 = 1e12;
+    in_range(key, value, [0.0, MAXIMUM], "")
 }
 
 /// Checks a name that can name a file.
@@ -246,8 +246,8 @@ pub fn is_zero(value: &f64) -> bool {
 ///
 /// # Errors
 /// [`SpecError`] with the key.
-pub fn count_in_range(key: &str, value: u32, least: u32, greatest: u32) -> Result<(), SpecError> {
-    in_range(key, value.into(), [least.into(), greatest.into()], "")
+pub fn count_in_range(key: &str, value: u32, minimum: u32, maximum: u32) -> Result<(), SpecError> {
+    in_range(key, value.into(), [minimum.into(), maximum.into()], "")
 }
 
 /// Checks a value against its minimum and maximum, in a unit with a leading space, or empty.
@@ -257,17 +257,17 @@ pub fn count_in_range(key: &str, value: u32, least: u32, greatest: u32) -> Resul
 pub fn in_range(
     key: &str,
     value: f64,
-    [least, greatest]: [f64; 2],
+    [minimum, maximum]: [f64; 2],
     unit: &'static str,
 ) -> Result<(), SpecError> {
     finite(key, value)?;
-    if (least..=greatest).contains(&value) {
+    if (minimum..=maximum).contains(&value) {
         return Ok(());
     }
     let rule = Rule::OutOfRange {
         value,
-        least,
-        greatest,
+        minimum,
+        maximum,
         unit,
     };
     broken(key, rule)

@@ -67,7 +67,7 @@ impl DesignFamily {
     }
 
     /// Names of the keys that the table of a key may have.
-    pub(super) fn keys_beside(&self, key: &str) -> Vec<String> {
+    pub(super) fn keys_next_to(&self, key: &str) -> Vec<String> {
         let table = |path: &str| {
             path.rsplit_once('.')
                 .map_or(String::new(), |(table, _)| table.into())
@@ -79,10 +79,17 @@ impl DesignFamily {
     }
 
     /// All keys of the family's design files whose name is wanted.
-    fn keys(&self, is_wanted: &dyn Fn(&str) -> bool) -> Vec<String> {
+    fn keys(&self, is_required: &dyn Fn(&str) -> bool) -> Vec<String> {
         let schema = self.json_schema();
         let mut found = Vec::new();
-        named_in(&schema, &schema, is_wanted, &mut Vec::new(), "", &mut found);
+        named_in(
+            &schema,
+            &schema,
+            is_required,
+            &mut Vec::new(),
+            "",
+            &mut found,
+        );
         found
     }
 
@@ -124,7 +131,7 @@ fn is_at(path: &str, key: &str) -> bool {
 fn named_in<'s>(
     root: &'s Value,
     here: &'s Value,
-    is_wanted: &dyn Fn(&str) -> bool,
+    is_required: &dyn Fn(&str) -> bool,
     around: &mut Vec<&'s str>,
     path: &str,
     found: &mut Vec<String>,
@@ -134,7 +141,7 @@ fn named_in<'s>(
     if let Some(place) = reference.filter(|place| !around.contains(place)) {
         around.push(place);
         if let Some(there) = root.pointer(place) {
-            named_in(root, there, is_wanted, around, path, found);
+            named_in(root, there, is_required, around, path, found);
         }
         around.pop();
     }
@@ -146,28 +153,35 @@ fn named_in<'s>(
     {
         let dot = if path.is_empty() { "" } else { "." };
         let path = format!("{path}{dot}{key}");
-        if is_wanted(key) {
+        if is_required(key) {
             found.push(path.clone());
         }
-        named_in(root, there, is_wanted, around, &path, found);
+        named_in(root, there, is_required, around, &path, found);
     }
     if let Some(there) = here.get("additionalProperties") {
         named_in(
             root,
             there,
-            is_wanted,
+            is_required,
             around,
             &format!("{path}.NAME"),
             found,
         );
     }
     if let Some(there) = here.get("items") {
-        named_in(root, there, is_wanted, around, &format!("{path}[]"), found);
+        named_in(
+            root,
+            there,
+            is_required,
+            around,
+            &format!("{path}[]"),
+            found,
+        );
     }
     for words in ["oneOf", "anyOf", "allOf", "prefixItems"] {
         let list = here.get(words).and_then(Value::as_array);
         for there in list.into_iter().flatten() {
-            named_in(root, there, is_wanted, around, path, found);
+            named_in(root, there, is_required, around, path, found);
         }
     }
 }

@@ -3,6 +3,6 @@
 //! It may use everything below it, and judges what it found by the checks of the analysis alone. It draws nothing and writes
 //! no file.
 
-pub mod composed;
+pub mod machine;
 pub mod optimise;
 pub mod reverse;

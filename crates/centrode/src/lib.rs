@@ -31,8 +31,8 @@ use centrode_kinematics::machine::Datum;
 /// mm. None for gears that do not hold each other, and for machines without a pair of their own.
 #[must_use]
 pub fn sheet_data(report: &analysis::Report) -> Vec<Datum> {
-    let range = |least: &str, greatest: &str| {
-        let ends = [report.values.get(least)?, report.values.get(greatest)?];
+    let range = |minimum: &str, maximum: &str| {
+        let ends = [report.values.get(minimum)?, report.values.get(maximum)?];
         ends.iter().all(|x| x.is_finite()).then(|| ends.map(|x| *x))
     };
     let contact_ratio = range("pairs_in_contact_min", "pairs_in_contact_max");

@@ -1,8 +1,7 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
-use centrode_export::Options;
-use centrode_export::cam as export;
+use centrode_export::{Options, cam as export};
 use centrode_gear::cam::{Cam, Contact, Extreme, design as spec};
 use pyo3::prelude::{Bound, PyAny, PyRef, PyResult, Python, pyclass, pymethods};
 use pyo3::types::PyDict;
@@ -222,7 +221,7 @@ impl DiscCam {
         let mut named = BTreeMap::from([
             ("rise_pressure_angle", peak(limits.rise_pressure_angle)),
             ("return_pressure_angle", peak(limits.return_pressure_angle)),
-            ("least_radius", peak(limits.least_radius)),
+            ("minimum_radius", peak(limits.minimum_radius)),
             ("largest_wheel", peak(limits.largest_wheel)),
             ("regularity", peak(limits.regularity)),
         ]);
@@ -233,7 +232,7 @@ impl DiscCam {
     /// The least base radius, mm, that keeps the pressure angle below `rise` while the cam lifts and
     /// below `fall` while the follower returns, rad (any, if left out); None where none does.
     #[pyo3(signature = (*, rise, fall=None))]
-    fn least_base_radius(
+    fn minimum_base_radius(
         &self,
         py: Python<'_>,
         rise: f64,
@@ -241,7 +240,7 @@ impl DiscCam {
     ) -> PyResult<Option<f64>> {
         let cam = self.cam.clone();
         let fall = fall.unwrap_or(std::f64::consts::FRAC_PI_2);
-        wait(py, move || cam.disc().least_base_radius(rise, fall))
+        wait(py, move || cam.disc().minimum_base_radius(rise, fall))
     }
 
     /// The cam's files by name, not written.

@@ -8,10 +8,10 @@ use crate::wait::wait;
 use crate::{files, solid};
 use centrode::family::{self, Depth, Family};
 use centrode::sheet_data;
-use centrode_export::machine::tabulated;
+use centrode_export::linked::tabulated;
 use centrode_export::{ExportError, Options};
 use centrode_formats::{Bundle, Format};
-use centrode_kinematics::machine::{FrameJet, Machine};
+use centrode_kinematics::machine::{FrameJet, LinkedMachine};
 use pyo3::prelude::{Bound, PyAny, PyClassInitializer, PyDictMethods, PyResult, Python, pyclass};
 use pyo3::types::PyDict;
 use std::sync::{Arc, OnceLock};
@@ -31,7 +31,7 @@ use std::sync::{Arc, OnceLock};
 pub(crate) struct Mechanism(
     pub(super) Arc<dyn family::Mechanism>,
     /// Its links and its table of motion, made when they are first asked for.
-    pub(super) OnceLock<Arc<Machine>>,
+    pub(super) OnceLock<Arc<LinkedMachine>>,
 );
 
 impl PartialEq for Mechanism {
@@ -61,7 +61,7 @@ impl Mechanism {
         wait(py, move || ask(machine.as_ref()))
     }
 
-    pub(super) fn links(&self, py: Python<'_>) -> Answer<Arc<Machine>> {
+    pub(super) fn links(&self, py: Python<'_>) -> Answer<Arc<LinkedMachine>> {
         if let Some(known) = self.1.get() {
             return Ok(Arc::clone(known));
         }

@@ -15,13 +15,10 @@ use pyo3::types::{PyDict, PyTuple, PyType};
 use crate::array::{Course, Values};
 use crate::design::{object, of_class, path_loaded, read};
 use crate::error::{Answer, tolerance as within};
-use crate::files;
 use crate::forces::Names;
 use crate::made::{Reduced, by_design};
-use crate::record;
-use crate::search;
-use crate::solid;
 use crate::word::Word;
+use crate::{files, record, search, solid};
 
 pub(crate) use held::Mechanism;
 

@@ -12,7 +12,7 @@ use crate::wait::wait;
 
 /// Room that a path has.
 #[derive(Debug)]
-pub(super) struct Asked {
+pub(super) struct Request {
     pub(super) bands: Vec<f64>,
     pub(super) module: Option<f64>,
     /// Whether the return from the last point to the first is free.
@@ -26,7 +26,7 @@ pub(super) struct Asked {
 /// A path eased within bands.
 #[derive(Debug)]
 pub(super) struct Eased {
-    pub(super) asked: Asked,
+    pub(super) requested: Request,
     pub(super) points: Vec<Point>,
     /// Module up to which full teeth are surely sound, mm.
     pub(super) module: f64,
@@ -37,17 +37,17 @@ pub(super) struct Eased {
 }
 
 /// Bands and module that were asked for.
-pub(super) fn asked(
+pub(super) fn requested(
     band: Option<Values>,
     module: Option<f64>,
     is_open: bool,
     aim: Option<Aim>,
     wishes: Wishes,
     axis_box: Option<[[f64; 2]; 2]>,
-) -> Answer<Option<Asked>> {
+) -> Answer<Option<Request>> {
     let is_wished = aim.is_some() || !wishes.is_free();
-    let asked = |bands: Vec<f64>| {
-        Ok(Some(Asked {
+    let requested = |bands: Vec<f64>| {
+        Ok(Some(Request {
             bands,
             module,
             is_open,
@@ -57,9 +57,9 @@ pub(super) fn asked(
         }))
     };
     match (band, module) {
-        (Some(band), _) => asked(band.into_flat()),
-        (None, _) if is_open => asked(vec![0.0]),
-        (None, None) if is_wished => asked(vec![0.0]),
+        (Some(band), _) => requested(band.into_flat()),
+        (None, _) if is_open => requested(vec![0.0]),
+        (None, None) if is_wished => requested(vec![0.0]),
         (None, None) => Ok(None),
         (None, Some(_)) => {
             let sentence = "it eases a path: say by how much with band";
@@ -72,25 +72,25 @@ impl Eased {
     /// Eases a path; its chain, and what was found.
     pub(super) fn search(
         points: &[Point],
-        asked: Asked,
+        requested: Request,
         axis: Option<(f64, f64)>,
         bend_deg: f64,
     ) -> Answer<(TwoBar, Self)> {
         let axis = axis.map(|(x, y)| Point::new(x, y));
         let spec = EasingSpec {
             axis,
-            axes: asked.axis_box.map(AxisRange::between),
-            aim: asked.aim.unwrap_or_default(),
-            wishes: asked.wishes.clone(),
-            ..EasingSpec::new(&asked.bands, bend_deg.to_radians())
+            axes: requested.axis_box.map(AxisRange::between),
+            aim: requested.aim.unwrap_or_default(),
+            wishes: requested.wishes.clone(),
+            ..EasingSpec::new(&requested.bands, bend_deg.to_radians())
         };
-        let easing = match asked.is_open {
+        let easing = match requested.is_open {
             true => Easing::with_free_return(points, &spec),
             false => Easing::new(points, &spec),
         };
-        let found = easing?.search(asked.module, &mut |_| ControlFlow::Continue(()))?;
+        let found = easing?.search(requested.module, &mut |_| ControlFlow::Continue(()))?;
         let eased = Self {
-            asked,
+            requested,
             module: found.module.1,
             points: found.points,
             goals: found.goals,

@@ -4,14 +4,13 @@ use centrode_analysis::Finding;
 use centrode_geometry::{Bounds, Point};
 use centrode_synthesis::optimise::{EasingError, axis_at_border};
 use centrode_synthesis::reverse::{
-    AxisMap, KeyPose, KeyPoses, PathDesign, SplitKind, TwoBar, WantedPath,
+    AxisMap, KeyPose, KeyPoses, PathDesign, RequiredPath, SplitKind, TwoBar,
 };
 use pyo3::prelude::{Bound, Python, pyfunction};
 use pyo3::types::PyDict;
 
-use super::Reversed;
 use super::eased::{self, Eased};
-use super::wished;
+use super::{Reversed, wished};
 use crate::array::{Rows, Values};
 use crate::count::Count;
 use crate::error::{Answer, Raised};
@@ -101,7 +100,7 @@ pub(crate) fn reverse(
                 "it goes with a whole path, not with open".into(),
             ));
         }
-        (true, false) => WantedPath::knots(&points),
+        (true, false) => RequiredPath::knots(&points),
         (false, _) => points,
     };
     let design = PathDesign {
@@ -110,7 +109,7 @@ pub(crate) fn reverse(
         ..PathDesign::default()
     };
     design.check_axes(&points)?;
-    let easing = eased::asked(
+    let easing = eased::requested(
         band,
         module,
         open,
@@ -119,8 +118,8 @@ pub(crate) fn reverse(
         axis_box,
     )?;
     wait(py, move || {
-        if let Some(asked) = easing {
-            let (chain, mut eased) = Eased::search(&points, asked, axis, bend_deg)?;
+        if let Some(requested) = easing {
+            let (chain, mut eased) = Eased::search(&points, requested, axis, bend_deg)?;
             let given = Given::Path {
                 points,
                 axis,
@@ -130,7 +129,7 @@ pub(crate) fn reverse(
             };
             return Reversed::new(given, chain, OnceLock::new(), (kind, bend_deg, arms));
         }
-        let path = WantedPath::through(&points)?;
+        let path = RequiredPath::through(&points)?;
         let mut axes = OnceLock::new();
         let mut findings = Vec::new();
         let chain = match axis {

@@ -41,7 +41,7 @@ pub(super) fn axis_map<'py>(
         carrier: figure(&|axis| axis.carrier)?,
         arm: figure(&|axis| axis.arm)?,
         ratios: ratios.reshape([rows as usize, columns as usize, 2])?,
-        least_radius: figure(&|axis| axis.least_radius(bend))?,
+        minimum_radius: figure(&|axis| axis.minimum_radius(bend))?,
         shaft_distance: figure(&|axis| axis.shaft_distance)?,
     )
 }
@@ -54,7 +54,7 @@ pub(super) fn split_figures<'py>(
 ) -> PyResult<Bound<'py, PyAny>> {
     let (radii, convex, tip_error) = match made {
         Ok(made) => (
-            &made.least_radii[..],
+            &made.minimum_radii[..],
             &made.convex[..],
             made.tip_error.value,
         ),
@@ -62,7 +62,7 @@ pub(super) fn split_figures<'py>(
     };
     record!(py, "centrode._axes" "SplitFigures", () => []
         name: name,
-        least_radii: PyTuple::new(py, radii.iter().map(|pair| (pair[0], pair[1])))?,
+        minimum_radii: PyTuple::new(py, radii.iter().map(|pair| (pair[0], pair[1])))?,
         convex: PyTuple::new(py, convex.iter().map(|pair| (pair[0], pair[1])))?,
         tip_error: tip_error,
         refusal: made.as_ref().err(),

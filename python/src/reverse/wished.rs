@@ -23,10 +23,10 @@ pub(super) fn read(wishes: &Bound<'_, PyDict>) -> Answer<Wishes> {
             path if path == "." => "wishes".to_owned(),
             path => format!("wishes.{path}"),
         };
-        let told = error.inner().to_string();
+        let stated = error.inner().to_string();
         // Its place in the text is none of the caller's.
-        let told = told.split(" at line ").next().unwrap_or_default();
-        Raised::sentence(&key, format!("{key}: {told}"))
+        let stated = stated.split(" at line ").next().unwrap_or_default();
+        Raised::sentence(&key, format!("{key}: {stated}"))
     })
 }
 

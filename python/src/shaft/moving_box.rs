@@ -5,8 +5,7 @@ use centrode_groove as mechanism;
 use centrode_groove::{EllipticGears, MovingBoxDesign, Scheme};
 use pyo3::prelude::{Py, PyClassInitializer, PyRef, Python, pyclass, pymethods};
 
-use super::BoxDrive;
-use super::SpiralShaft;
+use super::{BoxDrive, SpiralShaft};
 use crate::array::{Course, Values};
 use crate::count::Count;
 use crate::design::Class;

@@ -263,7 +263,7 @@ impl ThreeArm {
     ///
     /// >>> import centrode as ct
     /// >>> close = ct.ThreeArm.from_toml(ct.template("three-arm")).arm_clearance()
-    /// >>> round(close.least, 1), close.lower_bound > close.least - 0.04
+    /// >>> round(close.minimum, 1), close.lower_bound > close.minimum - 0.04
     /// (62.6, True)
     #[pyo3(signature = (tolerance=1e-2))]
     fn arm_clearance<'py>(

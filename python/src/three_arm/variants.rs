@@ -15,7 +15,7 @@ use crate::wait::wait;
 
 /// Greatest number of variants and inputs that memory holds.
 const MOST: usize = 50_000_000;
-const MOST_INPUTS: usize = 100_000;
+const MAX_INPUTS: usize = 100_000;
 
 /// Figures by name, one for each variant.
 pub(crate) fn sweep<'py>(
@@ -24,8 +24,8 @@ pub(crate) fn sweep<'py>(
     parameters: BTreeMap<String, Values>,
     inputs: usize,
 ) -> Answer<Bound<'py, PyDict>> {
-    if !(1..=MOST_INPUTS).contains(&inputs) {
-        let message = format!("inputs must be 1 to {MOST_INPUTS}, not {inputs}");
+    if !(1..=MAX_INPUTS).contains(&inputs) {
+        let message = format!("inputs must be 1 to {MAX_INPUTS}, not {inputs}");
         return Err(PyValueError::new_err(message).into());
     }
     let names: Vec<&String> = parameters.keys().collect();

@@ -247,7 +247,7 @@ fn fitted_teeth_of_circles_at_a_small_pressure_angle_carry_the_motion() {
 
 #[test]
 fn gears_that_run_on_edges_are_analysed_at_few_samples() {
-    // A pitch curve that swings as often as there are teeth, and 24 times as often.
+    // Pitch curves that oscillate once per tooth and 24 times per tooth.
     for (radius, off) in [
         ("1+0.02*cos(40*phi)", 1e-3),
         ("1+0.00001*cos(963*phi)", 4e-4),

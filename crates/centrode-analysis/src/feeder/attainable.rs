@@ -4,7 +4,7 @@ use std::ops::ControlFlow;
 
 use centrode_machines::feeder::FeederDesign;
 
-use crate::six_bar::{BestTransmissionAngle, LeastWidening, Lengths};
+use crate::six_bar::{BestTransmissionAngle, Lengths, MinimumWidening};
 use centrode_optimise::{Candidate, Method, Problem, Settings, minimise};
 
 /// Evaluations of the search for the best attainable transmission angle.
@@ -32,11 +32,11 @@ impl Attainable {
     #[must_use]
     pub fn search(design: &FeederDesign) -> Option<Self> {
         let bounds: Lengths = design.bounds.named().map(|(_, [a, b])| (a, b));
-        let wanted = design.goals.transmission_angle;
+        let required = design.goals.transmission_angle;
         let best = search(&BestTransmissionAngle { bounds }, ATTAINABLE)?;
         let lengths = best.point.clone().try_into().ok()?;
         let transmission_angle = FRAC_PI_2 - best.evaluation.objective;
-        if transmission_angle >= wanted {
+        if transmission_angle >= required {
             return Some(Self {
                 transmission_angle,
                 lengths,
@@ -44,16 +44,16 @@ impl Attainable {
                 widened_lengths: lengths,
             });
         }
-        let problem = LeastWidening {
+        let problem = MinimumWidening {
             bounds,
-            least_transmission_angle: wanted,
+            minimum_transmission_angle: required,
         };
-        let least = search(&problem, WIDENING)?;
+        let minimum = search(&problem, WIDENING)?;
         Some(Self {
             transmission_angle,
             lengths,
-            widening: Some(least.evaluation.objective),
-            widened_lengths: problem.lengths(&least.point).try_into().ok()?,
+            widening: Some(minimum.evaluation.objective),
+            widened_lengths: problem.lengths(&minimum.point).try_into().ok()?,
         })
     }
 }

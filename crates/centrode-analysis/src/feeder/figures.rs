@@ -19,7 +19,7 @@ pub(crate) const FIGURES: &[FigureGroup] = &[
     },
     FigureGroup {
         heading: "Crank-rocker",
-        columns: &["least", "greatest"],
+        columns: &["minimum", "maximum"],
         rows: &[
             row("angle of coupler and rocker", &["coupler_rocker_angle_min", "coupler_rocker_angle_max"], Angle),
             row("angle of the effector", &["effector_angle_min", "effector_angle_max"], Angle),
@@ -40,7 +40,7 @@ pub(crate) const FIGURES: &[FigureGroup] = &[
             row("most off, to first order", &["swing_first_order_max"], Angle),
             row("least transmission angle", &["transmission_angle_min"], Angle),
             row("the best within the bounds", &["attainable_transmission_angle"], Angle),
-            row("bounds to widen by, as a share", &["least_widening"], Number),
+            row("bounds to widen by, as a share", &["minimum_widening"], Number),
             row("pivot from the chord", &["pivot_from_chord"], Millimetre),
             row("links from the shafts", &["shaft_clearance_min"], Millimetre),
         ],

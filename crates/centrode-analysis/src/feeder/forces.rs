@@ -166,8 +166,8 @@ pub(super) fn forces(feeder: &Feeder, report: &mut Report) {
     }
     keys(feeder, [&still, &moving], report);
     let of = |Extreme { value, .. }: &Extreme| *value;
-    let greatest = still.iter().zip(&moving).map(|(a, b)| vec![of(a), of(b)]);
-    let rows = FeederForces::CONNECTIONS.iter().zip(greatest.skip(2));
+    let maximum = still.iter().zip(&moving).map(|(a, b)| vec![of(a), of(b)]);
+    let rows = FeederForces::CONNECTIONS.iter().zip(maximum.skip(2));
     report.tables.push(Table {
         name: "joint_forces",
         title: "Greatest force in a joint",

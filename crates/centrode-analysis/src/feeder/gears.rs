@@ -9,7 +9,7 @@ use crate::rounding::exceeds;
 use crate::{Finding, IntermittentContact, Place, Report, Severity, Unit};
 
 /// Number of inputs at which the intermittent gears are held against each other.
-const GEAR_LOOKS: u32 = 240;
+const GEAR_SAMPLES: u32 = 240;
 /// Distance of their contours from the polygons, in modules.
 const CONTOUR: f64 = 1e-4;
 /// Penetration above which they do not run, in modules.
@@ -69,7 +69,7 @@ pub(super) fn gears(feeder: &Feeder, report: &mut Report) {
     });
     report.findings.extend(overlap);
     let contact = PROVEN.get(spec, || {
-        Arc::new(IntermittentContact::analyse(&pair, GEAR_LOOKS, tolerance))
+        Arc::new(IntermittentContact::analyse(&pair, GEAR_SAMPLES, tolerance))
     });
     let ([moving, resting], penetration) = (contact.free, contact.deepest);
     let values = &mut report.values;
@@ -122,14 +122,14 @@ pub(super) fn gears(feeder: &Feeder, report: &mut Report) {
         resting
     };
     let pitch = 0.5 * spec.module * f64::from(spec.driven_pitches);
-    let asked = 0.5 * spec.backlash / pitch;
+    let requested = 0.5 * spec.backlash / pitch;
     // Pins on cams hold it as closely as teeth do.
-    let asked = if pair.cams().is_empty() {
-        asked.max(pair.locked_backlash())
+    let requested = if pair.cams().is_empty() {
+        requested.max(pair.locked_backlash())
     } else {
-        asked
+        requested
     };
-    let allowed = LOOSE * asked + 1e-4;
+    let allowed = LOOSE * requested + 1e-4;
     if exceeds(loose.value, allowed) {
         let message = format!(
             "the intermittent gears leave the crank free by {:.3} deg",

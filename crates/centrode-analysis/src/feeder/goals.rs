@@ -18,10 +18,10 @@ pub fn feeder_goals(feeder: &Feeder) -> Vec<Goal> {
         pushing_time,
     } = feeder.design().goals;
     let (six_bar, bar) = (feeder.six_bar(), feeder.six_bar().four_bar());
-    let least = |about, value, wanted, unit, scale| {
-        Goal::new(about, Some(value), [Some(wanted), None], unit, scale)
+    let minimum = |about, value, required, unit, scale| {
+        Goal::new(about, Some(value), [Some(required), None], unit, scale)
     };
-    let size = |wanted: f64| if wanted > 0.0 { wanted } else { 1.0 };
+    let size = |required: f64| if required > 0.0 { required } else { 1.0 };
     let mut goals = vec![
         Goal::new(
             (1, "swing", "swing of the effector"),
@@ -30,16 +30,16 @@ pub fn feeder_goals(feeder: &Feeder) -> Vec<Goal> {
             Unit::Angle,
             swing_tolerance,
         ),
-        least(
+        minimum(
             (2, "crank-rocker", "crank turns: Grashof's margin"),
             bar.grashof_margin(),
             0.0,
             Unit::Millimetre,
             bar.lengths()[0],
         ),
-        least(
+        minimum(
             (3, "transmission-angle", "least transmission angle"),
-            bar.least_transmission_angle(),
+            bar.minimum_transmission_angle(),
             transmission_angle,
             Unit::Angle,
             size(transmission_angle),
@@ -55,32 +55,32 @@ pub fn feeder_goals(feeder: &Feeder) -> Vec<Goal> {
     for ((length, (_, [low, high])), (name, title)) in
         bar.lengths().into_iter().zip(bounds).zip(names)
     {
-        let wanted = [Some(low), Some(high)];
+        let required = [Some(low), Some(high)];
         let goal = Goal::new(
             (4, name, title),
             Some(length),
-            wanted,
+            required,
             Unit::Millimetre,
             high - low,
         );
         goals.push(goal);
     }
     goals.extend([
-        least(
+        minimum(
             (5, "quick-return", "crank turns for the feed stroke"),
             six_bar.extremes().longer_stroke(),
             TAU * quick_return / (1.0 + quick_return),
             Unit::Angle,
             PI,
         ),
-        least(
+        minimum(
             (6, "feed-rate", "cuttings a minute"),
             feeder.feed_rate(),
             feed_rate,
             Unit::PerMinute,
             size(feed_rate),
         ),
-        least(
+        minimum(
             (7, "dwell", "effector rests while it is filled"),
             feeder.dwell_time(),
             pushing_time,
@@ -115,7 +115,7 @@ fn attainable(feeder: &Feeder, report: &mut Report) -> String {
     let values = &mut report.values;
     values.insert("attainable_transmission_angle", found.transmission_angle);
     if let Some(widening) = found.widening {
-        values.insert("least_widening", widening);
+        values.insert("minimum_widening", widening);
     }
     format!("; {found}")
 }

@@ -80,7 +80,7 @@ fn linkage(feeder: &Feeder, report: &mut Report) {
     values.insert("swing", six_bar.swing());
     values.insert("effector_angle_min", extremes.low.1);
     values.insert("effector_angle_max", extremes.high.1);
-    values.insert("transmission_angle_min", bar.least_transmission_angle());
+    values.insert("transmission_angle_min", bar.minimum_transmission_angle());
     let near = bar.transmission_angle(0.0);
     let far = bar.transmission_angle(PI);
     values.insert("coupler_rocker_angle_min", near.min(far));
@@ -94,7 +94,7 @@ fn linkage(feeder: &Feeder, report: &mut Report) {
         values.insert("slider_folded_y", dead.folded_at.y);
         values.insert("rocker_swing", swing);
     }
-    values.insert("slider_distance_min", six_bar.least_slider_distance());
+    values.insert("slider_distance_min", six_bar.minimum_slider_distance());
     let slow = six_bar.extremes().longer_stroke();
     values.insert("feed_crank_angle", slow);
     values.insert("crank_quick_return", slow / (TAU - slow));
@@ -143,9 +143,9 @@ fn motion(feeder: &Feeder, report: &mut Report) {
         [feed.from, feed.to].map(|input| (feeder.effector(input).velocity * speed * reach).abs());
     values.insert("tip_speed_ends_max", rest[0].max(rest[1]));
     values.insert("crank_speed_jump", drive.shock() * speed);
-    let greatest = drive.greatest_acceleration();
-    if greatest.is_finite() {
-        values.insert("crank_acceleration_max", greatest * speed * speed);
+    let maximum = drive.maximum_acceleration();
+    if maximum.is_finite() {
+        values.insert("crank_acceleration_max", maximum * speed * speed);
     }
     values.insert(
         "crank_rpm_driven",
@@ -165,11 +165,11 @@ fn spread(feeder: &Feeder, report: &mut Report) {
     let spread = SwingSpread::sample(feeder.six_bar(), tolerances, MADE, 1);
     let values = &mut report.values;
     values.insert("swing_made_deviation", spread.deviation);
-    values.insert("swing_made_min", spread.least);
-    values.insert("swing_made_max", spread.greatest);
-    values.insert("swing_first_order_max", spread.first_order_greatest);
+    values.insert("swing_made_min", spread.minimum);
+    values.insert("swing_made_max", spread.maximum);
+    values.insert("swing_first_order_max", spread.first_order_maximum);
     let goals = &feeder.design().goals;
-    let miss = (spread.greatest - goals.swing).max(goals.swing - spread.least);
+    let miss = (spread.maximum - goals.swing).max(goals.swing - spread.minimum);
     if exceeds(miss, goals.swing_tolerance) {
         report.findings.push(Finding {
             rule: "swing-spread",

@@ -25,14 +25,14 @@ pub struct SwingSpread {
     /// Standard deviation, rad.
     pub deviation: f64,
     /// Least swing met, rad.
-    pub least: f64,
+    pub minimum: f64,
     /// Greatest swing met, rad.
-    pub greatest: f64,
+    pub maximum: f64,
     /// Standard deviation by the sensitivities alone, rad: the root of the sum of squares of
     /// sensitivity times tolerance over root three.
     pub first_order_deviation: f64,
     /// Greatest change by the sensitivities alone, rad: all tolerances at their worst.
-    pub first_order_greatest: f64,
+    pub first_order_maximum: f64,
 }
 
 impl SwingSpread {
@@ -75,10 +75,10 @@ impl SwingSpread {
             failed,
             mean,
             deviation: variance.sqrt(),
-            least: swings.iter().copied().fold(f64::INFINITY, f64::min),
-            greatest: swings.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+            minimum: swings.iter().copied().fold(f64::INFINITY, f64::min),
+            maximum: swings.iter().copied().fold(f64::NEG_INFINITY, f64::max),
             first_order_deviation: (worst.iter().map(|w| w * w).sum::<f64>() / 3.0).sqrt(),
-            first_order_greatest: worst.iter().map(|w| w.abs()).sum(),
+            first_order_maximum: worst.iter().map(|w| w.abs()).sum(),
         }
     }
 }
@@ -107,8 +107,8 @@ mod tests {
         assert_eq!(spread.failed, 0);
         assert!((spread.mean - PI).abs() < 0.02 * spread.deviation);
         assert!((spread.deviation / spread.first_order_deviation - 1.0).abs() < 0.02);
-        assert!(spread.greatest - PI < 1.01 * spread.first_order_greatest);
-        assert!(PI - spread.least < 1.01 * spread.first_order_greatest);
-        assert!(spread.greatest - PI > 0.6 * spread.first_order_greatest);
+        assert!(spread.maximum - PI < 1.01 * spread.first_order_maximum);
+        assert!(PI - spread.minimum < 1.01 * spread.first_order_maximum);
+        assert!(spread.maximum - PI > 0.6 * spread.first_order_maximum);
     }
 }

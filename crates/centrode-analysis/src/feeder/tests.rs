@@ -127,22 +127,22 @@ fn the_crank_moves_the_masses_of_the_plates() {
 }
 
 /// Greatest torque and joint forces at so many inputs of a cycle and on both sides of every break.
-fn greatest_seen(feeder: &Feeder, moving: bool) -> [f64; 8] {
+fn maximum_seen(feeder: &Feeder, moving: bool) -> [f64; 8] {
     const COUNT: u32 = 14_400;
     let system = FeederForces::analyse(feeder).expect("plates");
     let even = (0..COUNT).map(|i| TAU * f64::from(i) / f64::from(COUNT));
     let breaks = feeder.breaks();
     let beside = breaks.iter().flat_map(|&b| [b.next_down(), b]);
-    let mut greatest = [0.0_f64; 8];
+    let mut maximum = [0.0_f64; 8];
     for input in even.chain(beside.filter(|&b| b >= 0.0)) {
         let forces = system.at(input, moving).expect("it turns");
         let joints = FeederForces::joints(&forces).map(|force| force.norm());
         let sizes = std::iter::once(FeederForces::torque(&forces).abs()).chain(joints);
-        for (greatest, size) in greatest.iter_mut().zip(sizes) {
-            *greatest = greatest.max(size);
+        for (maximum, size) in maximum.iter_mut().zip(sizes) {
+            *maximum = maximum.max(size);
         }
     }
-    greatest
+    maximum
 }
 
 #[test]
@@ -155,7 +155,7 @@ fn no_torque_or_joint_force_is_above_the_greatest_stated() {
     for (column, moving) in [false, true].into_iter().enumerate() {
         let joints = rows.iter().map(|(_, row)| row[column]);
         let stated = std::iter::once(report.values[torques[column]]).chain(joints);
-        for (k, (stated, seen)) in stated.zip(greatest_seen(&feeder, moving)).enumerate() {
+        for (k, (stated, seen)) in stated.zip(maximum_seen(&feeder, moving)).enumerate() {
             // Even samples miss a smooth peak by about a millionth.
             let near = stated >= seen && stated <= seen * (1.0 + 1e-5);
             assert!(near, "{k}, moving {moving}: {stated} {seen}");
@@ -182,8 +182,8 @@ fn a_key_that_is_pressed_too_hard_is_found() {
     let values = &loaded.values;
     let torque = values["crank_torque_moving_max"].max(values["crank_torque_still_max"]);
     let all = found(&loaded);
-    let told: Vec<_> = all.iter().filter_map(|f| f.place.part.as_deref()).collect();
-    assert_eq!(told, ["crank", "gear-driven", "gear-driver"], "{torque}");
+    let stated: Vec<_> = all.iter().filter_map(|f| f.place.part.as_deref()).collect();
+    assert_eq!(stated, ["crank", "gear-driven", "gear-driver"], "{torque}");
     // The other shaft carries the torque of the input.
     let heavy = Feeder::resolve(&{
         let mut design = light.design().clone();

@@ -51,8 +51,8 @@ mod tests {
             vec![3.0, 0.0, -1.0, -1.0],
         ];
         let found = eliminated(rows).expect("independent");
-        for (found, wanted) in found.iter().zip([1.0, 2.0, 4.0]) {
-            assert!((found - wanted).abs() < 1e-14, "{found}");
+        for (found, required) in found.iter().zip([1.0, 2.0, 4.0]) {
+            assert!((found - required).abs() < 1e-14, "{found}");
         }
         let twice = vec![vec![1.0, 0.3, 1.0], vec![3.0, 0.9, 2.0]];
         assert_eq!(eliminated(twice), None);

@@ -1,6 +1,6 @@
 use std::sync::Arc;
 
-use centrode_kinematics::machine::{Guide, Joint, JointKind, Load, Machine};
+use centrode_kinematics::machine::{Guide, Joint, JointKind, LinkedMachine, Load};
 use nalgebra::{Matrix3, Vector3};
 
 use super::ForcesError;
@@ -11,7 +11,7 @@ use super::tie::{Tie, between};
 /// A machine made ready for its forces.
 #[derive(Clone, Debug)]
 pub struct Balance {
-    pub(super) machine: Arc<Machine>,
+    pub(super) machine: Arc<LinkedMachine>,
     pub(super) seats: Vec<Seat>,
     /// Joints from the first link outwards.
     pub(super) order: Vec<usize>,
@@ -61,8 +61,8 @@ impl Balance {
     ///
     /// # Errors
     /// [`ForcesError`] for masses that are none, and for links held by more than one thing or by one that cannot reach them.
-    pub fn new(machine: impl Into<Arc<Machine>>) -> Result<Self, ForcesError> {
-        let machine: Arc<Machine> = machine.into();
+    pub fn new(machine: impl Into<Arc<LinkedMachine>>) -> Result<Self, ForcesError> {
+        let machine: Arc<LinkedMachine> = machine.into();
         let masses = masses(&machine)?;
         let ties = Tie::all(&machine)?;
         let count = machine.joints.len();
@@ -121,7 +121,7 @@ impl Balance {
 
     /// The machine.
     #[must_use]
-    pub fn machine(&self) -> &Arc<Machine> {
+    pub fn machine(&self) -> &Arc<LinkedMachine> {
         &self.machine
     }
 
@@ -139,7 +139,7 @@ impl Balance {
 }
 
 /// Masses of the links and of what they carry.
-fn masses(machine: &Machine) -> Result<Vec<Mass>, ForcesError> {
+fn masses(machine: &LinkedMachine) -> Result<Vec<Mass>, ForcesError> {
     let own = machine.links.iter().enumerate();
     let own = own.filter_map(|(link, about)| {
         let about = about.mass.as_ref()?;
@@ -176,7 +176,7 @@ fn masses(machine: &Machine) -> Result<Vec<Mass>, ForcesError> {
 
 /// Ties and followers in an order in which each can be worked out.
 fn steps(
-    machine: &Machine,
+    machine: &LinkedMachine,
     ties: Vec<Tie>,
     followers: &[Follower],
 ) -> Result<Vec<Step>, ForcesError> {
@@ -188,11 +188,11 @@ fn steps(
         None => followers[one - apart].leader == joint,
     };
     let needs = |one: usize| -> Vec<bool> {
-        let asked = match ties.get(one) {
+        let requested = match ties.get(one) {
             Some(tie) => tie.held.as_slice(),
             None => std::slice::from_ref(&followers[one - apart].joint),
         };
-        let needed = |other: usize| asked.iter().any(|&joint| changes(other, joint));
+        let needed = |other: usize| requested.iter().any(|&joint| changes(other, joint));
         (0..count).map(needed).collect()
     };
     let ordered = blocks((0..count).map(needs).collect());

@@ -1,4 +1,4 @@
-use centrode_kinematics::machine::{Axes, GuideForce, JointKind, Load, Machine, Quantity};
+use centrode_kinematics::machine::{Axes, GuideForce, JointKind, LinkedMachine, Load, Quantity};
 use centrode_kinematics::transmission::MotionJet;
 use nalgebra::Vector3;
 
@@ -41,7 +41,7 @@ impl Wrench {
 
 /// Motion of the links, and what each joint must supply to what it carries.
 struct State<'a> {
-    machine: &'a Machine,
+    machine: &'a LinkedMachine,
     input: f64,
     jets: Vec<MotionJet>,
     links: Vec<LinkMotion>,
@@ -127,7 +127,7 @@ impl Balance {
 }
 
 /// Names of the links that ties hold.
-fn named(machine: &Machine, ties: &[Tie]) -> String {
+fn named(machine: &LinkedMachine, ties: &[Tie]) -> String {
     let all = ties.iter().map(|tie| tie.words(machine));
     all.collect::<Vec<_>>().join(" and ")
 }

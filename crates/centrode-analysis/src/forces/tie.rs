@@ -1,4 +1,4 @@
-use centrode_kinematics::machine::{JointKind, Machine, PitchCurves};
+use centrode_kinematics::machine::{JointKind, LinkedMachine, PitchCurves};
 use nalgebra::Vector3;
 
 use super::ForcesError;
@@ -38,7 +38,7 @@ impl Tie {
     ///
     /// # Errors
     /// [`ForcesError`] where one moves a joint that it does not reach, or that another one moves, too.
-    pub(super) fn all(machine: &Machine) -> Result<Vec<Self>, ForcesError> {
+    pub(super) fn all(machine: &LinkedMachine) -> Result<Vec<Self>, ForcesError> {
         let closures = machine.closures.iter().enumerate();
         let closures = closures.map(|(i, c)| (TieKind::Closure(i), c.links, c.joints.to_vec()));
         let meshes = machine.meshes.iter().enumerate();
@@ -64,7 +64,7 @@ impl Tie {
         Ok(ties)
     }
 
-    fn is_sound(&self, machine: &Machine, others: &[Self]) -> Result<(), ForcesError> {
+    fn is_sound(&self, machine: &LinkedMachine, others: &[Self]) -> Result<(), ForcesError> {
         let name = |joint: usize| machine.links[machine.joints[joint].child].name.clone();
         for (i, &joint) in self.held.iter().enumerate() {
             let free = machine.joints[joint].kind != JointKind::Fixed;
@@ -87,7 +87,7 @@ impl Tie {
     }
 
     /// The tie in words, for messages.
-    pub(super) fn words(&self, machine: &Machine) -> String {
+    pub(super) fn words(&self, machine: &LinkedMachine) -> String {
         let kind = match self.kind {
             TieKind::Closure(_) => "pin",
             TieKind::Mesh(_) => "mesh",
@@ -104,7 +104,7 @@ impl Tie {
     }
 
     /// Whether the direction of its force is not known, only its moment.
-    pub(super) fn is_vague(&self, machine: &Machine) -> bool {
+    pub(super) fn is_vague(&self, machine: &LinkedMachine) -> bool {
         matches!(self.kind, TieKind::Mesh(i) if machine.meshes[i].pressure_angle.is_none())
     }
 
@@ -112,7 +112,7 @@ impl Tie {
     /// still on each other and their pitch curves are not given.
     pub(super) fn lines(
         &self,
-        machine: &Machine,
+        machine: &LinkedMachine,
         motions: &[LinkMotion],
         axes: &[Vector3<f64>],
         input: f64,
@@ -168,7 +168,7 @@ impl Tie {
     /// the pressure angle, so that what pushes pushes the gears apart.
     pub(super) fn flank(
         &self,
-        machine: &Machine,
+        machine: &LinkedMachine,
         lines: &Lines,
         driver: &LinkMotion,
         size: f64,
@@ -240,7 +240,7 @@ fn along_pitch(
 }
 
 /// Joints that carry the second of two links but not the first (1), and the first but not the second (-1).
-pub(super) fn between(machine: &Machine, links: [usize; 2]) -> Vec<(usize, f64)> {
+pub(super) fn between(machine: &LinkedMachine, links: [usize; 2]) -> Vec<(usize, f64)> {
     let [one, other] = links.map(|link| {
         let mut chain = Vec::new();
         let mut at = link;

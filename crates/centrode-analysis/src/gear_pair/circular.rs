@@ -13,33 +13,26 @@ const ROUND: f64 = 1e-12;
 /// Contact ratio from which a changed pair is a remedy: gears with less are sensitive to errors of the centre distance.
 const CONTACT_RATIO: f64 = 1.1;
 
-/// Values of a key, each with the words that name it.
+/// Values of a key, each with the words that name the change, which all have the same end.
 macro_rules! values {
-    ($key:literal: $($value:literal)*) => {
-        [$(($value, concat!($key, " = ", $value))),*]
+    ($key:literal, $end:literal: $($value:literal)*) => {
+        [$(($value, concat!($key, " = ", $value, $end))),*]
     };
 }
 
 /// Profile shifts of the driver tried, the smallest first. That of the driven gear is as written, else opposite.
 #[rustfmt::skip]
-const SHIFTS: [(f64, &str); 16] = values!("driver.shift":
+const SHIFTS: [(f64, &str); 16] = values!("driver.shift", "":
     0.1 -0.1 0.2 -0.2 0.3 -0.3 0.4 -0.4 0.5 -0.5 0.6 -0.6 0.7 -0.7 0.8 -0.8);
 
 /// Equal profile shifts of both gears tried: the centre distance follows.
 #[rustfmt::skip]
-const BOTH: [(f64, &str); 8] = [
-    (0.1, "driver.shift = driven.shift = 0.1, with the centre distance that follows"),
-    (0.2, "driver.shift = driven.shift = 0.2, with the centre distance that follows"),
-    (0.3, "driver.shift = driven.shift = 0.3, with the centre distance that follows"),
-    (0.4, "driver.shift = driven.shift = 0.4, with the centre distance that follows"),
-    (0.5, "driver.shift = driven.shift = 0.5, with the centre distance that follows"),
-    (0.6, "driver.shift = driven.shift = 0.6, with the centre distance that follows"),
-    (0.7, "driver.shift = driven.shift = 0.7, with the centre distance that follows"),
-    (0.8, "driver.shift = driven.shift = 0.8, with the centre distance that follows"),
-];
+const BOTH: [(f64, &str); 8] = values!("driver.shift = driven.shift", ", with the centre distance that follows":
+    0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8);
 
 /// Pressure angles of usual tools, in degrees.
-const ANGLES: [(f64, &str); 6] = values!("tool.pressure_angle_deg": 17.5 20.0 22.5 25.0 28.0 30.0);
+const ANGLES: [(f64, &str); 6] =
+    values!("tool.pressure_angle_deg", "": 17.5 20.0 22.5 25.0 28.0 30.0);
 
 /// Names in the findings about teeth and mesh of circular gears the first change of the design with which the check finds nothing
 /// more than notes, or nothing if there is none.

@@ -31,7 +31,7 @@ pub(crate) const FIGURES: &[FigureGroup] = &[
     },
     FigureGroup {
         heading: "Mesh, over the whole cycle",
-        columns: &["least", "greatest"],
+        columns: &["minimum", "maximum"],
         rows: &[
             row("ratio, driven to driver", &["ratio_min", "ratio_max"], Number),
             row("contacts at once", &["pairs_in_contact_min", "pairs_in_contact_max"], Count),

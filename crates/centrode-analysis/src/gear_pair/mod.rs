@@ -22,8 +22,8 @@ use crate::rounding::exceeds;
 use crate::{Contact, ContactExtremes, Finding, Place, Report, Severity, Unit};
 
 pub(crate) use figures::FIGURES;
-pub use remedies::{MOST_TEETH, PairRemedy, remedies};
-pub(crate) use remedies::{is_carried, least_count};
+pub use remedies::{MAX_TEETH, PairRemedy, remedies};
+pub(crate) use remedies::{is_carried, minimum_count};
 
 /// Penetration, in modules, above which two outlines are reported to interfere.
 const PENETRATION: f64 = 1e-6;
@@ -102,10 +102,10 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
         }
     }
     values.insert("closure_error", rolling.closure_error());
-    let (least, greatest) = rolling.radii(Member::Driver);
+    let (minimum, maximum) = rolling.radii(Member::Driver);
     let a = pair.center_distance();
-    values.insert("ratio_min", least / (a - least));
-    values.insert("ratio_max", greatest / (a - greatest));
+    values.insert("ratio_min", minimum / (a - minimum));
+    values.insert("ratio_max", maximum / (a - maximum));
     let names = |member: Member| match member {
         Member::Driver => [
             "driver_tooth_count",
@@ -133,13 +133,13 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
             gear.pitch_length(),
             radii.0,
             radii.1,
-            range.least.1,
-            range.greatest.1,
+            range.minimum.1,
+            range.maximum.1,
         ];
         for (name, figure) in names(member).into_iter().zip(figures) {
             values.insert(name, figure);
         }
-        let concave = -range.least.1;
+        let concave = -range.minimum.1;
         if let ToolKind::Shaper { radius } = pair.teeth().tool(member).kind
             && concave > 0.0
             && radius * concave >= 1.0
@@ -165,7 +165,7 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
     let Extreme {
         input,
         value: steepest,
-    } = pair.greatest_pressure_angle();
+    } = pair.maximum_pressure_angle();
     report.values.insert("pressure_angle_max", steepest);
     if exceeds(steepest, PRESSURE_ANGLE) {
         report.findings.push(Finding {
@@ -255,31 +255,30 @@ pub(crate) fn thinned(pair: &GearPair) -> f64 {
 
 fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: &mut Report) {
     let module = pair.module();
-    let pick = |found: Extreme| (found.value, found.input);
-    let error = pick(extremes.transmission_error);
-    let reverse = pick(extremes.reverse_transmission_error);
-    let penetration = pick(extremes.penetration);
-    let clearance = pick(extremes.clearance);
-    let fillet = pick(extremes.fillet_clearance);
-    let [fewest, most] = extremes.contacts.map(pick);
+    let error = extremes.transmission_error;
+    let reverse = extremes.reverse_transmission_error;
+    let penetration = extremes.penetration;
+    let clearance = extremes.clearance;
+    let fillet = extremes.fillet_clearance;
+    let [fewest, most] = extremes.contacts;
     let values = &mut report.values;
-    values.insert("transmission_error_max", error.0.max(reverse.0));
-    values.insert("penetration_max", penetration.0);
-    for (names, [least, greatest]) in [
+    values.insert("transmission_error_max", error.value.max(reverse.value));
+    values.insert("penetration_max", penetration.value);
+    for (names, [minimum, maximum]) in [
         (["backlash_min", "backlash_max"], extremes.backlash),
         (
             ["normal_backlash_min", "normal_backlash_max"],
             extremes.normal_backlash,
         ),
     ] {
-        values.insert(names[0], least.value);
-        values.insert(names[1], greatest.value);
+        values.insert(names[0], minimum.value);
+        values.insert(names[1], maximum.value);
     }
-    values.insert("pairs_in_contact_min", fewest.0);
-    values.insert("pairs_in_contact_max", most.0);
+    values.insert("pairs_in_contact_min", fewest.value);
+    values.insert("pairs_in_contact_max", most.value);
     values.insert("contact_ratio_mean", extremes.contact_ratio);
-    values.insert("clearance_min", clearance.0);
-    values.insert("fillet_clearance_min", fillet.0);
+    values.insert("clearance_min", clearance.value);
+    values.insert("fillet_clearance_min", fillet.value);
     values.insert("sliding_max", extremes.sliding.value);
     let place = |input: f64| Place {
         input: Some(input),
@@ -287,11 +286,11 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
     };
     // Between samples the extremes find a gap that no sample does.
     let samples = contact.backlash.iter().zip(&contact.input);
-    let of_samples = samples.map(|(&backlash, &input)| (backlash, input));
+    let of_samples = samples.map(|(&value, &input)| Extreme { input, value });
     let loose = of_samples
-        .chain([error, reverse, pick(extremes.backlash[1])])
-        .find(|(figure, _)| !figure.is_finite());
-    if let Some((_, input)) = loose {
+        .chain([error, reverse, extremes.backlash[1]])
+        .find(|figure| !figure.value.is_finite());
+    if let Some(Extreme { input, .. }) = loose {
         report.findings.push(Finding {
             rule: "disengaged",
             remedy: remedy("disengaged"),
@@ -305,40 +304,50 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
     }
     let interferes = contact.interferes(pair);
     let mm = |depth: f64| Unit::Millimetre.tell(depth);
-    let overlap = |rule, (depth, input): (f64, f64), message: String| Finding {
+    let overlap = |rule, depth: Extreme, message: String| Finding {
         rule,
         remedy: remedy(rule),
-        severity: Severity::of_overlap(depth),
+        severity: Severity::of_overlap(depth.value),
         message,
-        measured: Some(depth),
+        measured: Some(depth.value),
         required: Some(0.0),
         unit: Unit::Millimetre,
-        place: place(input),
+        place: place(depth.input),
     };
-    if penetration.0 > PENETRATION * module {
+    if penetration.value > PENETRATION * module {
         let words = if interferes { "the gears jam: " } else { "" };
         let message = format!(
             "{words}there is no room for the teeth: the flanks on both sides of them overlap by {}",
-            mm(penetration.0)
+            mm(penetration.value)
         );
         report
             .findings
             .push(overlap("interference", penetration, message));
     }
     // With the driven gear in the middle of its backlash: no turn of it makes room.
-    let (gap, part) = if clearance.0 < fillet.0 {
+    let (gap, part) = if clearance.value < fillet.value {
         (clearance, "root")
     } else {
         (fillet, "fillet")
     };
-    let deepest = (-gap.0, gap.1);
-    if deepest.0 > PENETRATION * module {
-        let message = format!("a tip overlaps the {part} of the mate by {}", mm(deepest.0));
+    let deepest = Extreme {
+        value: -gap.value,
+        ..gap
+    };
+    if deepest.value > PENETRATION * module {
+        let message = format!(
+            "a tip overlaps the {part} of the mate by {}",
+            mm(deepest.value)
+        );
         report
             .findings
             .push(overlap("tip-interference", deepest, message));
     }
-    let worst = if error.0 >= reverse.0 { error } else { reverse };
+    let worst = if error.value >= reverse.value {
+        error
+    } else {
+        reverse
+    };
     let share = extremes.lost;
     // Where flanks carry everywhere, edges are early by no more than the play thins the teeth.
     let allowed = if share == 0.0 {
@@ -347,14 +356,14 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
         LOST
     };
     // Gears that jam carry no motion at all.
-    if worst.0.is_finite() && worst.0 > allowed && !interferes {
+    if worst.value.is_finite() && worst.value > allowed && !interferes {
         report.findings.push(Finding {
             rule: "contact-lost",
             remedy: remedy("contact-lost"),
             severity: if share > CARRIED {
                 Severity::Error
             } else {
-                Severity::of_deviation(worst.0 * pair.rolling().radii(Member::Driven).1)
+                Severity::of_deviation(worst.value * pair.rolling().radii(Member::Driven).1)
             },
             message: format!(
                 "for {} % of the cycle contact is on a tooth edge, not on the flanks; the driven gear is {} {} off",
@@ -364,19 +373,19 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
                 },
                 // Of some gears nothing is followed between the samples.
                 if contact.is_followed(pair) { "up to" } else { "at least" },
-                Unit::Angle.tell(worst.0),
+                Unit::Angle.tell(worst.value),
             ),
-            measured: Some(worst.0),
+            measured: Some(worst.value),
             required: Some(allowed),
             unit: Unit::Angle,
-            place: place(worst.1),
+            place: place(worst.input),
         });
     }
     report
         .findings
         .extend(negative_backlash(pair, pair.backlash()));
     report.findings.extend(seat_jump(pair, contact));
-    report.findings.extend(restless(pair, contact));
+    report.findings.extend(oscillations(pair, contact));
 }
 
 /// Finding about teeth of a normal backlash, mm, that overlap where the deviations of thickness make them thickest.
@@ -399,8 +408,8 @@ pub(crate) fn negative_backlash(pair: &GearPair, backlash: f64) -> Option<Findin
     })
 }
 
-/// Pitch curves that swing so often that figures of the mesh are those of samples, as a finding.
-fn restless(pair: &GearPair, contact: &Contact) -> Option<Finding> {
+/// Pitch curves that oscillate so often that figures of the mesh are those of the samples, as a finding.
+fn oscillations(pair: &GearPair, contact: &Contact) -> Option<Finding> {
     let (swings, teeth) = (pair.rolling().swings(), pair.driver().tooth_count());
     oscillates_per_tooth(pair).then(|| Finding {
         rule: "pitch-curve-swings",
@@ -420,9 +429,9 @@ fn restless(pair: &GearPair, contact: &Contact) -> Option<Finding> {
 /// The greatest jump of a seat, as a finding.
 fn seat_jump(pair: &GearPair, contact: &Contact) -> Option<Finding> {
     let jumps = contact.seat_jumps(pair);
-    let greatest = jumps.first()?;
-    let (driver, driven) = greatest.teeth;
-    let pushed = if greatest.is_reverse { "back" } else { "on" };
+    let maximum = jumps.first()?;
+    let (driver, driven) = maximum.teeth;
+    let pushed = if maximum.is_reverse { "back" } else { "on" };
     let others = match jumps.len() - 1 {
         0 => String::new(),
         others => format!("; so it does at {others} more inputs"),
@@ -430,16 +439,16 @@ fn seat_jump(pair: &GearPair, contact: &Contact) -> Option<Finding> {
     Some(Finding {
         rule: "seat-jump",
         remedy: remedy("seat-jump"),
-        severity: Severity::of_deviation(greatest.turn * pair.rolling().radii(Member::Driven).1),
+        severity: Severity::of_deviation(maximum.turn * pair.rolling().radii(Member::Driven).1),
         message: format!(
             "driver tooth {driver} hits driven tooth {driven} within the backlash: the driven gear pushed {pushed} can jump by {} or jam{others}",
-            Unit::Angle.tell(greatest.turn)
+            Unit::Angle.tell(maximum.turn)
         ),
-        measured: Some(greatest.turn),
+        measured: Some(maximum.turn),
         required: Some(0.0),
         unit: Unit::Angle,
         place: Place {
-            input: Some(greatest.input),
+            input: Some(maximum.input),
             ..Place::default()
         },
     })

@@ -9,7 +9,7 @@ use crate::Contact;
 /// Transmission error up to which the flanks carry the motion by themselves, rad.
 const CARRIED: f64 = 1e-9;
 /// Greatest tooth count of a driver that [`remedies`] tries.
-pub const MOST_TEETH: u32 = 600;
+pub const MAX_TEETH: u32 = 600;
 
 /// Overlap of the pitch curves, modules, above which no teeth are looked for.
 const OVERLAP: f64 = 0.5;
@@ -25,7 +25,7 @@ pub struct PairRemedy {
     /// Numbers chosen beside that height, and written in the design.
     pub fit: Vec<Fit>,
     /// Tooth count of the driver at which they do: with one step fewer they do not. A greater one may fail again.
-    pub least_tooth_count: u32,
+    pub minimum_tooth_count: u32,
     /// The design with such teeth: as many as written where those are enough, else the least that are, on pitch curves of the
     /// same size.
     pub design: GearPairDesign,
@@ -36,7 +36,7 @@ pub struct PairRemedy {
 ///
 /// They do where flanks face each other as designed at all samples of [`Contact::analyse`], nothing penetrates, and the transmission
 /// error stays below 1e-9 rad, more only by what the play thins the flanks (2e-5 rad at most), by [`Contact::extremes`]. Counts grow by a quarter from the one written till one does;
-/// between that and the first, where they are few, all are tried, and else they are halved: the count found carries the motion and the one below it does not, but a greater one may fail again, and a lesser one may carry. A kind of teeth that does not up to [`MOST_TEETH`]
+/// between that and the first, where they are few, all are tried, and else they are halved: the count found carries the motion and the one below it does not, but a greater one may fail again, and a lesser one may carry. A kind of teeth that does not up to [`MAX_TEETH`]
 /// is left out. Each count tried costs a pair and its contact; a choice (`teeth.fit`) is looked for only where as many fitted
 /// teeth as written do not carry, up to the count from which they do and to twice the one written.
 #[must_use]
@@ -48,19 +48,19 @@ pub fn remedies(pair: &GearPair) -> Vec<PairRemedy> {
     }
     let written = pair.driver().tooth_count();
     let mut design = pair.settled_design();
-    let changed = |design: &GearPairDesign, least: u32| match least > written {
-        true => design.with_tooth_count(least),
+    let changed = |design: &GearPairDesign, minimum: u32| match minimum > written {
+        true => design.with_tooth_count(minimum),
         false => design.clone(),
     };
     let mut found = Vec::new();
     for addendum in [Addendum::Full, Addendum::Fitted] {
         design.teeth.addendum = addendum;
-        let least = least_count(&design, written, MOST_TEETH);
-        found.extend(least.map(|least| PairRemedy {
+        let minimum = minimum_count(&design, written, MAX_TEETH);
+        found.extend(minimum.map(|minimum| PairRemedy {
             addendum,
             fit: Vec::new(),
-            least_tooth_count: least,
-            design: changed(&design, least),
+            minimum_tooth_count: minimum,
+            design: changed(&design, minimum),
         }));
     }
     let fitted = found
@@ -68,17 +68,17 @@ pub fn remedies(pair: &GearPair) -> Vec<PairRemedy> {
         .find(|remedy| remedy.addendum == Addendum::Fitted);
     // Each count tried costs a hundred layouts.
     let most = fitted.map_or(written, |remedy| {
-        (remedy.least_tooth_count - 1).min(2 * written)
+        (remedy.minimum_tooth_count - 1).min(2 * written)
     });
     design.teeth.fit = vec![Fit::ThicknessSplit, Fit::PressureAngle, Fit::Phase];
     if most >= written
-        && let Some(least) = least_count(&design, written, most)
-        && let Ok(pair) = GearPair::resolve(&changed(&design, least))
+        && let Some(minimum) = minimum_count(&design, written, most)
+        && let Ok(pair) = GearPair::resolve(&changed(&design, minimum))
     {
         found.push(PairRemedy {
             addendum: Addendum::Fitted,
             fit: design.teeth.fit,
-            least_tooth_count: least,
+            minimum_tooth_count: minimum,
             design: pair.settled_design(),
         });
     }
@@ -86,7 +86,7 @@ pub fn remedies(pair: &GearPair) -> Vec<PairRemedy> {
 }
 
 /// The least tooth count at which the flanks of a design carry its motion, looked for from one on and up to another.
-pub(crate) fn least_count(design: &GearPairDesign, written: u32, most: u32) -> Option<u32> {
+pub(crate) fn minimum_count(design: &GearPairDesign, written: u32, most: u32) -> Option<u32> {
     // The driven gear has a whole number of teeth.
     let step = design.mean_ratio[1];
     let carries = |steps: u32| is_carried(&design.with_tooth_count(steps * step));
@@ -160,7 +160,7 @@ fn is_sampled(pair: &GearPair, found: &Contact) -> bool {
     let errors = found.transmission_error.iter();
     let mut errors = errors
         .zip(&found.reverse_transmission_error)
-        .zip(found.on_flanks_both_ways());
+        .zip(found.on_flanks_in_both_directions());
     let deepest = PENETRATION * pair.module();
     let mut clear = found.clearance.iter().chain(&found.fillet_clearance);
     errors.all(|((on, back), on_flanks)| {

@@ -37,17 +37,26 @@ fn flanks(
 /// Least share of a pair's module that is told as a remedy: below it twenty times the teeth would be needed.
 const USEFUL: f64 = 0.05;
 
+/// Teeth with a fault, and the largest figure of it.
+#[derive(Default)]
+struct FaultyTeeth {
+    numbers: Vec<u32>,
+    worst: f64,
+}
+
 pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut Report) {
     let part = gear.member().name();
-    let least = pair.teeth().least_tip_width;
+    let minimum = pair.teeth().minimum_tip_width;
     let small = 1e-9 * pair.module();
-    let collect = |wanted: &dyn Fn(&Tooth) -> Option<f64>| -> (Vec<u32>, f64) {
-        let found: Vec<(u32, f64)> = (0_u32..)
-            .zip(gear.teeth())
-            .filter_map(|(k, tooth)| wanted(tooth).map(|figure| (k, figure)))
-            .collect();
-        let worst = found.iter().map(|f| f.1).fold(0.0, f64::max);
-        (found.into_iter().map(|f| f.0).collect(), worst)
+    let collect = |figure: &dyn Fn(&Tooth) -> Option<f64>| {
+        let mut found = FaultyTeeth::default();
+        for (number, tooth) in (0_u32..).zip(gear.teeth()) {
+            if let Some(figure) = figure(tooth) {
+                found.numbers.push(number);
+                found.worst = found.worst.max(figure);
+            }
+        }
+        found
     };
     let sides = |tooth: &Tooth| [tooth.leading, tooth.trailing];
     let module = limits.largest_module_of_full_teeth();
@@ -62,16 +71,16 @@ pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut 
     };
     let mut add = |rule,
                    severity,
-                   (teeth, worst): (Vec<u32>, f64),
+                   FaultyTeeth { numbers, worst }: FaultyTeeth,
                    required,
                    unit,
                    say: &dyn Fn(&str, f64) -> String| {
-        if teeth.is_empty() {
+        if numbers.is_empty() {
             return;
         }
         let who = format!(
             "{} of {} teeth of the {part}",
-            teeth.len(),
+            numbers.len(),
             gear.tooth_count()
         );
         report.findings.push(Finding {
@@ -81,7 +90,7 @@ pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut 
             message: say(&who, worst),
             // Of a thin tip the worst is what is missing.
             measured: Some(if rule == "thin-tip" {
-                least - worst
+                minimum - worst
             } else {
                 worst
             }),
@@ -89,7 +98,7 @@ pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut 
             unit,
             place: Place {
                 part: Some(part.into()),
-                teeth,
+                teeth: numbers,
                 flanks: match rule {
                     "undercut" => flanks(pair, gear, &|side| side.undercut > 0.0, false),
                     "short-tooth" => flanks(pair, gear, &|side| side.tip_shortening > small, true),
@@ -119,7 +128,7 @@ pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut 
     });
     add(
         "undercut",
-        Severity::of_deviation(undercut.1),
+        Severity::of_deviation(undercut.worst),
         undercut,
         Some(0.0),
         Unit::Millimetre,
@@ -139,7 +148,7 @@ pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut 
     });
     add(
         "short-tooth",
-        Severity::of_deviation(short.1),
+        Severity::of_deviation(short.worst),
         short,
         Some(0.0),
         Unit::Millimetre,
@@ -154,21 +163,22 @@ pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut 
         "pointed",
         Severity::Warning,
         pointed,
-        Some(least),
+        Some(minimum),
         Unit::Millimetre,
         &|who, _| format!("{who} are pointed: their flanks meet below the tip"),
     );
     let thin = collect(&|t| {
-        (t.tip_width > small && t.tip_width < least * (1.0 - 1e-9)).then_some(least - t.tip_width)
+        (t.tip_width > small && t.tip_width < minimum * (1.0 - 1e-9))
+            .then_some(minimum - t.tip_width)
     });
     add(
         "thin-tip",
         Severity::Warning,
         thin,
-        Some(least),
+        Some(minimum),
         Unit::Millimetre,
         &|who, worst| {
-            format!("{who} are thinner at the tip than {least:.4} mm, by up to {worst:.4} mm")
+            format!("{who} are thinner at the tip than {minimum:.4} mm, by up to {worst:.4} mm")
         },
     );
     let dead = collect(&|t| {
@@ -227,27 +237,27 @@ mod tests {
 
     #[test]
     fn a_module_of_no_use_is_not_told_as_a_remedy() {
-        let told = |pitch| {
+        let stated = |pitch| {
             let pair = GearPair::resolve(&GearPairDesign::new(pitch)).expect("a pair");
             let mut report = Report::default();
             teeth(&pair, pair.driver(), &pair.limits(), &mut report);
             let messages: Vec<String> = report.findings.into_iter().map(|f| f.message).collect();
             (messages.join("\n"), pair.rolling().radii(Member::Driver).1)
         };
-        let (mild, _) = told(PitchSpec::Ellipse(Ellipse {
+        let (mild, _) = stated(PitchSpec::Ellipse(Ellipse {
             eccentricity: 0.6,
             module: Some(2.0),
             tooth_count: Some(21),
             ..Ellipse::default()
         }));
         assert!(mild.contains("the largest module without it is"), "{mild}");
-        let (sharp, greatest) = told(PitchSpec::Polar(Polar {
+        let (sharp, maximum) = stated(PitchSpec::Polar(Polar {
             module: Some(2.0),
             tooth_count: Some(21),
             ..Polar::expression("1 + 0.01*exp(-1000*(1 - cos(phi)))")
         }));
         // On top of the bump the second derivative of the radius is -10.
-        let radius = greatest / (1.0 + 10.0 / 1.01);
+        let radius = maximum / (1.0 + 10.0 / 1.01);
         let radius = format!("bend to a radius of {radius:.4} mm");
         assert!(sharp.contains(&radius), "{radius}: {sharp}");
         assert!(!sharp.contains("largest module"), "{sharp}");

@@ -93,7 +93,7 @@ impl PartialEq for BoundaryPiece {
 impl Eq for BoundaryPiece {}
 
 /// Parts of boundaries looked at before the tolerance is doubled.
-const MOST_STEPS: u32 = 200_000;
+const MAX_STEPS: u32 = 200_000;
 
 /// Deepest point of either boundary in the other body while the input runs, within `tolerance`, searched only deeper
 /// than `beat`.
@@ -119,7 +119,7 @@ pub(super) fn deepest(
         bound: f64::NEG_INFINITY,
         place: None,
     };
-    let mut patience = Patience::new(tolerance, MOST_STEPS);
+    let mut patience = Patience::new(tolerance, MAX_STEPS);
     while let Some(piece) = open.pop() {
         checkpoint();
         let tolerance = patience.after_one_more();

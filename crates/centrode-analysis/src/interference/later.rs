@@ -6,7 +6,7 @@ use super::motion::{Bend, Motion, PoseJet, Tabulated};
 ///
 /// Arms on one carrier: seen from it, each is a turned copy of the first, late by its share of a cycle.
 #[derive(Clone, Copy, Debug)]
-pub struct Later<'a> {
+pub struct DelayedMotion<'a> {
     /// Motion that is repeated; its inputs are one whole cycle.
     pub first: &'a Tabulated,
     /// Delay of the input, in `[0, cycle]`.
@@ -15,7 +15,7 @@ pub struct Later<'a> {
     pub turned: f64,
 }
 
-impl Later<'_> {
+impl DelayedMotion<'_> {
     /// Input of the first body, in its table.
     fn own(&self, input: f64) -> f64 {
         let (start, cycle) = (self.first.start, self.first.length());
@@ -23,7 +23,7 @@ impl Later<'_> {
     }
 }
 
-impl Motion for Later<'_> {
+impl Motion for DelayedMotion<'_> {
     fn at(&self, input: f64) -> PoseJet {
         let jet = self.first.at(self.own(input));
         let turn = Rotation2::new(self.turned);

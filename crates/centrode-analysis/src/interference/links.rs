@@ -1,9 +1,11 @@
 use centrode_geometry::Tolerance;
-use centrode_kinematics::machine::{FrameJet, Joint, JointKind, Machine, Surface};
+use centrode_kinematics::machine::{FrameJet, Joint, JointKind, LinkedMachine, Surface};
 
 use crate::side_by_side::each;
 
-use super::{Body, BodyError, Clearance, InterferenceError, MotionError, Moving, PoseJet, Shares};
+use super::{
+    Body, BodyError, Clearance, InterferenceError, MotionError, Moving, PhaseShifts, PoseJet,
+};
 
 /// Range of the input that counts as one place, rad.
 const MOMENT: f64 = 1e-9;
@@ -46,7 +48,7 @@ impl From<MotionError> for LinkClearanceError {
 /// # Errors
 /// [`LinkClearanceError`] as for [`LinkPair::new`].
 pub fn between_links(
-    machine: &Machine,
+    machine: &LinkedMachine,
     links: [usize; 2],
     tolerance: Tolerance,
 ) -> Result<Option<Clearance>, LinkClearanceError> {
@@ -70,7 +72,7 @@ pub struct LinkPair {
     bodies: Vec<(usize, Body)>,
     /// Bodies that overlap in height.
     pairs: Vec<[usize; 2]>,
-    shares: Shares,
+    shares: PhaseShifts,
 }
 
 impl LinkPair {
@@ -81,7 +83,7 @@ impl LinkPair {
     /// [`LinkClearanceError`] for a link that is not there, and for a joint between the two that turns about another axis
     /// than z or slides along it.
     pub fn new(
-        machine: &Machine,
+        machine: &LinkedMachine,
         links: [usize; 2],
         surfaces: [Vec<&Surface>; 2],
         tolerance: Tolerance,
@@ -95,7 +97,7 @@ impl LinkPair {
 
     /// Makes contours ready as [`new`](Self::new) does, of two links or of one, on which both stand still; the links are the machine's.
     pub(crate) fn of_any(
-        machine: &Machine,
+        machine: &LinkedMachine,
         links: [usize; 2],
         surfaces: [Vec<&Surface>; 2],
         tolerance: Tolerance,
@@ -128,7 +130,7 @@ impl LinkPair {
         if pairs.is_empty() {
             return Ok(None);
         }
-        let shares = Shares::new(tolerance);
+        let shares = PhaseShifts::new(tolerance);
         let bodies = all.iter().map(|(link, surface)| {
             let body = shares.body(std::slice::from_ref(&surface.outline))?;
             Ok((*link, body))
@@ -145,7 +147,7 @@ impl LinkPair {
     /// Least clearance while the input runs from the first to the second of `inputs`.
     ///
     /// Both links are seen from the nearest link that carries them. Clearances are mm, inputs rad, points in that link's
-    /// frame; `pair` is the two links. `least` is above the true clearance by no more than the tolerance, `lower_bound`
+    /// frame; `pair` is the two links. `minimum` is above the true clearance by no more than the tolerance, `lower_bound`
     /// below it by no more, as [`clearance`](super::clearance) tells. Teeth in mesh overlap by their penetration.
     ///
     /// # Errors
@@ -164,10 +166,10 @@ impl LinkPair {
             .zip(&motions)
             .map(|((_, body), motion)| Moving { body, motion })
             .collect();
-        let least = self.shares.least(&moving, &self.pairs, inputs)?;
+        let minimum = self.shares.minimum(&moving, &self.pairs, inputs)?;
         // There is a pair: it has a least distance.
         let nowhere = MotionError::NotFinite { input: inputs[0] };
-        let found = least.ok_or(nowhere)?;
+        let found = minimum.ok_or(nowhere)?;
         Ok(Clearance {
             pair: self.links,
             ..found
@@ -184,7 +186,7 @@ impl LinkPair {
 }
 
 /// Joints that carry each of two links, from the nearest link that carries both.
-fn apart(machine: &Machine, links: [usize; 2]) -> [Vec<&Joint>; 2] {
+fn apart(machine: &LinkedMachine, links: [usize; 2]) -> [Vec<&Joint>; 2] {
     let [mut one, mut other] = links.map(|link| {
         let mut chain: Vec<&Joint> = machine.carriers(link).collect();
         chain.reverse();
@@ -245,14 +247,14 @@ mod tests {
     }
 
     /// A bar that turns about the origin and carries a square 50 mm out, and a square at rest 80 mm out.
-    fn machine(height: f64) -> Machine {
-        let mut machine = Machine {
+    fn machine(height: f64) -> LinkedMachine {
+        let mut machine = LinkedMachine {
             input: Input {
                 name: "crank".into(),
                 period: TAU,
                 speed: 1.0,
             },
-            ..Machine::default()
+            ..LinkedMachine::default()
         };
         let surface = |name: &str, half: f64, low: f64| Surface {
             name: name.into(),
@@ -301,7 +303,7 @@ mod tests {
         let found = between_links(&machine(5.0), [2, 3], tolerance);
         let found = found.expect("determined").expect("level");
         // The crank's pin is nearest at 50 mm; the squares keep level and reach 5 and 10 mm towards each other.
-        assert!((found.least - 15.0).abs() < 1e-4, "{found:?}");
+        assert!((found.minimum - 15.0).abs() < 1e-4, "{found:?}");
         assert!(found.lower_bound <= 15.0 && found.lower_bound > 15.0 - 1e-4);
         // There 25 mm/rad^2 of the turn squared are within the tolerance.
         assert!((found.input - (TAU - 0.3)).abs() < 2e-3, "{found:?}");

@@ -11,7 +11,7 @@ mod sweep;
 use centrode_geometry::{Outline, Point, Tolerance};
 
 pub use body::{Body, BodyError};
-pub use later::Later;
+pub use later::DelayedMotion;
 pub use links::{LinkClearanceError, LinkPair, between_links};
 pub use motion::{Bend, Motion, MotionError, PoseJet, Rest, Tabulated, Uniform};
 
@@ -34,10 +34,10 @@ pub struct Moving<'a> {
 pub struct Clearance {
     /// Least distance found, mm. Where the bodies overlap it is negative: the depth of the deepest point of
     /// one lies inside the other.
-    pub least: f64,
+    pub minimum: f64,
     /// Proven lower bound of the clearance, mm.
     pub lower_bound: f64,
-    /// Input at which `least` was found, rad.
+    /// Input at which `minimum` was found, rad.
     pub input: f64,
     /// Closest points of the two bodies there, in the common frame; for bodies that overlap, the deepest
     /// point twice.
@@ -49,13 +49,13 @@ pub struct Clearance {
 /// Division of a tolerance: the errors of two bodies, their motions and the search sum up to the tolerance. The least
 /// clearance found is then above the true one by no more, nor is the bound farther below.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Shares {
+pub(crate) struct PhaseShifts {
     body: Tolerance,
     motion: Tolerance,
     search: Tolerance,
 }
 
-impl Shares {
+impl PhaseShifts {
     pub(crate) fn new(tolerance: Tolerance) -> Self {
         Self {
             body: tolerance.scaled(0.125),
@@ -80,13 +80,13 @@ impl Shares {
     }
 
     /// Least clearance among pairs of such bodies.
-    pub(crate) fn least(
+    pub(crate) fn minimum(
         self,
         bodies: &[Moving<'_>],
         pairs: &[[usize; 2]],
         inputs: [f64; 2],
     ) -> Result<Option<Clearance>, InterferenceError> {
-        least_clearance(bodies, pairs, inputs, self.search)
+        minimum_clearance(bodies, pairs, inputs, self.search)
     }
 }
 
@@ -111,7 +111,7 @@ pub enum InterferenceError {
 ///
 /// The search halves intervals of the input until none can hold a clearance smaller than the least one
 /// found less the tolerance: within an interval no point can leave its tangent by more than its greatest
-/// second derivative allows. `lower_bound` is `least` less at most the tolerance, the flattening of both
+/// second derivative allows. `lower_bound` is `minimum` less at most the tolerance, the flattening of both
 /// bodies and the deviation of both motions; it is proven where [`Motion::bend`] is. Poses may be given in
 /// any one frame; the search is quickest where the bodies' movement is least, for arms on a carrier in
 /// the carrier's frame. Arms that follow one another in equal phases make one curve: one pair is enough.
@@ -142,28 +142,28 @@ pub fn clearance(
 ///
 /// # Errors
 /// [`InterferenceError`] for a pair that is none, and those of [`clearance`].
-pub fn least_clearance(
+pub fn minimum_clearance(
     bodies: &[Moving<'_>],
     pairs: &[[usize; 2]],
     inputs: [f64; 2],
     tolerance: Tolerance,
 ) -> Result<Option<Clearance>, InterferenceError> {
-    let mut least: Option<Clearance> = None;
+    let mut minimum: Option<Clearance> = None;
     for &pair in pairs {
         let [i, j] = pair;
         let (Some(a), Some(b), true) = (bodies.get(i), bodies.get(j), i != j) else {
             let bodies = bodies.len();
             return Err(InterferenceError::Pair { pair, bodies });
         };
-        let beat = least.map_or(f64::INFINITY, |c| c.least);
+        let beat = minimum.map_or(f64::INFINITY, |c| c.minimum);
         let found = below([a, b], pair, inputs, beat, tolerance)?;
-        let bound = least.map_or(f64::INFINITY, |c| c.lower_bound);
-        least = found.closest.or(least);
-        if let Some(least) = &mut least {
-            least.lower_bound = found.bound.min(bound);
+        let bound = minimum.map_or(f64::INFINITY, |c| c.lower_bound);
+        minimum = found.closest.or(minimum);
+        if let Some(minimum) = &mut minimum {
+            minimum.lower_bound = found.bound.min(bound);
         }
     }
-    Ok(least)
+    Ok(minimum)
 }
 
 /// Tolerance of a search, mm, which doubles after so many steps as would take too long.
@@ -216,9 +216,9 @@ fn below(
         let found = approach(both, inputs, beat, decided)?;
         if found.bound > 0.0 {
             let closest = match found.input {
-                Some(input) => gap(both, input)?.map(|(least, points)| Clearance {
-                    least,
-                    lower_bound: found.bound.min(least) - unsure,
+                Some(input) => gap(both, input)?.map(|(minimum, points)| Clearance {
+                    minimum,
+                    lower_bound: found.bound.min(minimum) - unsure,
                     input,
                     points,
                     pair,
@@ -234,7 +234,7 @@ fn below(
     let found = deepest(both, inputs, -beat, decided)?;
     let bound = -found.bound - unsure;
     let closest = found.place.map(|(input, point)| Clearance {
-        least: -found.depth,
+        minimum: -found.depth,
         lower_bound: bound,
         input,
         points: [point; 2],

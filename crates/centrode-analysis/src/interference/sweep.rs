@@ -15,13 +15,13 @@ use super::motion::{Bend, Frame};
 use super::{InterferenceError, Moving, Patience};
 
 /// Pairs of circles or edges looked at before the tolerance is doubled.
-const MOST_STEPS: u32 = 50_000_000;
+const MAX_STEPS: u32 = 50_000_000;
 
 /// Result of the search of one pair.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Approach {
     /// Least distance found, and its place; the one to beat if nothing came closer.
-    pub(super) least: f64,
+    pub(super) minimum: f64,
     pub(super) input: Option<f64>,
     /// Lower bound of the distance.
     pub(super) bound: f64,
@@ -73,14 +73,14 @@ pub(super) fn approach(
         pairs: Rc::new([[0, 0]]),
     }]);
     let mut found = Approach {
-        least: beat,
+        minimum: beat,
         input: None,
         bound: f64::INFINITY,
     };
-    let mut patience = Patience::new(tolerance, MOST_STEPS);
+    let mut patience = Patience::new(tolerance, MAX_STEPS);
     while let Some(span) = open.pop() {
         checkpoint();
-        if span.bound >= found.least - patience.tolerance {
+        if span.bound >= found.minimum - patience.tolerance {
             found.bound = found.bound.min(span.bound);
             break;
         }
@@ -91,9 +91,9 @@ pub(super) fn approach(
             continue;
         }
         // Neighbouring floats, or contact: no further halving helps.
-        if middle <= span.from || middle >= span.to || found.least <= 0.0 {
+        if middle <= span.from || middle >= span.to || found.minimum <= 0.0 {
             found.bound = found.bound.min(rest.bound);
-            if found.least <= 0.0 {
+            if found.minimum <= 0.0 {
                 break;
             }
             continue;
@@ -108,7 +108,7 @@ pub(super) fn approach(
             });
         }
     }
-    found.bound = found.bound.min(found.least);
+    found.bound = found.bound.min(found.minimum);
     Ok(found)
 }
 
@@ -154,17 +154,17 @@ impl<'a> PairState<'a> {
             let tolerance = patience.after_one_more();
             let [p, q] = [0, 1].map(|i| self.bodies[i].node(pair[i]));
             let (bound, blur) = self.circles(pair);
-            if bound >= found.least - tolerance {
+            if bound >= found.minimum - tolerance {
                 found.bound = found.bound.min(bound);
                 continue;
             }
             match (p.part, q.part) {
                 (NodeKind::Edge(e), NodeKind::Edge(f)) => {
                     let (distance, bound) = self.edges([e, f]);
-                    if distance < found.least {
-                        (found.least, found.input) = (distance, Some(self.input));
+                    if distance < found.minimum {
+                        (found.minimum, found.input) = (distance, Some(self.input));
                     }
-                    if bound >= found.least - tolerance {
+                    if bound >= found.minimum - tolerance {
                         found.bound = found.bound.min(bound);
                     } else {
                         rest.keep(pair, bound);
@@ -256,12 +256,12 @@ fn between(p: [Point; 2], q: [Point; 2]) -> (f64, Vector) {
         c - (a + way * share)
     };
     let ways = [to(p[0], q), to(p[1], q), -to(q[0], p), -to(q[1], p)];
-    let mut least = (f64::INFINITY, Vector::zeros());
+    let mut minimum = (f64::INFINITY, Vector::zeros());
     for way in ways {
         let squared = way.norm_squared();
-        if squared < least.0 {
-            least = (squared, way);
+        if squared < minimum.0 {
+            minimum = (squared, way);
         }
     }
-    (least.0.sqrt(), least.1)
+    (minimum.0.sqrt(), minimum.1)
 }

@@ -40,11 +40,11 @@ impl Chance {
     }
 
     /// A star-shaped, mostly concave polygon.
-    fn star(&mut self, corners: u32, least: f64, greatest: f64) -> Vec<Point> {
+    fn star(&mut self, corners: u32, minimum: f64, maximum: f64) -> Vec<Point> {
         (0..corners)
             .map(|i| {
                 let angle = TAU * f64::from(i) / f64::from(corners);
-                Point::from(Vector::new(angle.cos(), angle.sin()) * self.between(least, greatest))
+                Point::from(Vector::new(angle.cos(), angle.sin()) * self.between(minimum, maximum))
             })
             .collect()
     }
@@ -57,13 +57,13 @@ fn brute_distance(a: &[Point], b: &[Point]) -> f64 {
         (p - (c + (d - c) * t)).norm()
     };
     let one_way = |a: &[Point], b: &[Point]| {
-        let mut least = f64::INFINITY;
+        let mut minimum = f64::INFINITY;
         for p in a {
             for i in 0..b.len() {
-                least = least.min(to_edge(p, &b[i], &b[(i + 1) % b.len()]));
+                minimum = minimum.min(to_edge(p, &b[i], &b[(i + 1) % b.len()]));
             }
         }
-        least
+        minimum
     };
     one_way(a, b).min(one_way(b, a))
 }
@@ -100,15 +100,15 @@ fn distance_at_a_pose_is_that_of_all_corners_against_all_edges() {
         let found = clearance(&a, &b, [0.0, 1.0], tolerance(1e-9)).expect("finite");
         if brute_crossing(&placed[0], &placed[1]) {
             overlapping += 1;
-            assert!(found.least < 0.0, "{found:?}");
+            assert!(found.minimum < 0.0, "{found:?}");
         } else {
             apart += 1;
             let expected = brute_distance(&placed[0], &placed[1]);
             assert!(
-                (found.least - expected).abs() < 1e-12,
+                (found.minimum - expected).abs() < 1e-12,
                 "{found:?} {expected}"
             );
-            assert!(found.lower_bound <= found.least && found.lower_bound > found.least - 2e-9);
+            assert!(found.lower_bound <= found.minimum && found.lower_bound > found.minimum - 2e-9);
             let [p, q] = found.points;
             assert!(((p - q).norm() - expected).abs() < 1e-9);
         }
@@ -135,7 +135,7 @@ fn a_turning_bar_passes_a_circle_at_the_distance_of_the_closed_form() {
         let found = clearance(&a, &b, inputs, tolerance(1e-4)).expect("finite");
         // The bar's corners pass closest, and the circle is flattened from within.
         let exact = 125.0 - 100_f64.hypot(2.0);
-        assert!((found.least - exact).abs() < 1.2e-3, "{found:?}");
+        assert!((found.minimum - exact).abs() < 1.2e-3, "{found:?}");
         assert!(
             (0.0..2.3e-3).contains(&(exact - found.lower_bound)),
             "{found:?}"
@@ -161,13 +161,13 @@ fn a_thin_bar_that_swings_past_within_a_thousandth_of_a_radian_is_caught() {
         };
         let (a, b) = (moving(&bar, &swing), moving(&pin, &place));
         let found = clearance(&a, &b, [0.0, 3.0], tolerance(1e-4)).expect("finite");
-        assert!((found.least + 0.01).abs() < 2e-4, "{turning} {found:?}");
-        assert!(found.lower_bound <= found.least && found.lower_bound > -0.0103);
+        assert!((found.minimum + 0.01).abs() < 2e-4, "{turning} {found:?}");
+        assert!(found.lower_bound <= found.minimum && found.lower_bound > -0.0103);
         let beside = Rest(Isometry2::new(place.0.translation.vector * 1.2, 1.2345));
         let b = moving(&pin, &beside);
         let found = clearance(&a, &b, [0.0, 3.0], tolerance(1e-4)).expect("finite");
         assert!(
-            (found.least - (108.0 - 0.01 - 100.0)).abs() < 1e-4,
+            (found.minimum - (108.0 - 0.01 - 100.0)).abs() < 1e-4,
             "{found:?}"
         );
     }
@@ -192,9 +192,9 @@ fn bodies_that_stay_in_each_other_are_as_deep_as_they_are_to_a_told_bound() {
         moving(&bodies[1], &motions[1]),
     );
     let found = clearance(&a, &b, [0.0, TAU], tolerance(1e-6)).expect("finite");
-    assert!((found.least + 7.0).abs() < 1e-5, "{found:?}");
+    assert!((found.minimum + 7.0).abs() < 1e-5, "{found:?}");
     assert!(
-        (found.lower_bound..=found.lower_bound + 0.1).contains(&found.least),
+        (found.lower_bound..=found.lower_bound + 0.1).contains(&found.minimum),
         "{found:?}"
     );
 }
@@ -212,16 +212,16 @@ fn inside_is_overlap_and_pulled_apart_is_not() {
     // The deepest of the small square's border: its left side is 7 mm from the right, 8 from above.
     let (a, b) = (moving(&large, &home), moving(&small, &deep));
     let inside = clearance(&a, &b, [0.0, 1.0], tolerance(1e-6)).expect("finite");
-    assert!((inside.least + 7.0).abs() < 1e-5, "{inside:?}");
-    assert!((found(12.0, 1e-6).least - 1.0).abs() < 1e-12);
+    assert!((inside.minimum + 7.0).abs() < 1e-5, "{inside:?}");
+    assert!((found(12.0, 1e-6).minimum - 1.0).abs() < 1e-12);
     for gap in [1e-3, 1e-6, 1e-9] {
         let apart = found(11.0 + gap, 1e-12);
         assert!(
-            (apart.least - gap).abs() < 1e-12 && apart.lower_bound > 0.0,
+            (apart.minimum - gap).abs() < 1e-12 && apart.lower_bound > 0.0,
             "{apart:?}"
         );
         let into = found(11.0 - gap, 0.1 * gap);
-        assert!((into.least + gap).abs() < 0.2 * gap, "{into:?}");
+        assert!((into.minimum + gap).abs() < 0.2 * gap, "{into:?}");
     }
     // A ring has a hole: a body in the hole is clear of it.
     let hole = Outline::circle(Point::origin(), 8.0).reversed();
@@ -229,7 +229,7 @@ fn inside_is_overlap_and_pulled_apart_is_not() {
     let (a, b) = (moving(&ring, &home), moving(&small, &home));
     let concave = clearance(&a, &b, [0.0, 1.0], tolerance(1e-6)).expect("finite");
     assert!(
-        (concave.least - (8.0 - 2_f64.sqrt())).abs() < 3e-6,
+        (concave.minimum - (8.0 - 2_f64.sqrt())).abs() < 3e-6,
         "{concave:?}"
     );
 }
@@ -286,18 +286,18 @@ fn a_moving_pair_is_nowhere_closer_than_the_bound_and_scales() {
         assert!(distance > found.lower_bound, "{input}");
     }
     assert!(
-        (found.least - sampled).abs() < within + 1e-3,
+        (found.minimum - sampled).abs() < within + 1e-3,
         "{found:?} {sampled}"
     );
     assert!(
-        found.lower_bound >= found.least - 1.01 * within,
+        found.lower_bound >= found.minimum - 1.01 * within,
         "{found:?}"
     );
     let ([p, q], [m, n]) = arms(1000.0);
     let (a, b) = (moving(&p, &m), moving(&q, &n));
     let large = clearance(&a, &b, [0.0, TAU], tolerance(1000.0 * within)).expect("finite");
     assert!(
-        (large.least - 1000.0 * found.least).abs() < 1e-7,
+        (large.minimum - 1000.0 * found.minimum).abs() < 1e-7,
         "{large:?}"
     );
     assert!(
@@ -318,7 +318,7 @@ fn bounds_of_a_table_hold_everywhere_and_a_later_body_does_the_same() {
     let table = Tabulated::new([0.0, TAU], 97, law).expect("smooth");
     let (far, turned) = table.deviation();
     assert!(far < 1e-3 && turned < 1e-3, "{far} {turned}");
-    let later = Later {
+    let later = DelayedMotion {
         first: &table,
         delay: 1.9,
         turned: 0.6,
@@ -396,13 +396,13 @@ fn random_motions_are_never_closer_than_proven() {
             });
         }
         assert!(sampled >= found.lower_bound, "{sampled} {found:?}");
-        assert!(found.lower_bound >= found.least - 1.001e-3, "{found:?}");
+        assert!(found.lower_bound >= found.minimum - 1.001e-3, "{found:?}");
         if sampled > 0.0 {
             clear += 1;
-            assert!((sampled - found.least).abs() < 0.2, "{sampled} {found:?}");
+            assert!((sampled - found.minimum).abs() < 0.2, "{sampled} {found:?}");
         } else {
             overlapping += 1;
-            assert!(found.least <= sampled + 1e-3, "{sampled} {found:?}");
+            assert!(found.minimum <= sampled + 1e-3, "{sampled} {found:?}");
         }
     }
     assert!(clear > 10 && overlapping > 10, "{clear} {overlapping}");
@@ -414,15 +414,15 @@ fn the_least_of_several_pairs_is_that_of_the_closest() {
     let places = [0.0, 10.0, 15.0, 40.0].map(|x| Rest(Isometry2::new(Vector::new(x, 0.0), 0.0)));
     let bodies = places.each_ref().map(|place| moving(&square, place));
     let pairs = [[0, 1], [2, 3], [1, 2], [0, 3]];
-    let found = least_clearance(&bodies, &pairs, [0.0, 1.0], tolerance(1e-6)).expect("finite");
+    let found = minimum_clearance(&bodies, &pairs, [0.0, 1.0], tolerance(1e-6)).expect("finite");
     let found = found.expect("pairs");
     assert_eq!(found.pair, [1, 2]);
-    assert!((found.least - 3.0).abs() < 1e-12 && (found.lower_bound - 3.0).abs() < 2e-6);
+    assert!((found.minimum - 3.0).abs() < 1e-12 && (found.lower_bound - 3.0).abs() < 2e-6);
     assert_eq!(
-        least_clearance(&bodies, &[], [0.0, 1.0], tolerance(1e-6)),
+        minimum_clearance(&bodies, &[], [0.0, 1.0], tolerance(1e-6)),
         Ok(None)
     );
-    let error = least_clearance(&bodies, &[[1, 1]], [0.0, 1.0], tolerance(1e-6));
+    let error = minimum_clearance(&bodies, &[[1, 1]], [0.0, 1.0], tolerance(1e-6));
     assert!(matches!(
         error,
         Err(InterferenceError::Pair {
@@ -474,9 +474,9 @@ fn bodies_that_stay_as_near_all_along_have_an_answer_and_sizes_without_a_square_
     let still = moving(&middle, &rest);
     let found = clearance(&moving(&own, &crank), &still, [0.0, TAU], tolerance(1e-9));
     let found = found.expect("finite");
-    assert!((found.least - 10.0).abs() < 1e-3, "{found:?}");
+    assert!((found.minimum - 10.0).abs() < 1e-3, "{found:?}");
     assert!(
-        found.lower_bound <= found.least && found.lower_bound > 9.99,
+        found.lower_bound <= found.minimum && found.lower_bound > 9.99,
         "{found:?}"
     );
     let far = Uniform {

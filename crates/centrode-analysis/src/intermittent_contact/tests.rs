@@ -48,9 +48,9 @@ fn a_pair_with_cams_is_held_all_the_way() {
     let spec = spec(40, [3, 4], 30, 20_f64.to_radians());
     held(&spec);
     let (pair, contact) = contact(&spec);
-    let least = contact.ahead.iter().chain(&contact.back).copied();
-    let least = least.fold(f64::INFINITY, f64::min);
-    assert!(least > 0.95 * backlash(&pair), "{least}");
+    let minimum = contact.ahead.iter().chain(&contact.back).copied();
+    let minimum = minimum.fold(f64::INFINITY, f64::min);
+    assert!(minimum > 0.95 * backlash(&pair), "{minimum}");
 }
 
 #[test]
@@ -140,7 +140,7 @@ fn with_pins(
 fn slots(spec: &IntermittentPairSpec, pair: &IntermittentPair) -> (f64, f64) {
     const COUNT: u32 = 9000;
     let a = pair.center_distance();
-    let mut least = f64::INFINITY;
+    let mut minimum = f64::INFINITY;
     for cam in pair.cams() {
         let corners = cam.outline.flatten(Tolerance::new(1e-5).expect("positive"));
         let reach = corners.iter().map(|p| p.coords.norm()).fold(0.0, f64::max);
@@ -162,7 +162,7 @@ fn slots(spec: &IntermittentPairSpec, pair: &IntermittentPair) -> (f64, f64) {
                 let (dx, dy) = (q.x - p.x, q.y - p.y);
                 let t = ((x - p.x) * dx + (y - p.y) * dy) / (dx * dx + dy * dy);
                 let t = t.clamp(0.0, 1.0);
-                least = least.min((x - p.x - t * dx).hypot(y - p.y - t * dy) - cam.pin_radius);
+                minimum = minimum.min((x - p.x - t * dx).hypot(y - p.y - t * dy) - cam.pin_radius);
             }
         }
     }
@@ -172,7 +172,7 @@ fn slots(spec: &IntermittentPairSpec, pair: &IntermittentPair) -> (f64, f64) {
     // The way of a pin as the driven gear turns by the backlash, along its line from the driver's axis.
     let turned = 0.5 * spec.backlash / base;
     let (way_x, way_y) = (turned * circle * angle.sin(), turned * circle * angle.cos());
-    (least, (way_x * x + way_y * y) / x.hypot(y))
+    (minimum, (way_x * x + way_y * y) / x.hypot(y))
 }
 
 /// Base radius of the driven gear by its teeth.
@@ -215,17 +215,17 @@ fn pins_clear_their_slots(pairs: &[(Pitches, Pins)]) {
     for &(pitches, pins) in pairs {
         let spec = with_pins(pitches, pins);
         let (pair, contact) = contact(&spec);
-        let (least, stated) = slots(&spec, &pair);
+        let (minimum, stated) = slots(&spec, &pair);
         let near = 3e-4 * pins.0;
         assert!(
-            least > stated - near,
-            "{pitches:?} {pins:?}: {least}, {stated}"
+            minimum > stated - near,
+            "{pitches:?} {pins:?}: {minimum}, {stated}"
         );
         let found = contact.pin_clearance.expect("cams").value;
         // Followed between the samples: at most what they have, and hardly less.
         assert!(
-            found < least + 1e-5 && found > least - near,
-            "{pitches:?} {pins:?}: {found} {least}"
+            found < minimum + 1e-5 && found > minimum - near,
+            "{pitches:?} {pins:?}: {found} {minimum}"
         );
         assert!(contact.deepest.value < 1e-3);
         for loose in contact.free {

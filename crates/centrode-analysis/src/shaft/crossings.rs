@@ -96,8 +96,8 @@ fn tilt(shaft: &SpiralShaft, gap: f64, report: &mut Report) {
 fn advice(shaft: &SpiralShaft) -> String {
     let law = shaft.law();
     let steepest = 2.0 * (law.mean_speed() / shaft.groove().radius()).atan();
-    let wanted = 1.25 * shaft.groove().width() / steepest.sin();
-    match offered(shaft, wanted) {
+    let required = 1.25 * shaft.groove().width() / steepest.sin();
+    match offered(shaft, required) {
         Ok(clear) if clear.return_offset == 0.0 => {
             "no shift of the return groove makes that shorter; meeting the same hole at the same angle both ways always crosses there".to_owned()
         }

@@ -7,8 +7,7 @@ use std::f64::consts::{FRAC_PI_6, TAU};
 
 use centrode_geometry::Extreme;
 use centrode_groove::{Pick, Schedule, SpiralShaft};
-use centrode_kinematics::machine::Key;
-use centrode_kinematics::machine::Keyway;
+use centrode_kinematics::machine::{Key, Keyway};
 
 use self::crossings::crossings;
 use self::figures::FIGURES;
@@ -251,13 +250,13 @@ fn forces(shaft: &SpiralShaft, report: &mut Report) {
     values.insert("torque_min", range.torque[0].value);
     values.insert("torque_max", range.torque[1].value);
     values.insert("jamming_angle", load.jamming_angle());
-    let [least, greatest] = range.torque;
-    let torque = match -least.value > greatest.value {
+    let [minimum, maximum] = range.torque;
+    let torque = match -minimum.value > maximum.value {
         true => Extreme {
-            value: -least.value,
-            ..least
+            value: -minimum.value,
+            ..minimum
         },
-        false => greatest,
+        false => maximum,
     };
     key(shaft, torque, report);
     let values = &mut report.values;

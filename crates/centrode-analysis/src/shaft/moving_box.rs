@@ -45,13 +45,13 @@ pub fn check_moving_box(machine: &MovingBox) -> Report {
     let limit = contact_limit(machine.shaft(), -braking);
     values.insert("box_contact_limit_rpm", limit);
     let radius = machine.shaft().groove().radius();
-    let [least, greatest] = over(&|input| {
+    let [minimum, maximum] = over(&|input| {
         let turn = machine.shaft_turn(input).position;
         let lead = (machine.shaft().law().at(turn).velocity / radius).atan();
         load.force(machine.stroke_at(input), lead, radius).normal
     });
-    values.insert("box_normal_force_min", least);
-    values.insert("box_normal_force_max", greatest);
+    values.insert("box_normal_force_min", minimum);
+    values.insert("box_normal_force_max", maximum);
     report.findings.retain(|f| f.rule != "contact-lost");
     contact(limit, load.speed_rpm, &mut report);
     keys(machine, drive, &mut report);

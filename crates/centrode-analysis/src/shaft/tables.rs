@@ -86,21 +86,21 @@ pub(super) fn schemes(machine: &MovingBox) -> Vec<Table> {
             "scheme-speeds",
             "Speed over its mean",
             Unit::Number,
-            &["least", "greatest"],
+            &["minimum", "maximum"],
             &|way| range(&|input| (way.at)(input).0.velocity / mean),
         ),
         table(
             "scheme-accelerations",
             "Acceleration on a stroke",
             Unit::MetrePerSecondSquared,
-            &["least", "greatest"],
+            &["minimum", "maximum"],
             &|way| range(&|input| metres * (way.at)(input).0.acceleration),
         ),
         table(
             "scheme-forces",
             "Normal force on the slider",
             Unit::Newton,
-            &["least", "greatest"],
+            &["minimum", "maximum"],
             &|way| {
                 range(&|input| {
                     let (motion, lead) = (way.at)(input);

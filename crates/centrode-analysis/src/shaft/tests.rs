@@ -244,7 +244,7 @@ fn no_speed_acceleration_or_force_of_the_box_is_beyond_the_extremes_stated() {
     let acceleration = |input: f64| machine.stroke_at(input).acceleration;
     let [braking, speeding] = seen(acceleration);
     let [slow, fast] = seen(|input| machine.stroke_at(input).velocity / mean);
-    let [least, greatest] = seen(force);
+    let [minimum, maximum] = seen(force);
     let metres = 1e-3 * load.speed() * load.speed();
     let stated = |table: &str| table_row(&report, table);
     let accelerations = stated("scheme-accelerations");
@@ -263,16 +263,11 @@ fn no_speed_acceleration_or_force_of_the_box_is_beyond_the_extremes_stated() {
             speeding.max(-braking),
             1.0,
         ),
-        (
-            "force",
-            report.values["box_normal_force_max"],
-            greatest,
-            1.0,
-        ),
+        ("force", report.values["box_normal_force_max"], maximum, 1.0),
         (
             "least force",
             report.values["box_normal_force_min"],
-            least,
+            minimum,
             -1.0,
         ),
         (
@@ -287,8 +282,8 @@ fn no_speed_acceleration_or_force_of_the_box_is_beyond_the_extremes_stated() {
             metres * speeding,
             1.0,
         ),
-        ("least force of the table", forces[0], least, -1.0),
-        ("greatest force of the table", forces[1], greatest, 1.0),
+        ("least force of the table", forces[0], minimum, -1.0),
+        ("greatest force of the table", forces[1], maximum, 1.0),
     ] {
         let beyond = sign * (stated - seen) / seen.abs().max(1.0);
         // At a jump of the acceleration even samples miss the limit by their distance from it.
@@ -346,7 +341,7 @@ fn keys_of_shaft_and_gears_are_pressed_by_the_torques_they_carry() {
         let [before, after] = [-step, step].map(|h| machine.shaft_turn(input + h).position);
         torque(input) * (after - before) / (2.0 * step)
     };
-    let greatest = |of: &dyn Fn(f64) -> f64| {
+    let maximum = |of: &dyn Fn(f64) -> f64| {
         let [low, high] = seen(of);
         high.max(-low)
     };
@@ -359,8 +354,8 @@ fn keys_of_shaft_and_gears_are_pressed_by_the_torques_they_carry() {
         .find(|long| *long <= width)
         .expect("a key");
     for (figure, torque) in [
-        ("driven_key_pressure_max", greatest(&torque)),
-        ("driver_key_pressure_max", greatest(&driving)),
+        ("driven_key_pressure_max", maximum(&torque)),
+        ("driver_key_pressure_max", maximum(&driving)),
     ] {
         // Square ends where round ones would leave half the length or less.
         let bearing = if 2.0 * (long - 5.0) > long {

@@ -25,7 +25,7 @@ pub(crate) const FIGURES: &[FigureGroup] = &[
     },
     FigureGroup {
         heading: "Clearance of the arms",
-        columns: &["least", "proven"],
+        columns: &["minimum", "proven"],
         rows: &[
             row("from one another", &["arm_clearance", "arm_clearance_bound"], Millimetre),
             row("at a carrier turn of", &["arm_clearance_input"], Angle),

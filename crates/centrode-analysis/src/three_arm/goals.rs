@@ -7,60 +7,66 @@ use crate::{Goal, Unit};
 
 /// Goals of a mechanism as far as its figures reach: those of arms, seedlings and flanks are left open.
 #[must_use]
-pub fn three_arm_goals(figures: &Figures, wanted: &GoalsSpec) -> Vec<Goal> {
-    let range = |[least, greatest]: [f64; 2]| [Some(least), Some(greatest)];
-    let least = |least: f64| [Some(least), None];
-    let angle = |about, value, wanted: [f64; 2]| {
+pub fn three_arm_goals(figures: &Figures, required: &GoalsSpec) -> Vec<Goal> {
+    let range = |[minimum, maximum]: [f64; 2]| [Some(minimum), Some(maximum)];
+    let minimum = |minimum: f64| [Some(minimum), None];
+    let angle = |about, value, required: [f64; 2]| {
         Goal::new(
             about,
             Some(value),
-            range(wanted),
+            range(required),
             Unit::Angle,
-            wanted[1] - wanted[0],
+            required[1] - required[0],
         )
     };
     // A clearance of 20 mm is the paper's own; it is the scale where any clearance will do.
-    let size = |wanted: f64| if wanted > 0.0 { wanted } else { 20.0 };
-    let length = |about, value, wanted: f64| {
-        Goal::new(about, value, least(wanted), Unit::Millimetre, size(wanted))
+    let size = |required: f64| if required > 0.0 { required } else { 20.0 };
+    let length = |about, value, required: f64| {
+        Goal::new(
+            about,
+            value,
+            minimum(required),
+            Unit::Millimetre,
+            size(required),
+        )
     };
     Goal::listed(vec![
         length(
             (1, "arm-clearance", "arms clear of each other"),
             None,
-            wanted.arm_clearance,
+            required.arm_clearance,
         ),
         angle(
             (2, "pick-angle", "clamp above horizontal at picking"),
             figures.pick_angle,
-            wanted.pick_angle,
+            required.pick_angle,
         ),
         angle(
             (3, "push-angle", "clamp below horizontal at planting"),
             figures.push_angle,
-            wanted.push_angle,
+            required.push_angle,
         ),
         angle(
             (4, "angle-difference", "turn from picking to planting"),
             figures.angle_difference,
-            wanted.angle_difference,
+            required.angle_difference,
         ),
         length(
             (5, "seedling-clearance", "clamp clear of planted seedlings"),
             None,
-            wanted.seedling_clearance,
+            required.seedling_clearance,
         ),
         length(
             (6, "gearbox-clearance", "gearbox above the ground"),
             Some(figures.gearbox_clearance),
-            wanted.gearbox_clearance,
+            required.gearbox_clearance,
         ),
         length(
             (7, "trajectory-height", "height of the trajectory"),
             Some(figures.trajectory_height),
-            wanted.trajectory_height,
+            required.trajectory_height,
         ),
-        length((8, "module", "module"), figures.module, wanted.module),
+        length((8, "module", "module"), figures.module, required.module),
         Goal::new(
             (8, "sound-teeth", "flanks unsound at full height"),
             None,
@@ -80,7 +86,7 @@ pub(super) fn all_goals(
     for goal in &mut goals {
         let value = match &*goal.name {
             "arm-clearance" => match arms.and_then(|found| found.arms) {
-                Some(found) => found.least,
+                Some(found) => found.minimum,
                 None => continue,
             },
             "seedling-clearance" => mechanism.seedling_clearance().value,

@@ -81,7 +81,7 @@ pub fn check_arms(mechanism: &ThreeArm) -> Report {
     report.goals = all_goals(mechanism, arms.as_ref(), teeth.as_ref());
     figures(mechanism, &mut report);
     for (found, names) in arms.iter().flat_map(ArmClearance::named) {
-        let figures = [found.least, found.lower_bound, found.input];
+        let figures = [found.minimum, found.lower_bound, found.input];
         report.values.extend(names.into_iter().zip(figures));
     }
     crowded(arms.as_ref(), &mut report);
@@ -184,9 +184,9 @@ fn figures(mechanism: &ThreeArm, report: &mut Report) {
             ["intermediate_radius_min", "intermediate_radius_max"],
         ),
     ] {
-        let (least, greatest) = rolling.radii(member);
-        values.insert(names[0], least);
-        values.insert(names[1], greatest);
+        let (minimum, maximum) = rolling.radii(member);
+        values.insert(names[0], minimum);
+        values.insert(names[1], maximum);
     }
     values.insert("tip_lowest", path.lowest.reach);
     values.insert("tip_highest", path.highest.reach);
@@ -207,15 +207,15 @@ fn crowded(arms: Option<&ArmClearance>, report: &mut Report) {
     let Some(found) = arms.and_then(|found| found.unpicked) else {
         return;
     };
-    if found.least >= 0.0 {
+    if found.minimum >= 0.0 {
         return;
     }
     report.findings.push(Finding {
         rule: "unpicked-seedlings",
         // Stems in a tray are held by their plugs and spring back.
-        severity: Severity::of_deviation(-found.least),
+        severity: Severity::of_deviation(-found.minimum),
         message: "an arm bends stems of the rows still in the tray".into(),
-        measured: Some(found.least),
+        measured: Some(found.minimum),
         required: Some(0.0),
         unit: Unit::Millimetre,
         remedy: None,
@@ -347,7 +347,7 @@ fn unchecked(mechanism: &ThreeArm, report: &mut Report) {
                 severity,
                 message: format!("goal {} is not checked, {}: {why}", goal.number, goal.title),
                 measured: None,
-                required: goal.wanted[0].or(goal.wanted[1]),
+                required: goal.required[0].or(goal.required[1]),
                 unit: goal.unit,
                 remedy: None,
                 place: Place::default(),

@@ -35,7 +35,7 @@ pub(super) fn check_pusher(pusher: &Result<Pusher, PusherError>, report: &mut Re
     let limits = pusher.cam().disc().limits();
     let values = &mut report.values;
     values.insert("cam_pressure_angle_max", limits.rise_pressure_angle.value);
-    values.insert("cam_radius_min", limits.least_radius.value);
+    values.insert("cam_radius_min", limits.minimum_radius.value);
     values.insert("cam_concave_radius_min", limits.largest_wheel.value);
     values.insert("push_rod_stroke", pusher.stroke());
     let checked = CheckedCam {

@@ -3,7 +3,7 @@ use std::f64::consts::TAU;
 use centrode_formats::sheet::number;
 use centrode_geometry::Point;
 use centrode_kinematics::machine::{
-    self, Axis, Blank, Datum, Dimension, Fit, Form, Line, LineRole, Machine,
+    self, Axis, Blank, Datum, Dimension, Fit, Form, Line, LineRole, LinkedMachine,
 };
 use centrode_machines::feeder::{Feeder, FeederPart, GearBody, Plate};
 
@@ -17,7 +17,7 @@ const POINTS: u32 = 360;
 const PLACES: usize = 4;
 
 /// Lists plates, pins and gears, and tells the arrangement: the six-bar as its effector rests.
-pub(super) fn tell(feeder: &Feeder, plates: &[Plate], machine: &mut Machine) {
+pub(super) fn tell(feeder: &Feeder, plates: &[Plate], machine: &mut LinkedMachine) {
     paths(feeder, machine);
     let ends = ["driver", "driven gear"].map(|figure| machine.place_on(figure, [0.0; 2]));
     if let [Some(from), Some(to)] = ends {
@@ -41,12 +41,12 @@ pub(super) fn tell(feeder: &Feeder, plates: &[Plate], machine: &mut Machine) {
     of_cams.for_each(|pieces| machine.fit(pieces.fit));
     fits(feeder, machine);
     let frame = machine.place_on(FeederPart::Frame.name(), [0.0; 2]);
-    let told = &mut machine.arrangement;
-    told.seen_through.extend(frame.map(|place| place.figure));
-    told.title = "Feeder".into();
-    told.drawing = feeder.design().drawing.clone();
-    told.data = data(feeder);
-    told.notes = [
+    let stated = &mut machine.arrangement;
+    stated.seen_through.extend(frame.map(|place| place.figure));
+    stated.title = "Feeder".into();
+    stated.drawing = feeder.design().drawing.clone();
+    stated.data = data(feeder);
+    stated.notes = [
         "Shown where the effector rests and is filled.",
         "Heights z of the lower faces, mm; a second frame plate above.",
         "Dash-dotted: path of the tip E; thin: paths of B and C.",
@@ -57,7 +57,7 @@ pub(super) fn tell(feeder: &Feeder, plates: &[Plate], machine: &mut Machine) {
 }
 
 /// Draws the paths of B and C; C comes back the way it went.
-fn paths(feeder: &Feeder, machine: &mut Machine) {
+fn paths(feeder: &Feeder, machine: &mut LinkedMachine) {
     let [feed, _] = feeder.strokes();
     let there = feeder.crank(feed.to).position - feeder.start();
     let path = |(joint, turned): (usize, f64)| {
@@ -69,7 +69,7 @@ fn paths(feeder: &Feeder, machine: &mut Machine) {
     machine.draw("paths", 0, paths);
 }
 
-fn list(feeder: &Feeder, plate: &Plate, machine: &mut Machine) {
+fn list(feeder: &Feeder, plate: &Plate, machine: &mut LinkedMachine) {
     let spec = &feeder.design().plates;
     let (part, name) = (plate.part, plate.part.name());
     let Some(link) = machine.link_named(name) else {
@@ -91,7 +91,7 @@ fn list(feeder: &Feeder, plate: &Plate, machine: &mut Machine) {
 }
 
 /// Spacers between the plates of the frame, and the screws into them.
-fn screws(feeder: &Feeder, machine: &mut Machine) {
+fn screws(feeder: &Feeder, machine: &mut LinkedMachine) {
     let found = feeder.frame_screws().and_then(Result::ok);
     let (Some(screws), Some(spacer)) = (found, spacer(feeder)) else {
         return;
@@ -113,7 +113,7 @@ fn screws(feeder: &Feeder, machine: &mut Machine) {
 }
 
 /// Fits of the pins of the joints and of the slider.
-fn pins(feeder: &Feeder, machine: &mut Machine) {
+fn pins(feeder: &Feeder, machine: &mut LinkedMachine) {
     let spec = &feeder.design().plates;
     let classes = [&*spec.hole_fit, &spec.pin_fit];
     machine.fit(Fit::new("pins of B, C, D, F", spec.pin_diameter, classes));
@@ -126,7 +126,7 @@ fn pins(feeder: &Feeder, machine: &mut Machine) {
 }
 
 /// The intermittent gears with their cams and pins, which are not cut for this.
-fn gears(feeder: &Feeder, machine: &mut Machine) {
+fn gears(feeder: &Feeder, machine: &mut LinkedMachine) {
     let spec = &feeder.design().gears;
     let crank = machine.link_named(FeederPart::Crank.name()).unwrap_or(0);
     let made = spec.body();
@@ -197,7 +197,7 @@ fn gears(feeder: &Feeder, machine: &mut Machine) {
 }
 
 /// Fits of the shafts of the gears.
-fn fits(feeder: &Feeder, machine: &mut Machine) {
+fn fits(feeder: &Feeder, machine: &mut LinkedMachine) {
     let (body, plates) = (feeder.design().gears.body(), &feeder.design().plates);
     let seat = |name, hole: &str| Fit::new(name, body.bore, [hole, &body.shaft_fit]);
     machine.fit(seat("gears on their shafts", &body.bore_fit));
@@ -210,14 +210,14 @@ fn data(feeder: &Feeder) -> Vec<Datum> {
     let pivot = six_bar.pivot();
     let length = |x: f64| number(x, PLACES);
     let degrees = |x: f64| format!("{:.4}°", x.to_degrees());
-    let least = six_bar.four_bar().least_transmission_angle();
+    let minimum = six_bar.four_bar().minimum_transmission_angle();
     [
         (
             "pivot F",
             format!("{}, {}", length(pivot.x), length(pivot.y)),
         ),
         ("swing", degrees(six_bar.swing())),
-        ("least transmission angle", degrees(least)),
+        ("least transmission angle", degrees(minimum)),
         ("crank at rest", degrees(feeder.start())),
         (
             "cycles a minute",

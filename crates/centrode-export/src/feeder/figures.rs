@@ -3,7 +3,7 @@ use std::sync::Arc;
 use centrode_gear::IntermittentPair;
 use centrode_geometry::{Outline, Point};
 use centrode_kinematics::linkage::SixBar;
-use centrode_kinematics::machine::{Constant, Line, LineRole, Machine, Mark, Quantity, Seat};
+use centrode_kinematics::machine::{Constant, Line, LineRole, LinkedMachine, Mark, Quantity, Seat};
 use centrode_machines::feeder::{Feeder, FeederPart, Plate};
 
 use crate::gear_pair;
@@ -18,7 +18,7 @@ pub(super) fn draw(
     feeder: &Feeder,
     plates: &[Plate],
     gears: Option<&IntermittentPair>,
-    machine: &mut Machine,
+    machine: &mut LinkedMachine,
 ) {
     let [driver, driven] = match gears {
         Some(pair) => cut(pair),
@@ -88,10 +88,10 @@ fn cut(pair: &IntermittentPair) -> [Vec<Line>; 2] {
         gear_pair::lines_within(pair.driven(), gears.driven()),
     ];
     for cam in pair.cams() {
-        both[0].push(Line::contour(LineRole::Beside, &cam.outline));
+        both[0].push(Line::contour(LineRole::Adjacent, &cam.outline));
         let pins = cam.pins.iter();
         let pins = pins.map(|&at| Outline::circle(at, cam.pin_radius));
-        both[1].extend(pins.map(|pin| Line::contour(LineRole::Beside, &pin)));
+        both[1].extend(pins.map(|pin| Line::contour(LineRole::Adjacent, &pin)));
     }
     both
 }

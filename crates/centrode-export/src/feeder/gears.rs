@@ -77,7 +77,7 @@ pub(super) fn parts(feeder: &Feeder, gears: &IntermittentPair, tolerance: Tolera
         let spec = &feeder.design().gears;
         let limits = pair.thickness_deviations(member);
         let over = |thinner: f64| pins(gears, member, 0.5 * spec.entry, thinner);
-        let limits = limits.map(|told| told.limits.map(|deviation| over(-deviation)));
+        let limits = limits.map(|stated| stated.limits.map(|deviation| over(-deviation)));
         let pins = over(0.0);
         part.exactness = tooth_runout(pair, member).map(Exactness::Teeth);
         let measured = (0..)
@@ -97,9 +97,11 @@ pub(super) fn parts(feeder: &Feeder, gears: &IntermittentPair, tolerance: Tolera
             part.marks.push(Point::from(at.coords.normalize() * below));
         }
         part.heat_treatment = None;
-        let mut told = data(feeder, gears, member, &teeth);
-        told.rows.extend(locked(&part.outline, gears.lock_radius()));
-        part.tables = vec![told, over_pins(&pins, limits.as_ref())];
+        let mut stated = data(feeder, gears, member, &teeth);
+        stated
+            .rows
+            .extend(locked(&part.outline, gears.lock_radius()));
+        part.tables = vec![stated, over_pins(&pins, limits.as_ref())];
     }
     for part in &mut all {
         let file = format!("{}.csv", part.name);

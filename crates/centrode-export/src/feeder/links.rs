@@ -1,5 +1,5 @@
 use centrode_gear::IntermittentPair;
-use centrode_kinematics::machine::{Form, Machine, Mounted, Quantity, Shape};
+use centrode_kinematics::machine::{Form, LinkedMachine, Mounted, Quantity, Shape};
 use centrode_machines::feeder::{Feeder, FeederPart, Plate};
 
 use super::plates::spacer;
@@ -12,7 +12,7 @@ pub(super) fn drawn(
     feeder: &Feeder,
     plates: &[Plate],
     gears: Option<&IntermittentPair>,
-) -> Machine {
+) -> LinkedMachine {
     let mut machine = feeder.links(feeder.design().drive.carried_mass);
     let meaning =
         "angle the intermittent gear has turned by since the effector left its place of rest";
@@ -35,7 +35,7 @@ pub(super) fn drawn(
 /// The links with their bodies.
 ///
 /// Gears that cannot be cut are left out: the six-bar moves without them.
-pub(super) fn machine(feeder: &Feeder, plates: &[Plate]) -> Result<Machine, ExportError> {
+pub(super) fn machine(feeder: &Feeder, plates: &[Plate]) -> Result<LinkedMachine, ExportError> {
     let mut machine = drawn(feeder, plates, None);
     let mounted = feeder.mount_gears(&mut machine);
     mounted.map_err(ExportError::no_solid("gears"))?;
@@ -59,7 +59,7 @@ pub(super) fn machine(feeder: &Feeder, plates: &[Plate]) -> Result<Machine, Expo
 }
 
 /// Spacers between the plates of the frame.
-fn spacers(feeder: &Feeder, machine: &mut Machine) -> Result<(), ExportError> {
+fn spacers(feeder: &Feeder, machine: &mut LinkedMachine) -> Result<(), ExportError> {
     let found = feeder.frame_screws().and_then(Result::ok);
     let (Some(screws), Some(spacer)) = (found, spacer(feeder)) else {
         return Ok(());
@@ -99,7 +99,7 @@ fn meaning_of(part: FeederPart) -> (&'static str, &'static str) {
 }
 
 /// Columns of the tip of the effector.
-fn tip(feeder: &Feeder, machine: &mut Machine) {
+fn tip(feeder: &Feeder, machine: &mut LinkedMachine) {
     let meaning = "tip E of the effector, from the crank's shaft";
     for (axis, name) in ["tip_x_mm", "tip_y_mm"].into_iter().enumerate() {
         let quantity = Quantity::Point { point: 0, axis };

@@ -12,7 +12,7 @@ use crate::package::title_or_name;
 use crate::{ExportError, Options, Package, turned};
 use centrode_formats::{Bundle, Format};
 use centrode_gear::IntermittentPair;
-use centrode_kinematics::machine::Machine;
+use centrode_kinematics::machine::LinkedMachine;
 use centrode_machines::feeder::{Feeder, FeederError, FeederPart, Plate};
 pub use curves::curves;
 pub use plates::assembly;
@@ -27,14 +27,14 @@ impl From<FeederError> for ExportError {
 ///
 /// # Errors
 /// [`ExportError`] where a link cannot be cut from plate.
-pub fn machine(feeder: &Feeder) -> Result<Machine, ExportError> {
+pub fn machine(feeder: &Feeder) -> Result<LinkedMachine, ExportError> {
     links::machine(feeder, &cut(feeder)?)
 }
 
 /// The six-bar as it moves and is drawn, without bodies: the gears with the teeth of a pair, or by their pitch circles alone,
 /// for which nothing is cut. Links that make no plate are not drawn.
 #[must_use]
-pub fn drawn(feeder: &Feeder, gears: Option<&IntermittentPair>) -> Machine {
+pub fn drawn(feeder: &Feeder, gears: Option<&IntermittentPair>) -> LinkedMachine {
     let plates = FeederPart::ALL
         .into_iter()
         .filter_map(|part| feeder.screwed(feeder.plate(part).ok()?).ok());

@@ -85,8 +85,8 @@ fn rest(corners: &[Point], start: Point, radius: f64) -> Option<Pin> {
 fn root([low, high]: [f64; 2], f: impl Fn(f64) -> Option<f64>) -> Option<f64> {
     let (below, above) = (f(low)?, f(high)?);
     // Of what cannot be told no root comes: the pin found is looked at.
-    let told = |x: f64| f(x).unwrap_or(f64::NAN);
-    (below <= 0.0 && above >= 0.0).then(|| bracketed_root(told, low, high, below, above))
+    let stated = |x: f64| f(x).unwrap_or(f64::NAN);
+    (below <= 0.0 && above >= 0.0).then(|| bracketed_root(stated, low, high, below, above))
 }
 
 /// Nearest points of lines to a point, with their distances: counter-clockwise of the ray from the origin through it, and

@@ -50,15 +50,15 @@ impl Gauge {
 
     /// The gear, or the least that the standard knows where it is smaller: its tolerances hardly fall from there.
     fn at_least_five_teeth(self) -> Self {
-        let least = (5.0 * self.module).max(5.0);
+        let minimum = (5.0 * self.module).max(5.0);
         Self {
-            diameter: self.diameter.max(least),
+            diameter: self.diameter.max(minimum),
             ..self
         }
     }
 
     /// Whether the standard's formulas hold for the gear with teeth of a face width, mm.
-    fn is_told(self, width: f64) -> bool {
+    fn is_stated(self, width: f64) -> bool {
         let teeth = self.diameter / self.module;
         (1..=11).contains(&self.class)
             && (5.0 - 1e-9..=1000.0).contains(&teeth)
@@ -72,9 +72,7 @@ impl Gauge {
 fn gauges(pair: &GearPair, member: Member) -> Option<[Gauge; 2]> {
     let (gear, module) = (pair.gear(member), pair.module());
     let class = class(pair, member).parse().ok()?;
-    let bend = pair.rolling().curvature_ranges()[member as usize]
-        .greatest
-        .1;
+    let bend = pair.rolling().curvature_ranges()[member as usize].maximum.1;
     let reference = pair.reference_diameter(member);
     // The pitch curve of a shifted gear is its operating circle; tolerances are those of the curve on which it is generated.
     let diameters = [
@@ -95,8 +93,8 @@ fn class(pair: &GearPair, member: Member) -> &str {
 /// Runout of the teeth of a gear to its bore, as measured over pins, mm; none beyond the standard.
 pub(crate) fn tooth_runout(pair: &GearPair, member: Member) -> Option<f64> {
     let [_, whole] = gauges(pair, member)?;
-    let is_told = whole.is_told(pair.gear(member).body().width);
-    is_told.then(|| whole.runout() / 1000.0)
+    let is_stated = whole.is_stated(pair.gear(member).body().width);
+    is_stated.then(|| whole.runout() / 1000.0)
 }
 
 /// Class and values for the equivalent circular gears: single pitch and profile by the osculating circle of the pitch curve
@@ -111,7 +109,7 @@ pub(crate) fn flank_tolerances(pair: &GearPair, member: Member) -> Vec<Datum> {
     let bent = local.diameter;
     let local = local.at_least_five_teeth();
     let mut say = |gauge: Gauge, bent: f64, name: &str, rows: &[(&str, &str, f64)]| {
-        if !gauge.is_told(width) {
+        if !gauge.is_stated(width) {
             let size = number(gauge.diameter, 2);
             let words = format!("equivalent gear of d = {size} beyond ISO 1328-1");
             data.push(Datum::new(name, "", words));
@@ -184,7 +182,9 @@ mod tests {
         assert_eq!(found(gauge(6)), [9.0, 29.0, 12.0, 26.0]);
         // Class 1 is a quarter of class 5: 1.58, 5.09, 2.13, 4.58.
         assert_eq!(found(gauge(1)), [1.6, 5.0, 2.1, 4.6]);
-        assert!(gauge(11).is_told(10.0) && !gauge(12).is_told(10.0) && !gauge(8).is_told(3.0));
+        assert!(
+            gauge(11).is_stated(10.0) && !gauge(12).is_stated(10.0) && !gauge(8).is_stated(3.0)
+        );
     }
 
     #[test]
@@ -218,13 +218,13 @@ mod tests {
             module: 3.0,
             class: 8,
         };
-        let least = gauge(4.8).at_least_five_teeth();
-        assert!(!gauge(4.8).is_told(10.0) && least.is_told(10.0));
+        let minimum = gauge(4.8).at_least_five_teeth();
+        assert!(!gauge(4.8).is_stated(10.0) && minimum.is_stated(10.0));
         assert_eq!(
-            (least.diameter, gauge(90.0).at_least_five_teeth().diameter),
+            (minimum.diameter, gauge(90.0).at_least_five_teeth().diameter),
             (15.0, 90.0)
         );
         // What it is wider by is far below what the standard rounds to.
-        assert_eq!(least.single_pitch(), gauge(4.8).single_pitch());
+        assert_eq!(minimum.single_pitch(), gauge(4.8).single_pitch());
     }
 }

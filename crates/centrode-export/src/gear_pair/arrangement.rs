@@ -4,7 +4,7 @@ use crate::number::range;
 use centrode_formats::sheet::number;
 use centrode_gear::design::BodySpec;
 use centrode_gear::{Gear, GearPair, Member};
-use centrode_kinematics::machine::{Blank, Callout, Datum, Fit, Key, Machine, Part, Supply};
+use centrode_kinematics::machine::{Blank, Callout, Datum, Fit, Key, LinkedMachine, Part, Supply};
 
 /// Material of keys; their mass is that of the shaft's link, which is the customer's.
 const KEY: &str = "steel";
@@ -20,14 +20,14 @@ pub fn contact_data(contact_ratio: [f64; 2], backlash: [f64; 2]) -> Vec<Datum> {
 }
 
 /// Lists the gears and tells the pair's arrangement.
-pub(super) fn tell(pair: &GearPair, machine: &mut Machine) {
+pub(super) fn tell(pair: &GearPair, machine: &mut LinkedMachine) {
     list_pair(pair, "", &[Member::Driver, Member::Driven], machine);
-    let told = &mut machine.arrangement;
-    told.title = "Gear pair".into();
-    told.drawing = pair.drawing().clone();
-    told.data = data(pair);
-    told.columns = vec![0, 1, 2];
-    told.notes = [
+    let stated = &mut machine.arrangement;
+    stated.title = "Gear pair".into();
+    stated.drawing = pair.drawing().clone();
+    stated.data = data(pair);
+    stated.columns = vec![0, 1, 2];
+    stated.notes = [
         "Shown at φ = 0: pitch point on the line of centres.",
         "φ is the polar angle of the pitch point on the driver;",
         "the driver has then turned clockwise by φ,",
@@ -38,7 +38,8 @@ pub(super) fn tell(pair: &GearPair, machine: &mut Machine) {
     .map(String::from)
     .into();
     if pair.driver().tooth_count() != pair.driven().tooth_count() {
-        told.notes
+        stated
+            .notes
             .push("Teeth and spaces are counted on through the turns.".into());
     }
     let last = pair.driven().tooth_count() - 1;
@@ -60,9 +61,14 @@ pub(super) fn tell(pair: &GearPair, machine: &mut Machine) {
 }
 
 /// Lists both gears of a pair, whose files' names begin with the prefix, then the shafts of those that have one of their own.
-pub(crate) fn list_pair(pair: &GearPair, prefix: &str, shafts: &[Member], machine: &mut Machine) {
+pub(crate) fn list_pair(
+    pair: &GearPair,
+    prefix: &str,
+    shafts: &[Member],
+    machine: &mut LinkedMachine,
+) {
     let links =
-        |machine: &Machine, member: Member| Vec::from_iter(machine.link_named(member.name()));
+        |machine: &LinkedMachine, member: Member| Vec::from_iter(machine.link_named(member.name()));
     for (member, name) in [
         (Member::Driver, "Driver gear"),
         (Member::Driven, "Driven gear"),
@@ -82,7 +88,7 @@ pub(crate) fn list_pair(pair: &GearPair, prefix: &str, shafts: &[Member], machin
 
 /// Lists a gear: its name, the name of its files, the figure that shows it.
 pub(crate) fn list(
-    machine: &mut Machine,
+    machine: &mut LinkedMachine,
     gear: &Gear,
     [name, file, figure]: [&str; 3],
     links: Vec<usize>,
@@ -101,7 +107,7 @@ pub(crate) fn list(
 }
 
 /// Lists the keys of a body, one for each of the links, where a standard one fits its keyway.
-pub(crate) fn list_keys(machine: &mut Machine, body: &BodySpec, links: Vec<usize>) {
+pub(crate) fn list_keys(machine: &mut LinkedMachine, body: &BodySpec, links: Vec<usize>) {
     let key = body.keyway.and_then(|hub| Key::fitting(hub, body.width));
     if let Some(key) = key {
         machine.part(Part {
@@ -113,7 +119,7 @@ pub(crate) fn list_keys(machine: &mut Machine, body: &BodySpec, links: Vec<usize
 
 /// Lists the shafts in the bores of gears, one for each of the links: they belong to the machine around the gears, whose bearings
 /// settle their lengths.
-fn list_shafts(machine: &mut Machine, gear: &Gear, name: &str, links: Vec<usize>) {
+fn list_shafts(machine: &mut LinkedMachine, gear: &Gear, name: &str, links: Vec<usize>) {
     if gear.body().bore > 0.0 && !links.is_empty() {
         let body = gear.body();
         let fit = Fit::new(name, body.bore, [&body.bore_fit, &body.shaft_fit]);
@@ -169,8 +175,8 @@ fn data(pair: &GearPair) -> Vec<Datum> {
 pub(crate) fn of_both(pair: &GearPair, of: Option<Member>) -> Vec<Datum> {
     let (driver, driven) = pair.mean_ratio();
     let a = pair.center_distance();
-    let (least, greatest) = pair.rolling().radii(Member::Driver);
-    let ratios = [least / (a - least), greatest / (a - greatest)];
+    let (minimum, maximum) = pair.rolling().radii(Member::Driver);
+    let ratios = [minimum / (a - minimum), maximum / (a - maximum)];
     // In a machine of several meshes either gear may move the other.
     let (mean, ratio, turns, ratios) = match of {
         None => (
@@ -186,13 +192,13 @@ pub(crate) fn of_both(pair: &GearPair, of: Option<Member>) -> Vec<Datum> {
             ratios,
         ),
         Some(Member::Driven) => {
-            let [least, greatest] = ratios.map(f64::recip);
+            let [minimum, maximum] = ratios.map(f64::recip);
             let turns = [driven, driver];
             (
                 "this gear : mate",
                 "mate : this gear",
                 turns,
-                [greatest, least],
+                [maximum, minimum],
             )
         }
     };
@@ -212,9 +218,9 @@ pub(crate) fn of_both(pair: &GearPair, of: Option<Member>) -> Vec<Datum> {
 }
 
 /// Half of what a pair with a normal backlash, mm, lets its centre distance be shorter, mm; none without backlash.
-pub(crate) fn half_play(pair: &GearPair, backlash: f64) -> Option<f64> {
-    let [least, _] = pair.backlash_limits(backlash);
-    (least > 0.0).then(|| 0.5 * shorter(pair, least))
+pub(crate) fn half_backlash(pair: &GearPair, backlash: f64) -> Option<f64> {
+    let [minimum, _] = pair.backlash_limits(backlash);
+    (minimum > 0.0).then(|| 0.5 * shorter(pair, minimum))
 }
 
 /// How much shorter a backlash lets the centre distance be, mm.
@@ -227,7 +233,7 @@ fn shorter(pair: &GearPair, backlash: f64) -> f64 {
 /// Centre distance by the normal backlash of a pair, mm, and what the deviations of tooth thickness leave of it.
 pub(crate) fn by_thickness(pair: &GearPair, backlash: f64) -> Vec<Datum> {
     let (a, mut data) = (pair.center_distance(), Vec::new());
-    if let Some(half) = half_play(pair, backlash) {
+    if let Some(half) = half_backlash(pair, backlash) {
         let within = format!("{} ±{}", number(a, 4), number(half, 3));
         let name = "Centre distance, by half the backlash";
         data.push(Datum::new(name, "a", within));
@@ -236,8 +242,8 @@ pub(crate) fn by_thickness(pair: &GearPair, backlash: f64) -> Vec<Datum> {
         let name = "Centre distance, no backlash to give";
         data.push(Datum::new(name, "a", within));
     }
-    let told = [Member::Driver, Member::Driven].map(|member| pair.thickness_deviations(member));
-    if told == [None; 2] {
+    let stated = [Member::Driver, Member::Driven].map(|member| pair.thickness_deviations(member));
+    if stated == [None; 2] {
         return data;
     }
     let limits = pair.backlash_limits(backlash);

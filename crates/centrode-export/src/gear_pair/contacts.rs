@@ -104,8 +104,8 @@ pub(crate) fn paths(pair: &GearPair, flanks: Flanks) -> Vec<Vec<(f64, Point)>> {
     let path = |(turn, side): (f64, ToothSide)| {
         let (low, high) = side.active?;
         let start = turn * lengths[0];
-        let [least, greatest] = mate(side.crossing + start)?;
-        let (low, high) = (low.max(least - start), high.min(greatest - start));
+        let [minimum, maximum] = mate(side.crossing + start)?;
+        let (low, high) = (low.max(minimum - start), high.min(maximum - start));
         if low >= high {
             return None;
         }

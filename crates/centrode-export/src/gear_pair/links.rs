@@ -3,7 +3,8 @@ use std::sync::Arc;
 use centrode_gear::{Gear, GearPair, Member, Role};
 use centrode_geometry::Outline;
 use centrode_kinematics::machine::{
-    Form, GearMesh, Input, Joint, Line, LineRole, Linear, Link, Machine, Quantity, Shape, Surface,
+    Form, GearMesh, Input, Joint, Line, LineRole, Linear, Link, LinkedMachine, Quantity, Shape,
+    Surface,
 };
 use centrode_kinematics::transmission::Transmission;
 
@@ -14,7 +15,7 @@ use crate::ExportError;
 ///
 /// # Errors
 /// [`ExportError`] where a gear is no solid.
-pub fn machine(pair: &GearPair) -> Result<Machine, ExportError> {
+pub fn machine(pair: &GearPair) -> Result<LinkedMachine, ExportError> {
     let mut machine = drawn(pair);
     for (link, member) in [(1, Member::Driver), (2, Member::Driven)] {
         embody(&mut machine, link, (pair, member), "")?;
@@ -24,8 +25,8 @@ pub fn machine(pair: &GearPair) -> Result<Machine, ExportError> {
 
 /// The machine of a pair as it moves and is drawn, without bodies.
 #[must_use]
-pub fn drawn(pair: &GearPair) -> Machine {
-    let mut machine = Machine {
+pub fn drawn(pair: &GearPair) -> LinkedMachine {
+    let mut machine = LinkedMachine {
         name: pair.name().into(),
         title: pair.title().into(),
         input: Input {
@@ -33,7 +34,7 @@ pub fn drawn(pair: &GearPair) -> Machine {
             period: pair.cycle(),
             speed: 1.0,
         },
-        ..Machine::default()
+        ..LinkedMachine::default()
     };
     let [base, driver, driven] =
         ["base", Member::Driver.name(), Member::Driven.name()].map(|name| {
@@ -106,7 +107,7 @@ pub(crate) fn lines_within(outline: &Outline, gear: &Gear) -> Vec<Line> {
 
 /// Gives a link the body of a gear, whose files' names begin with the prefix.
 pub(crate) fn embody(
-    machine: &mut Machine,
+    machine: &mut LinkedMachine,
     link: usize,
     (pair, member): (&GearPair, Member),
     prefix: &str,

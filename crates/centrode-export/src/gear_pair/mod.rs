@@ -15,7 +15,7 @@ mod solid;
 use crate::{ExportError, Options, Package};
 pub(crate) use accuracy::{flank_tolerances, tooth_runout};
 pub use arrangement::contact_data;
-pub(crate) use arrangement::{by_thickness, half_play, list, list_keys, list_pair, of_both};
+pub(crate) use arrangement::{by_thickness, half_backlash, list, list_keys, list_pair, of_both};
 use centrode_formats::{Bundle, Format};
 use centrode_gear::{GearPair, GearPairError, Member};
 pub use contacts::contacts;

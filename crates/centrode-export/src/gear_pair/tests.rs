@@ -136,10 +136,10 @@ fn a_tolerance_that_leaves_no_teeth_is_refused() {
 fn a_tolerance_below_a_billionth_of_the_machine_is_refused_and_its_sheets_say_what_they_take() {
     let fine = Options::new(Tolerance::new(5e-8).expect("positive"));
     let error = files(&elliptic(), &[Format::Dxf], &fine).expect_err("too fine");
-    let told = error.to_string();
+    let stated = error.to_string();
     assert!(
-        told.contains("too fine") && told.contains("5.271e-8 mm"),
-        "{told}"
+        stated.contains("too fine") && stated.contains("5.271e-8 mm"),
+        "{stated}"
     );
     let mut design = GearPairDesign::new(PitchSpec::Circle(Circle {
         module: Some(2.0),
@@ -207,9 +207,9 @@ fn teeth_are_one_convex_body_each_or_several_where_they_are_concave() {
     let (plain, waisted) = (elliptic(), pair_of_lobes());
     for pair in [&plain, &waisted] {
         let machine = machine(pair).expect("linked");
-        let simulated = crate::machine::simulated(
+        let simulated = crate::linked::simulated(
             &machine,
-            &crate::machine::lines(&machine),
+            &crate::linked::lines(&machine),
             options().tolerance,
         );
         let model = simulated.expect("made").model;
@@ -347,15 +347,15 @@ fn kept_solids_stand_in_the_place_of_their_step_files() {
 #[test]
 fn ratios_of_a_gear_of_a_machine_are_those_of_itself_and_its_mate() {
     let pair = elliptic();
-    let told = |of| {
+    let stated = |of| {
         let data = of_both(&pair, of);
         let find = |name: &str| data.iter().find(|datum| datum.name.starts_with(name));
         let ratio = find("Ratio").expect("a ratio");
         (ratio.name.clone(), ratio.value.clone())
     };
     let ([name, value], [own, other]) = (
-        <[String; 2]>::from(told(None)),
-        <[String; 2]>::from(told(Some(Member::Driver))),
+        <[String; 2]>::from(stated(None)),
+        <[String; 2]>::from(stated(Some(Member::Driver))),
     );
     assert_eq!(
         (name.as_str(), own.as_str()),
@@ -366,7 +366,7 @@ fn ratios_of_a_gear_of_a_machine_are_those_of_itself_and_its_mate() {
     );
     assert_eq!(value, other);
     // r / (a - r) of an ellipse turns over into itself.
-    assert_eq!(told(Some(Member::Driven)).1, value);
+    assert_eq!(stated(Some(Member::Driven)).1, value);
     let mut design = GearPairDesign::new(PitchSpec::Circle(Circle {
         module: Some(2.0),
         tooth_count: Some(20),
@@ -387,8 +387,8 @@ fn a_centre_distance_without_backlash_may_only_be_longer() {
     let data = by_thickness(&pair, 0.0);
     // IT8 of 30 to 50 mm is 39 um.
     assert_eq!(data[0].value, "40 +0.039 / 0");
-    assert_eq!(half_play(&pair, 0.0), None);
-    let half = half_play(&pair, 0.1).expect("some play");
+    assert_eq!(half_backlash(&pair, 0.0), None);
+    let half = half_backlash(&pair, 0.1).expect("some play");
     let sine = 20_f64.to_radians().sin();
     assert!((half - 0.1 / (4.0 * sine)).abs() < 1e-12);
 }

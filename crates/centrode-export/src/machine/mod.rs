@@ -1,147 +1,165 @@
-//! The files of a machine: its parts list and general arrangement, its table of motion, simulator models, and scripts that play
-//! them.
+//! The files of a composed machine: its bodies as plates, its gears and cams, a simulator model, its motion.
 
-mod arrangement;
-mod bodies;
-mod cuts;
-mod file;
-mod model;
-mod motion;
-mod motion_file;
+mod curves;
 mod parts;
-mod picture;
-mod rim;
-mod spatial;
-mod still;
-mod whole;
 
-use crate::{ExportError, Package};
-pub(crate) use arrangement::NAME as ARRANGEMENT;
-pub use arrangement::arrangement;
-use centrode_formats::{Format, csv, mjcf, step, threemf, urdf};
-use centrode_kinematics::machine::Machine;
-pub use file::{MachineFileError, plain, read, schema, write};
-pub use motion_file::{
-    ClosureWords, ColumnWords, InputWords, Interpolation, JointWords, LinearWords, MeshWords,
-    MotionFile, PointWords,
-};
-pub use parts::parts_list;
-pub use picture::picture;
-pub use spatial::spatial;
+use centrode_formats::drawing::{Color, Drawing, EntityShape, LineType};
+use centrode_formats::{Bundle, Format};
+use centrode_geometry::{MassProperties, Point, Solid};
+use centrode_kinematics::machine::{Form, LinePath, LinkedMachine};
+use centrode_machines::machine::{Hardware, Machine};
+use nalgebra::{Isometry2, Matrix3, Point3};
 
-#[cfg(test)]
-pub(crate) use {model::simulated, motion::lines};
+use crate::{ExportError, Options, Package, turned};
+pub use curves::curves;
 
-/// Name of the simulator models, without its end.
-const MODEL: &str = "machine";
+const PATH: &str = "PATH";
+const SCENERY: &str = "SCENERY";
 
-/// Adds the table of motion with its description, the parts list and, as asked for, URDF and MJCF with the STL files they show and scripts
-/// that play them.
-pub(crate) fn add(machine: &Machine, package: &mut Package<'_>) -> Result<(), ExportError> {
-    let tolerance = package.tolerance();
-    let no_solid = |source| ExportError::no_solid("link")(source);
-    // The table is of the exact laws: pieces have every digit of a position, but fewer of its derivatives.
-    let pieces = file::in_pieces(machine);
-    let lines = motion::lines(&pieces);
-    let exact = motion::with_rates(machine.clone(), &lines);
-    let machine = motion::with_rates(pieces, &lines);
-    let rows = motion::steps(&machine, tolerance);
-    let table = csv::write(&motion::columns(&exact, rows.0))?;
-    package.file(motion::TABLE, table)?;
-    let about = motion::description(&machine, &lines, rows);
-    let mut json = serde_json::to_string_pretty(&about)?;
-    json.push('\n');
-    package.file("motion.json", json.into_bytes())?;
-    if package.wants(&[Format::Csv]) && !exact.parts.is_empty() {
-        package.file("parts.csv", csv::write(&parts::columns(&exact))?)?;
+/// Mass and inertia of a body without any in a simulator model, kg and kg mm².
+const TINY: f64 = 1e-6;
+/// Points of the way of a point.
+const POINTS: u32 = 360;
+
+/// A composed machine as links and joints, each body a plate.
+///
+/// # Errors
+/// [`ExportError`] where a body is no solid.
+pub fn machine(composed: &Machine) -> Result<LinkedMachine, ExportError> {
+    let made = composed.machine();
+    let mut made = made.map_err(ExportError::no_solid(&composed.design().name))?;
+    turned::size(composed.turned(), &mut made);
+    Ok(made)
+}
+
+/// A composed machine as far as a picture shows it: [`machine`] without masses, pins and a list of parts.
+///
+/// # Errors
+/// [`ExportError`] where a body is no solid.
+pub fn outlined(composed: &Machine) -> Result<LinkedMachine, ExportError> {
+    let made = composed.outlined();
+    made.map_err(ExportError::no_solid(&composed.design().name))
+}
+
+/// The files of a composed machine in the formats asked for, not yet on disk.
+///
+/// Each body is a plate named after it, each gear and cam a part of its name; `assembly` is the machine where its cycle begins, with the ways of its points. MJCF
+/// closes the loops by equality constraints; URDF, which has no loops, leaves them open and says so.
+///
+/// # Errors
+/// [`ExportError`], for instance where the tolerance is too coarse.
+pub fn files(
+    composed: &Machine,
+    formats: &[Format],
+    options: &Options,
+) -> Result<Bundle, ExportError> {
+    let design = composed.design();
+    if let Some(overlap) = composed.overlapping_holes() {
+        return Err(ExportError::missing_at("plates.pin_diameter", overlap));
     }
-    let [urdf, mjcf] = [Format::Urdf, Format::Mjcf].map(|format| package.wants(&[format]));
-    if !urdf && !mjcf {
-        return Ok(());
+    let made = machine(composed)?;
+    let named = [design.name.as_str(), design.title.as_str()];
+    let mut package = Package::new("a composed machine", named, formats, options);
+    if design.hardware() != Hardware::None {
+        package.finer_than(composed.plates().pin_diameter, "pins' diameter")?;
     }
-    let simulated = model::simulated(&machine, &lines, tolerance).map_err(no_solid)?;
-    for (name, mesh) in simulated.meshes {
-        package.shown(&name, || Ok(mesh))?;
+    parts::add(&mut package, composed, &made)?;
+    package.drawing("assembly", |_| Ok(assembly(composed, &made)))?;
+    package.machine(|| Ok(with_masses(&made)))?;
+    package.finish()
+}
+
+/// The machine with a mass for every body that moves, as a simulator needs it, next to nothing where it has none.
+fn with_masses(machine: &LinkedMachine) -> LinkedMachine {
+    let mut made = machine.clone();
+    for link in made.links.iter_mut().skip(1) {
+        link.mass.get_or_insert(MassProperties {
+            mass: TINY,
+            center: Point3::origin(),
+            inertia: Matrix3::identity() * TINY,
+        });
     }
-    if urdf {
-        package.file(&format!("{MODEL}.urdf"), urdf::write(&simulated.model)?)?;
-        for body in simulated.model.links.iter().flat_map(|l| &l.collision) {
-            // Links that are alike have the same bodies.
-            let name = urdf::collision_file(&body.name);
-            package.shown(&name, || Ok(body.mesh.clone()))?;
+    made
+}
+
+/// The plate of a link, and its gears.
+fn plates(machine: &LinkedMachine, link: usize) -> &[Solid] {
+    let shape = machine.links.get(link).and_then(|link| link.shape);
+    match shape
+        .and_then(|shape| machine.shapes.get(shape))
+        .map(|shape| &shape.form)
+    {
+        Some(Form::Solids(solids)) => solids,
+        _ => &[],
+    }
+}
+
+/// The machine where its cycle begins, seen along the shafts, a layer a body, with the ways of its points.
+fn assembly(composed: &Machine, machine: &LinkedMachine) -> Drawing {
+    let mut drawing = Drawing::default().layer(PATH, Color::Blue, LineType::Continuous, 0.18);
+    for (index, body) in composed.bodies().iter().enumerate() {
+        let layer = body.name.to_uppercase();
+        // The frame, and bars that stand for bodies without plates, are no parts.
+        let line = match index == 0 || composed.bar(index).is_some() {
+            true => LineType::Phantom,
+            false => LineType::Continuous,
+        };
+        drawing = drawing.layer(&layer, Color::Foreground, line, 0.35);
+        for solid in plates(machine, index) {
+            contours(&mut drawing, &layer, solid, &start(composed, index));
         }
-        package.file("play_pybullet.py", script(include_str!("play_pybullet.py")))?;
-    }
-    if mjcf {
-        let model = mjcf::write_closed(&simulated.model, &simulated.closures)?;
-        package.file(&format!("{MODEL}.xml"), model)?;
-        package.file("play_mujoco.py", script(include_str!("play_mujoco.py")))?;
-    }
-    Ok(())
-}
-
-/// Adds the whole machine in place, one body a link or several.
-pub(crate) fn add_whole(machine: &Machine, package: &mut Package<'_>) -> Result<(), ExportError> {
-    if package.wants(&[Format::ThreeMf]) {
-        let whole = whole::Whole::new(machine, package.tolerance());
-        let whole = whole.map_err(ExportError::no_solid("link"))?;
-        let objects = whole.objects();
-        if !objects.is_empty() {
-            let bytes = threemf::write_assembly(&objects, machine.heading())?;
-            package.file(&format!("{ARRANGEMENT}.3mf"), bytes)?;
+        if let Some(bar) = composed.bar(index) {
+            let bar = bar.transformed(&start(composed, index));
+            drawing.draw(&layer, EntityShape::Contour(bar));
         }
     }
-    if package.wants(&[Format::Step]) {
-        let components = whole::components(machine);
-        if !components.is_empty() {
-            let bytes = step::write_assembly(&components, ARRANGEMENT, machine.heading());
-            let bytes = bytes.map_err(|source| ExportError::Step {
-                part: ARRANGEMENT.into(),
-                source,
-            })?;
-            package.file(&format!("{ARRANGEMENT}.step"), bytes)?;
+    drawing = scenery(drawing, composed, machine);
+    for (_, body, at) in composed.points().filter(|(_, body, _)| *body > 0) {
+        let way = (0..=POINTS).map(|i| {
+            let input = composed.period() * f64::from(i) / f64::from(POINTS);
+            composed.place(body, at, input)
+        });
+        drawing.draw(PATH, EntityShape::Polyline(way.collect()));
+    }
+    drawing
+}
+
+/// Place of a body where the cycle begins.
+fn start(composed: &Machine, body: usize) -> Isometry2<f64> {
+    let at = composed.place(body, Point::origin(), 0.0);
+    Isometry2::new(at.coords, composed.angle(body, 0.0).position)
+}
+
+/// The drawing with the obstacles, as phantoms, where there are any.
+fn scenery(mut drawing: Drawing, composed: &Machine, machine: &LinkedMachine) -> Drawing {
+    if composed.obstacles().is_empty() {
+        return drawing;
+    }
+    drawing = drawing.layer(SCENERY, Color::Gray, LineType::Phantom, 0.25);
+    for obstacle in composed.obstacles() {
+        let place = start(composed, obstacle.body);
+        let sketch = machine.sketches.iter().find(|s| s.name == obstacle.name);
+        for line in sketch.iter().flat_map(|sketch| &sketch.lines) {
+            let shape = match &line.path {
+                LinePath::Contour(outline) => EntityShape::Contour(outline.transformed(&place)),
+                LinePath::Chain(ends) => {
+                    let ends = ends.iter().map(|at| place * Point::from(*at));
+                    EntityShape::Polyline(ends.collect())
+                }
+                LinePath::Trace(_) => continue,
+            };
+            drawing.draw(SCENERY, shape);
         }
     }
-    Ok(())
+    drawing
 }
 
-/// The machine with every column of its table of motion: those of the machine, and the rate of each joint that does not move
-/// evenly and has none.
-#[must_use]
-pub fn tabulated(machine: Machine) -> Machine {
-    let lines = motion::lines(&file::in_pieces(&machine));
-    motion::with_rates(machine, &lines)
-}
-
-/// The JSON schema of `motion.json`.
-#[must_use]
-pub fn motion_schema() -> serde_json::Value {
-    schemars::schema_for!(MotionFile).to_value()
-}
-
-/// Reads the table of motion; both scripts hold it.
-const LAW: &str = include_str!("law.py");
-
-/// A script with the class in the place of its import, so that one file is enough to run it.
-fn script(script: &str) -> Vec<u8> {
-    const IMPORT: &str = "# isort: split\nfrom law import Law\n";
-    let class = LAW.find("class ").map_or("", |at| &LAW[at..]);
-    script.replace(IMPORT, &format!("\n{class}\n")).into_bytes()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn scripts_need_no_other_file() {
-        for name in [
-            include_str!("play_mujoco.py"),
-            include_str!("play_pybullet.py"),
-        ] {
-            let script = String::from_utf8(script(name)).expect("text");
-            assert_eq!(script.matches("class Law:").count(), 1);
-            assert!(!script.contains("from law") && script.contains("def __call__"));
-        }
+fn contours(drawing: &mut Drawing, layer: &str, solid: &Solid, place: &Isometry2<f64>) {
+    drawing.draw(
+        layer,
+        EntityShape::Contour(solid.outline().transformed(place)),
+    );
+    for hole in solid.holes() {
+        drawing.draw(layer, EntityShape::Contour(hole.transformed(place)));
     }
 }

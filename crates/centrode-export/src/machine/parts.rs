@@ -1,107 +1,165 @@
-use crate::number::mass;
-use centrode_formats::csv::Column;
-use centrode_formats::drawing::Anchor;
-use centrode_formats::sheet::Table;
-use centrode_kinematics::machine::{Machine, Part, Supply};
+use centrode_formats::sheet::number;
+use centrode_geometry::{Outline, Solid};
+use centrode_kinematics::machine::LinkedMachine;
+use centrode_machines::machine::{Hardware, Machine, PinHole};
 
-/// The parts list of a machine, numbered from one; columns that say nothing of any part are left out.
-#[must_use]
-pub fn parts_list(machine: &Machine) -> Table {
-    let row = |(index, part): (usize, &Part)| {
-        vec![
-            (index + 1).to_string(),
-            part.name.clone(),
-            part.quantity().to_string(),
-            material(part),
-            part.mass.map(|kg| mass(kg * 1e3)).unwrap_or_default(),
-            part.file.clone(),
-            part.remark.clone(),
-        ]
-    };
-    let headings = [
-        ("item", Anchor::Right),
-        ("part", Anchor::Left),
-        ("quantity", Anchor::Right),
-        ("material", Anchor::Left),
-        ("mass of one", Anchor::Right),
-        ("files", Anchor::Left),
-        ("remark", Anchor::Left),
-    ];
-    let weighed = machine
-        .parts
-        .iter()
-        .filter(|part| part.mass.is_some())
-        .count();
-    let sum: f64 = (0..machine.links.len())
-        .map(|link| machine.mass_of_pieces(link))
-        .sum();
-    let together = mass(sum * 1e3);
-    let note = match weighed {
-        0 => None,
-        all if all == machine.parts.len() => Some(format!("Together {together}.")),
-        _ => Some(format!("Parts with a mass: together {together}.")),
-    };
-    // Of a shaft in a gear the design knows the end that is in it.
-    let mut given = machine.parts.iter().map(|part| part.supply);
-    let given = given.any(|supply| supply == Supply::Given);
-    let given =
-        given.then(|| "Given parts are the customer's: the remark says what they must fit.".into());
-    Table {
-        title: "Parts".into(),
-        headings: headings.map(|(heading, _)| heading.into()).into(),
-        columns: headings.map(|(_, anchor)| anchor).into(),
-        rows: machine.parts.iter().enumerate().map(row).collect(),
-        notes: note.into_iter().chain(given).collect(),
-    }
-    .filled()
-}
+use super::plates;
+use crate::gear_pair::{self, Label};
+use crate::plate::{Hole, Plate, hold_apart};
+use crate::{ExportError, Package, cam, turned};
+use crate::{fit, number::capital};
 
-/// Material of a part, or where it comes from.
-fn material(part: &Part) -> String {
-    match part.supply {
-        Supply::Made => part.material.clone(),
-        supply => supply.name().into(),
-    }
-}
-
-/// The parts list as columns of a comma-separated table.
-pub(super) fn columns(machine: &Machine) -> Vec<Column> {
-    let words = |heading: &str, of: &dyn Fn(&Part) -> String| {
-        // A comma would end the cell.
-        let cell = |part: &Part| of(part).replace(',', ";").replace('"', "''");
-        Column::words(heading, machine.parts.iter().map(cell))
+/// Offers plates, gears and cams; copies have the files of their originals.
+pub(super) fn add(
+    package: &mut Package<'_>,
+    composed: &Machine,
+    machine: &LinkedMachine,
+) -> Result<(), ExportError> {
+    let drawing = &composed.design().drawing;
+    let is_copy = |name: &String| composed.original(name) != name;
+    let quantity = |name: &str| {
+        let part = machine.parts.iter().find(|part| part.name == name);
+        part.map_or(1, |part| part.quantity())
     };
-    let links = |part: &Part| {
-        let mut names: Vec<&str> = Vec::new();
-        for &link in &part.links {
-            let name = machine.links[link].name.as_str();
-            if !names.contains(&name) {
-                names.push(name);
-            }
+    for (index, body) in composed.bodies().iter().enumerate() {
+        if is_copy(&body.name) {
+            continue;
         }
-        names.join(" ")
+        let plate = plate(composed, machine, index, quantity(&body.name));
+        let top = plate.as_ref().filter(|_| index == 0);
+        let top = top.and_then(|plate| top_plate(composed, machine, plate));
+        for plate in plate.into_iter().chain(top) {
+            plate.add(package, drawing)?;
+        }
+    }
+    if composed.design().hardware() == Hardware::Full {
+        turned::add(composed.turned(), package, drawing)?;
+    }
+    for gear in composed.gears().iter().filter(|gear| !is_copy(&gear.name)) {
+        let label = Label {
+            name: &gear.name,
+            title: &capital(&gear.name),
+            mate: &mates(composed, &gear.name),
+            machine: package.design(),
+            drawing,
+            quantity: quantity(&gear.name),
+        };
+        gear_pair::add_gear(package, &gear.pair, gear.member, label)?;
+    }
+    for part in composed.cams().iter().filter(|cam| !is_copy(&cam.name)) {
+        let (title, tolerance) = (package.titled(&part.name), package.tolerance());
+        let plate = cam::plate(
+            &part.part,
+            [&part.name, &capital(&part.name)],
+            quantity(&part.name),
+        );
+        plate.add_sheets(package, drawing)?;
+        cam::add(package, &part.part, &title, tolerance)?;
+    }
+    Ok(())
+}
+
+/// A body as a plate; none for one without a contour.
+fn plate(
+    composed: &Machine,
+    machine: &LinkedMachine,
+    body: usize,
+    quantity: usize,
+) -> Option<Plate> {
+    let spec = &composed.design().plates;
+    // A link's plate is the first of its solids.
+    let solid = plates(machine, body).first()?;
+    let pins = composed.pin_holes(body)?;
+    let name = &composed.bodies()[body].name;
+    let [guide, block] = Machine::GUIDE_FIT;
+    let guided = composed.guided(body);
+    let mut holes = holes(composed, body, solid, pins);
+    for pair in composed.carried_pairs(body) {
+        if let Some(off) = gear_pair::half_backlash(pair, pair.backlash()) {
+            hold_apart(&mut holes, pair.center_distance(), off);
+        }
+    }
+    let axes = "x and y are the body's axes in the design.".to_owned();
+    let slides = match (guided, composed.slotted(body)) {
+        (Some(_), Some(guide)) => Some(format!(
+            "Slides along x in the slot of {}.",
+            composed.bodies()[guide].name
+        )),
+        (Some(height), None) => {
+            let guide = fit::keyway(height, guide);
+            Some(format!(
+                "Slides along x in a guide of {guide}, which is the customer's."
+            ))
+        }
+        (None, _) => None,
     };
-    vec![
-        Column::words(
-            "item",
-            (1..=machine.parts.len()).map(|item| item.to_string()),
-        ),
-        words("part", &|part| part.name.clone()),
-        words("quantity", &|part| part.quantity().to_string()),
-        words("supply", &|part| part.supply.name().into()),
-        words("material", &|part| part.material.clone()),
-        words("blank", &|part| {
-            part.blank
-                .map(|blank| blank.to_string())
-                .unwrap_or_default()
-        }),
-        words("mass_kg", &|part| {
-            part.mass
-                .map(|mass| format!("{mass:?}"))
-                .unwrap_or_default()
-        }),
-        words("links", &links),
-        words("files", &|part| part.file.clone()),
-        words("remark", &|part| part.remark.clone()),
-    ]
+    Some(Plate {
+        name: name.clone(),
+        title: capital(name),
+        quantity,
+        outline: solid.outline().clone(),
+        holes,
+        opening: None,
+        thickness: composed.thickness(body),
+        material: spec.material.clone(),
+        density: spec.density,
+        heat_treatment: Some(spec.heat_treatment.clone()),
+        notes: std::iter::once(axes).chain(slides).collect(),
+        tables: Vec::new(),
+        exactness: None,
+        marks: Vec::new(),
+        classes: [guided.map_or("", |_| block).into(), String::new()],
+    })
+}
+
+/// Holes of a plate: those of pins and shafts, then those of the screws of a frame, or slots.
+fn holes(composed: &Machine, body: usize, solid: &Solid, pins: Vec<PinHole>) -> Vec<Hole> {
+    let hole = |(outline, pin): (&Outline, PinHole)| {
+        let mut bored = Hole::bore(outline.clone(), &pin.hub);
+        if !bored.notes.is_empty() {
+            // Its contour is no circle, whose place the sheet would tell.
+            let [x, y] = [pin.at.x, pin.at.y].map(|mm| number(mm, 4));
+            bored.notes.insert(1, format!("at {x}, {y}"));
+        }
+        Hole {
+            label: pin.name,
+            is_seat: !bored.notes.is_empty(),
+            ..bored
+        }
+    };
+    let [guide, _] = Machine::GUIDE_FIT;
+    let slots = composed.slots(body);
+    let own_slots = solid.holes().get(pins.len()..).unwrap_or_default();
+    let own_slots = own_slots.iter().zip(slots).map(|(outline, slot)| Hole {
+        label: composed.bodies()[slot.block].name.clone(),
+        fit: guide.into(),
+        ..Hole::from(outline.clone())
+    });
+    let bored = solid.holes().iter().zip(pins).map(hole);
+    let screws = composed.frame_screws().filter(|_| body == 0);
+    bored
+        .chain(own_slots)
+        .chain(screws.into_iter().flat_map(Hole::clearance))
+        .collect()
+}
+
+/// The upper plate of a frame of two plates.
+fn top_plate(composed: &Machine, machine: &LinkedMachine, lower: &Plate) -> Option<Plate> {
+    composed.frame_screws()?;
+    let solid = plates(machine, 0).get(1)?;
+    Some(Plate {
+        name: Machine::FRAME_TOP.into(),
+        title: "Frame, upper plate".into(),
+        outline: solid.outline().clone(),
+        holes: holes(composed, 0, solid, composed.top_holes()),
+        ..lower.clone()
+    })
+}
+
+/// Names of the gears that a gear meshes with; copies have those of their originals.
+fn mates(composed: &Machine, gear: &str) -> String {
+    let mates = composed.mates(gear).into_iter();
+    let mut names: Vec<&str> = mates.map(|mate| composed.original(&mate.name)).collect();
+    names.dedup();
+    names.join(" and ")
 }

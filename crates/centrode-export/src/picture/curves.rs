@@ -8,7 +8,7 @@ use super::{Curve, path};
 pub struct CurveList<'a>(pub &'a [Curve]);
 
 #[derive(Serialize)]
-struct Told<'a> {
+struct Stated<'a> {
     chart: &'a str,
     name: &'a str,
     unit: &'a str,
@@ -31,7 +31,7 @@ impl Serialize for CurveList<'_> {
         let mut before: Option<&[f64]> = None;
         for curve in self.0 {
             let input = &curve.input[..];
-            list.serialize_element(&Told {
+            list.serialize_element(&Stated {
                 chart: &curve.chart,
                 name: curve.name,
                 unit: curve.unit,
@@ -53,10 +53,10 @@ mod tests {
     fn inputs_are_told_where_they_change() {
         let curve = |input: &[f64]| Curve::new(["chart", "", "mm"], input, vec![0.5; input.len()]);
         let curves = [&[0.0, 1.0][..], &[0.0, 1.0], &[0.0], &[0.0, 1.0]].map(curve);
-        let told = serde_json::to_value(CurveList(&curves)).expect("JSON");
-        let inputs = [0, 1, 2, 3].map(|i| told[i]["input"].as_array().map(Vec::len));
+        let stated = serde_json::to_value(CurveList(&curves)).expect("JSON");
+        let inputs = [0, 1, 2, 3].map(|i| stated[i]["input"].as_array().map(Vec::len));
         assert_eq!(inputs, [Some(2), None, Some(1), Some(2)]);
-        assert_eq!(told[1]["value"], serde_json::json!([0.5, 0.5]));
-        assert_eq!(told[3], serde_json::to_value(&curves[0]).expect("JSON"));
+        assert_eq!(stated[1]["value"], serde_json::json!([0.5, 0.5]));
+        assert_eq!(stated[3], serde_json::to_value(&curves[0]).expect("JSON"));
     }
 }

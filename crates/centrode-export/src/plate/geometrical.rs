@@ -135,7 +135,7 @@ mod tests {
     use centrode_gear::design::BodySpec;
     use centrode_geometry::Outline;
     use centrode_kinematics::machine::Keyway;
-    use centrode_machines::composed::PinHole;
+    use centrode_machines::machine::PinHole;
 
     use super::*;
 
@@ -157,7 +157,7 @@ mod tests {
         }
     }
 
-    fn told(plate: &Plate) -> Vec<Vec<String>> {
+    fn stated(plate: &Plate) -> Vec<Vec<String>> {
         let frames = plate.frames().into_iter();
         frames
             .map(|all| all.iter().map(ToString::to_string).collect())
@@ -169,7 +169,7 @@ mod tests {
         let at = [[0.0, 0.0], [60.0, 0.0], [30.0, 40.0]];
         let with = |names: [&str; 3]| {
             let holes = names.into_iter().zip(at);
-            told(&plate(
+            stated(&plate(
                 holes.map(|(name, at)| hole(name, at, 3.0)).collect(),
             ))
         };
@@ -204,13 +204,13 @@ mod tests {
         };
         let part = plate(vec![Hole::bore(bore.outline(), &hub), slot.clone()]);
         // IT9 of 3 to 6 mm, IT8 of 50 to 80 mm.
-        assert_eq!(told(&part)[0], ["symmetry 0.03 A", "datum A"]);
-        assert_eq!(told(&part)[1], ["position 0.046 A"]);
+        assert_eq!(stated(&part)[0], ["symmetry 0.03 A", "datum A"]);
+        assert_eq!(stated(&part)[1], ["position 0.046 A"]);
         let free = Hole {
             fit: String::new(),
             ..slot
         };
         let part = plate(vec![hole("", [0.0, 0.0], 3.0), free]);
-        assert_eq!(told(&part), [Vec::<String>::new(), Vec::new()]);
+        assert_eq!(stated(&part), [Vec::<String>::new(), Vec::new()]);
     }
 }

@@ -75,7 +75,7 @@ impl Plate {
     fn lines(&self) -> Vec<String> {
         let name = &self.name;
         let mut lines = vec![format!("{} for each machine.", self.quantity)];
-        lines.push(match self.is_told() {
+        lines.push(match self.is_stated() {
             true => format!("Cutting file: {name}.dxf."),
             false => format!("Contour: {name}.dxf."),
         });
@@ -273,15 +273,15 @@ impl Plate {
     }
 
     /// Contours that a sheet tells by their corners: the outline, and holes that are neither round nor slots.
-    fn told(&self) -> impl Iterator<Item = &Outline> {
+    fn stated(&self) -> impl Iterator<Item = &Outline> {
         let holes = self.holes.iter().filter(|hole| hole.is_by_contour());
         std::iter::once(&self.outline).chain(holes.map(|hole| &hole.outline))
     }
 
     /// Whether the sheet tells all of the contour.
-    fn is_told(&self) -> bool {
+    fn is_stated(&self) -> bool {
         self.outline.segments().len() <= SIDES
-            && self.told().all(|contour| {
+            && self.stated().all(|contour| {
                 let mut sides = contour.segments().iter();
                 !sides.any(|side| matches!(side, Segment::Poly(_)))
             })
@@ -289,12 +289,12 @@ impl Plate {
 
     /// The contour's corners and roundings; none for one with more than a sheet would be read for.
     fn contour_table(&self) -> Option<Table> {
-        if !self.is_told() {
+        if !self.is_stated() {
             return None;
         }
         let mut rows = Vec::new();
-        let alone = self.told().count() == 1;
-        for (index, contour) in self.told().enumerate() {
+        let alone = self.stated().count() == 1;
+        for (index, contour) in self.stated().enumerate() {
             for segment in contour.segments() {
                 let start = segment.start();
                 let [round, about] = match segment {

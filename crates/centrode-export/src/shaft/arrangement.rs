@@ -1,29 +1,27 @@
 use super::figures;
 use super::links::{BOX, GEARS};
-use super::machine::Machine;
+use super::machine::Parts;
 use super::sheets::data;
 use crate::{ExportError, fit, gear_pair, turned};
 use centrode_formats::sheet::number;
 use centrode_gear::Member;
 use centrode_groove::ShaftSolid;
-use centrode_kinematics::machine::{
-    Axis, Blank, Datum, Dimension, Machine as Linked, Part, Supply,
-};
+use centrode_kinematics::machine::{Axis, Blank, Datum, Dimension, LinkedMachine, Part, Supply};
 use std::f64::consts::TAU;
 
 /// Lists shaft, slider, box and gears with their masses, and tells the arrangement: the groove unrolled, the slider in it.
-pub(super) fn tell(parts: &Machine<'_>, machine: &mut Linked) -> Result<(), ExportError> {
+pub(super) fn tell(parts: &Parts<'_>, machine: &mut LinkedMachine) -> Result<(), ExportError> {
     list(parts, machine)?;
     let shaft = parts.shaft;
-    let told = &mut machine.arrangement;
-    told.title = if parts.gears.is_some() {
+    let stated = &mut machine.arrangement;
+    stated.title = if parts.gears.is_some() {
         "Moving box"
     } else {
         "Spiral shaft with box"
     }
     .into();
-    told.drawing = shaft.drawing().clone();
-    told.notes = [
+    stated.drawing = shaft.drawing().clone();
+    stated.notes = [
         "Surface of the shaft unrolled, seen from outside, its lower edge at 360°.",
         "Above it the box in its rows of holes, drawn beside the shaft.",
         "Slider and box where the cycle begins; thin: edges of the groove,",
@@ -36,15 +34,17 @@ pub(super) fn tell(parts: &Machine<'_>, machine: &mut Linked) -> Result<(), Expo
         [name, symbol, value] => Some(Datum::new(name, symbol, value)),
         _ => None,
     };
-    told.data = rows.filter_map(datum).collect();
+    stated.data = rows.filter_map(datum).collect();
     let solid = ShaftSolid::new(shaft.groove(), shaft.body())?;
     let [near, far] = solid.whole();
-    told.data
+    stated
+        .data
         .push(Datum::new("Shaft over all, mm", "", number(far - near, 3)));
     if let Some(gears) = &parts.gears {
-        told.notes
+        stated
+            .notes
             .push("Gears on the near end, seen along the shaft, drawn left of it.".into());
-        told.data.extend(gear_pair::of_both(&gears.pair, None));
+        stated.data.extend(gear_pair::of_both(&gears.pair, None));
     }
     let ([low, high], (first, last)) = (solid.ends(), shaft.traverse().reach());
     let around = -TAU * shaft.groove().radius();
@@ -65,10 +65,11 @@ pub(super) fn tell(parts: &Machine<'_>, machine: &mut Linked) -> Result<(), Expo
     Ok(())
 }
 
-fn list(parts: &Machine<'_>, machine: &mut Linked) -> Result<(), ExportError> {
+fn list(parts: &Parts<'_>, machine: &mut LinkedMachine) -> Result<(), ExportError> {
     let shaft = parts.shaft;
     let (slider, body) = (shaft.slider(), shaft.body());
-    let weight = |machine: &Linked, link: usize| machine.links[link].mass.map(|mass| mass.mass);
+    let weight =
+        |machine: &LinkedMachine, link: usize| machine.links[link].mass.map(|mass| mass.mass);
     let [turned, carriage, slid] =
         ["shaft", BOX, "slider"].map(|name| machine.link_named(name).unwrap_or(0));
     let solid = ShaftSolid::new(shaft.groove(), body)?;

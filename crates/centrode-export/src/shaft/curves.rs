@@ -1,4 +1,4 @@
-use super::machine::Machine;
+use super::machine::Parts;
 use crate::ExportError;
 use crate::picture::Curve;
 use centrode_groove::{MovingBox, SpiralShaft};
@@ -10,7 +10,7 @@ const STEP: f64 = PI / 30.0;
 /// Position, speed, acceleration, lead angle and forces over the cycle.
 #[must_use]
 pub fn shaft_curves(shaft: &SpiralShaft) -> Vec<Curve> {
-    curves(&Machine::of_shaft(shaft))
+    curves(&Parts::of_shaft(shaft))
 }
 
 /// Curves of a moving box, by its own input.
@@ -18,10 +18,10 @@ pub fn shaft_curves(shaft: &SpiralShaft) -> Vec<Curve> {
 /// # Errors
 /// [`ExportError`] where the elliptic gears make no pair.
 pub fn box_curves(machine: &MovingBox) -> Result<Vec<Curve>, ExportError> {
-    Ok(curves(&Machine::of_box(machine)?))
+    Ok(curves(&Parts::of_box(machine)?))
 }
 
-fn curves(machine: &Machine<'_>) -> Vec<Curve> {
+fn curves(machine: &Parts<'_>) -> Vec<Curve> {
     let input = machine.shaft.groove().steps(STEP);
     let omega = machine.shaft.load().speed();
     let curve = |chart, unit, f: &dyn Fn(f64) -> f64| {

@@ -3,11 +3,11 @@ use std::sync::Arc;
 
 use centrode_geometry::{Outline, Point, Tolerance, Vector};
 use centrode_groove::{ShaftSolid, SpiralShaft};
-use centrode_kinematics::machine::{Constant, Line, LineRole, Machine as Linked, Quantity, Seat};
+use centrode_kinematics::machine::{Constant, Line, LineRole, LinkedMachine, Quantity, Seat};
 use centrode_kinematics::transmission::{FromFn, MotionJet, Transmission};
 
 use super::links::MEMBERS;
-use super::machine::{Gears, Machine};
+use super::machine::{Gears, Parts};
 use crate::{ExportError, gear_pair};
 
 /// How exactly the edges of the groove are drawn, as a share of its width, and no finer than this share of the shaft's radius, at which
@@ -34,10 +34,10 @@ fn still(at: f64) -> Quantity {
 /// Draws the developed groove with its slider running in it, and the box that goes with it: along x the shaft, along y its
 /// turned surface.
 pub(super) fn develop(
-    parts: &Machine<'_>,
+    parts: &Parts<'_>,
     turn: &Arc<dyn Transmission>,
     [boxed, swivelling]: [usize; 2],
-    machine: &mut Linked,
+    machine: &mut LinkedMachine,
 ) -> Result<(), ExportError> {
     let surface = machine.sketch("development", surface(parts)?);
     machine.draw("shaft", 0, surface);
@@ -71,7 +71,7 @@ pub(super) fn develop(
 }
 
 /// The development: its rim, the edges of the groove, the window in which a seedling is picked.
-fn surface(parts: &Machine<'_>) -> Result<Vec<Line>, ExportError> {
+fn surface(parts: &Parts<'_>) -> Result<Vec<Line>, ExportError> {
     let shaft = parts.shaft;
     let groove = shaft.groove();
     let around = TAU * groove.radius();
@@ -122,7 +122,7 @@ pub(super) fn gears(
     shaft: &SpiralShaft,
     end: f64,
     joints: [usize; 2],
-    machine: &mut Linked,
+    machine: &mut LinkedMachine,
 ) {
     let reach = MEMBERS.map(|member| gears.pair.gear(member).radii().1);
     let x = end - 0.5 * shaft.law().lead() - reach[0].max(reach[1]);

@@ -11,7 +11,7 @@ use centrode_kinematics::machine::{
 use centrode_kinematics::transmission::{FromFn, MotionJet, Transmission};
 use nalgebra::{Matrix3, Point3};
 
-use super::machine::{Gears, Machine};
+use super::machine::{Gears, Parts};
 use super::{arrangement, figures, slider_solid};
 use crate::{ExportError, gear_pair};
 
@@ -31,7 +31,7 @@ pub(super) const GEARS: &str = "gears-";
 
 /// The shaft lying along x of the world, the slider on top of it; the box slides, the slider swivels on its pin, and
 /// elliptic gears, if any, stand at the near end.
-pub(super) fn machine(parts: &Machine<'_>) -> Result<machine::Machine, ExportError> {
+pub(super) fn machine(parts: &Parts<'_>) -> Result<machine::LinkedMachine, ExportError> {
     let shaft = parts.shaft;
     let mut machine = drawn(parts)?;
     let block = slider_solid(shaft)?;
@@ -68,10 +68,10 @@ pub(super) fn machine(parts: &Machine<'_>) -> Result<machine::Machine, ExportErr
 }
 
 /// The machine as it moves and is drawn, without bodies.
-pub(super) fn drawn(parts: &Machine<'_>) -> Result<machine::Machine, ExportError> {
+pub(super) fn drawn(parts: &Parts<'_>) -> Result<machine::LinkedMachine, ExportError> {
     let shaft = parts.shaft;
     let (groove, slider) = (shaft.groove(), shaft.slider());
-    let mut machine = machine::Machine {
+    let mut machine = machine::LinkedMachine {
         name: parts.name.into(),
         title: parts.title.into(),
         input: Input {
@@ -88,7 +88,7 @@ pub(super) fn drawn(parts: &Machine<'_>) -> Result<machine::Machine, ExportError
             "The box has the mass moved and the inertia of a cube of {CUBE} mm, and no friction. Slider and groove do not touch."
         ),
         gravity: [0.0, 0.0, -1e3 * GRAVITY],
-        ..machine::Machine::default()
+        ..machine::LinkedMachine::default()
     };
     let links = ["base", "frame", "shaft", BOX, "slider"];
     let [base, frame, turned, carriage, slid] = links.map(|name| {
@@ -148,7 +148,7 @@ impl SolidBody for Grooved {
 }
 
 /// Turn of the shaft by the input, rad.
-fn turn(parts: &Machine<'_>) -> Arc<dyn Transmission> {
+fn turn(parts: &Parts<'_>) -> Arc<dyn Transmission> {
     match &parts.gears {
         Some(gears) => Arc::new(*gears.drive),
         None => Arc::new(Linear {
@@ -169,7 +169,7 @@ fn swivel(turn: &Arc<dyn Transmission>, stroke: &Arc<dyn Transmission>, radius: 
 }
 
 /// The groove that moves the box, and the friction of the rails on it.
-fn loads(machine: &mut machine::Machine, shaft: &SpiralShaft, joint: usize) {
+fn loads(machine: &mut machine::LinkedMachine, shaft: &SpiralShaft, joint: usize) {
     let load = *shaft.load();
     machine.guides.push(Guide {
         joint,
@@ -188,8 +188,8 @@ fn loads(machine: &mut machine::Machine, shaft: &SpiralShaft, joint: usize) {
 
 /// The table: shaft, box and slider with their speeds at the design's speed of the input, forces.
 fn columns(
-    machine: &mut machine::Machine,
-    parts: &Machine<'_>,
+    machine: &mut machine::LinkedMachine,
+    parts: &Parts<'_>,
     [shaft, carriage, slider]: [usize; 3],
     turn: &Arc<dyn Transmission>,
 ) {
@@ -319,7 +319,7 @@ fn hang(
     end: f64,
     [frame, shaft]: [usize; 2],
     turning: usize,
-    machine: &mut machine::Machine,
+    machine: &mut machine::LinkedMachine,
 ) -> usize {
     let links = MEMBERS.map(|member| {
         machine.link(Link {

@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 use std::sync::Arc;
 
 /// A shaft and what turns it.
-pub(super) struct Machine<'a> {
+pub(super) struct Parts<'a> {
     pub(super) name: &'a str,
     pub(super) title: &'a str,
     pub(super) shaft: &'a SpiralShaft,
@@ -23,7 +23,7 @@ pub(super) struct Gears<'a> {
     pub(super) pair: GearPair,
 }
 
-impl<'a> Machine<'a> {
+impl<'a> Parts<'a> {
     /// A shaft turned evenly.
     pub(super) fn of_shaft(shaft: &'a SpiralShaft) -> Self {
         Self {

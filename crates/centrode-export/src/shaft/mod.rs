@@ -14,11 +14,11 @@ use crate::{ExportError, Options, Package, gear_pair, turned};
 use centrode_formats::{Bundle, Format};
 use centrode_geometry::Solid;
 use centrode_groove::{MovingBox, ShaftError, SpiralShaft};
-use centrode_kinematics::machine::Machine as Linked;
+use centrode_kinematics::machine::LinkedMachine;
 pub use curves::{box_curves, shaft_curves};
 pub use drawings::{developed, side_view, slider};
 pub use gcode::program;
-use machine::Machine;
+use machine::Parts;
 pub use sheets::{shaft_sheets, slider_sheets};
 
 impl From<ShaftError> for ExportError {
@@ -41,12 +41,7 @@ pub fn files(
     formats: &[Format],
     options: &Options,
 ) -> Result<Bundle, ExportError> {
-    all(
-        "a spiral shaft",
-        &Machine::of_shaft(shaft),
-        formats,
-        options,
-    )
+    all("a spiral shaft", &Parts::of_shaft(shaft), formats, options)
 }
 
 /// The files of a moving box in the formats asked for: those of its shaft with the motion by the machine's
@@ -59,39 +54,39 @@ pub fn moving_box_files(
     formats: &[Format],
     options: &Options,
 ) -> Result<Bundle, ExportError> {
-    all("a moving box", &Machine::of_box(machine)?, formats, options)
+    all("a moving box", &Parts::of_box(machine)?, formats, options)
 }
 
 /// Shaft, box and slider as links and joints.
 ///
 /// # Errors
 /// [`ExportError`] where body and groove make no solid.
-pub fn machine(shaft: &SpiralShaft) -> Result<Linked, ExportError> {
-    links::machine(&Machine::of_shaft(shaft))
+pub fn machine(shaft: &SpiralShaft) -> Result<LinkedMachine, ExportError> {
+    links::machine(&Parts::of_shaft(shaft))
 }
 
 /// Gears, shaft, box and slider as links and joints.
 ///
 /// # Errors
 /// [`ExportError`], for instance where the gears cannot be cut.
-pub fn moving_box_machine(machine: &MovingBox) -> Result<Linked, ExportError> {
-    links::machine(&Machine::of_box(machine)?)
+pub fn moving_box_machine(machine: &MovingBox) -> Result<LinkedMachine, ExportError> {
+    links::machine(&Parts::of_box(machine)?)
 }
 
 /// Shaft, box and slider as they move and are drawn, without bodies.
 ///
 /// # Errors
 /// [`ExportError`] where body and groove make no solid.
-pub fn drawn(shaft: &SpiralShaft) -> Result<Linked, ExportError> {
-    links::drawn(&Machine::of_shaft(shaft))
+pub fn drawn(shaft: &SpiralShaft) -> Result<LinkedMachine, ExportError> {
+    links::drawn(&Parts::of_shaft(shaft))
 }
 
 /// Gears, shaft, box and slider as they move and are drawn, without bodies.
 ///
 /// # Errors
 /// [`ExportError`] where body and groove make no solid, or the elliptic gears no pair.
-pub fn moving_box_drawn(machine: &MovingBox) -> Result<Linked, ExportError> {
-    links::drawn(&Machine::of_box(machine)?)
+pub fn moving_box_drawn(machine: &MovingBox) -> Result<LinkedMachine, ExportError> {
+    links::drawn(&Parts::of_box(machine)?)
 }
 
 fn slider_solid(shaft: &SpiralShaft) -> Result<Solid, ExportError> {
@@ -101,7 +96,7 @@ fn slider_solid(shaft: &SpiralShaft) -> Result<Solid, ExportError> {
 
 fn all(
     kind: &'static str,
-    machine: &Machine<'_>,
+    machine: &Parts<'_>,
     formats: &[Format],
     options: &Options,
 ) -> Result<Bundle, ExportError> {

@@ -240,7 +240,7 @@ fn the_gears_of_the_model_turn_the_shaft_as_the_law_has_it() {
     };
     design.shaft.pick = 0.3;
     let machine = MovingBox::resolve(&design).expect("resolves");
-    let machine = Machine::of_box(&machine).expect("gears");
+    let machine = Parts::of_box(&machine).expect("gears");
     let gears = machine.gears.as_ref().expect("gears");
     let turned = |input: f64| input - gears.drive.phase - gears.slowest();
     let mesh = |input: f64| gears.pair.driven_angle(-turned(input));

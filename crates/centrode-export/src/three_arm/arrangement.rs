@@ -1,5 +1,5 @@
 use super::ThreeArmPart;
-use super::machine::{Machine, PASSING};
+use super::machine::{PASSING, Parts};
 use crate::{fit, gear_pair, turned};
 use centrode_formats::sheet::number;
 use centrode_gear::Member;
@@ -9,7 +9,7 @@ use centrode_kinematics::machine::{self, Axis, Blank, Callout, Datum, Dimension,
 use centrode_machines::three_arm::ThreeArm;
 
 /// Lists the parts and tells the arrangement: the mechanism as its first arm picks.
-pub(super) fn tell(parts: &Machine<'_>, machine: &mut machine::Machine) {
+pub(super) fn tell(parts: &Parts<'_>, machine: &mut machine::LinkedMachine) {
     let mechanism = parts.mechanism;
     for part in ThreeArmPart::ALL {
         if part != ThreeArmPart::Assembly {
@@ -22,13 +22,15 @@ pub(super) fn tell(parts: &Machine<'_>, machine: &mut machine::Machine) {
     turned::list(&parts.turned(), machine);
     given(parts, machine);
     let carrier = machine.place_on("carrier", [0.0; 2]);
-    let told = &mut machine.arrangement;
-    told.seen_through.extend(carrier.map(|place| place.figure));
-    told.title = ThreeArmPart::Assembly.title().into();
-    told.drawing = mechanism.design().drawing.clone();
-    told.input = mechanism.picking(0);
-    told.data = data(parts);
-    told.notes = [
+    let stated = &mut machine.arrangement;
+    stated
+        .seen_through
+        .extend(carrier.map(|place| place.figure));
+    stated.title = ThreeArmPart::Assembly.title().into();
+    stated.drawing = mechanism.design().drawing.clone();
+    stated.input = mechanism.picking(0);
+    stated.data = data(parts);
+    stated.notes = [
         "Shown as arm I picks; arms II and III follow it.",
         "Gears seen through the front plate of the carrier.",
         "Tooth k of the sun or of a planet gear runs in space k - 1 of an intermediate gear.",
@@ -41,7 +43,7 @@ pub(super) fn tell(parts: &Machine<'_>, machine: &mut machine::Machine) {
 }
 
 /// Lists what holds sun, cams and arms fast and is the customer's: the remark says what it must fit.
-fn given(parts: &Machine<'_>, machine: &mut machine::Machine) {
+fn given(parts: &Parts<'_>, machine: &mut machine::LinkedMachine) {
     let design = parts.mechanism.design();
     let on_shaft = |body: &BodySpec| {
         let fit = Fit::new("", body.bore, [&body.bore_fit, &body.shaft_fit]);
@@ -112,8 +114,9 @@ fn given(parts: &Machine<'_>, machine: &mut machine::Machine) {
 }
 
 /// Dimensions and words of tray, ground and plants.
-fn surroundings(mechanism: &ThreeArm, machine: &mut machine::Machine) {
-    let on = |machine: &machine::Machine, at: Point| machine.place_on("machine", at.coords.into());
+fn surroundings(mechanism: &ThreeArm, machine: &mut machine::LinkedMachine) {
+    let on =
+        |machine: &machine::LinkedMachine, at: Point| machine.place_on("machine", at.coords.into());
     let tip = mechanism.tip(mechanism.picking(0), 0).position;
     let ground = Point::new(0.0, mechanism.ground());
     let origin = on(machine, Point::origin());
@@ -147,7 +150,7 @@ fn surroundings(mechanism: &ThreeArm, machine: &mut machine::Machine) {
 }
 
 /// Links that carry the pieces of a part.
-pub(super) fn links(part: ThreeArmPart, arms: u32, machine: &machine::Machine) -> Vec<usize> {
+pub(super) fn links(part: ThreeArmPart, arms: u32, machine: &machine::LinkedMachine) -> Vec<usize> {
     let chains = |name: &str, each: usize| {
         let names = (0..arms).flat_map(|k| std::iter::repeat_n(format!("{name}_{k}"), each));
         names.filter_map(|name| machine.link_named(&name)).collect()
@@ -174,7 +177,7 @@ pub(super) fn links(part: ThreeArmPart, arms: u32, machine: &machine::Machine) -
 }
 
 /// Lists a part; its number stands at a piece on an arm that leaves the others room.
-fn list(parts: &Machine<'_>, part: ThreeArmPart, machine: &mut machine::Machine) {
+fn list(parts: &Parts<'_>, part: ThreeArmPart, machine: &mut machine::LinkedMachine) {
     let arms = parts.mechanism.arms();
     let links = links(part, arms, machine);
     let arm = |name: &str, k: u32| format!("{name} {}", k % arms + 1);
@@ -190,8 +193,9 @@ fn list(parts: &Machine<'_>, part: ThreeArmPart, machine: &mut machine::Machine)
     let Some(plate) = parts.plate_of(part) else {
         return;
     };
-    let edge =
-        |machine: &machine::Machine, figure: String| machine.place_on_edge(&figure, &plate.outline);
+    let edge = |machine: &machine::LinkedMachine, figure: String| {
+        machine.place_on_edge(&figure, &plate.outline)
+    };
     let place = match part {
         ThreeArmPart::Cam => edge(machine, arm("cam", 1)),
         ThreeArmPart::Fork => edge(machine, arm("fork", 2)),
@@ -224,7 +228,7 @@ fn list(parts: &Machine<'_>, part: ThreeArmPart, machine: &mut machine::Machine)
     });
 }
 
-fn data(parts: &Machine<'_>) -> Vec<Datum> {
+fn data(parts: &Parts<'_>) -> Vec<Datum> {
     let mechanism = parts.mechanism;
     let design = mechanism.design();
     let number = |x: f64| number(x, 2);

@@ -1,4 +1,4 @@
-use super::machine::Machine;
+use super::machine::Parts;
 use centrode_formats::drawing::{Anchor, Color, Drawing, EntityShape, LineType, Text};
 use centrode_gear::Member;
 use centrode_geometry::{Outline, Point, Tolerance};
@@ -11,7 +11,7 @@ const PATH: u32 = 720;
 
 /// The whole machine as its first arm picks: gears, carrier, cams and forks, arms, path of the tip, ground,
 /// tray, seedlings.
-pub(super) fn drawing(machine: &Machine<'_>, tolerance: Tolerance) -> Drawing {
+pub(super) fn drawing(machine: &Parts<'_>, tolerance: Tolerance) -> Drawing {
     let mut drawing = layers();
     for (layer, outline) in contours(machine, tolerance) {
         drawing.draw(layer, EntityShape::Contour(outline));
@@ -21,10 +21,7 @@ pub(super) fn drawing(machine: &Machine<'_>, tolerance: Tolerance) -> Drawing {
 }
 
 /// Contours of everything that turns as the first arm picks, each with its layer.
-pub(super) fn contours(
-    machine: &Machine<'_>,
-    tolerance: Tolerance,
-) -> Vec<(&'static str, Outline)> {
+pub(super) fn contours(machine: &Parts<'_>, tolerance: Tolerance) -> Vec<(&'static str, Outline)> {
     let mechanism = machine.mechanism;
     let input = mechanism.picking(0);
     let place = |link: ThreeArmLink| {
@@ -120,7 +117,7 @@ pub(super) fn planted_stems(mechanism: &ThreeArm, reach: f64) -> Vec<Outline> {
 }
 
 /// Surroundings that do not turn: path of the tip, ground, tray; and the title.
-fn surroundings(machine: &Machine<'_>, drawing: &mut Drawing) {
+fn surroundings(machine: &Parts<'_>, drawing: &mut Drawing) {
     let mechanism = machine.mechanism;
     let path = path(mechanism);
     let reach = path.iter().map(|p| p.coords.norm()).fold(0.0, f64::max);

@@ -2,10 +2,10 @@ use centrode_geometry::{Outline, Point};
 use centrode_kinematics::machine::{self, Line, LineRole};
 
 use super::ThreeArmPart;
-use super::machine::Machine;
+use super::machine::Parts;
 
 /// Draws the contours of what the page's picture has as bars: cams, forks, arms, push rods and the carrier in front.
-pub(super) fn draw(parts: &Machine<'_>, machine: &mut machine::Machine) {
+pub(super) fn draw(parts: &Parts<'_>, machine: &mut machine::LinkedMachine) {
     let plate = |part: ThreeArmPart| {
         let plate = parts.plate_of(part);
         plate.map_or_else(Vec::new, |plate| {

@@ -3,12 +3,12 @@ use std::sync::Arc;
 
 use centrode_gear::{GearPair, Member};
 use centrode_geometry::{Outline, Point};
-use centrode_kinematics::machine::{Constant, Line, LineRole, Machine, Mark, Quantity, Seat};
+use centrode_kinematics::machine::{Constant, Line, LineRole, LinkedMachine, Mark, Quantity, Seat};
 use centrode_kinematics::transmission::{FromFn, MotionJet};
 use centrode_machines::three_arm::{ThreeArm, ThreeArmLink};
 
 use super::bodies;
-use super::machine::Machine as Parts;
+use super::machine::Parts;
 use crate::gear_pair;
 
 /// Planted seedlings that are shown.
@@ -23,9 +23,9 @@ const ROUNDING: f64 = 1e-12;
 pub(super) fn draw(
     mechanism: &ThreeArm,
     (parts, teeth): (Option<&Parts<'_>>, Option<&GearPair>),
-    machine: &mut Machine,
+    machine: &mut LinkedMachine,
 ) {
-    let link = |machine: &Machine, name: &str| machine.link_named(name).unwrap_or(0);
+    let link = |machine: &LinkedMachine, name: &str| machine.link_named(name).unwrap_or(0);
     let around = surroundings(mechanism);
     let around = machine.sketch("surroundings", around);
     machine.draw("machine", 0, around);
@@ -42,7 +42,7 @@ pub(super) fn draw(
     });
     let fixed = link(machine, "sun");
     machine.draw("sun", fixed, sun);
-    let chains = |machine: &mut Machine, link_name: &str, name: &str, sketch: usize| {
+    let chains = |machine: &mut LinkedMachine, link_name: &str, name: &str, sketch: usize| {
         for k in 0..mechanism.arms() {
             let own = link(machine, &format!("{link_name}_{k}"));
             machine.draw(&format!("{name} {}", k + 1), own, sketch);
@@ -83,7 +83,7 @@ pub(super) fn draw(
 }
 
 /// The seedlings planted last, the newest first: where an arm plants, each moves up by one.
-fn planted(mechanism: &ThreeArm, machine: &mut Machine) {
+fn planted(mechanism: &ThreeArm, machine: &mut LinkedMachine) {
     let Some(stem) = mechanism.stem() else {
         return;
     };

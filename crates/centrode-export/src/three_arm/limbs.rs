@@ -4,7 +4,7 @@ use nalgebra::Isometry2;
 
 use super::ThreeArmPart;
 use super::links::{Builder, Seen};
-use super::machine::{Machine, no_fork};
+use super::machine::{Parts, no_fork};
 use super::pieces::Pieces;
 use crate::ExportError;
 
@@ -21,7 +21,7 @@ pub(super) struct Limbs {
 }
 
 impl Limbs {
-    pub(super) fn new(parts: &Machine<'_>, builder: &mut Builder<'_>) -> Result<Self, ExportError> {
+    pub(super) fn new(parts: &Parts<'_>, builder: &mut Builder<'_>) -> Result<Self, ExportError> {
         let plate = |part: ThreeArmPart| parts.plate_of(part).ok_or_else(no_fork);
         let span = |name: &str| parts.of_arm(name).map_or([0.0, 1.0], |p| p.span);
         let arm = [
@@ -67,7 +67,7 @@ impl Limbs {
 }
 
 /// Surfaces of an arm: its housing with the covers, and both flakes.
-fn touching(parts: &Machine<'_>, builder: &mut Builder<'_>) -> Vec<usize> {
+fn touching(parts: &Parts<'_>, builder: &mut Builder<'_>) -> Vec<usize> {
     let covers = ["cover-rear", "cover-front"].map(|name| parts.of_arm(name));
     let surfaces = ["housing", "flake-left", "flake-right"].map(|name| {
         let part = parts.of_arm(name)?;

@@ -12,13 +12,13 @@ use centrode_machines::three_arm::{LinkMotion, Pusher, ThreeArm, ThreeArmLink};
 use nalgebra::Isometry2;
 
 use super::limbs::Limbs;
-use super::machine::{Machine, no_gearbox};
+use super::machine::{Parts, no_gearbox};
 use super::{ThreeArmPart, arrangement, figures, surroundings};
 use crate::plate::Plate;
 use crate::{ExportError, gear_pair};
 
 /// Where a cam is on the carrier: its frame in the carrier's.
-pub(super) fn cam_on_carrier(machine: &Machine<'_>, chain: u32) -> Isometry2<f64> {
+pub(super) fn cam_on_carrier(machine: &Parts<'_>, chain: u32) -> Isometry2<f64> {
     let mechanism = machine.mechanism;
     let share = TAU * f64::from(chain) / f64::from(mechanism.arms());
     let later = -mechanism.train().direction().sign() * share;
@@ -31,9 +31,9 @@ pub(super) fn cam_on_carrier(machine: &Machine<'_>, chain: u32) -> Isometry2<f64
 /// with the teeth of a pair, or by their pitch curves.
 pub(super) fn machine(
     mechanism: &ThreeArm,
-    parts: Option<&Machine<'_>>,
+    parts: Option<&Parts<'_>>,
     teeth: Option<&GearPair>,
-) -> Result<machine::Machine, ExportError> {
+) -> Result<machine::LinkedMachine, ExportError> {
     let design = mechanism.design();
     let mut builder = Builder {
         mechanism,
@@ -43,7 +43,7 @@ pub(super) fn machine(
             pusher: parts.map(|parts| parts.pusher.clone()),
             last: (0..mechanism.arms()).map(|_| Mutex::default()).collect(),
         }),
-        machine: machine::Machine {
+        machine: machine::LinkedMachine {
             name: design.name.clone(),
             title: design.title.clone(),
             input: Input {
@@ -53,7 +53,7 @@ pub(super) fn machine(
             },
             note: "Cams, forks and rods, ground, tray and seedlings are there to be seen.".into(),
             gravity: [0.0, -STANDARD_GRAVITY, 0.0],
-            ..machine::Machine::default()
+            ..machine::LinkedMachine::default()
         },
     };
     builder.machine.column(
@@ -112,9 +112,9 @@ pub(super) type Seen = (usize, Option<MassProperties>);
 
 pub(super) struct Builder<'a> {
     pub(super) mechanism: &'a ThreeArm,
-    parts: Option<&'a Machine<'a>>,
+    parts: Option<&'a Parts<'a>>,
     laws: Arc<Laws>,
-    pub(super) machine: machine::Machine,
+    pub(super) machine: machine::LinkedMachine,
 }
 
 impl Builder<'_> {
@@ -399,7 +399,7 @@ impl Builder<'_> {
 }
 
 /// Whether sun and planets are as wide: their teeth are then the same bodies.
-fn same_width(machine: &Machine<'_>) -> bool {
+fn same_width(machine: &Parts<'_>) -> bool {
     let [sun, planet] = machine
         .pairs
         .each_ref()

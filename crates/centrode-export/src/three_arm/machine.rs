@@ -1,5 +1,5 @@
 use super::ThreeArmPart;
-use crate::gear_pair::half_play;
+use crate::gear_pair::half_backlash;
 use crate::plate::{Exactness, Hole, Plate, hold_apart};
 use crate::{ExportError, cam, fit};
 use centrode_formats::sheet::number;
@@ -17,7 +17,7 @@ pub(super) const PASSING: [&str; 2] = ["H11", "h11"];
 
 /// A mechanism with every part resolved.
 #[derive(Clone, Debug)]
-pub(super) struct Machine<'a> {
+pub(super) struct Parts<'a> {
     pub(super) mechanism: &'a ThreeArm,
     /// Sun with intermediate gear, planet with intermediate gear.
     pub(super) pairs: [GearPair; 2],
@@ -30,7 +30,7 @@ pub(super) struct Machine<'a> {
     pub(super) screws: [Option<Fastening>; 2],
 }
 
-impl<'a> Machine<'a> {
+impl<'a> Parts<'a> {
     pub(super) fn new(mechanism: &'a ThreeArm) -> Result<Self, ExportError> {
         let pusher = mechanism.pusher()?;
         let gearbox = mechanism.gearbox().ok_or_else(no_gearbox)?;
@@ -264,7 +264,7 @@ impl<'a> Machine<'a> {
             hole.fit = class.into();
         }
         if let Some((pair, _)) = self.gear(ThreeArmPart::Sun)
-            && let Some(off) = half_play(pair, pair.backlash())
+            && let Some(off) = half_backlash(pair, pair.backlash())
         {
             hold_apart(&mut plate.holes, pair.center_distance(), off);
         }

@@ -18,13 +18,13 @@ use crate::gear_pair::{self, Label};
 use crate::{ExportError, Options, Package, cam, turned};
 use centrode_formats::{Bundle, Format};
 use centrode_gear::GearPair;
-use centrode_kinematics::machine::Machine as Linked;
+use centrode_kinematics::machine::LinkedMachine;
 use centrode_machines::arm::ArmError;
 use centrode_machines::three_arm::{PusherError, ThreeArm};
 use centrode_spec::DrawingSpec;
 pub use contacts::contacts;
 pub use curves::{arm_curves, curves};
-use machine::Machine;
+use machine::Parts;
 pub use part::ThreeArmPart;
 
 impl From<ArmError> for ExportError {
@@ -43,8 +43,8 @@ impl From<PusherError> for ExportError {
 ///
 /// # Errors
 /// [`ExportError`] where a part does not exist.
-pub fn machine(mechanism: &ThreeArm) -> Result<Linked, ExportError> {
-    linked(&Machine::new(mechanism)?)
+pub fn machine(mechanism: &ThreeArm) -> Result<LinkedMachine, ExportError> {
+    linked(&Parts::new(mechanism)?)
 }
 
 /// The mechanism as it moves and is drawn, without bodies: the gears with the teeth of a pair, or by their pitch curves
@@ -52,11 +52,11 @@ pub fn machine(mechanism: &ThreeArm) -> Result<Linked, ExportError> {
 ///
 /// # Errors
 /// [`ExportError`] where a part does not exist.
-pub fn drawn(mechanism: &ThreeArm, teeth: Option<&GearPair>) -> Result<Linked, ExportError> {
+pub fn drawn(mechanism: &ThreeArm, teeth: Option<&GearPair>) -> Result<LinkedMachine, ExportError> {
     links::machine(mechanism, None, teeth)
 }
 
-fn linked(machine: &Machine<'_>) -> Result<Linked, ExportError> {
+fn linked(machine: &Parts<'_>) -> Result<LinkedMachine, ExportError> {
     links::machine(machine.mechanism, Some(machine), Some(&machine.pairs[0]))
 }
 
@@ -71,7 +71,7 @@ pub fn files(
     formats: &[Format],
     options: &Options,
 ) -> Result<Bundle, ExportError> {
-    let (machine, tolerance) = (Machine::new(mechanism)?, options.tolerance);
+    let (machine, tolerance) = (Parts::new(mechanism)?, options.tolerance);
     let design = mechanism.design();
     let named = [design.name.as_str(), design.title.as_str()];
     let mut package = Package::new("a three-arm mechanism", named, formats, options);

@@ -8,7 +8,7 @@ use centrode_machines::three_arm::design::ThreeArmDesign;
 use centrode_spec::DesignSpec as _;
 
 use super::*;
-use crate::machine::{self, arrangement};
+use crate::linked::{self, arrangement};
 use crate::picture::Picture;
 
 fn mechanism(change: impl Fn(&mut ThreeArmDesign)) -> ThreeArm {
@@ -107,7 +107,7 @@ fn parts_and_formats_asked_for_are_all_that_is_written() {
 #[test]
 fn words_touch_nothing_on_the_sheets_of_plates() {
     let machine = mechanism(|_| {});
-    let machine = Machine::new(&machine).expect("resolved");
+    let machine = Parts::new(&machine).expect("resolved");
     let design = machine.mechanism.design();
     let tolerance = options().tolerance;
     let mut seen = 0;
@@ -138,12 +138,12 @@ fn the_general_arrangement_lists_every_part_and_its_words_touch_nothing() {
         ];
         let kept = [machine.center_distance(), machine.design().arm.tip_distance];
         let lengths = lengths.map(|length| number(length, 3));
-        let told = [
+        let stated = [
             lengths.to_vec(),
             kept.map(|length| number(length, 4)).to_vec(),
         ]
         .concat();
-        let machine = Machine::new(&machine).expect("resolved");
+        let machine = Parts::new(&machine).expect("resolved");
         let machine = linked(&machine).expect("linked");
         let sheets = arrangement(&machine, &options().sheet, options().tolerance);
         let sheets = sheets.expect("laid out");
@@ -161,7 +161,7 @@ fn the_general_arrangement_lists_every_part_and_its_words_touch_nothing() {
         for part in ThreeArmPart::ALL {
             assert!(words.contains(&part.title()), "{part}");
         }
-        for length in &told {
+        for length in &stated {
             assert!(words.contains(&length.as_str()), "{length}: {words:?}");
         }
         for balloon in ["1", "2", "3", "9, 10, 11", "13"] {
@@ -173,7 +173,7 @@ fn the_general_arrangement_lists_every_part_and_its_words_touch_nothing() {
 #[test]
 fn meshes_are_closed_and_as_large_as_their_solids() {
     let machine = mechanism(|_| {});
-    let machine = Machine::new(&machine).expect("resolved");
+    let machine = Parts::new(&machine).expect("resolved");
     let tolerance = options().tolerance;
     for plate in ThreeArmPart::ALL
         .into_iter()
@@ -215,15 +215,15 @@ fn meshes_are_closed_and_as_large_as_their_solids() {
 fn the_model_has_every_link_once_and_every_law_a_joint() {
     for arms in [1, 3, 4] {
         let machine = mechanism(|d| d.arms = arms);
-        let machine = Machine::new(&machine).expect("resolved");
+        let machine = Parts::new(&machine).expect("resolved");
         let linked = linked(&machine).expect("linked");
         // Base, tray, ground, carrier, sun; gears, cam, arm, fork and rod of each chain.
         assert_eq!(linked.links.len() as u32, 5 + 6 * arms);
         assert_eq!(linked.joints.len() + 1, linked.links.len());
         for (joint, about) in linked.joints.iter().enumerate() {
             let moves = about.kind != JointKind::Fixed;
-            let told = |column: &Column| matches!(column.quantity, Quantity::Joint { joint: j, .. } if j == joint);
-            assert_eq!(linked.columns.iter().any(told), moves);
+            let stated = |column: &Column| matches!(column.quantity, Quantity::Joint { joint: j, .. } if j == joint);
+            assert_eq!(linked.columns.iter().any(stated), moves);
         }
         let options = options();
         let formats = [Format::Urdf, Format::Mjcf];
@@ -258,7 +258,7 @@ fn what_cannot_be_made_is_refused_by_name() {
 
 fn picture(mechanism: &ThreeArm) -> Picture {
     let tolerance = Tolerance::new(1e-3).expect("positive");
-    machine::picture(&drawn(mechanism, None).expect("linked"), tolerance)
+    linked::picture(&drawn(mechanism, None).expect("linked"), tolerance)
 }
 
 #[test]

@@ -12,19 +12,19 @@ pub(crate) use centre::{centre, centre_mark};
 use centrode_formats::drawing::{Drawing, EntityShape};
 use centrode_gear::design::BodySpec;
 use centrode_geometry::{Outline, Point};
-use centrode_kinematics::machine::{Machine, Spacer, SpacerKind, TurnedPart, TurnedPieces};
+use centrode_kinematics::machine::{LinkedMachine, Spacer, SpacerKind, TurnedPart, TurnedPieces};
 use centrode_spec::DrawingSpec;
 use std::ops::Deref;
 
 /// Lists turned parts in a machine, their size with its limits as the remark.
-pub(crate) fn list(all: &[TurnedPieces], machine: &mut Machine) {
+pub(crate) fn list(all: &[TurnedPieces], machine: &mut LinkedMachine) {
     for pieces in all {
         machine.add_turned(pieces, remark(pieces));
     }
 }
 
 /// Tells the sizes of turned parts that a machine lists.
-pub(crate) fn size(all: &[TurnedPieces], machine: &mut Machine) {
+pub(crate) fn size(all: &[TurnedPieces], machine: &mut LinkedMachine) {
     for pieces in all {
         let listed = machine.parts.iter_mut();
         for part in listed.filter(|part| part.file == pieces.part.name) {

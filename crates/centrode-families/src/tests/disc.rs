@@ -7,7 +7,7 @@ use centrode_export::{ExportError, Options, Package};
 use centrode_formats::csv::Column;
 use centrode_formats::{Bundle, Format};
 use centrode_geometry::{Outline, Point, Solid, Tolerance};
-use centrode_kinematics::machine::{Input, Joint, Linear, Link, Machine, Quantity};
+use centrode_kinematics::machine::{Input, Joint, Linear, Link, LinkedMachine, Quantity};
 use centrode_spec::{Design, DesignSpec, MechanismError, SpecError};
 use centrode_synthesis::optimise::NotSearched;
 use schemars::JsonSchema;
@@ -75,14 +75,14 @@ impl Mechanism for Disc {
         Picture::default()
     }
 
-    fn machine(&self) -> Result<Machine, ExportError> {
-        let mut machine = Machine {
+    fn machine(&self) -> Result<LinkedMachine, ExportError> {
+        let mut machine = LinkedMachine {
             input: Input {
                 name: "disc".into(),
                 period: TAU,
                 speed: 1.0,
             },
-            ..Machine::default()
+            ..LinkedMachine::default()
         };
         let [base, disc] = ["base", "disc"].map(|name| {
             let name = name.into();
@@ -159,18 +159,18 @@ fn a_family_of_ones_own_is_read_checked_and_exported_as_any_other() {
 
 #[test]
 fn errors_of_a_family_of_ones_own_are_told_at_their_line() {
-    let told = |text: &str| {
+    let stated = |text: &str| {
         let found = DISCS.read(text.as_bytes()).and_then(|f| f.mechanism());
         found.expect_err(text).to_string()
     };
     let flat = DiscDesign::TEMPLATE.replace("20.0", "-1.0");
     assert_eq!(
-        told(&flat),
+        stated(&flat),
         "line 3, column 1: radius: there is no disc of -1 mm"
     );
     let strange = DiscDesign::TEMPLATE.replace("radius", "radios");
-    assert!(told(&strange).contains("did you mean \"radius\"?"));
-    assert!(told("").contains("write family = \"disc\""));
+    assert!(stated(&strange).contains("did you mean \"radius\"?"));
+    assert!(stated("").contains("write family = \"disc\""));
 }
 
 #[test]

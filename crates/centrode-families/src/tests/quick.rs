@@ -1,8 +1,8 @@
 //! Answers to the design page while a hand moves are those at rest.
 
-use centrode_export::{composed, machine};
+use centrode_export::{linked, machine};
 use centrode_geometry::Tolerance;
-use centrode_machines::composed::Composed;
+use centrode_machines::machine::Machine;
 
 use super::{FAMILIES, shipped};
 
@@ -12,7 +12,7 @@ fn goals_alone_and_pictures_without_parts_are_those_of_the_whole_machine() {
     for (name, text) in shipped() {
         let file = FAMILIES.read(text.as_bytes()).expect("a design");
         let mechanism = file.mechanism().expect("a mechanism");
-        let Some(of) = mechanism.clone().downcast::<Composed>() else {
+        let Some(of) = mechanism.clone().downcast::<Machine>() else {
             continue;
         };
         seen += 1;
@@ -20,9 +20,9 @@ fn goals_alone_and_pictures_without_parts_are_those_of_the_whole_machine() {
         assert_eq!(goals.goals, motion.goals, "{name}");
         assert_eq!(mechanism.limits(&goals), mechanism.limits(&motion));
         let tolerance = Tolerance::new(0.01).expect("positive");
-        let [whole, light] = [composed::machine(&of), composed::outlined(&of)].map(|made| {
+        let [whole, light] = [machine::machine(&of), machine::outlined(&of)].map(|made| {
             let made = made.expect("links");
-            machine::picture(&made, tolerance)
+            linked::picture(&made, tolerance)
         });
         assert!(whole == light, "{name}");
     }

@@ -31,8 +31,8 @@ fn each_answer_is_that_of_the_design_with_the_value() {
     let answers = response.expect("a number").answers();
     let of = |name: &str| answers.iter().find(|a| a.name == name).expect("there");
     let found = &of("trajectory-height").figures;
-    let wanted: Vec<Option<f64>> = values.iter().map(|&r| Some(height(r))).collect();
-    assert_eq!(*found, wanted);
+    let required: Vec<Option<f64>> = values.iter().map(|&r| Some(height(r))).collect();
+    assert_eq!(*found, required);
     // "The larger the value of r1, the smaller the trajectory height", section 4.2 of the paper.
     assert!(found[0] > found[1] && found[1] > found[2], "{found:?}");
     assert_eq!(answers.iter().filter(|a| a.name == "module").count(), 1);

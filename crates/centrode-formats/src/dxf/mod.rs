@@ -218,10 +218,10 @@ mod tests {
             assert!(owner == "0" || distinct.contains(owner), "{owner}");
         }
         let number = |text: &str| u32::from_str_radix(text, 16).expect("a handle");
-        let greatest = given.iter().map(|handle| number(handle)).max();
+        let maximum = given.iter().map(|handle| number(handle)).max();
         let at = pairs.iter().position(|pair| pair.1 == "$HANDSEED");
         let seed = number(&pairs[at.expect("stated") + 1].1);
-        assert!(greatest < Some(seed));
+        assert!(maximum < Some(seed));
     }
 
     #[test]

@@ -1,9 +1,8 @@
 //! Parts of a file before its entities: units, line types, layers, lettering styles, blocks.
 
 use super::entities::Writer;
-use super::objects;
 use super::pairs::{Handle, Pairs};
-use super::{STYLE, STYLE_FONT};
+use super::{STYLE, STYLE_FONT, objects};
 use crate::drawing::{Color, Drawing, EntityShape, LineType};
 use centrode_geometry::{Bounds, Point};
 
@@ -268,10 +267,10 @@ pub(super) fn weight(width: f64) -> u32 {
         0, 5, 9, 13, 15, 18, 20, 25, 30, 35, 40, 50, 53, 60, 70, 80, 90, 100, 106, 120, 140, 158,
         200, 211,
     ];
-    let wanted = 100.0 * width;
+    let required = 100.0 * width;
     let mut best = WEIGHTS[0];
     for candidate in WEIGHTS {
-        if (f64::from(candidate) - wanted).abs() < (f64::from(best) - wanted).abs() {
+        if (f64::from(candidate) - required).abs() < (f64::from(best) - required).abs() {
             best = candidate;
         }
     }

@@ -90,7 +90,7 @@ pub enum SheetError {
 /// # Errors
 /// [`SheetError`] if views or a table do not fit on the sheet asked for.
 pub fn compose(
-    wanted: Option<SheetSize>,
+    required: Option<SheetSize>,
     block: &TitleBlock,
     extent: f64,
     pieces: &dyn Fn(Scale, SheetSize) -> Vec<SheetBlock>,
@@ -116,7 +116,7 @@ pub fn compose(
                     .then_some((size, scale, page, rest))
             })
     };
-    let sizes = wanted.map_or(SheetSize::ALL.to_vec(), |size| vec![size]);
+    let sizes = required.map_or(SheetSize::ALL.to_vec(), |size| vec![size]);
     let whole = sizes.iter().find_map(|&size| complete(size, full));
     let is_empty = |page: &Page, size| page.filled() < FILLED * area(room(size));
     let smaller = match &whole {
@@ -133,7 +133,7 @@ pub fn compose(
     if let Some((size, scale, page, rest)) = smaller.or(whole) {
         return pages(size, scale, block, page, rest, tables);
     }
-    let size = wanted.unwrap_or(SheetSize::A0);
+    let size = required.unwrap_or(SheetSize::A0);
     for &scale in full.iter().chain(reduced).filter(|s| possible(size, s)) {
         if let Some((page, rest)) = place(size, pieces(scale, size)) {
             return pages(size, scale, block, page, rest, tables);

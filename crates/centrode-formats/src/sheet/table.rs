@@ -80,10 +80,10 @@ impl Table {
             widths.fold(0.0, f64::max) + 2.0 * PAD
         };
         let mut widths: Vec<f64> = (0..self.columns.len()).map(longest).collect();
-        let least = lettering::width(&self.title, TITLE) + 2.0 * PAD;
+        let minimum = lettering::width(&self.title, TITLE) + 2.0 * PAD;
         let total: f64 = widths.iter().sum();
         if let Some(last) = widths.last_mut() {
-            *last += (least - total).max(0.0);
+            *last += (minimum - total).max(0.0);
         }
         widths
     }

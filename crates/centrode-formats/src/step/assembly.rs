@@ -119,14 +119,14 @@ fn made_of(data: &mut Data, product: Id, material: &str, context: Id) {
     let named = data.add(format_args!(
         "DESCRIPTIVE_REPRESENTATION_ITEM({material},{material})"
     ));
-    let told = data.add(format_args!(
+    let stated = data.add(format_args!(
         "REPRESENTATION('material name',({named}),{context})"
     ));
     let property = data.add(format_args!(
         "PROPERTY_DEFINITION('material property','material name',{product})"
     ));
     data.add(format_args!(
-        "PROPERTY_DEFINITION_REPRESENTATION({property},{told})"
+        "PROPERTY_DEFINITION_REPRESENTATION({property},{stated})"
     ));
 }
 

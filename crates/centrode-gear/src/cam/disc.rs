@@ -142,13 +142,13 @@ pub enum CamError {
     Open(#[from] OpenOutline),
     /// The bore, with its keyway, cuts into the profile.
     #[error(
-        "the bore reaches {reach} mm from the axis, but the profile comes as near as {least} mm"
+        "the bore reaches {reach} mm from the axis, but the profile comes as near as {minimum} mm"
     )]
     Bore {
         /// Radius reached by bore and keyway, mm.
         reach: f64,
         /// Least radius of the profile, mm.
-        least: f64,
+        minimum: f64,
     },
 }
 

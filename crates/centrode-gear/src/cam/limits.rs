@@ -15,7 +15,7 @@ pub struct Limits {
     /// roller the path allows without undercut. `None` for a flat face.
     pub largest_roller: Option<Extreme>,
     /// Least radius of curvature of the profile where it is convex, mm; at most zero where it is undercut.
-    pub least_radius: Extreme,
+    pub minimum_radius: Extreme,
     /// Least radius of curvature of the profile where it is concave, mm: the largest grinding wheel;
     /// infinite for a convex cam.
     pub largest_wheel: Extreme,
@@ -49,7 +49,7 @@ impl DiscCam {
             let irregular = -contact.regularity;
             [pressure(1.0), pressure(-1.0), irregular, either, -either]
         };
-        let [rise, fall, irregular, most, least] = maximum_of_each(all, &self.ends());
+        let [rise, fall, irregular, most, minimum] = maximum_of_each(all, &self.ends());
         let regularity = Extreme {
             value: -irregular.value,
             ..irregular
@@ -59,8 +59,8 @@ impl DiscCam {
             value: 1.0 / curvature.value.max(0.0),
         };
         let roller = self.follower().roller_radius();
-        let roller = roller.map(|roller| (roller, radius_of(most), radius_of(least)));
-        let (least_radius, largest_wheel) = match roller {
+        let roller = roller.map(|roller| (roller, radius_of(most), radius_of(minimum)));
+        let (minimum_radius, largest_wheel) = match roller {
             Some((roller, convex, concave)) => (
                 Extreme {
                     value: convex.value - roller,
@@ -86,9 +86,9 @@ impl DiscCam {
             rise_pressure_angle: rise,
             return_pressure_angle: fall,
             largest_roller: roller.map(|(_, convex, _)| convex),
-            least_radius,
+            minimum_radius,
             largest_wheel,
-            face: flat.then_some((-least.value, most.value)),
+            face: flat.then_some((-minimum.value, most.value)),
             regularity,
         }
     }
@@ -99,8 +99,8 @@ impl DiscCam {
     /// Searched upwards in steps of 2 % from a thousandth of the follower's size, then solved. `None` where no base
     /// circle will do: an arm far from the axis cannot touch a large one.
     #[must_use]
-    pub fn least_base_radius(&self, rise: f64, fall: f64) -> Option<f64> {
-        self.least_base(|cam| {
+    pub fn minimum_base_radius(&self, rise: f64, fall: f64) -> Option<f64> {
+        self.minimum_base(|cam| {
             let limits = cam.limits();
             let rising = limits.rise_pressure_angle.value - rise;
             rising.max(limits.return_pressure_angle.value - fall)
@@ -110,12 +110,12 @@ impl DiscCam {
     /// Least base radius, mm, at which no convex part of the profile is sharper than `radius`, mm;
     /// zero asks for no undercut alone. `None` where no base circle will do.
     #[must_use]
-    pub fn least_regular_base_radius(&self, radius: f64) -> Option<f64> {
-        self.least_base(|cam| radius - cam.limits().least_radius.value)
+    pub fn minimum_regular_base_radius(&self, radius: f64) -> Option<f64> {
+        self.minimum_base(|cam| radius - cam.limits().minimum_radius.value)
     }
 
     /// Least base radius at which `excess` is not above zero.
-    fn least_base(&self, excess: impl Fn(&Self) -> f64) -> Option<f64> {
+    fn minimum_base(&self, excess: impl Fn(&Self) -> f64) -> Option<f64> {
         const MOST: u32 = 700;
         let of = |radius: f64| match self.with_base_radius(radius) {
             // Never a solution, and no number to interpolate with.

@@ -43,9 +43,9 @@ impl Cam {
         let tolerance = Tolerance::new(ACCURACY * disc.base_radius())
             .map_err(|_| CamError::NotFinite { degrees: 0.0 })?;
         let profile = disc.profile(tolerance)?;
-        let (reach, (least, _)) = (body.bore_reach(), profile.radii());
-        if reach >= least {
-            return Err(CamError::Bore { reach, least });
+        let (reach, (minimum, _)) = (body.bore_reach(), profile.radii());
+        if reach >= minimum {
+            return Err(CamError::Bore { reach, minimum });
         }
         Ok(Self {
             name: name.to_owned(),

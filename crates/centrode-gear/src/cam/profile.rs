@@ -51,8 +51,8 @@ impl Profile {
         let points = self.outline.segments().iter().flat_map(|segment| {
             (0..=8).map(|i| segment.at(-1.0 + 0.25 * f64::from(i)).point.coords.norm())
         });
-        points.fold((f64::INFINITY, 0.0), |(least, greatest), r| {
-            (r.min(least), r.max(greatest))
+        points.fold((f64::INFINITY, 0.0), |(minimum, maximum), r| {
+            (r.min(minimum), r.max(maximum))
         })
     }
 }

@@ -277,7 +277,7 @@ fn an_eccentric_circle_moves_a_flat_face_harmonically() {
     }
     assert!((profile.outline().area() - PI * 26.0 * 26.0).abs() < 1e-8);
     let limits = cam.limits();
-    assert!((limits.least_radius.value - 26.0).abs() < 1e-12);
+    assert!((limits.minimum_radius.value - 26.0).abs() < 1e-12);
     let (low, high) = limits.face.expect("flat");
     assert!((low + 6.0).abs() < 1e-12 && (high - 6.0).abs() < 1e-12);
     assert!(limits.rise_pressure_angle.value < 1e-15);
@@ -338,7 +338,7 @@ fn no_lift_is_a_circle() {
         assert!((profile.outline().area() - PI * 625.0).abs() < 1e-9);
         assert!(profile.outline().segments().len() <= 4);
         let limits = cam.limits();
-        assert!((limits.least_radius.value - 25.0).abs() < 1e-12);
+        assert!((limits.minimum_radius.value - 25.0).abs() < 1e-12);
         assert_eq!(limits.rise_pressure_angle.value, 0.0);
     }
 }
@@ -362,9 +362,9 @@ fn scaling_scales() {
     assert!((a.outline().area() * k * k / b.outline().area() - 1.0).abs() < 1e-12);
     let (a, b) = (one.limits(), other.limits());
     assert!((a.rise_pressure_angle.value - b.rise_pressure_angle.value).abs() < 1e-12);
-    assert!((a.least_radius.value * k - b.least_radius.value).abs() < 1e-9);
+    assert!((a.minimum_radius.value * k - b.minimum_radius.value).abs() < 1e-9);
     let [a, b] = [&one, &other].map(|cam| {
-        cam.least_base_radius(30.0_f64.to_radians(), FRAC_PI_2)
+        cam.minimum_base_radius(30.0_f64.to_radians(), FRAC_PI_2)
             .expect("found")
     });
     assert!((a * k / b - 1.0).abs() < 1e-9);
@@ -395,7 +395,7 @@ fn a_roller_larger_than_the_path_allows_undercuts() {
         let cam = with(share * largest, 30.0);
         let limits = cam.limits();
         assert_eq!(limits.regularity.value <= 0.0, undercut);
-        assert_eq!(limits.least_radius.value <= 0.0, undercut);
+        assert_eq!(limits.minimum_radius.value <= 0.0, undercut);
         let profile = cam.profile(fine()).expect("there is one");
         assert_eq!(profile.outline().crossing(), None);
         assert_eq!(!profile.undercut().is_empty(), undercut, "{share}");
@@ -432,27 +432,27 @@ fn the_least_base_circle_is_where_the_limit_is_met() {
         if cam.follower().roller_radius().is_none() || cam.rotation() == Turn::Clockwise {
             continue;
         }
-        let wanted = 25.0_f64.to_radians();
-        let Some(radius) = cam.least_base_radius(wanted, FRAC_PI_2) else {
+        let required = 25.0_f64.to_radians();
+        let Some(radius) = cam.minimum_base_radius(required, FRAC_PI_2) else {
             panic!("{:?}", cam.follower())
         };
-        let least = cam.with_base_radius(radius).expect("sound").limits();
+        let minimum = cam.with_base_radius(radius).expect("sound").limits();
         assert!(
-            (least.rise_pressure_angle.value - wanted).abs() < 1e-9,
+            (minimum.rise_pressure_angle.value - required).abs() < 1e-9,
             "{:?}",
             cam.follower()
         );
         let smaller = cam.with_base_radius(0.99 * radius).expect("sound").limits();
-        assert!(smaller.rise_pressure_angle.value > wanted);
+        assert!(smaller.rise_pressure_angle.value > required);
     }
     let follower = Follower::TranslatingFlat(TranslatingFlat {});
     let spec = CamSpec::new(90.0, follower, motion(10.0, false, 60.0));
     let cam = DiscCam::resolve(&spec).expect("sound");
-    let radius = cam.least_regular_base_radius(2.0).expect("found");
+    let radius = cam.minimum_regular_base_radius(2.0).expect("found");
     // rho = base + s + s''; s'' is least in the drop.
     let exact = cam.with_base_radius(radius).expect("sound").limits();
-    assert!((exact.least_radius.value - 2.0).abs() < 1e-9);
-    assert!((radius - 2.0 - (90.0 - cam.limits().least_radius.value)).abs() < 1e-9);
+    assert!((exact.minimum_radius.value - 2.0).abs() < 1e-9);
+    assert!((radius - 2.0 - (90.0 - cam.limits().minimum_radius.value)).abs() < 1e-9);
 }
 
 #[test]
@@ -553,7 +553,7 @@ fn each_segment_knows_the_inputs_it_serves() {
                 assert!((cam.contact(input).point - point).norm() < 1e-9);
             }
         }
-        let (least, greatest) = profile.radii();
-        assert!((least - 40.0).abs() < 1e-9 && greatest > 43.0);
+        let (minimum, maximum) = profile.radii();
+        assert!((minimum - 40.0).abs() < 1e-9 && maximum > 43.0);
     }
 }

@@ -5,8 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::pitch::PitchSpec;
 use super::rolling::Member;
-use centrode_spec::degrees;
-use centrode_spec::{DesignSpec, DrawingSpec};
+use centrode_spec::{DesignSpec, DrawingSpec, degrees};
 
 mod body;
 mod gear;
@@ -14,8 +13,7 @@ mod teeth;
 mod tool;
 
 pub use body::BodySpec;
-pub use gear::GearSpec;
-pub use gear::SHIFTS;
+pub use gear::{GearSpec, SHIFTS};
 pub use teeth::{Addendum, Fit, Phase, TeethSpec, TipShortening};
 pub use tool::{Rack, Shaper, ToolSpec};
 
@@ -72,7 +70,7 @@ fn default_mean_ratio() -> [u32; 2] {
 }
 
 /// Largest number of turns in a mean ratio.
-const MOST_TURNS: u32 = 60;
+const MAX_TURNS: u32 = 60;
 
 impl DesignSpec for GearPairDesign {
     const FAMILY: &'static str = "gear-pair";
@@ -118,8 +116,8 @@ impl GearPairDesign {
         file_name("name", &self.name)?;
         single_line("title", &self.title)?;
         let [n1, n2] = self.mean_ratio;
-        count_in_range("mean_ratio", n1, 1, MOST_TURNS)?;
-        count_in_range("mean_ratio", n2, 1, MOST_TURNS)?;
+        count_in_range("mean_ratio", n1, 1, MAX_TURNS)?;
+        count_in_range("mean_ratio", n2, 1, MAX_TURNS)?;
         let divisor = greatest_common_divisor(n1, n2);
         if divisor > 1 {
             let rule = Rule::LowestTerms([n1, n2], [n1 / divisor, n2 / divisor]);

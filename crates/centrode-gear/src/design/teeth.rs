@@ -35,7 +35,7 @@ pub struct TeethSpec {
     /// The driver's share of the pitch: its tooth thickness over the circular pitch.
     pub thickness_split: f64,
     /// Least width of a tooth at its tip, as a multiple of the module, before it is reported.
-    pub least_tip_width_coefficient: f64,
+    pub minimum_tip_width_coefficient: f64,
     /// Upper and lower deviation of the thickness of every finished tooth along its pitch curve from the tooth as designed, mm,
     /// each within half a module: limits for the shop. An upper one above zero takes backlash. Default: zero and minus the
     /// tolerance of DIN 3967 for the accuracy class.
@@ -56,7 +56,7 @@ impl Default for TeethSpec {
             backlash: 0.0,
             backlash_angle: None,
             thickness_split: 0.5,
-            least_tip_width_coefficient: 0.2,
+            minimum_tip_width_coefficient: 0.2,
             thickness_deviations: None,
             pin_diameter: None,
         }
@@ -271,8 +271,8 @@ impl TeethSpec {
         }
         in_range("thickness_split", self.thickness_split, [0.2, 0.8], "")?;
         not_negative(
-            "least_tip_width_coefficient",
-            self.least_tip_width_coefficient,
+            "minimum_tip_width_coefficient",
+            self.minimum_tip_width_coefficient,
         )
     }
 

@@ -160,13 +160,13 @@ impl Rack {
         let (sin, cos) = self.pressure_angle.sin_cos();
         let half_land = 0.25 * PI - self.dedendum_coefficient * sin / cos;
         if half_land < 0.0 {
-            let greatest = 0.25 * PI * cos / sin;
+            let maximum = 0.25 * PI * cos / sin;
             let key = "dedendum_coefficient";
-            return in_range(key, self.dedendum_coefficient, [0.0, greatest], "");
+            return in_range(key, self.dedendum_coefficient, [0.0, maximum], "");
         }
-        let greatest = (half_land * cos / (1.0 - sin)).min(self.dedendum_coefficient / (1.0 - sin));
-        if value > greatest {
-            return broken(key, Rule::TipRadius { value, greatest });
+        let maximum = (half_land * cos / (1.0 - sin)).min(self.dedendum_coefficient / (1.0 - sin));
+        if value > maximum {
+            return broken(key, Rule::TipRadius { value, maximum });
         }
         Ok(())
     }

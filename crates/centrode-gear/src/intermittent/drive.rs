@@ -143,7 +143,7 @@ impl IntermittentDrive {
 
     /// Greatest acceleration of the driven gear, per driver speed squared: 15/8 ratio / entry.
     #[must_use]
-    pub fn greatest_acceleration(&self) -> f64 {
+    pub fn maximum_acceleration(&self) -> f64 {
         1.875 * self.ratio() / self.entry
     }
 
@@ -271,15 +271,15 @@ mod tests {
             assert!((before.velocity - after.velocity).abs() < 1e-7);
             assert!((before.acceleration - after.acceleration).abs() < 1e-6);
         }
-        let mut greatest = 0.0_f64;
+        let mut maximum = 0.0_f64;
         for i in 1..6000 {
             let (phi, h) = (f64::from(i) * 0.001 + 1e-5, 1e-6);
             let (a, b, c) = (law.at(phi - h), law.at(phi), law.at(phi + h));
             assert!(((c.position - a.position) / (2.0 * h) - b.velocity).abs() < 1e-7);
             assert!(((c.velocity - a.velocity) / (2.0 * h) - b.acceleration).abs() < 1e-6);
             assert!(((c.acceleration - a.acceleration) / (2.0 * h) - b.jerk).abs() < 1e-3);
-            greatest = greatest.max(b.acceleration.abs());
+            maximum = maximum.max(b.acceleration.abs());
         }
-        assert!((greatest / drive.greatest_acceleration() - 1.0).abs() < 1e-4);
+        assert!((maximum / drive.maximum_acceleration() - 1.0).abs() < 1e-4);
     }
 }

@@ -136,13 +136,13 @@ impl IntermittentPair {
         if radius <= a - tip {
             return Err(IntermittentPairError::LockTooSmall {
                 radius,
-                least: a - tip,
+                minimum: a - tip,
             });
         }
         if radius >= a - hub {
             return Err(IntermittentPairError::LockOverlaps {
                 radius,
-                greatest: a - hub,
+                maximum: a - hub,
             });
         }
         Ok(radius)
@@ -195,7 +195,7 @@ impl IntermittentPair {
         backlash: f64,
         always: bool,
     ) -> Radial {
-        let reach = blank.greatest();
+        let reach = blank.maximum();
         let motion = self.law.motion_angle();
         let sides: &[f64] = if backlash > 0.0 { &[-1.0, 1.0] } else { &[0.0] };
         let mut inputs: Vec<f64> = (0..=STEPS)

@@ -118,7 +118,7 @@ impl Radial {
         radial
     }
 
-    pub(super) fn greatest(&self) -> f64 {
+    pub(super) fn maximum(&self) -> f64 {
         self.radius.iter().copied().fold(0.0, f64::max)
     }
 

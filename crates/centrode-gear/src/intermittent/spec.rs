@@ -140,23 +140,23 @@ pub enum IntermittentPairError {
     },
     /// A locking arc that does not reach the driven gear.
     #[error(
-        "the locking arc of radius {radius} mm does not reach the driven gear, which begins {least} mm from the driver's axis"
+        "the locking arc of radius {radius} mm does not reach the driven gear, which begins {minimum} mm from the driver's axis"
     )]
     LockTooSmall {
         /// Its radius, mm.
         radius: f64,
         /// Distance at which the driven gear begins, mm.
-        least: f64,
+        minimum: f64,
     },
     /// A locking arc that overlaps the hub of the driven gear.
     #[error(
-        "the locking arc of radius {radius} mm overlaps the driven gear's bore, which begins {greatest} mm from the driver's axis"
+        "the locking arc of radius {radius} mm overlaps the driven gear's bore, which begins {maximum} mm from the driver's axis"
     )]
     LockOverlaps {
         /// Its radius, mm.
         radius: f64,
         /// Distance at which the bore begins, mm.
-        greatest: f64,
+        maximum: f64,
     },
     /// No tooth reaches above the locking arc.
     #[error(

@@ -57,9 +57,9 @@ fn limits_are_the_textbook_measures_of_thicker_and_thinner_teeth() {
     }
     design.teeth.thickness_deviations = None;
     let usual = GearPair::resolve(&design).expect("a sound pair");
-    let told = usual.thickness_deviations(Member::Driver).expect("told");
+    let stated = usual.thickness_deviations(Member::Driver).expect("told");
     // Class 8, 48 mm.
-    assert_eq!((told.limits, told.series), ([0.0, -0.05], Some(26)));
+    assert_eq!((stated.limits, stated.series), ([0.0, -0.05], Some(26)));
     let [high, low] = usual.pin_limits(Member::Driver).expect("stated");
     assert_eq!(high, usual.driver().over_pins(high.diameter));
     assert_same_as_cut(&usual, &low, 0.05);
@@ -72,9 +72,13 @@ fn limits_are_the_textbook_measures_of_thicker_and_thinner_teeth() {
         let mut design = design.clone();
         design.driver.accuracy = accuracy.into();
         let pair = GearPair::resolve(&design).expect("a sound pair");
-        let told = pair.thickness_deviations(Member::Driver);
-        assert_eq!(told.and_then(|told| told.series), series, "{accuracy}");
-        assert_eq!(told.is_some(), series.is_some());
+        let stated = pair.thickness_deviations(Member::Driver);
+        assert_eq!(
+            stated.and_then(|stated| stated.series),
+            series,
+            "{accuracy}"
+        );
+        assert_eq!(stated.is_some(), series.is_some());
         assert_eq!(pair.pin_limits(Member::Driver).is_some(), series.is_some());
     }
     for wrong in [

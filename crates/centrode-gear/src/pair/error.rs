@@ -3,11 +3,10 @@ use crate::pitch::PitchError;
 use crate::profile::ProfileError;
 use crate::rolling::{Member, RollingError};
 use crate::teeth::TeethError;
-use centrode_spec::MechanismError;
-use centrode_spec::SpecError;
-use centrode_spec::digits::told;
+use centrode_spec::digits::stated;
+use centrode_spec::{MechanismError, SpecError};
 
-use super::follow::{MOST_SWINGS, MOST_WORK};
+use super::follow::{MAX_SWINGS, MAX_WORK};
 
 /// Reason why a design gives no gear pair.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -51,7 +50,7 @@ pub enum GearPairError {
     },
     /// The pitch curve swings so often that the waves of a tooth cannot all be told from each other.
     #[error(
-        "the pitch curves swing {swings} times for {teeth} teeth; swings times swings a tooth may be {MOST_WORK} at most: smooth the law, or give fewer points or more digits"
+        "the pitch curves swing {swings} times for {teeth} teeth; swings times swings a tooth may be {MAX_WORK} at most: smooth the law, or give fewer points or more digits"
     )]
     Waves {
         /// Waves of the radius in a turn.
@@ -61,7 +60,7 @@ pub enum GearPairError {
     },
     /// The pitch curve swings many times a tooth, on arcs too small for it.
     #[error(
-        "the pitch curves swing {swings} times for {teeth} teeth, on arcs of {radius:.4} mm: no tooth of module {module:.4} mm follows that; with arcs under half a module they may swing {MOST_SWINGS} times a tooth: smooth the law, or give fewer points or more digits"
+        "the pitch curves swing {swings} times for {teeth} teeth, on arcs of {radius:.4} mm: no tooth of module {module:.4} mm follows that; with arcs under half a module they may swing {MAX_SWINGS} times a tooth: smooth the law, or give fewer points or more digits"
     )]
     Swings {
         /// Waves of the radius in a turn.
@@ -85,53 +84,53 @@ pub enum GearPairError {
     },
     /// The wanted centre distance is not the one at which the curves roll.
     #[error(
-        "center_distance is {wanted} mm, but this pitch curve rolls on a closed conjugate only at {needed} mm"
+        "center_distance is {required} mm, but this pitch curve rolls on a closed conjugate only at {needed} mm"
     )]
     CenterDistance {
         /// Distance as written, mm.
-        wanted: f64,
+        required: f64,
         /// Distance that closes the driven curve, mm.
         needed: f64,
     },
     /// Profile shifts with a sum on pitch curves that are not circles.
-    #[error("driver.shift + driven.shift is {}, but must be 0 unless both pitch curves are circles: a tool moved by x m along the normal makes the tooth 2 x m tan(alpha) thicker, and no common pitch curve takes that up on both flanks. Give opposite shifts, driven.shift = {}, or heights per gear, driver.addendum and driven.addendum", told(.shifts[0] + .shifts[1]), told(-.shifts[0]))]
+    #[error("driver.shift + driven.shift is {}, but must be 0 unless both pitch curves are circles: a tool moved by x m along the normal makes the tooth 2 x m tan(alpha) thicker, and no common pitch curve takes that up on both flanks. Give opposite shifts, driven.shift = {}, or heights per gear, driver.addendum and driven.addendum", stated(.shifts[0] + .shifts[1]), stated(-.shifts[0]))]
     ShiftSum {
         /// Profile shift coefficients of driver and driven gear.
         shifts: [f64; 2],
     },
     /// Fitted teeth with a sum of profile shifts.
-    #[error("teeth are fitted, but driver.shift + driven.shift is {}: fitting needs pitch curves that are those of the tool. Give addendum = \"full\" and no fit, or opposite shifts", told(*.sum))]
+    #[error("teeth are fitted, but driver.shift + driven.shift is {}: fitting needs pitch curves that are those of the tool. Give addendum = \"full\" and no fit, or opposite shifts", stated(*.sum))]
     FittedShift {
         /// Sum of the profile shift coefficients.
         sum: f64,
     },
     /// Profile shifts that leave no room for the teeth at any centre distance.
-    #[error("driver.shift + driven.shift is {}, but must exceed {} for these teeth: below it there is no operating pressure angle", told(*.sum), told(*.least))]
+    #[error("driver.shift + driven.shift is {}, but must exceed {} for these teeth: below it there is no operating pressure angle", stated(*.sum), stated(*.minimum))]
     ShiftsTooSmall {
         /// Sum of the profile shift coefficients.
         sum: f64,
         /// Sum at which the operating pressure angle is zero.
-        least: f64,
+        minimum: f64,
     },
     /// A centre distance other than that of both profile shifts.
     #[error(
-        "center_distance is {wanted} mm, but driver.shift and driven.shift give {needed:.6} mm: omit one of the three"
+        "center_distance is {required} mm, but driver.shift and driven.shift give {needed:.6} mm: omit one of the three"
     )]
     ShiftedDistance {
         /// Distance as written, mm.
-        wanted: f64,
+        required: f64,
         /// Distance of the shifts, mm.
         needed: f64,
     },
     /// A centre distance within the base circles.
     #[error(
-        "center_distance is {wanted} mm, but the radii of the base circles are {least:.6} mm together: it must be greater"
+        "center_distance is {required} mm, but the radii of the base circles are {minimum:.6} mm together: it must be greater"
     )]
     BaseCircles {
         /// Distance as written, mm.
-        wanted: f64,
+        required: f64,
         /// Sum of the radii of the base circles, mm.
-        least: f64,
+        minimum: f64,
     },
     /// The bore, with its keyway, cuts into the teeth.
     #[error("the {}'s bore reaches {reach} mm from the axis, but its teeth leave only {root} mm", .member.name())]

@@ -5,13 +5,13 @@ use crate::Rolling;
 
 /// Greatest product of the swings in a turn and the swings a tooth: every wave of a flank may cross every other of the tooth, so
 /// the work goes with it.
-pub(super) const MOST_WORK: usize = 25_000;
+pub(super) const MAX_WORK: usize = 25_000;
 
 /// Least radius of curvature, modules, of pitch curves that swing as often as the work allows.
-const LEAST_ARC: f64 = 0.5;
+const MIN_ARC: f64 = 0.5;
 
 /// Most swings a tooth of sharper ones.
-pub(super) const MOST_SWINGS: usize = 4;
+pub(super) const MAX_SWINGS: usize = 4;
 
 /// Checks that teeth can follow the pitch curves: these may swing often, and have small arcs, but not both.
 pub(super) fn follow(rolling: &Rolling, teeth: u32, module: f64) -> Result<(), GearPairError> {
@@ -19,11 +19,11 @@ pub(super) fn follow(rolling: &Rolling, teeth: u32, module: f64) -> Result<(), G
         return Ok(());
     }
     let (swings, count) = (rolling.swings(), teeth as usize);
-    if swings * swings > MOST_WORK * count {
+    if swings * swings > MAX_WORK * count {
         return Err(GearPairError::Waves { swings, teeth });
     }
     let radius = rolling.sharpest();
-    if swings <= MOST_SWINGS * count || radius >= LEAST_ARC * module {
+    if swings <= MAX_SWINGS * count || radius >= MIN_ARC * module {
         return Ok(());
     }
     Err(GearPairError::Swings {

@@ -141,21 +141,21 @@ const STEPS: usize = 8;
 /// Least and greatest distance of an outline from the axis, mm.
 fn radii(outline: &Outline) -> (f64, f64) {
     let starts = outline.segments().iter().map(|s| s.start().coords.norm());
-    let (mut least, mut greatest) = starts.fold((f64::INFINITY, 0.0_f64), |(low, high), r| {
+    let (mut minimum, mut maximum) = starts.fold((f64::INFINITY, 0.0_f64), |(low, high), r| {
         (low.min(r), high.max(r))
     });
     let place = |i: usize| -1.0 + 2.0 * i as f64 / STEPS as f64;
     for segment in outline.segments() {
         let (near, far) = around(segment);
-        if near > least && far < greatest {
+        if near > minimum && far < maximum {
             continue;
         }
         let radius = |u: f64| segment.at(u).point.coords.norm();
         let samples: [f64; STEPS + 1] = std::array::from_fn(|i| radius(place(i)));
-        least = nearest(&samples, place, radius, least);
-        greatest = -nearest(&samples.map(|r| -r), place, |u| -radius(u), -greatest);
+        minimum = nearest(&samples, place, radius, minimum);
+        maximum = -nearest(&samples.map(|r| -r), place, |u| -radius(u), -maximum);
     }
-    (least, greatest)
+    (minimum, maximum)
 }
 
 /// Bounds of a segment's distance from the axis, mm.
@@ -177,16 +177,16 @@ fn nearest(
     f: impl Fn(f64) -> f64,
     known: f64,
 ) -> f64 {
-    let mut least = samples.iter().copied().fold(known, f64::min);
+    let mut minimum = samples.iter().copied().fold(known, f64::min);
     for i in 1..STEPS {
         let (value, beside) = (samples[i], [samples[i - 1], samples[i + 1]]);
         // A parabola through the three reaches an eighth of this below the middle one.
         let below = beside[0] + beside[1] - 2.0 * value;
-        if value <= beside[0].min(beside[1]) && value - below < least {
-            least = least.min(bracketed_minimum(&f, place(i - 1), place(i + 1)).1);
+        if value <= beside[0].min(beside[1]) && value - below < minimum {
+            minimum = minimum.min(bracketed_minimum(&f, place(i - 1), place(i + 1)).1);
         }
     }
-    least
+    minimum
 }
 
 fn pitch_curve(

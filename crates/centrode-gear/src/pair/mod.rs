@@ -464,6 +464,6 @@ pub(super) fn parameters(design: &GearPairDesign, module: f64) -> TeethParameter
         backlash: design.teeth.backlash,
         backlash_angle: design.teeth.backlash_angle,
         thickness_split: design.teeth.thickness_split,
-        least_tip_width: design.teeth.least_tip_width_coefficient * module,
+        minimum_tip_width: design.teeth.minimum_tip_width_coefficient * module,
     }
 }

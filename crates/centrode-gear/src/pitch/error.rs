@@ -28,16 +28,16 @@ pub enum PitchError {
     #[error("eccentricity must be at least 0 and less than 1, not {0}")]
     Eccentricity(f64),
     /// A whole number outside its range.
-    #[error("{key} must be {least} to {greatest}, not {value}")]
+    #[error("{key} must be {minimum} to {maximum}, not {value}")]
     OutOfRange {
         /// Key of the number.
         key: &'static str,
         /// Value given.
         value: u64,
         /// Least value allowed.
-        least: u64,
+        minimum: u64,
         /// Greatest value allowed.
-        greatest: u64,
+        maximum: u64,
     },
     /// A gear with fewer than three teeth.
     #[error("tooth_count must be at least 3, not {0}")]
@@ -52,7 +52,7 @@ pub enum PitchError {
     },
     /// A curve so long or so short that powers of its lengths are lost.
     #[error(
-        "{key} makes a pitch curve {length:e} mm long; it must be {least:e} to {greatest:e} mm"
+        "{key} makes a pitch curve {length:e} mm long; it must be {minimum:e} to {maximum:e} mm"
     )]
     Size {
         /// The key that sets the size.
@@ -60,9 +60,9 @@ pub enum PitchError {
         /// Length of one turn, mm.
         length: f64,
         /// Least length allowed, mm.
-        least: f64,
+        minimum: f64,
         /// Greatest length allowed, mm.
-        greatest: f64,
+        maximum: f64,
     },
     /// Nothing sets the size of the curve.
     #[error("nothing sets the size of the curve: give module and tooth_count, or {0}")]
@@ -84,7 +84,7 @@ pub enum PitchError {
     },
     /// Too few points for the degree.
     #[error(
-        "{key} has {count} values; {least} are the fewest that make a closed curve of this kind"
+        "{key} has {count} values; {minimum} are the fewest that make a closed curve of this kind"
     )]
     TooFewPoints {
         /// Key of the list.
@@ -92,7 +92,7 @@ pub enum PitchError {
         /// Its length.
         count: usize,
         /// Fewest allowed.
-        least: usize,
+        minimum: usize,
     },
     /// Too many points.
     #[error("{key} has {count} values; the limit is {limit}")]
@@ -198,7 +198,7 @@ pub enum PitchError {
     },
     /// A formula with features too narrow to be followed.
     #[error(
-        "{key} changes within about {width:.1e} rad; what is narrower than {least:.1e} rad is not followed: take a gentler step, a wider bump or slower waves"
+        "{key} changes within about {width:.1e} rad; what is narrower than {minimum:.1e} rad is not followed: take a gentler step, a wider bump or slower waves"
     )]
     Steep {
         /// Key of the function.
@@ -206,7 +206,7 @@ pub enum PitchError {
         /// About how wide the narrowest feature is, rad.
         width: f64,
         /// Width of those that can be followed, rad.
-        least: f64,
+        minimum: f64,
     },
     /// The driven gear stops or turns back.
     #[error(
@@ -321,21 +321,21 @@ pub(crate) fn eccentricity(value: f64) -> Result<f64, PitchError> {
     }
 }
 
-/// Returns `value`, if in `least..=greatest`.
+/// Returns `value`, if in `minimum..=maximum`.
 pub(crate) fn in_range(
     key: &'static str,
     value: u32,
-    least: u32,
-    greatest: u32,
+    minimum: u32,
+    maximum: u32,
 ) -> Result<u32, PitchError> {
-    if (least..=greatest).contains(&value) {
+    if (minimum..=maximum).contains(&value) {
         Ok(value)
     } else {
         Err(PitchError::OutOfRange {
             key,
             value: value.into(),
-            least: least.into(),
-            greatest: greatest.into(),
+            minimum: minimum.into(),
+            maximum: maximum.into(),
         })
     }
 }

@@ -30,7 +30,7 @@ mod symmetry;
 mod transmission;
 
 pub use bezier::Bezier;
-pub use bspline::Bspline;
+pub use bspline::{Bspline, basis as spline_basis, closed_spline};
 pub use circle::{Circle, EccentricCircle};
 pub use conjugate::Conjugate;
 pub use ellipse::{Ellipse, LobedEllipse};
@@ -42,7 +42,6 @@ pub use polar::{Polar, formula_parts, read_formula};
 pub use sampled::SampledCorner;
 pub use transmission::{Ratio, Transmission};
 
-pub use bspline::{basis as spline_basis, closed_spline};
 pub use piecewise::HIGHEST_DEGREE;
 use plane::ScalableCurve;
 use size::Size;
@@ -279,13 +278,15 @@ impl Draft {
         };
         let symmetry = self.curve.symmetry();
         let shape: Arc<dyn ScalableCurve> = Arc::from(self.curve);
-        let told = |value: f64| match value {
-            ..1e-3 => digits::told(value),
+        let stated = |value: f64| match value {
+            ..1e-3 => digits::stated(value),
             _ => ((value * 1e9).round() / 1e9).to_string(),
         };
         self.definition += &match self.scaled {
-            Scaled::Length(symbol, length) => format!(", {symbol} = {} mm", told(length * factor)),
-            Scaled::Written if told(factor) != "1" => format!(", times {}", told(factor)),
+            Scaled::Length(symbol, length) => {
+                format!(", {symbol} = {} mm", stated(length * factor))
+            }
+            Scaled::Written if stated(factor) != "1" => format!(", times {}", stated(factor)),
             Scaled::Written | Scaled::Not => String::new(),
         };
         Ok(Pitch {
@@ -305,15 +306,15 @@ const LENGTHS: [f64; 2] = [1e-50, 1e50];
 
 /// Checks that the length of a pitch curve can be computed with.
 fn sized(key: &'static str, length: f64) -> Result<f64, PitchError> {
-    let [least, greatest] = LENGTHS;
-    if (least..=greatest).contains(&length) {
+    let [minimum, maximum] = LENGTHS;
+    if (minimum..=maximum).contains(&length) {
         return Ok(length);
     }
     Err(PitchError::Size {
         key,
         length,
-        least,
-        greatest,
+        minimum,
+        maximum,
     })
 }
 

@@ -23,7 +23,7 @@ pub enum Interpolation {
 }
 
 /// Greatest number of harmonics of a trigonometric polynomial: every evaluation visits them all.
-const MOST_HARMONICS: usize = 500;
+const MAX_HARMONICS: usize = 500;
 
 /// A function of period one turn.
 #[derive(Debug)]
@@ -62,8 +62,8 @@ impl Periodic {
             }
             Interpolation::Trigonometric => {
                 count(key, samples.len(), 3)?;
-                if samples.len() > 2 * MOST_HARMONICS {
-                    let (count, limit) = (samples.len(), 2 * MOST_HARMONICS);
+                if samples.len() > 2 * MAX_HARMONICS {
+                    let (count, limit) = (samples.len(), 2 * MAX_HARMONICS);
                     return Err(PitchError::TooManyPoints { key, count, limit });
                 }
                 Ok(Self(Form::Fourier(Fourier::through(samples))))
@@ -132,8 +132,8 @@ impl Fourier {
         (sin_key, sin): (&'static str, &[f64]),
     ) -> Result<Self, PitchError> {
         for (key, list) in [(cos_key, cos), (sin_key, sin)] {
-            if list.len() > MOST_HARMONICS {
-                let (count, limit) = (list.len(), MOST_HARMONICS);
+            if list.len() > MAX_HARMONICS {
+                let (count, limit) = (list.len(), MAX_HARMONICS);
                 return Err(PitchError::TooManyPoints { key, count, limit });
             }
         }

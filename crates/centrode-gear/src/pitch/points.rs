@@ -6,7 +6,7 @@ use super::error::{finite, positive};
 use super::piecewise::Coordinates;
 
 /// Greatest number of points of one curve.
-pub(crate) const MOST_POINTS: usize = 10_000;
+pub(crate) const MAX_POINTS: usize = 10_000;
 
 /// The plane control points are drawn in.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
@@ -46,7 +46,7 @@ impl Lists<'_> {
     }
 
     /// Checks the points: as many as needed, finite, in the polar plane in order round the axis.
-    pub(crate) fn check(&self, least: usize) -> Result<(), PitchError> {
+    pub(crate) fn check(&self, minimum: usize) -> Result<(), PitchError> {
         let stray = |key, list: &[f64], rule| {
             if list.is_empty() {
                 Ok(())
@@ -60,7 +60,7 @@ impl Lists<'_> {
             Plane::Polar => {
                 stray("x", self.x, cartesian)?;
                 stray("y", self.y, cartesian)?;
-                pair("radius", self.radius, "angle_deg", self.angle, least)?;
+                pair("radius", self.radius, "angle_deg", self.angle, minimum)?;
                 for &r in self.radius {
                     positive("radius", r)?;
                 }
@@ -69,7 +69,7 @@ impl Lists<'_> {
             Plane::Cartesian => {
                 stray("radius", self.radius, polar)?;
                 stray("angle_deg", self.angle, polar)?;
-                pair("x", self.x, "y", self.y, least)?;
+                pair("x", self.x, "y", self.y, minimum)?;
                 for (&x, &y) in self.x.iter().zip(self.y) {
                     finite("x", x)?;
                     finite("y", y)?;
@@ -80,8 +80,8 @@ impl Lists<'_> {
     }
 
     /// The points, checked.
-    pub(crate) fn points(&self, least: usize) -> Result<Points, PitchError> {
-        self.check(least)?;
+    pub(crate) fn points(&self, minimum: usize) -> Result<Points, PitchError> {
+        self.check(minimum)?;
         let (coordinates, first, second) = match self.plane {
             Plane::Polar => (Coordinates::Polar, self.angle, self.radius),
             Plane::Cartesian => (Coordinates::Cartesian, self.x, self.y),
@@ -99,9 +99,9 @@ fn pair(
     a: &[f64],
     second: &'static str,
     b: &[f64],
-    least: usize,
+    minimum: usize,
 ) -> Result<(), PitchError> {
-    count(first, a.len(), least)?;
+    count(first, a.len(), minimum)?;
     if a.len() == b.len() {
         return Ok(());
     }
@@ -114,12 +114,16 @@ fn pair(
 }
 
 /// Refuses a list that is too short or too long.
-pub(crate) fn count(key: &'static str, count: usize, least: usize) -> Result<(), PitchError> {
-    if count < least {
-        return Err(PitchError::TooFewPoints { key, count, least });
+pub(crate) fn count(key: &'static str, count: usize, minimum: usize) -> Result<(), PitchError> {
+    if count < minimum {
+        return Err(PitchError::TooFewPoints {
+            key,
+            count,
+            minimum,
+        });
     }
-    if count > MOST_POINTS {
-        let limit = MOST_POINTS;
+    if count > MAX_POINTS {
+        let limit = MAX_POINTS;
         return Err(PitchError::TooManyPoints { key, count, limit });
     }
     Ok(())

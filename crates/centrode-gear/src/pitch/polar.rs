@@ -198,7 +198,11 @@ pub fn read_formula(key: &'static str, text: &str) -> Result<Formula, PitchError
 /// # Errors
 /// [`PitchError`] with the key, for features too narrow to be followed.
 pub fn formula_parts(key: &'static str, formula: &Formula) -> Result<Vec<f64>, PitchError> {
-    let steep = |Steep { width, least }| PitchError::Steep { key, width, least };
+    let steep = |Steep { width, minimum }| PitchError::Steep {
+        key,
+        width,
+        minimum,
+    };
     formula.parts(TAU).map_err(steep)
 }
 

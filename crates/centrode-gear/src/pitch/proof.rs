@@ -11,7 +11,7 @@ use super::plane::ScalableCurve;
 const SAMPLES: (usize, usize) = (384, 8);
 /// Halvings of one sample interval, and of all together, where the curve is not yet resolved.
 const DEEPEST: u32 = 12;
-const MOST_HALVINGS: u32 = 50_000;
+const MAX_HALVINGS: u32 = 50_000;
 
 /// Radius and speed of the polar angle at a parameter, each with its slope.
 #[derive(Clone, Copy)]
@@ -139,14 +139,14 @@ impl Walk<'_> {
         let step = high.t - low.t;
         let unforeseen = |a: [f64; 2], b: [f64; 2], m: f64| {
             let foretold = 0.5 * (a[0] + b[0]) + 0.125 * step * (a[1] - b[1]);
-            let least = a[0].min(b[0]).min(m);
-            least > 0.0 && (foretold - m).abs() > 0.05 * least
+            let minimum = a[0].min(b[0]).min(m);
+            minimum > 0.0 && (foretold - m).abs() > 0.05 * minimum
         };
         let unresolved = unforeseen(low.radius, high.radius, middle.radius[0])
             || unforeseen(low.speed, high.speed, middle.speed[0]);
         if unresolved && depth < DEEPEST {
             self.halvings += 1;
-            if self.halvings > MOST_HALVINGS {
+            if self.halvings > MAX_HALVINGS {
                 let (key, angle) = (self.key, degrees(middle.angle));
                 return Err(PitchError::TooRough { key, angle });
             }
@@ -155,32 +155,32 @@ impl Walk<'_> {
         }
         let wrapped = |a: f64| a - TAU * (a / TAU).round();
         self.turn += wrapped(middle.angle - low.angle) + wrapped(high.angle - middle.angle);
-        self.nearest = self.least(self.nearest, [low, middle, high], |s| s.radius)?;
-        self.slowest = self.least(self.slowest, [low, middle, high], |s| s.speed)?;
+        self.nearest = self.minimum(self.nearest, [low, middle, high], |s| s.radius)?;
+        self.slowest = self.minimum(self.slowest, [low, middle, high], |s| s.speed)?;
         Ok(())
     }
 
     /// Sample where the figure is least: the known one, or one in the interval.
-    fn least(
+    fn minimum(
         &self,
         known: Sample,
         interval: [Sample; 3],
         figure: fn(&Sample) -> [f64; 2],
     ) -> Result<Sample, PitchError> {
         let lower = |a: Sample, b: Sample| if figure(&b)[0] < figure(&a)[0] { b } else { a };
-        let least = interval.into_iter().fold(known, lower);
+        let minimum = interval.into_iter().fold(known, lower);
         let [low, _, high] = interval;
         // Inside, a minimum can hide only where the slope changes from falling to rising, and it matters
         // only where it may be below the known least.
         let dips = figure(&low)[1] < 0.0 && figure(&high)[1] > 0.0;
         let reach = 0.25 * (high.t - low.t) * (figure(&high)[1] - figure(&low)[1]);
-        if !dips || figure(&low)[0].min(figure(&high)[0]) - reach > figure(&least)[0] {
-            return Ok(least);
+        if !dips || figure(&low)[0].min(figure(&high)[0]) - reach > figure(&minimum)[0] {
+            return Ok(minimum);
         }
         let value =
             |t: f64| sample(self.curve, self.key, t).map_or(f64::INFINITY, |s| figure(&s)[0]);
         let (t, _) = bracketed_minimum(value, low.t, high.t);
-        Ok(lower(least, sample(self.curve, self.key, t)?))
+        Ok(lower(minimum, sample(self.curve, self.key, t)?))
     }
 
     fn verdict(&self) -> Result<(), PitchError> {

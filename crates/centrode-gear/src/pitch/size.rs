@@ -61,8 +61,8 @@ impl Size {
                 return Err(PitchError::OutOfRange {
                     key: "tooth_count",
                     value: z.into(),
-                    least: 3,
-                    greatest: 10_000,
+                    minimum: 3,
+                    maximum: 10_000,
                 });
             }
         }

@@ -572,9 +572,9 @@ fn a_definition_in_words_tells_the_size() {
     let pitch = resolve(&PitchSpec::Ellipse(ellipse));
     let far = pitch.curve.at(0.0).point.coords.norm();
     let words = pitch.definition.rsplit("A = ").next().expect("its size");
-    let told: f64 = words.trim_end_matches(" mm").parse().expect("a number");
+    let stated: f64 = words.trim_end_matches(" mm").parse().expect("a number");
     // The far apex lies A (1 + k) from the focus.
-    assert!((told * 1.25 - far).abs() < 1e-8, "{}", pitch.definition);
+    assert!((stated * 1.25 - far).abs() < 1e-8, "{}", pitch.definition);
     let polar = |expression: &str, module| {
         resolve(&PitchSpec::Polar(Polar {
             expression: Some(expression.into()),

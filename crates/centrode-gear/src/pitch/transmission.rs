@@ -15,7 +15,7 @@ use centrode_kinematics::formula::{Formula, Taylor};
 use centrode_spec::degrees;
 
 /// Largest number of turns in the mean ratio of a law.
-const MOST_TURNS: u32 = 60;
+const MAX_TURNS: u32 = 60;
 
 /// The driven gear's angle as a function of the driver's; the pitch curve follows.
 ///
@@ -319,16 +319,16 @@ fn draft(
 
 /// Turns of driver and driven gear, in lowest terms, where the driven gear makes `turns` a driver turn.
 fn turns(key: &'static str, turns: f64) -> Result<(u32, u32), PitchError> {
-    for driver in 1..=MOST_TURNS {
+    for driver in 1..=MAX_TURNS {
         let driven = (turns * f64::from(driver)).round();
         if driven >= 1.0
-            && driven <= MOST_TURNS.into()
+            && driven <= MAX_TURNS.into()
             && (turns * f64::from(driver) - driven).abs() <= 1e-9 * driven
         {
             return Ok((driver, driven as u32));
         }
     }
-    let limit = MOST_TURNS;
+    let limit = MAX_TURNS;
     Err(PitchError::RatioNotRational { key, turns, limit })
 }
 

@@ -56,7 +56,7 @@ impl Cutter<'_> {
                     side.active = Some((low.min(a).min(b), high.max(a).max(b)));
                 }
                 Role::Fillet => {
-                    side.fillet_radius = side.fillet_radius.min(least_radius(poly));
+                    side.fillet_radius = side.fillet_radius.min(minimum_radius(poly));
                 }
                 Role::Tip => {
                     tooth.cut_through = false;
@@ -114,7 +114,7 @@ impl Cutter<'_> {
 }
 
 /// Least radius of curvature of a segment, mm.
-fn least_radius(poly: &PolySegment) -> f64 {
+fn minimum_radius(poly: &PolySegment) -> f64 {
     const STEPS: usize = 4;
     let radius = |u: f64| {
         let jet = poly.at(u);

@@ -164,7 +164,7 @@ impl Cutter<'_> {
                         .addendum_reach()
                         .min(0.25 * rolling.pitch_length(self.member)),
         );
-        let wanted = match plan.top {
+        let required = match plan.top {
             Top::Height(height) => height,
             Top::Reach(reach) => {
                 let tip = rolling.parameter(plan.crossing - sign * reach);
@@ -177,18 +177,18 @@ impl Cutter<'_> {
                 };
             }
         };
-        if let Some((tip, foot)) = flank.at_height(wanted)
+        if let Some((tip, foot)) = flank.at_height(required)
             && sign * (limit - tip) <= 0.0
         {
             return Ends {
                 tip,
                 foot,
-                height: wanted,
+                height: required,
                 tip_shortening: 0.0,
             };
         }
         // As far up as the flank goes: to its singular point or the tool's own limit.
-        let farthest = flank.farthest(wanted);
+        let farthest = flank.farthest(required);
         let farthest = if sign * (limit - farthest) > 0.0 {
             limit
         } else {
@@ -196,14 +196,14 @@ impl Cutter<'_> {
         };
         let tip = flank.slower(BLUNT, start, farthest).unwrap_or(farthest);
         let (mut foot, mut height) = flank.foot(tip);
-        if height > wanted {
+        if height > required {
             (foot, height) = flank.nearest_foot(tip).unwrap_or((foot, height));
         }
         Ends {
             tip,
             foot,
             height,
-            tip_shortening: (wanted - height).max(0.0),
+            tip_shortening: (required - height).max(0.0),
         }
     }
 

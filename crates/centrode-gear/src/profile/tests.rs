@@ -134,14 +134,14 @@ fn no_tooth_is_higher_than_written_where_a_flank_turns_back_for_a_short_way() {
         ))
         .expect("a pair");
         for gear in [pair.driver(), pair.driven()] {
-            let wanted = addendum * pair.module();
+            let required = addendum * pair.module();
             for side in gear.teeth().iter().flat_map(|t| [&t.leading, &t.trailing]) {
                 assert!(
-                    side.tip_height <= wanted + 1e-9,
+                    side.tip_height <= required + 1e-9,
                     "{curve}: {}",
                     side.tip_height
                 );
-                assert!((side.tip_height + side.tip_shortening - wanted).abs() < 1e-9);
+                assert!((side.tip_height + side.tip_shortening - required).abs() < 1e-9);
             }
         }
     }

@@ -31,14 +31,14 @@ pub enum RollingError {
         difference: f64,
     },
     /// A mean ratio with a zero or absurd number in it.
-    #[error("mean ratio {}:{} must be two counts from 1 to {}", ratio.0, ratio.1, Rolling::GREATEST_TURNS)]
+    #[error("mean ratio {}:{} must be two counts from 1 to {}", ratio.0, ratio.1, Rolling::MAX_TURNS)]
     MeanRatio {
         /// Turns of driver : turns of driven.
         ratio: (u32, u32),
     },
     /// No centre distance closes the driven curve.
     #[error(
-        "no centre distance closes the driven curve: at {center_distance} mm one driver turn gives {turned} rad of {wanted}"
+        "no centre distance closes the driven curve: at {center_distance} mm one driver turn gives {turned} rad of {required}"
     )]
     NoClosure {
         /// The last centre distance tried, mm.
@@ -46,6 +46,6 @@ pub enum RollingError {
         /// Driven angle of one driver turn, rad.
         turned: f64,
         /// Angle it should be, rad.
-        wanted: f64,
+        required: f64,
     },
 }

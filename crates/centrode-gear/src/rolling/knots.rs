@@ -27,19 +27,19 @@ impl Rolling {
     pub fn parameter_at_angle(&self, phi: f64) -> f64 {
         checkpoint();
         let turns = (phi / TAU).floor();
-        let wanted = phi - turns * TAU;
+        let required = phi - turns * TAU;
         let before = turns * self.curve.period();
-        let [[low, from], [high, to]] = self.around(wanted);
-        if wanted == from {
+        let [[low, from], [high, to]] = self.around(required);
+        if required == from {
             return low + before;
         }
         let at = |t: f64| {
             let jet = self.curve.at(t);
-            let off = self.polar_angle(t, &jet) - wanted;
+            let off = self.polar_angle(t, &jet) - required;
             let p = jet.point.coords;
             (off, off * p.norm_squared() / p.perp(&jet.first))
         };
-        let start = low + (high - low) * (wanted - from) / (to - from);
+        let start = low + (high - low) * (required - from) / (to - from);
         bracketed_newton(at, low, high, start) + before
     }
 

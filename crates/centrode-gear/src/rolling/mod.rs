@@ -86,8 +86,8 @@ pub struct Rolling {
     driven: Antiderivative,
     center_distance: f64,
     mean_ratio: (u32, u32),
-    least: Extreme,
-    greatest: Extreme,
+    minimum: Extreme,
+    maximum: Extreme,
     /// How often the radius swings in a turn.
     swings: usize,
     symmetry: Symmetry,
@@ -108,7 +108,7 @@ struct Extreme {
 
 impl Rolling {
     /// Greatest number in a mean ratio.
-    pub const GREATEST_TURNS: u32 = 50;
+    pub const MAX_TURNS: u32 = 50;
 
     /// Pitch curves whose driver is known to have a symmetry about its own angle zero.
     pub(crate) fn with_symmetry(self, symmetry: Symmetry) -> Self {
@@ -170,10 +170,10 @@ impl Rolling {
     #[must_use]
     pub fn radii(&self, member: Member) -> (f64, f64) {
         match member {
-            Member::Driver => (self.least.radius, self.greatest.radius),
+            Member::Driver => (self.minimum.radius, self.maximum.radius),
             Member::Driven => (
-                self.center_distance - self.greatest.radius,
-                self.center_distance - self.least.radius,
+                self.center_distance - self.maximum.radius,
+                self.center_distance - self.minimum.radius,
             ),
         }
     }
@@ -201,8 +201,8 @@ impl Rolling {
     /// Arc lengths at the least and the greatest driver radius, the first of each.
     pub(crate) fn extreme_arcs(&self) -> (f64, f64) {
         (
-            self.arc_length(self.least.at),
-            self.arc_length(self.greatest.at),
+            self.arc_length(self.minimum.at),
+            self.arc_length(self.maximum.at),
         )
     }
 

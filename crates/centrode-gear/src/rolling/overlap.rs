@@ -31,7 +31,7 @@ impl Rolling {
         if self
             .curvature_ranges()
             .iter()
-            .all(|range| range.least.1 >= 0.0)
+            .all(|range| range.minimum.1 >= 0.0)
         {
             return None;
         }

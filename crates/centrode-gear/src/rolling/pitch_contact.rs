@@ -10,9 +10,9 @@ use super::Rolling;
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurvatureRange {
     /// Least curvature; negative for a curve with a concave part.
-    pub least: (f64, f64),
+    pub minimum: (f64, f64),
     /// Greatest curvature.
-    pub greatest: (f64, f64),
+    pub maximum: (f64, f64),
 }
 
 /// The two pitch curves where they touch, and how far both gears have turned then.
@@ -84,9 +84,9 @@ impl Rolling {
             let found = maximum_of_each(all, &self.pieces());
             let [a, b, c, d] =
                 found.map(|Extreme { input, value }| (self.arc_length(input), value));
-            [(a, b), (c, d)].map(|((arc, negative), greatest)| CurvatureRange {
-                least: (arc, -negative),
-                greatest,
+            [(a, b), (c, d)].map(|((arc, negative), maximum)| CurvatureRange {
+                minimum: (arc, -negative),
+                maximum,
             })
         })
     }

@@ -7,7 +7,7 @@ use super::{Extreme, Rolling, RollingError, SAME};
 use crate::pitch::{Symmetry, gcd};
 
 /// Most pieces on which a pitch curve may not be smooth, as beside a kink.
-const MOST_UNSETTLED: usize = 64;
+const MAX_UNSETTLED: usize = 64;
 
 /// Share of the greatest radius, a radian, by which the slope of a radius that swings changes at least.
 const SWINGS: f64 = 1e-7;
@@ -37,10 +37,10 @@ impl Rolling {
         breaks.push(start + period);
 
         let arc = Antiderivative::new(|t| curve.at(t).first.norm(), &breaks);
-        if arc.unconverged() > MOST_UNSETTLED {
+        if arc.unconverged() > MAX_UNSETTLED {
             return Err(RollingError::Unsettled {
                 unsettled: arc.unconverged(),
-                most: MOST_UNSETTLED,
+                most: MAX_UNSETTLED,
             });
         }
         let jets: Vec<(f64, f64, Jet)> = arc
@@ -54,14 +54,14 @@ impl Rolling {
         let nodes: Vec<(f64, f64)> = jets.iter().map(node).collect();
         let mut samples: Vec<(f64, Jet)> = jets.iter().map(|&(t, _, jet)| (t, jet)).collect();
         samples.sort_by(|a, b| a.0.total_cmp(&b.0));
-        let [least, greatest] = extremes(&*curve, &samples);
-        let swings = swings(&samples, SWINGS * greatest.radius);
-        let wanted = TAU * f64::from(ratio.1) / f64::from(ratio.0);
-        let mut a = closure(&nodes, greatest.radius, wanted);
+        let [minimum, maximum] = extremes(&*curve, &samples);
+        let swings = swings(&samples, SWINGS * maximum.radius);
+        let required = TAU * f64::from(ratio.1) / f64::from(ratio.0);
+        let mut a = closure(&nodes, maximum.radius, required);
         let mut driven = driven_angle(&*curve, &breaks, a);
         for _ in 0..4 {
-            let missing = driven.total() - wanted;
-            if missing.abs() <= 1e-15 * wanted {
+            let missing = driven.total() - required;
+            if missing.abs() <= 1e-15 * required {
                 break;
             }
             let slope: f64 = nodes
@@ -69,22 +69,22 @@ impl Rolling {
                 .map(|&(r, w)| -w / (r * (a - r) * (a - r)))
                 .sum();
             let better = a - missing / slope;
-            if better <= greatest.radius || better == a {
+            if better <= maximum.radius || better == a {
                 break;
             }
             let retry = driven_angle(&*curve, &breaks, better);
-            if (retry.total() - wanted).abs() >= missing.abs() {
+            if (retry.total() - required).abs() >= missing.abs() {
                 break;
             }
             (a, driven) = (better, retry);
         }
-        if (driven.total() - wanted).abs().is_nan()
-            || (driven.total() - wanted).abs() > 1e-12 * wanted
+        if (driven.total() - required).abs().is_nan()
+            || (driven.total() - required).abs() > 1e-12 * required
         {
             return Err(RollingError::NoClosure {
                 center_distance: a,
                 turned: driven.total(),
-                wanted,
+                required,
             });
         }
         let mut rolling = Self {
@@ -97,8 +97,8 @@ impl Rolling {
             driven,
             center_distance: a,
             mean_ratio: ratio,
-            least,
-            greatest,
+            minimum,
+            maximum,
             swings,
             symmetry: Symmetry::NONE,
             sampled_corners: Vec::new(),
@@ -122,7 +122,7 @@ impl Rolling {
             let again = self.radius(phi + TAU / f64::from(repeats));
             difference = difference.max((again - r).abs());
         }
-        if difference > 1e-9 * self.greatest.radius {
+        if difference > 1e-9 * self.maximum.radius {
             return Err(RollingError::NotPeriodic {
                 ratio: self.mean_ratio,
                 difference,
@@ -134,7 +134,7 @@ impl Rolling {
 
 fn reduced(ratio: (u32, u32)) -> Result<(u32, u32), RollingError> {
     let a = gcd(ratio.0, ratio.1);
-    let fair = |n: u32| (1..=Rolling::GREATEST_TURNS).contains(&n);
+    let fair = |n: u32| (1..=Rolling::MAX_TURNS).contains(&n);
     if a == 0 || !fair(ratio.0 / a) || !fair(ratio.1 / a) {
         return Err(RollingError::MeanRatio { ratio });
     }
@@ -181,14 +181,14 @@ fn extremes(curve: &dyn Curve, samples: &[(f64, Jet)]) -> [Extreme; 2] {
     let slope_of = |jet: &Jet| jet.point.coords.dot(&jet.first);
     let slope = |t: f64| slope_of(&curve.at(t));
     let extreme = |radius| Extreme { at: 0.0, radius };
-    let (mut least, mut greatest) = (extreme(f64::INFINITY), extreme(0.0));
+    let (mut minimum, mut maximum) = (extreme(f64::INFINITY), extreme(0.0));
     let mut take = |at: f64, jet: &Jet| {
         let radius = jet.point.coords.norm();
-        if radius < least.radius {
-            least = Extreme { at, radius };
+        if radius < minimum.radius {
+            minimum = Extreme { at, radius };
         }
-        if radius > greatest.radius {
-            greatest = Extreme { at, radius };
+        if radius > maximum.radius {
+            maximum = Extreme { at, radius };
         }
     };
     for (i, (a, jet)) in samples.iter().enumerate() {
@@ -203,7 +203,7 @@ fn extremes(curve: &dyn Curve, samples: &[(f64, Jet)]) -> [Extreme; 2] {
         }
         take(*a, jet);
     }
-    [least, greatest]
+    [minimum, maximum]
 }
 
 /// How often the radius swings in a turn: its slope goes from rising to falling and back by more than a threshold, which a wave on a
@@ -234,7 +234,7 @@ fn turns(values: impl Iterator<Item = f64>, threshold: f64) -> usize {
 }
 
 /// Newton's method kept above the greatest radius, where the driven angle falls from infinity to zero.
-fn closure(nodes: &[(f64, f64)], greatest: f64, wanted: f64) -> f64 {
+fn closure(nodes: &[(f64, f64)], maximum: f64, required: f64) -> f64 {
     let turned = |a: f64| -> (f64, f64) {
         let (mut sum, mut slope) = (0.0, 0.0);
         for &(r, w) in nodes {
@@ -244,18 +244,18 @@ fn closure(nodes: &[(f64, f64)], greatest: f64, wanted: f64) -> f64 {
         }
         (sum, slope)
     };
-    let mut low = greatest;
+    let mut low = maximum;
     let mut high = f64::INFINITY;
     // A circle of the greatest radius would need this distance; the answer is below it.
-    let mut a = greatest * (1.0 + TAU / wanted);
+    let mut a = maximum * (1.0 + TAU / required);
     for _ in 0..100 {
         let (sum, slope) = turned(a);
-        if sum > wanted {
+        if sum > required {
             low = low.max(a);
         } else {
             high = high.min(a);
         }
-        let mut next = a - (sum - wanted) / slope;
+        let mut next = a - (sum - required) / slope;
         if !(next > low && next < high) {
             next = if high.is_finite() {
                 0.5 * (low + high)

@@ -45,7 +45,7 @@ fn pitch_curves_touch_where_their_frames_have_it() {
         });
         let curve = spec.resolve().expect("a curve").curve;
         let rolling = Rolling::new(curve, ratio).expect("rolls");
-        let [mut least, mut greatest] = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
+        let [mut minimum, mut maximum] = [[f64::INFINITY; 2], [f64::NEG_INFINITY; 2]];
         for i in -40..90 {
             let t = 0.0713 * f64::from(i);
             let contact = rolling.pitch_contact(t);
@@ -54,8 +54,8 @@ fn pitch_curves_touch_where_their_frames_have_it() {
             for (k, frame) in frames.iter().enumerate() {
                 assert!((frame.point.coords.norm() - contact.radii[k]).abs() < 1e-12);
                 assert!((frame.curvature - curvatures[k]).abs() < 1e-13);
-                least[k] = least[k].min(curvatures[k]);
-                greatest[k] = greatest[k].max(curvatures[k]);
+                minimum[k] = minimum[k].min(curvatures[k]);
+                maximum[k] = maximum[k].max(curvatures[k]);
             }
             let [driver, _] = &frames;
             assert!((contact.direction * contact.radii[0] - driver.point.coords).norm() < 1e-12);
@@ -67,8 +67,8 @@ fn pitch_curves_touch_where_their_frames_have_it() {
             assert!((contact.ratio() - rolling.ratio(contact.input)).abs() < 1e-13);
         }
         for (k, range) in rolling.curvature_ranges().iter().enumerate() {
-            assert!(range.least.1 <= least[k] && greatest[k] <= range.greatest.1);
-            assert!(range.greatest.1 - greatest[k] < 0.01 * (range.greatest.1 - range.least.1));
+            assert!(range.minimum.1 <= minimum[k] && maximum[k] <= range.maximum.1);
+            assert!(range.maximum.1 - maximum[k] < 0.01 * (range.maximum.1 - range.minimum.1));
         }
     }
 }

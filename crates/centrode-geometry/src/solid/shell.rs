@@ -46,7 +46,7 @@ pub struct ShellSide {
 }
 
 impl ShellSide {
-    /// The same edge in the opposite direction.
+    /// Reverses the direction of the edge.
     #[must_use]
     pub fn reversed(self) -> Self {
         Self {

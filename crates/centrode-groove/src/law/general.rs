@@ -6,9 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::ShaftError;
 use centrode_gear::cam::law::{Law, LawSpec};
-use centrode_gear::pitch::Periodic;
-use centrode_gear::pitch::{Interpolation, PitchError};
-use centrode_gear::pitch::{formula_parts, read_formula};
+use centrode_gear::pitch::{Interpolation, Periodic, PitchError, formula_parts, read_formula};
 use centrode_kinematics::formula::{Formula, Taylor};
 use centrode_kinematics::transmission::{MotionJet, Transmission};
 use centrode_spec::degrees;
@@ -188,8 +186,8 @@ impl SpeedKnots {
                 key: "law.angle_deg".into(),
                 rule: Rule::OutOfRange {
                     value: worst.to_degrees(),
-                    least: 0.0,
-                    greatest: 360.0,
+                    minimum: 0.0,
+                    maximum: 360.0,
                     unit: " deg, ascending",
                 },
             }));

@@ -146,7 +146,7 @@ impl ShaftLaw {
     /// Greatest distance between this law and another along the shaft over one turn, each counted from
     /// its own place at `from`; mm.
     #[must_use]
-    pub fn departure(&self, other: &Self, from: f64) -> f64 {
+    pub fn deviation(&self, other: &Self, from: f64) -> f64 {
         let apart = |theta: f64| (self.moved(from, theta) - other.moved(from, theta)).abs();
         maximum(apart, &self.pieces(from)).value
     }
@@ -180,4 +180,4 @@ impl Transmission for ShaftLaw {
 }
 
 /// Greatest number of waves a turn.
-const MOST_HARMONICS: u32 = 60;
+const MAX_HARMONICS: u32 = 60;

@@ -3,7 +3,7 @@ use std::f64::consts::TAU;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::MOST_HARMONICS;
+use super::MAX_HARMONICS;
 use crate::ShaftError;
 use centrode_kinematics::transmission::{MotionJet, Transmission};
 use centrode_spec::degrees;
@@ -52,7 +52,7 @@ impl RotatedSine {
     pub(super) fn resolve(&self, lead: f64, radius: f64) -> Result<Resolved, ShaftError> {
         finite("law.amplitude", self.amplitude)?;
         finite("law.phase_deg", self.phase.to_degrees())?;
-        count_in_range("law.harmonic", self.harmonic, 1, MOST_HARMONICS)?;
+        count_in_range("law.harmonic", self.harmonic, 1, MAX_HARMONICS)?;
         let (mean, n) = (lead / TAU, f64::from(self.harmonic));
         let turn = radius.hypot(mean);
         // cos b = mean / turn, sin b = radius / turn. The angle must not turn back, nor the speed.

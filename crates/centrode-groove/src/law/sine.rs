@@ -3,7 +3,7 @@ use std::f64::consts::TAU;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::MOST_HARMONICS;
+use super::MAX_HARMONICS;
 use crate::ShaftError;
 use centrode_kinematics::transmission::{MotionJet, Transmission};
 use centrode_spec::degrees;
@@ -59,7 +59,7 @@ impl AmplitudeFor {
         positive("lead", self.lead)?;
         finite("moved_distance", self.moved_distance)?;
         positive("window_deg", self.window.to_degrees())?;
-        count_in_range("law.harmonic", self.harmonic, 1, MOST_HARMONICS)?;
+        count_in_range("law.harmonic", self.harmonic, 1, MAX_HARMONICS)?;
         let n = f64::from(self.harmonic);
         let sin = (0.5 * n * self.window).sin();
         let mean = self.lead / TAU;
@@ -71,15 +71,15 @@ impl AmplitudeFor {
         }
         let plain = mean * self.window;
         let bound = plain - 2.0 * mean / n * sin;
-        let (least, greatest) = (bound.min(plain), bound.max(plain));
+        let (minimum, maximum) = (bound.min(plain), bound.max(plain));
         let amplitude = (plain - self.moved_distance) / (2.0 * sin);
         if amplitude >= 0.0 && n * amplitude < mean {
             Ok(amplitude)
         } else {
             Err(ShaftError::MovedDistance {
-                wanted: self.moved_distance,
-                least,
-                greatest,
+                required: self.moved_distance,
+                minimum,
+                maximum,
             })
         }
     }
@@ -98,7 +98,7 @@ impl Sine {
     pub(super) fn resolve(&self, lead: f64) -> Result<Resolved, ShaftError> {
         finite("law.amplitude", self.amplitude)?;
         finite("law.phase_deg", self.phase.to_degrees())?;
-        count_in_range("law.harmonic", self.harmonic, 1, MOST_HARMONICS)?;
+        count_in_range("law.harmonic", self.harmonic, 1, MAX_HARMONICS)?;
         let (mean, n) = (lead / TAU, f64::from(self.harmonic));
         if n * self.amplitude.abs() >= mean {
             return Err(ShaftError::Amplitude {

@@ -2,8 +2,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::{Groove, ShaftError};
-use centrode_kinematics::machine::Keyway;
-use centrode_kinematics::machine::{hole_class, shaft_class};
+use centrode_kinematics::machine::{Keyway, hole_class, shaft_class};
 use centrode_spec::SpecError;
 use centrode_spec::rule::{Rule, broken, not_negative, positive, single_line};
 
@@ -88,8 +87,8 @@ impl ShaftBody {
             }
             let rule = Rule::OutOfRange {
                 value,
-                least: 0.0,
-                greatest: limit,
+                minimum: 0.0,
+                maximum: limit,
                 unit: " mm",
             };
             broken(key, rule)

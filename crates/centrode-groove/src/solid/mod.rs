@@ -86,7 +86,7 @@ impl<'a> ShaftSolid<'a> {
     /// [`ShaftError::Boundary`] where the edges are too wild for smooth pieces.
     pub fn shell(&self) -> Result<Shell, ShaftError> {
         let shell = boundary::shell(self.groove, self.body, self.ends);
-        shell.ok_or(ShaftError::Boundary(boundary::MOST_LINES))
+        shell.ok_or(ShaftError::Boundary(boundary::MAX_LINES))
     }
 
     /// Upper edges of the groove's walls as far as they remain, on the development, mm: `(R phi, z)`, the angle `phi`

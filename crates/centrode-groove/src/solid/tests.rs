@@ -301,7 +301,7 @@ fn the_exact_boundary_is_closed_and_encloses_what_the_mesh_does() {
 }
 
 /// Distance of a point from the centre line on the development, mm, the shaft's turns taken together.
-fn beside_line(groove: &Groove, samples: &[(f64, f64)], phi: f64, z: f64) -> f64 {
+fn near_line(groove: &Groove, samples: &[(f64, f64)], phi: f64, z: f64) -> f64 {
     let r = groove.radius();
     let round = |x: f64| x - TAU * r * (x / (TAU * r)).round();
     let off = |theta: f64| {
@@ -313,10 +313,10 @@ fn beside_line(groove: &Groove, samples: &[(f64, f64)], phi: f64, z: f64) -> f64
         .map(|&(theta, height)| (round(r * (theta - phi)).hypot(height - z), theta))
         .collect();
     let step = samples[1].0 - samples[0].0;
-    let least = near.iter().map(|n| n.0).fold(f64::INFINITY, f64::min);
+    let minimum = near.iter().map(|n| n.0).fold(f64::INFINITY, f64::min);
     // Samples lie closer together than this.
-    near.retain(|n| n.0 < least + 0.5);
-    let mut best = least;
+    near.retain(|n| n.0 < minimum + 0.5);
+    let mut best = minimum;
     for (_, theta) in near {
         let (_, value) = centrode_geometry::bracketed_minimum(off, theta - step, theta + step);
         best = best.min(value);
@@ -329,7 +329,7 @@ fn off_surface(groove: &Groove, fillet: f64, samples: &[(f64, f64)], [x, y, z]: 
     let (radius, half) = (groove.radius(), 0.5 * groove.width());
     let floor = radius - groove.depth();
     let r = x.hypot(y);
-    let d = beside_line(groove, samples, y.atan2(x), z);
+    let d = near_line(groove, samples, y.atan2(x), z);
     let foot = floor + fillet;
     let land = (radius - r).hypot((half - d).max(0.0));
     let bottom = (r - floor).hypot((d - half + fillet).max(0.0));
@@ -344,7 +344,7 @@ fn off_surface(groove: &Groove, fillet: f64, samples: &[(f64, f64)], [x, y, z]: 
 
 /// Greatest distance of corners, middles of edges and middles of triangles of the grooved length from its exact surface,
 /// over some 400 triangles.
-fn greatest_deviation(groove: &Groove, body: &ShaftBody, tol: f64) -> f64 {
+fn maximum_deviation(groove: &Groove, body: &ShaftBody, tol: f64) -> f64 {
     let solid = ShaftSolid::new(groove, body).expect("fits");
     let samples: Vec<(f64, f64)> = (0..groove.traverse().turns() * 200)
         .map(|i| TAU * f64::from(i) / 200.0)
@@ -388,7 +388,7 @@ fn every_triangle_is_within_the_tolerance_of_walls_fillets_and_floor() {
         let groove = groove(holes, offset, phase, width);
         let body = ShaftBody { fillet, ..sharp() };
         for tol in [0.1, 0.01, 0.001] {
-            let off = greatest_deviation(&groove, &body, tol);
+            let off = maximum_deviation(&groove, &body, tol);
             assert!(off <= tol, "{holes} {width} {fillet}: {off} at {tol}");
             assert!(off > 0.3 * tol, "finer than asked for: {off} at {tol}");
         }

@@ -18,7 +18,7 @@ const PART: f64 = 24.0;
 const PARTS: usize = 60;
 
 /// Most parts of a turn.
-const MOST_PARTS: usize = 1200;
+const MAX_PARTS: usize = 1200;
 
 /// Share of a value that is rounding, and its slope with it.
 const ROUNDING: f64 = 1e-12;
@@ -29,7 +29,7 @@ pub struct Steep {
     /// About how wide the narrowest feature is, rad.
     pub width: f64,
     /// Width of those that can be followed, rad.
-    pub least: f64,
+    pub minimum: f64,
 }
 
 /// Range and slopes of a value inside a formula along a turn.
@@ -85,17 +85,17 @@ impl Formula {
         let mut count = FEWEST;
         let rate = loop {
             let [argument, value] = self.rates(turn, count);
-            let wanted = ((2.0 * argument * turn) as usize).min(MOST);
-            if count >= wanted {
+            let required = ((2.0 * argument * turn) as usize).min(MOST);
+            if count >= required {
                 break value;
             }
-            count = wanted.max(2 * count);
+            count = required.max(2 * count);
         };
         let parts = turn * rate / PART;
-        if parts > MOST_PARTS as f64 {
+        if parts > MAX_PARTS as f64 {
             return Err(Steep {
                 width: 1.0 / rate,
-                least: turn / (PART * MOST_PARTS as f64),
+                minimum: turn / (PART * MAX_PARTS as f64),
             });
         }
         if rate <= GENTLE {

@@ -90,8 +90,8 @@ impl Parser<'_> {
         self.text.get(self.position).copied()
     }
 
-    fn take(&mut self, wanted: char) -> bool {
-        let found = self.peek() == Some(wanted);
+    fn take(&mut self, required: char) -> bool {
+        let found = self.peek() == Some(required);
         if found {
             self.position += 1;
         }

@@ -91,15 +91,15 @@ fn a_turn_is_parted_where_a_formula_has_what_is_narrow() {
         ("1/(1 + exp(600*(cos(phi) - 0.99)))", 40.0),
     ] {
         let found = parts(text).expect(text);
-        let wanted = std::f64::consts::TAU * rate / 24.0;
+        let required = std::f64::consts::TAU * rate / 24.0;
         assert!(
-            found.len() as f64 + 1.0 >= wanted,
-            "{text}: {} {wanted}",
+            found.len() as f64 + 1.0 >= required,
+            "{text}: {} {required}",
             found.len()
         );
         assert!(
-            (found.len() as f64) < 2.0 * wanted + 60.0,
-            "{text}: {} {wanted}",
+            (found.len() as f64) < 2.0 * required + 60.0,
+            "{text}: {} {required}",
             found.len()
         );
         assert_eq!((found.len() + 1) % 60, 0);
@@ -110,7 +110,7 @@ fn a_turn_is_parted_where_a_formula_has_what_is_narrow() {
         "1 + 0.1*exp(-1e9*(1 - cos(5*phi - 0.3)))",
     ] {
         let steep = parts(text).expect_err(text);
-        assert!(steep.width < steep.least, "{text}: {steep:?}");
+        assert!(steep.width < steep.minimum, "{text}: {steep:?}");
     }
 }
 

@@ -78,7 +78,7 @@ pub(super) enum Step {
 /// let bars = linkage.rrr(b, d, (147.0, 127.0), Branch::Upper)?;
 /// let pose = linkage.at(1.0)?;
 /// assert!(pose.joint(bars.joint).point.y > 0.0);
-/// # Ok::<(), crate::linkage::LinkageError>(())
+/// # Ok::<(), centrode_kinematics::linkage::LinkageError>(())
 /// ```
 #[derive(Clone, Debug)]
 pub struct Linkage {

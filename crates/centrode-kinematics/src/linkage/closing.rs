@@ -8,7 +8,7 @@ use super::places::Needed;
 use super::series::{Series, SeriesItem};
 
 /// Samples over a turn of the input in the search for where dyads cease to close.
-const LOOKS: u32 = 720;
+const SAMPLES: u32 = 720;
 /// Parts of a gap in which the greatest distance between a dyad's ends is looked for.
 const PARTS: u32 = 4;
 /// Squared sine of the transmission angle that is rounding: at an angle below 2e-4 deg both branches of a dyad meet. Ten times
@@ -140,7 +140,7 @@ impl Linkage {
         };
         // Of the dyads that are needed it is the last.
         let room = |series: &Series<1>| series.room.last().copied().unwrap_or(f64::NAN);
-        let inputs = || (0..LOOKS).map(|i| self.period * f64::from(i) / f64::from(LOOKS));
+        let inputs = || (0..SAMPLES).map(|i| self.period * f64::from(i) / f64::from(SAMPLES));
         // Guides that are parallel at the start are on the side to which they go.
         let mut slants = inputs().map_while(|input| slant(step, &series(input)));
         let side = slants
@@ -275,7 +275,7 @@ struct Found {
 ///
 /// `cycle` is the period if the interval is all of it and so has no ends.
 fn found_in(level: &dyn Fn(f64) -> f64, (low, high): (f64, f64), cycle: Option<f64>) -> Found {
-    let count = (f64::from(LOOKS) * (high - low) / TAU).ceil().max(4.0) as usize;
+    let count = (f64::from(SAMPLES) * (high - low) / TAU).ceil().max(4.0) as usize;
     let step = (high - low) / count as f64;
     let look = |i: usize| {
         let input = match i == count {
@@ -354,8 +354,8 @@ fn dips(level: &dyn Fn(f64) -> f64, looks: &[(f64, f64)]) -> Vec<(f64, f64)> {
         if !dips || sign * b.1 > deep.max(FLAT) {
             return None;
         }
-        let (at, least) = bracketed_minimum(|x| sign * level(x), a.0, c.0);
-        (least < FLAT).then_some((at, sign * least))
+        let (at, minimum) = bracketed_minimum(|x| sign * level(x), a.0, c.0);
+        (minimum < FLAT).then_some((at, sign * minimum))
     };
     looks.windows(3).filter_map(dip).collect()
 }

@@ -316,7 +316,7 @@ impl FourBar {
     /// The least angle between the lines of coupler and rocker over the turn of the crank, rad; 0 where
     /// the crank cannot turn.
     #[must_use]
-    pub fn least_transmission_angle(&self) -> f64 {
+    pub fn minimum_transmission_angle(&self) -> f64 {
         if !self.grashof().crank_turns() {
             return 0.0;
         }

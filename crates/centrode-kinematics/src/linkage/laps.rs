@@ -5,13 +5,13 @@ use crate::formula::{Number, Taylor};
 /// Unwraps principal angles into [middle - pi, middle + pi): adds `before` or `after`, multiples of 2 pi, by the side
 /// of `cut`.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Laps {
+pub(super) struct Unwrap {
     cut: f64,
     before: f64,
     after: f64,
 }
 
-impl Laps {
+impl Unwrap {
     pub(super) fn about(middle: f64) -> Self {
         // The range begins at middle - pi, a number of turns after its principal value.
         let turns = (middle / TAU).floor();
@@ -36,7 +36,7 @@ impl Laps {
 
 #[cfg(test)]
 mod tests {
-    use super::{Laps, PI, TAU, Taylor};
+    use super::{PI, TAU, Taylor, Unwrap};
 
     #[test]
     fn directions_lie_within_half_a_turn_of_the_middle() {
@@ -44,7 +44,7 @@ mod tests {
             for i in -31..=31 {
                 let angle: f64 = middle + 0.1 * f64::from(i);
                 let direction = Taylor([angle.sin().atan2(angle.cos())]);
-                let [unwrapped] = Laps::about(middle).unwrapped(direction).0;
+                let [unwrapped] = Unwrap::about(middle).unwrapped(direction).0;
                 assert!(
                     (unwrapped - angle).abs() < 1e-13,
                     "{middle} {angle}: {unwrapped}"

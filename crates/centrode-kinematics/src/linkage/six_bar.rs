@@ -3,7 +3,7 @@ use std::f64::consts::TAU;
 use centrode_geometry::{Point, Vector};
 
 use super::four_bar::{FourBar, Grashof, joints};
-use super::laps::Laps;
+use super::laps::Unwrap;
 use super::point_series::PointSeries;
 use super::slider_arc::SliderArc;
 use crate::formula::Taylor;
@@ -83,7 +83,7 @@ pub struct SixBar {
     pivot: Point,
     effector_length: f64,
     extremes: EffectorExtremes,
-    pub(super) laps: Laps,
+    pub(super) laps: Unwrap,
 }
 
 impl SixBar {
@@ -114,7 +114,7 @@ impl SixBar {
             pivot,
             effector_length,
             extremes,
-            laps: Laps::about(0.5 * (extremes.low.1 + extremes.high.1)),
+            laps: Unwrap::about(0.5 * (extremes.low.1 + extremes.high.1)),
         })
     }
 
@@ -138,13 +138,13 @@ impl SixBar {
 
     /// Least distance of the slider from the effector's pivot, mm.
     #[must_use]
-    pub fn least_slider_distance(&self) -> f64 {
+    pub fn minimum_slider_distance(&self) -> f64 {
         SliderArc::new(&self.four_bar).map_or(0.0, |arc| arc.distance(self.pivot))
     }
 
     /// Greatest distance of the slider from the effector's pivot, mm.
     #[must_use]
-    pub fn greatest_slider_distance(&self) -> f64 {
+    pub fn maximum_slider_distance(&self) -> f64 {
         SliderArc::new(&self.four_bar).map_or(0.0, |arc| arc.farthest(self.pivot))
     }
 

@@ -360,7 +360,7 @@ proptest! {
     ) {
         let six_bar = SixBar::new(four_bar(lengths, Branch::Upper), Point::new(x, y), 150.0)
             .expect("off the path");
-        if six_bar.least_slider_distance() > 5.0 {
+        if six_bar.minimum_slider_distance() > 5.0 {
             let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
             let mut before: Option<f64> = None;
             for i in 0..=4000 {
@@ -430,7 +430,7 @@ proptest! {
         let six_bar = of(0, 0.0);
         let sensitivity = six_bar.swing_sensitivity();
         let exact = [sensitivity.lengths.as_slice(), sensitivity.pivot.as_slice()].concat();
-        if six_bar.least_slider_distance() > 5.0 {
+        if six_bar.minimum_slider_distance() > 5.0 {
             for (k, exact) in exact.into_iter().enumerate() {
                 let h = 1e-4;
                 let found = (of(k, h).swing() - of(k, -h).swing()) / (2.0 * h);

@@ -2,7 +2,7 @@ use centrode_geometry::{Outline, Segment};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Machine;
+use super::LinkedMachine;
 use centrode_spec::DrawingSpec;
 
 /// Contents of the general arrangement that links, joints and figures do not tell.
@@ -108,7 +108,7 @@ impl Datum {
     }
 }
 
-impl Machine {
+impl LinkedMachine {
     /// A place in the sketch of a figure by its name, mm; none where there is no such figure.
     #[must_use]
     pub fn place_on(&self, figure: &str, at: [f64; 2]) -> Option<Place> {

@@ -8,7 +8,7 @@ const CHAMFER: f64 = 1.0 / 16.0;
 /// Lengths below which steps are none, mm: rounding.
 const ROUNDING: f64 = 1e-9;
 /// Least play along the axis of what lies between two rings, mm.
-const PLAY: f64 = 0.05;
+const CLEARANCE: f64 = 0.05;
 /// Steps of deviations of a length between grooves, and the width of its tolerance, mm.
 const DEVIATION: [f64; 2] = [0.05, 0.1];
 
@@ -190,13 +190,13 @@ impl Bar {
             let slacks = f64::from(!lower_holds_below) + f64::from(upper_holds_below);
             let length = high - low;
             let play = length + slack * slacks - thickest.sum::<f64>();
-            if parts.is_empty() || play - general_deviation(general, length) >= PLAY {
+            if parts.is_empty() || play - general_deviation(general, length) >= CLEARANCE {
                 return None;
             }
             let [step, width] = DEVIATION;
             // A whole number of steps, but for rounding.
-            let least = ((PLAY - play) / step - 1e-6).ceil() * step;
-            let deviations = [least, least + width].map(|mm| (mm * 1e3).round() / 1e3);
+            let minimum = ((CLEARANCE - play) / step - 1e-6).ceil() * step;
+            let deviations = [minimum, minimum + width].map(|mm| (mm * 1e3).round() / 1e3);
             let span = [low, high].map(|z| z - self.span[0]);
             Some(HeldLength { span, deviations })
         };

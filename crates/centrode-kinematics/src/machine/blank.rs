@@ -40,10 +40,10 @@ impl Blank {
         let points = outline.flatten(Tolerance::new(FINE).ok()?);
         let middle = outline.bounds().center();
         let radii = points.iter().map(|p| (p - middle).norm());
-        let [least, most] = radii.fold([f64::INFINITY, 0.0], |[low, high], r| {
+        let [minimum, most] = radii.fold([f64::INFINITY, 0.0], |[low, high], r| {
             [f64::min(low, r), f64::max(high, r)]
         });
-        if most - least < 2.0 * FINE {
+        if most - minimum < 2.0 * FINE {
             return Some(Self::Round {
                 diameter: 2.0 * outline.maximum_distance(middle),
                 length: thickness,
@@ -133,15 +133,15 @@ mod tests {
 
     #[test]
     fn a_micrometre_over_a_tenth_costs_another() {
-        for (over, told) in [(0.0, "96"), (9e-7, "96"), (1e-5, "96.1"), (1e-3, "96.1")] {
+        for (over, stated) in [(0.0, "96"), (9e-7, "96"), (1e-5, "96.1"), (1e-3, "96.1")] {
             let [diameter, length] = [96.0 + over, 8.0];
             let blank = Blank::Round { diameter, length };
-            assert_eq!(blank.to_string(), format!("round Ø{told} x 8"));
+            assert_eq!(blank.to_string(), format!("round Ø{stated} x 8"));
             let blank = Blank::Plate {
                 sides: [diameter, 30.0],
                 thickness: 8.0,
             };
-            assert_eq!(blank.to_string(), format!("plate 8: {told} x 30"));
+            assert_eq!(blank.to_string(), format!("plate 8: {stated} x 30"));
         }
     }
 

@@ -38,15 +38,15 @@ fn rest(segment: &Segment, from: f64) -> Segment {
 }
 
 /// Places along a segment at which its distance from a circle is looked at.
-const LOOKS: usize = 64;
+const SAMPLES: usize = 64;
 
 fn boss(hole: &Outline, middle: Point, radius: f64) -> Option<Outline> {
     let segments = hole.segments();
     let off = |segment: &Segment, u: f64| (segment.at(u).point - middle).norm() - radius;
     let (mut enters, mut leaves) = (Vec::new(), Vec::new());
     for (index, segment) in segments.iter().enumerate() {
-        let at = |i: usize| 2.0 * i as f64 / LOOKS as f64 - 1.0;
-        for i in 0..LOOKS {
+        let at = |i: usize| 2.0 * i as f64 / SAMPLES as f64 - 1.0;
+        for i in 0..SAMPLES {
             let [u, v] = [at(i), at(i + 1)];
             let [a, b] = [u, v].map(|u| off(segment, u));
             if (a > 0.0) == (b > 0.0) {

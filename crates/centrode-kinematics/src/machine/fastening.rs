@@ -32,7 +32,7 @@ pub struct Fastening {
 pub enum FasteningError {
     /// No screw enters far enough.
     #[error(
-        "no screw of ISO 4762 through plates of {plate} mm enters the {between} mm between them by {least} mm from either side, as M{diameter} needs"
+        "no screw of ISO 4762 through plates of {plate} mm enters the {between} mm between them by {minimum} mm from either side, as M{diameter} needs"
     )]
     TooShort {
         /// Nominal diameter, mm.
@@ -42,7 +42,7 @@ pub enum FasteningError {
         /// Distance between the plates, mm.
         between: f64,
         /// Least length of thread, mm.
-        least: f64,
+        minimum: f64,
     },
     /// Too few places that miss everything else.
     #[error(
@@ -67,17 +67,17 @@ impl Fastening {
     pub fn new(
         diameter: f64,
         (faces, plate): ([f64; 2], f64),
-        least: f64,
+        minimum: f64,
     ) -> Result<Self, FasteningError> {
         let between = faces[1] - faces[0] - 2.0 * plate;
         let enters = (ENTERED * diameter).min(0.5 * (between - APART * diameter));
         let screw = Screw::for_diameter(diameter, plate + enters);
-        let entered = |screw: &Screw| screw.length - plate >= least * diameter * (1.0 - 1e-9);
+        let entered = |screw: &Screw| screw.length - plate >= minimum * diameter * (1.0 - 1e-9);
         let screw = screw.filter(entered).ok_or(FasteningError::TooShort {
             diameter,
             plate,
             between,
-            least: least * diameter,
+            minimum: minimum * diameter,
         })?;
         Ok(Self {
             screw,

@@ -2,7 +2,7 @@ use centrode_geometry::{Outline, Point};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Machine, Quantity, plain};
+use super::{LinkedMachine, Quantity, plain};
 
 /// Meaning of a line of the picture, which settles how it looks.
 #[derive(Clone, Copy, Debug, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
@@ -26,7 +26,7 @@ pub enum LineRole {
     /// The centre line of a clamp.
     Clamp,
     /// Part of a body that lies beside it, in another plane.
-    Beside,
+    Adjacent,
     /// A moving link where it does its work.
     Pose,
     /// The ground.
@@ -131,7 +131,7 @@ impl Line {
     }
 }
 
-impl Machine {
+impl LinkedMachine {
     /// Adds a sketch, or finds the one of that name.
     pub fn sketch(&mut self, name: &str, lines: Vec<Line>) -> usize {
         let known = self.sketches.iter().position(|s| s.name == name);

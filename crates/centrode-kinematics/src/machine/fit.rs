@@ -1,7 +1,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::Machine;
+use super::LinkedMachine;
 
 /// Upper ends of the ranges of nominal sizes, mm.
 const RANGES: [f64; 13] = [
@@ -224,13 +224,13 @@ impl Fit {
     /// the size is beyond the tables of [`limits_of_size`].
     #[must_use]
     pub fn clearance(&self) -> Option<[f64; 2]> {
-        let [least, greatest] = limits_of_size(self.size, &self.hole)?;
+        let [minimum, maximum] = limits_of_size(self.size, &self.hole)?;
         let [thin, thick] = limits_of_size(self.size, &self.shaft)?;
-        Some([least - thick, greatest - thin])
+        Some([minimum - thick, maximum - thin])
     }
 }
 
-impl Machine {
+impl LinkedMachine {
     /// Adds a fit, or its name to that of one alike.
     pub fn fit(&mut self, fit: Fit) {
         let alike = |known: &&mut Fit| {
@@ -405,12 +405,12 @@ mod tests {
     #[test]
     fn clearance_is_least_of_the_smallest_hole_and_the_thickest_shaft() {
         let fit = |hole: &str, shaft: &str| Fit::new("pin", 10.0, [hole, shaft]);
-        let [least, greatest] = fit("H8", "f7").clearance().expect("known classes");
-        assert!((least - 0.013).abs() < 1e-12 && (greatest - 0.05).abs() < 1e-12);
-        let [least, greatest] = fit("H7", "p6").clearance().expect("known classes");
-        assert!((least + 0.024).abs() < 1e-12 && greatest.abs() < 1e-12);
+        let [minimum, maximum] = fit("H8", "f7").clearance().expect("known classes");
+        assert!((minimum - 0.013).abs() < 1e-12 && (maximum - 0.05).abs() < 1e-12);
+        let [minimum, maximum] = fit("H7", "p6").clearance().expect("known classes");
+        assert!((minimum + 0.024).abs() < 1e-12 && maximum.abs() < 1e-12);
         assert_eq!(fit("H8", "").clearance(), None);
-        let mut machine = Machine::default();
+        let mut machine = LinkedMachine::default();
         let named = |name: &str| Fit {
             name: name.into(),
             ..fit("H8", "f7")

@@ -1,6 +1,6 @@
 //! The machine: rigid links in a tree of joints, each of which follows a transmission of the one input.
 //!
-//! Posing, motion tables, forces, simulator models, pictures, parts lists, arrangements and interference read a [`Machine`]
+//! Posing, motion tables, forces, simulator models, pictures, parts lists, arrangements and interference read a [`LinkedMachine`]
 //! and nothing else. Loops are closed when it is made: the joints' laws already hold them, and the closures stay known.
 
 mod arrangement;
@@ -20,11 +20,11 @@ mod mount;
 mod part;
 mod plain;
 mod pose;
-mod sound;
 mod spacer;
 mod standard;
 mod stock;
 mod turned;
+mod validate;
 
 use std::fmt;
 use std::sync::Arc;
@@ -51,7 +51,6 @@ pub use law::{Constant, Linear, Piecewise};
 pub use load::{Axes, Load, STANDARD_GRAVITY};
 pub use mount::Fastener;
 pub use part::{Part, Supply};
-pub use sound::{MachineError, loose_link};
 pub use spacer::{Spacer, SpacerKind};
 pub use standard::{
     Bearing, Circlip, Dowel, Key, Keyway, Screw, allowed_pressure, hole_class, screw_size,
@@ -59,11 +58,12 @@ pub use standard::{
 };
 pub use stock::Stock;
 pub use turned::{HeldLength, SeatedKey, TurnedPart, TurnedPiece, TurnedPieces, TurnedStep};
+pub use validate::{LinkedMachineError, loose_link};
 
 /// Rigid links, and how each of them moves with the one input.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]
 #[serde(deny_unknown_fields)]
-pub struct Machine {
+pub struct LinkedMachine {
     /// Name, as in the design.
     pub name: String,
     /// Title, as in the design; may be empty.
@@ -320,7 +320,7 @@ pub struct Surface {
     pub coarseness: f64,
 }
 
-impl Machine {
+impl LinkedMachine {
     /// Adds a link.
     pub fn link(&mut self, link: Link) -> usize {
         self.links.push(link);

@@ -6,7 +6,8 @@ use centrode_geometry::{MassProperties, Solid};
 use nalgebra::Point3;
 
 use super::{
-    Blank, Form, Link, Machine, Mounted, Part, Shape, SpacerKind, Supply, TurnedPiece, TurnedPieces,
+    Blank, Form, Link, LinkedMachine, Mounted, Part, Shape, SpacerKind, Supply, TurnedPiece,
+    TurnedPieces,
 };
 
 /// Density of rings, keys and bearings: steel, kg/m^3.
@@ -105,7 +106,7 @@ impl Link {
     }
 }
 
-impl Machine {
+impl LinkedMachine {
     /// Mounts the pieces of a turned part on their links and lists it, under a remark, with the rings, keys and bearings that
     /// are bought and the sleeves that are made for it; its number points to its rim.
     pub fn add_turned(&mut self, all: &TurnedPieces, remark: String) {

@@ -2,7 +2,7 @@ use centrode_geometry::MassProperties;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Blank, Machine, Place};
+use super::{Blank, LinkedMachine, Place};
 
 /// Part that a shop makes or buys: a line of the parts list.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -78,7 +78,7 @@ impl Part {
     }
 }
 
-impl Machine {
+impl LinkedMachine {
     /// Adds a part with its pieces; of one that is not made, or one made from the sheet of another, more pieces to that of its
     /// name and remark.
     pub fn part(&mut self, part: Part) -> usize {
@@ -108,8 +108,8 @@ impl Machine {
     #[must_use]
     pub fn mass_properties(&self, input: f64) -> Option<MassProperties> {
         let own = |link: &usize| self.parts.iter().any(|part| part.links.contains(link));
-        let wanted = vec![true; self.links.len()];
-        let places = self.places(input, &wanted);
+        let required = vec![true; self.links.len()];
+        let places = self.places(input, &required);
         let placed = (0..self.links.len()).filter(own).filter_map(|link| {
             let place = places[link].as_ref()?;
             Some(self.links[link].mass?.placed(place))

@@ -1,6 +1,6 @@
 use nalgebra::{Isometry3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
-use super::{FrameJet, Joint, JointKind, Machine, PointJet, Quantity};
+use super::{FrameJet, Joint, JointKind, LinkedMachine, PointJet, Quantity};
 use crate::transmission::MotionJet;
 
 impl Joint {
@@ -34,7 +34,7 @@ impl Joint {
     }
 }
 
-impl Machine {
+impl LinkedMachine {
     /// Where every link stands at an input, in the first link's frame, with derivatives by the input.
     #[must_use]
     pub fn pose(&self, input: f64) -> Vec<FrameJet> {
@@ -50,10 +50,10 @@ impl Machine {
 
     /// Where links stand at an input, in the first link's frame, without derivatives; none for those not wanted.
     #[must_use]
-    pub fn places(&self, input: f64, wanted: &[bool]) -> Vec<Option<Isometry3<f64>>> {
+    pub fn places(&self, input: f64, required: &[bool]) -> Vec<Option<Isometry3<f64>>> {
         self.hung(Isometry3::identity(), |parent, joint| {
-            let asked = wanted.get(joint.child) == Some(&true);
-            asked.then(|| parent * joint.place(joint.law.at(input).position))
+            let requested = required.get(joint.child) == Some(&true);
+            requested.then(|| parent * joint.place(joint.law.at(input).position))
         })
     }
 

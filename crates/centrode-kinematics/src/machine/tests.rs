@@ -25,8 +25,8 @@ fn link(name: &str) -> Link {
 }
 
 /// An arm on a turning carrier with a rod that slides askew in it.
-fn machine() -> Machine {
-    let mut machine = Machine::default();
+fn machine() -> LinkedMachine {
+    let mut machine = LinkedMachine::default();
     let links = ["base", "carrier", "arm", "rod"].map(|name| machine.link(link(name)));
     machine.joint(
         Joint::turning(links[1], links[2], wavy(-2.0))
@@ -166,7 +166,7 @@ fn mesh(angle: f64) -> GearMesh {
 
 #[test]
 fn what_does_not_hang_together_is_refused_by_name() {
-    let sound = || Machine {
+    let sound = || LinkedMachine {
         input: Input {
             period: TAU,
             speed: 1.0,
@@ -175,12 +175,12 @@ fn what_does_not_hang_together_is_refused_by_name() {
         ..machine()
     };
     assert_eq!(sound().validate(), Ok(()));
-    let refused = |change: fn(&mut Machine)| {
+    let refused = |change: fn(&mut LinkedMachine)| {
         let mut machine = sound();
         change(&mut machine);
         machine.validate().expect_err("refused").to_string()
     };
-    type Change = fn(&mut Machine);
+    type Change = fn(&mut LinkedMachine);
     let cases: [(Change, &str); 12] = [
         (
             |m| m.points[0].link = 9,
@@ -309,7 +309,7 @@ fn parts_and_arrangement_name_only_what_is_there() {
         machine
     };
     assert_eq!(sound().validate(), Ok(()));
-    let told = |change: &dyn Fn(&mut Machine)| {
+    let stated = |change: &dyn Fn(&mut LinkedMachine)| {
         let mut machine = sound();
         change(&mut machine);
         machine.validate().expect_err("unsound").to_string()
@@ -319,15 +319,15 @@ fn parts_and_arrangement_name_only_what_is_there() {
         at: [0.0; 2],
     };
     assert_eq!(
-        told(&|machine| machine.parts[0].links.push(9)),
+        stated(&|machine| machine.parts[0].links.push(9)),
         "part \"plate\" names link 9, of which there are 4"
     );
     assert_eq!(
-        told(&|machine| machine.parts[0].place = Some(place)),
+        stated(&|machine| machine.parts[0].place = Some(place)),
         "part \"plate\" names figure 3, of which there are 0"
     );
     assert_eq!(
-        told(&|machine| machine.parts[0].mass = Some(-1.0)),
+        stated(&|machine| machine.parts[0].mass = Some(-1.0)),
         "the mass of the part \"plate\" is -1"
     );
     let dimension = Dimension {
@@ -335,11 +335,11 @@ fn parts_and_arrangement_name_only_what_is_there() {
         along: Axis::X,
     };
     assert_eq!(
-        told(&|machine| machine.arrangement.dimensions.push(dimension)),
+        stated(&|machine| machine.arrangement.dimensions.push(dimension)),
         "the arrangement names figure 3, of which there are 0"
     );
     assert_eq!(
-        told(&|machine| machine.arrangement.columns.push(1)),
+        stated(&|machine| machine.arrangement.columns.push(1)),
         "the arrangement names column 1, of which there are 0"
     );
 }

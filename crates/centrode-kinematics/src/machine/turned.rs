@@ -317,11 +317,11 @@ mod tests {
             let bar = Bar::new(16.0, "h6", [0.0, 60.0]).ring(0.0, false, 9.0);
             let bar = bar.ring(15.0, true, 2.0).through(parts);
             let shaft = bar.part(["shaft", "Shaft"], STEEL, general);
-            let told = |held: &HeldLength| {
+            let stated = |held: &HeldLength| {
                 let long = held.span[1] - held.span[0];
                 ((1e6 * long).round() / 1e6, held.deviations)
             };
-            let all: Vec<(f64, [f64; 2])> = shaft.held.iter().map(told).collect();
+            let all: Vec<(f64, [f64; 2])> = shaft.held.iter().map(stated).collect();
             // What lies beyond keeps its length.
             let longer: f64 = all.iter().map(|(long, _)| long - 15.0).sum();
             assert!((shaft.length() - 62.3 - longer).abs() < 1e-9);

@@ -126,11 +126,11 @@ mod tests {
     fn a_swing_passes_a_break_on_its_way_there_and_back() {
         let chain = Chain::new(broken_at(1.0), swing()).expect("a swing comes back");
         let half = 0.5_f64.asin();
-        let wanted = [half, std::f64::consts::PI - half];
+        let required = [half, std::f64::consts::PI - half];
         assert_eq!(chain.advance(), 0.0);
         let found = chain.breaks();
         assert_eq!(found.len(), 2, "{found:?}");
-        for (one, other) in found.iter().zip(wanted) {
+        for (one, other) in found.iter().zip(required) {
             assert!((one - other).abs() < 1e-14);
         }
     }

@@ -22,9 +22,9 @@ impl Inverse {
     /// [`TransmissionError::StandsStill`] where its velocity is zero or against its advance, sampled
     /// at a thousand inputs and at its breaks.
     pub fn new(of: Arc<dyn Transmission>) -> Result<Self, TransmissionError> {
-        const LOOKS: u32 = 1000;
+        const SAMPLES: u32 = 1000;
         let (period, way) = (of.period(), of.advance().signum());
-        let even = (0..=LOOKS).map(|i| period * f64::from(i) / f64::from(LOOKS));
+        let even = (0..=SAMPLES).map(|i| period * f64::from(i) / f64::from(SAMPLES));
         let mut inputs: Vec<f64> = even.chain(of.breaks()).collect();
         inputs.retain(|input| (0.0..=period).contains(input));
         inputs.sort_by(f64::total_cmp);

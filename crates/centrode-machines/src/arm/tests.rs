@@ -139,9 +139,9 @@ fn an_arm_that_cannot_be_is_refused_by_name() {
 #[test]
 fn random_arms_are_simple_or_refused() {
     let mut seed = 3_u64;
-    let mut size = |least: f64, greatest: f64| {
+    let mut size = |minimum: f64, maximum: f64| {
         seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
-        least + (greatest - least) * (seed >> 11) as f64 / (1_u64 << 53) as f64
+        minimum + (maximum - minimum) * (seed >> 11) as f64 / (1_u64 << 53) as f64
     };
     let (mut made, mut refused) = (0, 0);
     for _ in 0..2000 {

@@ -5,13 +5,10 @@ use serde::{Deserialize, Serialize};
 
 use super::{Dimension, DimensionSearchSpec, GearsSpec, PlatesSpec};
 use centrode_kinematics::linkage::Branch;
-use centrode_spec::SpecError;
-use centrode_spec::degrees;
-use centrode_spec::rule::in_range;
 use centrode_spec::rule::{
-    Rule, broken, count_in_range, file_name, finite, not_negative, positive, single_line,
+    Rule, broken, count_in_range, file_name, finite, in_range, not_negative, positive, single_line,
 };
-use centrode_spec::{DesignSpec, DrawingSpec};
+use centrode_spec::{DesignSpec, DrawingSpec, SpecError, degrees};
 
 /// A feeder: a picking six-bar driven through an intermittent gear by a chain from a motor.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -198,11 +195,11 @@ impl BoundsSpec {
     }
 
     fn validate(&self) -> Result<(), SpecError> {
-        for (key, [least, greatest]) in self.named() {
-            positive(key, least)?;
-            finite(key, greatest)?;
-            if least >= greatest {
-                return broken(key, Rule::NotInOrder(least, greatest));
+        for (key, [minimum, maximum]) in self.named() {
+            positive(key, minimum)?;
+            finite(key, maximum)?;
+            if minimum >= maximum {
+                return broken(key, Rule::NotInOrder(minimum, maximum));
             }
         }
         Ok(())

@@ -2,8 +2,7 @@ use thiserror::Error;
 
 use centrode_gear::{IntermittentError, IntermittentPairError};
 use centrode_kinematics::linkage::{FourBarError, SixBarError};
-use centrode_spec::MechanismError;
-use centrode_spec::SpecError;
+use centrode_spec::{MechanismError, SpecError};
 
 /// Error of a feeder that cannot be made.
 #[derive(Clone, Debug, Error, PartialEq)]

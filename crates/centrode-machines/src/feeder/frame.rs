@@ -122,7 +122,7 @@ impl Feeder {
         let [a, d, f, g] = self.on_frame();
         let half = 0.5 * spec.width + spec.gap;
         let far = self.six_bar().effector_length();
-        let far = far.max(self.six_bar().greatest_slider_distance() + spec.slider_length);
+        let far = far.max(self.six_bar().maximum_slider_distance() + spec.slider_length);
         // What is farthest off moves by half a step of its own turn between two places.
         let step = 0.5 * TAU / f64::from(PLACES);
         let mut taken = Vec::new();

@@ -6,11 +6,9 @@ use serde::{Deserialize, Serialize};
 use centrode_gear::design::{BodySpec, GearPairDesign, TeethSpec};
 use centrode_gear::pitch::{Circle, PitchSpec};
 use centrode_gear::{IntermittentDrive, IntermittentError, IntermittentPairSpec, Pins};
-use centrode_kinematics::machine::Keyway;
-use centrode_kinematics::machine::preferred_size;
-use centrode_spec::SpecError;
-use centrode_spec::degrees;
+use centrode_kinematics::machine::{Keyway, preferred_size};
 use centrode_spec::rule::{count_in_range, in_range, not_negative, positive};
+use centrode_spec::{SpecError, degrees};
 
 /// The intermittent gear and its mate as written.
 ///

@@ -6,7 +6,7 @@ use nalgebra::Isometry2;
 
 use super::{Feeder, FeederPart, Plate};
 use centrode_kinematics::machine::{
-    Closure, Input, Joint, Link, LinkPoint, Load, Machine, STANDARD_GRAVITY,
+    Closure, Input, Joint, Link, LinkPoint, LinkedMachine, Load, STANDARD_GRAVITY,
 };
 use centrode_kinematics::transmission::{FromFn, MotionJet, Transmission};
 
@@ -42,9 +42,9 @@ impl Feeder {
     /// effector rests, every joint zero there. The y axis points up. The coupler closes the loop first, the slider second,
     /// both on the rocker at C. The first point is the tip.
     #[must_use]
-    pub fn links(&self, carried: f64) -> Machine {
+    pub fn links(&self, carried: f64) -> LinkedMachine {
         let design = self.design();
-        let mut machine = Machine {
+        let mut machine = LinkedMachine {
             name: design.name.clone(),
             title: design.title.clone(),
             input: Input {
@@ -53,7 +53,7 @@ impl Feeder {
                 speed: self.speed(),
             },
             gravity: [0.0, -STANDARD_GRAVITY, 0.0],
-            ..Machine::default()
+            ..LinkedMachine::default()
         };
         let rest = |part: FeederPart| self.place(part, self.start()).translation.vector;
         for part in FeederPart::ALL {
@@ -137,8 +137,8 @@ impl Feeder {
         // As far as the slot lets it.
         let clearance = self.design().plates.slot_clearance;
         let range = [
-            bar.least_slider_distance() - now - clearance,
-            bar.greatest_slider_distance() - now + clearance,
+            bar.minimum_slider_distance() - now - clearance,
+            bar.maximum_slider_distance() - now + clearance,
         ];
         ([along.x, along.y, 0.0], range)
     }

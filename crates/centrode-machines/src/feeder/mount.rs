@@ -4,7 +4,7 @@ use centrode_geometry::{Outline, Recent, Solid, SolidError, Tolerance};
 
 use super::{Feeder, FeederPart, GearsSpec};
 use centrode_gear::IntermittentPair;
-use centrode_kinematics::machine::{Form, Joint, Linear, Link, Machine, Quantity, Shape};
+use centrode_kinematics::machine::{Form, Joint, Linear, Link, LinkedMachine, Quantity, Shape};
 
 /// Name of the intermittent gear: of its files and its link.
 const DRIVER: &str = "gear-driver";
@@ -103,7 +103,7 @@ impl Feeder {
     ///
     /// # Errors
     /// [`SolidError`] where a gear encloses no volume.
-    pub fn mount_gears(&self, machine: &mut Machine) -> Result<(), SolidError> {
+    pub fn mount_gears(&self, machine: &mut LinkedMachine) -> Result<(), SolidError> {
         let Some(bodies) = self.gear_bodies() else {
             return Ok(());
         };

@@ -267,8 +267,8 @@ impl Feeder {
     fn slot(&self) -> Result<[f64; 2], FeederError> {
         let spec = &self.design().plates;
         let more = 0.5 * spec.slider_length + spec.slot_clearance;
-        let start = self.six_bar().least_slider_distance() - more;
-        let end = self.six_bar().greatest_slider_distance() + more;
+        let start = self.six_bar().minimum_slider_distance() - more;
+        let end = self.six_bar().maximum_slider_distance() + more;
         let radius = 0.5 * spec.pin_diameter;
         if start <= radius {
             return Err(FeederError::SlotMeetsPivot { start, radius });

@@ -1,8 +1,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use centrode_kinematics::machine::Stock;
-use centrode_kinematics::machine::{hole_class, screw_size, shaft_class};
+use centrode_kinematics::machine::{Stock, hole_class, screw_size, shaft_class};
 use centrode_spec::SpecError;
 use centrode_spec::rule::{in_range, not_negative, positive, single_line};
 

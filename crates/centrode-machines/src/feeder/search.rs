@@ -2,9 +2,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Dimension, FeederDesign};
-use centrode_spec::SpecError;
-use centrode_spec::degrees;
 use centrode_spec::rule::{Rule, broken, count_in_range, not_negative, positive};
+use centrode_spec::{SpecError, degrees};
 
 /// Variables of a search for better dimensions, their resolution, and the end of the search.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]

@@ -32,8 +32,7 @@ pub use trajectory::{Extreme, PickingRule, PlantingRule, Trajectory};
 pub use tray::TrayBody;
 
 use centrode_gear::{FlankCount, GearPair, GearPairError, Member, Rolling};
-use centrode_spec::MechanismError;
-use centrode_spec::SpecError;
+use centrode_spec::{MechanismError, SpecError};
 use design::ThreeArmDesign;
 
 /// A three-arm transplanting mechanism, resolved: exact pitch curves, exact motion of every link.
@@ -57,15 +56,15 @@ pub enum ThreeArmError {
     Gears(#[from] GearPairError),
     /// No arm passes the tray's surface.
     #[error(
-        "tray.distance is {distance} mm, but the arms reach only from {least} to {greatest} mm in that direction"
+        "tray.distance is {distance} mm, but the arms reach only from {minimum} to {maximum} mm in that direction"
     )]
     TrayOutOfReach {
         /// Distance as written, mm.
         distance: f64,
         /// Least reach of the tip, mm.
-        least: f64,
+        minimum: f64,
         /// Greatest reach, mm.
-        greatest: f64,
+        maximum: f64,
     },
 }
 

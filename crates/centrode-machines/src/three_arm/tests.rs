@@ -297,7 +297,7 @@ fn seedlings_are_as_near_as_brute_force_finds_them() {
         };
         let stem = over(release).x;
         let top = mechanism.ground() + height;
-        let mut least = f64::INFINITY;
+        let mut minimum = f64::INFINITY;
         for i in -3600..3600 {
             let input = release + PI * f64::from(i) / 3600.0;
             let direction = mechanism.clamp(input, 0).position;
@@ -309,19 +309,19 @@ fn seedlings_are_as_near_as_brute_force_finds_them() {
                     continue;
                 }
                 if i >= 0 {
-                    least = least.min(stem + 2.0 - point.x);
+                    minimum = minimum.min(stem + 2.0 - point.x);
                 }
-                least = least.min(point.x - (stem - spacing + 2.0));
+                minimum = minimum.min(point.x - (stem - spacing + 2.0));
             }
         }
         let found = mechanism.seedling_clearance();
         assert!(
-            found.value <= least + 1e-9,
-            "{spacing} {height}: {found:?} {least}"
+            found.value <= minimum + 1e-9,
+            "{spacing} {height}: {found:?} {minimum}"
         );
         assert!(
-            least - found.value < 0.5,
-            "{spacing} {height}: {found:?} {least}"
+            minimum - found.value < 0.5,
+            "{spacing} {height}: {found:?} {minimum}"
         );
     }
 }

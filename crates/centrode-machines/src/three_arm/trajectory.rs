@@ -55,7 +55,7 @@ pub struct Trajectory {
 }
 
 /// Number of inputs at which extremes are sampled before they are refined to the float limit.
-const LOOKS: u32 = 720;
+const SAMPLES: u32 = 720;
 
 /// Even samples of the tip's path: input, reach in a direction, reach by input.
 struct ReachSamples<'a> {
@@ -66,9 +66,9 @@ struct ReachSamples<'a> {
 
 /// Motion of the tip at each sampled input.
 fn tips(mechanism: &ThreeArm) -> Vec<(f64, PointMotion)> {
-    let input = |i: u32| TAU * f64::from(i) / f64::from(LOOKS);
+    let input = |i: u32| TAU * f64::from(i) / f64::from(SAMPLES);
     let look = |i| (input(i), mechanism.tip(input(i), 0));
-    (0..=LOOKS).map(look).collect()
+    (0..=SAMPLES).map(look).collect()
 }
 
 impl<'a> ReachSamples<'a> {
@@ -156,8 +156,8 @@ impl Trajectory {
                 let found = towards.entering(distance, farthest.input);
                 let input = found.ok_or_else(|| ThreeArmError::TrayOutOfReach {
                     distance,
-                    least: towards.extreme(-1.0).reach,
-                    greatest: farthest.reach,
+                    minimum: towards.extreme(-1.0).reach,
+                    maximum: farthest.reach,
                 })?;
                 (input, PickingRule::EntersTray)
             }

@@ -32,9 +32,9 @@ pub(super) fn turned(document: &DocumentMut, word: &str) -> Option<DocumentMut> 
         return None;
     }
     let template = FAMILIES.template(word)?;
-    let wanted = entries(template, &old);
+    let required = entries(template, &old);
     let start: DocumentMut = template.parse().ok()?;
-    let (kept, lost) = with_as_many(start, &wanted);
+    let (kept, lost) = with_as_many(start, &required);
     // A key that did not fit beside another may fit by now.
     Some(with_as_many(kept, &lost).0)
 }
@@ -124,19 +124,19 @@ fn same_end(one: &str, other: &str) -> bool {
 }
 
 /// Design with as many of the entries as leave it a mechanism, and those that do not.
-fn with_as_many(start: DocumentMut, wanted: &[Entry]) -> (DocumentMut, Vec<Entry>) {
-    if wanted.is_empty() {
+fn with_as_many(start: DocumentMut, required: &[Entry]) -> (DocumentMut, Vec<Entry>) {
+    if required.is_empty() {
         return (start, Vec::new());
     }
     let sound = |made: &DocumentMut| mechanism(&made.to_string()).is_ok();
     let mut made = start.clone();
-    let all = wanted
+    let all = required
         .iter()
         .all(|(key, value)| put(&mut made, key, value).is_some());
     if all && sound(&made) {
         return (made, Vec::new());
     }
-    if let [(key, value)] = wanted {
+    if let [(key, value)] = required {
         // The size of a curve may be given elsewhere.
         let sized = ["tooth_count", "module", "diametral_pitch"];
         for left in 1..=sized.len() {
@@ -151,9 +151,9 @@ fn with_as_many(start: DocumentMut, wanted: &[Entry]) -> (DocumentMut, Vec<Entry
                 return (made, Vec::new());
             }
         }
-        return (start, wanted.to_vec());
+        return (start, required.to_vec());
     }
-    let (first, second) = wanted.split_at(wanted.len() / 2);
+    let (first, second) = required.split_at(required.len() / 2);
     let (made, mut lost) = with_as_many(start, first);
     let (made, more) = with_as_many(made, second);
     lost.extend(more);

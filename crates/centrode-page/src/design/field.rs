@@ -52,9 +52,9 @@ pub(crate) struct Field {
     #[serde(skip)]
     pub(crate) detail: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
-    least: Option<f64>,
+    minimum: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
-    greatest: Option<f64>,
+    maximum: Option<f64>,
 }
 
 impl Field {
@@ -130,7 +130,7 @@ pub(crate) fn tables(text: &str) -> Vec<Table> {
 
 /// Keys allowed in a table beside a tag of the given word, with their defaults, null where there is none;
 /// `None` where the table has no such tag.
-pub(crate) fn keys_beside(text: &str, table: &str, word: &str) -> Option<Map<String, Value>> {
+pub(crate) fn keys_next_to(text: &str, table: &str, word: &str) -> Option<Map<String, Value>> {
     let written = serde_json::to_value(text.parse::<toml::Table>().ok()?).ok()?;
     let mut here = schema();
     let mut value = written;
@@ -235,8 +235,8 @@ fn add(
             value,
             optional: false,
             detail: false,
-            least: None,
-            greatest: None,
+            minimum: None,
+            maximum: None,
         });
     }
     for (name, sub) in properties
@@ -274,8 +274,8 @@ fn add(
                     written: own.is_some(),
                     optional: !required,
                     detail: marked(schema(), sub, DETAIL).is_some(),
-                    least: leaf.least,
-                    greatest: leaf.greatest,
+                    minimum: leaf.minimum,
+                    maximum: leaf.maximum,
                 });
             }
         }
@@ -394,8 +394,8 @@ mod tests {
     #[test]
     fn a_kind_knows_what_stands_beside_it() {
         let text = "family = \"gear-pair\"\n[pitch]\nkind = \"ellipse\"\n";
-        let keys = keys_beside(text, "pitch", "circle").expect("tagged");
+        let keys = keys_next_to(text, "pitch", "circle").expect("tagged");
         assert!(keys.contains_key("radius") && !keys.contains_key("eccentricity"));
-        assert_eq!(keys_beside(text, "teeth", "circle"), None);
+        assert_eq!(keys_next_to(text, "teeth", "circle"), None);
     }
 }

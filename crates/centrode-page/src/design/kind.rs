@@ -1,5 +1,5 @@
 use super::edit::{Step, container, written};
-use super::field::{Field, keys_beside, tables};
+use super::field::{Field, keys_next_to, tables};
 use super::start::{Measures, starts};
 use centrode_families::FAMILIES;
 use centrode_spec::DesignError;
@@ -16,7 +16,7 @@ pub(super) const MOST: usize = 3;
 pub(super) fn switched(document: &DocumentMut, steps: &[Step], kind: &str) -> Option<DocumentMut> {
     let text = document.to_string();
     let names: Vec<&str> = steps.iter().filter_map(Step::name).collect();
-    let keys = keys_beside(&text, &names.join("."), kind)?;
+    let keys = keys_next_to(&text, &names.join("."), kind)?;
     let design = serde_json::to_value(text.parse::<toml::Table>().ok()?).ok()?;
     let mut old = &design;
     for name in &names {
@@ -226,11 +226,11 @@ pub(super) mod tests {
             assert_eq!(words.len(), 3, "{name}");
             for to in &words {
                 if let Err(error) = mechanism(&changed(text, key, to)) {
-                    let told = error.to_string();
-                    let carries = swings(own) && !swings(to) && told.contains("gear");
+                    let stated = error.to_string();
+                    let carries = swings(own) && !swings(to) && stated.contains("gear");
                     assert!(
                         carries || error.key.starts_with(cam),
-                        "{name}: {to}: {told}"
+                        "{name}: {to}: {stated}"
                     );
                 }
             }

@@ -1,12 +1,12 @@
 //! Snapshot of a design for the page: its numbers, picture, curves, figures and findings, as one JSON value.
 
-mod composed;
 mod detail;
 mod edit;
 mod family;
 mod field;
 mod follower;
 mod kind;
+mod machine;
 mod plane;
 mod schema;
 mod snapshot;

@@ -21,8 +21,8 @@ pub(super) enum Requirements<'a> {
 pub(super) struct Leaf {
     pub(super) kind: Kind,
     pub(super) choices: Vec<Choice>,
-    pub(super) least: Option<f64>,
-    pub(super) greatest: Option<f64>,
+    pub(super) minimum: Option<f64>,
+    pub(super) maximum: Option<f64>,
 }
 
 /// Requirements of the schema `sub`, a part of `root`, where `value` is written.
@@ -167,8 +167,8 @@ fn choice(options: &[&Value]) -> Leaf {
     Leaf {
         kind,
         choices,
-        least: None,
-        greatest: None,
+        minimum: None,
+        maximum: None,
     }
 }
 
@@ -194,8 +194,8 @@ fn leaf(root: &Value, sub: &Value) -> Leaf {
     Leaf {
         kind,
         choices: Vec::new(),
-        least: bound(["minimum", "exclusiveMinimum"]),
-        greatest: bound(["maximum", "exclusiveMaximum"]),
+        minimum: bound(["minimum", "exclusiveMinimum"]),
+        maximum: bound(["maximum", "exclusiveMaximum"]),
     }
 }
 

@@ -31,7 +31,7 @@ pub struct Snapshot {
     /// Whether its goals are told before the rest of the checks.
     goals_first: bool,
     #[serde(skip)]
-    beside: Beside,
+    beside: Adjacent,
     /// Speed of the input, rad/s, where the design has one.
     speed: Option<f64>,
     verdict: Option<Verdict>,
@@ -39,7 +39,7 @@ pub struct Snapshot {
 
 /// Numbers and curves, which the eye has after the picture.
 #[derive(Clone, Debug, Default)]
-struct Beside {
+struct Adjacent {
     /// The numbers of the design, table by table.
     tables: Vec<Table>,
     curves: Vec<Curve>,
@@ -127,7 +127,7 @@ pub(super) fn resolved(text: &str) -> Result<Arc<dyn Mechanism>, DesignError> {
 pub struct Subject {
     snapshot: Snapshot,
     mechanism: Arc<dyn Mechanism>,
-    beside: OnceLock<Beside>,
+    beside: OnceLock<Adjacent>,
     /// Picture in detail, once it has been asked for.
     detailed: OnceLock<Option<Picture>>,
 }
@@ -139,7 +139,7 @@ impl Snapshot {
         let curves = Vec::new();
         Self {
             text,
-            beside: Beside { tables, curves },
+            beside: Adjacent { tables, curves },
             ..Self::default()
         }
     }
@@ -200,7 +200,7 @@ impl Snapshot {
     }
 }
 
-impl Beside {
+impl Adjacent {
     fn json(&self) -> serde_json::Result<String> {
         let tables = serde_json::to_string(&self.tables)?;
         let curves = serde_json::to_string(&CurveList(&self.curves))?;
@@ -274,9 +274,9 @@ impl Subject {
         Ok(())
     }
 
-    fn beside(&self) -> &Beside {
+    fn beside(&self) -> &Adjacent {
         // By one thread: the browser draws the picture meanwhile.
-        self.beside.get_or_init(|| Beside {
+        self.beside.get_or_init(|| Adjacent {
             tables: tables(&self.snapshot.text),
             curves: self.mechanism.curves(),
         })

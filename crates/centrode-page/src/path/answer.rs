@@ -1,5 +1,5 @@
+use super::cache::Cached;
 use super::drawing::{self, Drawing, mark};
-use super::sought::Kept;
 use super::wish::{Wish, points};
 use crate::reverse::words::Labelled;
 use crate::reverse::{sharpest, words};
@@ -9,7 +9,7 @@ use centrode_gear::Limits;
 use centrode_geometry::Point;
 use centrode_synthesis::optimise::reached;
 use centrode_synthesis::reverse::{
-    AxisFault, PathDesign, PathError, ReversedMachine, Split, SplitKind, TwoBar, WantedPath,
+    AxisFault, PathDesign, PathError, RequiredPath, ReversedMachine, Split, SplitKind, TwoBar,
 };
 use serde::Serialize;
 use std::ops::ControlFlow;
@@ -70,27 +70,27 @@ impl Answer {
             Err(reason) => return Self::without(Picture::default(), "wish", reason),
         };
         let passed = points(&design);
-        let wanted = match WantedPath::through(&passed) {
-            Ok(wanted) => wanted,
+        let required = match RequiredPath::through(&passed) {
+            Ok(required) => required,
             Err(error) => return Self::no_path(&passed, &error),
         };
-        if let (false, Err(error)) = (design.path.crossing, wanted.check_simple()) {
-            return Self::crossing(&wanted, &error);
+        if let (false, Err(error)) = (design.path.crossing, required.check_simple()) {
+            return Self::crossing(&required, &error);
         }
         let Some(axis) = design.axis else {
             let words = "the axis is missing".to_owned();
-            return Self::without(drawing::path(&wanted, Vec::new()), "axis", words);
+            return Self::without(drawing::path(&required, Vec::new()), "axis", words);
         };
-        let chain = match TwoBar::new(&wanted, axis.into(), None) {
+        let chain = match TwoBar::new(&required, axis.into(), None) {
             Ok(chain) => chain,
             Err(fault) => {
-                let picture = drawing::path(&wanted, places(&fault));
+                let picture = drawing::path(&required, places(&fault));
                 return Self::without(picture, "axis", fault.to_string());
             }
         };
         let answer = Self::of_chain(&design, &chain, ask.rest);
         let mut answer = answer.unwrap_or_else(|reason| {
-            let mut answer = Self::without(drawing::path(&wanted, Vec::new()), "split", reason);
+            let mut answer = Self::without(drawing::path(&required, Vec::new()), "split", reason);
             answer.figures = figures(&chain, None);
             answer
         });
@@ -109,16 +109,16 @@ impl Answer {
     /// The reason in words if there is no machine.
     pub fn found(
         ask: &Wish,
-        kept: &Kept,
+        kept: &Cached,
         observe: &mut dyn FnMut(u64) -> ControlFlow<()>,
     ) -> Result<Self, String> {
         let design = ask.design()?;
         let found = kept.found(ask, observe)?;
         let mut answer = Self::of_chain(&design, &found.chain, true)?;
-        let told = found.told.iter();
+        let stated = found.stated.iter();
         answer
             .figures
-            .extend(told.map(|(name, words)| figure(name, words.clone())));
+            .extend(stated.map(|(name, words)| figure(name, words.clone())));
         answer.goals = goals(&found.goals);
         answer.findings = found.findings.iter().map(words::finding).collect();
         Ok(answer)
@@ -157,12 +157,12 @@ impl Answer {
         Self::without(picture, "path", error.to_string())
     }
 
-    fn crossing(wanted: &WantedPath, error: &PathError) -> Self {
+    fn crossing(required: &RequiredPath, error: &PathError) -> Self {
         let mut marks = Vec::new();
         if let PathError::Crossing { x, y } = error {
             marks.push(mark("crosses itself", Point::new(*x, *y)));
         }
-        let picture = drawing::path(wanted, marks);
+        let picture = drawing::path(required, marks);
         Self::without(picture, "path", error.to_string())
     }
 }
@@ -202,10 +202,10 @@ fn figures(chain: &TwoBar, bend: Option<f64>) -> Vec<Figure> {
 fn rested(chain: &TwoBar, split: &Split, design: &PathDesign) -> Result<Vec<Figure>, String> {
     let made = ReversedMachine::new(chain, split, design.arms, design.steps);
     let made = made.map_err(|error| error.to_string())?;
-    let (name, words) = words::least_radius(&made);
+    let (name, words) = words::minimum_radius(&made);
     let mut found = vec![figure(name, words)];
-    let pairs = made.design.pairs.keys().zip(&made.least_radii);
-    let pairs = pairs.map(|(name, radii)| words::least_radii(name, *radii));
+    let pairs = made.design.pairs.keys().zip(&made.minimum_radii);
+    let pairs = pairs.map(|(name, radii)| words::minimum_radii(name, *radii));
     found.extend(pairs.map(|(name, words)| figure(&name, words)));
     let (name, words) = words::tip_error(&made);
     found.push(figure(name, words));

@@ -3,7 +3,7 @@ use centrode_export::picture::{Curve, Mark, Motion, Path, Picture, PictureLink};
 use centrode_geometry::{Bounds, Point, Vector};
 use centrode_kinematics::machine::LineRole;
 use centrode_kinematics::transmission::{Inverse, Transmission as _, TransmissionError};
-use centrode_synthesis::reverse::{AxisRange, Split, TwoBar, WantedPath};
+use centrode_synthesis::reverse::{AxisRange, RequiredPath, Split, TwoBar};
 use std::f64::consts::{PI, TAU};
 
 /// Samples of the path.
@@ -14,11 +14,11 @@ const MOMENTS: u32 = 120;
 const DIGITS: [f64; 2] = [1e3, 1e5];
 
 /// The path alone, with places on it.
-pub(super) fn path(wanted: &WantedPath, marks: Vec<Mark>) -> Picture {
-    let range = AxisRange::about(wanted);
+pub(super) fn path(required: &RequiredPath, marks: Vec<Mark>) -> Picture {
+    let range = AxisRange::about(required);
     let at = |i: u32| {
-        wanted
-            .at(wanted.period() * f64::from(i) / f64::from(SAMPLES))
+        required
+            .at(required.period() * f64::from(i) / f64::from(SAMPLES))
             .point
     };
     let points: Vec<Point> = (0..SAMPLES).map(at).collect();
@@ -29,7 +29,7 @@ pub(super) fn path(wanted: &WantedPath, marks: Vec<Mark>) -> Picture {
 pub(super) fn polygon(points: &[Point], marks: Vec<Mark>) -> Picture {
     let bounds: Bounds = points.iter().copied().collect();
     let [x, y] = [[bounds.min.x, bounds.max.x], [bounds.min.y, bounds.max.y]];
-    still(points, LineRole::Beside, [x, y], marks)
+    still(points, LineRole::Adjacent, [x, y], marks)
 }
 
 fn still(points: &[Point], role: LineRole, [x, y]: [[f64; 2]; 2], marks: Vec<Mark>) -> Picture {

@@ -43,7 +43,7 @@ impl Field {
     /// # Errors
     /// The reason in words if the points make no path, or the count is out of range.
     pub fn new(ask: &Ask) -> Result<Self, String> {
-        let wanted = path(&ask.points).map_err(|error| error.to_string())?;
+        let required = path(&ask.points).map_err(|error| error.to_string())?;
         if !(2..=MOST).contains(&ask.count) {
             return Err(format!(
                 "a map has 2 to {MOST} axes a side, not {}",
@@ -52,9 +52,9 @@ impl Field {
         }
         let range = AxisRange {
             count: [ask.count; 2],
-            ..AxisRange::about(&wanted)
+            ..AxisRange::about(&required)
         };
-        let map = AxisMap::new(&wanted, range);
+        let map = AxisMap::new(&required, range);
         let bend = ask.bend_deg.to_radians();
         let mut faults: Vec<(&'static str, &'static str, usize)> = Vec::new();
         let mut number = |fault: &AxisFault| {
@@ -88,7 +88,7 @@ impl Field {
             count: range.count,
             factor: figure(&|axis| axis.unevenness().exp()),
             ratios: ratios.collect(),
-            radius: figure(&|axis| axis.least_radius(bend)),
+            radius: figure(&|axis| axis.minimum_radius(bend)),
             fault,
             faults,
             possible: map.possible(),
@@ -130,12 +130,12 @@ pub struct Best {
 /// # Errors
 /// The reason in words if the points make no path, or no axis is possible.
 pub fn best(ask: &Best) -> Result<[f64; 2], String> {
-    let wanted = path(&ask.points).map_err(|error| error.to_string())?;
-    let map = AxisMap::new(&wanted, AxisRange::about(&wanted));
+    let required = path(&ask.points).map_err(|error| error.to_string())?;
+    let map = AxisMap::new(&required, AxisRange::about(&required));
     let axis = if ask.bluntest {
         map.bluntest(ask.bend_deg.to_radians())
     } else {
-        map.mildest(&wanted).map(|chain| chain.axis())
+        map.mildest(&required).map(|chain| chain.axis())
     };
     let tried = map.found().len();
     let axis = axis.ok_or_else(|| {

@@ -1,5 +1,5 @@
 use super::answer::{GoalAnswer, goals};
-use super::sought::Kept;
+use super::cache::Cached;
 use super::wish::Wish;
 use crate::reverse::words::{self, Labelled};
 use crate::reverse::{Toothed, rolled};
@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 
 /// A design with sound teeth, or what was found without such.
 #[derive(Debug, Serialize)]
-pub struct Machine {
+pub struct PathMachine {
     /// The design file.
     #[serde(skip_serializing_if = "Option::is_none")]
     text: Option<String>,
@@ -18,7 +18,7 @@ pub struct Machine {
     #[serde(skip_serializing_if = "Option::is_none")]
     refused: Option<String>,
     /// Names and words of what was found.
-    told: Vec<Labelled>,
+    stated: Vec<Labelled>,
     /// Further wishes, and how far they are reached.
     goals: Vec<GoalAnswer>,
     /// Findings: names of rules and words.
@@ -31,9 +31,9 @@ pub struct Machine {
 /// The reason in words if there is no machine.
 pub fn machine(
     wish: &Wish,
-    kept: &Kept,
+    kept: &Cached,
     observe: &mut dyn FnMut(u64) -> ControlFlow<()>,
-) -> Result<Machine, String> {
+) -> Result<PathMachine, String> {
     let design = wish.design()?;
     let found = kept.found(wish, observe)?;
     let split = Split::new(&found.chain, design.split, design.bend);
@@ -48,11 +48,11 @@ pub fn machine(
     let teeth = toothed.iter().flat_map(|toothed| &toothed.teeth);
     let collisions = toothed.iter().flat_map(|toothed| &toothed.findings);
     let findings = found.findings.iter().chain(collisions);
-    Ok(Machine {
+    Ok(PathMachine {
         text: text.transpose().map_err(|error| error.to_string())?,
         refused,
-        told: found
-            .told
+        stated: found
+            .stated
             .iter()
             .cloned()
             .chain(teeth.map(words::teeth))

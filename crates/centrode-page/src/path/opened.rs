@@ -1,7 +1,7 @@
 use crate::reverse::{WITHIN, drawn};
 use centrode_analysis::Unit;
 use centrode_spec::DesignSpec as _;
-use centrode_synthesis::reverse::{PathDesign, WantedPoints, Wishes};
+use centrode_synthesis::reverse::{PathDesign, RequiredPoints, Wishes};
 use serde::Serialize;
 
 /// Most points that the page shows, each with a row and a handle.
@@ -67,7 +67,7 @@ fn read(text: &str) -> Result<Opened, String> {
         let note = format!("{count} points, within {off} of the drawing");
         (drawn.points, note)
     } else {
-        let read = WantedPoints::from_csv(bytes).map_err(|error| error.to_string())?;
+        let read = RequiredPoints::from_csv(bytes).map_err(|error| error.to_string())?;
         let mut note = format!("{} points", read.points.len());
         if read.tolerances.is_some() {
             note += ", each with a tolerance";

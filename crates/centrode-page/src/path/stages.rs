@@ -101,9 +101,9 @@ mod tests {
             let other = stage.curves[1][i].coords.norm();
             assert!((radius + other - distance).abs() < 1e-9);
             // The rolling ellipse has its far focus on the axis where the ratio is least.
-            let wanted = focal / (1.0 + eccentricity * angle.cos());
+            let required = focal / (1.0 + eccentricity * angle.cos());
             let mirrored = focal / (1.0 - eccentricity * angle.cos());
-            let off = (radius - wanted).abs().min((radius - mirrored).abs());
+            let off = (radius - required).abs().min((radius - mirrored).abs());
             assert!(off < 1e-4, "{radius} at {angle}");
             // Curvature of an ellipse by the distances of both foci: a b / (r1 r2)^(3/2).
             let short = half_axis * (1.0 - eccentricity * eccentricity).sqrt();

@@ -1,6 +1,6 @@
 use centrode_geometry::Point;
 use centrode_spec::{Design as _, DesignSpec as _};
-use centrode_synthesis::reverse::{KeyPose, PathDesign, PathError, WantedPath};
+use centrode_synthesis::reverse::{KeyPose, PathDesign, PathError, RequiredPath};
 use serde::Deserialize;
 
 /// Wish of the page: the design that `centrode reverse` reads, or key poses with its choices.
@@ -60,7 +60,7 @@ impl Wish {
 pub(super) fn points(design: &PathDesign) -> Vec<Point> {
     let rows = self::rows(&design.path.points);
     match design.path.control {
-        true => WantedPath::knots(&rows),
+        true => RequiredPath::knots(&rows),
         false => rows,
     }
 }
@@ -70,6 +70,6 @@ pub(super) fn rows(rows: &[[f64; 2]]) -> Vec<Point> {
 }
 
 /// Path through the points of the page.
-pub(super) fn path(rows: &[[f64; 2]]) -> Result<WantedPath, PathError> {
-    WantedPath::through(&self::rows(rows))
+pub(super) fn path(rows: &[[f64; 2]]) -> Result<RequiredPath, PathError> {
+    RequiredPath::through(&self::rows(rows))
 }

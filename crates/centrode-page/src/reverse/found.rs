@@ -4,7 +4,7 @@ use centrode_geometry::{Bounds, Point};
 use centrode_synthesis::optimise::{EasedPath, Easing, EasingError, EasingSpec, axis_at_border};
 use centrode_synthesis::reverse::{
     Aim, AxisFault, AxisMap, AxisRange, KeyPose, KeyPoses, PathDesign, PathError, PoseError,
-    TwoBar, WantedPath,
+    RequiredPath, TwoBar,
 };
 use std::ops::ControlFlow;
 
@@ -18,7 +18,7 @@ pub struct Found {
     /// Axes tried for a path that is followed as it is.
     pub map: Option<AxisMap>,
     /// Further lines to tell: names and words.
-    pub told: Vec<Labelled>,
+    pub stated: Vec<Labelled>,
     /// Further wishes, and how far they are reached.
     pub goals: Vec<Goal>,
     /// Findings on what was found.
@@ -72,7 +72,7 @@ impl Found {
         match design.bands() {
             Some(bands) => Self::eased(design, points, &bands, observe),
             None => {
-                let path = WantedPath::through(points).map_err(NotFound::Path)?;
+                let path = RequiredPath::through(points).map_err(NotFound::Path)?;
                 check_crossing(design, &path)?;
                 Self::as_given(design, &path)
             }
@@ -108,8 +108,8 @@ impl Found {
         let is_module = module.is_none_or(|module| reached >= module);
         let is_all = eased.goals.iter().all(|goal| goal.met() != Some(false));
         let is_moved = bands.iter().any(|band| *band > 0.0);
-        let mut told = eased_words(&eased, module, is_moved);
-        told.extend(eased.clamp.map(words::clamp));
+        let mut stated = eased_words(&eased, module, is_moved);
+        stated.extend(eased.clamp.map(words::clamp));
         Ok(Self {
             why: match (axis, design.aim.unwrap_or_default()) {
                 (Some(_), _) => "as asked",
@@ -120,7 +120,7 @@ impl Found {
             .into(),
             chain: eased.chain,
             map: None,
-            told,
+            stated,
             goals: eased.goals,
             findings: eased.findings,
             is_reached: is_module && is_all,
@@ -128,7 +128,7 @@ impl Found {
     }
 
     /// The machine of a path as it is wanted.
-    fn as_given(design: &PathDesign, path: &WantedPath) -> Result<Self, NotFound> {
+    fn as_given(design: &PathDesign, path: &RequiredPath) -> Result<Self, NotFound> {
         let Some(at) = design.axis else {
             return Self::mildest(design, path);
         };
@@ -137,14 +137,14 @@ impl Found {
             chain: chain.map_err(|fault| NotFound::Axis { at, fault })?,
             why: "as asked".into(),
             map: None,
-            told: Vec::new(),
+            stated: Vec::new(),
             goals: Vec::new(),
             findings: Vec::new(),
             is_reached: true,
         })
     }
 
-    fn mildest(design: &PathDesign, path: &WantedPath) -> Result<Self, NotFound> {
+    fn mildest(design: &PathDesign, path: &RequiredPath) -> Result<Self, NotFound> {
         let range = design.axes(path);
         let map = AxisMap::new(path, range);
         let chain = map.mildest(path).ok_or_else(|| none_possible(&map))?;
@@ -155,7 +155,7 @@ impl Found {
             chain,
             why: "the mildest found".into(),
             map: Some(map),
-            told: Vec::new(),
+            stated: Vec::new(),
             goals: Vec::new(),
             is_reached: true,
         })
@@ -168,7 +168,7 @@ impl Found {
     pub fn by_poses(poses: &[KeyPose]) -> Result<Self, PoseError> {
         let found = KeyPoses::new(poses)?;
         Ok(Self {
-            told: words::poses(found.clamp, &found.misses),
+            stated: words::poses(found.clamp, &found.misses),
             chain: found.chain,
             why: format!(
                 "the mildest found from {} starts that meet the poses in order",
@@ -183,7 +183,7 @@ impl Found {
 }
 
 /// Checks that a path does not cross itself, unless that is allowed.
-fn check_crossing(design: &PathDesign, path: &WantedPath) -> Result<(), NotFound> {
+fn check_crossing(design: &PathDesign, path: &RequiredPath) -> Result<(), NotFound> {
     match design.path.crossing {
         true => Ok(()),
         false => path.check_simple().map_err(NotFound::Crossing),
@@ -200,7 +200,7 @@ fn eased_words(eased: &EasedPath, module: Option<f64>, is_moved: bool) -> Vec<La
     });
     let (before, borne) = eased.module;
     let before = before.map_or_else(String::new, |before| format!(", {} before", mm(before)));
-    let wanted = match module {
+    let required = match module {
         Some(module) if borne < module => {
             format!(
                 ", not {}: give more room, or take another axis or bend",
@@ -211,10 +211,10 @@ fn eased_words(eased: &EasedPath, module: Option<f64>, is_moved: bool) -> Vec<La
     };
     let free = eased.points.len() - eased.moved.len();
     let searched = format!("in {} evaluations", eased.evaluations);
-    let mut told = Vec::new();
+    let mut stated = Vec::new();
     if free > 0 {
         let words = format!("through {free} points, {searched}");
-        told.push(("free return".to_owned(), words));
+        stated.push(("free return".to_owned(), words));
     }
     if is_moved && (free == 0 || far > 0.0) {
         let words = format!("by {} at most, at point {}", mm(far), most + 1);
@@ -222,11 +222,11 @@ fn eased_words(eased: &EasedPath, module: Option<f64>, is_moved: bool) -> Vec<La
             0 => format!("{words}, {searched}"),
             _ => words,
         };
-        told.push(("path eased".to_owned(), words));
+        stated.push(("path eased".to_owned(), words));
     }
-    let words = format!("surely sound up to module {}{before}{wanted}", mm(borne));
-    told.push(("full teeth".to_owned(), words));
-    told
+    let words = format!("surely sound up to module {}{before}{required}", mm(borne));
+    stated.push(("full teeth".to_owned(), words));
+    stated
 }
 
 fn none_possible(map: &AxisMap) -> NotFound {

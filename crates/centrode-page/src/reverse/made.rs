@@ -1,18 +1,20 @@
 //! The machine of a chain, for the command and the page.
 
-use centrode_analysis::{Finding, NoSoundTeeth, SoundTeeth, composed_collisions, with_sound_teeth};
+use centrode_analysis::{Finding, NoSoundTeeth, SoundTeeth, machine_collisions, with_sound_teeth};
 use centrode_spec::Design;
-use centrode_synthesis::reverse::{MachineError, PathDesign, ReversedMachine, Split, TwoBar};
+use centrode_synthesis::reverse::{
+    PathDesign, ReversedMachine, ReversedMachineError, Split, TwoBar,
+};
 
 /// The machine of a chain, with the names and the shapes to keep out of of a design.
 ///
 /// # Errors
-/// [`MachineError`] if no gears have this law.
+/// [`ReversedMachineError`] if no gears have this law.
 pub fn rolled(
     design: &PathDesign,
     chain: &TwoBar,
     split: &Split,
-) -> Result<ReversedMachine, MachineError> {
+) -> Result<ReversedMachine, ReversedMachineError> {
     let made = ReversedMachine::new(chain, split, design.arms, design.steps)?;
     let mut made = made.with_obstacles(&design.wishes.keep_out);
     made.design.name.clone_from(&design.name);
@@ -41,7 +43,7 @@ impl Toothed {
     pub fn new(made: &ReversedMachine) -> Result<Self, NoSoundTeeth> {
         let (design, teeth) = with_sound_teeth(&made.design, |_| true)?;
         Ok(Self {
-            findings: deepest(composed_collisions(&design)),
+            findings: deepest(machine_collisions(&design)),
             design: Box::new(design),
             teeth,
         })
@@ -50,14 +52,14 @@ impl Toothed {
 
 /// The deepest collision of each kind, with how many more there are.
 fn deepest(all: Vec<Finding>) -> Vec<Finding> {
-    let mut told: Vec<(Finding, usize)> = Vec::new();
+    let mut stated: Vec<(Finding, usize)> = Vec::new();
     for finding in all {
-        match told
+        match stated
             .iter_mut()
             .find(|(first, _)| first.rule == finding.rule)
         {
             Some((_, more)) => *more += 1,
-            None => told.push((finding, 0)),
+            None => stated.push((finding, 0)),
         }
     }
     let counted = |(mut finding, more): (Finding, usize)| {
@@ -71,5 +73,5 @@ fn deepest(all: Vec<Finding>) -> Vec<Finding> {
         }
         finding
     };
-    told.into_iter().map(counted).collect()
+    stated.into_iter().map(counted).collect()
 }

@@ -29,8 +29,8 @@ pub fn drawn(bytes: &[u8], within: f64) -> Result<Option<DrawnPath>, PathError> 
 pub fn sharpest(chain: &TwoBar, split: &Split) -> String {
     match ReversedMachine::new(chain, split, 1, None) {
         Ok(made) => {
-            let least = Unit::Millimetre.tell(made.minimum_radius());
-            format!("possible, least convex radius {least}")
+            let minimum = Unit::Millimetre.tell(made.minimum_radius());
+            format!("possible, least convex radius {minimum}")
         }
         Err(error) => error.to_string(),
     }

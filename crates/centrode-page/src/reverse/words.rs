@@ -37,12 +37,12 @@ pub fn bars(chain: &TwoBar) -> [(&'static str, String); 3] {
 }
 
 /// Line on the minimum convex radius of the gears that are written.
-pub fn least_radius(made: &ReversedMachine) -> (&'static str, String) {
+pub fn minimum_radius(made: &ReversedMachine) -> (&'static str, String) {
     ("least convex radius", mm(made.minimum_radius()))
 }
 
 /// Line on the least convex radii of a pair's pitch curves.
-pub fn least_radii(pair: &str, [driver, driven]: [f64; 2]) -> Labelled {
+pub fn minimum_radii(pair: &str, [driver, driven]: [f64; 2]) -> Labelled {
     let words = format!(
         "least convex radius {} (driver), {} (driven)",
         mm(driver),
@@ -79,9 +79,9 @@ pub fn poses(angle: f64, misses: &[[f64; 2]]) -> Vec<Labelled> {
 pub fn goal(goal: &Goal) -> Labelled {
     let tell = |x: f64| goal.unit.tell(x);
     let value = goal.value.map_or_else(String::new, tell);
-    let wanted = match goal.wanted {
-        [Some(least), Some(most)] => format!("{} to {}", tell(least), tell(most)),
-        [Some(least), None] => format!("at least {}", tell(least)),
+    let required = match goal.required {
+        [Some(minimum), Some(most)] => format!("{} to {}", tell(minimum), tell(most)),
+        [Some(minimum), None] => format!("at least {}", tell(minimum)),
         [None, Some(most)] => format!("at most {}", tell(most)),
         [None, None] => String::new(),
     };
@@ -89,7 +89,7 @@ pub fn goal(goal: &Goal) -> Labelled {
         Some(margin) if margin < 0.0 => format!(", missed by {}", tell(-margin)),
         _ => String::new(),
     };
-    let words = format!("{} {value}, wanted {wanted}{missed}", goal.title);
+    let words = format!("{} {value}, wanted {required}{missed}", goal.title);
     (format!("goal {}", goal.number), words)
 }
 

@@ -12,7 +12,7 @@ const FINE = 3;
 const MEDIA = { CSV: "text/csv", SVG: "image/svg+xml" };
 
 /** A limit in words. */
-export const bound = ({ value, least }) => `${least ? "at least" : "at most"} ${Number(value.toPrecision(4))}`;
+export const bound = ({ value, minimum }) => `${minimum ? "at least" : "at most"} ${Number(value.toPrecision(4))}`;
 
 /** Text that no spreadsheet runs as a formula. */
 const inert = (text) => (/^[=+\-@\t＝＋－＠]/.test(text) ? `'${text}` : text);
@@ -77,10 +77,10 @@ export function svg(chart) {
     root.append(drawn("path", { d: `M${LEFT} ${y(at).toFixed(2)}H${WIDTH - RIGHT}`, stroke: INK.grid }));
     text(words, { x: LEFT - 8, y: (y(at) + 4).toFixed(2), fill: INK.muted, "text-anchor": "end" });
   }
-  for (const { value, least } of chart.limits) {
+  for (const { value, minimum } of chart.limits) {
     if (value < up.min || value > up.max) continue;
     root.append(drawn("path", { d: `M${LEFT} ${y(value).toFixed(2)}H${WIDTH - RIGHT}`, stroke: INK.warning, "stroke-dasharray": "8 4", "data-limit": value }));
-    text(bound({ value, least }), { x: WIDTH - RIGHT - 4, y: (y(value) - 4).toFixed(2), fill: INK.warning, "text-anchor": "end" });
+    text(bound({ value, minimum }), { x: WIDTH - RIGHT - 4, y: (y(value) - 4).toFixed(2), fill: INK.warning, "text-anchor": "end" });
   }
   text(chart.charts.unit === "degrees" ? "Input angle" : `Input, ${chart.charts.unit}`, { x: (LEFT + WIDTH - RIGHT) / 2, y: HEIGHT - 4, fill: INK.muted, "text-anchor": "middle" });
   const frame = drawn("clipPath", { id: "frame" });

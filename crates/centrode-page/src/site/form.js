@@ -204,7 +204,7 @@ export class Form {
   /** An input for one number: typed, or moved by the arrow keys. */
   number(field, key, attributes) {
     const box = element("input", { ...attributes, type: "text", inputmode: "decimal", class: "number", role: "spinbutton", spellcheck: "false", autocomplete: "off",
-      "aria-valuemin": field.least === undefined ? undefined : decimal(field.least), "aria-valuemax": field.greatest === undefined ? undefined : decimal(field.greatest) });
+      "aria-valuemin": field.minimum === undefined ? undefined : decimal(field.minimum), "aria-valuemax": field.maximum === undefined ? undefined : decimal(field.maximum) });
     const give = (value) => this.edit([{ key, value }], true);
     // Of one size while the keys are at it: as many steps down as up lead back.
     let step = 1;

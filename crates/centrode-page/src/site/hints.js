@@ -35,7 +35,7 @@ function toggle({ field, row, remark }) {
     shown.remove();
     return;
   }
-  const range = [["at least", field.least], ["at most", field.greatest]].filter(([, value]) => value !== undefined).map((words) => words.join(" "));
+  const range = [["at least", field.minimum], ["at most", field.maximum]].filter(([, value]) => value !== undefined).map((words) => words.join(" "));
   const words = [field.doc, ...range].filter(Boolean).join("; ");
   remark.before(element("p", { class: "hint", role: "status" }, words || "No more is known of it than its name."));
 }

@@ -7,7 +7,7 @@ export const RANGES = ["carrier", "arm", "center_distance", "ratio"];
 /** Tolerance of a direction where none is given, degrees. */
 export const USUAL = 2;
 
-const ends = ([at_least, at_most]) => ({ ...(at_least === null ? {} : { at_least }), ...(at_most === null ? {} : { at_most }) });
+const ends = ([minimum, maximum]) => ({ ...(minimum === null ? {} : { minimum }), ...(maximum === null ? {} : { maximum }) });
 const isFree = (range) => range.every((end) => end === null);
 const hasKeys = (table) => Object.keys(table).length > 0;
 
@@ -78,7 +78,7 @@ export function withOpened(wish, start, { design, whole }) {
   return {
     ...structuredClone(start), given, [given]: columns, each, directed, band, module,
     axis: axis ?? wish.axis, free: !axis, box: box ? [0, 1].map((k) => [Math.min(box[0][k], box[1][k]), Math.max(box[0][k], box[1][k])]) : [[null, null], [null, null]], bend: bend_deg, arms, split, aim: aim ?? null,
-    ...Object.fromEntries(RANGES.map((key) => [key, [wishes[key]?.at_least ?? null, wishes[key]?.at_most ?? null]])),
+    ...Object.fromEntries(RANGES.map((key) => [key, [wishes[key]?.minimum ?? null, wishes[key]?.maximum ?? null]])),
     clamp: wishes.clamp_deg ?? null,
     turn: wishes.turn ? { from: wishes.turn.from, to: wishes.turn.to, between: wishes.turn.between_deg } : null,
     keep_out: shapes.read(wishes.keep_out),

@@ -61,7 +61,7 @@ const AIMS = [
   { word: "small", doc: "The least reach of the tip." },
 ];
 
-const range = (unit, doc) => ({ kind: "numbers", unit, least: 0, optional: true, holders: ["least", "greatest"], doc });
+const range = (unit, doc) => ({ kind: "numbers", unit, minimum: 0, optional: true, holders: ["least", "greatest"], doc });
 
 /** Fields by their keys: where their value stands, and what is known of them. */
 const FIELDS = {
@@ -71,9 +71,9 @@ const FIELDS = {
   "axis.sought": { label: "Seek it, too", kind: "switch", unit: "", doc: "The axis is sought on and about the path when the machine is found or made; the one drawn shows one that may be." },
   "axis.within_x": { ...range("mm", "Least and greatest x of the axis that is sought; left out, those of the map of possible axes."), least: undefined, label: "Within x" },
   "axis.within_y": { ...range("mm", "Least and greatest y of the axis that is sought; left out, those of the map of possible axes."), least: undefined, label: "Within y" },
-  "gears.bend_deg": { unit: "°", least: -170, greatest: 170, doc: "Angle from the carrier's first leg, to the intermediate gear, to its second. A greater bend gives greater gears." },
-  "gears.arms": { kind: "integer", unit: "", least: 1, greatest: 12, doc: "Number of arms." },
-  "gears.band": { unit: "mm", least: 0, greatest: 1e6, doc: "Distance within which the path may pass its points: it is eased there, for larger teeth, when the machine is made. Zero: through its points." },
+  "gears.bend_deg": { unit: "°", minimum: -170, maximum: 170, doc: "Angle from the carrier's first leg, to the intermediate gear, to its second. A greater bend gives greater gears." },
+  "gears.arms": { kind: "integer", unit: "", minimum: 1, maximum: 12, doc: "Number of arms." },
+  "gears.band": { unit: "mm", minimum: 0, maximum: 1e6, doc: "Distance within which the path may pass its points: it is eased there, for larger teeth, when the machine is made. Zero: through its points." },
   "gears.split": { kind: "choice", unit: "", choices: SPLITS, doc: "How two stages of gears share the motion." },
   "gears.module": { unit: "mm", positive: true, optional: true, doc: "Module of full teeth up to which the path is eased, and no more." },
   "gears.aim": { kind: "choice", unit: "", optional: true, choices: AIMS, doc: "What is made the most of where something is free." },
@@ -84,9 +84,9 @@ const FIELDS = {
   "wishes.center_distance": { ...range("mm", "Least and greatest centre distance of the gears."), label: "Centre distance" },
   "wishes.ratio": range("", "Least and greatest ratio of planet to carrier."),
   "wishes.clamp_deg": { label: "Clamp", unit: "°", optional: true, doc: "Direction of the clamp less that of the arm; left out, the one that suits the directions best." },
-  "wishes.turn.from": { label: "Turn from point", kind: "integer", unit: "", least: 1, optional: true, doc: "Turn of the carrier: number of the point from which it is counted." },
-  "wishes.turn.to": { label: "Turn to point", kind: "integer", unit: "", least: 1, optional: true, doc: "Number of the point up to which it is counted." },
-  "wishes.turn.between_deg": { label: "Turn", kind: "numbers", unit: "°", least: 0, greatest: 360, optional: true, holders: ["least", "greatest"], doc: "Least and greatest turn of the carrier from the one point to the other." },
+  "wishes.turn.from": { label: "Turn from point", kind: "integer", unit: "", minimum: 1, optional: true, doc: "Turn of the carrier: number of the point from which it is counted." },
+  "wishes.turn.to": { label: "Turn to point", kind: "integer", unit: "", minimum: 1, optional: true, doc: "Number of the point up to which it is counted." },
+  "wishes.turn.between_deg": { label: "Turn", kind: "numbers", unit: "°", minimum: 0, maximum: 360, optional: true, holders: ["least", "greatest"], doc: "Least and greatest turn of the carrier from the one point to the other." },
 };
 
 /** Keys that are one number of the wish. */
@@ -176,13 +176,13 @@ function fault(key, value) {
   const [, column] = /^(?:path|stroke)\.([a-z_]+)$/.exec(plain) ?? [];
   const [, own] = /^wishes\.keep_out\.[^.]+\.([a-z]+)$/.exec(plain) ?? [];
   const known = FIELDS[plain] ?? (own && shapes.FIELDS[own]) ?? {};
-  const { kind, least = column?.endsWith("tolerance") ? 0 : undefined, greatest, positive = column === "direction_tolerance_deg", optional = column in FREE } = known;
+  const { kind, minimum = column?.endsWith("tolerance") ? 0 : undefined, maximum, positive = column === "direction_tolerance_deg", optional = column in FREE } = known;
   if (["choice", "switch", "text"].includes(kind)) return null;
   if (value === null || value === "") return optional || isDropped(key) ? null : "a number is missing";
   if (typeof value !== "number") return `${value} is no number`;
   if (kind === "integer" && !Number.isInteger(value)) return `${value} is no whole number`;
   if (positive && !(value > 0)) return `a number above 0, not ${value}`;
-  if (value < least || value > greatest) return greatest === undefined ? `a number from ${least}, not ${value}` : `a number from ${least} to ${greatest}, not ${value}`;
+  if (value < minimum || value > maximum) return maximum === undefined ? `a number from ${minimum}, not ${value}` : `a number from ${minimum} to ${maximum}, not ${value}`;
   return null;
 }
 

@@ -39,7 +39,7 @@ export async function make(wish, complain) {
 }
 
 /** Asks where the design is to be. */
-async function name({ text, told: rows, goals, findings }) {
+async function name({ text, stated: rows, goals, findings }) {
   const { taken, folder } = await server.offer();
   const row = ([head, words]) => element("tr", {}, element("th", { scope: "row" }, head), element("td", {}, words));
   const table = element("table", { class: "told" }, element("tbody", {}, ...rows.map(row)));

@@ -92,7 +92,7 @@ export class Points {
   }
 
   /** Fewest numbers of a row. */
-  get least() {
+  get minimum() {
     return Math.min(this.optional, this.pair.length);
   }
 
@@ -189,7 +189,7 @@ export class Points {
   fault(rows, row, column) {
     const wide = rows.find((cells) => column + cells.length > this.pair.length);
     if (wide) return `line ${wide.line}: more numbers than columns`;
-    const bare = rows.find((cells, k) => row + k >= this.points.length && column + cells.length < this.least);
+    const bare = rows.find((cells, k) => row + k >= this.points.length && column + cells.length < this.minimum);
     return bare ? `line ${bare.line}: a new ${this.noun} needs ${this.many} numbers` : null;
   }
 
@@ -207,7 +207,7 @@ export class Points {
     let points = null;
     const sound = async () => {
       const { rows, error } = rowsIn(area.value, this.optional);
-      const short = rows?.find((cells) => cells.length < this.least || cells.length > this.pair.length);
+      const short = rows?.find((cells) => cells.length < this.minimum || cells.length > this.pair.length);
       const fault = error ?? (short ? `line ${short.line}: a ${this.noun} has ${this.many} numbers` : null) ?? (rows.length < this.fewest ? `a curve has at least ${this.fewest} points` : null);
       points = fault ? null : rows.map((cells) => this.pair.map((_, column) => cells[column] ?? null));
       remark.replaceChildren(...(fault ? [element("span", { class: "error" }, fault)] : []));

@@ -31,11 +31,11 @@ function fieldOf(snapshot, name) {
 }
 
 /** A range about a value: a tenth of it to both sides; of a count one at least, as far as there is one. */
-function around(value, { kind, least }) {
+function around(value, { kind, minimum }) {
   const share = Math.abs(value) * 0.1;
   const whole = ["integer", "integers"].includes(kind);
   const reach = whole ? Math.max(1, Math.round(share)) : share || 1;
-  const from = whole ? Math.max(least ?? -Infinity, value - reach) : value - reach;
+  const from = whole ? Math.max(minimum ?? -Infinity, value - reach) : value - reach;
   return [from, value + reach].map((end) => String(Number(end.toPrecision(6))));
 }
 
@@ -46,8 +46,8 @@ const THINNED = 3;
 
 /** How many goals are reached at one of the values. */
 function reached(charts, i) {
-  const goals = charts.filter(({ wanted, figures }) => wanted.some((end) => end !== null) && figures[i] !== null);
-  const met = goals.filter(({ wanted: [least, greatest], figures }) => figures[i] >= (least ?? -Infinity) && figures[i] <= (greatest ?? Infinity));
+  const goals = charts.filter(({ required, figures }) => required.some((end) => end !== null) && figures[i] !== null);
+  const met = goals.filter(({ required: [least, greatest], figures }) => figures[i] >= (least ?? -Infinity) && figures[i] <= (greatest ?? Infinity));
   return goals.length ? `${met.length} of ${goals.length} goals reached` : "";
 }
 
@@ -145,7 +145,7 @@ export async function ask(snapshot, text, take, first) {
 
 function draw(place, values, chart, now) {
   const box = element("div", { class: "plot" });
-  const ends = chart.wanted.filter((end) => end !== null);
+  const ends = chart.required.filter((end) => end !== null);
   place.append(element("figure", { class: "chart" },
     element("figcaption", {}, element("b", {}, chart.title), chart.unit ? element("span", { class: "quiet" }, ` ${chart.unit}`) : null), box));
   const lines = (plot) => {

@@ -187,9 +187,9 @@ export class Search {
     const cell = (value, unit) => element("td", {}, `${value}${unit && ` ${unit}`}`);
     this.missed.replaceChildren(
       element("caption", {}, "Counted as missed"),
-      element("thead", {}, element("tr", {}, ...["", "start", "now", "wanted"].map((words) => element("th", { scope: "col" }, words)))),
-      element("tbody", {}, ...list.map(({ title, unit, start, best, wanted, met }) => element("tr", { class: met ? "met" : "unmet" },
-        element("th", { scope: "row" }, title), cell(start, unit), cell(`${met ? "✓ " : ""}${best}`, unit), cell(wanted, unit)))));
+      element("thead", {}, element("tr", {}, ...["", "start", "now", "required"].map((words) => element("th", { scope: "col" }, words)))),
+      element("tbody", {}, ...list.map(({ title, unit, start, best, required, met }) => element("tr", { class: met ? "met" : "unmet" },
+        element("th", { scope: "row" }, title), cell(start, unit), cell(`${met ? "✓ " : ""}${best}`, unit), cell(required, unit)))));
   }
 
   /** The history: what the goals are missed by, then the objective. */

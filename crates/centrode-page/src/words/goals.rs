@@ -21,7 +21,7 @@ pub struct GoalWords {
     /// Unit of the figure.
     pub unit: &'static str,
     /// The range it is wanted in.
-    pub wanted: String,
+    pub required: String,
     /// Met, missed by how much, or not checked.
     pub verdict: String,
     /// By how much it is met, with its unit.
@@ -35,10 +35,10 @@ pub struct GoalWords {
 /// The words for a goal.
 pub fn goal_words(goal: &Goal) -> GoalWords {
     let short = |value: f64| end(value * goal.unit.factor());
-    let wanted = match goal.wanted {
-        [Some(least), Some(greatest)] => format!("{} to {}", short(least), short(greatest)),
-        [Some(least), None] => format!("at least {}", short(least)),
-        [None, Some(greatest)] => format!("at most {}", short(greatest)),
+    let required = match goal.required {
+        [Some(minimum), Some(maximum)] => format!("{} to {}", short(minimum), short(maximum)),
+        [Some(minimum), None] => format!("at least {}", short(minimum)),
+        [None, Some(maximum)] => format!("at most {}", short(maximum)),
         [None, None] => String::new(),
     };
     let verdict = match (goal.met(), goal.margin) {
@@ -58,7 +58,7 @@ pub fn goal_words(goal: &Goal) -> GoalWords {
         value: goal.value.map_or("-".into(), |value| goal.unit.show(value)),
         exact: goal.value.map(exact),
         unit: goal.unit.shown(),
-        wanted,
+        required,
         verdict,
         met: goal.met(),
         progress: goal.progress,

@@ -11,11 +11,11 @@ use centrode_optimise::{Ended, Progress};
 
 /// First step of a parameter, as a share of its bounds, and the least before a goal is left.
 const FIRST_STEP: f64 = 0.04;
-const LEAST_STEP: f64 = 1e-4;
+const MIN_STEP: f64 = 1e-4;
 /// Share of the gain of a step's own goal that all other goals together may lose.
 const PRICE: f64 = 0.5;
 /// Least gain of a step, as a share of the goal's scale.
-const LEAST_GAIN: f64 = 1e-9;
+const MIN_GAIN: f64 = 1e-9;
 /// Share of the greatest influence above which a parameter is moved together with others.
 const TOGETHER: f64 = 0.3;
 
@@ -131,7 +131,7 @@ impl Seen {
     /// Whether a step is worth making for a goal.
     fn allows(&self, to: &Self, goal: usize) -> bool {
         let (gain, lost) = self.change(to, goal);
-        gain > LEAST_GAIN && lost <= PRICE * gain
+        gain > MIN_GAIN && lost <= PRICE * gain
     }
 }
 
@@ -213,7 +213,7 @@ impl GuidedSearch {
             for goal in first..seen.goals.len() {
                 let at_goal = resumed.filter(|at| at.goal == goal);
                 let mut step = at_goal.map_or(FIRST_STEP, |at| at.step);
-                while seen.misses[goal] > 0.0 && step >= LEAST_STEP {
+                while seen.misses[goal] > 0.0 && step >= MIN_STEP {
                     self.misses.clone_from(&seen.misses);
                     self.under_way = Some(UnderWay { goal, step, before });
                     if observe(self).is_break() {
@@ -270,7 +270,7 @@ impl GuidedSearch {
         let mut influence = vec![0.0_f64; count];
         for candidate in candidates
             .iter()
-            .filter(|candidate| gain(candidate) > LEAST_GAIN)
+            .filter(|candidate| gain(candidate) > MIN_GAIN)
         {
             for (best, moved) in influence.iter_mut().zip(&candidate.moved) {
                 if *moved != 0.0 && gain(candidate) > best.abs() {

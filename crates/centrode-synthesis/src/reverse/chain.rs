@@ -6,7 +6,7 @@ use centrode_geometry::{Extreme, Jet, Point, Vector, maximum_of_samples, roundin
 use super::distance::{Distance, Series, taylor};
 use super::limit::squares;
 use super::path::PathSamples;
-use super::{AxisFault, WantedPath};
+use super::{AxisFault, RequiredPath};
 use centrode_kinematics::formula::Taylor;
 use centrode_kinematics::machine::Piecewise;
 use centrode_kinematics::transmission::{
@@ -15,7 +15,7 @@ use centrode_kinematics::transmission::{
 use centrode_machines::three_arm::design::Direction;
 
 /// Least speed of a body, as a share of its mean, at which it still turns.
-const LEAST_SPEED: f64 = 1e-6;
+const MIN_SPEED: f64 = 1e-6;
 /// Difference of angles that is rounding, rad.
 const ROUNDING: f64 = 1e-6;
 
@@ -28,7 +28,7 @@ const ROUNDING: f64 = 1e-6;
 /// that of the carrier.
 #[derive(Clone, Debug)]
 pub struct TwoBar {
-    path: WantedPath,
+    path: RequiredPath,
     distance: Distance,
     carrier: f64,
     arm: f64,
@@ -36,8 +36,8 @@ pub struct TwoBar {
     sense: f64,
     /// Direction of the carrier where it is stretched, rad.
     start: f64,
-    least_ratio: Extreme,
-    greatest_ratio: Extreme,
+    minimum_ratio: Extreme,
+    maximum_ratio: Extreme,
 }
 
 /// Angles of both bars at a parameter of the path, with their first two derivatives by it, rad.
@@ -59,18 +59,18 @@ impl TwoBar {
     /// [`AxisFault`] with the rule broken and where on the path: the distance from the axis must have one greatest and one least
     /// place, and the carrier and the arm against it must turn one way.
     pub fn new(
-        path: &WantedPath,
+        path: &RequiredPath,
         axis: Point,
         direction: Option<Direction>,
     ) -> Result<Self, AxisFault> {
         let distance = Distance::new(path, axis)?;
         let winding = winding(path, axis);
-        let wanted = direction.map(Direction::sign);
+        let required = direction.map(Direction::sign);
         match winding {
             0 => {}
             1 | -1 => {
                 let sense = f64::from(winding);
-                if wanted.is_some_and(|wanted| wanted != sense) {
+                if required.is_some_and(|required| required != sense) {
                     let sense = if sense > 0.0 {
                         "counter-clockwise"
                     } else {
@@ -82,7 +82,7 @@ impl TwoBar {
             }
             turns => return Err(AxisFault::Winding { turns }),
         }
-        if let Some(sense) = wanted {
+        if let Some(sense) = required {
             return Self::of_sense(path, distance, sense, false);
         }
         let [one, other] = [1.0, -1.0].map(|s| Self::of_sense(path, distance.clone(), s, false));
@@ -95,7 +95,7 @@ impl TwoBar {
     }
 
     fn of_sense(
-        path: &WantedPath,
+        path: &RequiredPath,
         distance: Distance,
         sense: f64,
         is_inside: bool,
@@ -119,8 +119,8 @@ impl TwoBar {
             arm,
             sense,
             start: start.y.atan2(start.x),
-            least_ratio: none,
-            greatest_ratio: none,
+            minimum_ratio: none,
+            maximum_ratio: none,
         };
         chain.check()?;
         Ok(chain)
@@ -128,13 +128,13 @@ impl TwoBar {
 
     /// Finds the extremes of the ratio, and that both bars turn one way.
     fn check(&mut self) -> Result<(), AxisFault> {
-        let least = LEAST_SPEED * TAU / self.path.period();
+        let minimum = MIN_SPEED * TAU / self.path.period();
         let looks = PathSamples::new(&self.path, usize::MAX);
         let mut known = Vec::with_capacity(looks.samples.len());
         for sample in &looks.samples {
             let speeds = self.speeds(sample.at, &sample.jet);
             // Most places that are no axis are told by the samples at hand; speeds that are no numbers are none.
-            let turns_on = speeds[0] > least;
+            let turns_on = speeds[0] > minimum;
             if !turns_on {
                 return Err(AxisFault::CarrierTurnsBack {
                     carrier: self.carrier,
@@ -143,31 +143,31 @@ impl TwoBar {
             }
             known.push(speeds);
         }
-        let greatest = |of: fn([f64; 2]) -> f64| {
+        let maximum = |of: fn([f64; 2]) -> f64| {
             let samples: Vec<f64> = known.iter().map(|speeds| of(*speeds)).collect();
             let at = |t: f64| of(self.speeds(t, &self.path.at(t)));
             maximum_of_samples(&samples, at, rounding, &looks.pieces)
         };
         let at = |extreme: Extreme| self.path.at(extreme.input).point;
-        let turns_on = |slowest: Extreme| -slowest.value > least;
-        let carrier = greatest(|[carrier, _]| -carrier);
+        let turns_on = |slowest: Extreme| -slowest.value > minimum;
+        let carrier = maximum(|[carrier, _]| -carrier);
         if !turns_on(carrier) {
             return Err(AxisFault::CarrierTurnsBack {
                 carrier: self.carrier,
                 at: at(carrier),
             });
         }
-        let elbow = greatest(|[_, elbow]| -elbow);
+        let elbow = maximum(|[_, elbow]| -elbow);
         if !turns_on(elbow) {
             return Err(AxisFault::ArmStops { at: at(elbow) });
         }
-        let low = greatest(|[carrier, elbow]| -elbow / carrier);
-        let high = greatest(|[carrier, elbow]| elbow / carrier);
-        self.least_ratio = Extreme {
+        let low = maximum(|[carrier, elbow]| -elbow / carrier);
+        let high = maximum(|[carrier, elbow]| elbow / carrier);
+        self.minimum_ratio = Extreme {
             value: -low.value,
             ..low
         };
-        self.greatest_ratio = high;
+        self.maximum_ratio = high;
         Ok(())
     }
 
@@ -248,7 +248,7 @@ impl TwoBar {
 
     /// The path.
     #[must_use]
-    pub fn path(&self) -> &WantedPath {
+    pub fn path(&self) -> &RequiredPath {
         &self.path
     }
 
@@ -299,13 +299,13 @@ impl TwoBar {
     /// Least and greatest ratio of the total law, and the parameters of the path there.
     #[must_use]
     pub fn ratios(&self) -> [Extreme; 2] {
-        [self.least_ratio, self.greatest_ratio]
+        [self.minimum_ratio, self.maximum_ratio]
     }
 
     /// Greatest |ln| of the ratio: zero for even motion.
     #[must_use]
     pub fn unevenness(&self) -> f64 {
-        (-self.least_ratio.value.ln()).max(self.greatest_ratio.value.ln())
+        (-self.minimum_ratio.value.ln()).max(self.maximum_ratio.value.ln())
     }
 
     /// Axis of the arm where the carrier stands in a direction, rad, mm.
@@ -388,7 +388,7 @@ impl TwoBar {
 
 /// Turns of a path about a place, counter-clockwise positive: how often it crosses the half line from there along x upwards,
 /// less how often downwards.
-fn winding(path: &WantedPath, axis: Point) -> i32 {
+fn winding(path: &RequiredPath, axis: Point) -> i32 {
     let samples = path.samples();
     let next = samples.iter().cycle().skip(1);
     let crossings = samples.iter().zip(next).map(|(one, other)| {

@@ -3,7 +3,7 @@
 use centrode_geometry::Point;
 
 use super::path::text;
-use super::{PathError, WantedDirection};
+use super::{PathError, RequiredDirection};
 
 /// Columns that a file may have.
 struct Layout {
@@ -40,17 +40,17 @@ const DIRECTION_TOLERANCE: usize = 4;
 
 /// Points that a path is wanted to pass.
 #[derive(Clone, Debug, PartialEq)]
-pub struct WantedPoints {
+pub struct RequiredPoints {
     /// The points in order, mm.
     pub points: Vec<Point>,
     /// Distance within which the path may pass each point, mm; none where the file has no such column.
     pub tolerances: Option<Vec<f64>>,
     /// Directions of the clamp wanted at some of them.
-    pub directions: Vec<WantedDirection>,
+    pub directions: Vec<RequiredDirection>,
 }
 
-impl WantedPoints {
-    /// Reads points as [`WantedPath::from_csv`](super::WantedPath::from_csv) does, and the columns headed `tolerance`,
+impl RequiredPoints {
+    /// Reads points as [`RequiredPath::from_csv`](super::RequiredPath::from_csv) does, and the columns headed `tolerance`,
     /// `direction_deg` and `direction_tolerance_deg`, if there are such. Where a direction is left empty it is free.
     ///
     /// # Errors
@@ -131,7 +131,7 @@ impl<'a> Table<'a> {
             return Err(PathError::Columns {
                 line: line.number,
                 count: line.words.len(),
-                wanted: self.layout.words,
+                required: self.layout.words,
             });
         }
         Ok(())
@@ -160,15 +160,15 @@ impl<'a> Table<'a> {
         &self,
         column: usize,
         off: Option<usize>,
-    ) -> Result<Vec<WantedDirection>, PathError> {
+    ) -> Result<Vec<RequiredDirection>, PathError> {
         let lines = self.lines.iter().enumerate();
         let given = lines.filter(|(_, line)| line.words.get(column).is_some_and(|w| !w.is_empty()));
         let direction = |(i, line): (usize, &Line<'_>)| {
             let tolerance = match off {
                 Some(off) => line.tolerance(off)?.to_radians(),
-                None => WantedDirection::usual_tolerance(),
+                None => RequiredDirection::usual_tolerance(),
             };
-            Ok(WantedDirection {
+            Ok(RequiredDirection {
                 point: i + 1,
                 direction: line.number_at(column)?.to_radians(),
                 tolerance,

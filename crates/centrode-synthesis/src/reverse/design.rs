@@ -5,13 +5,11 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::path::{FARTHEST, FARTHEST_AXIS};
-use super::{AxisRange, SplitKind, WantedPath, Wishes};
-use centrode_spec::DesignSpec;
-use centrode_spec::SpecError;
-use centrode_spec::degrees;
+use super::{AxisRange, RequiredPath, SplitKind, Wishes};
 use centrode_spec::rule::{
     Rule, broken, count_in_range, file_name, finite, in_range, not_negative, positive, single_line,
 };
+use centrode_spec::{DesignSpec, SpecError, degrees};
 
 /// A path wanted of a tip, and what else is wanted of the machine.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -202,7 +200,7 @@ impl PathDesign {
 
     /// Axes among which one is sought for a path: of the box given, or about the path.
     #[must_use]
-    pub fn axes(&self, path: &WantedPath) -> AxisRange {
+    pub fn axes(&self, path: &RequiredPath) -> AxisRange {
         let about = AxisRange::about(path);
         match self.axis_box {
             Some(corners) => AxisRange {

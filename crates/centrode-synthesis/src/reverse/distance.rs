@@ -2,7 +2,7 @@ use centrode_geometry::{Jet, Point, bracketed_minimum, bracketed_root};
 
 use super::limit::{Limit, squares};
 use super::path::{FARTHEST, FARTHEST_AXIS, Sample};
-use super::{AxisFault, WantedPath};
+use super::{AxisFault, RequiredPath};
 use centrode_kinematics::formula::Taylor;
 
 /// Value and first two derivatives, as Taylor coefficients.
@@ -11,7 +11,7 @@ pub(super) type Series = Taylor<3>;
 /// Share of the greatest distance's square within which of an extreme differences of squares lose digits.
 const NEAR: f64 = 4e-4;
 /// Most breaks between an extreme and a place that is near it: beyond, digits lost are fewer than the path's own.
-const MOST_BREAKS: usize = 8;
+const MAX_BREAKS: usize = 8;
 /// Difference of the greatest and least distance, as a share, that is rounding.
 const SAME: f64 = 1e-9;
 /// Least distance of the path from the axis, as a share of the greatest.
@@ -37,11 +37,11 @@ pub(super) struct Distance {
 #[derive(Clone, Copy, Debug)]
 struct Place {
     at: f64,
-    is_greatest: bool,
+    is_maximum: bool,
 }
 
 impl Distance {
-    pub(super) fn new(path: &WantedPath, axis: Point) -> Result<Self, AxisFault> {
+    pub(super) fn new(path: &RequiredPath, axis: Point) -> Result<Self, AxisFault> {
         let (x, y) = (axis.x, axis.y);
         if !(x.abs() <= FARTHEST && y.abs() <= FARTHEST) {
             let limit = FARTHEST;
@@ -49,21 +49,21 @@ impl Distance {
         }
         let squares = path.samples().iter();
         let squares = squares.map(|s| (s.jet.point - axis).norm_squared());
-        let (least, greatest) = squares.fold((f64::INFINITY, 0.0_f64), |(low, high), u| {
+        let (minimum, maximum) = squares.fold((f64::INFINITY, 0.0_f64), |(low, high), u| {
             (low.min(u), high.max(u))
         });
-        let distance = greatest.sqrt();
+        let distance = maximum.sqrt();
         let limit = FARTHEST_AXIS * path.bounds().diagonal();
-        if least.sqrt() > limit {
-            let distance = least.sqrt();
+        if minimum.sqrt() > limit {
+            let distance = minimum.sqrt();
             return Err(AxisFault::TooFar { distance, limit });
         }
-        if (greatest - least) <= SAME * greatest {
+        if (maximum - minimum) <= SAME * maximum {
             return Err(AxisFault::Circle { distance });
         }
         let places = extremes(path, axis);
-        let place = |is_greatest: bool| {
-            let of_kind = places.iter().filter(move |p| p.is_greatest == is_greatest);
+        let place = |is_maximum: bool| {
+            let of_kind = places.iter().filter(move |p| p.is_maximum == is_maximum);
             of_kind.map(|p| p.at).collect::<Vec<f64>>()
         };
         let (maxima, minima) = (place(true), place(false));
@@ -90,10 +90,10 @@ impl Distance {
     }
 
     /// The extreme beside which a difference of squares would lose digits, and the step from it.
-    fn beside(&self, path: &WantedPath, t: f64, square: f64) -> Option<(Place, f64)> {
+    fn beside(&self, path: &RequiredPath, t: f64, square: f64) -> Option<(Place, f64)> {
         let [far, near] = self.reach.map(|r| r * r);
         let room = NEAR * far;
-        let place = |at: f64, is_greatest: bool| (Place { at, is_greatest }, t - at);
+        let place = |at: f64, is_maximum: bool| (Place { at, is_maximum }, t - at);
         let found = if far - square <= room {
             let last = self.far + path.period();
             let at = if t <= self.near { self.far } else { last };
@@ -104,12 +104,12 @@ impl Distance {
             return None;
         };
         let (from, to) = (found.0.at.min(t), found.0.at.max(t));
-        (path.breaks_between(from, to).len() <= MOST_BREAKS).then_some(found)
+        (path.breaks_between(from, to).len() <= MAX_BREAKS).then_some(found)
     }
 
     /// `sqrt(R^2 - u)` and `sqrt(u - rho^2)` with their derivatives at a parameter in `[far, far + period]`, the second below
     /// zero beyond the least distance.
-    pub(super) fn legs(&self, path: &WantedPath, t: f64, jet: &Jet) -> [Series; 2] {
+    pub(super) fn legs(&self, path: &RequiredPath, t: f64, jet: &Jet) -> [Series; 2] {
         let (p, d1, d2) = (jet.point - self.axis, jet.first, jet.second);
         let u = [
             p.norm_squared(),
@@ -119,8 +119,8 @@ impl Distance {
         let [far, near] = self.reach.map(|r| r * r);
         let sign = if t <= self.near { 1.0 } else { -1.0 };
         let beside = self.beside(path, t, u[0]);
-        let at = |is_greatest: bool| {
-            let found = beside.filter(|(place, _)| place.is_greatest == is_greatest);
+        let at = |is_maximum: bool| {
+            let found = beside.filter(|(place, _)| place.is_maximum == is_maximum);
             found.map(|(place, h)| self.root(path, place, h, jet))
         };
         let away = at(true).unwrap_or_else(|| {
@@ -135,8 +135,8 @@ impl Distance {
     }
 
     /// One of the roots beside its extreme, by the limit: `h w` with w = sqrt(v).
-    fn root(&self, path: &WantedPath, place: Place, h: f64, jet: &Jet) -> Series {
-        let sense = if place.is_greatest { -1.0 } else { 1.0 };
+    fn root(&self, path: &RequiredPath, place: Place, h: f64, jet: &Jet) -> Series {
+        let sense = if place.is_maximum { -1.0 } else { 1.0 };
         let limit = Limit::new(path, self.axis, place.at, h, jet);
         let [v, slope] = limit.square.map(|integral| sense * integral);
         let bend = sense * limit.bends[1];
@@ -146,7 +146,7 @@ impl Distance {
         let hw2 = bend / (2.0 * w) - h * slope * slope / (4.0 * w * w * w);
         let series = Taylor([h * w, w + h * w1, w1 + 0.5 * hw2]);
         // Positive after the greatest distance and before the next, and before the least.
-        let ahead = if place.is_greatest {
+        let ahead = if place.is_maximum {
             place.at == self.far
         } else {
             false
@@ -159,7 +159,7 @@ impl Distance {
     #[inline]
     pub(super) fn turning<const N: usize>(
         &self,
-        path: &WantedPath,
+        path: &RequiredPath,
         t: f64,
         jet: &Jet,
     ) -> Taylor<N> {
@@ -173,7 +173,7 @@ impl Distance {
         let Some((place, h)) = self.beside(path, t, u) else {
             return taylor::<N>([d1, d2, 0.5 * d3]) * d1.signum() / (to_far * from_near).sqrt();
         };
-        let other = if place.is_greatest { from_near } else { to_far };
+        let other = if place.is_maximum { from_near } else { to_far };
         let limit = Limit::new(path, self.axis, place.at, h, jet);
         let bends = match N {
             3.. => limit.second(path, self.axis, place.at, h),
@@ -195,7 +195,7 @@ pub(super) fn taylor<const N: usize>(all: [f64; 3]) -> Taylor<N> {
 }
 
 /// Places along a path at which its distance from an axis is greater, or less, than beside them.
-fn extremes(path: &WantedPath, axis: Point) -> Vec<Place> {
+fn extremes(path: &RequiredPath, axis: Point) -> Vec<Place> {
     let slope_of = |jet: &Jet| (jet.point - axis).dot(&jet.first);
     let slope = |t: f64| slope_of(&path.at(t));
     let samples = path.samples();
@@ -212,17 +212,17 @@ fn extremes(path: &WantedPath, axis: Point) -> Vec<Place> {
         if (here > 0.0) != (after > 0.0) {
             found.push(Place {
                 at: bracketed_root(slope, end(i), end(i + 1), here, after),
-                is_greatest: here > 0.0,
+                is_maximum: here > 0.0,
             });
         }
         // Two zeros between samples, where the slope comes near zero and turns.
         let side = here.signum();
         let [low, middle, high] = [before, here, after].map(|s| s * side);
-        let is_least = middle <= low && middle <= high && low + high > 2.0 * middle;
-        if i > 0 && is_least && middle <= low + high - 2.0 * middle {
+        let is_minimum = middle <= low && middle <= high && low + high > 2.0 * middle;
+        if i > 0 && is_minimum && middle <= low + high - 2.0 * middle {
             let (at, value) = bracketed_minimum(|t| slope(t) * side, end(i - 1), end(i + 1));
             if value < 0.0 {
-                found.extend([true, false].map(|is_greatest| Place { at, is_greatest }));
+                found.extend([true, false].map(|is_maximum| Place { at, is_maximum }));
             }
         }
     }

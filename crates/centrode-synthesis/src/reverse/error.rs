@@ -2,7 +2,7 @@ use centrode_geometry::Point;
 use thiserror::Error;
 
 use super::DrawingError;
-use centrode_spec::digits::told;
+use centrode_spec::digits::stated;
 
 /// Reason why points or a file give no path.
 #[derive(Clone, Debug, Error, PartialEq)]
@@ -12,7 +12,7 @@ pub enum PathError {
     #[error(transparent)]
     Drawing(#[from] DrawingError),
     /// A coordinate is NaN or infinite.
-    #[error("point {number} of the path is ({x}, {y}): both must be finite numbers", x = told(*x), y = told(*y))]
+    #[error("point {number} of the path is ({x}, {y}): both must be finite numbers", x = stated(*x), y = stated(*y))]
     NotFinite {
         /// Number of the point, from one.
         number: usize,
@@ -23,7 +23,7 @@ pub enum PathError {
     },
     /// A coordinate so large that its powers are lost.
     #[error(
-        "point {number} of the path is ({}, {}) mm: coordinates may be up to {limit:e} mm", told(*x), told(*y)
+        "point {number} of the path is ({}, {}) mm: coordinates may be up to {limit:e} mm", stated(*x), stated(*y)
     )]
     TooFar {
         /// Number of the point, from one.
@@ -36,7 +36,7 @@ pub enum PathError {
         limit: f64,
     },
     /// A path that is small beside its distance from the origin.
-    #[error("the path is {} mm across and up to {} mm from the origin of x and y: too few digits are left of it; draw it larger, or nearer to the origin", told(*size), told(*far))]
+    #[error("the path is {} mm across and up to {} mm from the origin of x and y: too few digits are left of it; draw it larger, or nearer to the origin", stated(*size), stated(*far))]
     TooSmall {
         /// Diagonal of the box round it, mm.
         size: f64,
@@ -44,12 +44,12 @@ pub enum PathError {
         far: f64,
     },
     /// Fewer points than make a closed curve.
-    #[error("the path has {count} points; a closed curve takes at least {least}")]
+    #[error("the path has {count} points; a closed curve takes at least {minimum}")]
     TooFew {
         /// Number of points.
         count: usize,
         /// Fewest allowed.
-        least: usize,
+        minimum: usize,
     },
     /// More points than a path may have.
     #[error("the path has {count} points; the limit is {limit}")]
@@ -60,7 +60,7 @@ pub enum PathError {
         limit: usize,
     },
     /// Two neighbouring points are one.
-    #[error("points {first} and {second} of the path are both ({x}, {y}) mm: leave one out", x = told(*x), y = told(*y))]
+    #[error("points {first} and {second} of the path are both ({x}, {y}) mm: leave one out", x = stated(*x), y = stated(*y))]
     Twice {
         /// Number of the first, from one.
         first: usize,
@@ -104,7 +104,7 @@ pub enum PathError {
         line: usize,
     },
     /// A tolerance that is none.
-    #[error("line {line}: the tolerance of a point is zero or more, in mm, not {}", told(*value))]
+    #[error("line {line}: the tolerance of a point is zero or more, in mm, not {}", stated(*value))]
     Tolerance {
         /// Line, from one.
         line: usize,
@@ -133,7 +133,7 @@ pub enum PathError {
     },
     /// A line of too few values, or of values in columns without a heading.
     #[error(
-        "line {line} has {count} values; it must hold {wanted}, separated by a comma, and further columns need a heading"
+        "line {line} has {count} values; it must hold {required}, separated by a comma, and further columns need a heading"
     )]
     Columns {
         /// Line, from one.
@@ -141,7 +141,7 @@ pub enum PathError {
         /// Number of values.
         count: usize,
         /// Values that a line must hold.
-        wanted: &'static str,
+        required: &'static str,
     },
 }
 
@@ -150,7 +150,7 @@ pub enum PathError {
 #[non_exhaustive]
 pub enum AxisFault {
     /// The place is no point.
-    #[error("the axis ({}, {}) must be two finite numbers within {limit:e} mm", told(*x), told(*y))]
+    #[error("the axis ({}, {}) must be two finite numbers within {limit:e} mm", stated(*x), stated(*y))]
     NotFinite {
         /// Its x, mm.
         x: f64,
@@ -160,7 +160,7 @@ pub enum AxisFault {
         limit: f64,
     },
     /// An axis so far from the path that the tip's position is lost in rounding.
-    #[error("the axis is {} mm from the path: it may be up to {} mm away, 1000 times the size of the path", told(distance.round()), told(limit.round()))]
+    #[error("the axis is {} mm from the path: it may be up to {} mm away, 1000 times the size of the path", stated(distance.round()), stated(limit.round()))]
     TooFar {
         /// Minimum distance of the path from the axis, mm.
         distance: f64,

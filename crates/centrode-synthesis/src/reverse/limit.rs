@@ -1,6 +1,6 @@
 use centrode_geometry::{Jet, Point, gauss_legendre};
 
-use super::WantedPath;
+use super::RequiredPath;
 
 /// Share of the path's period from an extreme within which second derivatives of the limit lose digits.
 const TOO_NEAR: f64 = 1e-4;
@@ -23,7 +23,7 @@ pub(super) struct Limit {
 
 impl Limit {
     /// Between the parameter `extreme` of the path and a place `h` away, whose derivatives are `jet`.
-    pub(super) fn new(path: &WantedPath, axis: Point, extreme: f64, h: f64, jet: &Jet) -> Self {
+    pub(super) fn new(path: &RequiredPath, axis: Point, extreme: f64, h: f64, jet: &Jet) -> Self {
         let mut found = Self {
             slope: [0.0; 2],
             square: [0.0; 2],
@@ -58,7 +58,13 @@ impl Limit {
     }
 
     /// A'' and V'' at a step: very near the extreme by the line through two places farther from it on the same side.
-    pub(super) fn second(&self, path: &WantedPath, axis: Point, extreme: f64, h: f64) -> [f64; 2] {
+    pub(super) fn second(
+        &self,
+        path: &RequiredPath,
+        axis: Point,
+        extreme: f64,
+        h: f64,
+    ) -> [f64; 2] {
         let near = TOO_NEAR * path.period();
         if h.abs() >= near {
             return self.bends.map(|bend| bend / h);

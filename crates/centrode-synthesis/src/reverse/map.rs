@@ -1,7 +1,7 @@
 use centrode_geometry::{Point, checkpoint};
 
 use super::sharpness::leg;
-use super::{AxisFault, TwoBar, WantedPath};
+use super::{AxisFault, RequiredPath, TwoBar};
 
 /// Share of the path's box by which a search for axes goes beyond it on every side.
 const MARGIN: f64 = 0.25;
@@ -58,7 +58,7 @@ impl PossibleAxis {
     /// Minimum radius of curvature of the four pitch curves of the split by powers where they are convex, mm; `bend` is the angle
     /// from the carrier's first leg to its second, rad.
     #[must_use]
-    pub fn least_radius(&self, bend: f64) -> f64 {
+    pub fn minimum_radius(&self, bend: f64) -> f64 {
         leg(self.carrier, bend) / self.sharpness
     }
 }
@@ -78,7 +78,7 @@ impl From<&TwoBar> for PossibleAxis {
 impl AxisRange {
     /// Grid over the path's box and a quarter of its size round it.
     #[must_use]
-    pub fn about(path: &WantedPath) -> Self {
+    pub fn about(path: &RequiredPath) -> Self {
         let bounds = path.bounds();
         let size = (bounds.max.x - bounds.min.x).max(bounds.max.y - bounds.min.y);
         let margin = MARGIN * size;
@@ -126,7 +126,7 @@ impl AxisRange {
 impl AxisMap {
     /// Tries every axis of a grid; where the sense of the carrier is free, the milder one.
     #[must_use]
-    pub fn new(path: &WantedPath, range: AxisRange) -> Self {
+    pub fn new(path: &RequiredPath, range: AxisRange) -> Self {
         let [columns, rows] = range.count;
         let one = |n: u64| {
             checkpoint();
@@ -155,15 +155,15 @@ impl AxisMap {
         self.found.iter().filter(|found| found.is_ok()).count()
     }
 
-    /// The axis of the grid whose gears are the bluntest: that of the greatest [`least_radius`](PossibleAxis::least_radius); none
+    /// The axis of the grid whose gears are the bluntest: that of the greatest [`minimum_radius`](PossibleAxis::minimum_radius); none
     /// where none is possible.
     #[must_use]
     pub fn bluntest(&self, bend: f64) -> Option<Point> {
-        self.least(|axis| -axis.least_radius(bend))
+        self.minimum(|axis| -axis.minimum_radius(bend))
     }
 
     /// The possible axis of the grid with the least value of a measure.
-    fn least(&self, measure: impl Fn(&PossibleAxis) -> f64) -> Option<Point> {
+    fn minimum(&self, measure: impl Fn(&PossibleAxis) -> f64) -> Option<Point> {
         let possible = self.found.iter().enumerate();
         let possible = possible.filter_map(|(n, found)| Some((n, measure(found.as_ref().ok()?))));
         let (n, _) = possible.min_by(|a, b| a.1.total_cmp(&b.1))?;
@@ -174,8 +174,8 @@ impl AxisMap {
     /// The mildest axis: that of the smallest greatest |ln| of the ratio, refined from the best of the grid by ever finer
     /// grids about it within its bounds; none where no axis of the grid is possible.
     #[must_use]
-    pub fn mildest(&self, path: &WantedPath) -> Option<TwoBar> {
-        let axis = self.least(PossibleAxis::unevenness)?;
+    pub fn mildest(&self, path: &RequiredPath) -> Option<TwoBar> {
+        let axis = self.minimum(PossibleAxis::unevenness)?;
         let mut best = TwoBar::new(path, axis, None).ok()?;
         let mut step = self.range.step();
         for _ in 0..HALVINGS {

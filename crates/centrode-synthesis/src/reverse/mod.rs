@@ -23,22 +23,22 @@ mod three_arm;
 mod timing;
 mod wishes;
 
-pub use crate::composed::{
-    GearDrive, GearDriveError, GearDriveSpec, MachineError, ReversedMachine,
+pub use crate::machine::{
+    GearDrive, GearDriveError, GearDriveSpec, ReversedMachine, ReversedMachineError,
 };
 pub use chain::{ChainJet, TwoBar};
-pub use csv::WantedPoints;
+pub use csv::RequiredPoints;
 pub use design::{Aim, PathDesign, PathSpec};
 pub use drawn::{DrawingError, DrawnPath};
 pub use error::{AxisFault, PathError};
 pub use map::{AxisMap, AxisRange, PossibleAxis};
-pub use path::WantedPath;
+pub use path::RequiredPath;
 pub use poses::{Harmonics, KeyPose, KeyPoses, PoseError};
 pub(crate) use sharpness::leg;
 pub use split::{Split, SplitError, SplitKind};
 pub use three_arm::NotPosed;
-pub use timing::{Section, Timing, TimingError, Wanted};
-pub use wishes::{KeepOut, WantedDirection, WantedRange, WantedTurn, Wishes};
+pub use timing::{Required, Section, Timing, TimingError};
+pub use wishes::{KeepOut, RequiredDirection, RequiredRange, RequiredTurn, Wishes};
 
 #[cfg(test)]
 mod tests;

@@ -5,7 +5,7 @@ use centrode_geometry::{
     Bounds, Curve, Jet, Outline, Point, SampledPiece, Segment, Vector, piece_ends,
 };
 
-use super::{PathError, WantedPoints};
+use super::{PathError, RequiredPoints};
 use centrode_gear::pitch::closed_spline;
 
 /// Fewest points of a closed curve.
@@ -23,9 +23,9 @@ const SMALLEST: f64 = 1e-6;
 const GAP: f64 = 4.0;
 /// Samples of a turn, and fewest between two breaks.
 const SAMPLES: f64 = 384.0;
-const LEAST_SAMPLES: f64 = 2.0;
+const MIN_SAMPLES: f64 = 2.0;
 /// Most parts into which a turn is cut for searches of extremes: those of a curve of more pieces span several.
-const MOST_PARTS: usize = 64;
+const MAX_PARTS: usize = 64;
 /// Even parts of a turn, in each of which an analytic path has few extremes.
 const EVEN_PARTS: u32 = 16;
 /// Sides of the polygon on which crossings are sought.
@@ -35,7 +35,7 @@ const SIDES: usize = 2000;
 ///
 /// The order of its points is the order in time; the speed along it is free.
 #[derive(Clone, Debug)]
-pub struct WantedPath {
+pub struct RequiredPath {
     curve: Arc<dyn Curve>,
     breaks: Vec<f64>,
     samples: Vec<Sample>,
@@ -52,7 +52,7 @@ pub(super) struct Sample {
     pub(super) jet: Jet,
 }
 
-impl WantedPath {
+impl RequiredPath {
     /// Largest file of a path, bytes.
     pub const LARGEST: usize = 1 << 22;
 
@@ -110,9 +110,9 @@ impl WantedPath {
         let closed = points.len() > 1 && points.first() == points.last();
         let points = &points[..points.len() - usize::from(closed)];
         let count = points.len();
-        let least = FEWEST.max(degree + 1);
-        if count < least {
-            return Err(PathError::TooFew { count, least });
+        let minimum = FEWEST.max(degree + 1);
+        if count < minimum {
+            return Err(PathError::TooFew { count, minimum });
         }
         if count > MOST {
             let limit = MOST;
@@ -158,7 +158,7 @@ impl WantedPath {
         let mut smooth = Vec::new();
         for pair in piece_ends(0.0, period, 1, &breaks).windows(2) {
             let share = (pair[1] - pair[0]) / period;
-            let steps = (SAMPLES * share).ceil().max(LEAST_SAMPLES);
+            let steps = (SAMPLES * share).ceil().max(MIN_SAMPLES);
             let piece = SampledPiece {
                 from: pair[0],
                 to: pair[1],
@@ -190,7 +190,7 @@ impl WantedPath {
     /// # Errors
     /// [`PathError`] with the line, and as [`through`](Self::through).
     pub fn from_csv(bytes: &[u8]) -> Result<Self, PathError> {
-        Self::through(&WantedPoints::from_csv(bytes)?.points)
+        Self::through(&RequiredPoints::from_csv(bytes)?.points)
     }
 
     /// The curve.
@@ -256,8 +256,8 @@ impl WantedPath {
     /// Ends of parts from `from` over one turn, between which the path is smooth or, where it has many pieces, nearly so.
     pub(crate) fn parts(&self, from: f64) -> Vec<f64> {
         let to = from + self.period();
-        if self.breaks.len() > MOST_PARTS {
-            return piece_ends(from, to, MOST_PARTS as u32, &[]);
+        if self.breaks.len() > MAX_PARTS {
+            return piece_ends(from, to, MAX_PARTS as u32, &[]);
         }
         let even = if self.breaks.len() < EVEN_PARTS as usize / 2 {
             EVEN_PARTS
@@ -311,7 +311,7 @@ pub(super) struct PathSamples {
 
 impl PathSamples {
     /// Those of `most` pieces at most, evenly spread.
-    pub(super) fn new(path: &WantedPath, most: usize) -> Self {
+    pub(super) fn new(path: &RequiredPath, most: usize) -> Self {
         let count = path.pieces().len();
         let step = count.div_ceil(most);
         let pieces = path.pieces().iter().step_by(step);
@@ -332,8 +332,8 @@ impl PathSamples {
 
 /// Text of a file, without the mark that some programs begin it with.
 pub(super) fn text(bytes: &[u8]) -> Result<&str, PathError> {
-    if bytes.len() > WantedPath::LARGEST {
-        let (bytes, limit) = (bytes.len(), WantedPath::LARGEST);
+    if bytes.len() > RequiredPath::LARGEST {
+        let (bytes, limit) = (bytes.len(), RequiredPath::LARGEST);
         return Err(PathError::TooLarge { bytes, limit });
     }
     let text = std::str::from_utf8(bytes).map_err(|error| {

@@ -9,7 +9,7 @@ use super::path::{PathSamples, Sample};
 use super::split::SHARE;
 
 /// Most pieces of the path that a map looks at: of more it takes as many, evenly spread.
-const MOST_PIECES: usize = 64;
+const MAX_PIECES: usize = 64;
 /// Steps of a turn over each of which a map averages a curvature: those of the tables in which most laws are written.
 pub(super) const AVERAGED: f64 = 180.0;
 
@@ -25,7 +25,7 @@ impl TwoBar {
     /// less sharp: [`ReversedMachine::minimum_radius`](super::ReversedMachine::minimum_radius).
     #[must_use]
     pub fn sharpness(&self) -> Extreme {
-        self.greatest_bend(|[a, b, c, d]| a.max(b).max(c.max(d)))
+        self.maximum_bend(|[a, b, c, d]| a.max(b).max(c.max(d)))
     }
 
     /// Greatest convex and greatest concave curvature of the four pitch curves of the split by powers, 1/mm: they bound the
@@ -33,18 +33,18 @@ impl TwoBar {
     #[must_use]
     pub fn curvatures(&self, bend: f64) -> [f64; 2] {
         let leg = self.center_distance(bend);
-        let greatest = |sign: f64| {
+        let maximum = |sign: f64| {
             let most =
                 |curvatures: [f64; 4]| curvatures.iter().fold(0.0_f64, |s, c| s.max(sign * c));
-            self.greatest_bend(most).value / leg
+            self.maximum_bend(most).value / leg
         };
-        [greatest(1.0), greatest(-1.0)]
+        [maximum(1.0), maximum(-1.0)]
     }
 
     /// Minimum radius of curvature of the four pitch curves of the split by powers where they are convex, mm, of the law itself as
     /// for [`sharpness`](Self::sharpness); `bend` is the angle from the carrier's first leg to its second, rad.
     #[must_use]
-    pub fn least_radius(&self, bend: f64) -> f64 {
+    pub fn minimum_radius(&self, bend: f64) -> f64 {
         self.center_distance(bend) / self.sharpness().value
     }
 
@@ -53,7 +53,7 @@ impl TwoBar {
     /// Where two pieces of the path join near a place at which the bars are stretched or folded, the law has a peak of curvature:
     /// the nearer, the higher and narrower. A table of the law does not have it, nor do the gears.
     pub(super) fn sharpness_sampled(&self) -> f64 {
-        let looks = PathSamples::new(self.path(), MOST_PIECES);
+        let looks = PathSamples::new(self.path(), MAX_PIECES);
         let speeds = self.speeds_of(&looks);
         let scale = self.scale(&looks.samples, &speeds);
         let mut rest = &speeds[..];
@@ -81,7 +81,7 @@ impl TwoBar {
     }
 
     /// Maximum of a measure of the four curvatures, times the centre distance.
-    fn greatest_bend(&self, of: impl Fn([f64; 4]) -> f64) -> Extreme {
+    fn maximum_bend(&self, of: impl Fn([f64; 4]) -> f64) -> Extreme {
         let looks = PathSamples::new(self.path(), usize::MAX);
         let speeds = self.speeds_of(&looks);
         let scale = self.scale(&looks.samples, &speeds);

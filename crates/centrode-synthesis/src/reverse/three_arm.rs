@@ -2,7 +2,7 @@ use std::f64::consts::{FRAC_PI_2, TAU};
 
 use thiserror::Error;
 
-use crate::composed::{free_backlash, free_body};
+use crate::machine::{free_backlash, free_body};
 use crate::reverse::KeyPoses;
 use centrode_gear::design::Addendum;
 use centrode_gear::pitch::{PitchSpec, Transmission};

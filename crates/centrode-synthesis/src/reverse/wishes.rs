@@ -6,33 +6,32 @@ use centrode_geometry::{Outline, Point};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use centrode_spec::SpecError;
-use centrode_spec::degrees;
 use centrode_spec::rule::{
     Rule, broken, file_name, finite, in_range, is_zero, not_negative, positive,
 };
+use centrode_spec::{SpecError, degrees};
 
 /// Greatest coordinate of a shape, mm.
 const FARTHEST: f64 = 1e6;
 /// Most directions that are wanted along a path.
-const MOST_DIRECTIONS: usize = 200;
+const MAX_DIRECTIONS: usize = 200;
 
 /// Wishes about a machine besides the path of its tip.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Wishes {
     /// Length of the carrier, mm.
-    #[serde(skip_serializing_if = "WantedRange::is_free")]
-    pub carrier: WantedRange,
+    #[serde(skip_serializing_if = "RequiredRange::is_free")]
+    pub carrier: RequiredRange,
     /// Length of the arm, mm.
-    #[serde(skip_serializing_if = "WantedRange::is_free")]
-    pub arm: WantedRange,
+    #[serde(skip_serializing_if = "RequiredRange::is_free")]
+    pub arm: RequiredRange,
     /// Centre distance of the gears, mm.
-    #[serde(skip_serializing_if = "WantedRange::is_free")]
-    pub center_distance: WantedRange,
+    #[serde(skip_serializing_if = "RequiredRange::is_free")]
+    pub center_distance: RequiredRange,
     /// Ratio of planet to carrier.
-    #[serde(skip_serializing_if = "WantedRange::is_free")]
-    pub ratio: WantedRange,
+    #[serde(skip_serializing_if = "RequiredRange::is_free")]
+    pub ratio: RequiredRange,
     /// Direction of the clamp less that of the arm, rad (degrees in the file); left out, the one that suits the directions best.
     #[serde(
         rename = "clamp_deg",
@@ -43,10 +42,10 @@ pub struct Wishes {
     pub clamp: Option<f64>,
     /// Directions of the clamp at points of the path.
     #[serde(skip_serializing_if = "Vec::is_empty")]
-    pub directions: Vec<WantedDirection>,
+    pub directions: Vec<RequiredDirection>,
     /// Turn of the carrier between two points of the path.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub turn: Option<WantedTurn>,
+    pub turn: Option<RequiredTurn>,
     /// Shapes that the machine keeps out of, by name.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub keep_out: BTreeMap<String, KeepOut>,
@@ -55,19 +54,19 @@ pub struct Wishes {
 /// Least and greatest value wanted of a figure.
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
-pub struct WantedRange {
+pub struct RequiredRange {
     /// Least; left out, there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub at_least: Option<f64>,
+    pub minimum: Option<f64>,
     /// Greatest; left out, there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub at_most: Option<f64>,
+    pub maximum: Option<f64>,
 }
 
 /// Direction of the clamp wanted at a point.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
-pub struct WantedDirection {
+pub struct RequiredDirection {
     /// Number of the point, from one.
     pub point: usize,
     /// Direction, counter-clockwise from x, rad (degrees in the file).
@@ -76,7 +75,7 @@ pub struct WantedDirection {
     pub direction: f64,
     /// How far off it may be, rad (degrees in the file).
     #[serde(
-        default = "WantedDirection::usual_tolerance",
+        default = "RequiredDirection::usual_tolerance",
         rename = "tolerance_deg",
         with = "degrees"
     )]
@@ -87,7 +86,7 @@ pub struct WantedDirection {
 /// Turn of the carrier wanted between two points of the path.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
-pub struct WantedTurn {
+pub struct RequiredTurn {
     /// Number of the point from which it is counted, from one.
     pub from: usize,
     /// Number of the point up to which it is counted.
@@ -119,7 +118,7 @@ pub struct KeepOut {
     pub clearance: f64,
 }
 
-impl WantedRange {
+impl RequiredRange {
     /// Whether nothing is wanted.
     #[must_use]
     pub fn is_free(&self) -> bool {
@@ -129,25 +128,26 @@ impl WantedRange {
     /// Least and greatest value.
     #[must_use]
     pub fn ends(&self) -> [Option<f64>; 2] {
-        [self.at_least, self.at_most]
+        [self.minimum, self.maximum]
     }
 
     fn validate(&self, key: &str) -> Result<(), SpecError> {
-        for (end, value) in [("at_least", self.at_least), ("at_most", self.at_most)] {
+        for (end, value) in [("minimum", self.minimum), ("maximum", self.maximum)] {
             if let Some(value) = value {
                 not_negative(&format!("{key}.{end}"), value)?;
             }
         }
         match self.ends() {
-            [Some(least), Some(greatest)] if least > greatest => {
-                broken(&format!("{key}.at_most"), Rule::NotInOrder(least, greatest))
-            }
+            [Some(minimum), Some(maximum)] if minimum > maximum => broken(
+                &format!("{key}.maximum"),
+                Rule::NotInOrder(minimum, maximum),
+            ),
             _ => Ok(()),
         }
     }
 }
 
-impl WantedDirection {
+impl RequiredDirection {
     /// Tolerance where none is given: 2 degrees, in rad.
     #[must_use]
     pub fn usual_tolerance() -> f64 {
@@ -172,11 +172,11 @@ impl Wishes {
         self.center_distance.validate("center_distance")?;
         self.ratio.validate("ratio")?;
         finite("clamp_deg", self.clamp.unwrap_or(0.0))?;
-        if self.directions.len() > MOST_DIRECTIONS {
+        if self.directions.len() > MAX_DIRECTIONS {
             let rule = Rule::OutOfRange {
                 value: self.directions.len() as f64,
-                least: 0.0,
-                greatest: MOST_DIRECTIONS as f64,
+                minimum: 0.0,
+                maximum: MAX_DIRECTIONS as f64,
                 unit: " directions",
             };
             return broken("directions", rule);
@@ -186,20 +186,20 @@ impl Wishes {
             usize::MAX => positive(key, number as f64),
             points => in_range(key, number as f64, [1.0, points as f64], ""),
         };
-        for (i, wanted) in self.directions.iter().enumerate() {
+        for (i, required) in self.directions.iter().enumerate() {
             let key = |word: &str| format!("directions[{i}].{word}");
-            is_point(&key("point"), wanted.point)?;
+            is_point(&key("point"), required.point)?;
             let before = &self.directions[..i];
-            if before.iter().any(|other| other.point == wanted.point) {
-                return broken(&key("point"), Rule::Twice(wanted.point as f64));
+            if before.iter().any(|other| other.point == required.point) {
+                return broken(&key("point"), Rule::Twice(required.point as f64));
             }
-            finite(&key("direction_deg"), wanted.direction)?;
-            positive(&key("tolerance_deg"), degrees::rounded(wanted.tolerance))?;
+            finite(&key("direction_deg"), required.direction)?;
+            positive(&key("tolerance_deg"), degrees::rounded(required.tolerance))?;
         }
         if let Some(turn) = self.turn {
             is_point("turn.from", turn.from)?;
             is_point("turn.to", turn.to)?;
-            let [least, greatest] = turn.between;
+            let [minimum, maximum] = turn.between;
             for end in turn.between {
                 in_range(
                     "turn.between_deg",
@@ -208,8 +208,8 @@ impl Wishes {
                     " deg",
                 )?;
             }
-            if least > greatest {
-                let rule = Rule::NotInOrder(degrees::rounded(least), degrees::rounded(greatest));
+            if minimum > maximum {
+                let rule = Rule::NotInOrder(degrees::rounded(minimum), degrees::rounded(maximum));
                 return broken("turn.between_deg", rule);
             }
         }

@@ -1,4 +1,4 @@
-mod wanted;
+mod required;
 
 use std::ffi::OsStr;
 use std::path::PathBuf;
@@ -11,7 +11,7 @@ use clap::builder::{
 };
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-pub(crate) use wanted::{Drive, Reverse};
+pub(crate) use required::{Drive, Reverse};
 
 /// Tolerance of an export that asks for none, mm.
 pub(crate) const TOLERANCE: &str = "0.001";

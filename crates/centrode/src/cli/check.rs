@@ -1,15 +1,14 @@
 use std::io::Write;
 
-use crate::analysis::{MOST_TEETH, Report};
+use crate::analysis::{MAX_TEETH, Report};
 use crate::family::Mechanism;
 use centrode_spec::{Design, DesignError};
 
-use crate::cli::Status;
 use crate::cli::args::Check;
 use crate::cli::failure::Failure;
 use crate::cli::input::Source;
 use crate::cli::progress::Progress;
-use crate::cli::report;
+use crate::cli::{Status, report};
 use crate::page::Made;
 
 /// Resolves a design and prints its report.
@@ -81,7 +80,7 @@ fn remedies(
         }
         let family = mechanism.design().family().word;
         return Err(Failure::Usage(format!(
-            "no remedy is known for this design of family {family:?}: only those of gear-pair whose flanks carry the motion with {MOST_TEETH} teeth or fewer have one, and machines whose plates or pins collide and have layers in which they do not"
+            "no remedy is known for this design of family {family:?}: only those of gear-pair whose flanks carry the motion with {MAX_TEETH} teeth or fewer have one, and machines whose plates or pins collide and have layers in which they do not"
         )));
     }
     let designs: Vec<(&str, String)> = found

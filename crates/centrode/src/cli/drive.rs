@@ -4,13 +4,12 @@ use crate::analysis::{Unit, with_sound_teeth};
 use centrode_spec::Design as _;
 use centrode_synthesis::reverse::{GearDrive, GearDriveSpec};
 
-use crate::cli::Status;
 use crate::cli::args::Drive;
 use crate::cli::failure::Failure;
 use crate::cli::input::Source;
-use crate::cli::output;
 use crate::cli::progress::Progress;
-use crate::cli::reverse::{least_radii, line, teeth};
+use crate::cli::reverse::{line, minimum_radii, teeth};
+use crate::cli::{Status, output};
 use crate::page::reverse::words::range;
 
 /// Finds the gears of a drive, prints what they do and writes the design.
@@ -64,8 +63,8 @@ fn found(made: &GearDrive, out: &mut impl Write) -> std::io::Result<()> {
     } else {
         Unit::Millimetre
     };
-    let [least, greatest] = made.timing.places().map(|place| unit.tell(place));
-    line(out, "output", &format!("{least} to {greatest}"))?;
+    let [minimum, maximum] = made.timing.places().map(|place| unit.tell(place));
+    line(out, "output", &format!("{minimum} to {maximum}"))?;
     let [low, high] = made.timing.ratios();
     let words = format!(
         "{}, least at {}, greatest at {} of the input",
@@ -74,7 +73,7 @@ fn found(made: &GearDrive, out: &mut impl Write) -> std::io::Result<()> {
         Unit::Angle.tell(high.input)
     );
     line(out, "ratio", &words)?;
-    least_radii(out, GearDrive::PAIR, made.least_radii)?;
+    minimum_radii(out, GearDrive::PAIR, made.minimum_radii)?;
     let words = format!(
         "{} at most, with a law of {} steps",
         unit.tell(made.miss.value),

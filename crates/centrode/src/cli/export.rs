@@ -80,10 +80,10 @@ fn bundle(
     command: &Export,
 ) -> Result<Bundle, Failure> {
     let known: Vec<&str> = family.parts.iter().map(|part| part.name).collect();
-    let mut asked = command.part.iter();
+    let mut requested = command.part.iter();
     // Parts that the design names are told when it is drawn.
     if !known.is_empty()
-        && let Some(lost) = asked.find(|part| !known.contains(&part.as_str()))
+        && let Some(lost) = requested.find(|part| !known.contains(&part.as_str()))
     {
         let (noun, known) = (family.noun, known.join(", "));
         let message = format!("{noun} has no part named {lost}; there are {known}");
@@ -135,8 +135,8 @@ fn formats(command: &Export) -> Vec<Format> {
         (File::Urdf, Format::Urdf),
         (File::Mjcf, Format::Mjcf),
     ];
-    let wanted = pairs.into_iter().filter(|(file, _)| command.wants(*file));
-    wanted.map(|(_, format)| format).collect()
+    let required = pairs.into_iter().filter(|(file, _)| command.wants(*file));
+    required.map(|(_, format)| format).collect()
 }
 
 /// Refuses options that have no effect on any of the files asked for.

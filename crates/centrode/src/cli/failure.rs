@@ -158,12 +158,12 @@ mod tests {
             name: "a.toml".into(),
             error: io::Error::from_raw_os_error(2),
         };
-        let mut told = Vec::new();
-        failure.write(&mut told).expect("written");
-        let told = String::from_utf8(told).expect("text");
+        let mut stated = Vec::new();
+        failure.write(&mut stated).expect("written");
+        let stated = String::from_utf8(stated).expect("text");
         assert!(
-            told.contains("cannot read a.toml: ") && !told.contains("os error"),
-            "{told}"
+            stated.contains("cannot read a.toml: ") && !stated.contains("os error"),
+            "{stated}"
         );
         let kept = "left (os error two) alone (os error 3), and on";
         assert_eq!(without_code(kept), "left (os error two) alone, and on");
@@ -187,7 +187,7 @@ mod tests {
         assert_eq!(
             shown_error(text),
             "error: teeth.backlsh: unknown key, did you mean \"backlash\"?; known are addendum, fit, tip_shortening, \
-             phase, backlash, backlash_angle_deg, thickness_split, least_tip_width_coefficient, thickness_deviations, pin_diameter\n \
+             phase, backlash, backlash_angle_deg, thickness_split, minimum_tip_width_coefficient, thickness_deviations, pin_diameter\n \
              --> pair.toml:6:1\n  |\n6 | backlsh = 1\n  | ^^^^^^^\n"
         );
     }

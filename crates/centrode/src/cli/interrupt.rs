@@ -43,7 +43,7 @@ impl Interrupt {
     }
 }
 
-fn watched(told: Cancel) -> io::Result<tokio::runtime::Runtime> {
+fn watched(stated: Cancel) -> io::Result<tokio::runtime::Runtime> {
     let runtime = tokio::runtime::Builder::new_multi_thread()
         .worker_threads(1)
         .enable_all()
@@ -57,7 +57,7 @@ fn watched(told: Cancel) -> io::Result<tokio::runtime::Runtime> {
         if presses.recv().await.is_none() {
             return;
         }
-        told.cancel();
+        stated.cancel();
         if presses.recv().await.is_some() {
             std::process::exit(130);
         }

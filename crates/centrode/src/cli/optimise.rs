@@ -92,8 +92,8 @@ pub(crate) fn run(command: &Optimise, out: &mut impl Write) -> Result<Status, Fa
 
 /// Checks that method and seed of the command line are those of the stored search, which goes on as it began.
 fn same(command: &Optimise, search: &DesignSearch, name: &str) -> Result<(), Failure> {
-    let differs = |flag: &str, asked: &str, stored: &str| {
-        let message = format!("--{flag} {asked}: {name} is a search with the {flag} {stored}");
+    let differs = |flag: &str, requested: &str, stored: &str| {
+        let message = format!("--{flag} {requested}: {name} is a search with the {flag} {stored}");
         Err(Failure::Usage(message))
     };
     match (&command.method, search.strategy().name()) {

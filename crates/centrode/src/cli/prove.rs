@@ -1,12 +1,11 @@
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use crate::cli::Status;
 use crate::cli::args::Prove;
 use crate::cli::failure::Failure;
 use crate::cli::input::Source;
-use crate::cli::output;
 use crate::cli::progress::Progress;
+use crate::cli::{Status, output};
 use crate::family::NotProved;
 
 /// Writes the certificates of a machine's gear pairs.

@@ -5,15 +5,14 @@ use std::path::Path;
 use crate::analysis::{Answer, Response as Found};
 use crate::family::Depth;
 
-use crate::cli::Status;
 use crate::cli::args::Response;
 use crate::cli::failure::Failure;
 use crate::cli::input::Source;
-use crate::cli::output;
 use crate::cli::progress::Progress;
+use crate::cli::{Status, output};
 
 /// Least width of a column, characters.
-const LEAST_WIDTH: usize = 10;
+const MIN_WIDTH: usize = 10;
 
 /// Characters of a line that is read at a glance.
 const LONGEST_LINE: usize = 100;
@@ -49,8 +48,8 @@ pub(crate) fn run(command: &Response, out: &mut impl Write) -> Result<Status, Fa
     } else {
         Depth::Motion
     })?;
-    let told = |name: &String| found.1.iter().any(|answer| is_named(answer, name));
-    if !command.of.iter().all(told) {
+    let stated = |name: &String| found.1.iter().any(|answer| is_named(answer, name));
+    if !command.of.iter().all(stated) {
         found = find(Depth::Whole)?;
     }
     drop(progress);
@@ -67,13 +66,13 @@ pub(crate) fn run(command: &Response, out: &mut impl Write) -> Result<Status, Fa
         writeln!(out)?;
         return Ok(Status::Good);
     }
-    let shown = asked(command, &response, &answers)?;
+    let shown = requested(command, &response, &answers)?;
     write_table(&response, &shown, out)?;
     Ok(Status::Good)
 }
 
 /// Answers asked for; where none is, all goals, or of a family without goals the figures that change.
-fn asked<'a>(
+fn requested<'a>(
     command: &Response,
     response: &Found,
     answers: &'a [Answer],
@@ -85,11 +84,11 @@ fn asked<'a>(
             let mut reports = response.reports.iter().flatten();
             reports.any(|r| r.goals.iter().any(|goal| goal.name == answer.name))
         };
-        let wanted = |answer: &&Answer| match any {
+        let required = |answer: &&Answer| match any {
             true => is_goal(answer),
             false => changes(answer),
         };
-        return Ok(answers.iter().filter(wanted).collect());
+        return Ok(answers.iter().filter(required).collect());
     }
     let one = |name: &String| {
         answers.iter().find(|a| is_named(a, name)).ok_or_else(|| {
@@ -165,7 +164,7 @@ fn write_table(response: &Found, answers: &[&Answer], out: &mut impl Write) -> R
 /// Characters that a column takes.
 fn wide(column: &[String]) -> usize {
     let cells = column.iter().map(|cell| cell.chars().count());
-    cells.max().unwrap_or(0).max(LEAST_WIDTH)
+    cells.max().unwrap_or(0).max(MIN_WIDTH)
 }
 
 /// Characters that a line of columns takes.

@@ -1,5 +1,5 @@
-mod asked;
 mod posed;
+mod request;
 
 use std::io::Write;
 use std::ops::ControlFlow;
@@ -9,19 +9,18 @@ use crate::analysis::{Finding, Severity, SoundTeeth, Unit};
 use centrode_spec::DesignSpec as _;
 use centrode_synthesis::optimise::EasingError;
 use centrode_synthesis::reverse::{
-    AxisMap, KeyPose, PathDesign, ReversedMachine, Split, SplitKind, TwoBar, WantedPath,
+    AxisMap, KeyPose, PathDesign, RequiredPath, ReversedMachine, Split, SplitKind, TwoBar,
 };
 
-use crate::cli::Status;
 use crate::cli::args::Reverse;
 use crate::cli::failure::Failure;
 use crate::cli::input::Source;
 use crate::cli::interrupt::Interrupt;
-use crate::cli::output;
 use crate::cli::progress::Progress;
+use crate::cli::{Status, output};
 
 use crate::page::reverse::{Found, NotFound, Toothed, rolled, sharpest, words};
-use asked::Asked;
+use request::Request;
 
 /// Width of the names of figures.
 const NAME: usize = 24;
@@ -37,40 +36,40 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
     }
     let progress = Progress::new(4);
     // Kept to the end, so that a second Ctrl-C ends what comes after the search.
-    let (asked, found, _interrupt) = match command.poses {
+    let (requested, found, _interrupt) = match command.poses {
         true => {
             let source = source(command)?;
             progress.step("trying places of the arm's axis");
             let poses =
                 KeyPose::from_csv(source.bytes()).map_err(|error| source.refused(&error))?;
             let found = Found::by_poses(&poses).map_err(|error| source.refused(&error))?;
-            (Asked::of_poses(source, command)?, found, None)
+            (Request::of_poses(source, command)?, found, None)
         }
         false => {
-            let asked = Asked::read(command)?;
-            let (found, interrupt) = sought(command, &asked, &progress)?;
-            (asked, found, interrupt)
+            let requested = Request::read(command)?;
+            let (found, interrupt) = sought(command, &requested, &progress)?;
+            (requested, found, interrupt)
         }
     };
     if let Some(output) = &command.output {
-        asked.source.keep(output, "the path")?;
+        requested.source.keep(output, "the path")?;
     }
-    let design = &asked.design;
+    let design = &requested.design;
     let (chain, kind, bend) = (&found.chain, design.split, design.bend);
-    let bend_deg = asked.bend_deg(command);
+    let bend_deg = requested.bend_deg(command);
     progress.step("splitting the motion");
     let split = Split::new(chain, kind, bend)
-        .map_err(|error| asked.blame(command.bend.is_some(), ["--bend", "bend_deg"], error))?;
+        .map_err(|error| requested.blame(command.bend.is_some(), ["--bend", "bend_deg"], error))?;
     progress.step("rolling the pitch curves");
     let made = rolled(design, chain, &split);
     let made = made.map_err(|error| Failure::Files(Box::new(error)))?;
     progress.step("looking for sound teeth");
     let toothed = command.output.as_ref().map(|_| Toothed::new(&made));
     drop(progress);
-    if let Some(words) = &asked.drawing {
+    if let Some(words) = &requested.drawing {
         line(out, "path", words)?;
     }
-    for (name, words) in &found.told {
+    for (name, words) in &found.stated {
         line(out, name, words)?;
     }
     for goal in &found.goals {
@@ -80,7 +79,7 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
     findings(&found.findings, out)?;
     chosen((design.arms, bend_deg), &found, (&split, &made), out)?;
     gears(&made, out)?;
-    if let Some(map) = map(&asked, &found) {
+    if let Some(map) = map(&requested, &found) {
         possible(&map, out)?;
     }
     others(chain, kind, bend, out)?;
@@ -110,10 +109,10 @@ pub(crate) fn line(out: &mut impl Write, name: &str, words: &str) -> std::io::Re
 /// Seeks the machine of a path; progress is told, and Ctrl-C ends the search and keeps the best so far.
 fn sought(
     command: &Reverse,
-    asked: &Asked,
+    requested: &Request,
     progress: &Progress,
 ) -> Result<(Found, Option<Interrupt>), Failure> {
-    let is_searched = asked.design.bands().is_some();
+    let is_searched = requested.design.bands().is_some();
     progress.step(match is_searched {
         true => "seeking the path",
         false => "trying axes",
@@ -121,7 +120,7 @@ fn sought(
     let interrupt = is_searched.then(Interrupt::watch);
     let came = || interrupt.as_ref().is_some_and(Interrupt::came);
     let mut evaluations = 0;
-    let found = Found::by_path(&asked.design, &asked.points, &mut |done| {
+    let found = Found::by_path(&requested.design, &requested.points, &mut |done| {
         evaluations = done;
         progress.tell(format!("seeking the path, {done} evaluations,"));
         match came() {
@@ -129,25 +128,25 @@ fn sought(
             false => ControlFlow::Continue(()),
         }
     });
-    let mut found = found.map_err(|error| refused(command, asked, error))?;
+    let mut found = found.map_err(|error| refused(command, requested, error))?;
     if came() {
         let words = format!("stopped after {evaluations} evaluations: the best so far");
-        found.told.push(("search".into(), words));
+        found.stated.push(("search".into(), words));
     }
     Ok((found, interrupt))
 }
 
-fn refused(command: &Reverse, asked: &Asked, error: NotFound) -> Failure {
+fn refused(command: &Reverse, requested: &Request, error: NotFound) -> Failure {
     match error {
         NotFound::Crossing(error) => {
-            let name = asked.source.name();
+            let name = requested.source.name();
             Failure::Usage(format!(
                 "{name}: {error} Such a path is taken with {}.",
-                asked.spelled(["--crossing", "path.crossing = true"])
+                requested.spelled(["--crossing", "path.crossing = true"])
             ))
         }
         NotFound::Axis { fault, .. } => {
-            asked.blame(command.axis.is_some(), ["--axis", "axis"], fault)
+            requested.blame(command.axis.is_some(), ["--axis", "axis"], fault)
         }
         NotFound::Easing(EasingError::Module { .. }) => {
             let module = command.module.unwrap_or_default();
@@ -156,16 +155,16 @@ fn refused(command: &Reverse, asked: &Asked, error: NotFound) -> Failure {
             ))
         }
         error @ NotFound::NoAxis { .. } => Failure::Usage(error.to_string()),
-        error => asked.source.refused(&error),
+        error => requested.source.refused(&error),
     }
 }
 
 /// Axes tried for a path that is followed as it is.
-fn map(asked: &Asked, found: &Found) -> Option<AxisMap> {
-    let is_as_given = !asked.points.is_empty() && asked.design.bands().is_none();
+fn map(requested: &Request, found: &Found) -> Option<AxisMap> {
+    let is_as_given = !requested.points.is_empty() && requested.design.bands().is_none();
     is_as_given.then(|| {
         let path = found.chain.path();
-        let tried = || AxisMap::new(path, asked.design.axes(path));
+        let tried = || AxisMap::new(path, requested.design.axes(path));
         found.map.clone().unwrap_or_else(tried)
     })
 }
@@ -173,7 +172,7 @@ fn map(asked: &Asked, found: &Found) -> Option<AxisMap> {
 /// Source of the path or the poses.
 fn source(command: &Reverse) -> Result<Source, Failure> {
     let path = command.path.as_deref().unwrap_or(Path::new("-"));
-    Source::open_up_to(path, WantedPath::LARGEST)
+    Source::open_up_to(path, RequiredPath::LARGEST)
 }
 
 fn chosen(
@@ -189,7 +188,7 @@ fn chosen(
     for (name, words) in words::bars(chain) {
         line(out, name, &words)?;
     }
-    let (name, words) = words::least_radius(made);
+    let (name, words) = words::minimum_radius(made);
     line(out, name, &words)?;
     let shaft = Unit::Millimetre.tell(chain.shaft_distance());
     line(out, "tip passes the shaft at", &shaft)?;
@@ -202,20 +201,20 @@ fn chosen(
 }
 
 fn gears(made: &ReversedMachine, out: &mut impl Write) -> std::io::Result<()> {
-    for (name, radii) in made.design.pairs.keys().zip(&made.least_radii) {
-        least_radii(out, name, *radii)?;
+    for (name, radii) in made.design.pairs.keys().zip(&made.minimum_radii) {
+        minimum_radii(out, name, *radii)?;
     }
     let (name, words) = words::tip_error(made);
     line(out, name, &words)
 }
 
 /// Prints the least convex radii of a pair's pitch curves.
-pub(crate) fn least_radii(
+pub(crate) fn minimum_radii(
     out: &mut impl Write,
     pair: &str,
     radii: [f64; 2],
 ) -> std::io::Result<()> {
-    let (name, words) = words::least_radii(pair, radii);
+    let (name, words) = words::minimum_radii(pair, radii);
     line(out, &name, &words)
 }
 

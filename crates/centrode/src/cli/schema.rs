@@ -1,7 +1,7 @@
 use std::io::Write;
 
 use crate::FAMILIES;
-use centrode_machines::composed::FIGURE_FORMS;
+use centrode_machines::machine::FIGURE_FORMS;
 use centrode_spec::DesignFamily;
 use centrode_synthesis::reverse::PathDesign;
 
@@ -30,8 +30,8 @@ pub(crate) fn run(command: &Schema, out: &mut impl Write) -> Result<Status, Fail
     let schema = match command.family.as_deref() {
         None => FAMILIES.json_schema(),
         Some("figures") => figures(),
-        Some("machine-model") => crate::export::machine::schema(),
-        Some("motion") => crate::export::machine::motion_schema(),
+        Some("machine-model") => crate::export::linked::schema(),
+        Some("motion") => crate::export::linked::motion_schema(),
         Some("path") => DesignFamily::new::<PathDesign>().json_schema(),
         Some("report") => crate::analysis::ReportFile::schema(),
         Some("proof") => crate::analysis::Proof::schema(),

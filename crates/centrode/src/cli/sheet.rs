@@ -3,12 +3,11 @@ use std::io::Write;
 use crate::family::OpenDesign;
 use crate::page;
 
-use crate::cli::Status;
 use crate::cli::args::Report;
 use crate::cli::failure::Failure;
 use crate::cli::input::Source;
-use crate::cli::output;
 use crate::cli::progress::Progress;
+use crate::cli::{Status, output};
 use crate::page::Subject;
 
 /// Writes a design's page as one file that needs no other.

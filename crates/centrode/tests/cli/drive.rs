@@ -22,16 +22,16 @@ joint = "B"
 
 [goals.steady]
 figure = "ram.travel"
-over = "departure"
+over = "deviation"
 within_deg = [30, 120]
-course = [110, 140]
-at_most = 1e-4
+uniform = [110, 140]
+maximum = 1e-4
 
 [goals.rest]
 figure = "ram.travel"
 over = "span"
 within_deg = [170, 210]
-at_most = 1.5
+maximum = 1.5
 "#;
 
 #[test]
@@ -47,14 +47,14 @@ fn the_machine_written_meets_the_goals_that_it_missed_before() {
         text(&before.stdout)
     );
     let run = centrode(&["drive", &slider, "--center-distance", "130", "-o", &press]);
-    let told = text(&run.stdout);
+    let stated = text(&run.stdout);
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
     for line in [
         "output                  90.0000 mm to 150.0000 mm",
         "pair drive              least convex radius 13.8",
         "teeth of drive          33 fitted teeth, module 3.91",
     ] {
-        assert!(told.contains(line), "{line}\n{told}");
+        assert!(stated.contains(line), "{line}\n{stated}");
     }
     let after = centrode(&["check", &press]);
     assert_eq!(after.status.code(), Some(0), "{}", text(&after.stderr));
@@ -85,7 +85,7 @@ fn angles_of_an_output_are_reported_in_the_degrees_of_the_file() {
         "20, 140", "90, 150", "10, 20", "-30, 100", "86, 120", "120, 86",
     ] {
         let keys = format!(
-            "over = \"departure\"\nwithin_deg = [30, 150]\ncourse = [{course}]\nat_most = 0.1"
+            "over = \"deviation\"\nwithin_deg = [30, 150]\nuniform = [{course}]\nmaximum = 0.1"
         );
         let run = fed(
             &["drive", "-", "--center-distance", "130"],
@@ -103,7 +103,7 @@ fn angles_of_an_output_are_reported_in_the_degrees_of_the_file() {
         ("35", "a rest within 35 of"),
         ("1e-9", "a rest within 1e-9 of"),
     ] {
-        let keys = format!("over = \"span\"\nwithin_deg = [30, 90]\nat_most = {band}");
+        let keys = format!("over = \"span\"\nwithin_deg = [30, 90]\nmaximum = {band}");
         let run = fed(
             &["drive", "-", "--center-distance", "130"],
             rocker(&keys).as_bytes(),
@@ -137,8 +137,8 @@ fn what_cannot_be_driven_is_refused_with_the_reason_and_nothing_is_written() {
         let arguments = ["drive", "-", "--center-distance", "130", "-o", &shown];
         let run = fed(&arguments, design.as_bytes());
         assert_eq!(run.status.code(), Some(2), "{words}");
-        let told = text(&run.stderr);
-        assert!(told.contains(words), "{words}\n{told}");
+        let stated = text(&run.stderr);
+        assert!(stated.contains(words), "{words}\n{stated}");
         assert!(!fs::exists(&shown).expect("a folder"));
     }
     let over = centrode(&["drive", "-", "--center-distance", "nan"]);

@@ -211,10 +211,10 @@ fn an_export_without_any_file_says_so_and_makes_no_folder() {
     let run = ["export", &design, "--to", &place, "--part", "gears"];
     let run = centrode(&[&run[..], &["--format", "step"]].concat());
     assert_eq!(run.status.code(), Some(2));
-    let told = text(&run.stderr);
+    let stated = text(&run.stderr);
     assert!(
-        told.contains("no files of gears in the formats asked for"),
-        "{told}"
+        stated.contains("no files of gears in the formats asked for"),
+        "{stated}"
     );
     assert!(!to.exists());
 }
@@ -315,8 +315,8 @@ fn a_killed_export_leaves_no_half_file() {
             .args(more);
         let command = command.stdout(Stdio::null()).stderr(Stdio::null());
         let mut child = command.spawn().expect("runs");
-        let wanted = 1 + 2 * attempt;
-        while fs::read_dir(&out).map_or(0, Iterator::count) < wanted
+        let required = 1 + 2 * attempt;
+        while fs::read_dir(&out).map_or(0, Iterator::count) < required
             && child.try_wait().expect("watched").is_none()
         {}
         child.kill().expect("killed");

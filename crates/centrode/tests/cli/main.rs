@@ -327,11 +327,11 @@ fn the_figures_that_goals_can_name_are_listed_with_their_extremes() {
             .collect::<Vec<_>>(),
         torque
     );
-    for (named, told) in [
+    for (named, stated) in [
         ("joint(crank).force", "crank"),
         ("mesh(crank).force", "shaft-crank"),
     ] {
-        let ends = row(&checked, told);
+        let ends = row(&checked, stated);
         assert_eq!(row(&listed, named)[2 - ends.len()..], ends, "{named}");
     }
     let none = centrode(&["check", "--figures", &shipped("feeder-2022.toml")]);
@@ -356,10 +356,10 @@ fn a_remedy_is_a_design_that_mends_what_the_check_finds() {
     assert_eq!(report["values"]["driver_tooth_count"], 17.0);
     let json = fed(&["check", "--remedy", "--json", "-"], weak);
     let json: serde_json::Value = serde_json::from_slice(&json.stdout).expect("JSON");
-    let told = json["remedies"][0]["design"].as_str().expect("a design");
+    let stated = json["remedies"][0]["design"].as_str().expect("a design");
     assert!(
-        design.contains(&format!("\n{told}\n# fitted teeth of thickness split")),
-        "{told}"
+        design.contains(&format!("\n{stated}\n# fitted teeth of thickness split")),
+        "{stated}"
     );
     // With a choice as many teeth as written are enough.
     let words = json["remedies"][1]["words"].as_str().expect("words");

@@ -70,25 +70,25 @@ fn a_machine_whose_design_names_the_parts_is_asked_for_them() {
         shipped("jansen-leg.toml"),
         folder.path().display().to_string(),
     );
-    let asked = |part: &str| {
-        let asked = ["--format", "svg", "--part", part];
-        centrode(&[&["export", &design, "--to", &to][..], &asked].concat())
+    let requested = |part: &str| {
+        let requested = ["--format", "svg", "--part", part];
+        centrode(&[&["export", &design, "--to", &to][..], &requested].concat())
     };
     for part in ["crank", "assembly"] {
-        let done = asked(part);
+        let done = requested(part);
         assert_ne!(done.status.code(), Some(2), "{}", text(&done.stderr));
     }
     assert_eq!(names(folder.path()), ["assembly.svg", "crank.svg"]);
-    let refused = asked("wheel");
+    let refused = requested("wheel");
     assert_eq!(refused.status.code(), Some(2));
-    let told = text(&refused.stderr);
+    let stated = text(&refused.stderr);
     assert!(
-        told.contains("a composed machine has no part named wheel; there are "),
-        "{told}"
+        stated.contains("a composed machine has no part named wheel; there are "),
+        "{stated}"
     );
     assert!(
-        told.contains("crank") && told.contains("assembly"),
-        "{told}"
+        stated.contains("crank") && stated.contains("assembly"),
+        "{stated}"
     );
 }
 

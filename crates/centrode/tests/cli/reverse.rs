@@ -18,8 +18,8 @@ fn mild() -> String {
 }
 
 /// Number after some words in the line that begins with a name.
-fn figure(told: &str, name: &str, before: &str) -> f64 {
-    let line = told.lines().find(|line| line.starts_with(name));
+fn figure(stated: &str, name: &str, before: &str) -> f64 {
+    let line = stated.lines().find(|line| line.starts_with(name));
     let after = line.and_then(|line| line.split(before).nth(1));
     let word = after.and_then(|words| words.split(' ').next());
     word.and_then(|x| x.parse().ok()).expect("a number")
@@ -31,7 +31,7 @@ fn what_was_chosen_is_printed() {
         &["reverse", "-", "--axis", "260,160", "--bend", "40"],
         DRAWN.as_bytes(),
     );
-    let told = text(&run.stdout);
+    let stated = text(&run.stdout);
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
     for line in [
         "axis of the carrier     260.0000, 160.0000 mm, as asked",
@@ -42,7 +42,7 @@ fn what_was_chosen_is_printed() {
         "split                   powers, bend 40 deg, 1 arm",
         "split one-pair          with one pair twice the planet must lag by 0.611111 turns, 11/18,",
     ] {
-        assert!(told.contains(line), "{line}\n{told}");
+        assert!(stated.contains(line), "{line}\n{stated}");
     }
 }
 
@@ -62,20 +62,20 @@ fn poses() -> String {
 fn key_poses_are_met_and_bad_ones_refused() {
     let csv = format!("x,y,direction_deg\n{}", poses());
     let run = fed(&["reverse", "-", "--poses", "--bend", "40"], csv.as_bytes());
-    let told = text(&run.stdout);
+    let stated = text(&run.stdout);
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
     for number in 1..=4 {
-        let line = told
+        let line = stated
             .lines()
             .find(|line| line.starts_with(&format!("pose {number} ")));
-        let line = line.unwrap_or_else(|| panic!("pose {number}: {told}"));
+        let line = line.unwrap_or_else(|| panic!("pose {number}: {stated}"));
         let mut numbers = line.split(' ').filter_map(|word| word.parse::<f64>().ok());
         let [_, off, turned] = [(); 3].map(|()| numbers.next().expect("a number"));
         assert!(off < 0.1 && turned < 0.1, "{line}");
     }
     assert!(
-        told.contains("starts that meet the poses in order"),
-        "{told}"
+        stated.contains("starts that meet the poses in order"),
+        "{stated}"
     );
     for (csv, wrong) in [
         (
@@ -161,9 +161,9 @@ fn a_bad_path_is_refused_with_the_reason_and_nothing_is_written() {
             &["reverse", "-", "--axis", axis, "-o", &shown],
             path.as_bytes(),
         );
-        let told = text(&run.stderr);
-        assert_eq!(run.status.code(), Some(2), "{told}");
-        assert!(told.contains(why), "{why}: {told}");
+        let stated = text(&run.stderr);
+        assert_eq!(run.status.code(), Some(2), "{stated}");
+        assert!(stated.contains(why), "{why}: {stated}");
         assert!(!design.exists());
     }
     let bend = fed(
@@ -186,11 +186,11 @@ fn a_drawn_path_is_taken_within_the_distance_asked_for() {
     let oval = page("M 20 50 C 20 0 180 0 180 50 C 180 100 20 100 20 50 Z");
     let at = ["reverse", "-", "--axis", "230,40", "--bend", "40"];
     let run = fed(&at, oval.as_bytes());
-    let told = text(&run.stdout);
+    let stated = text(&run.stdout);
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
     assert!(
-        told.starts_with("path                    through 64 points, within 1.4e-3 mm"),
-        "{told}"
+        stated.starts_with("path                    through 64 points, within 1.4e-3 mm"),
+        "{stated}"
     );
     let finer = fed(&[&at[..], &["--within", "1e-5"]].concat(), oval.as_bytes());
     assert!(
@@ -200,10 +200,10 @@ fn a_drawn_path_is_taken_within_the_distance_asked_for() {
     );
     let corner = fed(&at, page("M 20 20 H 120 V 80 Z").as_bytes());
     assert_eq!(corner.status.code(), Some(2));
-    let told = text(&corner.stderr);
+    let stated = text(&corner.stderr);
     assert!(
-        told.contains("standard input: ") && told.contains("round corners"),
-        "{told}"
+        stated.contains("standard input: ") && stated.contains("round corners"),
+        "{stated}"
     );
 }
 
@@ -222,11 +222,16 @@ fn a_transplanter_is_made_from_its_poses_and_its_parts_with_it() {
         &[&command[..], &["-o", shown, "--to", to]].concat(),
         transplanter("-54").as_bytes(),
     );
-    let told = text(&run.stdout);
-    assert_eq!(run.status.code(), Some(0), "{told}{}", text(&run.stderr));
-    let lines = |begin: &str| told.lines().filter(|line| line.starts_with(begin)).count();
-    assert_eq!((lines("pose "), lines("goal ")), (5, 9), "{told}");
-    assert!(!told.contains("missed\n"), "{told}");
+    let stated = text(&run.stdout);
+    assert_eq!(run.status.code(), Some(0), "{stated}{}", text(&run.stderr));
+    let lines = |begin: &str| {
+        stated
+            .lines()
+            .filter(|line| line.starts_with(begin))
+            .count()
+    };
+    assert_eq!((lines("pose "), lines("goal ")), (5, 9), "{stated}");
+    assert!(!stated.contains("missed\n"), "{stated}");
     assert!(parts.join("sun.step").exists() && parts.join("sheets.pdf").exists());
     // What was written reaches its goals by itself.
     let checked = centrode(&["check", shown]);
@@ -249,16 +254,16 @@ fn poses_that_no_goal_allows_are_told_with_the_goal() {
         &["reverse", "-", "--poses", "--three-arm", "--arms", "3"],
         transplanter("-60").as_bytes(),
     );
-    let told = text(&run.stdout);
+    let stated = text(&run.stdout);
     assert_eq!(run.status.code(), Some(1), "{}", text(&run.stderr));
-    let missed: Vec<&str> = told
+    let missed: Vec<&str> = stated
         .lines()
         .filter(|line| line.ends_with("missed"))
         .collect();
-    assert_eq!(missed.len(), 1, "{told}");
+    assert_eq!(missed.len(), 1, "{stated}");
     assert!(
         missed[0].starts_with("goal 4 ") && missed[0].contains("65.0000 deg"),
-        "{told}"
+        "{stated}"
     );
 }
 
@@ -267,22 +272,22 @@ fn a_path_is_eased_within_a_band_until_full_teeth_are_large() {
     let folder = tempfile::tempdir().expect("a folder");
     let to = folder.path().join("eased.toml");
     let to = to.to_str().expect("a name");
-    let asked = [
+    let requested = [
         "reverse", "-", "--axis", "260,160", "--bend", "40", "--band", "5", "-o", to,
     ];
-    let run = fed(&asked, DRAWN.as_bytes());
-    let told = text(&run.stdout);
+    let run = fed(&requested, DRAWN.as_bytes());
+    let stated = text(&run.stdout);
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
-    let figure = |name: &str, before: &str| figure(&told, name, before);
-    assert!(figure("path eased", "by ") <= 5.0, "{told}");
+    let figure = |name: &str, before: &str| figure(&stated, name, before);
+    assert!(figure("path eased", "by ") <= 5.0, "{stated}");
     assert!(
         figure("full teeth", "module ") > 2.0 && figure("full teeth", "mm, ") < 0.2,
-        "{told}"
+        "{stated}"
     );
     for pair in ["first", "second"] {
         let name = format!("teeth of {pair}-stage");
-        assert!(told.contains(" full teeth, module 2."), "{told}");
-        assert!(figure(&name, "module ") > 2.0, "{told}");
+        assert!(stated.contains(" full teeth, module 2."), "{stated}");
+        assert!(figure(&name, "module ") > 2.0, "{stated}");
     }
     let checked = centrode(&["check", to]);
     assert_eq!(checked.status.code(), Some(0), "{}", text(&checked.stdout));
@@ -299,20 +304,23 @@ fn a_column_of_tolerances_bounds_each_point_and_a_module_is_asked_for() {
     });
     let csv: String = with.collect();
     let axis = ["reverse", "-", "--axis", "260,160", "--bend", "40"];
-    let asked = [&axis[..], &["--module", "0.5"]].concat();
-    let run = fed(&asked, csv.as_bytes());
-    let told = text(&run.stdout);
+    let requested = [&axis[..], &["--module", "0.5"]].concat();
+    let run = fed(&requested, csv.as_bytes());
+    let stated = text(&run.stdout);
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
     assert!(
-        told.contains("surely sound up to module 0.5000 mm, 0.1127 mm before"),
-        "{told}"
+        stated.contains("surely sound up to module 0.5000 mm, 0.1127 mm before"),
+        "{stated}"
     );
     // What is out of reach is told, and the exit status is that of a finding.
-    let asked = [&axis[..], &["--module", "20"]].concat();
-    let run = fed(&asked, csv.as_bytes());
+    let requested = [&axis[..], &["--module", "20"]].concat();
+    let run = fed(&requested, csv.as_bytes());
     assert_eq!(run.status.code(), Some(1), "{}", text(&run.stderr));
-    let told = text(&run.stdout);
-    assert!(told.contains(", not 20.0000 mm: give more room"), "{told}");
+    let stated = text(&run.stdout);
+    assert!(
+        stated.contains(", not 20.0000 mm: give more room"),
+        "{stated}"
+    );
 }
 
 #[test]
@@ -370,11 +378,14 @@ fn the_return_of_a_stroke_may_be_free() {
         &["reverse", "-", "--open", "--bend", "40"],
         stroke.as_bytes(),
     );
-    let told = text(&run.stdout);
+    let stated = text(&run.stdout);
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
-    assert!(told.contains("free return             through "), "{told}");
-    assert!(!told.contains("path eased"), "{told}");
-    let line = told
+    assert!(
+        stated.contains("free return             through "),
+        "{stated}"
+    );
+    assert!(!stated.contains("path eased"), "{stated}");
+    let line = stated
         .lines()
         .find(|line| line.starts_with("full teeth"))
         .expect("a line");
@@ -383,7 +394,7 @@ fn the_return_of_a_stroke_may_be_free() {
         .nth(1)
         .and_then(|x| x.split(' ').next());
     let module: f64 = module.and_then(|x| x.parse().ok()).expect("a number");
-    assert!(module > 1.0, "{told}");
+    assert!(module > 1.0, "{stated}");
     let run = fed(&["reverse", "-", "--open"], b"0,0\n1,1\n");
     assert!(
         text(&run.stderr).contains("3 points or more, not 2"),
@@ -402,32 +413,35 @@ fn wished(wishes: &str) -> String {
 #[test]
 fn wishes_are_told_with_their_figures_and_what_is_out_of_reach_with_the_miss() {
     let design =
-        wished("carrier = { at_most = 120 }\nturn = { from = 1, to = 5, between_deg = [20, 150] }");
+        wished("carrier = { maximum = 120 }\nturn = { from = 1, to = 5, between_deg = [20, 150] }");
     let run = fed(&["reverse", "-"], design.as_bytes());
-    let told = text(&run.stdout);
-    assert_eq!(run.status.code(), Some(0), "{told}{}", text(&run.stderr));
-    assert!(told.contains("mm, wanted at most 120.0000 mm\n"), "{told}");
+    let stated = text(&run.stdout);
+    assert_eq!(run.status.code(), Some(0), "{stated}{}", text(&run.stderr));
     assert!(
-        told.contains("goal 2                  turn of the carrier from point 1 to point 5"),
-        "{told}"
+        stated.contains("mm, wanted at most 120.0000 mm\n"),
+        "{stated}"
+    );
+    assert!(
+        stated.contains("goal 2                  turn of the carrier from point 1 to point 5"),
+        "{stated}"
     );
     // What the command line says goes before what the file does.
     let run = fed(
         &["reverse", "-", "--axis", "260,160", "--arms", "2"],
         design.as_bytes(),
     );
-    let told = text(&run.stdout);
-    assert_eq!(run.status.code(), Some(1), "{told}{}", text(&run.stderr));
+    let stated = text(&run.stdout);
+    assert_eq!(run.status.code(), Some(1), "{stated}{}", text(&run.stderr));
     assert!(
-        told.contains("2 arms") && told.contains("260.0000, 160.0000 mm, as asked"),
-        "{told}"
+        stated.contains("2 arms") && stated.contains("260.0000, 160.0000 mm, as asked"),
+        "{stated}"
     );
-    let figure = |name: &str, before: &str| figure(&told, name, before);
+    let figure = |name: &str, before: &str| figure(&stated, name, before);
     let missed = figure("goal 1", "missed by ");
-    assert!(missed > 5.0, "{told}");
+    assert!(missed > 5.0, "{stated}");
     assert!(
         (figure("goal 1", "carrier ") - 120.0 - missed).abs() < 2e-4,
-        "{told}"
+        "{stated}"
     );
 }
 
@@ -435,8 +449,8 @@ fn wishes_are_told_with_their_figures_and_what_is_out_of_reach_with_the_miss() {
 fn a_wish_that_breaks_a_rule_is_shown_at_its_line() {
     for (wishes, word) in [
         (
-            "carrier = { at_least = 5, at_most = 3 }",
-            "wishes.carrier.at_most",
+            "carrier = { minimum = 5, maximum = 3 }",
+            "wishes.carrier.maximum",
         ),
         (
             "directions = [{ point = 14, direction_deg = 3 }]",
@@ -447,14 +461,14 @@ fn a_wish_that_breaks_a_rule_is_shown_at_its_line() {
             "keep_out.tray = { corners = [[0, 0], [1, 1]] }",
             "three or more",
         ),
-        ("carier = { at_most = 3 }", "carier"),
+        ("carier = { maximum = 3 }", "carier"),
     ] {
         let run = fed(&["reverse", "-"], wished(wishes).as_bytes());
-        let told = text(&run.stderr);
-        assert_eq!(run.status.code(), Some(2), "{told}");
+        let stated = text(&run.stderr);
+        assert_eq!(run.status.code(), Some(2), "{stated}");
         assert!(
-            told.contains(word) && told.contains("input:6:"),
-            "{wishes}: {told}"
+            stated.contains(word) && stated.contains("input:6:"),
+            "{wishes}: {stated}"
         );
     }
 }
@@ -463,9 +477,9 @@ fn a_wish_that_breaks_a_rule_is_shown_at_its_line() {
 fn the_template_of_a_path_is_a_good_design() {
     let template = centrode(&["reverse", "--template"]);
     let run = fed(&["reverse", "-"], &template.stdout);
-    let told = text(&run.stdout);
-    assert_eq!(run.status.code(), Some(0), "{told}{}", text(&run.stderr));
-    assert!(told.contains("distance of the arm from tray"), "{told}");
+    let stated = text(&run.stdout);
+    assert_eq!(run.status.code(), Some(0), "{stated}{}", text(&run.stderr));
+    assert!(stated.contains("distance of the arm from tray"), "{stated}");
 }
 
 #[test]
@@ -483,14 +497,17 @@ fn directions_stand_in_a_column_of_their_own_and_points_in_a_file_beside_the_des
     let path = folder.path().join("path.toml");
     fs::write(&path, design).expect("written");
     let run = centrode(&["reverse", path.to_str().expect("a name")]);
-    let told = text(&run.stdout);
-    assert_eq!(run.status.code(), Some(0), "{told}{}", text(&run.stderr));
+    let stated = text(&run.stdout);
+    assert_eq!(run.status.code(), Some(0), "{stated}{}", text(&run.stderr));
     for (goal, point) in [(1, 5), (2, 9)] {
         let words =
             format!("goal {goal}                  clamp off its direction at point {point}");
-        assert!(told.contains(&words), "{told}");
+        assert!(stated.contains(&words), "{stated}");
     }
-    assert!(told.contains("wanted -2.0000 deg to 2.0000 deg"), "{told}");
+    assert!(
+        stated.contains("wanted -2.0000 deg to 2.0000 deg"),
+        "{stated}"
+    );
 }
 
 /// Path of a file in a folder, as a word of the command line.
@@ -505,7 +522,7 @@ fn a_wish_about_a_point_that_the_file_lacks_is_shown_at_the_line_of_the_design()
     let folder = tempfile::tempdir().expect("a folder");
     written(folder.path(), "path.csv", DRAWN);
     let design =
-        "family = \"path\"\n[path]\nfile = \"path.csv\"\n[wishes]\narm = { at_least = 5 }\n";
+        "family = \"path\"\n[path]\nfile = \"path.csv\"\n[wishes]\narm = { minimum = 5 }\n";
     for (wish, word) in [
         (
             "directions = [{ point = 14, direction_deg = 3 }]",
@@ -518,13 +535,13 @@ fn a_wish_about_a_point_that_the_file_lacks_is_shown_at_the_line_of_the_design()
     ] {
         let path = written(folder.path(), "path.toml", &format!("{design}{wish}\n"));
         let run = centrode(&["reverse", &path]);
-        let told = text(&run.stderr);
-        assert_eq!(run.status.code(), Some(2), "{told}");
+        let stated = text(&run.stderr);
+        assert_eq!(run.status.code(), Some(2), "{stated}");
         assert!(
-            told.contains(word) && told.contains("path.toml:6:"),
-            "{told}"
+            stated.contains(word) && stated.contains("path.toml:6:"),
+            "{stated}"
         );
-        assert!(!told.contains("path.csv"), "{told}");
+        assert!(!stated.contains("path.csv"), "{stated}");
     }
 }
 
@@ -538,17 +555,19 @@ fn an_axis_at_the_border_of_its_box_is_told_with_the_side() {
         "--bend",
         "40",
     ];
-    let told = fed(&narrow, DRAWN.as_bytes());
-    let told = text(&told.stdout);
-    let line = told.lines().find(|line| line.starts_with("axis-at-border"));
-    let line = line.unwrap_or_else(|| panic!("{told}"));
+    let stated = fed(&narrow, DRAWN.as_bytes());
+    let stated = text(&stated.stdout);
+    let line = stated
+        .lines()
+        .find(|line| line.starts_with("axis-at-border"));
+    let line = line.unwrap_or_else(|| panic!("{stated}"));
     assert!(
         line.contains("where x ends at 240.0000 mm and y ends at 150.0000 mm:"),
         "{line}"
     );
     assert!(line.contains("what helps: a wider box"), "{line}");
     // The axis lies in the box, and is no better than one of a wider box.
-    let axis = told
+    let axis = stated
         .lines()
         .find_map(|line| line.strip_prefix("axis of the carrier"));
     let axis = axis
@@ -558,7 +577,7 @@ fn an_axis_at_the_border_of_its_box_is_told_with_the_side() {
     let axis: Vec<f64> = axis.collect();
     assert!(
         (200.0..=240.0).contains(&axis[0]) && (100.0..=150.0).contains(&axis[1]),
-        "{told}"
+        "{stated}"
     );
     let wide = fed(
         &[
@@ -572,8 +591,8 @@ fn an_axis_at_the_border_of_its_box_is_told_with_the_side() {
         DRAWN.as_bytes(),
     );
     let wide = text(&wide.stdout);
-    let unevenness = |told: &str| figure(told, "ratio", "factor of ");
-    assert!(unevenness(&wide) < unevenness(&told), "{wide}");
+    let unevenness = |stated: &str| figure(stated, "ratio", "factor of ");
+    assert!(unevenness(&wide) < unevenness(&stated), "{wide}");
     // The search that eases a path tells it, too.
     let design = wished("").replace(
         "[path]",
@@ -599,10 +618,11 @@ fn an_axis_at_the_border_of_its_box_is_told_with_the_side() {
     }
     let both = design.replace("axis_box", "axis = [1, 2]\naxis_box");
     let run = fed(&["reverse", "-"], both.as_bytes());
-    let told = text(&run.stderr);
+    let stated = text(&run.stderr);
     assert!(
-        told.contains("axis_box: cannot be given together with axis") && told.contains("input:5:"),
-        "{told}"
+        stated.contains("axis_box: cannot be given together with axis")
+            && stated.contains("input:5:"),
+        "{stated}"
     );
 }
 
@@ -817,9 +837,9 @@ fn points_of_three_numbers_and_second_directions_are_refused_where_they_stand() 
         ),
     ] {
         let run = fed(&["reverse", "-"], text_of.as_bytes());
-        let told = text(&run.stderr);
-        assert_eq!(run.status.code(), Some(2), "{told}");
-        assert!(told.contains(message), "{told}");
+        let stated = text(&run.stderr);
+        assert_eq!(run.status.code(), Some(2), "{stated}");
+        assert!(stated.contains(message), "{stated}");
     }
 }
 
@@ -840,7 +860,7 @@ fn a_wish_that_is_met_changes_nothing_where_nothing_may_move() {
         figure(&text(&run.stdout), "carrier", &format!("{:24}", "carrier"))
     };
     let plain = design("");
-    let wished = design("[wishes]\ncarrier = { at_least = 1 }\n");
+    let wished = design("[wishes]\ncarrier = { minimum = 1 }\n");
     assert!((plain - wished).abs() < 1e-9, "{plain} {wished}");
 }
 
@@ -856,9 +876,11 @@ fn arms_that_collide_are_told_as_the_check_tells_them() {
         text(&run.stdout)
     };
     assert!(!run("1", 0).contains("collide"));
-    let told = run("6", 1);
-    let line = told.lines().find(|line| line.starts_with("gears-collide"));
-    let line = line.unwrap_or_else(|| panic!("{told}"));
+    let stated = run("6", 1);
+    let line = stated
+        .lines()
+        .find(|line| line.starts_with("gears-collide"));
+    let line = line.unwrap_or_else(|| panic!("{stated}"));
     let check = centrode(&["check", &to, "--json"]);
     let report: serde_json::Value = serde_json::from_slice(&check.stdout).expect("JSON");
     let found = report["findings"].as_array().expect("a list").iter();
@@ -885,16 +907,16 @@ fn ctrl_c_ends_the_search_and_keeps_the_best() {
     let to = folder.path().join("arms.toml");
     let made = to.display().to_string();
     let ended = crate::search::interrupted(&["reverse", &path, "--band", "2", "-o", &made]);
-    let told = text(&ended.stdout);
+    let stated = text(&ended.stdout);
     assert_eq!(
         ended.status.code(),
         Some(0),
-        "{told}{}",
+        "{stated}{}",
         text(&ended.stderr)
     );
-    let done = figure(&told, "search", "stopped after ");
-    assert!(done > 0.0 && done < 6000.0, "{told}");
-    assert!(figure(&told, "path eased", "by ") <= 2.0, "{told}");
+    let done = figure(&stated, "search", "stopped after ");
+    assert!(done > 0.0 && done < 6000.0, "{stated}");
+    assert!(figure(&stated, "path eased", "by ") <= 2.0, "{stated}");
     assert!(
         fs::read_to_string(to)
             .expect("a design")

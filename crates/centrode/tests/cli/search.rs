@@ -29,15 +29,15 @@ fn a_better_design_is_written_with_its_comments_and_its_search() {
     let (from, to) = (start.display().to_string(), better.display().to_string());
     let run = ["optimise", &from, "--evaluations", "300", "-o", &to];
     let found = centrode(&run);
-    let told = text(&found.stdout);
+    let stated = text(&found.stdout);
     assert_eq!(
         found.status.code(),
         Some(0),
-        "{told}{}",
+        "{stated}{}",
         text(&found.stderr)
     );
     for line in ["carrier_start 101 ->", "every goal is reached"] {
-        assert!(told.contains(line), "{line} in {told}");
+        assert!(stated.contains(line), "{line} in {stated}");
     }
     let written = fs::read_to_string(&better).expect("written");
     assert!(written.contains("# tilted") && !written.contains("carrier_start_deg = 101 "));
@@ -60,8 +60,8 @@ fn a_search_of_no_evaluations_is_refused_in_words() {
     for run in [&run[..], &[&run[..], &["--resume"]].concat()] {
         let refused = centrode(run);
         assert_eq!(refused.status.code(), Some(2));
-        let told = text(&refused.stderr);
-        assert!(told.contains("--evaluations"), "{told}");
+        let stated = text(&refused.stderr);
+        assert!(stated.contains("--evaluations"), "{stated}");
     }
 }
 
@@ -185,8 +185,12 @@ fn a_population_too_small_is_refused_by_its_flag() {
             let words = ["--method", method, "--population", count, "-o", &to];
             let done = centrode(&[&["optimise", &design], &words[..]].concat());
             assert_eq!(done.status.code(), Some(2));
-            let told = format!("--population: population is {count}, but it must be at least 5");
-            assert!(text(&done.stderr).contains(&told), "{}", text(&done.stderr));
+            let stated = format!("--population: population is {count}, but it must be at least 5");
+            assert!(
+                text(&done.stderr).contains(&stated),
+                "{}",
+                text(&done.stderr)
+            );
         }
     }
     assert_eq!(fs::read_dir(folder.path()).expect("there").count(), 0);
@@ -198,7 +202,7 @@ fn a_response_is_told_as_table_and_written_as_csv() {
     let csv = folder.path().join("r1.csv");
     let to = csv.display().to_string();
     let arms = shipped("three-arm-2021.toml");
-    let asked = [
+    let requested = [
         "response",
         &arms,
         "--parameter",
@@ -208,7 +212,7 @@ fn a_response_is_told_as_table_and_written_as_csv() {
         "--to",
         "27",
     ];
-    let mut words = asked.to_vec();
+    let mut words = requested.to_vec();
     words.extend([
         "--count",
         "3",
@@ -217,9 +221,9 @@ fn a_response_is_told_as_table_and_written_as_csv() {
         "--csv",
         &to,
     ]);
-    let told = centrode(&words);
-    assert_eq!(told.status.code(), Some(0), "{}", text(&told.stderr));
-    let table = text(&told.stdout);
+    let stated = centrode(&words);
+    assert_eq!(stated.status.code(), Some(0), "{}", text(&stated.stderr));
+    let table = text(&stated.stdout);
     let lines: Vec<&str> = table.lines().collect();
     assert_eq!(lines.len(), 4, "{table}");
     assert!(
@@ -232,11 +236,11 @@ fn a_response_is_told_as_table_and_written_as_csv() {
         "{written}"
     );
     assert_eq!(written.lines().count(), 4);
-    let mut unknown = asked.to_vec();
+    let mut unknown = requested.to_vec();
     unknown[3] = "arm.tip_distanc";
     let refused = centrode(&unknown);
     assert_eq!(refused.status.code(), Some(2));
-    let mut strange = asked.to_vec();
+    let mut strange = requested.to_vec();
     strange.extend(["--of", "nothing"]);
     assert!(text(&centrode(&strange).stderr).contains("no figure \"nothing\""));
 }
@@ -258,21 +262,21 @@ fn a_response_without_goals_tells_what_changes_and_why_there_is_no_mechanism() {
         text(&centrode(&[&key[..], &ends, of].concat()).stdout)
     };
     fs::write(&design, text_of("")).expect("written");
-    let told = ask(&[]);
-    let lines: Vec<&str> = told.lines().collect();
+    let stated = ask(&[]);
+    let lines: Vec<&str> = stated.lines().collect();
     // Figures by lines: there are more of them than values. What does not change is left out.
     assert!(
         lines[0]
             .trim_start()
             .starts_with("tool.pressure_angle_deg  "),
-        "{told}"
+        "{stated}"
     );
-    assert!(lines[0].ends_with(" 26"), "{told}");
+    assert!(lines[0].ends_with(" 26"), "{stated}");
     assert!(
-        told.contains("contact_ratio_mean") && !told.contains("driver_tooth_count"),
-        "{told}"
+        stated.contains("contact_ratio_mean") && !stated.contains("driver_tooth_count"),
+        "{stated}"
     );
-    assert!(told.contains("no mechanism at 26: tool"), "{told}");
+    assert!(stated.contains("no mechanism at 26: tool"), "{stated}");
     let other = ask(&["--of", "contact-ratio-mean"]);
     assert!(other.contains("contact_ratio_mean"), "{other}");
     // A number that the fit chooses changes nothing.
@@ -292,8 +296,11 @@ fn a_search_does_not_write_over_its_design() {
         let run = [&["optimise", &name, "-o", &name], more].concat();
         let refused = centrode(&run);
         assert_eq!(refused.status.code(), Some(2));
-        let told = text(&refused.stderr);
-        assert!(told.contains("is the design: name another file"), "{told}");
+        let stated = text(&refused.stderr);
+        assert!(
+            stated.contains("is the design: name another file"),
+            "{stated}"
+        );
         assert_eq!(fs::read(&design).expect("there"), before);
     }
 }
@@ -308,10 +315,10 @@ fn a_response_to_what_is_no_number_is_refused() {
     ] {
         let design = shipped(design);
         let ends = ["--from", "1", "--to", "3", "--count", "3"];
-        let asked = centrode(&[&["response", &design, "--parameter", key][..], &ends].concat());
-        let told = text(&asked.stderr);
-        assert_eq!(asked.status.code(), Some(2), "{key}: {told}");
-        assert!(told.contains(&format!("{key}: is no number")), "{told}");
+        let requested = centrode(&[&["response", &design, "--parameter", key][..], &ends].concat());
+        let stated = text(&requested.stderr);
+        assert_eq!(requested.status.code(), Some(2), "{key}: {stated}");
+        assert!(stated.contains(&format!("{key}: is no number")), "{stated}");
     }
 }
 
@@ -320,9 +327,12 @@ fn a_response_to_a_count_is_told_with_the_counts_checked() {
     let design = shipped("circular-pair.toml");
     let ends = ["--from", "20", "--to", "21", "--count", "4", "--json"];
     let key = ["--parameter", "pitch.tooth_count"];
-    let asked = centrode(&[&["response", &design][..], &key, &ends].concat());
-    let told: serde_json::Value = serde_json::from_slice(&asked.stdout).expect("JSON");
-    assert_eq!(told["values"], serde_json::json!([20.0, 20.0, 21.0, 21.0]));
+    let requested = centrode(&[&["response", &design][..], &key, &ends].concat());
+    let stated: serde_json::Value = serde_json::from_slice(&requested.stdout).expect("JSON");
+    assert_eq!(
+        stated["values"],
+        serde_json::json!([20.0, 20.0, 21.0, 21.0])
+    );
 }
 
 #[test]
@@ -334,13 +344,13 @@ fn a_feeder_is_searched_and_told_infeasible_with_the_best_attainable() {
         let found = centrode(&["optimise", from, "--method", "de", "--seed", "1", "-o", to]);
         (found.status.code(), text(&found.stdout))
     };
-    let (code, told) = words(&published, &file("best.toml"));
-    assert_eq!(code, Some(1), "{told}");
+    let (code, stated) = words(&published, &file("best.toml"));
+    assert_eq!(code, Some(1), "{stated}");
     for line in [
         "infeasible: no lengths within the bounds reach more than 12.312 deg",
         "must be widened by 22.443 %",
     ] {
-        assert!(told.contains(line), "{line} in {told}");
+        assert!(stated.contains(line), "{line} in {stated}");
     }
     // Without constraint (16), half a turn is reached within a millionth of a degree, and the file says it.
     let without = fs::read_to_string(&published).expect("shipped");
@@ -350,9 +360,9 @@ fn a_feeder_is_searched_and_told_infeasible_with_the_best_attainable() {
         without.replace("crank = 77\n", "crank = 78.5\n"),
     )
     .expect("written");
-    let (code, told) = words(&file("without.toml"), &file("half-turn.toml"));
-    assert_eq!(code, Some(0), "{told}");
-    assert!(told.contains("every goal is reached"), "{told}");
+    let (code, stated) = words(&file("without.toml"), &file("half-turn.toml"));
+    assert_eq!(code, Some(0), "{stated}");
+    assert!(stated.contains("every goal is reached"), "{stated}");
     let json = centrode(&["check", &file("half-turn.toml"), "--json"]);
     let report: serde_json::Value = serde_json::from_slice(&json.stdout).expect("JSON");
     let swing = report["values"]["swing"].as_f64().expect("a figure");
@@ -366,9 +376,9 @@ fn the_least_widening_is_written_as_shipped() {
     let to = folder.path().join("widened.toml").display().to_string();
     let published = shipped("feeder-2022.toml");
     let found = centrode(&["optimise", &published, "--widen", "-o", &to]);
-    let told = text(&found.stdout);
+    let stated = text(&found.stdout);
     assert_eq!(found.status.code(), Some(0), "{}", text(&found.stderr));
-    assert!(told.contains("bounds widened by 22.4432 %"), "{told}");
+    assert!(stated.contains("bounds widened by 22.4432 %"), "{stated}");
     let numbers = |path: &str| {
         let written = fs::read_to_string(path).expect("written");
         let root: toml_edit::DocumentMut = written.parse().expect("TOML");
@@ -434,16 +444,16 @@ fn ctrl_c_ends_a_search_and_keeps_the_best_so_far() {
     let words = ["optimise", &published, "--method", "de", "-o", &to];
     let endless = ["--evaluations", "1000000000000"];
     let ended = interrupted(&[&words[..], &endless].concat());
-    let told = text(&ended.stdout);
+    let stated = text(&ended.stdout);
     assert_eq!(
         ended.status.code(),
         Some(1),
-        "{told}{}",
+        "{stated}{}",
         text(&ended.stderr)
     );
     assert!(
-        told.contains("; stopped") && told.contains("infeasible"),
-        "{told}"
+        stated.contains("; stopped") && stated.contains("infeasible"),
+        "{stated}"
     );
     // The best so far is better than the start, a design, and a search to go on with.
     let json = centrode(&["check", &to, "--json"]);
@@ -463,8 +473,9 @@ fn ctrl_c_ends_a_search_and_keeps_the_best_so_far() {
     let more = (done + 400).to_string();
     let mut resumed = words.to_vec();
     resumed.extend(["--evaluations", &more, "--resume", "--json"]);
-    let told: serde_json::Value = serde_json::from_slice(&centrode(&resumed).stdout).expect("JSON");
-    let gone = told["progress"]["evaluations"].as_u64().expect("a count");
+    let stated: serde_json::Value =
+        serde_json::from_slice(&centrode(&resumed).stdout).expect("JSON");
+    let gone = stated["progress"]["evaluations"].as_u64().expect("a count");
     assert!(
         (done + 400..done + 800).contains(&gone),
         "{gone} after {done}"

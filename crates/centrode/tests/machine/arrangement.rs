@@ -1,11 +1,11 @@
 //! Parts list, masses and general arrangement of the machine of every shipped design.
 
 use centrode::export::Options;
-use centrode::export::machine::{arrangement, parts_list};
+use centrode::export::linked::{arrangement, parts_list};
 use centrode::formats::drawing::EntityShape;
 use centrode::formats::sheet::{Sheet, overlaps};
 use centrode::geometry::Tolerance;
-use centrode_kinematics::machine::Machine;
+use centrode_kinematics::machine::LinkedMachine;
 
 use super::machines;
 
@@ -27,11 +27,16 @@ fn printed(sheet: &Sheet) -> (Vec<&str>, Vec<(&str, usize)>) {
 }
 
 /// Holds parts list and general arrangement against those of another machine, and against what they must say.
-pub(super) fn assert_alike(machine: &Machine, again: &Machine, name: &str, tolerance: Tolerance) {
+pub(super) fn assert_alike(
+    machine: &LinkedMachine,
+    again: &LinkedMachine,
+    name: &str,
+    tolerance: Tolerance,
+) {
     let list = parts_list(machine);
     assert_eq!(list, parts_list(again), "{name}");
     assert!(list.rows.len() >= 2, "{name}: {list:?}");
-    let sheets = |machine: &Machine| {
+    let sheets = |machine: &LinkedMachine| {
         let sheets = arrangement(machine, &Options::new(tolerance).sheet, tolerance);
         sheets.unwrap_or_else(|e| panic!("{name}: {e}"))
     };
@@ -94,9 +99,9 @@ fn the_arrangement_of_a_linkage_tells_its_bars_its_shafts_and_the_travel_of_its_
     let (low, high) = widths.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
         (low.min(x), high.max(x))
     });
-    let told = words.iter().filter_map(|words| words.parse::<f64>().ok());
-    let nearest = told
-        .map(|told| (told - (high - low)).abs())
+    let stated = words.iter().filter_map(|words| words.parse::<f64>().ok());
+    let nearest = stated
+        .map(|stated| (stated - (high - low)).abs())
         .fold(f64::INFINITY, f64::min);
     assert!(nearest < 1e-3, "{nearest}");
 }

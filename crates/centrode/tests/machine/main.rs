@@ -8,16 +8,16 @@ use std::path::Path;
 use centrode::FAMILIES;
 use centrode::analysis::forces::{Balance, Forces};
 use centrode::analysis::interference::{Clearance, LinkPair, between_links};
-use centrode::export::machine::{picture, plain, read, schema, write};
+use centrode::export::linked::{picture, plain, read, schema, write};
 use centrode::export::picture::{self as page, Picture};
 use centrode::export::{Options, Package};
 use centrode::formats::{Bundle, Format};
 use centrode::geometry::Tolerance;
-use centrode_kinematics::machine::{Form, JointKind, LineRole, Load, Machine, Mounted};
+use centrode_kinematics::machine::{Form, JointKind, LineRole, LinkedMachine, Load, Mounted};
 use nalgebra::{Matrix3, Point3, Vector3};
 
 /// Name and machine of every shipped design that gives one.
-fn machines() -> Vec<(String, Machine)> {
+fn machines() -> Vec<(String, LinkedMachine)> {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/designs");
     let mut names: Vec<_> = fs::read_dir(folder)
         .expect("checked in")
@@ -86,11 +86,11 @@ fn assert_alike(one: &Picture, other: &Picture, (name, off): (&str, f64)) {
     assert!(near(&one.extent, &other.extent), "{name}");
 }
 
-fn files(machine: &Machine, options: &Options) -> Bundle {
+fn files(machine: &LinkedMachine, options: &Options) -> Bundle {
     in_formats(machine, &[Format::Csv, Format::Urdf, Format::Mjcf], options)
 }
 
-fn in_formats(machine: &Machine, formats: &[Format], options: &Options) -> Bundle {
+fn in_formats(machine: &LinkedMachine, formats: &[Format], options: &Options) -> Bundle {
     let mut package = Package::new("a machine", ["", ""], formats, options);
     package.machine(|| Ok(machine.clone())).expect("written");
     package.finish().expect("whole")
@@ -98,8 +98,12 @@ fn in_formats(machine: &Machine, formats: &[Format], options: &Options) -> Bundl
 
 /// Least clearance of two links, lower bound of it: over the period, of links that mesh at some inputs (the teeth of a whole
 /// period take minutes).
-fn clearance(machine: &Machine, pair: [usize; 2], tolerance: Tolerance) -> Option<Vec<[f64; 2]>> {
-    let figures = |found: Clearance| [found.least, found.lower_bound];
+fn clearance(
+    machine: &LinkedMachine,
+    pair: [usize; 2],
+    tolerance: Tolerance,
+) -> Option<Vec<[f64; 2]>> {
+    let figures = |found: Clearance| [found.minimum, found.lower_bound];
     let meshes = |links: [usize; 2]| links == pair || links == [pair[1], pair[0]];
     if !machine.meshes.iter().any(|mesh| meshes(mesh.links)) {
         let found = between_links(machine, pair, tolerance).ok()??;
@@ -116,7 +120,7 @@ fn clearance(machine: &Machine, pair: [usize; 2], tolerance: Tolerance) -> Optio
 }
 
 /// Names and clearances of the links that touch others in the plane, to within the tolerance.
-fn clearances(machine: &Machine, tolerance: Tolerance) -> Vec<(String, Vec<[f64; 2]>)> {
+fn clearances(machine: &LinkedMachine, tolerance: Tolerance) -> Vec<(String, Vec<[f64; 2]>)> {
     let touching: Vec<usize> = (0..machine.links.len())
         .filter(|link| !machine.links[*link].surfaces.is_empty())
         .collect();
@@ -147,17 +151,17 @@ fn links_keep_the_same_clearance_in_the_machine_read_back_from_its_plain_file() 
         assert_eq!(links(&one), links(&other), "{name}");
         for ((links, first), (_, second)) in one.iter().zip(&other) {
             for (a, b) in first.iter().zip(second) {
-                let ([least, bound], [least_again, bound_again]) = (*a, *b);
-                let off = (least - least_again).abs();
+                let ([minimum, bound], [minimum_again, bound_again]) = (*a, *b);
+                let off = (minimum - minimum_again).abs();
                 assert!(
-                    off < 1e-10 * (1.0 + least.abs()),
+                    off < 1e-10 * (1.0 + minimum.abs()),
                     "{name}: {links}: {a:?} {b:?}"
                 );
                 // Where the search stops hangs on rounding.
                 let off = (bound - bound_again).abs();
                 assert!(off < 1e-3 * tolerance.mm(), "{name}: {links}: {a:?} {b:?}");
                 assert!(
-                    bound <= least && least - bound <= tolerance.mm(),
+                    bound <= minimum && minimum - bound <= tolerance.mm(),
                     "{name}: {links}"
                 );
             }
@@ -279,7 +283,7 @@ fn shafts_and_pins_are_assembled_alike_in_the_machine_read_back_from_its_plain_f
 #[test]
 fn shafts_and_pins_without_a_shape_a_place_or_a_body_are_refused() {
     let mut machines = machines().into_iter();
-    let has_pins = |machine: &Machine| machine.links.iter().any(|l| !l.mounted.is_empty());
+    let has_pins = |machine: &LinkedMachine| machine.links.iter().any(|l| !l.mounted.is_empty());
     let found = machines.find(|(_, machine)| has_pins(machine));
     let (_, machine) = found.expect("a machine with pins");
     let refused = |change: &dyn Fn(&mut Mounted)| {
@@ -374,7 +378,7 @@ fn a_machine_read_back_from_its_plain_file_has_the_forces_of_the_first() {
 }
 
 /// Kinetic and potential energy of a machine, N mm, from the frames of its links.
-fn energy(machine: &Machine, input: f64) -> f64 {
+fn energy(machine: &LinkedMachine, input: f64) -> f64 {
     let speed = machine.input.speed;
     let pose = machine.pose(input);
     let links = machine.links.iter().zip(&pose);
@@ -394,7 +398,7 @@ fn energy(machine: &Machine, input: f64) -> f64 {
 }
 
 /// Work of the links' inertia and weight on their ways by a radian of the input, N mm, from the frames of the links.
-fn work(machine: &Machine, input: f64) -> f64 {
+fn work(machine: &LinkedMachine, input: f64) -> f64 {
     let square = machine.input.speed.powi(2);
     let pose = machine.pose(input);
     let links = machine.links.iter().zip(&pose);
@@ -411,7 +415,7 @@ fn work(machine: &Machine, input: f64) -> f64 {
 }
 
 /// Work of springs, rails and grooves that the input supplies by a radian, N mm.
-fn supplied(machine: &Machine, input: f64, forces: &Forces) -> f64 {
+fn supplied(machine: &LinkedMachine, input: f64, forces: &Forces) -> f64 {
     let rate = |joint: usize| machine.joints[joint].law.at(input).velocity;
     let loads = machine.loads.iter().map(|load| match load {
         Load::Joint { joint, effort } => -machine.value(effort, input) * rate(*joint),
@@ -480,11 +484,11 @@ fn the_grooves_forces_are_those_of_the_table() {
                 ("transverse_force_N", found.transverse),
                 ("shaft_torque_Nmm", found.torque),
             ] {
-                let wanted = machine.value(column(name_of), input);
-                let off = (found - wanted).abs();
+                let required = machine.value(column(name_of), input);
+                let off = (found - required).abs();
                 assert!(
-                    off <= 1e-9 * (1.0 + wanted.abs()),
-                    "{name} {name_of}: {found} {wanted}"
+                    off <= 1e-9 * (1.0 + required.abs()),
+                    "{name} {name_of}: {found} {required}"
                 );
             }
             // Where the groove acts is not known: neither are the bearings of what it passes.

@@ -133,17 +133,18 @@ impl Contact {
     pub fn runs_on_edges(&self, pair: &GearPair) -> bool {
         let errors = self.transmission_error.iter();
         let errors = errors.zip(&self.reverse_transmission_error);
-        let off = errors
-            .zip(self.on_flanks_both_ways())
-            .filter(|&((on, back), on_flanks)| {
-                !on_flanks && on.abs().max(back.abs()) > GRAZING_ERROR
-            });
+        let off =
+            errors
+                .zip(self.on_flanks_in_both_directions())
+                .filter(|&((on, back), on_flanks)| {
+                    !on_flanks && on.abs().max(back.abs()) > GRAZING_ERROR
+                });
         off.count() as f64 > EDGE_SHARE * self.input.len() as f64
             && oscillates_every_two_teeth(pair)
     }
 
     /// Whether flanks face each other as designed, per sample, with the driver pushing on and with the driver pushing back.
-    pub(crate) fn on_flanks_both_ways(&self) -> impl Iterator<Item = bool> {
+    pub(crate) fn on_flanks_in_both_directions(&self) -> impl Iterator<Item = bool> {
         let both = self.on_flanks.iter().zip(&self.reverse_on_flanks);
         both.map(|(on, back)| *on && *back)
     }

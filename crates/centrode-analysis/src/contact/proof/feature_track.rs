@@ -1,30 +1,30 @@
-//! Meetings of two features, followed along a stretch of the cycle.
+//! Meetings of two features along a stretch of the cycle.
 
 use centrode_geometry::{CHEBYSHEV_TERMS, chebyshev_roots, chebyshev_series};
 
 use super::{
-    features::{Feature, Meeting},
+    features::{Feature, FeatureMeeting, Meeting},
     prover::{HALF_WIDTH, TAIL},
 };
 use crate::contact::seat::Meshing;
 
-/// Places at which a track is kept: the roots of the series, from first to last, between the ends.
+/// Samples of a track: both ends of the stretch, and the roots of the series between them in ascending order.
 pub(super) const SAMPLES: usize = CHEBYSHEV_TERMS + 2;
 
-/// Angle, rad, by which one seat must lie beyond another to count as beyond it: a quarter of the half width, more than
-/// flanks miss each other by.
+/// Angle by which one meeting must be beyond another to hold the gear before it, rad: a quarter of the half width, more than the
+/// rounding of flanks.
 const SEAT_DIFFERENCE: f64 = 0.25 * HALF_WIDTH;
 
-/// Decimals that a checker needs: far fewer than a half width, and than parameters move a parabola.
+/// Inverse of the last decimal in the certificate: far below the half width and below any effect of a parameter on a parabola.
 const DECIMALS: f64 = 1e13;
 
-/// Driver angle, rad, by which two cuts lie apart.
+/// Minimum distance of a cut from the ends of a stretch, rad.
 const MIN_CUT_DISTANCE: f64 = 1e-7;
 
-/// Halvings after which a place is exact.
+/// Halvings after which a driver angle is exact.
 const HALVINGS: u32 = 60;
 
-/// Which way the driven gear is pushed.
+/// Direction in which the driven gear is pushed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Side {
     On = 0,
@@ -32,6 +32,7 @@ pub(super) enum Side {
 }
 
 impl Side {
+    /// 1 if pushed on, -1 if pushed back.
     pub(super) fn sign(self) -> f64 {
         match self {
             Self::On => 1.0,
@@ -40,29 +41,34 @@ impl Side {
     }
 }
 
-/// Features at one driver angle, by side: those that hold the driven gear, and those near each other.
+/// Features at one driver angle, pushed on and pushed back.
 #[derive(Clone, Debug, Default)]
 pub(super) struct FeatureSample {
+    /// Driver angle, rad.
     pub(super) phi: f64,
-    pub(super) holding: [Vec<(Feature, Meeting)>; 2],
-    pub(super) near: [Vec<(Feature, Meeting)>; 2],
+    /// Features that hold the driven gear.
+    pub(super) holding: [Vec<FeatureMeeting>; 2],
+    /// Features near each other.
+    pub(super) near: [Vec<FeatureMeeting>; 2],
 }
 
-/// Two features followed along a stretch, as far as they go.
+/// Meetings of two features along a stretch.
 #[derive(Clone, Debug)]
 pub(super) struct FeatureTrack {
     pub(super) feature: Feature,
+    /// Driver angles, rad.
     phi: [f64; SAMPLES],
+    /// `None` where the features do not meet.
     meetings: [Option<Meeting>; SAMPLES],
 }
 
 impl FeatureTrack {
-    /// Follows two features to both ends of a stretch from where they are known; nothing where they do not meet there.
+    /// Follows two features to both ends of a stretch from a known meeting at the driver angle `known_phi`; `None` if they do not meet there.
     pub(super) fn new(
         meshing: &Meshing<'_>,
-        feature: Feature,
         (from, to): (f64, f64),
-        (known, meeting): (f64, Meeting),
+        known_phi: f64,
+        FeatureMeeting { feature, meeting }: FeatureMeeting,
     ) -> Option<Self> {
         let roots = chebyshev_roots(from, to);
         let phi: [f64; SAMPLES] = std::array::from_fn(|k| match k {
@@ -70,9 +76,9 @@ impl FeatureTrack {
             k if k == SAMPLES - 1 => to,
             k => roots[CHEBYSHEV_TERMS - k],
         });
-        let first = meshing.meeting(&feature, known, meeting)?;
+        let first = meshing.meeting(&feature, known_phi, meeting)?;
         let mut meetings = [None; SAMPLES];
-        let start = phi.partition_point(|&p| p < known);
+        let start = phi.partition_point(|&p| p < known_phi);
         let mut last = Some(first);
         for k in start..SAMPLES {
             last = last.and_then(|m| meshing.meeting(&feature, phi[k], m));
@@ -90,12 +96,13 @@ impl FeatureTrack {
         })
     }
 
-    /// Whether it lies on its parts at a place, and no other that does holds the gear before it.
+    /// Whether the meeting at sample `k` is on its parts, and no other track on its parts holds the gear before it.
     pub(super) fn holds(&self, k: usize, all: &[Self], side: Side) -> bool {
         self.meetings[k].is_some_and(|m| holds(&m, all.iter().filter_map(|t| t.meetings[k]), side))
     }
 
-    /// Chebyshev coefficients of a figure of it along the stretch, if it goes all along and they decay.
+    /// Chebyshev coefficients of a figure along the stretch; `None` if the features do not meet all along it or the coefficients do not
+    /// decay.
     pub(super) fn series(&self, figure: impl Fn(f64, &Meeting) -> f64) -> Option<Vec<f64>> {
         let mut values = [0.0; CHEBYSHEV_TERMS];
         for (j, value) in values.iter_mut().enumerate() {
@@ -109,11 +116,11 @@ impl FeatureTrack {
         (tail <= TAIL).then(|| series[..=last.unwrap_or(0)].to_vec())
     }
 
-    /// Driver angle at which it comes to an end of one of its parts.
+    /// Driver angle at which the meeting reaches an end of one of its parts, rad.
     pub(super) fn end_of_part(&self, meshing: &Meshing<'_>, ends: (f64, f64)) -> Option<f64> {
         let mut found = None;
         for k in 1..SAMPLES {
-            // From where it is known towards where it may be lost.
+            // From a sample with a meeting towards one that may have none.
             let ((from, first), (to, next)) = match (self.meetings[k - 1], self.meetings[k]) {
                 (Some(first), next) => ((k - 1, first), (k, next)),
                 (None, Some(first)) => ((k, first), (k - 1, None)),
@@ -137,37 +144,37 @@ impl FeatureTrack {
         found
     }
 
-    /// Whether it lies on its parts all along the stretch.
+    /// Whether the meeting is on its parts all along the stretch.
     pub(super) fn is_on_parts(&self) -> bool {
         self.meetings
             .iter()
             .all(|m| m.is_some_and(|m| m.is_on_parts()))
     }
 
-    /// Least turn between its meeting and another's along the stretch, rad.
+    /// Minimum difference of the driven angle from that of another track along the stretch, rad.
     pub(super) fn backlash(&self, other: &Self) -> f64 {
         let both = self.meetings.iter().zip(&other.meetings);
         both.filter_map(|(a, b)| Some((a.as_ref()?.angle - b.as_ref()?.angle).abs()))
             .fold(f64::INFINITY, f64::min)
     }
 
-    /// Parameters along the stretch, as far as it goes.
+    /// Parameters of all meetings along the stretch.
     pub(super) fn parameters(&self) -> impl Iterator<Item = (f64, f64)> {
         self.meetings.iter().flatten().map(|m| m.at)
     }
 
-    /// The meeting in the middle of the stretch, if it goes so far.
+    /// The meeting in the middle of the stretch, if there is one.
     pub(super) fn middle(&self) -> Option<Meeting> {
         self.meetings[SAMPLES / 2]
     }
 }
 
-/// A number to as many decimals as a checker needs.
+/// A number rounded to the decimals of the certificate.
 pub(super) fn rounded(value: f64) -> f64 {
     (value * DECIMALS).round() / DECIMALS
 }
 
-/// Last driver angle, on the way from one to another, at which a meeting is as it was at the first.
+/// Last driver angle from `good` towards `bad` at which `here` still has a meeting, rad.
 fn last_angle(
     here: impl Fn(f64, Meeting) -> Option<Meeting>,
     (mut good, mut bad): (f64, f64),
@@ -183,7 +190,7 @@ fn last_angle(
     good
 }
 
-/// Of two indices to cut a stretch the one nearer its middle; none that lies at its ends.
+/// Of two driver angles at which to cut a stretch, the one nearer to its middle. An angle close to an end is skipped.
 fn nearer_to_middle(found: Option<f64>, phi: f64, (from, to): (f64, f64)) -> Option<f64> {
     let margin = MIN_CUT_DISTANCE.max(1e-3 * (to - from));
     let inside = phi > from + margin && phi < to - margin;
@@ -195,7 +202,7 @@ fn nearer_to_middle(found: Option<f64>, phi: f64, (from, to): (f64, f64)) -> Opt
     }
 }
 
-/// Whether a meeting lies on its parts and none of the others that do holds the gear before it.
+/// Whether a meeting is on its parts and no other one on its parts holds the gear before it.
 fn holds(meeting: &Meeting, mut others: impl Iterator<Item = Meeting>, side: Side) -> bool {
     let beaten = |other: Meeting| {
         other.is_on_parts() && side.sign() * (other.angle - meeting.angle) > SEAT_DIFFERENCE
@@ -203,7 +210,7 @@ fn holds(meeting: &Meeting, mut others: impl Iterator<Item = Meeting>, side: Sid
     meeting.is_on_parts() && !others.any(beaten)
 }
 
-/// Driver angle at which the features that hold the gear at one end of a stretch cease to.
+/// Driver angle at which the features that hold the gear at one end of a stretch stop to hold it, rad.
 pub(super) fn cut(
     meshing: &Meshing<'_>,
     tracks: &[FeatureTrack],

@@ -1,4 +1,4 @@
-//! The turn of the driven gear at which two features of the contours meet, followed along the driver's angle.
+//! The driven angle at which two features of the contours meet, as a function of the driver angle.
 
 use centrode_gear::Member;
 use centrode_geometry::Vector;
@@ -7,32 +7,47 @@ use nalgebra::{Matrix2, Matrix3, Vector2, Vector3};
 use crate::contact::contour::Pose;
 use crate::contact::seat::{AngularContact, Meshing, SeatedPose};
 
-/// Sine of the angle between tangents from which on a corner touches and no flank.
+/// Sine of the angle between the tangents above which a corner touches, not a smooth part.
 const SMOOTH: f64 = 1e-4;
 
-/// Change of parameters below which Newton's method, whose errors square, has come to rounding.
+/// Parameter step below which Newton's method ends: the next error, its square, is below rounding.
 const SETTLED: f64 = 1e-9;
 
-/// Parameter beyond an end up to which a meeting counts as on its part: two pairs that come to their ends at almost the
-/// same angle need no stretch between.
+/// Parameter beyond an end up to which a meeting counts as on its part. Two pairs that reach their ends at almost the same angle then
+/// need no stretch between them.
 const OVERHANG: f64 = 1e-6;
 
-/// That of a corner, whose seat has a bend there.
+/// Parameter beyond an end for a corner, where the seat has a kink.
 const CORNER_OVERHANG: f64 = 1e-8;
 
-/// Parameter beyond an end up to which a part is continued.
+/// Parameter beyond an end up to which a part is extrapolated.
 const CONTINUED: f64 = 0.3;
 
-/// Two features that meet: smooth parts whose tangents agree there, or the corner at an end of one on the other.
+/// Two features that meet: two smooth parts with a common tangent, or a corner at an end of one part and the other part.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Feature {
     /// Parts of driver and driven gear.
     pub(super) parts: (usize, usize),
-    /// The gear whose corner meets, and the parameter of its part there.
-    pub(super) corner: Option<(Member, f64)>,
+    /// The corner; `None` if both are smooth.
+    pub(super) corner: Option<FeatureCorner>,
 }
 
-/// Place and turn at which two features meet.
+/// Corner of a gear that meets the other gear.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct FeatureCorner {
+    pub(super) member: Member,
+    /// Parameter of the corner on its part: -1 or 1.
+    pub(super) end: f64,
+}
+
+/// Two features and their meeting at one driver angle.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct FeatureMeeting {
+    pub(super) feature: Feature,
+    pub(super) meeting: Meeting,
+}
+
+/// Point and driven angle at which two features meet.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Meeting {
     /// Parameters on the two parts.
@@ -42,7 +57,7 @@ pub(super) struct Meeting {
 }
 
 impl Meeting {
-    /// Whether it lies on both parts, or so little beyond that the seat is the same but for rounding.
+    /// Whether the meeting is on both parts, or so little beyond an end that the seat differs by rounding only.
     pub(super) fn is_on_parts(&self) -> bool {
         let at = [self.at.0.abs(), self.at.1.abs()];
         let overhang = if at.contains(&1.0) {
@@ -55,10 +70,10 @@ impl Meeting {
 }
 
 impl AngularContact {
-    /// Features that meet, each with the meeting, for a driven gear turned from an angle.
+    /// Features that meet in the contact, for a driven gear that turns from the angle `from`, rad.
     ///
-    /// Where a contact comes to a corner that it leaves as the corner's own these are both: which it is, rounding hides.
-    fn features(&self, from: f64) -> impl Iterator<Item = (Feature, Meeting)> {
+    /// Where a contact changes from a smooth part to the corner at its end, both are listed: rounding hides which of them touches.
+    fn features(&self, from: f64) -> impl Iterator<Item = FeatureMeeting> {
         let at = self.parameters();
         let [first, second] = self.tangents();
         let slant = first.perp(&second).abs() / (first.norm() * second.norm());
@@ -67,17 +82,21 @@ impl AngularContact {
             (_, end) if end.abs() == 1.0 => Some((Member::Driven, end)),
             _ => None,
         };
+        let corner = corner.map(|(member, end)| FeatureCorner { member, end });
         let smooth = (slant < SMOOTH || corner.is_none()).then_some(None);
         let angle = from + self.turn;
         let parts = self.parts;
         let kinds = smooth.into_iter().chain(corner.map(Some));
-        kinds.map(move |corner| (Feature { parts, corner }, Meeting { at, angle }))
+        kinds.map(move |corner| FeatureMeeting {
+            feature: Feature { parts, corner },
+            meeting: Meeting { at, angle },
+        })
     }
 }
 
 impl SeatedPose {
     /// Features that meet in its contacts.
-    pub(super) fn features(&self) -> Vec<(Feature, Meeting)> {
+    pub(super) fn features(&self) -> Vec<FeatureMeeting> {
         self.angular_contacts
             .iter()
             .flat_map(|contact| contact.features(self.search_angle))
@@ -86,7 +105,7 @@ impl SeatedPose {
 }
 
 impl Meshing<'_> {
-    /// Meeting of two features at a driver angle, by Newton's method from a meeting nearby.
+    /// Meeting of two features at a driver angle, by Newton's method from a meeting close to it.
     pub(super) fn meeting(&self, feature: &Feature, phi: f64, near: Meeting) -> Option<Meeting> {
         let a = self.pair.center_distance();
         let (first, second) = (
@@ -98,8 +117,10 @@ impl Meshing<'_> {
             mut angle,
         } = near;
         match feature.corner {
-            Some((Member::Driver, end)) => u = end,
-            Some((Member::Driven, end)) => v = end,
+            Some(FeatureCorner { member, end }) => match member {
+                Member::Driver => u = end,
+                Member::Driven => v = end,
+            },
             None => {}
         }
         for _ in 0..20 {
@@ -110,7 +131,7 @@ impl Meshing<'_> {
             );
             let apart = q.point - p.point;
             let arm = q.point - pose.axis;
-            let swing = Vector::new(-arm.y, arm.x);
+            let tangential = Vector::new(-arm.y, arm.x);
             let [du, dv, turn] = match feature.corner {
                 None => {
                     let slant = p.first.perp(&q.first);
@@ -120,21 +141,28 @@ impl Meshing<'_> {
                         p.first.dot(&q.first),
                     ];
                     let system = Matrix3::new(
-                        -p.first.x, q.first.x, swing.x, -p.first.y, q.first.y, swing.y, rates[0],
-                        rates[1], rates[2],
+                        -p.first.x,
+                        q.first.x,
+                        tangential.x,
+                        -p.first.y,
+                        q.first.y,
+                        tangential.y,
+                        rates[0],
+                        rates[1],
+                        rates[2],
                     );
                     let step = system
                         .lu()
                         .solve(&Vector3::new(-apart.x, -apart.y, -slant))?;
                     [step.x, step.y, step.z]
                 }
-                Some((member, _)) => {
+                Some(FeatureCorner { member, .. }) => {
                     let along = if member == Member::Driver {
                         q.first
                     } else {
                         -p.first
                     };
-                    let system = Matrix2::new(along.x, swing.x, along.y, swing.y);
+                    let system = Matrix2::new(along.x, tangential.x, along.y, tangential.y);
                     let step = system.lu().solve(&Vector2::new(-apart.x, -apart.y))?;
                     if member == Member::Driver {
                         [0.0, step.x, step.y]

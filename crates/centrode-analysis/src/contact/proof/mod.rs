@@ -1,10 +1,11 @@
 //! Certificate of a pair's contact at every real driver angle, for another program to check.
 //!
-//! The cycle is cut into stretches. On each the seat of the driven gear, pushed on and pushed back, is a Chebyshev
-//! series, and so are the parameters of every two features of the contours that meet or nearly do. Where two features
-//! meet a parabola parts the two contours; a checker proves that either contour stays on its own side of it while the
-//! driven gear is half a width beyond the seat, and that the contours cross when it is half a width before it. All
-//! that comes from the contours and the law alone: nothing said here has to be believed.
+//! The cycle is cut into stretches. On each of them the seat of the driven gear, pushed on and pushed back, is a Chebyshev series. So are
+//! the parameters of every two features of the contours that meet or nearly do.
+//!
+//! Where two features meet, a parabola separates the two contours. A checker proves two things: each contour stays on its own side of the
+//! parabola while the driven gear is half a width beyond the seat, and the contours cross when it is half a width before the seat. The
+//! proof uses the contours and the law alone; the checker need not trust anything else in the certificate.
 //!
 //! Read it in this order:
 //!

@@ -9,7 +9,7 @@ use centrode_spec::Design;
 use super::{
     certificate::{Proof, ProofError, ProofMeeting, ProofStretch, contour},
     feature_track::{self, FeatureSample, FeatureTrack, Side},
-    features::{Feature, Meeting},
+    features::{Feature, FeatureCorner, FeatureMeeting, Meeting},
     sectors::sectors,
 };
 use crate::contact::contour::Pose;
@@ -18,26 +18,27 @@ use crate::contact::seat::Meshing;
 /// Half of the width of every proven seat, rad.
 pub(super) const HALF_WIDTH: f64 = 4e-10;
 
-/// Missing room, in modules at the centre distance, that is none of the seats' own rounding.
+/// Missing room above which there is no certificate, modules at the centre distance. A smaller one is rounding of the seats.
 const OVERLAP: f64 = 1e-4;
 
-/// Stretches a driver pitch to begin with.
+/// Stretches per driver pitch at the start; they are cut further where needed.
 const STRETCHES: u32 = 4;
 
-/// Shortest stretch, rad.
+/// Length of a stretch below which it is not cut, rad.
 pub(super) const SHORTEST: f64 = 1e-8;
 
-/// Last coefficients of a series, in the series' own unit, below which it is exact.
+/// Sum of the last two coefficients of a series up to which it is exact, in the unit of the series.
 pub(super) const TAIL: f64 = 1e-11;
 
-/// Greatest gap, in modules, of features that get a parabola of their own.
+/// Maximum gap of features that get a parabola, modules.
 const NEAR: f64 = 0.05;
 
-/// Gap, in modules, of features that are worth a stretch of their own: beyond it circles around small parts tell them apart.
-const CLOSE: f64 = 2e-3;
+/// Maximum gap of features for which a stretch is cut, modules. A checker separates features farther apart by circles around small
+/// parts.
+const CUT_GAP: f64 = 2e-3;
 
-/// Length of a stretch, rad, that is not cut for a better hint.
-const SETTLED: f64 = 1e-5;
+/// Length of a stretch below which it is not cut for a better parabola, rad.
+const SHORT: f64 = 1e-5;
 
 /// Makes the certificate of a pair's contact, for a checker to prove.
 ///
@@ -56,11 +57,11 @@ pub fn prove(pair: &GearPair) -> Result<Proof, ProofError> {
     let mut prover = Prover {
         meshing: Meshing::new(pair),
         law: &law,
-        out: Vec::new(),
+        stretches: Vec::new(),
     };
     prover.cover_sector(sectors)?;
     prover.check_continuity()?;
-    let stretches = prover.out;
+    let stretches = prover.stretches;
     Ok(Proof {
         format: "centrode-proof".to_owned(),
         version: 3,
@@ -77,15 +78,16 @@ pub fn prove(pair: &GearPair) -> Result<Proof, ProofError> {
     })
 }
 
-/// Pair on the way to its certificate.
+/// Search for the certificate of a pair.
 pub(super) struct Prover<'a> {
     pub(super) meshing: Meshing<'a>,
     law: &'a Piecewise,
-    pub(super) out: Vec<ProofStretch>,
+    /// Stretches done, in the order of the driver angle.
+    pub(super) stretches: Vec<ProofStretch>,
 }
 
 impl Prover<'_> {
-    /// Covers the first of a number of equal parts of the cycle, stretch by stretch.
+    /// Adds the stretches of the first of a number of equal parts of the cycle.
     fn cover_sector(&mut self, sectors: u32) -> Result<(), ProofError> {
         let pair = self.meshing.pair;
         let rolling = pair.rolling();
@@ -104,7 +106,7 @@ impl Prover<'_> {
             })
             .collect();
         let end = pair.cycle() / f64::from(sectors);
-        // No stretch lies on two pieces of the law.
+        // A stretch must lie on one piece of the law.
         let is_at_end = |cut: f64| law_ends.iter().any(|end| (cut - end).abs() < SHORTEST);
         let mut cuts: Vec<f64> = (1..count)
             .map(|i| at(i) - start)
@@ -124,7 +126,7 @@ impl Prover<'_> {
         Ok(())
     }
 
-    /// Covers a stretch, in as many parts as it takes.
+    /// Adds the stretches between two samples, cut as often as needed.
     fn cover(&mut self, from: FeatureSample, to: FeatureSample) -> Result<(), ProofError> {
         let mut open = vec![(from, to)];
         while let Some((from, to)) = open.pop() {
@@ -158,24 +160,20 @@ impl Prover<'_> {
                     stretch.meetings.extend(tracks);
                 }
             }
-            self.out.push(stretch);
+            self.stretches.push(stretch);
         }
         Ok(())
     }
 
-    /// Features that hold the driven gear on one side all along a stretch, or where to cut the stretch.
+    /// Features that hold the driven gear on one side over a whole stretch, or the driver angle at which to cut it.
     fn side(&self, side: Side, samples: [&FeatureSample; 3]) -> SideResult {
         let [from, middle, to] = samples.map(|s| s.phi);
         let mut tracks: Vec<FeatureTrack> = Vec::new();
         for sample in samples {
-            for (feature, meeting) in &sample.holding[side as usize] {
-                if !tracks.iter().any(|t| t.feature == *feature) {
-                    tracks.extend(FeatureTrack::new(
-                        &self.meshing,
-                        *feature,
-                        (from, to),
-                        (sample.phi, *meeting),
-                    ));
+            for known in &sample.holding[side as usize] {
+                if !tracks.iter().any(|t| t.feature == known.feature) {
+                    let track = FeatureTrack::new(&self.meshing, (from, to), sample.phi, *known);
+                    tracks.extend(track);
                 }
             }
         }
@@ -193,7 +191,7 @@ impl Prover<'_> {
         let Some(first) = self.proof_meeting(holder, side) else {
             return SideResult::Cut(middle);
         };
-        let is_short = to - from < SETTLED;
+        let is_short = to - from < SHORT;
         if first.bends.is_empty() && !is_short {
             return SideResult::Cut(middle);
         }
@@ -201,21 +199,20 @@ impl Prover<'_> {
         let mut known = vec![holder.feature];
         let mut followed = Vec::new();
         for sample in samples {
-            for (feature, meeting) in &sample.near[side as usize] {
-                if known.contains(feature) {
+            for near in &sample.near[side as usize] {
+                if known.contains(&near.feature) {
                     continue;
                 }
-                known.push(*feature);
-                let track =
-                    FeatureTrack::new(&self.meshing, *feature, (from, to), (sample.phi, *meeting));
+                known.push(near.feature);
+                let track = FeatureTrack::new(&self.meshing, (from, to), sample.phi, *near);
                 let Some(track) = track else { continue };
                 let is_close = 0.5 * track.backlash(holder) * self.meshing.pair.center_distance()
-                    < CLOSE * self.meshing.module;
+                    < CUT_GAP * self.meshing.module;
                 if is_close && let Some(phi) = track.end_of_part(&self.meshing, (from, to)) {
                     return SideResult::Cut(phi);
                 }
                 let hint = self.proof_meeting(&track, side);
-                // What all but touches all along must not go without a hint.
+                // Features that almost touch over the whole stretch need a parabola.
                 let lacks_parabola = || hint.as_ref().is_none_or(|hint| hint.bends.is_empty());
                 if is_close && !is_short && track.is_on_parts() && lacks_parabola() {
                     return SideResult::Cut(middle);
@@ -226,13 +223,12 @@ impl Prover<'_> {
         }
         followed.push(holder.clone());
         for track in followed {
-            for (feature, meeting) in self.past_joints(&track) {
-                if known.contains(&feature) {
+            for next in self.past_joints(&track) {
+                if known.contains(&next.feature) {
                     continue;
                 }
-                known.push(feature);
-                let track =
-                    FeatureTrack::new(&self.meshing, feature, (from, to), (middle, meeting));
+                known.push(next.feature);
+                let track = FeatureTrack::new(&self.meshing, (from, to), middle, next);
                 out.extend(track.and_then(|track| self.proof_meeting(&track, side)));
             }
         }
@@ -240,7 +236,7 @@ impl Prover<'_> {
         SideResult::Held { seat, tracks: out }
     }
 
-    /// A followed feature as it stands in the certificate, if its series are exact.
+    /// The entry of a feature in the certificate; `None` if its series are not exact.
     fn proof_meeting(&self, track: &FeatureTrack, side: Side) -> Option<ProofMeeting> {
         let u = track.series(|_, m| m.at.0)?;
         let v = track.series(|_, m| m.at.1)?;
@@ -248,13 +244,13 @@ impl Prover<'_> {
         Some(ProofMeeting {
             side: side as usize,
             pieces: [parts.0, parts.1],
-            corner: corner.map(|(member, _)| usize::from(member == Member::Driven)),
+            corner: corner.map(|corner| usize::from(corner.member == Member::Driven)),
             parameters: [u, v],
             bends: self.parabolas(track)?,
         })
     }
 
-    /// Features that hold the driven gear at a driver angle, and those near each other.
+    /// Features that hold the driven gear at a driver angle, and features near each other there.
     fn sample(&mut self, phi: f64) -> Result<FeatureSample, ProofError> {
         let a = self.meshing.pair.center_distance();
         let law = self.law.at(phi).position;
@@ -276,20 +272,22 @@ impl Prover<'_> {
             let pose = Pose::new(phi, seat.angle, a);
             let mut near = self.meshing.candidates(&pose);
             for proximity in self.meshing.proximities(&mut near, &pose) {
-                let touch = proximity.points;
-                if touch.lever * side.sign() <= 0.0 || touch.gap.abs() > NEAR * self.meshing.module
-                {
+                let points = proximity.points;
+                let is_far = points.gap.abs() > NEAR * self.meshing.module;
+                if points.lever * side.sign() <= 0.0 || is_far {
                     continue;
                 }
                 let feature = Feature {
                     parts: proximity.parts,
-                    corner: proximity.corner.map(|member| (member, -1.0)),
+                    corner: proximity
+                        .corner
+                        .map(|member| FeatureCorner { member, end: -1.0 }),
                 };
                 let meeting = Meeting {
-                    at: touch.at,
-                    angle: seat.angle - touch.gap / touch.lever,
+                    at: points.at,
+                    angle: seat.angle - points.gap / points.lever,
                 };
-                out.near[side as usize].push((feature, meeting));
+                out.near[side as usize].push(FeatureMeeting { feature, meeting });
             }
         }
         Ok(out)
@@ -298,11 +296,11 @@ impl Prover<'_> {
 
 /// Outcome of a search along a stretch on one side.
 enum SideResult {
-    /// The seat's series and all meetings, that which holds the gear first.
+    /// The series of the seat, and all meetings, the one that holds the gear first.
     Held {
         seat: Vec<f64>,
         tracks: Vec<ProofMeeting>,
     },
-    /// Where to cut the stretch, rad.
+    /// Driver angle at which to cut the stretch, rad.
     Cut(f64),
 }

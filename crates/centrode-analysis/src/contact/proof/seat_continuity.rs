@@ -1,4 +1,4 @@
-//! Seats that jump: a tooth comes into the backlash of the driven gear without touching where the gear was held before.
+//! Check that the seats do not jump: a tooth can enter the backlash of the driven gear without a touch at the previous seat.
 
 use super::{
     certificate::{ProofError, ProofStretch},
@@ -7,10 +7,10 @@ use super::{
 };
 
 impl Prover<'_> {
-    /// Checks that each seat goes on from stretch to stretch, and from the end of the cycle to its start.
+    /// Checks that each seat is continuous from stretch to stretch, and from the end of the cycle to its start.
     pub(super) fn check_continuity(&self) -> Result<(), ProofError> {
-        let after = self.out.iter().cycle().skip(1);
-        for (before, after) in self.out.iter().zip(after) {
+        let after = self.stretches.iter().cycle().skip(1);
+        for (before, after) in self.stretches.iter().zip(after) {
             for side in [Side::On, Side::Back] {
                 let seat = |stretch: &ProofStretch, end| at_end(&stretch.seats[side as usize], end);
                 let turn = seat(after, -1.0) - seat(before, 1.0);
@@ -21,7 +21,7 @@ impl Prover<'_> {
                     } else {
                         (before, 1.0)
                     };
-                    return Err(self.jump_error(side, before.to, turn.abs(), (stretch, end)));
+                    return Err(self.jump_error(side, before.to, turn.abs(), stretch, end));
                 }
             }
         }
@@ -34,7 +34,8 @@ impl Prover<'_> {
         side: Side,
         phi: f64,
         turn: f64,
-        (stretch, end): (&ProofStretch, f64),
+        stretch: &ProofStretch,
+        end: f64,
     ) -> ProofError {
         let meeting = &stretch.meetings[stretch.held_by[side as usize]];
         let [driver, driven] = meeting.pieces;

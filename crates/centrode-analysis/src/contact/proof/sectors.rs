@@ -1,4 +1,4 @@
-//! Equal parts of a cycle: what is shown of one holds for all.
+//! Equal parts of a cycle: a proof of one part is a proof of all.
 
 use std::f64::consts::TAU;
 
@@ -8,16 +8,16 @@ use nalgebra::Complex;
 
 use super::prover::HALF_WIDTH;
 
-/// Share of the half width, by which gears turn, that contours may differ by after a part.
+/// Tolerance of a contour after one part of the cycle, as a share of the half width times the centre distance.
 const ALLOWED: f64 = 0.1;
 
-/// Driver angle, rad, within which pieces of the law end repeats_by.
+/// Difference up to which angles of the law count as equal, rad.
 const SAME_ANGLE: f64 = 1e-12;
 
 /// Coefficients of a contour's pieces.
 type ContourPieces = [Vec<[f64; 2]>];
 
-/// Greatest number of equal parts of the cycle after each of which both contours and the law are as before it.
+/// Maximum number of equal parts of the cycle after each of which both contours and the law repeat.
 pub(super) fn sectors(
     contours: [&ContourPieces; 2],
     law: &Piecewise,
@@ -32,7 +32,7 @@ pub(super) fn sectors(
             && second % count == 0
             && repeats(law, TAU * f64::from(turns[0]) / count as f64)
             && [0, 1].iter().all(|&k| {
-                (1..count).all(|part| repeats_after(contours[k], turns[k], (part, count), allowed))
+                (1..count).all(|part| repeats_after(contours[k], turns[k], part, count, allowed))
             })
     };
     (2..=first.min(second))
@@ -41,11 +41,12 @@ pub(super) fn sectors(
         .map_or(1, |count| count as u32)
 }
 
-/// Whether a contour turned by so many parts of its turns lies on itself.
+/// Whether a contour coincides with itself after a rotation by `part` of `count` parts of its turns.
 fn repeats_after(
     contour: &ContourPieces,
     turns: u32,
-    (part, count): (usize, usize),
+    part: usize,
+    count: usize,
     allowed: f64,
 ) -> bool {
     let turned = part * turns as usize;
@@ -60,7 +61,7 @@ fn repeats_after(
     })
 }
 
-/// Whether a law's pieces, but for steady growth, come again after an angle.
+/// Whether the pieces of a law, apart from its mean slope, repeat after an angle, rad.
 fn repeats(law: &Piecewise, angle: f64) -> bool {
     let ends = law.ends();
     let period = ends[ends.len() - 1];

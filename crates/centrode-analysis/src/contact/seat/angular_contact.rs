@@ -16,7 +16,7 @@ pub(in crate::contact) struct AngularContact {
     pub(in crate::contact) parts: (usize, usize),
     /// Whether a corner of the driver touches.
     pub(super) at_corner: bool,
-    pub(in crate::contact) meeting: MeetingPoints,
+    pub(super) meeting: MeetingPoints,
 }
 
 /// Point of contact on the driver and the driver's outward normal there, in the driver's axes.
@@ -40,7 +40,7 @@ impl AngularContact {
     }
 
     /// The contact on the driver.
-    pub(in crate::contact) fn contact_normal(&self, pose: &Pose) -> ContactNormal {
+    pub(super) fn contact_normal(&self, pose: &Pose) -> ContactNormal {
         let [on_driver, on_driven] = self.tangents();
         let tangent = [on_driver, -on_driven][usize::from(self.at_corner)];
         let normal = Vector::new(tangent.y, -tangent.x) / tangent.norm();

@@ -19,7 +19,7 @@ pub(in crate::contact) struct FacingPoints {
 
 /// Two parts that face each other, and the parameters there.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::contact) struct FacingParts {
+pub(super) struct FacingParts {
     /// Parts of driver and driven gear.
     pub(in crate::contact) parts: (usize, usize),
     /// Parameters on the two parts.
@@ -59,7 +59,7 @@ const CONTINUED: f64 = 0.25;
 /// Points at which two smooth parts face each other, by Newton's method from the parameters `at`.
 ///
 /// Solves A' x B' = 0 and (A - B).A' = 0, which is regular unless the two parts have the same curvature.
-pub(in crate::contact) fn facing_parts(
+pub(super) fn facing_parts(
     a: &OutlinePart<'_>,
     b: &OutlinePart<'_>,
     pose: &Pose,
@@ -84,7 +84,7 @@ pub(super) fn facing_sharp_parts(
 }
 
 /// Points at which two smooth parts face each other, extrapolated a little beyond their ends.
-pub(in crate::contact) fn facing_beyond_ends(
+pub(super) fn facing_beyond_ends(
     a: &OutlinePart<'_>,
     b: &OutlinePart<'_>,
     pose: &Pose,

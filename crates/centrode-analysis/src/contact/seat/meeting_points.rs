@@ -2,14 +2,14 @@ use crate::contact::contour::ContourPoint;
 
 /// Two points, one on each contour, at the same distance from the driven axis: they meet when the driven gear turns.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::contact) struct MeetingPoints {
-    pub(in crate::contact) driver: ContourPoint,
-    pub(in crate::contact) driven: ContourPoint,
+pub(super) struct MeetingPoints {
+    pub(super) driver: ContourPoint,
+    pub(super) driven: ContourPoint,
 }
 
 impl MeetingPoints {
     /// Rotation of the driven gear that brings the points together, rad.
-    pub(in crate::contact) fn angle(&self) -> f64 {
+    pub(super) fn angle(&self) -> f64 {
         let (a, first) = (self.driver.point, self.driver.tangent);
         let (b, tangent) = (self.driven.point, self.driven.tangent);
         let turned = b.perp(&a).atan2(b.dot(&a));
@@ -30,7 +30,7 @@ impl MeetingPoints {
     }
 
     /// Slope of the polar angle over the distance, driver's minus driven gear's, times a positive factor.
-    pub(in crate::contact) fn slope_difference(&self) -> f64 {
+    pub(super) fn slope_difference(&self) -> f64 {
         let (a, first) = (self.driver.point, self.driver.tangent);
         let (b, tangent) = (self.driven.point, self.driven.tangent);
         // The distances change in opposite senses: the product of their rates is negative.

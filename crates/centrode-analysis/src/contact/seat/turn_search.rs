@@ -20,7 +20,7 @@ use crate::contact::contour::{
 const POINT: f64 = 1e-5;
 
 /// Search for the first contacts when the driven gear turns back (`sign` 1) or on (-1).
-pub(in crate::contact) struct TurnSearch<'a> {
+pub(super) struct TurnSearch<'a> {
     driver: PosedContour<'a>,
     driven: PosedContour<'a>,
     sign: f64,
@@ -50,21 +50,21 @@ impl Floor {
 /// Limits of a search.
 pub(super) struct TurnLimits<'a> {
     /// Maximum rotation searched, rad.
-    pub(in crate::contact) max_turn: f64,
+    pub(super) max_turn: f64,
     /// Maximum penetration in the first pose that is searched, mm.
-    pub(in crate::contact) max_depth: f64,
+    pub(super) max_depth: f64,
     /// Gap or penetration within which there is contact, mm. A deeper penetration is tested by `penetrates`.
-    pub(in crate::contact) tolerance: f64,
+    pub(super) tolerance: f64,
     /// Distance of the driven axis from a contact normal below which the contact cannot hold the driven gear, mm.
-    pub(in crate::contact) min_lever: f64,
+    pub(super) min_lever: f64,
     /// Parts that face each other in the first pose.
-    pub(in crate::contact) facing: &'a [FacingParts],
+    pub(super) facing: &'a [FacingParts],
     /// Whether a point of the driver lies in the driven gear, or one of the driven gear in the driver.
-    pub(in crate::contact) penetrates: &'a dyn Fn(&Vector, &Vector) -> bool,
+    pub(super) penetrates: &'a dyn Fn(&Vector, &Vector) -> bool,
 }
 
 impl<'a> TurnSearch<'a> {
-    pub(in crate::contact) fn new(
+    pub(super) fn new(
         driver: &'a GearOutline<'a>,
         driven: &'a GearOutline<'a>,
         pose: Pose,
@@ -98,7 +98,7 @@ impl<'a> TurnSearch<'a> {
     }
 
     /// Searches two stretches for a contact that may be the first.
-    pub(in crate::contact) fn search(&mut self, one: &DividedStretch, other: &DividedStretch) {
+    pub(super) fn search(&mut self, one: &DividedStretch, other: &DividedStretch) {
         let (a, b) = (&one.whole, &other.whole);
         // A driven gear that turns back is stopped only by sides of the driver that face on.
         if a.sense * self.sign > 0.0 || b.sense * self.sign < 0.0 || self.cannot_meet(a, b) {

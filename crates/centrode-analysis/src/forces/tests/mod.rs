@@ -10,8 +10,8 @@ use std::sync::Arc;
 use centrode_geometry::{Jet, MassProperties, Point};
 use centrode_kinematics::linkage::{Branch, Line, LinkId as Bar, Linkage, LinkageError};
 use centrode_kinematics::machine::{
-    Axes, Closure, Constant, Contact, FrameJet, GearMesh, Input, Joint, Linear, Link, Load,
-    Machine, PitchCurves, Quantity,
+    Axes, Closure, Constant, Contact, FrameJet, GearMesh, Input, Joint, Linear, Link,
+    LinkedMachine, Load, PitchCurves, Quantity,
 };
 use centrode_kinematics::transmission::{FromFn, MotionJet, Transmission};
 use nalgebra::{Matrix3, Point3};
@@ -32,14 +32,14 @@ fn number(value: f64) -> Quantity {
     Quantity::Law(Arc::new(Constant(value)))
 }
 
-fn machine(names: &[&str]) -> Machine {
-    let mut machine = Machine {
+fn machine(names: &[&str]) -> LinkedMachine {
+    let mut machine = LinkedMachine {
         input: Input {
             name: "crank".into(),
             period: TAU,
             speed: 1.0,
         },
-        ..Machine::default()
+        ..LinkedMachine::default()
     };
     for name in names {
         machine.link(Link {
@@ -96,13 +96,13 @@ fn four_bar([a, b, c, d]: [f64; 4]) -> (Arc<Linkage>, [Bar; 3]) {
     (Arc::new(linkage), bars)
 }
 
-fn near(found: f64, wanted: f64, share: f64) {
-    let off = (found - wanted).abs();
-    assert!(off <= share * (1.0 + wanted.abs()), "{found} {wanted}");
+fn near(found: f64, required: f64, share: f64) {
+    let off = (found - required).abs();
+    assert!(off <= share * (1.0 + required.abs()), "{found} {required}");
 }
 
 /// A crank of 30 mm, a rod of 100 mm, a piston on the x axis.
-fn slider_crank(piston: f64) -> Machine {
+fn slider_crank(piston: f64) -> LinkedMachine {
     let (r, l) = (30.0, 100.0);
     let mut found = machine(&["frame", "crank", "rod", "piston"]);
     // sin b = r sin t / l.
@@ -145,7 +145,7 @@ fn slider_crank(piston: f64) -> Machine {
 }
 
 /// Circular gears of 20 and 40 mm with 20 degree flanks, a load on the driven one.
-fn gears(load: f64) -> Machine {
+fn gears(load: f64) -> LinkedMachine {
     let mut found = machine(&["frame", "pinion", "wheel"]);
     found.joint(Joint::turning(0, 1, turning(1.0)));
     found.joint(Joint::turning(0, 2, turning(-0.5)).at([60.0, 0.0, 0.0]));
@@ -163,7 +163,7 @@ fn gears(load: f64) -> Machine {
 
 #[test]
 fn what_has_no_single_answer_is_refused_by_name() {
-    let refused = |machine: Machine| {
+    let refused = |machine: LinkedMachine| {
         let found = Balance::new(machine).map(|_| ());
         found.expect_err("refused").to_string()
     };
@@ -177,19 +177,19 @@ fn what_has_no_single_answer_is_refused_by_name() {
         links: [third, 2],
         ..twice.meshes[0].clone()
     });
-    let told = refused(twice);
+    let stated = refused(twice);
     for words in [
         "wheel is held",
         "the mesh of pinion and wheel and the mesh of idler and wheel",
     ] {
-        assert!(told.contains(words), "{told}");
+        assert!(stated.contains(words), "{stated}");
     }
     let mut far = gears(1.0);
     far.meshes[0].links = [0, 1];
-    let told = refused(far);
+    let stated = refused(far);
     assert!(
-        told.contains("the mesh of frame and pinion cannot move wheel"),
-        "{told}"
+        stated.contains("the mesh of frame and pinion cannot move wheel"),
+        "{stated}"
     );
     let mut light = gears(1.0);
     light.links[1].mass = Some(mass(-1.0, [0.0; 2], 0.0));

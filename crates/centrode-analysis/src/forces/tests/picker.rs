@@ -1,7 +1,7 @@
 use super::*;
 
 /// The picking six-bar with a slider on its rocker, posed by the closed forms of its dyads, with masses in odd places.
-fn picker() -> Machine {
+fn picker() -> LinkedMachine {
     let build = || {
         let mut linkage = Linkage::new();
         let a = linkage.point(Bar::FRAME, Point::origin())?;
@@ -90,7 +90,7 @@ fn turns(frame: &FrameJet) -> [Matrix3<f64>; 3] {
 }
 
 /// Torque of the input by virtual work from the frames of the links and their derivatives.
-fn by_work(machine: &Machine, input: f64, speed: f64) -> f64 {
+fn by_work(machine: &LinkedMachine, input: f64, speed: f64) -> f64 {
     let pose = machine.pose(input);
     let mut work = 0.0;
     let square = speed * speed;

@@ -6,7 +6,8 @@ use centrode_machines::three_arm::{LinkMotion, ThreeArm, ThreeArmLink};
 use nalgebra::{Isometry2, Rotation2};
 
 use crate::interference::{
-    BodyError, Clearance, InterferenceError, Later, Motion, Moving, PoseJet, Rest, Shares, Uniform,
+    BodyError, Clearance, DelayedMotion, InterferenceError, Motion, Moving, PhaseShifts, PoseJet,
+    Rest, Uniform,
 };
 use crate::side_by_side::both;
 
@@ -121,9 +122,9 @@ pub fn between_arms(
     arm: &ArmBody,
     tolerance: Tolerance,
 ) -> Result<Option<Clearance>, ArmClearanceError> {
-    let shares = Shares::new(tolerance);
+    let shares = PhaseShifts::new(tolerance);
     let found = among_arms(mechanism, arm, shares, |moving, pairs| {
-        shares.least(moving, pairs, [0.0, TAU])
+        shares.minimum(moving, pairs, [0.0, TAU])
     })?;
     Ok(found.flatten())
 }
@@ -150,20 +151,20 @@ impl ArmClearanceCourse {
         tolerance: Tolerance,
         parts: u32,
     ) -> Result<Self, ArmClearanceError> {
-        let shares = Shares::new(tolerance);
+        let shares = PhaseShifts::new(tolerance);
         let place = |i: u32, share: f64| TAU * (f64::from(i) + share) / f64::from(parts);
         let along = |moving: &[Moving<'_>], pairs: &[[usize; 2]]| {
-            let least = (0..parts).map(|i| {
+            let minimum = (0..parts).map(|i| {
                 let inputs = [place(i, 0.0), place(i, 1.0)];
-                let found = shares.least(moving, pairs, inputs)?;
-                Ok(found.map_or(f64::INFINITY, |found| found.least))
+                let found = shares.minimum(moving, pairs, inputs)?;
+                Ok(found.map_or(f64::INFINITY, |found| found.minimum))
             });
-            least.collect::<Result<Vec<f64>, InterferenceError>>()
+            minimum.collect::<Result<Vec<f64>, InterferenceError>>()
         };
         Ok(Self {
             input: (0..parts).map(|i| place(i, 0.5)).collect(),
             arms: among_arms(mechanism, arm, shares, along)?.unwrap_or_default(),
-            tray: beside_tray(mechanism, arm, shares, along)?.unwrap_or_default(),
+            tray: at_tray(mechanism, arm, shares, along)?.unwrap_or_default(),
         })
     }
 }
@@ -172,7 +173,7 @@ impl ArmClearanceCourse {
 fn among_arms<R>(
     mechanism: &ThreeArm,
     arm: &ArmBody,
-    shares: Shares,
+    shares: PhaseShifts,
     look: impl FnOnce(&[Moving<'_>], &[[usize; 2]]) -> Result<R, InterferenceError>,
 ) -> Result<Option<R>, ArmClearanceError> {
     if mechanism.arms() < 2 {
@@ -197,7 +198,7 @@ fn among_arms<R>(
     })?;
     let phase = TAU / f64::from(mechanism.arms());
     let others: Vec<_> = (1..=mechanism.arms() / 2)
-        .map(|k| Later {
+        .map(|k| DelayedMotion {
             first: &first,
             delay: phase * f64::from(k),
             turned: -train.direction().sign() * phase * f64::from(k),
@@ -229,18 +230,18 @@ fn from_tray(
     arm: &ArmBody,
     tolerance: Tolerance,
 ) -> Result<Option<Clearance>, ArmClearanceError> {
-    let shares = Shares::new(tolerance);
-    let found = beside_tray(mechanism, arm, shares, |moving, pairs| {
-        shares.least(moving, pairs, [0.0, TAU])
+    let shares = PhaseShifts::new(tolerance);
+    let found = at_tray(mechanism, arm, shares, |moving, pairs| {
+        shares.minimum(moving, pairs, [0.0, TAU])
     })?;
     Ok(found.flatten())
 }
 
 /// Applies `look` to the first arm's housing and the tray; none for an arm without a housing.
-fn beside_tray<R>(
+fn at_tray<R>(
     mechanism: &ThreeArm,
     arm: &ArmBody,
-    shares: Shares,
+    shares: PhaseShifts,
     look: impl FnOnce(&[Moving<'_>], &[[usize; 2]]) -> Result<R, InterferenceError>,
 ) -> Result<Option<R>, ArmClearanceError> {
     let Some(housing) = arm.parts().iter().find(|part| part.name == "housing") else {
@@ -263,9 +264,9 @@ fn from_unpicked(
     }
     let arm = std::slice::from_ref(arm.outline());
     let stems = (&tray.stems[..], tray.place);
-    let shares = Shares::new(tolerance);
+    let shares = PhaseShifts::new(tolerance);
     at_rest(mechanism, arm, stems, shares, |moving, pairs| {
-        shares.least(moving, pairs, [0.0, TAU])
+        shares.minimum(moving, pairs, [0.0, TAU])
     })
 }
 
@@ -274,7 +275,7 @@ fn at_rest<R>(
     mechanism: &ThreeArm,
     carried: &[Outline],
     (still, place): (&[Outline], Isometry2<f64>),
-    shares: Shares,
+    shares: PhaseShifts,
     look: impl FnOnce(&[Moving<'_>], &[[usize; 2]]) -> Result<R, InterferenceError>,
 ) -> Result<R, ArmClearanceError> {
     let carried = shares.body(carried)?;
@@ -305,7 +306,7 @@ fn from_seedlings(
     };
     let release = mechanism.planting(0);
     let inputs = [release - PI, release + PI];
-    let shares = Shares::new(tolerance);
+    let shares = PhaseShifts::new(tolerance);
     let stem = shares.body(&[stem])?;
     let arm = shares.body(std::slice::from_ref(arm.outline()))?;
     let motion = shares.motion(&arm, inputs, |input| {
@@ -335,7 +336,7 @@ fn from_seedlings(
         motion: motion as &dyn Motion,
     }));
     let pairs: Vec<_> = (2..moving.len()).map(|k| [0, k]).collect();
-    let found = shares.least(&moving, &pairs, inputs)?;
+    let found = shares.minimum(&moving, &pairs, inputs)?;
     Ok(found.map(|clearance| Clearance {
         input: clearance.input.rem_euclid(TAU),
         pair: [0, clearance.pair[1] - 1],

@@ -56,10 +56,10 @@ fn the_clearance_along_the_turn_has_the_least_one_and_is_that_of_the_outlines() 
     let fine = tolerance(1e-3);
     let whole = ArmClearance::analyse(&machine, &arm, fine).expect("finite");
     let course = ArmClearanceCourse::analyse(&machine, &arm, fine, 90).expect("finite");
-    let least = |list: &[f64]| list.iter().copied().fold(f64::INFINITY, f64::min);
-    let off = least(&course.arms) - whole.arms.expect("three arms").least;
+    let minimum = |list: &[f64]| list.iter().copied().fold(f64::INFINITY, f64::min);
+    let off = minimum(&course.arms) - whole.arms.expect("three arms").minimum;
     assert!(off.abs() < 2e-3, "{off}");
-    let off = least(&course.tray) - whole.tray.expect("a tray").least;
+    let off = minimum(&course.tray) - whole.tray.expect("a tray").minimum;
     assert!(off.abs() < 2e-3, "{off}");
     let corners: Vec<Point> = arm.outline().flatten(fine);
     for i in (0..90).step_by(7) {
@@ -87,9 +87,9 @@ fn the_published_arms_are_clear_of_each_other() {
     let found = between_arms(&machine, &arm, tolerance(1e-2)).expect("finite");
     let found = found.expect("three arms");
     // Our arm in the paper's mechanism: the paper draws its arms without dimensions.
-    assert!((found.least - 62.627).abs() < 0.01, "{found:?}");
+    assert!((found.minimum - 62.627).abs() < 0.01, "{found:?}");
     assert!(
-        (0.0..0.0301).contains(&(found.least - found.lower_bound)),
+        (0.0..0.0301).contains(&(found.minimum - found.lower_bound)),
         "{found:?}"
     );
     // All three pairs in the machine's frame, by samples.
@@ -103,7 +103,7 @@ fn the_published_arms_are_clear_of_each_other() {
         }
         assert!(sampled > found.lower_bound, "{pair:?} {sampled}");
         assert!(
-            (sampled - found.least).abs() < 0.03,
+            (sampled - found.minimum).abs() < 0.03,
             "{pair:?} {sampled} {found:?}"
         );
     }
@@ -114,7 +114,7 @@ fn arms_too_long_overlap_and_one_arm_is_alone() {
     let long = ArmBody::new(&ArmBodySpec::default(), 320.0, 65.0, 60.0).expect("an arm");
     let found = between_arms(&published(3), &long, tolerance(1e-2)).expect("finite");
     assert!(
-        found.is_some_and(|c| c.least < -1.0 && c.lower_bound <= c.least),
+        found.is_some_and(|c| c.minimum < -1.0 && c.lower_bound <= c.minimum),
         "{found:?}"
     );
     assert_eq!(
@@ -127,10 +127,10 @@ fn arms_too_long_overlap_and_one_arm_is_alone() {
         let found = between_arms(&published(arms), &default_arm(), tolerance(1e-2));
         let found = found.expect("finite").expect("several arms");
         assert!(
-            found.least < before && found.pair == [0, 1],
+            found.minimum < before && found.pair == [0, 1],
             "{arms} {found:?}"
         );
-        before = found.least;
+        before = found.minimum;
     }
 }
 
@@ -155,7 +155,7 @@ fn tray_and_stems_are_where_the_machine_has_them() {
         .map(|input| surface - right(input))
         .fold(f64::INFINITY, f64::min);
     let tray = found.tray.expect("a tray");
-    assert!((tray.least - gap).abs() < 0.03, "{tray:?} {gap}");
+    assert!((tray.minimum - gap).abs() < 0.03, "{tray:?} {gap}");
     // Over ground, stems are fixed where the tips of the arms before were at planting.
     let outline = arm.outline().flatten(tolerance(1e-2));
     let spec = &machine.design().seedling;
@@ -176,19 +176,19 @@ fn tray_and_stems_are_where_the_machine_has_them() {
         ]
         .map(|[dx, dy]| Point::new(x + dx, low + dy))
     };
-    let mut least = f64::INFINITY;
+    let mut minimum = f64::INFINITY;
     for input in samples.map(|input| input + release - PI).step_by(4) {
         let link = machine.link(ThreeArmLink::Arm(0), input);
         let over = |p: &Point| machine.over_ground(&link.point(*p), input).position;
         let points: Vec<_> = outline.iter().map(over).collect();
         for before in 1..=3 {
-            least = least.min(brute(&points, &stem(before)));
+            minimum = minimum.min(brute(&points, &stem(before)));
         }
     }
     let seedlings = found.seedlings.expect("stems");
     assert!(
-        (seedlings.least - least).abs() < 0.05,
-        "{seedlings:?} {least}"
+        (seedlings.minimum - minimum).abs() < 0.05,
+        "{seedlings:?} {minimum}"
     );
 }
 
@@ -206,14 +206,14 @@ fn the_arm_bends_the_row_above_by_as_much_as_samples_say() {
     };
     let found = ArmClearance::analyse(&machine, &arm, tolerance(1e-2)).expect("finite");
     let unpicked = found.unpicked.expect("stems");
-    assert!((unpicked.least + 7.7).abs() < 0.1, "{unpicked:?}");
+    assert!((unpicked.minimum + 7.7).abs() < 0.1, "{unpicked:?}");
     // The deepest point lies on the border of one and so far inside the other.
     let deepest = unpicked.points[0];
     let arm_there = posed(&machine, &outline, 0, unpicked.input);
     let off = [arm_there.as_slice(), &row(20.0, 60.0)].map(|border| brute(&[deepest], border));
     assert!(off[0].min(off[1]) < 0.02, "{off:?}");
     assert!(
-        (off[0].max(off[1]) + unpicked.least).abs() < 0.03,
+        (off[0].max(off[1]) + unpicked.minimum).abs() < 0.03,
         "{off:?} {unpicked:?}"
     );
     // With rows far enough apart, or shorter stems, samples find the clearance.
@@ -226,14 +226,14 @@ fn the_arm_bends_the_row_above_by_as_much_as_samples_say() {
         let unpicked = found.unpicked.expect("stems");
         let row = row(spacing, length);
         let samples = (0..3600).map(|i| posed(&wide, &outline, 0, TAU * f64::from(i) / 3600.0));
-        let least = samples
+        let minimum = samples
             .map(|points| brute(&points, &row))
             .fold(f64::INFINITY, f64::min);
         assert!(
-            (unpicked.least - least).abs() < 0.05,
-            "{spacing}: {unpicked:?} {least}"
+            (unpicked.minimum - minimum).abs() < 0.05,
+            "{spacing}: {unpicked:?} {minimum}"
         );
-        assert!(unpicked.least > 0.0);
+        assert!(unpicked.minimum > 0.0);
     }
     for (rows, expected) in [(Unpicked::None, false), (Unpicked::Below, true)] {
         let mut design = machine.design().clone();
@@ -246,18 +246,18 @@ fn the_arm_bends_the_row_above_by_as_much_as_samples_say() {
 
 /// Least distance over inputs near one, by ever finer samples: no code of the search.
 fn sharpened(apart: impl Fn(f64) -> f64, middle: f64) -> f64 {
-    let (mut middle, mut reach, mut least) = (middle, 0.02, f64::INFINITY);
+    let (mut middle, mut reach, mut minimum) = (middle, 0.02, f64::INFINITY);
     while reach > 1e-7 {
         for i in -8..=8 {
             let input = middle + reach * f64::from(i) / 8.0;
             let here = apart(input);
-            if here < least {
-                (least, middle) = (here, input);
+            if here < minimum {
+                (minimum, middle) = (here, input);
             }
         }
         reach *= 0.25;
     }
-    least
+    minimum
 }
 
 #[test]
@@ -273,9 +273,12 @@ fn the_least_clearance_is_that_of_the_outlines_to_within_the_tolerance() {
     for tol in [4.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.02, 0.005] {
         let found = between_arms(&machine, &arm, tolerance(tol)).expect("finite");
         let found = found.expect("three arms");
-        let over = found.least - truth;
+        let over = found.minimum - truth;
         assert!(over.abs() <= tol, "{over} at {tol}");
         assert!(found.lower_bound <= truth + 2e-4, "{found:?} {truth}");
-        assert!(found.least - found.lower_bound <= tol, "{found:?} at {tol}");
+        assert!(
+            found.minimum - found.lower_bound <= tol,
+            "{found:?} at {tol}"
+        );
     }
 }

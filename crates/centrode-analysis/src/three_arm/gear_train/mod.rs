@@ -8,13 +8,12 @@ use centrode_gear::{GearPair, GearPairError, Member};
 use centrode_geometry::{Recent, Tolerance, Vector, checkpoint};
 use centrode_machines::three_arm::{ThreeArm, ThreeArmLink};
 
-use crate::interference::{Clearance, Motion, Moving, PoseJet, Shares};
+use crate::interference::{Clearance, Motion, Moving, PhaseShifts, PoseJet};
 use crate::progress::filling;
-use crate::{ArmClearanceError, Contact, Unit};
-use crate::{Finding, Place, Report, Severity, check_contact};
+use crate::{ArmClearanceError, Contact, Finding, Place, Report, Severity, Unit, check_contact};
 
 /// Number of carrier turns at which each mesh is checked.
-const LOOKS: u32 = 360;
+const SAMPLES: u32 = 360;
 /// Turn of a gear, rad, by which a mesh may be off its teeth: rounding.
 const PHASE: f64 = 1e-9;
 /// Tolerance of the gears' clearances, in modules.
@@ -141,9 +140,9 @@ pub(crate) fn check_gear_train(mechanism: &ThreeArm, teeth: &TrainTeeth, report:
 fn phase_error(mechanism: &ThreeArm, pair: &GearPair) -> (f64, f64) {
     let mut worst = (0.0, 0.0);
     for mesh in mechanism.meshes() {
-        for i in 0..LOOKS {
+        for i in 0..SAMPLES {
             checkpoint();
-            let input = TAU * f64::from(i) / f64::from(LOOKS);
+            let input = TAU * f64::from(i) / f64::from(SAMPLES);
             let pose = mechanism.mesh_pose(mesh, input);
             let off = pose.driven - pair.driven_angle(pose.driver);
             let off = (off - TAU * (off / TAU).round()).abs();
@@ -157,22 +156,22 @@ fn phase_error(mechanism: &ThreeArm, pair: &GearPair) -> (f64, f64) {
 
 /// Checks the clearance of gears that are not in mesh.
 fn apart(mechanism: &ThreeArm, pair: &GearPair, report: &mut Report) {
-    let least = match gear_clearance(mechanism, pair) {
-        Ok(Some(least)) => least,
+    let minimum = match gear_clearance(mechanism, pair) {
+        Ok(Some(minimum)) => minimum,
         Ok(None) | Err(_) => return,
     };
-    report.values.insert("gear_clearance", least.bound);
-    let Some(found) = least.found.filter(|found| found.least <= 0.0) else {
+    report.values.insert("gear_clearance", minimum.bound);
+    let Some(found) = minimum.found.filter(|found| found.minimum <= 0.0) else {
         return;
     };
     report.findings.push(Finding {
         rule: "gears-collide",
-        severity: Severity::of_overlap(-found.least),
+        severity: Severity::of_overlap(-found.minimum),
         message: format!(
             "{} and {} run into each other",
-            least.pair[0], least.pair[1]
+            minimum.pair[0], minimum.pair[1]
         ),
-        measured: Some(found.least),
+        measured: Some(found.minimum),
         required: Some(0.0),
         unit: Unit::Millimetre,
         remedy: Some("a smaller bend, fewer arms, or a pitch curve of a smaller greatest radius"),
@@ -262,7 +261,7 @@ fn between(
     if clearance.bound > 0.0 {
         return Ok(clearance);
     }
-    let shares = Shares::new(tolerance);
+    let shares = PhaseShifts::new(tolerance);
     let body = |link: ThreeArmLink| shares.body(std::slice::from_ref(gear(link).outline()));
     let bodies = [body(links[0])?, body(links[1])?];
     let motion = |k: usize| {
@@ -285,7 +284,7 @@ fn between(
         body: &bodies[i],
         motion: &motions[i] as &dyn Motion,
     });
-    clearance.found = shares.least(&moving, &[[0, 1]], [0.0, TAU])?;
+    clearance.found = shares.minimum(&moving, &[[0, 1]], [0.0, TAU])?;
     if let Some(found) = clearance.found {
         clearance.bound = clearance.bound.max(found.lower_bound);
     }

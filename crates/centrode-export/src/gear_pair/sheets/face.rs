@@ -99,13 +99,13 @@ fn notes(part: &SheetGear<'_>, k: f64) -> Vec<(Point, Vec<NoteLine>)> {
         (p * k, vec![size.into(), what.to_owned().into()])
     };
     for (kind, extremes) in [("tip", part.tips()), ("root", part.roots())] {
-        let Some(Extremes { greatest, least }) = extremes else {
+        let Some(Extremes { maximum, minimum }) = extremes else {
             continue;
         };
-        if greatest.coords.norm() - least.coords.norm() < 5e-4 {
-            let size = format!("Ø{:.3}", 2.0 * greatest.coords.norm());
+        if maximum.coords.norm() - minimum.coords.norm() < 5e-4 {
+            let size = format!("Ø{:.3}", 2.0 * maximum.coords.norm());
             notes.push((
-                greatest * k,
+                maximum * k,
                 vec![size.into(), format!("{kind} circle").into()],
             ));
         } else {
@@ -113,8 +113,8 @@ fn notes(part: &SheetGear<'_>, k: f64) -> Vec<(Point, Vec<NoteLine>)> {
                 "tip" => ["highest tip", "lowest tip"],
                 _ => ["highest root", "lowest root"],
             };
-            notes.push(radius(greatest, high));
-            notes.push(radius(least, low));
+            notes.push(radius(maximum, high));
+            notes.push(radius(minimum, low));
         }
     }
     let body = part.gear.body();
@@ -262,7 +262,7 @@ fn section(part: &SheetGear<'_>, scale: Scale) -> Draft {
     let beside = p(right_end + 10.0, 0.0);
     let edges = [p(right_end, 0.0), p(right_end, width)];
     draft.dimension(edges, Vector::y(), beside, &number(body.width, 3));
-    let face = part.tips().map(|tips| 2.0 * tips.greatest.coords.norm());
+    let face = part.tips().map(|tips| 2.0 * tips.maximum.coords.norm());
     let runout = face.filter(|_| half > 0.0);
     if let Some(frame) = runout.and_then(|face| grade::runout(face, "A")) {
         let tip = p(0.5 * (left_root - half), 0.0);

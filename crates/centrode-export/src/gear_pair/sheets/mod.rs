@@ -7,15 +7,14 @@ mod tooth;
 
 use super::drawn;
 use crate::{
-    ExportError, SheetOptions, fit, machine::arrangement, number::mass, package::title_or_name,
+    ExportError, SheetOptions, fit, linked::arrangement, number::mass, package::title_or_name,
 };
 use centrode_formats::sheet::{
     Corner, Draft, Scale, Sheet, SheetBlock, SheetError, TitleBlock, compose, view_letters,
 };
 use centrode_gear::{GearPair, Member, OverPins};
 use centrode_geometry::Tolerance;
-use centrode_kinematics::machine::Fit;
-use centrode_kinematics::machine::Keyway;
+use centrode_kinematics::machine::{Fit, Keyway};
 use centrode_spec::{DrawingSpec, SheetSize};
 pub(super) use part::middle;
 use part::{Likeness, SheetGear, likeness};

@@ -78,8 +78,8 @@ pub(super) fn likeness(pair: &GearPair) -> Option<Likeness> {
 
 /// The points with the greatest and the least radius of a kind.
 pub(super) struct Extremes {
-    pub(super) greatest: Point,
-    pub(super) least: Point,
+    pub(super) maximum: Point,
+    pub(super) minimum: Point,
 }
 
 /// The pitch curve's frame so many pitches after the middle of a gear's first tooth.
@@ -180,8 +180,8 @@ impl<'a> SheetGear<'a> {
     /// Least and greatest x of the contour below the x axis: what a section along it, seen from above, shows behind the cut.
     pub(super) fn behind(&self) -> [f64; 2] {
         let corners = self.tips.iter().chain(&self.roots).filter(|p| p.y <= 0.0);
-        corners.fold([0.0, 0.0], |[least, most], p| {
-            [p.x.min(least), p.x.max(most)]
+        corners.fold([0.0, 0.0], |[minimum, most], p| {
+            [p.x.min(minimum), p.x.max(most)]
         })
     }
 
@@ -243,8 +243,8 @@ impl<'a> SheetGear<'a> {
 fn extremes(points: &[Point]) -> Option<Extremes> {
     let by = |a: &&Point, b: &&Point| a.coords.norm().total_cmp(&b.coords.norm());
     Some(Extremes {
-        greatest: *points.iter().max_by(by)?,
-        least: *points.iter().min_by(by)?,
+        maximum: *points.iter().max_by(by)?,
+        minimum: *points.iter().min_by(by)?,
     })
 }
 
@@ -343,11 +343,11 @@ mod tests {
             assert_eq!((part.roots.len(), part.tips.len()), (23, 23));
             // Near the middle of each the radius is hardly greater than at its innermost point.
             let mut found: Vec<f64> = part.roots.iter().map(|p| p.coords.norm()).collect();
-            let mut told = spaces;
+            let mut stated = spaces;
             found.sort_by(f64::total_cmp);
-            told.sort_by(f64::total_cmp);
-            for (found, told) in found.iter().zip(&told) {
-                assert!((-1e-9..0.1).contains(&(told - found)), "{found} {told}");
+            stated.sort_by(f64::total_cmp);
+            for (found, stated) in found.iter().zip(&stated) {
+                assert!((-1e-9..0.1).contains(&(stated - found)), "{found} {stated}");
             }
         }
     }

@@ -71,13 +71,13 @@ pub(super) fn data(part: &SheetGear<'_>, found: &[Datum]) -> Table {
     };
     rows.add("Pitch curve", "", &definition);
     rows.add("Length of pitch curve", "", number(gear.pitch_length(), 6));
-    let (least, greatest) = pair.rolling().radii(part.member);
-    rows.add("Pitch radius", "r", range([least, greatest], 4));
+    let (minimum, maximum) = pair.rolling().radii(part.member);
+    rows.add("Pitch radius", "r", range([minimum, maximum], 4));
     let bend = pair.rolling().curvature_ranges()[part.member as usize];
     rows.add(
         "Curvature of pitch curve",
         "1/mm",
-        range([bend.least.1, bend.greatest.1], 6),
+        range([bend.minimum.1, bend.maximum.1], 6),
     );
     let mate = part.member.mate();
     let mate = match part.label {
@@ -147,9 +147,9 @@ pub(crate) fn measured(pair: &GearPair, member: Member) -> Vec<Datum> {
     let body = pair.gear(member).body();
     let treated = treatment(&body.heat_treatment);
     let mut data = flank_tolerances(pair, member);
-    if let Some(told) = pair.thickness_deviations(member) {
-        let [upper, lower] = told.limits.map(|deviation| number(deviation, 4));
-        let name = match told.series {
+    if let Some(stated) = pair.thickness_deviations(member) {
+        let [upper, lower] = stated.limits.map(|deviation| number(deviation, 4));
+        let name = match stated.series {
             Some(series) => format!("Tooth thickness, DIN 3967 {series}h"),
             None => "Tooth thickness, deviations".into(),
         };
@@ -305,7 +305,7 @@ mod tests {
             rows.map(|row| (row.symbol, row.value)).collect::<Vec<_>>()
         };
         assert!(rows(&design, Member::Driver).is_empty());
-        let told = |rows: &[(&str, &str)]| {
+        let stated = |rows: &[(&str, &str)]| {
             let owned = rows
                 .iter()
                 .map(|(symbol, value)| (symbol.to_string(), value.to_string()));
@@ -321,17 +321,17 @@ mod tests {
             ("αw", "26.0886°"),
             ("d", "72"),
         ];
-        assert_eq!(rows(&design, Member::Driven), told(&expected));
+        assert_eq!(rows(&design, Member::Driven), stated(&expected));
         // Own heights and a shaper on a pair without shifts, only on the driver's sheet.
         let mut own = design.clone();
         (own.driver.shift, own.driven.shift) = (None, None);
         (own.driver.addendum, own.driver.dedendum) = (Some(1.1), Some(1.15));
         let heights = [("x", "0"), ("k", "0"), ("ha", "3.3"), ("hf", "3.45")];
-        assert_eq!(rows(&own, Member::Driver), told(&heights));
+        assert_eq!(rows(&own, Member::Driver), stated(&heights));
         assert!(rows(&own, Member::Driven).is_empty());
         design.driven.shift = None;
         let opposite = [("x", "-0.6"), ("k", "0"), ("ha", "1.2"), ("hf", "5.55")];
-        assert_eq!(rows(&design, Member::Driven), told(&opposite));
+        assert_eq!(rows(&design, Member::Driven), stated(&opposite));
         design.mean_ratio = [1, 1];
         design.pitch = PitchSpec::Circle(Circle {
             module: Some(3.0),

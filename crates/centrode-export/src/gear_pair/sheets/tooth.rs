@@ -25,20 +25,20 @@ pub(super) fn extremes(part: &SheetGear<'_>) -> Vec<(u32, &'static str)> {
         .map(|(k, _)| (k, part.middle(k, 0.0).curvature))
         .collect();
     let by = |a: &&(u32, f64), b: &&(u32, f64)| a.1.total_cmp(&b.1);
-    let (Some(least), Some(most)) = (sound.iter().min_by(by), sound.iter().max_by(by)) else {
+    let (Some(minimum), Some(most)) = (sound.iter().min_by(by), sound.iter().max_by(by)) else {
         return Vec::new();
     };
-    if most.1 - least.1 < 1e-9 / part.pair.module() {
+    if most.1 - minimum.1 < 1e-9 / part.pair.module() {
         return vec![(0, "every tooth alike")];
     }
-    let gentlest = if least.1 < 0.0 {
+    let gentlest = if minimum.1 < 0.0 {
         "nearest to where the curve is most concave"
     } else {
         "nearest to where the curve bends least"
     };
     vec![
         (most.0, "nearest to where the curve bends most"),
-        (least.0, gentlest),
+        (minimum.0, gentlest),
     ]
 }
 

@@ -2,9 +2,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::cam::law::LawSpec;
-use centrode_spec::SpecError;
-use centrode_spec::degrees;
 use centrode_spec::rule::{Rule, broken, finite, in_range, positive};
+use centrode_spec::{SpecError, degrees};
 
 /// Motion of a follower in one turn of the cam: segments one after the other.
 ///

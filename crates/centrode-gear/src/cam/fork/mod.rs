@@ -15,9 +15,8 @@ use super::disc::{CamError, DiscCam};
 use super::motion::ends;
 use centrode_kinematics::formula::Taylor;
 use centrode_kinematics::transmission::{Chain, FromFn, Inverse, MotionJet, Transmission};
-use centrode_spec::SpecError;
-use centrode_spec::degrees;
 use centrode_spec::rule::{in_range, positive};
+use centrode_spec::{SpecError, degrees};
 
 /// A swinging arm with the cam's roller on one end and the push rod on the other.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]

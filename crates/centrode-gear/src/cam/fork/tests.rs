@@ -118,8 +118,8 @@ fn the_rod_moves_as_wanted_by_the_machines_input() {
                     ..MotionJet::default()
                 };
                 let rod = fork.rod.retraction(&swing).position;
-                let wanted = retraction.at(input).position;
-                assert!((rod - wanted).abs() < 1e-9, "{input}: {rod} {wanted}");
+                let required = retraction.at(input).position;
+                assert!((rod - required).abs() < 1e-9, "{input}: {rod} {required}");
             }
         }
     }
@@ -167,7 +167,7 @@ fn a_quicker_drop_is_told_by_acceleration_pressure_angle_and_undercut() {
         let now = (
             peaks.acceleration.value,
             limits.return_pressure_angle.value,
-            limits.least_radius.value,
+            limits.minimum_radius.value,
         );
         if let Some(slower) = before {
             assert!(now.0 > 1.5 * slower.0 && now.1 > slower.1 && now.2 < slower.2);

@@ -211,7 +211,7 @@ fn a_polynomial_has_the_derivatives_asked_for() {
     };
     let law = LawSpec::Polynomial(spec).resolve().expect("sound");
     let (start, end) = (law.at(0.0), law.at(1.0));
-    for (found, asked) in [
+    for (found, requested) in [
         (start.velocity, 0.3),
         (start.acceleration, -1.0),
         (end.position, 1.0),
@@ -219,7 +219,7 @@ fn a_polynomial_has_the_derivatives_asked_for() {
         (end.acceleration, 2.0),
         (end.jerk, 7.0),
     ] {
-        assert!((found - asked).abs() < 1e-11, "{found} {asked}");
+        assert!((found - requested).abs() < 1e-11, "{found} {requested}");
     }
     for (zeros, name) in [(2, "polynomial-345"), (3, "polynomial-4567")] {
         let rest = LawSpec::Polynomial(Polynomial {

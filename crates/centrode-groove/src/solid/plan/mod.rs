@@ -24,7 +24,7 @@ const BENT: f64 = 0.25;
 const DEEPEST: u32 = 12;
 
 /// Number of lines sampled for edges that meet.
-const LOOKS: u32 = 360;
+const SAMPLES: u32 = 360;
 
 /// The angles round the shaft at which anything happens, and every edge's height there.
 #[derive(Debug)]
@@ -67,7 +67,7 @@ impl<'a> Plan<'a> {
     pub(super) fn smooth(groove: &'a Groove, level: Level, count: u32) -> Self {
         let mut plan = Self::empty(groove, vec![level]);
         let mut events: Vec<Event> = even(count).collect();
-        events.extend(plan.meetings(&plan.rows(LOOKS.max(count))));
+        events.extend(plan.meetings(&plan.rows(SAMPLES.max(count))));
         events.extend(plan.breaks().into_iter().map(Event::new));
         plan.set_lines(events);
         plan

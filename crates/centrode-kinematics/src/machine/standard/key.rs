@@ -28,10 +28,10 @@ impl Key {
     /// as wide as the keyway, or as short as the hub.
     #[must_use]
     pub fn round(hub: Keyway, face: f64) -> Option<Self> {
-        let [least, greatest] = hub.key_lengths()?;
+        let [minimum, maximum] = hub.key_lengths()?;
         let mut fitting = LENGTHS.into_iter().rev().map(f64::from);
-        let length = fitting.find(|&length| length <= face && length <= greatest)?;
-        (length >= least).then_some(Self {
+        let length = fitting.find(|&length| length <= face && length <= maximum)?;
+        (length >= minimum).then_some(Self {
             width: hub.width,
             height: hub.key_height(),
             length,
@@ -70,7 +70,7 @@ impl Key {
         let size = format!("{form} {width} x {height} x {length}");
         let hub = Keyway { width, depth: 0.0 };
         match hub.key_lengths() {
-            Some([least, _]) if length < least => format!("Key DIN 6880 {size}"),
+            Some([minimum, _]) if length < minimum => format!("Key DIN 6880 {size}"),
             _ => format!("Key DIN 6885-1 {size}"),
         }
     }
@@ -124,8 +124,8 @@ pub fn allowed_pressure(material: &str) -> Option<f64> {
         let digits = number.get(..3)?;
         digits.parse::<f64>().ok()
     });
-    let named = grade.fold(None, |least: Option<f64>, yielding| {
-        Some(least.map_or(yielding, |known| known.min(yielding)))
+    let named = grade.fold(None, |minimum: Option<f64>, yielding| {
+        Some(minimum.map_or(yielding, |known| known.min(yielding)))
     });
     let weakest = material.contains("steel").then_some(WEAKEST);
     named.or(weakest).map(|yielding| SHARE * yielding)

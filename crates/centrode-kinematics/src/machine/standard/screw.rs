@@ -47,9 +47,10 @@ impl Screw {
     /// The longest screw of a nominal diameter that is no longer than a room, mm; `None` where there is no such screw.
     #[must_use]
     pub fn for_diameter(diameter: f64, room: f64) -> Option<Self> {
-        let [.., least, most] = *SCREWS.iter().find(|row| row[0] == diameter)?;
+        let [.., minimum, most] = *SCREWS.iter().find(|row| row[0] == diameter)?;
         // A length of whole layers differs from it by rounding.
-        let fits = |length: &f64| (least..=most).contains(length) && *length <= room * (1.0 + 1e-9);
+        let fits =
+            |length: &f64| (minimum..=most).contains(length) && *length <= room * (1.0 + 1e-9);
         let length = LENGTHS.into_iter().rev().find(fits)?;
         Some(Self { diameter, length })
     }
@@ -138,7 +139,8 @@ mod tests {
     fn holes_leave_play_and_threads_their_depth() {
         // Pitches of the coarse series, ISO 261.
         let pitches = [0.35, 0.4, 0.45, 0.5, 0.7, 0.8, 1.0, 1.25, 1.5, 1.75];
-        for ([diameter, head, hole, drill, least, most], pitch) in SCREWS.into_iter().zip(pitches) {
+        for ([diameter, head, hole, drill, minimum, most], pitch) in SCREWS.into_iter().zip(pitches)
+        {
             // The core of a nut's thread is 1.0825 pitches below the nominal diameter, its widest limit a fifth of a pitch more.
             let core = diameter - 1.0825 * pitch;
             assert!(
@@ -151,9 +153,9 @@ mod tests {
                 head >= 1.5 * diameter && head <= 1.9 * diameter,
                 "M{diameter}"
             );
-            assert!(head > hole && least < most, "M{diameter}");
+            assert!(head > hole && minimum < most, "M{diameter}");
             assert!(
-                LENGTHS.contains(&least) && LENGTHS.contains(&most),
+                LENGTHS.contains(&minimum) && LENGTHS.contains(&most),
                 "M{diameter}"
             );
             let screw = Screw::for_diameter(diameter, most).expect("a screw");

@@ -4,9 +4,8 @@ use serde::{Deserialize, Serialize};
 use super::angle;
 use crate::arm::{ArmBodySpec, UsualArm};
 use centrode_kinematics::machine::screw_size;
-use centrode_spec::SpecError;
-use centrode_spec::degrees;
 use centrode_spec::rule::{in_range, not_negative, positive, single_line};
+use centrode_spec::{SpecError, degrees};
 
 /// An arm, fixed to its planet.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]

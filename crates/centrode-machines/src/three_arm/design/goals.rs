@@ -2,9 +2,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::ordered;
-use centrode_spec::SpecError;
-use centrode_spec::degrees;
 use centrode_spec::rule::finite;
+use centrode_spec::{SpecError, degrees};
 
 /// Goals of a good mechanism; the defaults are the eight goals of the 2021 machine.
 ///
@@ -39,7 +38,7 @@ pub struct GoalsSpec {
 
 impl Default for GoalsSpec {
     fn default() -> Self {
-        let range = |least: f64, greatest: f64| [least.to_radians(), greatest.to_radians()];
+        let range = |minimum: f64, maximum: f64| [minimum.to_radians(), maximum.to_radians()];
         Self {
             arm_clearance: 0.0,
             pick_angle: range(-5.0, 15.0),
@@ -66,14 +65,14 @@ impl GoalsSpec {
         ] {
             ordered(key, range)?;
         }
-        for (key, least) in [
+        for (key, minimum) in [
             ("arm_clearance", self.arm_clearance),
             ("seedling_clearance", self.seedling_clearance),
             ("gearbox_clearance", self.gearbox_clearance),
             ("trajectory_height", self.trajectory_height),
             ("module", self.module),
         ] {
-            finite(key, least)?;
+            finite(key, minimum)?;
         }
         Ok(())
     }

@@ -6,12 +6,10 @@ use serde::{Deserialize, Serialize};
 use super::Parameter;
 use centrode_gear::design::{BodySpec, GearPairDesign, GearSpec, SHIFTS, TeethSpec, ToolSpec};
 use centrode_gear::pitch::PitchSpec;
-use centrode_spec::degrees;
 use centrode_spec::rule::{
     broken, count_in_range, file_name, finite, in_range, is_zero, positive, single_line,
 };
-use centrode_spec::{DesignSpec, DrawingSpec};
-use centrode_spec::{Rule, SpecError};
+use centrode_spec::{DesignSpec, DrawingSpec, Rule, SpecError, degrees};
 
 mod arm;
 mod goals;
@@ -189,7 +187,7 @@ impl DesignSpec for ThreeArmDesign {
 
 impl ThreeArmDesign {
     /// Greatest number of arms of one carrier.
-    pub const MOST_ARMS: u32 = 6;
+    pub const MAX_ARMS: u32 = 6;
 
     /// Makes a mechanism with the given sun, chain and arm, and every other value at its default.
     #[must_use]
@@ -263,7 +261,7 @@ impl ThreeArmDesign {
     pub fn validate(&self) -> Result<(), SpecError> {
         file_name("name", &self.name)?;
         single_line("title", &self.title)?;
-        count_in_range("arms", self.arms, 1, Self::MOST_ARMS)?;
+        count_in_range("arms", self.arms, 1, Self::MAX_ARMS)?;
         angle("carrier_start_deg", self.carrier_start)?;
         // A chain folded back on itself puts the planet on the sun's axis.
         let bend = degrees::rounded(self.bend);
@@ -320,12 +318,12 @@ fn angle(key: &str, radians: f64) -> Result<(), SpecError> {
 }
 
 /// Checks a range with its ends in order.
-fn ordered(key: &str, [least, greatest]: [f64; 2]) -> Result<(), SpecError> {
-    finite(key, least)?;
-    finite(key, greatest)?;
-    if least < greatest {
+fn ordered(key: &str, [minimum, maximum]: [f64; 2]) -> Result<(), SpecError> {
+    finite(key, minimum)?;
+    finite(key, maximum)?;
+    if minimum < maximum {
         Ok(())
     } else {
-        broken(key, Rule::NotInOrder(least, greatest))
+        broken(key, Rule::NotInOrder(minimum, maximum))
     }
 }

@@ -40,7 +40,7 @@ pub struct OptimiseSpec {
 pub enum Objective {
     /// Least change of the parameters: root mean square of their moves as shares of their bounds.
     #[default]
-    LeastChange,
+    MinimumChange,
     /// Least speed of the tip at picking.
     PickingSpeed,
     /// Greatest margin of the goal reached most narrowly.
@@ -48,7 +48,7 @@ pub enum Objective {
 }
 
 /// Least radius of a control point a search tries unless bounds say otherwise, as a share of their mean.
-const LEAST_RADIUS: f64 = 0.2;
+const MIN_RADIUS: f64 = 0.2;
 
 impl OptimiseSpec {
     /// Whether the table is left at its defaults.
@@ -94,8 +94,8 @@ impl ThreeArmDesign {
             Parameter::Planting,
         ]);
         let spec = &self.optimise;
-        let asked = spec.bounds.keys().copied();
-        let mut all: Vec<Parameter> = usual.chain(asked).collect();
+        let requested = spec.bounds.keys().copied();
+        let mut all: Vec<Parameter> = usual.chain(requested).collect();
         all.sort_unstable();
         all.dedup();
         all.retain(|parameter| !spec.hold.contains(parameter));
@@ -108,7 +108,7 @@ impl ThreeArmDesign {
                 _ => 40.0_f64.to_radians(),
             };
             let low = match parameter {
-                Parameter::Radius(_) => (value - about).max(LEAST_RADIUS * mean),
+                Parameter::Radius(_) => (value - about).max(MIN_RADIUS * mean),
                 _ => value - about,
             };
             let given = spec.bounds.get(&parameter).copied();

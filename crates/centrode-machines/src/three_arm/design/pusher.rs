@@ -4,9 +4,8 @@ use serde::{Deserialize, Serialize};
 use centrode_gear::cam::law::LawSpec;
 use centrode_gear::design::BodySpec;
 use centrode_kinematics::machine::{Dowel, preferred_size};
-use centrode_spec::SpecError;
-use centrode_spec::degrees;
 use centrode_spec::rule::{in_range, positive, single_line};
+use centrode_spec::{SpecError, degrees};
 
 /// The cam, fixed to the carrier about a planet's axis, that draws the push rod back and lets it go.
 ///

@@ -2,9 +2,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::angle;
-use centrode_spec::SpecError;
-use centrode_spec::degrees;
 use centrode_spec::rule::{count_in_range, finite, in_range, not_negative, positive};
+use centrode_spec::{SpecError, degrees};
 
 /// Picking, planting and travel.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]

@@ -122,7 +122,7 @@ fn the_rod_is_back_from_picking_to_planting_and_out_after() {
     assert!((at(206.0) - 12.5).abs() < 1e-9 && (at(350.0) - 12.5).abs() < 1e-9);
     // Regular: no undercut, and pressure angles as the sizes were chosen for.
     let limits = pusher.cam().disc().limits();
-    assert!(limits.least_radius.value > 1.5 && limits.regularity.value > 0.0);
+    assert!(limits.minimum_radius.value > 1.5 && limits.regularity.value > 0.0);
     assert!(
         limits.rise_pressure_angle.value < 35.0_f64.to_radians(),
         "{limits:?}"

@@ -54,10 +54,10 @@ pub enum SweepError {
     )]
     Kind,
     /// Fewer points than the spline's degree needs, or other lists of points than the sweep was made for.
-    #[error("a sweep of {wanted} points got {found}")]
+    #[error("a sweep of {required} points got {found}")]
     Points {
         /// Number the sweep was made for.
-        wanted: usize,
+        required: usize,
         /// Number in the design.
         found: usize,
     },
@@ -129,9 +129,9 @@ impl Sweep {
         };
         let (pick_angle, push_angle) = (clamp(picking), -clamp(planting));
         let a = self.stage.center_distance();
-        let (least, greatest) = self.stage.radii();
+        let (minimum, maximum) = self.stage.radii();
         let ground = -below.reach + design.work.planting_depth;
-        let gearbox = swept_radius(a, design.bend, greatest, a - least);
+        let gearbox = swept_radius(a, design.bend, maximum, a - minimum);
         let teeth = design.gear_tooth_count();
         Ok(Figures {
             pick_angle,

@@ -57,7 +57,7 @@ impl Panel {
 }
 
 /// Function that grows along the pitch curve.
-pub(super) trait Growing: Copy {
+pub(super) trait Monotone: Copy {
     /// Evaluates it in a panel; `C` coefficients of the panel's polynomials are not zero.
     fn evaluate<const C: usize, T: Places>(self, panel: &Panel, s: T) -> Evaluation<T>;
 }
@@ -72,7 +72,7 @@ pub(super) struct DrivenAngle {
     pub(super) center_distance: f64,
 }
 
-impl Growing for PolarAngle {
+impl Monotone for PolarAngle {
     #[inline]
     fn evaluate<const C: usize, T: Places>(self, panel: &Panel, s: T) -> Evaluation<T> {
         let (value, rate, change) = twice(&panel.angle[..C], s);
@@ -84,7 +84,7 @@ impl Growing for PolarAngle {
     }
 }
 
-impl Growing for DrivenAngle {
+impl Monotone for DrivenAngle {
     #[inline]
     fn evaluate<const C: usize, T: Places>(self, panel: &Panel, s: T) -> Evaluation<T> {
         let a = T::from(self.center_distance);

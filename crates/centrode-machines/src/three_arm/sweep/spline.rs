@@ -20,9 +20,9 @@ impl SplinePair {
     pub(super) fn new(spline: &Bspline) -> Result<Self, SweepError> {
         let degree = spline.degree as usize;
         let found = spline.radius.len();
-        let wanted = (degree + 1).max(3);
-        if found < wanted || !(1..=HIGHEST_DEGREE).contains(&degree) {
-            return Err(SweepError::Points { wanted, found });
+        let required = (degree + 1).max(3);
+        if found < required || !(1..=HIGHEST_DEGREE).contains(&degree) {
+            return Err(SweepError::Points { required, found });
         }
         Ok(Self {
             degree,
@@ -37,7 +37,7 @@ impl SplinePair {
         for found in [spline.radius.len(), spline.angle.len()] {
             if found != count {
                 return Err(SweepError::Points {
-                    wanted: count,
+                    required: count,
                     found,
                 });
             }

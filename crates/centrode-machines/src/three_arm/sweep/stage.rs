@@ -4,10 +4,10 @@ use centrode_geometry::bracketed_root;
 
 use super::SweepError;
 use super::panel::{
-    COEFFICIENTS, DrivenAngle, Evaluation, Growing, NODES, Panel, PolarAngle, horner, twice,
+    COEFFICIENTS, DrivenAngle, Evaluation, Monotone, NODES, Panel, PolarAngle, horner, twice,
 };
 use super::spline::SplinePair;
-use super::track::Growth;
+use super::track::Monotonicity;
 use centrode_gear::pitch::{Bspline, HIGHEST_DEGREE};
 
 /// Panels of a piece.
@@ -166,31 +166,31 @@ impl Stage {
 
     /// Finds the least and greatest radius, exactly: inside a panel where the radius is stationary, or at its start.
     fn find_extremes(&mut self) {
-        let (mut least, mut greatest) = (f64::INFINITY, 0.0_f64);
+        let (mut minimum, mut maximum) = (f64::INFINITY, 0.0_f64);
         for panel in &self.panels {
             let (radius, before) = horner(&panel.radius, -1.0);
             let (_, after) = horner(&panel.radius, 1.0);
-            least = least.min(radius);
-            greatest = greatest.max(radius);
+            minimum = minimum.min(radius);
+            maximum = maximum.max(radius);
             if before * after < 0.0 {
                 let rate = |s: f64| horner(&panel.radius, s).1;
                 let s = bracketed_root(rate, -1.0, 1.0, before, after);
                 let radius = horner(&panel.radius, s).0;
-                least = least.min(radius);
-                greatest = greatest.max(radius);
+                minimum = minimum.min(radius);
+                maximum = maximum.max(radius);
             }
         }
-        self.extremes = (least, greatest);
+        self.extremes = (minimum, maximum);
     }
 
     /// Centre distance a at which one driver turn is one driven turn, by Newton's method on the driven turn's
     /// reciprocal, which for a circle is a straight line.
     fn closure(&self) -> Result<f64, SweepError> {
-        let greatest = self.extremes.1;
+        let maximum = self.extremes.1;
         // For a nearly even radius, twice the mean and twice its variance over the mean.
         let mean = self.moments[0] / TAU;
         let variance = self.moments[1] / TAU - mean * mean;
-        let mut a = (2.0 * (mean + variance / mean)).max(greatest * 1.001);
+        let mut a = (2.0 * (mean + variance / mean)).max(maximum * 1.001);
         for _ in 0..60 {
             let (mut turned, mut slope) = ([0.0; NODES], [0.0; NODES]);
             let parts = self.parts.chunks_exact(NODES);
@@ -205,8 +205,8 @@ impl Stage {
             let (turned, slope): (f64, f64) = (turned.iter().sum(), slope.iter().sum());
             let step = turned * (turned / TAU - 1.0) / slope;
             a += step;
-            if a <= greatest {
-                a = 0.5 * (a - step + greatest);
+            if a <= maximum {
+                a = 0.5 * (a - step + maximum);
             } else if step.abs() <= 1e-7 * a {
                 // The next step would be about the square of this one.
                 return Ok(a);
@@ -315,8 +315,8 @@ impl Stage {
     }
 
     /// Growth of the polar angle along the panels.
-    pub(super) fn angle_growth(&self) -> Growth<'_, PolarAngle> {
-        Growth {
+    pub(super) fn angle_growth(&self) -> Monotonicity<'_, PolarAngle> {
+        Monotonicity {
             of: PolarAngle,
             panels: &self.panels,
             ends: &self.angles,
@@ -324,8 +324,8 @@ impl Stage {
     }
 
     /// Growth of the driven angle along the panels, from parameter zero.
-    pub(super) fn driven_growth(&self) -> Growth<'_, DrivenAngle> {
-        Growth {
+    pub(super) fn driven_growth(&self) -> Monotonicity<'_, DrivenAngle> {
+        Monotonicity {
             of: DrivenAngle {
                 center_distance: self.center_distance,
             },
@@ -349,7 +349,7 @@ impl Stage {
     }
 
     #[inline]
-    fn evaluate<G: Growing>(&self, growth: Growth<'_, G>, param: Param) -> Evaluation {
+    fn evaluate<G: Monotone>(&self, growth: Monotonicity<'_, G>, param: Param) -> Evaluation {
         let panel = &self.panels[param.panel];
         let mut evaluation = if self.coefficients() <= 3 {
             growth.of.evaluate::<3, _>(panel, param.s)

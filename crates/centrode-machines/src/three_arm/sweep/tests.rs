@@ -99,7 +99,7 @@ fn what_is_no_mechanism_is_refused() {
         (
             with(&|s| s.radius.truncate(9)),
             SweepError::Points {
-                wanted: 12,
+                required: 12,
                 found: 9,
             },
         ),

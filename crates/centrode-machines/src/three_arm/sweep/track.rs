@@ -3,7 +3,7 @@ use std::ops::Range;
 use centrode_geometry::bracketed_root;
 use wide::f64x4;
 
-use super::panel::{Growing, LANES, Panel, inverse_quintic};
+use super::panel::{LANES, Monotone, Panel, inverse_quintic};
 use super::stage::{LAST, Param, settled};
 
 /// Parameters of growing targets along the pitch curve, over one turn of it: a run of targets to each panel, so that
@@ -26,13 +26,13 @@ struct Run {
 
 /// Function that grows along the pitch curve: its values at the panels' ends over a turn.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Growth<'a, G> {
+pub(super) struct Monotonicity<'a, G> {
     pub(super) of: G,
     pub(super) panels: &'a [Panel],
     pub(super) ends: &'a [f64],
 }
 
-impl<G: Growing> Growth<'_, G> {
+impl<G: Monotone> Monotonicity<'_, G> {
     /// Growth in a turn.
     pub(super) fn whole(&self) -> f64 {
         self.ends[self.panels.len()] - self.ends[0]
@@ -83,9 +83,9 @@ impl Track {
     /// Finds the targets, which grow by no more than a turn from the first to the last and have [`LANES`] numbers
     /// more behind them; returns whether all were found.
     #[inline]
-    pub(super) fn find<const C: usize, G: Growing>(
+    pub(super) fn find<const C: usize, G: Monotone>(
         &mut self,
-        growth: Growth<'_, G>,
+        growth: Monotonicity<'_, G>,
         targets: &[f64],
     ) -> bool {
         let whole = growth.whole();
@@ -122,7 +122,7 @@ impl Track {
     /// Solves by one step of Halley's method for each target of the last run, from the quintic that has the values
     /// and two derivatives of the inverse function at the panel's ends; more steps where one was too long to be the last.
     #[inline]
-    fn solve<const C: usize, G: Growing>(&mut self, growth: Growth<'_, G>, targets: &[f64]) {
+    fn solve<const C: usize, G: Monotone>(&mut self, growth: Monotonicity<'_, G>, targets: &[f64]) {
         let Some(run) = self.runs.last() else { return };
         let panel = &growth.panels[run.panel];
         let shift = run.turns * growth.whole();
@@ -156,9 +156,9 @@ impl Track {
 
     /// Evaluates a monotone function at every target, adding `first` and the growth of every whole turn.
     #[inline]
-    pub(super) fn map<const C: usize, G: Growing>(
+    pub(super) fn map<const C: usize, G: Monotone>(
         &self,
-        growth: Growth<'_, G>,
+        growth: Monotonicity<'_, G>,
         first: f64,
         out: &mut [f64],
     ) {

@@ -2,11 +2,11 @@ use serde::Deserialize;
 use serde_json::Value as Json;
 use toml_edit::{Array, DocumentMut, InlineTable, Item, Table, Value};
 
-use super::composed::retyped;
 use super::family::turned;
 use super::field::{list, required};
 use super::follower::refollowed;
 use super::kind::switched;
+use super::machine::retyped;
 use super::plane::moved;
 
 /// A new value for a key of the design file.

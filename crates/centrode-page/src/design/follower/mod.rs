@@ -6,10 +6,10 @@ mod tests;
 use serde_json::{Map, Value as Json};
 use toml_edit::{DocumentMut, Item, TableLike, Value};
 
-use super::composed::put_point;
 use super::edit::{Step, container, replace, set, written};
-use super::field::keys_beside;
+use super::field::keys_next_to;
 use super::kind::mechanism;
+use super::machine::put_point;
 
 /// Base radii that are tried, as shares of the old one: a flat face asks for a blunter cam.
 const BASES: [f64; 7] = [1.0, 1.25, 1.6, 2.0, 2.5, 3.0, 4.0];
@@ -52,7 +52,7 @@ pub(super) fn refollowed(
     if before == kind {
         return None;
     }
-    let keys = keys_beside(&text, &format!("cams.{cam}.follower"), kind)?;
+    let keys = keys_next_to(&text, &format!("cams.{cam}.follower"), kind)?;
     let change = Change {
         document,
         cam,

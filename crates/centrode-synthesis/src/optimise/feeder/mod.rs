@@ -12,9 +12,8 @@ use centrode_spec::Design;
 pub use widened::{NotWidened, Widened};
 
 use super::{DesignProblem, Variable};
-use centrode_analysis::Goal;
-use centrode_analysis::six_bar::WantedSwing;
-use centrode_analysis::{Attainable, feeder_goals};
+use centrode_analysis::six_bar::RequiredSwing;
+use centrode_analysis::{Attainable, Goal, feeder_goals};
 use centrode_optimise::{Evaluation, Problem};
 
 /// Feeder as a problem: its free dimensions, the deviation of its swing as objective, and as constraints that the crank
@@ -28,7 +27,7 @@ pub struct FeederProblem {
     start: FeederDesign,
     variables: Vec<Variable>,
     dimensions: Vec<Dimension>,
-    wanted: WantedSwing,
+    required: RequiredSwing,
     /// Least crank angle of the feed stroke, rad.
     feed: f64,
 }
@@ -49,12 +48,12 @@ impl FeederProblem {
         Self {
             variables: free.iter().map(variable).collect(),
             dimensions: free.iter().map(|&(dimension, _)| dimension).collect(),
-            wanted: WantedSwing {
+            required: RequiredSwing {
                 bounds: design.bounds.named().map(|(_, [low, high])| (low, high)),
                 pivot: Point::from(design.linkage.pivot),
                 branch: design.linkage.branch,
                 swing: goals.swing,
-                least_transmission_angle: Some(goals.transmission_angle),
+                minimum_transmission_angle: Some(goals.transmission_angle),
             },
             feed: TAU * goals.quick_return / (1.0 + goals.quick_return),
             start: design.clone(),
@@ -80,7 +79,7 @@ impl FeederProblem {
 
     /// Displacement of the pivot, mm.
     fn moved(&self, linkage: &LinkageSpec) -> f64 {
-        (Point::from(linkage.pivot) - self.wanted.pivot).norm()
+        (Point::from(linkage.pivot) - self.required.pivot).norm()
     }
 }
 
@@ -104,7 +103,9 @@ impl Problem for FeederProblem {
             linkage.rocker,
             linkage.frame,
         ];
-        let (mut evaluation, six_bar) = self.wanted.judged(&lengths, Point::from(linkage.pivot));
+        let (mut evaluation, six_bar) = self
+            .required
+            .evaluated(&lengths, Point::from(linkage.pivot));
         if let Some(six_bar) = six_bar {
             let feed = six_bar.extremes().longer_stroke();
             evaluation.constraints.push(self.feed - feed);

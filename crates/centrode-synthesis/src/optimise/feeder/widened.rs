@@ -25,19 +25,19 @@ pub struct Widened {
 pub enum NotWidened {
     /// The bounds hold the angle wanted.
     #[error(
-        "the bounds hold lengths with a least transmission angle of {:.4} deg, and {:.4} deg is wanted: they need not be widened", .attainable.to_degrees(), .wanted.to_degrees()
+        "the bounds hold lengths with a least transmission angle of {:.4} deg, and {:.4} deg is wanted: they need not be widened", .attainable.to_degrees(), .required.to_degrees()
     )]
     Needless {
         /// Greatest least transmission angle within the bounds, rad.
         attainable: f64,
         /// Angle wanted, rad.
-        wanted: f64,
+        required: f64,
     },
     /// No widening below nine tenths helps.
-    #[error("bounds widened by 90 % hold no crank-rocker with a least transmission angle of {:.4} deg", .wanted.to_degrees())]
+    #[error("bounds widened by 90 % hold no crank-rocker with a least transmission angle of {:.4} deg", .required.to_degrees())]
     NoUse {
         /// Angle wanted, rad.
-        wanted: f64,
+        required: f64,
     },
     /// The slider's arc is seen under the angle wanted from no point.
     #[error("the lengths found have no place of the pivot that gives a swing of {:.4} deg", .swing.to_degrees())]
@@ -54,17 +54,20 @@ impl Widened {
     /// [`NotWidened`].
     pub fn search(design: &FeederDesign) -> Result<Self, NotWidened> {
         let goals = &design.goals;
-        let wanted = goals.transmission_angle;
-        let none = NotWidened::NoUse { wanted };
+        let required = goals.transmission_angle;
+        let none = NotWidened::NoUse { required };
         let found = Attainable::search(design).ok_or(none)?;
         let attainable = found.transmission_angle;
-        let needless = NotWidened::Needless { attainable, wanted };
+        let needless = NotWidened::Needless {
+            attainable,
+            required,
+        };
         let share = found.widening.ok_or(needless)?;
         let mut widened = design.clone();
         for more in 0..MOST {
             let bounds = outwards(&design.bounds, share, f64::from(more) / STEPS);
             let best = rounded(found.widened_lengths, &bounds, design);
-            let Some((four_bar, _)) = best.filter(|(_, angle)| *angle >= wanted) else {
+            let Some((four_bar, _)) = best.filter(|(_, angle)| *angle >= required) else {
                 continue;
             };
             let pivot = SixBar::pivots(&four_bar, goals.swing, 1).first().copied();
@@ -126,7 +129,7 @@ fn rounded(
         let [a, b, c, d] = [(0, 1), (1, 3), (2, 9), (3, 27)].map(|(k, by)| near(k, i / by % 3));
         let four_bar = FourBar::new(a, b, c, d, design.linkage.branch).ok()?;
         let turns = four_bar.grashof() == Grashof::CrankRocker;
-        turns.then(|| (four_bar, four_bar.least_transmission_angle()))
+        turns.then(|| (four_bar, four_bar.minimum_transmission_angle()))
     });
     candidates.max_by(|a, b| a.1.total_cmp(&b.1))
 }

@@ -2,8 +2,7 @@ use centrode_gear::GearPair;
 use centrode_gear::design::{Addendum, GearPairDesign, TeethSpec};
 use centrode_machines::three_arm::design::ThreeArmDesign;
 
-use centrode_analysis::{Goal, Severity, Unit};
-use centrode_analysis::{SLIGHT_TRANSMISSION_ERROR, check};
+use centrode_analysis::{Goal, SLIGHT_TRANSMISSION_ERROR, Severity, Unit, check};
 
 /// Transmission error of half the progress, rad.
 const ERROR: f64 = 1e-3;

@@ -1,6 +1,6 @@
 //! Search for a three-arm mechanism that reaches its goals.
 
-mod judged;
+mod evaluation;
 mod mesh;
 mod posed;
 
@@ -12,8 +12,7 @@ use centrode_machines::three_arm::{Parameter, Sweep, SweepError, ThreeArm};
 use centrode_spec::Design;
 
 use super::{DesignProblem, Variable};
-use centrode_analysis::three_arm_goals;
-use centrode_analysis::{Goal, Unit};
+use centrode_analysis::{Goal, Unit, three_arm_goals};
 use centrode_optimise::{Evaluation, Problem};
 
 pub use posed::{Posed, PosedProblem};
@@ -97,7 +96,7 @@ impl ThreeArmProblem {
         self.with_sweep(|sweep| {
             let mut figures = sweep.figures(&design).ok()?;
             let length = sweep.pitch_length();
-            judged::follow(&mut design, length);
+            evaluation::follow(&mut design, length);
             figures.module = design
                 .gear_tooth_count()
                 .map(|z| length / (std::f64::consts::PI * f64::from(z)));
@@ -105,7 +104,10 @@ impl ThreeArmProblem {
             let largest = Limits::largest_module_of(&design.pair(), sweep.curvatures());
             let overload = module / largest - 1.0;
             let mut goals = three_arm_goals(&figures, &design.goals);
-            goals.push(judged::picking_depth(&design, sweep.picking_depth(&design)));
+            goals.push(evaluation::picking_depth(
+                &design,
+                sweep.picking_depth(&design),
+            ));
             Some(Quick {
                 goals,
                 design,
@@ -165,18 +167,18 @@ impl Problem for ThreeArmProblem {
         let Some(quick) = self.quick(point) else {
             return nothing();
         };
-        let Some(judged) = judged::judge(&quick.goals, quick.overload, || {
+        let Some(evaluated) = evaluation::judge(&quick.goals, quick.overload, || {
             ThreeArm::resolve(&quick.design).ok()
         }) else {
             return nothing();
         };
-        let objective = match &judged.reached {
+        let objective = match &evaluated.reached {
             Some((mechanism, goals)) => self.objective(point, mechanism, goals),
             None => self.moved(point),
         };
         Evaluation {
             objective,
-            constraints: judged.constraints,
+            constraints: evaluated.constraints,
         }
     }
 }
@@ -202,14 +204,14 @@ impl DesignProblem for ThreeArmProblem {
 
     fn goals(&self, point: &[f64]) -> Option<Vec<Goal>> {
         let quick = self.quick(point)?;
-        let mut goals = judged::exact(&ThreeArm::resolve(&quick.design).ok()?)?;
+        let mut goals = evaluation::exact(&ThreeArm::resolve(&quick.design).ok()?)?;
         goals.extend(mesh::mesh(&quick.design).into_iter().flatten());
         Some(goals)
     }
 
     fn guides(&self, point: &[f64]) -> Option<Vec<Goal>> {
         let quick = self.quick(point)?;
-        let mut goals = judged::exact(&ThreeArm::resolve(&quick.design).ok()?)?;
+        let mut goals = evaluation::exact(&ThreeArm::resolve(&quick.design).ok()?)?;
         for goal in &mut goals {
             // A count of flanks has no slope; the module that every place of the curves bears has.
             if goal.name == "sound-teeth" && goal.met() == Some(false) {

@@ -1,15 +1,13 @@
 use std::f64::consts::{PI, TAU};
 use std::ops::ControlFlow;
 
-use crate::reverse::NotPosed;
-use crate::reverse::{Harmonics, KeyPose, KeyPoses};
+use crate::reverse::{Harmonics, KeyPose, KeyPoses, NotPosed};
 use centrode_gear::{CurvatureRange, Limits, Member, Rolling};
 use centrode_machines::three_arm::ThreeArm;
 use centrode_machines::three_arm::design::ThreeArmDesign;
 
-use super::judged;
-use centrode_analysis::Goal;
-use centrode_analysis::three_arm_goals;
+use super::evaluation;
+use centrode_analysis::{Goal, three_arm_goals};
 use centrode_optimise::{Evaluation, Method, Problem, Settings, minimise};
 
 /// Bends tried with the mildest law, in steps, and the step, degrees; how far the search may go from the best of them, steps.
@@ -20,7 +18,7 @@ const ROOM: f64 = 2.0;
 const DECIMALS: f64 = 1e3;
 /// Orders of the law that the search may bias, and by how much of 1/k^2, rad.
 const ORDERS: usize = 5;
-const GREATEST: f64 = 0.2;
+const MAXIMUM: f64 = 0.2;
 /// Evaluations after which a search gives up.
 const EVALUATIONS: u64 = 500;
 /// Violation of a point of which there is no mechanism.
@@ -96,11 +94,14 @@ impl<'a> PosedProblem<'a> {
             }
             evaluations += 1;
             let violation = problem.evaluate(&problem.mildest()).violation();
-            if best.as_ref().is_none_or(|(least, _)| violation < *least) {
+            if best
+                .as_ref()
+                .is_none_or(|(minimum, _)| violation < *minimum)
+            {
                 best = Some((violation, problem));
             }
-            let least = best.as_ref().map_or(violation, |(least, _)| *least);
-            if least <= 0.0 || observe(evaluations, least).is_break() {
+            let minimum = best.as_ref().map_or(violation, |(minimum, _)| *minimum);
+            if minimum <= 0.0 || observe(evaluations, minimum).is_break() {
                 break;
             }
         }
@@ -139,10 +140,10 @@ impl<'a> PosedProblem<'a> {
                 bend: design.bend.to_degrees(),
             });
         };
-        let judged = judged::judge(&quick, overload, || ThreeArm::resolve(&design).ok());
-        let reached = judged.filter(|judged| judged.constraints.iter().all(|c| *c <= 0.0));
-        let exact = || judged::exact(&ThreeArm::resolve(&design).ok()?);
-        let (goals, is_reached) = match reached.and_then(|judged| judged.reached) {
+        let evaluated = evaluation::judge(&quick, overload, || ThreeArm::resolve(&design).ok());
+        let reached = evaluated.filter(|evaluated| evaluated.constraints.iter().all(|c| *c <= 0.0));
+        let exact = || evaluation::exact(&ThreeArm::resolve(&design).ok()?);
+        let (goals, is_reached) = match reached.and_then(|evaluated| evaluated.reached) {
             Some((_, goals)) => (goals, true),
             None => (exact().unwrap_or(quick), false),
         };
@@ -182,7 +183,7 @@ fn quick(design: &mut ThreeArmDesign) -> Option<(Vec<Goal>, f64)> {
     let mechanism = ThreeArm::resolve(design).ok()?;
     let rolling = mechanism.train().rolling();
     let length = rolling.pitch_length(Member::Driver);
-    judged::follow(design, length);
+    evaluation::follow(design, length);
     let module = design
         .tooth_count
         .map_or(design.goals.module, |z| length / (PI * f64::from(z)));
@@ -190,18 +191,18 @@ fn quick(design: &mut ThreeArmDesign) -> Option<(Vec<Goal>, f64)> {
     figures.module = Some(module);
     let largest = Limits::largest_module_of(&design.pair(), curvatures(rolling));
     let mut goals = three_arm_goals(&figures, &design.goals);
-    goals.push(judged::picking_depth(design, mechanism.picking_depth()));
-    goals.push(judged::gearbox_tray(&mechanism));
+    goals.push(evaluation::picking_depth(design, mechanism.picking_depth()));
+    goals.push(evaluation::gearbox_tray(&mechanism));
     Some((goals, module / largest - 1.0))
 }
 
 /// Greatest convex and concave curvature of both pitch curves, 1/mm.
 fn curvatures(rolling: &Rolling) -> [f64; 2] {
     let ranges = rolling.curvature_ranges();
-    let greatest = |of: fn(&CurvatureRange) -> f64| ranges.iter().map(of).fold(0.0, f64::max);
+    let maximum = |of: fn(&CurvatureRange) -> f64| ranges.iter().map(of).fold(0.0, f64::max);
     [
-        greatest(|range| range.greatest.1),
-        greatest(|range| -range.least.1),
+        maximum(|range| range.maximum.1),
+        maximum(|range| -range.minimum.1),
     ]
 }
 
@@ -210,8 +211,8 @@ impl Problem for PosedProblem<'_> {
         let room = (ROOM * STEP).to_radians();
         let mut bounds = vec![(self.bend - room, self.bend + room)];
         for order in 1..=ORDERS {
-            let greatest = GREATEST / (order * order) as f64;
-            bounds.extend([(-greatest, greatest); 2]);
+            let maximum = MAXIMUM / (order * order) as f64;
+            bounds.extend([(-maximum, maximum); 2]);
         }
         bounds
     }
@@ -222,13 +223,13 @@ impl Problem for PosedProblem<'_> {
 
     fn evaluate(&self, point: &[f64]) -> Evaluation {
         let objective = point[1..].iter().map(|a| a * a).sum::<f64>();
-        let judged = self.at(point).ok().and_then(|mut design| {
+        let evaluated = self.at(point).ok().and_then(|mut design| {
             let (quick, overload) = quick(&mut design)?;
-            judged::judge(&quick, overload, || ThreeArm::resolve(&design).ok())
+            evaluation::judge(&quick, overload, || ThreeArm::resolve(&design).ok())
         });
         Evaluation {
             objective,
-            constraints: judged.map_or(vec![NONE], |judged| judged.constraints),
+            constraints: evaluated.map_or(vec![NONE], |evaluated| evaluated.constraints),
         }
     }
 }

@@ -3,8 +3,7 @@ use centrode_spec::DesignSpec as _;
 use super::*;
 use crate::optimise::{DesignSearch, Strategy};
 use centrode_analysis::check_three_arm;
-use centrode_optimise::Method;
-use centrode_optimise::{Ended, Settings, minimise};
+use centrode_optimise::{Ended, Method, Settings, minimise};
 use std::ops::ControlFlow;
 
 fn template() -> ThreeArmDesign {

@@ -7,8 +7,8 @@ use kurbo::{ParamCurve as _, ParamCurveArclen as _, ParamCurveDeriv as _, PathSe
 use thiserror::Error;
 
 use super::path::text;
-use super::{PathError, WantedPath};
-use centrode_spec::digits::told;
+use super::{PathError, RequiredPath};
+use centrode_spec::digits::stated;
 
 /// Fewest and most points through which a curve is laid.
 const FEWEST: usize = 32;
@@ -20,7 +20,7 @@ const ROUNDINGS: f64 = 16.0;
 /// Points along a closed path of an SVG file, the first where the drawing begins, evenly spread over its length.
 ///
 /// A drawing is pieces whose curvature jumps where they join; a machine's path has none such. Through as few points as come
-/// within a distance of the drawing, 32 and twice as many and so on, runs the closed spline of [`WantedPath::through`].
+/// within a distance of the drawing, 32 and twice as many and so on, runs the closed spline of [`RequiredPath::through`].
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrawnPath {
     /// The points, mm: x to the right and y up from the drawing's lower left corner.
@@ -48,7 +48,7 @@ impl DrawnPath {
             let points: Vec<Point> = (0..count)
                 .map(|i| drawing.at(drawing.length * i as f64 / count as f64))
                 .collect();
-            let path = WantedPath::through(&points)?;
+            let path = RequiredPath::through(&points)?;
             let step = drawing.length / count as f64;
             // Pieces of the spline, and the drawing's own joints.
             let ends = piece_ends(0.0, drawing.length, count as u32, &drawing.joints());
@@ -246,8 +246,8 @@ pub enum DrawingError {
     /// A path along which no smooth curve runs.
     #[error(
         "a smooth curve through {count} points comes within {} mm of the drawing, not within {} mm: the sharpest joint of its pieces turns by {angle:.2} deg, at ({x:.4}, {y:.4}) mm; round corners, or allow more",
-        told(*reached),
-        told(*within)
+        stated(*reached),
+        stated(*within)
     )]
     Corner {
         /// Distance allowed, mm.

@@ -10,10 +10,10 @@ use super::DrawingError;
 use crate::reverse::path::FARTHEST;
 
 /// Most pieces of a path, and most nodes of a file.
-const MOST_PIECES: usize = 10_000;
-const MOST_NODES: u32 = 1_000_000;
+const MAX_PIECES: usize = 10_000;
+const MAX_NODES: u32 = 1_000_000;
 /// Most attributes of an element. The reader compares each with all before it: 100,000 take 15 s, 1000 some milliseconds.
-const MOST_ATTRIBUTES: usize = 1000;
+const MAX_ATTRIBUTES: usize = 1000;
 /// Share of its radius within which cubics follow an arc.
 const ARC: f64 = 1e-10;
 /// Share of the drawing within which height and width may tell other scales, and a path is closed.
@@ -27,7 +27,7 @@ pub(super) fn closed_path(text: &str) -> Result<Vec<PathSeg>, DrawingError> {
     let options = ParsingOptions {
         // Inkscape writes a document type.
         allow_dtd: true,
-        nodes_limit: MOST_NODES,
+        nodes_limit: MAX_NODES,
         ..ParsingOptions::default()
     };
     few_attributes(text)?;
@@ -60,15 +60,15 @@ pub(super) fn closed_path(text: &str) -> Result<Vec<PathSeg>, DrawingError> {
     let data = path.attribute("d").unwrap_or_default();
     let drawn = placed * line(data)?;
     let count = drawn.elements().len();
-    if count > MOST_PIECES {
-        let limit = MOST_PIECES;
+    if count > MAX_PIECES {
+        let limit = MAX_PIECES;
         return Err(DrawingError::TooMany { count, limit });
     }
     let segments: Vec<PathSeg> = drawn.segments().filter(|s| !is_point(s)).collect();
     closed(segments, &drawn)
 }
 
-/// Refuses elements with more than [`MOST_ATTRIBUTES`], before the file is read as XML.
+/// Refuses elements with more than [`MAX_ATTRIBUTES`], before the file is read as XML.
 fn few_attributes(text: &str) -> Result<(), DrawingError> {
     // No attribute holds a raw `<`, and every one has a quote after its `=`.
     let attributes = |element: &str| {
@@ -78,8 +78,8 @@ fn few_attributes(text: &str) -> Result<(), DrawingError> {
             .count()
     };
     match text.split('<').map(attributes).max() {
-        Some(count) if count > MOST_ATTRIBUTES => Err(DrawingError::Xml {
-            why: format!("an element has {count} attributes; at most {MOST_ATTRIBUTES} are read"),
+        Some(count) if count > MAX_ATTRIBUTES => Err(DrawingError::Xml {
+            why: format!("an element has {count} attributes; at most {MAX_ATTRIBUTES} are read"),
         }),
         _ => Ok(()),
     }
@@ -165,13 +165,13 @@ fn page(root: Node<'_, '_>) -> Result<Affine, DrawingError> {
         let value = root.attribute(name);
         value.ok_or_else(|| wrong(format!("it has no {name}")))
     };
-    let told = key("viewBox")?;
-    let view = ViewBox::from_str(told);
-    let view = view.map_err(|error| wrong(format!("viewBox is {:?}, {error}", cut(told))))?;
+    let stated = key("viewBox")?;
+    let view = ViewBox::from_str(stated);
+    let view = view.map_err(|error| wrong(format!("viewBox is {:?}, {error}", cut(stated))))?;
     let length = |name: &str| {
-        let told = key(name)?;
-        let wrong = || wrong(format!("{name} is {:?}", cut(told)));
-        let length = Length::from_str(told).map_err(|_| wrong())?;
+        let stated = key(name)?;
+        let wrong = || wrong(format!("{name} is {:?}", cut(stated)));
+        let length = Length::from_str(stated).map_err(|_| wrong())?;
         let unit = match length.unit {
             LengthUnit::Mm => 1.0,
             LengthUnit::Cm => 10.0,
@@ -302,8 +302,8 @@ fn line(data: &str) -> Result<BezPath, DrawingError> {
                 path.close_path();
             }
         }
-        if path.elements().len() > MOST_PIECES {
-            let (count, limit) = (path.elements().len(), MOST_PIECES);
+        if path.elements().len() > MAX_PIECES {
+            let (count, limit) = (path.elements().len(), MAX_PIECES);
             return Err(DrawingError::TooMany { count, limit });
         }
     }

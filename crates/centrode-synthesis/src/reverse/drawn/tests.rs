@@ -1,7 +1,7 @@
 use std::f64::consts::TAU;
 
 use super::{DrawingError, DrawnPath};
-use crate::reverse::{PathError, WantedPath};
+use crate::reverse::{PathError, RequiredPath};
 
 const ELLIPSE: &str = "M 160 70 A 60 40 0 1 1 40 70 A 60 40 0 1 1 160 70 Z";
 
@@ -25,7 +25,7 @@ fn fault(text: &str) -> DrawingError {
 
 /// Greatest distance of the spline through points from the ellipse ((x - 100)/60)^2 + ((y - 30)/40)^2 = 1, to first order.
 fn off_the_ellipse(found: &DrawnPath) -> f64 {
-    let path = WantedPath::through(&found.points).expect("a path");
+    let path = RequiredPath::through(&found.points).expect("a path");
     let off = |i: u32| {
         let p = path.at(path.period() * f64::from(i) / 5000.0).point;
         let (x, y) = ((p.x - 100.0) / 60.0, (p.y - 30.0) / 40.0);

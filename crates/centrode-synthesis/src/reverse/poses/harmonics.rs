@@ -10,10 +10,10 @@ const TERMS: usize = 2 * ORDERS;
 const GROWTH: usize = 8;
 /// Newton steps of a part, the greatest change of an amplitude in one, and the change at which they end.
 const STEPS: usize = 40;
-const GREATEST: f64 = 0.1;
+const MAXIMUM: f64 = 0.1;
 const SETTLED: f64 = 1e-13;
 /// Least ratio of a law, at so many places of a turn.
-const LEAST_RATIO: f64 = 0.05;
+const MIN_RATIO: f64 = 0.05;
 const PLACES: u32 = 180;
 
 /// Driven angle of a pair as a sum of harmonics, `f(x) = x + sum of a_k (cos k x - 1) + b_k sin k x`.
@@ -39,7 +39,7 @@ impl Harmonics {
     /// The planet meets its gear at chi(psi) with f(chi) = f(psi) - bend - pi, so each pose is one equation in the amplitudes.
     /// Newton steps solve them; of all solutions of each the nearest is taken.
     pub(super) fn through(turns: &[[f64; 2]], bend: f64, bias: &[f64]) -> Option<Self> {
-        let wanted = turns.get(1..)?;
+        let required = turns.get(1..)?;
         let bias = DVector::from_fn(TERMS, |term, _| bias.get(term).copied().unwrap_or(0.0));
         let mut law = Self {
             amplitudes: [0.0; TERMS],
@@ -53,9 +53,9 @@ impl Harmonics {
                     return None;
                 }
                 let (start, slope) = law.planet(0.0, bend);
-                let mut off = DVector::zeros(wanted.len());
-                let mut slopes = DMatrix::zeros(wanted.len(), TERMS);
-                for (i, [carrier, planet]) in wanted.iter().enumerate() {
+                let mut off = DVector::zeros(required.len());
+                let mut slopes = DMatrix::zeros(required.len(), TERMS);
+                for (i, [carrier, planet]) in required.iter().enumerate() {
                     let (place, at) = law.planet(*carrier, bend);
                     off[i] = carrier + share * (planet - carrier) - (place - start);
                     for term in 0..TERMS {
@@ -64,11 +64,12 @@ impl Harmonics {
                 }
                 let now = DVector::from_column_slice(&law.amplitudes);
                 let right = off + &slopes * (&now - &bias);
-                let scaled = DMatrix::from_fn(TERMS, wanted.len(), |j, i| slopes[(i, j)] / cost(j));
+                let scaled =
+                    DMatrix::from_fn(TERMS, required.len(), |j, i| slopes[(i, j)] / cost(j));
                 let factors = (&slopes * &scaled).lu().solve(&right)?;
                 let step = &bias + scaled * factors - now;
                 let length = step.amax();
-                let share = (GREATEST / length).min(1.0);
+                let share = (MAXIMUM / length).min(1.0);
                 for (a, step) in law.amplitudes.iter_mut().zip(step.iter()) {
                     *a += share * step;
                 }
@@ -112,7 +113,7 @@ impl Harmonics {
     /// Whether the driven gear always advances, as far as some places show.
     fn advances(&self) -> bool {
         let at = |i: u32| TAU * f64::from(i) / f64::from(PLACES);
-        (0..PLACES).all(|i| self.ratio(at(i)) > LEAST_RATIO)
+        (0..PLACES).all(|i| self.ratio(at(i)) > MIN_RATIO)
     }
 
     /// Polar angle at which the planet meets its gear, and its derivatives by the amplitudes.

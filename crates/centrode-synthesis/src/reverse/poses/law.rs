@@ -14,7 +14,7 @@ const GROWTH: usize = 8;
 const STEPS: usize = 30;
 const CLOSED: f64 = 1e-13;
 /// Least turn of a body between two poses, rad.
-const LEAST_TURN: f64 = 1e-3;
+const MIN_TURN: f64 = 1e-3;
 /// Greatest |ln| of a ratio: that of gears no one makes.
 const UNEVEN: f64 = 3.0;
 
@@ -76,7 +76,7 @@ impl PoseLaw {
         let mut sum = [0.0; 2];
         let within = self.turns.iter().take_while(|turn| {
             sum = [sum[0] + turn[0], sum[1] + turn[1]];
-            let moves = turn.iter().all(|turn| *turn >= LEAST_TURN);
+            let moves = turn.iter().all(|turn| *turn >= MIN_TURN);
             moves && sum.iter().all(|sum| *sum <= TAU + 1e-9)
         });
         within.count()
@@ -98,7 +98,7 @@ impl PoseLaw {
                 let mut slopes = DMatrix::zeros(count, TERMS);
                 let mut from = 0.0;
                 for (i, [carrier, planet]) in self.turns.iter().enumerate() {
-                    let wanted = carrier + share * (planet - carrier);
+                    let required = carrier + share * (planet - carrier);
                     let mut turn = 0.0;
                     visit(from, from + carrier, |psi, weight| {
                         let waves = waves(psi);
@@ -109,7 +109,7 @@ impl PoseLaw {
                         }
                     });
                     from += carrier;
-                    off[i] = wanted - turn;
+                    off[i] = required - turn;
                 }
                 is_met = off.amax() < CLOSED * 100.0;
                 // The least amplitudes that meet the turns, as far as these are linear.

@@ -14,9 +14,9 @@ use thiserror::Error;
 
 pub use self::harmonics::Harmonics;
 use self::law::{MildLaw, PoseLaw};
-use super::{AxisFault, PathError, TwoBar, WantedPath};
+use super::{AxisFault, PathError, RequiredPath, TwoBar};
 use centrode_machines::three_arm::design::Direction;
-use centrode_spec::digits::told;
+use centrode_spec::digits::stated;
 
 /// Number of key poses: three give a circle, no machine meets more than seven but a special one.
 const FEWEST: usize = 3;
@@ -30,7 +30,7 @@ const REACH: f64 = 2.0;
 const LONGEST: f64 = 4.0;
 /// Least length of a bar, and least difference of both, as a share of the size of the poses.
 const SHORTEST: f64 = 0.02;
-const LEAST_DIFFERENCE: f64 = 0.002;
+const MIN_DIFFERENCE: f64 = 0.002;
 /// Distance of the arm's axes in the clamp's frame from which on two chains differ, as a share of the size of the poses.
 const APART: f64 = 0.02;
 /// Gauss-Newton steps to a circle.
@@ -64,7 +64,7 @@ pub enum PoseError {
     #[error("all key poses are at one place: two of them must differ")]
     OnePlace,
     /// No point of the arm whose places lie on a circle.
-    #[error("no point of the arm has its places in all {count} key poses on one circle: the nearest misses a pose by {} mm, {TOLERANCE} mm is allowed; move the poses, or give fewer", told(*miss))]
+    #[error("no point of the arm has its places in all {count} key poses on one circle: the nearest misses a pose by {} mm, {TOLERANCE} mm is allowed; move the poses, or give fewer", stated(*miss))]
     NoCircle {
         /// Number of poses.
         count: usize,
@@ -232,7 +232,7 @@ impl KeyPoses {
             .iter()
             .map(|[carrier, alpha]| circle.axis + bar(circle.carrier, *carrier) + bar(arm, *alpha))
             .collect();
-        let path = WantedPath::through(&points)?;
+        let path = RequiredPath::through(&points)?;
         let sense = if law.sense() > 0.0 {
             Direction::CounterClockwise
         } else {
@@ -302,9 +302,9 @@ impl Circle {
             }
         }
         let arm = circle.arm.norm();
-        let least = SHORTEST * size;
-        let is_good = |bar: f64| bar >= least && bar <= LONGEST * size;
-        let differ = (circle.carrier - arm).abs() >= LEAST_DIFFERENCE * size;
+        let minimum = SHORTEST * size;
+        let is_good = |bar: f64| bar >= minimum && bar <= LONGEST * size;
+        let differ = (circle.carrier - arm).abs() >= MIN_DIFFERENCE * size;
         (is_good(circle.carrier) && is_good(arm) && differ).then_some(circle)
     }
 

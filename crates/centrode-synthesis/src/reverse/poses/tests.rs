@@ -69,11 +69,11 @@ fn one_pair_twice_brings_the_arm_through_the_poses_at_any_bend() {
         let law = found.one_pair(bend, &[bias, -bias]).expect("a law");
         // Independent of what was found: the train forwards, by bisection of the law.
         let met = |psi: f64| {
-            let wanted = law.at(psi) - bend - std::f64::consts::PI;
-            let (mut low, mut high) = (wanted - 3.0, wanted + 3.0);
+            let required = law.at(psi) - bend - std::f64::consts::PI;
+            let (mut low, mut high) = (required - 3.0, required + 3.0);
             for _ in 0..100 {
                 let middle = 0.5 * (low + high);
-                if law.at(middle) < wanted {
+                if law.at(middle) < required {
                     low = middle
                 } else {
                     high = middle

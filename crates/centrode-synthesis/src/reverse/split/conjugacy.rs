@@ -8,9 +8,9 @@ use nalgebra::Complex;
 use super::fourier::Fourier;
 
 /// Smallest divisors that are used, by and by: at first only the rough of the map is settled.
-const DIVISORS: [f64; 3] = [1e-2, 1e-4, LEAST_DIVISOR];
+const DIVISORS: [f64; 3] = [1e-2, 1e-4, MIN_DIVISOR];
 /// Divisor below which a harmonic is not determined.
-pub(super) const LEAST_DIVISOR: f64 = 1e-8;
+pub(super) const MIN_DIVISOR: f64 = 1e-8;
 /// Most steps on one grid.
 const STEPS: u32 = 40;
 /// Share of the number of harmonics that a first guess is smoothed to.
@@ -108,10 +108,10 @@ impl Conjugacy {
             let right = misses.iter().zip(&shares);
             let right: Vec<f64> = right.map(|(e, share)| (e + change) * share).collect();
             let right = fourier.coefficients(&right);
-            let least = DIVISORS[self.stage];
+            let minimum = DIVISORS[self.stage];
             let solved = |k: usize| {
                 let divisor = turns[k] - 1.0;
-                if divisor.norm() > least {
+                if divisor.norm() > minimum {
                     right[k] / divisor
                 } else {
                     Complex::default()

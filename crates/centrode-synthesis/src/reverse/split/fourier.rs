@@ -96,14 +96,14 @@ mod tests {
         let fourier = Fourier::new(64);
         let found = fourier.coefficients(&values);
         for (k, c) in found.iter().enumerate() {
-            let wanted = match fourier.harmonic(k) as i32 {
+            let required = match fourier.harmonic(k) as i32 {
                 0 => [0.3, 0.0],
                 3 | -3 => [0.5, 0.0],
                 7 => [0.0, 0.25],
                 -7 => [0.0, -0.25],
                 _ => [0.0, 0.0],
             };
-            let off = (c.re - wanted[0]).abs().max((c.im - wanted[1]).abs());
+            let off = (c.re - required[0]).abs().max((c.im - required[1]).abs());
             assert!(off < 1e-15, "{k}: {c}");
         }
         let slope = |k: usize| found[k] * nalgebra::Complex::i() * fourier.harmonic(k);
@@ -111,8 +111,8 @@ mod tests {
         for i in 0..64 {
             let t = TAU * i as f64 / 64.0;
             assert!((back[i] - values[i]).abs() < 1e-13);
-            let wanted = -3.0 * (3.0 * t).sin() - 3.5 * (7.0 * t).cos();
-            assert!((slopes[i] - wanted).abs() < 1e-13);
+            let required = -3.0 * (3.0 * t).sin() - 3.5 * (7.0 * t).cos();
+            assert!((slopes[i] - required).abs() < 1e-13);
         }
     }
 }

@@ -48,13 +48,13 @@ pub(super) fn split(chain: &TwoBar, bend: f64) -> Result<Split, SplitError> {
         places: places.collect(),
     };
     let mut bow = [0.0; 2 * HARMONICS];
-    let mut best = (curves.greatest(&bow), bow);
+    let mut best = (curves.maximum(&bow), bow);
     for sharpness in SHARPNESS {
         let soft = |bow: &Amplitudes| curves.soft(bow, sharpness / best.0);
-        bow = least(soft, bow);
-        let greatest = curves.greatest(&bow);
-        if greatest < best.0 {
-            best = (greatest, bow);
+        bow = minimum(soft, bow);
+        let maximum = curves.maximum(&bow);
+        if maximum < best.0 {
+            best = (maximum, bow);
         }
     }
     let with = |amplitudes: Amplitudes| {
@@ -142,7 +142,7 @@ impl Curves {
         [a, b, c, d]
     }
 
-    fn greatest(&self, bow: &Amplitudes) -> f64 {
+    fn maximum(&self, bow: &Amplitudes) -> f64 {
         let shares = self.shares(bow);
         let all = self.places.iter().zip(shares);
         let each = all.flat_map(|(place, u)| Self::at(place, u).map(|(kappa, _)| kappa));
@@ -189,7 +189,7 @@ impl Curves {
 }
 
 /// Amplitudes at which a smooth function is least near those given: BFGS with halved steps.
-fn least(f: impl Fn(&Amplitudes) -> (f64, Amplitudes), start: Amplitudes) -> Amplitudes {
+fn minimum(f: impl Fn(&Amplitudes) -> (f64, Amplitudes), start: Amplitudes) -> Amplitudes {
     const N: usize = 2 * HARMONICS;
     let dot = |a: &Amplitudes, b: &Amplitudes| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let along = |x: &Amplitudes, step: f64, way: &Amplitudes| -> Amplitudes {

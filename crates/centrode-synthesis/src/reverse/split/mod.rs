@@ -19,7 +19,7 @@ use super::TwoBar;
 use centrode_kinematics::transmission::TransmissionError;
 
 /// Greatest bend, rad: beyond it the gears would be six times as large as the carrier is long.
-const GREATEST_BEND: f64 = 170.0 / 180.0 * PI;
+const MAX_BEND: f64 = 170.0 / 180.0 * PI;
 
 /// Distance from a fraction that is rounding.
 const EXACT: f64 = 1e-12;
@@ -91,12 +91,12 @@ impl fmt::Debug for Split {
 #[non_exhaustive]
 pub enum SplitError {
     /// A bend that leaves no room for the gears.
-    #[error("the bend must be at most {greatest:.4} deg either way, not {bend:.4} deg")]
+    #[error("the bend must be at most {maximum:.4} deg either way, not {bend:.4} deg")]
     Bend {
         /// Bend given, degrees.
         bend: f64,
         /// Greatest, degrees.
-        greatest: f64,
+        maximum: f64,
     },
     /// The rotation number is at or near a fraction, so that no single pair follows.
     #[error(
@@ -140,11 +140,11 @@ impl Split {
     /// [`SplitError`] for a bend beyond 170 degrees, and for one pair twice at or near a resonance.
     pub fn new(chain: &TwoBar, kind: SplitKind, bend: f64) -> Result<Self, SplitError> {
         // Not a number is no bend either.
-        let is_bend = bend.abs() <= GREATEST_BEND;
+        let is_bend = bend.abs() <= MAX_BEND;
         if !is_bend {
             return Err(SplitError::Bend {
                 bend: bend.to_degrees(),
-                greatest: GREATEST_BEND.to_degrees(),
+                maximum: MAX_BEND.to_degrees(),
             });
         }
         match kind {

@@ -3,26 +3,26 @@ use std::sync::Arc;
 
 use centrode_geometry::{bracketed_root, checkpoint};
 
-use super::conjugacy::{Conjugacy, LEAST_DIVISOR};
+use super::conjugacy::{Conjugacy, MIN_DIVISOR};
 use super::{Split, SplitError, SplitKind};
 use crate::reverse::TwoBar;
 use centrode_kinematics::machine::Piecewise;
 use centrode_kinematics::transmission::Transmission as _;
 
 /// Greatest denominator of a fraction near which no law is sought, and how near, in turns.
-const GREATEST_DENOMINATOR: i64 = 11;
+const MAX_DENOMINATOR: i64 = 11;
 const NEAREST: f64 = 1e-3;
 /// Greatest denominator of a fraction at which no law is sought: of such a period harmonics that matter are not determined.
 const CLOSED: u32 = 314;
 /// Steps of the orbits by which the offset is sought, and of the one that is the first guess of the law.
-const SOUGHT: u32 = 4_000;
+const SAMPLES: u32 = 4_000;
 /// Steps of the grids on which the law is sought, each from the one before; the last is for rough laws only.
 const GRIDS: [usize; 4] = [1 << 10, 1 << 13, 1 << 15, 1 << 17];
 /// Nodes of an interpolating polynomial.
 const LOCAL: usize = 6;
 /// Places at which the law is checked, its greatest miss, and the one at which no finer grid is tried, rad.
 const CHECKS: u32 = 2_000;
-const GREATEST_MISS: f64 = 1e-7;
+const MAX_MISS: f64 = 1e-7;
 const FINE: f64 = 1e-11;
 
 /// Splits into one pair twice: `f(G(psi) + offset) = f(psi) - c` with c = bend + pi, an equation of Abel.
@@ -44,12 +44,12 @@ pub(super) fn split(chain: &TwoBar, bend: f64) -> Result<Split, SplitError> {
         });
     }
     let law = chain.law()?;
-    let wanted = -(bend + PI);
+    let required = -(bend + PI);
     let mut map = CircleMap { law, offset: 0.0 };
-    let offset = map.offset_for(wanted);
+    let offset = map.offset_for(required);
     map.offset = offset;
-    let guess = map.guess(wanted, GRIDS[0]);
-    let mut found = Conjugacy::new(wanted, offset, &guess);
+    let guess = map.guess(required, GRIDS[0]);
+    let mut found = Conjugacy::new(required, offset, &guess);
     let map = |x: f64| map.law.at(x).position;
     let mut best: Option<(f64, f64, Nodes)> = None;
     for (level, count) in GRIDS.into_iter().enumerate() {
@@ -63,10 +63,10 @@ pub(super) fn split(chain: &TwoBar, bend: f64) -> Result<Split, SplitError> {
         };
         let check = |i: u32| {
             let x = TAU * f64::from(i) / f64::from(CHECKS);
-            (nodes.at(map(x) + found.offset) - nodes.at(x) - wanted).abs()
+            (nodes.at(map(x) + found.offset) - nodes.at(x) - required).abs()
         };
         let miss = (0..CHECKS).map(check).fold(0.0, f64::max);
-        if best.as_ref().is_none_or(|(least, ..)| miss < *least) {
+        if best.as_ref().is_none_or(|(minimum, ..)| miss < *minimum) {
             best = Some((miss, found.offset, nodes));
         }
         // What is left on the grid itself does not go by a finer one.
@@ -75,7 +75,7 @@ pub(super) fn split(chain: &TwoBar, bend: f64) -> Result<Split, SplitError> {
         }
     }
     match best {
-        Some((miss, offset, nodes)) if miss <= GREATEST_MISS => {
+        Some((miss, offset, nodes)) if miss <= MAX_MISS => {
             let law: super::StageLaw = Arc::new(move |x| nodes.at(x));
             Ok(Split {
                 kind: SplitKind::OnePair,
@@ -132,8 +132,8 @@ impl CircleMap {
     fn guess(&self, step: f64, count: usize) -> Vec<f64> {
         let mut x = 0.0;
         let mut turned = 0.0;
-        let mut nodes: Vec<(f64, f64)> = Vec::with_capacity(SOUGHT as usize + 2);
-        for k in 0..SOUGHT {
+        let mut nodes: Vec<(f64, f64)> = Vec::with_capacity(SAMPLES as usize + 2);
+        for k in 0..SAMPLES {
             nodes.push((x, f64::from(k) * step - turned));
             let next = self.at(x);
             let whole = (next / TAU).floor() * TAU;
@@ -165,7 +165,7 @@ impl CircleMap {
     }
 
     /// Offset at which the rotation number is the one wanted, rad.
-    fn offset_for(&self, wanted: f64) -> f64 {
+    fn offset_for(&self, required: f64) -> f64 {
         let shift = |i: u32| {
             let x = TAU * f64::from(i) / f64::from(CHECKS);
             self.law.at(x).position - x
@@ -176,13 +176,13 @@ impl CircleMap {
         });
         // At the ends every step is at most, or at least, the one wanted.
         let room = 1e-3 * TAU;
-        let [low, high] = [wanted - high - room, wanted - low + room];
+        let [low, high] = [required - high - room, required - low + room];
         let miss = |offset: f64| {
             let map = CircleMap {
                 law: self.law.clone(),
                 offset,
             };
-            map.rotation(SOUGHT) - wanted
+            map.rotation(SAMPLES) - required
         };
         bracketed_root(miss, low, high, miss(low), miss(high))
     }
@@ -244,15 +244,15 @@ fn fraction_near(turns: f64) -> Option<(i64, i64)> {
     let nearest = |q: i64| (turns * q as f64).round() as i64;
     let off = |q: i64| (turns - nearest(q) as f64 / q as f64).abs();
     let is_near = |q: &i64| off(*q) < NEAREST;
-    let is_at = |q: &i64| TAU * off(*q) * (*q as f64) < LEAST_DIVISOR;
-    let near = (1..=GREATEST_DENOMINATOR).find(is_near);
+    let is_at = |q: &i64| TAU * off(*q) * (*q as f64) < MIN_DIVISOR;
+    let near = (1..=MAX_DENOMINATOR).find(is_near);
     let q = near.or_else(|| (1..=i64::from(CLOSED)).find(is_at))?;
     Some((nearest(q), q))
 }
 
 /// Convergents of the continued fraction with denominators up to 10,000.
 fn convergents(turns: f64) -> Vec<(i64, i64)> {
-    const GREATEST: i64 = 10_000;
+    const MAXIMUM: i64 = 10_000;
     let (mut before, mut last) = ((1, 0), (turns.floor() as i64, 1));
     let mut found = vec![last];
     loop {
@@ -266,12 +266,12 @@ fn convergents(turns: f64) -> Vec<(i64, i64)> {
         // By how much the last two miss it, over each other.
         let miss = |p: i64, q: i64| (turns * q as f64 - p as f64).abs();
         let a = (miss(p0, q0) / miss(p, q)).floor();
-        if a.is_nan() || a >= GREATEST as f64 {
+        if a.is_nan() || a >= MAXIMUM as f64 {
             return found;
         }
         let a = a as i64;
         (before, last) = (last, (a * p + p0, a * q + q0));
-        if last.1 > GREATEST {
+        if last.1 > MAXIMUM {
             return found;
         }
         found.push(last);

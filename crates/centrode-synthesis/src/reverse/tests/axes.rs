@@ -4,8 +4,8 @@ use centrode_geometry::Point;
 
 use super::{drawn, points, published, published_path};
 use crate::reverse::{
-    AxisFault, AxisMap, AxisRange, ChainJet, PossibleAxis, ReversedMachine, Split, SplitKind,
-    TwoBar, WantedPath,
+    AxisFault, AxisMap, AxisRange, ChainJet, PossibleAxis, RequiredPath, ReversedMachine, Split,
+    SplitKind, TwoBar,
 };
 use centrode_kinematics::transmission::Transmission as _;
 use centrode_machines::three_arm::design::Direction;
@@ -14,17 +14,17 @@ fn chain(x: f64, y: f64) -> TwoBar {
     TwoBar::new(&drawn(), Point::new(x, y), None).expect("a chain")
 }
 
-fn fault(path: &WantedPath, x: f64, y: f64) -> AxisFault {
+fn fault(path: &RequiredPath, x: f64, y: f64) -> AxisFault {
     TwoBar::new(path, Point::new(x, y), None).expect_err("no chain")
 }
 
-fn ellipse(a: f64, b: f64) -> WantedPath {
+fn ellipse(a: f64, b: f64) -> RequiredPath {
     let point = |i: u32| f64::from(i) * TAU / 60.0;
     let list: Vec<[f64; 2]> = (0..60)
         .map(point)
         .map(|t| [a * t.cos(), b * t.sin()])
         .collect();
-    WantedPath::through(&points(&list)).expect("a path")
+    RequiredPath::through(&points(&list)).expect("a path")
 }
 
 #[test]
@@ -135,11 +135,11 @@ fn derivatives_of_the_speeds_are_those_of_the_speeds() {
 fn the_least_radius_is_that_of_the_pitch_curves_rolled() {
     for (x, y) in [(210.0, 200.0), (260.0, 160.0)] {
         let (chain, bend) = (chain(x, y), 40.0_f64.to_radians());
-        let found = chain.least_radius(bend);
+        let found = chain.minimum_radius(bend);
         let split = Split::new(&chain, SplitKind::Powers, bend).expect("a split");
         let made = ReversedMachine::new(&chain, &split, 1, Some(5000)).expect("a machine");
-        let rolled = made.least_radii.iter().flatten();
-        let rolled = rolled.fold(f64::INFINITY, |least, r| least.min(*r));
+        let rolled = made.minimum_radii.iter().flatten();
+        let rolled = rolled.fold(f64::INFINITY, |minimum, r| minimum.min(*r));
         assert!((found / rolled - 1.0).abs() < 2e-4, "{found} {rolled}");
         // The sharpness is that of axes one apart.
         let sharpest = chain.sharpness();
@@ -158,7 +158,7 @@ fn folded(chain: &TwoBar) -> f64 {
 fn the_total_law_grows_by_a_turn_and_its_speed_is_the_ratio() {
     let chain = chain(210.0, 200.0);
     let law = chain.law().expect("a law");
-    let [least, greatest] = chain.ratios();
+    let [minimum, maximum] = chain.ratios();
     let mut range = [f64::INFINITY, 0.0_f64];
     for i in 0..4000 {
         let t = 13.0 * f64::from(i) / 4000.0;
@@ -170,8 +170,8 @@ fn the_total_law_grows_by_a_turn_and_its_speed_is_the_ratio() {
         range = [range[0].min(ratio), range[1].max(ratio)];
     }
     assert!(law.advance() == TAU && law.period() == TAU);
-    assert!((range[0] - least.value).abs() < 1e-4 && range[0] >= least.value);
-    assert!((range[1] - greatest.value).abs() < 1e-4 && range[1] <= greatest.value);
+    assert!((range[0] - minimum.value).abs() < 1e-4 && range[0] >= minimum.value);
+    assert!((range[1] - maximum.value).abs() < 1e-4 && range[1] <= maximum.value);
 }
 
 #[test]
@@ -223,7 +223,7 @@ fn the_map_of_the_drawn_path_has_both_kinds_of_axes() {
         let (Ok(found), Ok(chain)) = (found, TwoBar::new(&path, axis, None)) else {
             continue;
         };
-        let [one, other] = [found.least_radius(0.7), chain.least_radius(0.7)];
+        let [one, other] = [found.minimum_radius(0.7), chain.minimum_radius(0.7)];
         assert!((one / other - 1.0).abs() < 0.05, "{one} {other}");
     }
     let mildest = map.mildest(&path).expect("a chain");
@@ -244,7 +244,7 @@ fn the_map_of_the_drawn_path_has_both_kinds_of_axes() {
 }
 
 /// Both bars turn one way at many places, and put the tip on the path.
-fn turns_one_way(path: &WantedPath, axis: Point) {
+fn turns_one_way(path: &RequiredPath, axis: Point) {
     let chain = TwoBar::new(path, axis, None).expect("a chain");
     let sense = chain.direction().sign();
     let mut before = chain.at(0.0);

@@ -3,8 +3,8 @@ use std::f64::consts::TAU;
 use centrode_geometry::Point;
 
 use super::{assert_keyed, drawn};
-use crate::reverse::{MachineError, ReversedMachine, Split, SplitKind, TwoBar};
-use centrode_machines::composed::Composed;
+use crate::reverse::{ReversedMachine, ReversedMachineError, Split, SplitKind, TwoBar};
+use centrode_machines::machine::Machine;
 
 /// The composed machine shares no code with the way its laws were found.
 #[test]
@@ -15,7 +15,7 @@ fn the_machine_composed_of_the_design_follows_the_path() {
         let split = Split::new(&chain, kind, bend.to_radians()).expect("a split");
         let made = ReversedMachine::new(&chain, &split, 3, None).expect("a machine");
         assert!(made.tip_error.value < 3.2e-5, "{:?}", made.tip_error);
-        let composed = Composed::resolve(&made.design).expect("a machine");
+        let composed = Machine::resolve(&made.design).expect("a machine");
         let arm = composed.body_named("arm").expect("an arm");
         let link = composed.bodies()[arm].link;
         assert_keyed(&composed);
@@ -42,10 +42,10 @@ fn a_number_of_arms_or_steps_out_of_range_is_refused() {
     let split = Split::new(&chain, SplitKind::Powers, 0.7).expect("a split");
     for steps in [0, 11, u32::MAX] {
         let error = ReversedMachine::new(&chain, &split, 1, Some(steps)).expect_err("no machine");
-        assert!(matches!(error, MachineError::Steps { .. }));
+        assert!(matches!(error, ReversedMachineError::Steps { .. }));
     }
     for arms in [0, 13] {
         let error = ReversedMachine::new(&chain, &split, arms, None).expect_err("no machine");
-        assert!(matches!(error, MachineError::Arms { .. }));
+        assert!(matches!(error, ReversedMachineError::Arms { .. }));
     }
 }

@@ -9,10 +9,10 @@ use std::sync::Arc;
 
 use centrode_geometry::{Curve, Jet, Point, Vector};
 
-use super::WantedPath;
+use super::RequiredPath;
 use centrode_kinematics::machine::Keyway;
 use centrode_kinematics::transmission::MotionJet;
-use centrode_machines::composed::{Composed, Hold};
+use centrode_machines::machine::{Hold, Machine};
 use centrode_machines::three_arm::ThreeArm;
 use centrode_machines::three_arm::design::ThreeArmDesign;
 use centrode_spec::DesignSpec as _;
@@ -40,8 +40,8 @@ fn points(list: &[[f64; 2]]) -> Vec<Point> {
     list.iter().map(|&p| p.into()).collect()
 }
 
-fn drawn() -> WantedPath {
-    WantedPath::through(&points(&DRAWN)).expect("a path")
+fn drawn() -> RequiredPath {
+    RequiredPath::through(&points(&DRAWN)).expect("a path")
 }
 
 fn published() -> ThreeArm {
@@ -108,12 +108,12 @@ fn bar(length: f64, angle: &MotionJet) -> [Vector; 4] {
     ]
 }
 
-fn published_path() -> WantedPath {
-    WantedPath::new(Arc::new(TipPath(published())))
+fn published_path() -> RequiredPath {
+    RequiredPath::new(Arc::new(TipPath(published())))
 }
 
 /// Every gear of a machine has the keyway of the standard for its bore, and turns with its shaft by a key.
-fn assert_keyed(composed: &Composed) {
+fn assert_keyed(composed: &Machine) {
     assert!(!composed.gears().is_empty());
     for gear in composed.gears() {
         let body = gear.gear().body();

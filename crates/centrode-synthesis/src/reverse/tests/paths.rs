@@ -1,10 +1,10 @@
 use centrode_geometry::Point;
 
 use super::{DRAWN, drawn, points};
-use crate::reverse::{AxisFault, PathDesign, PathError, TwoBar, WantedPath, WantedPoints};
+use crate::reverse::{AxisFault, PathDesign, PathError, RequiredPath, RequiredPoints, TwoBar};
 
 fn refused(list: &[[f64; 2]]) -> PathError {
-    WantedPath::through(&points(list)).expect_err("no path")
+    RequiredPath::through(&points(list)).expect_err("no path")
 }
 
 #[test]
@@ -19,7 +19,7 @@ fn the_spline_passes_its_points_with_two_continuous_derivatives() {
         }
     }
     let again = points(&DRAWN).into_iter().chain([Point::origin()]);
-    let closed = WantedPath::through(&again.collect::<Vec<_>>()).expect("closed by its first");
+    let closed = RequiredPath::through(&again.collect::<Vec<_>>()).expect("closed by its first");
     assert_eq!(closed.at(3.7), path.at(3.7));
 }
 
@@ -71,15 +71,15 @@ fn a_file_is_read_line_by_line() {
     for [x, y] in DRAWN {
         text += &format!("{x}, {y},\r\n");
     }
-    let path = WantedPath::from_csv(text.as_bytes()).expect("a path");
+    let path = RequiredPath::from_csv(text.as_bytes()).expect("a path");
     assert_eq!(path.at(2.3), drawn().at(2.3));
     for (separator, end) in [(";", "\n"), ("\t", "\r\n"), (";", "\r")] {
         let line = |[x, y]: &[f64; 2]| format!("{x}{separator}{y}{end}").replace('.', ",");
         let text: String = DRAWN.iter().map(line).collect();
-        let path = WantedPath::from_csv(text.as_bytes()).expect("a path");
+        let path = RequiredPath::from_csv(text.as_bytes()).expect("a path");
         assert_eq!(path.at(2.3), drawn().at(2.3), "{separator:?} {end:?}");
     }
-    let fault = |text: &[u8]| WantedPath::from_csv(text).expect_err("no path");
+    let fault = |text: &[u8]| RequiredPath::from_csv(text).expect_err("no path");
     assert!(matches!(
         fault(b"x,y\n0,0\n1,a\n"),
         PathError::NotNumber { line: 3, found } if found == "a"
@@ -89,7 +89,7 @@ fn a_file_is_read_line_by_line() {
         PathError::Columns {
             line: 2,
             count: 1,
-            wanted: "x and y in mm"
+            required: "x and y in mm"
         }
     ));
     assert!(matches!(
@@ -100,7 +100,7 @@ fn a_file_is_read_line_by_line() {
         fault(b"0,0\n1,inf\n2,0\n3,3\n"),
         PathError::NotFinite { number: 2, .. }
     ));
-    let large = vec![b' '; WantedPath::LARGEST + 1];
+    let large = vec![b' '; RequiredPath::LARGEST + 1];
     assert!(matches!(fault(&large), PathError::TooLarge { .. }));
     assert!(matches!(fault(b""), PathError::TooFew { count: 0, .. }));
 }
@@ -123,10 +123,10 @@ fn headings_name_the_columns_in_any_order() {
         "# by hand\n\ny,x,\n2,1\n4,3.5,\n",
         "\u{feff}y,x\r\n2,1\r\n4,3.5\r\n",
     ] {
-        let read = WantedPoints::from_csv(text.as_bytes());
+        let read = RequiredPoints::from_csv(text.as_bytes());
         assert_eq!(read.expect(text).points, expected, "{text}");
     }
-    let read = WantedPoints::from_csv(b"direction_deg,y,tolerance,x\n,2,0.5,1\n90,4,0.25,3.5\n");
+    let read = RequiredPoints::from_csv(b"direction_deg,y,tolerance,x\n,2,0.5,1\n90,4,0.25,3.5\n");
     let read = read.expect("points");
     assert_eq!(read.points, expected);
     assert_eq!(read.tolerances, Some(vec![0.5, 0.25]));
@@ -170,11 +170,11 @@ fn columns_without_a_known_heading_are_refused() {
         ("x,,y\n1,7,2\n", "line 2 has 3 values"),
         ("y,x\n1\n", "line 2 has 1 values"),
     ] {
-        let error = WantedPoints::from_csv(text.as_bytes()).expect_err(text);
+        let error = RequiredPoints::from_csv(text.as_bytes()).expect_err(text);
         assert!(error.to_string().starts_with(words), "{text}: {error}");
     }
     let long = format!("x,y,{}\n1,2,3\n", "z".repeat(10_000));
-    let error = WantedPoints::from_csv(long.as_bytes()).expect_err("a long word");
+    let error = RequiredPoints::from_csv(long.as_bytes()).expect_err("a long word");
     assert!(error.to_string().len() < 200, "{error}");
 }
 
@@ -216,8 +216,8 @@ fn messages_of_paths_have_few_digits() {
             "line 2: the tolerance of a point is zero or more, in mm, not inf",
         ),
     ] {
-        let read = WantedPoints::from_csv(text.as_bytes());
-        let error = read.and_then(|read| WantedPath::through(&read.points));
+        let read = RequiredPoints::from_csv(text.as_bytes());
+        let error = read.and_then(|read| RequiredPath::through(&read.points));
         let error = error.expect_err("a bad path").to_string();
         assert!(error.starts_with(words) && error.len() < 160, "{error}");
     }
@@ -235,7 +235,7 @@ fn axes_are_within_a_thousand_times_the_size_of_the_path() {
         .map(circle)
         .map(|(y, x)| Point::new(100.0 * x, 60.0 * y))
         .collect();
-    let path = WantedPath::through(&list).expect("a path");
+    let path = RequiredPath::through(&list).expect("a path");
     let room = 1000.0 * 200.0_f64.hypot(120.0);
     for (share, is_far) in [
         (0.01, false),
@@ -291,7 +291,7 @@ fn a_path_that_crosses_itself_is_found() {
         .map(|i| f64::from(i) * std::f64::consts::TAU / 24.0)
         .map(|t| [50.0 * t.sin(), 30.0 * (2.0 * t).sin()])
         .collect();
-    let path = WantedPath::through(&points(&eight)).expect("a path");
+    let path = RequiredPath::through(&points(&eight)).expect("a path");
     let PathError::Crossing { x, y } = path.check_simple().expect_err("a figure eight") else {
         panic!("another fault");
     };

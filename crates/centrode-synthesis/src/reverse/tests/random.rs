@@ -7,7 +7,7 @@ use proptest::strategy::ValueTree as _;
 use proptest::test_runner::{Config, RngAlgorithm, TestRng, TestRunner};
 
 use super::TipPath;
-use crate::reverse::{Split, SplitKind, TwoBar, WantedPath};
+use crate::reverse::{RequiredPath, Split, SplitKind, TwoBar};
 use centrode_machines::three_arm::ThreeArm;
 use centrode_machines::three_arm::design::ThreeArmDesign;
 use centrode_spec::{Design as _, DesignSpec as _};
@@ -61,7 +61,7 @@ fn machine() -> impl Strategy<Value = ThreeArm> {
 
 /// Bars and pitch curve from the path alone, held against those that made it.
 fn come_back(machine: &ThreeArm) -> Result<[f64; 3], String> {
-    let path = WantedPath::new(Arc::new(TipPath(machine.clone())));
+    let path = RequiredPath::new(Arc::new(TipPath(machine.clone())));
     let design = machine.design();
     let chain = TwoBar::new(&path, Point::origin(), Some(design.direction))
         .map_err(|fault| fault.to_string())?;
@@ -106,18 +106,18 @@ fn random_machines_come_back_from_their_paths() {
             .new_tree(&mut runner)
             .expect("a mechanism")
             .current();
-        let told = match come_back(&machine) {
+        let stated = match come_back(&machine) {
             Ok([bars, law, radius]) => {
-                let told = format!("bars {bars:.1e} mm, law {law:.1e} rad, radius {radius:.1e}");
+                let stated = format!("bars {bars:.1e} mm, law {law:.1e} rad, radius {radius:.1e}");
                 if bars < 1e-9 && radius < 1e-5 {
                     continue;
                 }
-                told
+                stated
             }
             Err(error) => error,
         };
         let design = machine.design().to_toml().expect("a file");
-        failed.push(format!("{case}: {told}\n{design}"));
+        failed.push(format!("{case}: {stated}\n{design}"));
     }
     assert!(failed.is_empty(), "{}", failed.join("\n"));
 }

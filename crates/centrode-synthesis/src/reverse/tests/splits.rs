@@ -4,7 +4,7 @@ use centrode_geometry::Point;
 
 use super::{drawn, published, published_path};
 use crate::reverse::{
-    PossibleAxis, ReversedMachine, Split, SplitError, SplitKind, TwoBar, WantedPath,
+    PossibleAxis, RequiredPath, ReversedMachine, Split, SplitError, SplitKind, TwoBar,
 };
 use centrode_gear::{GearPair, Member};
 use centrode_kinematics::transmission::Transmission as _;
@@ -56,8 +56,8 @@ fn the_mildest_split_makes_the_total_law_with_blunter_gears_than_powers() {
             }
             let made = ReversedMachine::new(&chain, &split, 1, None).expect("a machine");
             assert!(made.tip_error.value < 1e-4, "{:?}", made.tip_error);
-            let radii = made.least_radii.iter().flatten();
-            radii.fold(f64::INFINITY, |least, r| least.min(*r))
+            let radii = made.minimum_radii.iter().flatten();
+            radii.fold(f64::INFINITY, |minimum, r| minimum.min(*r))
         };
         let [powers, mildest] = [SplitKind::Powers, SplitKind::Mildest].map(sharpest);
         assert!(mildest > gain * powers, "({x}, {y}): {powers} {mildest}");
@@ -253,7 +253,7 @@ fn the_radius_is_that_of_the_gears_written_and_no_mildest_split_is_sharper() {
             let (x, y) = (carrier * y + arm * d.cos(), carrier * x + arm * d.sin());
             Point::new(rounded(x), rounded(y))
         });
-        let path = WantedPath::through(&points.collect::<Vec<_>>()).expect("a path");
+        let path = RequiredPath::through(&points.collect::<Vec<_>>()).expect("a path");
         let chain = TwoBar::new(&path, Point::origin(), None).expect("a chain");
         let bend = f64::to_radians(bend);
         let made = |kind| {
@@ -263,7 +263,7 @@ fn the_radius_is_that_of_the_gears_written_and_no_mildest_split_is_sharper() {
         let [powers, mildest] = [SplitKind::Powers, SplitKind::Mildest].map(made);
         let [written, milder] = [&powers, &mildest].map(ReversedMachine::minimum_radius);
         let closed = closed_form(0.5 * carrier / (0.5 * bend).cos(), swing);
-        let on_map = PossibleAxis::from(&chain).least_radius(bend);
+        let on_map = PossibleAxis::from(&chain).minimum_radius(bend);
         for (made, radius) in [(&powers, written), (&mildest, milder)] {
             let rolled = rolled_radius(made);
             assert!(

@@ -5,10 +5,10 @@ use proptest::prelude::{any, prop_assert, prop_assume, proptest};
 
 use super::assert_keyed;
 use crate::reverse::{
-    GearDrive, GearDriveError, GearDriveSpec, Section, Timing, TimingError, Wanted,
+    GearDrive, GearDriveError, GearDriveSpec, Required, Section, Timing, TimingError,
 };
 use centrode_kinematics::transmission::{FromFn, MotionJet, Transmission};
-use centrode_machines::composed::{Composed, ComposedDesign, ComposedFigure};
+use centrode_machines::machine::{Machine, MachineDesign, MachineFigure};
 use centrode_spec::DesignSpec as _;
 
 const CRANK: f64 = 30.0;
@@ -39,20 +39,20 @@ fn ram() -> Arc<dyn Transmission> {
     }))
 }
 
-fn section(name: &str, [from, to]: [f64; 2], wanted: Wanted) -> Section {
+fn section(name: &str, [from, to]: [f64; 2], required: Required) -> Section {
     Section {
         name: name.into(),
         within: [from.to_radians(), to.to_radians()],
-        wanted,
+        required,
     }
 }
 
 fn even(within: [f64; 2], places: [f64; 2]) -> Section {
-    section("even", within, Wanted::Even(places))
+    section("even", within, Required::Even(places))
 }
 
 fn rest(within: [f64; 2], band: f64) -> Section {
-    section("rest", within, Wanted::Rest(band))
+    section("rest", within, Required::Rest(band))
 }
 
 /// Greatest jumps of position, speed and acceleration at breaks.
@@ -77,8 +77,8 @@ fn the_ram_goes_evenly_and_rests_where_asked() {
     let place = |input: f64| ram().at(law.at(input).position).position;
     for i in 0..=1000 {
         let share = f64::from(i) / 1000.0;
-        let wanted = 105.0 + 35.0 * share;
-        let off = place((40.0 + 80.0 * share).to_radians()) - wanted;
+        let required = 105.0 + 35.0 * share;
+        let off = place((40.0 + 80.0 * share).to_radians()) - required;
         assert!(off.abs() < 1e-12 * 150.0, "{share}: {off:e}");
         let rests = place((160.0 + 50.0 * share).to_radians());
         assert!((149.5 - 1e-12..=150.0 + 1e-12).contains(&rests), "{rests}");
@@ -119,8 +119,8 @@ fn of_two_rests_each_is_at_an_end_of_its_own() {
 fn what_no_crank_can_do_is_refused_by_name() {
     let error = |sections: &[Section]| Timing::new(ram(), sections).expect_err("no law");
     let is = |found: TimingError, words: &str| {
-        let told = found.to_string();
-        assert!(told.contains(words), "{told}");
+        let stated = found.to_string();
+        assert!(stated.contains(words), "{stated}");
     };
     is(error(&[]), "nothing is wanted");
     is(
@@ -199,8 +199,8 @@ proptest! {
             let degrees = input.to_degrees();
             let place = ram().at(jet.position).position;
             if degrees > from && degrees < to {
-                let wanted = start + (end - start) * (degrees - from) / (to - from);
-                prop_assert!((place - wanted).abs() < 1e-10);
+                let required = start + (end - start) * (degrees - from) / (to - from);
+                prop_assert!((place - required).abs() < 1e-10);
             }
             if degrees > begin && degrees < stop {
                 let off = (place - 90.0).min(150.0 - place);
@@ -226,26 +226,26 @@ bodies = ["rod", "ram"]
 joint = "B"
 [goals.steady]
 figure = "ram.travel"
-over = "departure"
+over = "deviation"
 within_deg = [40, 120]
-course = [105, 140]
-at_most = 1e-4
+uniform = [105, 140]
+maximum = 1e-4
 [goals.rest]
 figure = "ram.travel"
 over = "span"
 within_deg = [160, 210]
-at_most = 0.5
+maximum = 0.5
 [goals.held]
 figure = "transmission(ram)"
-over = "least"
-at_least = 60
+over = "minimum"
+minimum = 60
 "#;
 
-fn slider(change: impl Fn(String) -> String) -> ComposedDesign {
-    ComposedDesign::from_toml(&change(SLIDER.into())).expect("a design")
+fn slider(change: impl Fn(String) -> String) -> MachineDesign {
+    MachineDesign::from_toml(&change(SLIDER.into())).expect("a design")
 }
 
-fn asked(direction: f64) -> GearDriveSpec {
+fn requested(direction: f64) -> GearDriveSpec {
     GearDriveSpec {
         body: "crank".into(),
         center_distance: 130.0,
@@ -258,9 +258,9 @@ fn asked(direction: f64) -> GearDriveSpec {
 fn the_machine_driven_by_the_gears_does_what_its_goals_ask() {
     for (sense, direction) in [("1", PI), ("1", 0.4), ("-1", -1.3)] {
         let design = slider(|text| text.replace("ratio = 1", &format!("ratio = {sense}")));
-        let made = GearDrive::new(&design, &asked(direction)).expect("a drive");
+        let made = GearDrive::new(&design, &requested(direction)).expect("a drive");
         assert!(made.miss.value < 1e-5, "{:?}", made.miss);
-        let driven = Composed::resolve(&made.design).expect("a machine");
+        let driven = Machine::resolve(&made.design).expect("a machine");
         let ram = driven.figure("ram", "ram.travel").expect("a figure");
         let place = |degrees: f64| driven.value(&ram, degrees.to_radians()).expect("a place");
         for i in 0..=100 {
@@ -275,7 +275,7 @@ fn the_machine_driven_by_the_gears_does_what_its_goals_ask() {
         let crank = driven.body_named("crank").expect("a crank");
         let axis = driven.place(crank, Default::default(), 1.0);
         assert!((axis.x - 5.0).abs() < 1e-12 && (axis.y + 7.0).abs() < 1e-12);
-        assert!(matches!(ram, ComposedFigure::Travel(_)));
+        assert!(matches!(ram, MachineFigure::Travel(_)));
     }
 }
 
@@ -284,13 +284,13 @@ fn machines_that_cannot_be_driven_so_are_refused_with_the_reason() {
     let error = |change: &dyn Fn(String) -> String, body: &str| {
         let spec = GearDriveSpec {
             body: body.into(),
-            ..asked(0.0)
+            ..requested(0.0)
         };
         let error = GearDrive::new(&slider(change), &spec).expect_err("no drive");
         error.to_string()
     };
     let same = |text: String| text;
-    let is = |told: String, words: &str| assert!(told.contains(words), "{told}");
+    let is = |stated: String, words: &str| assert!(stated.contains(words), "{stated}");
     is(
         error(&same, "rod"),
         "rod is tied by dyads.ram: a crank turns",
@@ -303,9 +303,9 @@ fn machines_that_cannot_be_driven_so_are_refused_with_the_reason() {
     is(
         error(
             &|t| {
-                t.replace("over = \"span\"", "over = \"greatest\"")
-                    .replace("over = \"departure\"", "over = \"greatest\"")
-                    .replace("course = [105, 140]\n", "")
+                t.replace("over = \"span\"", "over = \"maximum\"")
+                    .replace("over = \"deviation\"", "over = \"maximum\"")
+                    .replace("uniform = [105, 140]\n", "")
             },
             "crank",
         ),
@@ -334,18 +334,18 @@ fn machines_that_cannot_be_driven_so_are_refused_with_the_reason() {
     for distance in [f64::NAN, 0.0, -5.0, f64::INFINITY] {
         let spec = GearDriveSpec {
             center_distance: distance,
-            ..asked(0.0)
+            ..requested(0.0)
         };
         let error = GearDrive::new(&slider(same), &spec).expect_err("no drive");
         assert!(matches!(error, GearDriveError::Distance { .. }), "{error}");
     }
     for direction in [f64::NAN, 1e18, -6.4] {
-        let error = GearDrive::new(&slider(same), &asked(direction)).expect_err("no drive");
+        let error = GearDrive::new(&slider(same), &requested(direction)).expect_err("no drive");
         assert!(matches!(error, GearDriveError::Direction { .. }), "{error}");
     }
-    let made = GearDrive::new(&slider(same), &asked(0.0)).expect("a drive");
+    let made = GearDrive::new(&slider(same), &requested(0.0)).expect("a drive");
     assert_eq!(made.left_alone, ["held"]);
     let spanless = |text: String| text.replace("within_deg = [160, 210]\n", "");
-    let made = GearDrive::new(&slider(spanless), &asked(0.0)).expect("a drive");
+    let made = GearDrive::new(&slider(spanless), &requested(0.0)).expect("a drive");
     assert_eq!(made.left_alone, ["held", "rest"]);
 }

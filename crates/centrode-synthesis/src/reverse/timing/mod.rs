@@ -15,7 +15,7 @@ use self::order::{Placed, Swing};
 use self::search::StretchShape;
 use centrode_kinematics::transmission::{MotionJet, Transmission};
 use centrode_spec::degrees;
-use centrode_spec::digits::told;
+use centrode_spec::digits::stated;
 
 /// Even parts of a turn, in each of which the ratio has few extremes.
 const PARTS: u32 = 32;
@@ -28,12 +28,12 @@ pub struct Section {
     /// First and last input, rad.
     pub within: [f64; 2],
     /// Motion wanted there.
-    pub wanted: Wanted,
+    pub required: Required,
 }
 
 /// Motion of an output over a section.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Wanted {
+pub enum Required {
     /// It goes evenly from one place to another, mm or rad.
     Even([f64; 2]),
     /// It stays within a band of an end of its stroke, mm or rad: as near as gears, whose ratio is never zero, come to a rest.
@@ -82,7 +82,7 @@ pub enum TimingError {
     #[error("nothing is wanted of the output")]
     Nothing,
     /// An output that does not come back.
-    #[error("the output moves by {} in a turn of the crank and does not come back", told(*advance))]
+    #[error("the output moves by {} in a turn of the crank and does not come back", stated(*advance))]
     Advances {
         /// Growth in a turn, mm or rad.
         advance: f64,
@@ -98,7 +98,7 @@ pub enum TimingError {
     /// A course that reaches an end of the stroke or goes beyond.
     #[error(
         "{name}: the output shall go evenly from {} to {}, but it moves from {} to {}, and at both ends it stands: stay between them",
-        told(*from), told(*to), told(*least), told(*greatest)
+        stated(*from), stated(*to), stated(*minimum), stated(*maximum)
     )]
     Beyond {
         /// Section.
@@ -108,16 +108,16 @@ pub enum TimingError {
         /// Last.
         to: f64,
         /// Least place of the output.
-        least: f64,
+        minimum: f64,
         /// Greatest.
-        greatest: f64,
+        maximum: f64,
     },
     /// A course that goes nowhere.
     #[error(
         "{name}: the output shall stay at {}: gears never stand still; ask for a rest at an end of the stroke instead",
-        told(*place)
+        stated(*place)
     )]
-    Stands {
+    Stationary {
         /// Section.
         name: String,
         /// The place.
@@ -126,7 +126,7 @@ pub enum TimingError {
     /// A band that is no part of the stroke.
     #[error(
         "{name}: a rest within {} of a stroke of {}: take a band above {} and below half of the stroke",
-        told(*band), told(*stroke), told(*least)
+        stated(*band), stated(*stroke), stated(*minimum)
     )]
     Band {
         /// Section.
@@ -136,7 +136,7 @@ pub enum TimingError {
         /// Stroke.
         stroke: f64,
         /// Least band: below it the gears would stand within rounding.
-        least: f64,
+        minimum: f64,
     },
     /// Sections of the input that touch, overlap or are none.
     #[error(
@@ -186,17 +186,17 @@ impl TimingError {
             Self::Beyond {
                 from,
                 to,
-                least,
-                greatest,
+                minimum,
+                maximum,
                 ..
-            } => vec![from, to, least, greatest],
-            Self::Stands { place, .. } => vec![place],
+            } => vec![from, to, minimum, maximum],
+            Self::Stationary { place, .. } => vec![place],
             Self::Band {
                 band,
                 stroke,
-                least,
+                minimum,
                 ..
-            } => vec![band, stroke, least],
+            } => vec![band, stroke, minimum],
             _ => Vec::new(),
         };
         for place in places {
@@ -330,22 +330,25 @@ impl Timing {
             [-ratio, ratio]
         };
         let ends: Vec<f64> = self.stretches.iter().map(|s| s.within[0]).collect();
-        let [least, greatest] =
+        let [minimum, maximum] =
             maximum_of_each(ratio, &piece_ends(start, start + TAU, PARTS, &ends));
         let value = |of: Extreme, log: f64| Extreme {
             value: log.exp(),
             ..of
         };
-        [value(least, -least.value), value(greatest, greatest.value)]
+        [
+            value(minimum, -minimum.value),
+            value(maximum, maximum.value),
+        ]
     }
 }
 
 impl Stretch {
     fn new(placed: &Placed<'_>, shape: &StretchShape) -> Self {
         let [from, to] = placed.angles;
-        let angles = match placed.section.wanted {
-            Wanted::Even(_) => placed.angles,
-            Wanted::Rest(_) => {
+        let angles = match placed.section.required {
+            Required::Even(_) => placed.angles,
+            Required::Rest(_) => {
                 let half = 0.5 * (to - from);
                 [from + shape.late * half, to - shape.early * half]
             }
@@ -353,9 +356,9 @@ impl Stretch {
         Self {
             within: placed.within,
             angles,
-            course: match placed.section.wanted {
-                Wanted::Even(places) => Course::Even(places),
-                Wanted::Rest(_) => Course::Turn,
+            course: match placed.section.required {
+                Required::Even(places) => Course::Even(places),
+                Required::Rest(_) => Course::Turn,
             },
         }
     }

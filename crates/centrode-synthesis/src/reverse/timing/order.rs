@@ -2,19 +2,19 @@ use std::f64::consts::TAU;
 
 use centrode_geometry::{bracketed_root, piece_ends};
 
-use super::{Section, TimingError, Wanted};
+use super::{Required, Section, TimingError};
 use centrode_kinematics::transmission::Transmission;
 use centrode_spec::degrees;
 
 /// Looks a turn for turning points of the output.
-const LOOKS: u32 = 720;
+const SAMPLES: u32 = 720;
 /// Angle that is rounding, rad.
 const ROUNDING: f64 = 1e-9;
 
 /// Share of the stroke by which a rest stays within its band.
 const SLACK: f64 = 1e-6;
 /// Least band of a rest, as a share of the stroke: the crank turns by the root of it, and a law in a table has digits left.
-const LEAST_BAND: f64 = 1e-9;
+const MIN_BAND: f64 = 1e-9;
 
 /// An output with one greatest and one least place in a turn.
 #[derive(Clone, Debug)]
@@ -39,7 +39,7 @@ impl Swing {
         if advance != 0.0 {
             return Err(TimingError::Advances { advance });
         }
-        let mut looks = piece_ends(0.0, TAU, LOOKS, &output.breaks());
+        let mut looks = piece_ends(0.0, TAU, SAMPLES, &output.breaks());
         looks.pop();
         let speed = |angle: f64| output.at(angle).velocity;
         let speeds: Vec<f64> = looks.iter().map(|&angle| speed(angle)).collect();
@@ -53,8 +53,8 @@ impl Swing {
         });
         let turns: Vec<(f64, bool)> = turns.collect();
         let angles = match turns[..] {
-            [(greatest, true), (least, false)] | [(least, false), (greatest, true)] => {
-                [least, greatest]
+            [(maximum, true), (minimum, false)] | [(minimum, false), (maximum, true)] => {
+                [minimum, maximum]
             }
             _ => return Err(TimingError::Swings { count: turns.len() }),
         };
@@ -68,11 +68,11 @@ impl Swing {
 
     /// Angle at which the output is at a place on its way up, or down, within a turn of the end it comes from.
     fn angle(&self, output: &dyn Transmission, place: f64, rises: bool) -> f64 {
-        let [least, greatest] = self.angles;
+        let [minimum, maximum] = self.angles;
         let [from, to] = if rises {
-            [least, greatest]
+            [minimum, maximum]
         } else {
-            [greatest, least]
+            [maximum, minimum]
         };
         let to = from + (to - from).rem_euclid(TAU);
         let miss = |angle: f64| output.at(angle).position - place;
@@ -80,17 +80,17 @@ impl Swing {
     }
 
     /// Angles at which the output enters and leaves a band at an end of its stroke.
-    fn rest(&self, output: &dyn Transmission, band: f64, is_greatest: bool) -> [f64; 2] {
-        let [least, greatest] = self.places;
+    fn rest(&self, output: &dyn Transmission, band: f64, is_maximum: bool) -> [f64; 2] {
+        let [minimum, maximum] = self.places;
         // A little less, for the law is written as a table.
-        let band = band - (SLACK * (greatest - least)).min(0.1 * band);
-        let place = if is_greatest {
-            greatest - band
+        let band = band - (SLACK * (maximum - minimum)).min(0.1 * band);
+        let place = if is_maximum {
+            maximum - band
         } else {
-            least + band
+            minimum + band
         };
-        let enters = self.angle(output, place, is_greatest);
-        let leaves = self.angle(output, place, !is_greatest);
+        let enters = self.angle(output, place, is_maximum);
+        let leaves = self.angle(output, place, !is_maximum);
         [enters, enters + (leaves - enters).rem_euclid(TAU)]
     }
 }
@@ -181,37 +181,37 @@ fn angles(
     section: &Section,
 ) -> Result<Vec<[f64; 2]>, TimingError> {
     let name = || section.name.clone();
-    let [least, greatest] = swing.places;
-    match section.wanted {
-        Wanted::Even([from, to]) => {
+    let [minimum, maximum] = swing.places;
+    match section.required {
+        Required::Even([from, to]) => {
             if from == to {
-                return Err(TimingError::Stands {
+                return Err(TimingError::Stationary {
                     name: name(),
                     place: from,
                 });
             }
-            let is_inside = |place: f64| place > least && place < greatest;
+            let is_inside = |place: f64| place > minimum && place < maximum;
             if !(is_inside(from) && is_inside(to)) {
                 return Err(TimingError::Beyond {
                     name: name(),
                     from,
                     to,
-                    least,
-                    greatest,
+                    minimum,
+                    maximum,
                 });
             }
             Ok(vec![[from, to].map(|p| swing.angle(output, p, to > from))])
         }
-        Wanted::Rest(band) => {
-            let stroke = greatest - least;
-            let least = LEAST_BAND * stroke;
-            let is_part = band >= least && band < 0.5 * stroke;
+        Required::Rest(band) => {
+            let stroke = maximum - minimum;
+            let minimum = MIN_BAND * stroke;
+            let is_part = band >= minimum && band < 0.5 * stroke;
             if !is_part {
                 return Err(TimingError::Band {
                     name: name(),
                     band,
                     stroke,
-                    least,
+                    minimum,
                 });
             }
             Ok([true, false]

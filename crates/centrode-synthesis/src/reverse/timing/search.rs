@@ -3,19 +3,19 @@ use std::sync::Arc;
 use centrode_geometry::checkpoint;
 
 use super::order::{Placed, Swing};
-use super::{Course, Timing, TimingError, Wanted};
+use super::{Course, Required, Timing, TimingError};
 use crate::reverse::curvature::curvatures;
 use centrode_kinematics::transmission::Transmission;
 
 /// Looks at a free stretch.
-const LOOKS: u32 = 48;
+const SAMPLES: u32 = 48;
 /// First and last step of the search, and greatest number of rounds.
 const STEPS: [f64; 2] = [0.25, 1e-3];
 const ROUNDS: u32 = 200;
 /// Greatest share of a rest's half that is left to the stretch beside it.
-const MOST_SHARE: f64 = 0.95;
+const MAX_SHARE: f64 = 0.95;
 /// Greatest skew either way.
-const MOST_SKEW: f64 = 4.0;
+const MAX_SKEW: f64 = 4.0;
 
 /// Numbers that are free of a section and of the stretch after it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -41,9 +41,9 @@ impl StretchShape {
     /// The shape with a number that is greater by a step, within its limits.
     fn moved(mut self, number: Number, by: f64) -> Self {
         match number {
-            Number::Late => self.late = (self.late + by).clamp(0.0, MOST_SHARE),
-            Number::Early => self.early = (self.early + by).clamp(0.0, MOST_SHARE),
-            Number::Skew => self.skew = (self.skew + by).clamp(-MOST_SKEW, MOST_SKEW),
+            Number::Late => self.late = (self.late + by).clamp(0.0, MAX_SHARE),
+            Number::Early => self.early = (self.early + by).clamp(0.0, MAX_SHARE),
+            Number::Skew => self.skew = (self.skew + by).clamp(-MAX_SKEW, MAX_SKEW),
         }
         self
     }
@@ -70,7 +70,7 @@ pub(super) fn mildest(
         let moves = moves.flat_map(|(i, number)| [step, -step].map(|by| (i, number, by)));
         for (i, number, by) in moves {
             checkpoint();
-            let rests = matches!(placed[i].section.wanted, Wanted::Rest(_));
+            let rests = matches!(placed[i].section.required, Required::Rest(_));
             let moved = shapes[i].moved(number, by);
             if moved == shapes[i] || (number != Number::Skew && !rests) {
                 continue;
@@ -103,8 +103,8 @@ fn sharpest(law: &Timing) -> f64 {
         .iter()
         .flat_map(|stretch| match &stretch.course {
             Course::Free(free) => {
-                let share = |i: u32| f64::from(i) / f64::from(LOOKS);
-                (0..=LOOKS).map(|i| free.speed(share(i))).collect()
+                let share = |i: u32| f64::from(i) / f64::from(SAMPLES);
+                (0..=SAMPLES).map(|i| free.speed(share(i))).collect()
             }
             Course::Turn => {
                 let rate = law.jet(stretch, stretch.within[0]).velocity;

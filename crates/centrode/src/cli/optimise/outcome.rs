@@ -107,7 +107,7 @@ impl<'a> Outcome<'a> {
             writeln!(
                 out,
                 "  {number:>2} {:<35} {before:>12} {:>12} {:<3}  {:<14} {}",
-                goal.title, words.value, words.unit, words.wanted, words.verdict
+                goal.title, words.value, words.unit, words.required, words.verdict
             )?;
         }
         writeln!(

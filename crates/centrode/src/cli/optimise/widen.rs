@@ -26,11 +26,11 @@ pub(super) fn run(
     let better = edited(text, &edits).map_err(|error| Failure::Usage(error.to_string()))?;
     Stored::beside(&command.output).write_design(&better)?;
     if command.json {
-        let mut told = json!({ "share": widened.share });
+        let mut stated = json!({ "share": widened.share });
         for (name, table) in widened.tables {
-            told[name] = table;
+            stated[name] = table;
         }
-        serde_json::to_writer_pretty(&mut *out, &told).map_err(std::io::Error::from)?;
+        serde_json::to_writer_pretty(&mut *out, &stated).map_err(std::io::Error::from)?;
         writeln!(out)?;
         return Ok(Status::Good);
     }

@@ -38,7 +38,7 @@ fn one(goal: &Goal, out: &mut impl Write) -> Result<()> {
     write!(
         out,
         "  {:>2} {:<36} {:>10} {:<3}  {:<14}",
-        words.number, words.title, words.value, words.unit, words.wanted
+        words.number, words.title, words.value, words.unit, words.required
     )?;
     let color = match words.met {
         Some(true) => AnsiColor::Green,

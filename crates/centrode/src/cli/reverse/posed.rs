@@ -9,11 +9,10 @@ use centrode_synthesis::optimise::three_arm::PosedProblem;
 use centrode_synthesis::reverse::{KeyPose, KeyPoses};
 
 use super::{line, words};
-use crate::cli::Status;
 use crate::cli::args::{Arguments, Command, Reverse};
 use crate::cli::failure::Failure;
 use crate::cli::progress::Progress;
-use crate::cli::{export, output};
+use crate::cli::{Status, export, output};
 
 /// Makes a three-arm mechanism from key poses, prints what was found, and writes its design and, where asked, its files.
 pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Failure> {
@@ -23,9 +22,9 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
     }
     let progress = Progress::new(2);
     progress.step("trying places of the arm's axis");
-    let wanted = KeyPose::from_csv(source.bytes()).map_err(|error| source.refused(&error))?;
-    let chains =
-        KeyPoses::mildest(&wanted, PosedProblem::CHAINS).map_err(|error| source.refused(&error))?;
+    let required = KeyPose::from_csv(source.bytes()).map_err(|error| source.refused(&error))?;
+    let chains = KeyPoses::mildest(&required, PosedProblem::CHAINS)
+        .map_err(|error| source.refused(&error))?;
     progress.step("looking for goals and sound teeth");
     let posed = PosedProblem::search(&chains, command.arms.unwrap_or(1), &mut |_, _| {
         ControlFlow::Continue(())

@@ -141,8 +141,8 @@ impl Solver {
         let (teller, mut later) = unbounded_channel();
         let job = move || {
             let parts = teller.clone();
-            let told = || solver.tell(text, depth, &|part| drop(parts.send(Ok(part))));
-            if let Err(error) = outcome(|| progress.during(|| cancel.run(told))) {
+            let stated = || solver.tell(text, depth, &|part| drop(parts.send(Ok(part))));
+            if let Err(error) = outcome(|| progress.during(|| cancel.run(stated))) {
                 // Nobody may be there any more.
                 drop(teller.send(Err(error)));
             }
@@ -200,7 +200,7 @@ fn outcome(
     solve: impl FnOnce() -> Result<serde_json::Result<()>, Cancelled>,
 ) -> Result<(), Unsolved> {
     match InternalFault::catch(solve)? {
-        Ok(told) => told.map_err(|error| Unsolved::Fault(error.to_string())),
+        Ok(stated) => stated.map_err(|error| Unsolved::Fault(error.to_string())),
         Err(Cancelled) => Err(Unsolved::Overtaken),
     }
 }
@@ -268,12 +268,12 @@ mod tests {
             let (ours, others, left) = (slow(PAGE), slow("another"), slow("closed"));
             tokio::time::sleep(Duration::from_millis(300)).await;
             assert!(!ours.is_finished() && !others.is_finished());
-            let asked = Instant::now();
+            let requested = Instant::now();
             let quick = solved(&solver, PAGE, 2, "family = 1".into(), Depth::Picture).await;
             assert!(quick.expect("the latest").contains("family"));
             let overtaken = ours.await.expect("no panic");
             assert!(matches!(overtaken, Err(Unsolved::Overtaken)));
-            assert!(asked.elapsed() < Duration::from_secs(10));
+            assert!(requested.elapsed() < Duration::from_secs(10));
             // A request that was held up on its way takes nobody's place.
             let latest = slow(PAGE);
             tokio::time::sleep(Duration::from_millis(50)).await;
@@ -388,17 +388,17 @@ mod tests {
         runtime.block_on(async {
             let solver = Arc::new(Solver::default());
             let template = FAMILIES.template("gear-pair").expect("a template");
-            let mut asked = Vec::new();
+            let mut requested = Vec::new();
             for z in 20..60 {
                 let text = template.replace("tooth_count = 23", &format!("tooth_count = {z}"));
                 let solver = Arc::clone(&solver);
-                asked.push(tokio::spawn(async move {
+                requested.push(tokio::spawn(async move {
                     solved(&solver, PAGE, z, text, Depth::Checks).await
                 }));
                 tokio::task::yield_now().await;
             }
             let mut answers = Vec::new();
-            for task in asked {
+            for task in requested {
                 answers.push(task.await.expect("no panic"));
             }
             let last = answers

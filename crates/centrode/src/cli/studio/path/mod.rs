@@ -3,7 +3,7 @@
 mod stream;
 
 use super::routes::{Refused, computed};
-use crate::page::path::{self, Answer, Kept, Wish, field};
+use crate::page::path::{self, Answer, Cached, Wish, field};
 use crate::page::{self};
 use axum::extract::State;
 use axum::response::{Html, IntoResponse as _, Response};
@@ -24,7 +24,7 @@ pub(crate) fn routes<S: Clone + Send + Sync + 'static>() -> Router<S> {
         .route("/path/open", post(open))
         .route("/path/machine", post(machine))
         .route("/path/design", post(design))
-        .with_state(Kept::default())
+        .with_state(Cached::default())
 }
 
 /// Machine of a path and an axis, or why there is none.
@@ -33,27 +33,27 @@ async fn solve(Json(ask): Json<Wish>) -> Result<Response, Refused> {
 }
 
 /// Machine that is sought: of key poses, of the working part of a path, or of a path with more wishes.
-async fn find(State(kept): State<Kept>, Json(ask): Json<Wish>) -> Response {
+async fn find(State(kept): State<Cached>, Json(ask): Json<Wish>) -> Response {
     streamed(move |observe| Answer::found(&ask, &kept, observe))
 }
 
 /// Possible axes about a path.
 async fn map(Json(ask): Json<field::Ask>) -> Result<Response, Refused> {
-    answered(move || told(field::Field::new(&ask))).await
+    answered(move || stated(field::Field::new(&ask))).await
 }
 
 /// The best axis about a path.
 async fn axis(Json(ask): Json<field::Best>) -> Result<Response, Refused> {
-    answered(move || told(field::best(&ask))).await
+    answered(move || stated(field::best(&ask))).await
 }
 
 /// Points of a file, or all that it wants.
 async fn open(Json(ask): Json<super::routes::Text>) -> Result<Response, Refused> {
-    answered(move || told(path::opened(&ask.text))).await
+    answered(move || stated(path::opened(&ask.text))).await
 }
 
 /// Design of the machine, with sound teeth.
-async fn machine(State(kept): State<Kept>, Json(ask): Json<Wish>) -> Response {
+async fn machine(State(kept): State<Cached>, Json(ask): Json<Wish>) -> Response {
     streamed(move |observe| path::machine(&ask, &kept, observe))
 }
 
@@ -61,7 +61,7 @@ async fn machine(State(kept): State<Kept>, Json(ask): Json<Wish>) -> Response {
 async fn design(Json(ask): Json<Wish>) -> Result<Response, Refused> {
     answered(move || {
         let text = ask.design().map(|design| design.to_toml());
-        told(text.and_then(|text| text.map_err(|error| error.message())))
+        stated(text.and_then(|text| text.map_err(|error| error.message())))
     })
     .await
 }
@@ -81,7 +81,7 @@ enum FoundOrRefused<T> {
     Refused { refused: String },
 }
 
-fn told<T>(found: Result<T, String>) -> FoundOrRefused<T> {
+fn stated<T>(found: Result<T, String>) -> FoundOrRefused<T> {
     match found {
         Ok(found) => FoundOrRefused::Found(found),
         Err(refused) => FoundOrRefused::Refused { refused },

@@ -14,7 +14,7 @@ use tokio::sync::mpsc::unbounded_channel;
 use crate::InternalFault;
 
 use super::super::routes::Wait;
-use super::told;
+use super::stated;
 
 /// Interval at which progress is told.
 const EVERY: Duration = Duration::from_millis(200);
@@ -25,27 +25,27 @@ pub(super) fn streamed<T: Serialize>(
 ) -> Response {
     let wait = Wait::default();
     let cancel = wait.cancel();
-    let (told_so_far, news) = unbounded_channel::<String>();
+    let (reported, news) = unbounded_channel::<String>();
     tokio::task::spawn_blocking(move || {
         let mut next = Instant::now() + EVERY;
         let mut observe = |evaluations: u64| {
             if Instant::now() >= next {
                 next = Instant::now() + EVERY;
                 let line = json!({ "evaluations": evaluations }).to_string();
-                if told_so_far.send(line).is_err() {
+                if reported.send(line).is_err() {
                     return ControlFlow::Break(());
                 }
             }
             ControlFlow::Continue(())
         };
-        let answer = InternalFault::catch(|| cancel.run(|| told(job(&mut observe))));
+        let answer = InternalFault::catch(|| cancel.run(|| stated(job(&mut observe))));
         let line = match answer {
             Ok(Ok(answer)) => json!({ "answer": answer }),
             Ok(Err(cancelled)) => json!({ "answer": { "refused": cancelled.to_string() } }),
             Err(fault) => json!({ "answer": { "refused": fault.to_string() } }),
         };
         // Nobody may be there any more.
-        let _ = told_so_far.send(line.to_string());
+        let _ = reported.send(line.to_string());
     });
     let lines = unfold((news, wait), |(mut news, wait)| async move {
         let line = news.recv().await?;

@@ -1,0 +1,93 @@
+use std::f64::consts::{FRAC_PI_4, FRAC_PI_6};
+
+use centrode_kinematics::machine::Spacer;
+use centrode_machines::machine::{Machine, MachineCam};
+
+use crate::cam::CheckedCam;
+use crate::{Finding, Place, Report, Severity, Table, Unit};
+
+/// Pressure angles up to which a sliding and a swinging follower run well while they are lifted, rad. VDI 2142 part 2.
+const PRESSURE_ANGLES: [f64; 2] = [FRAC_PI_6, FRAC_PI_4];
+
+/// Pressure angles and radii of the cams, over the whole of each.
+pub(super) fn cams(composed: &Machine, report: &mut Report) {
+    let (mut angles, mut radii) = (Vec::new(), Vec::new());
+    for cam in composed.cams() {
+        let disc = cam.disc();
+        let limits = disc.limits();
+        let [rise, fall] = [limits.rise_pressure_angle, limits.return_pressure_angle];
+        let input = |angle: f64| cam.inputs(angle, composed.period()).first().copied();
+        angles.push((cam.name.clone(), vec![rise.value, fall.value]));
+        let (minimum, maximum) = cam.part.radii();
+        let [convex, concave] = [limits.minimum_radius.value, limits.largest_wheel.value];
+        radii.push((cam.name.clone(), vec![minimum, maximum, convex, concave]));
+        thin_roller(composed, cam, report);
+        let swings = disc.follower().swings();
+        let checked = CheckedCam {
+            part: &cam.name,
+            pressure_angle: PRESSURE_ANGLES[usize::from(swings)],
+            undercut: format!(
+                "cam {} is undercut: {} cannot follow its motion there",
+                cam.name,
+                cam.followers.join(", ")
+            ),
+            pushes: [
+                format!("while cam {} lifts its follower it pushes up to", cam.name),
+                "off the way of what it lifts".into(),
+            ],
+            remedies: [
+                "a longer span_deg, a larger base_radius, or a smaller roller",
+                "a longer span_deg or a larger base_radius",
+            ],
+            input: &input,
+        };
+        checked.report(&limits, report);
+    }
+    if angles.is_empty() {
+        return;
+    }
+    report.tables.push(Table {
+        name: "cam-pressure-angles",
+        title: "Greatest pressure angle of cam",
+        unit: Unit::Angle,
+        columns: ["rise", "return"].map(String::from).into(),
+        rows: angles,
+    });
+    report.tables.push(Table {
+        name: "cam-radii",
+        title: "Radius of cam, and least radii of curvature",
+        unit: Unit::Millimetre,
+        columns: ["minimum", "maximum", "convex", "concave"]
+            .map(String::from)
+            .into(),
+        rows: radii,
+    });
+}
+
+/// Tells of a roller whose wall is too thin for the pins of the design: it has no part and no pin.
+fn thin_roller(composed: &Machine, cam: &MachineCam, report: &mut Report) {
+    let pin = composed.plates().pin_diameter;
+    let radius = cam.disc().follower().roller_radius().unwrap_or(0.0);
+    let is_made = Spacer::roller(radius, pin, cam.part.body().width).is_some();
+    if radius == 0.0 || pin == 0.0 || is_made {
+        return;
+    }
+    let (wall, minimum) = (radius - 0.5 * pin, Spacer::ROLLER_WALL * pin);
+    report.findings.push(Finding {
+        rule: "thin-roller",
+        severity: Severity::Warning,
+        message: format!(
+            "the roller on cam {}, Ø{:.3} mm, has a wall of {wall:.3} mm on a pin of Ø{pin:.3} mm, {minimum:.3} mm are needed: it is no part, and has no pin",
+            cam.name,
+            2.0 * radius
+        ),
+        measured: Some(wall),
+        required: Some(minimum),
+        unit: Unit::Millimetre,
+        remedy: Some("a larger roller_radius, or a smaller pin_diameter"),
+        place: Place {
+            part: Some(cam.name.clone()),
+            ..Place::default()
+        },
+    });
+}

@@ -1,0 +1,63 @@
+use centrode_geometry::Tolerance;
+use centrode_kinematics::machine::{LinkedMachine, Surface};
+use centrode_machines::machine::{ClearanceEnd, Machine, MachineFigure};
+
+use super::goals::Found;
+use crate::interference::{LinkClearanceError, LinkPair};
+use crate::{Finding, Place, Report, Severity, Unit};
+
+/// Clearance of two bodies, or of a body and an obstacle, of a composed machine, made ready; none where they lie apart along
+/// the shafts.
+///
+/// A body counts with its plate and its gears.
+///
+/// # Errors
+/// [`LinkClearanceError`] for a contour that makes no body.
+pub fn machine_clearance(
+    composed: &Machine,
+    machine: &LinkedMachine,
+    ends: [ClearanceEnd; 2],
+    tolerance: Tolerance,
+) -> Result<Option<LinkPair>, LinkClearanceError> {
+    let obstacles: Vec<Surface> = composed.obstacles().iter().map(|o| o.surface()).collect();
+    let links = ends.map(|end| composed.body_of_end(end));
+    let surfaces = ends.map(|end| match end {
+        ClearanceEnd::Obstacle(obstacle) => vec![&obstacles[obstacle]],
+        ClearanceEnd::Body(body) => surfaces(machine, body).collect(),
+    });
+    LinkPair::new(machine, links, surfaces, tolerance)
+}
+
+/// Surfaces of a link.
+pub(super) fn surfaces(machine: &LinkedMachine, link: usize) -> impl Iterator<Item = &Surface> {
+    let own = machine.links[link].surfaces.iter();
+    own.map(|&index| &machine.surfaces[index])
+}
+
+/// A note for every goal of a clearance between what shares no height, which is infinite.
+pub(super) fn apart(composed: &Machine, found: &[Found], report: &mut Report) {
+    let figures = composed.figures().iter().zip(found);
+    for (figure, found) in figures {
+        let (MachineFigure::Clearance(ends), Some(f64::INFINITY)) = (figure, found.goal.value)
+        else {
+            continue;
+        };
+        let [one, other] = ends.map(|end| composed.name_of_end(end));
+        report.findings.push(Finding {
+            rule: "no-common-height",
+            severity: Severity::Note,
+            message: format!(
+                "goal {}, {}: {one} and {other} share no height along the shafts, so that their clearance is infinite",
+                found.goal.number, found.goal.title
+            ),
+            measured: Some(f64::INFINITY),
+            required: None,
+            unit: Unit::Millimetre,
+            remedy: Some("one layer for both, if they are to pass each other in one plane"),
+            place: Place {
+                part: Some(one.to_owned()),
+                ..Place::default()
+            },
+        });
+    }
+}

@@ -1,0 +1,119 @@
+//! Orders of the plates in which nothing collides, for a machine whose plates or pins do.
+
+use std::collections::BTreeMap;
+
+use centrode_machines::machine::{Hardware, LayerOrders, Machine, MachineDesign};
+
+use super::{Made, collisions, ends as ends_of};
+use crate::{Finding, Place, Report, Severity, Unit};
+
+/// Findings that another order of the plates may remove.
+const RULES: [&str; 3] = ["plates-collide", "pins-collide", "parts-collide"];
+
+/// Outcome of a search for layers.
+enum Layers {
+    /// Layers by body that the check of collisions found free.
+    Free(BTreeMap<String, i32>),
+    /// Pins and plates of which one pair collides in every order.
+    Blocked(Vec<String>),
+    /// No free one among so many orders.
+    Tried(usize),
+    /// Too many plates without a layer.
+    Many(usize),
+}
+
+/// Design with layers in which no plates and pins collide, if those of the design do, and the layers in words.
+///
+/// Bodies with a `layer` keep it. `None` if nothing collides, or no order was found: the finding `layer-order` of the check has
+/// the reason.
+#[must_use]
+pub fn machine_layers(composed: &Machine) -> Option<(String, MachineDesign)> {
+    let mut report = Report::default();
+    let ends = ends_of(composed);
+    collisions::collisions(&Made::new(composed), &ends, &mut report);
+    match searched(composed, &ends, &report)? {
+        Layers::Free(layers) => Some((
+            words(&layers),
+            composed.with_layers(&layers).design().clone(),
+        )),
+        _ => None,
+    }
+}
+
+/// Adds a note with an order of the plates that is free of collisions, or why there is none, if plates or pins collide.
+pub(super) fn layers(composed: &Machine, ends: &[f64], report: &mut Report) {
+    let Some(found) = searched(composed, ends, report) else {
+        return;
+    };
+    let (message, remedy) = match found {
+        Layers::Free(layers) => (
+            format!("with {} nothing collides", words(&layers)),
+            "check --remedy prints the design with these layers",
+        ),
+        Layers::Blocked(pairs) => (
+            format!(
+                "no order of the plates is free of collisions, because in each of them one of these pins runs into a plate: {}",
+                pairs.join("; ")
+            ),
+            "other points for one of these pins, or an outline of the plate that keeps clear of it",
+        ),
+        Layers::Tried(count) => (
+            format!(
+                "no order of the plates was found in which nothing collides: the {count} in which no pin meets a plate have other collisions"
+            ),
+            "narrower plates, thinner pins, or other layers",
+        ),
+        Layers::Many(count) => (
+            format!(
+                "orders are not searched for {count} plates without a layer, only for 12 and fewer"
+            ),
+            "a layer for some of the bodies",
+        ),
+    };
+    report.findings.push(Finding {
+        rule: "layer-order",
+        severity: Severity::Note,
+        message,
+        measured: None,
+        required: None,
+        unit: Unit::Count,
+        remedy: Some(remedy),
+        place: Place::default(),
+    });
+}
+
+/// Layers for a machine whose plates or pins collide; `None` if they do not.
+fn searched(composed: &Machine, ends: &[f64], report: &Report) -> Option<Layers> {
+    let has_plates = composed.design().hardware() != Hardware::None;
+    if !has_plates || !collides(report) {
+        return None;
+    }
+    let orders = match composed.layer_orders() {
+        LayerOrders::Free(orders) => orders,
+        LayerOrders::Blocked(pairs) => return Some(Layers::Blocked(pairs)),
+        LayerOrders::Many(count) => return Some(Layers::Many(count)),
+    };
+    let count = orders.len();
+    let is_free = |layers: &BTreeMap<String, i32>| {
+        let trial = composed.with_layers(layers);
+        let mut report = Report::default();
+        collisions::collisions(&Made::new(&trial), ends, &mut report);
+        !collides(&report)
+    };
+    let found = orders.into_iter().find(is_free);
+    Some(found.map_or(Layers::Tried(count), Layers::Free))
+}
+
+fn collides(report: &Report) -> bool {
+    let mut findings = report.findings.iter();
+    findings.any(|finding| RULES.contains(&finding.rule))
+}
+
+fn words(layers: &BTreeMap<String, i32>) -> String {
+    let mut all: Vec<(&String, &i32)> = layers.iter().collect();
+    all.sort_by_key(|(_, layer)| **layer);
+    let all = all
+        .into_iter()
+        .map(|(body, layer)| format!("{body} {layer}"));
+    format!("layers {}", all.collect::<Vec<_>>().join(", "))
+}

@@ -1,0 +1,344 @@
+//! Check of a composed machine.
+
+mod cams;
+mod clearance;
+mod collisions;
+mod figures;
+mod forces;
+mod goals;
+mod held;
+mod joints;
+mod keys;
+mod layers;
+mod motion;
+mod pairs;
+mod sound_teeth;
+#[cfg(test)]
+mod tests;
+mod through;
+
+use std::f64::consts::PI;
+use std::sync::{Arc, OnceLock};
+
+use centrode_geometry::{Extreme, piece_ends};
+use centrode_kinematics::machine::{LinkedMachine, Supply};
+use centrode_machines::machine::{Hardware, Machine};
+
+pub use self::clearance::machine_clearance;
+pub use self::collisions::machine_collisions;
+use self::figures::FIGURES;
+use self::forces::Loaded;
+pub use self::goals::machine_figures;
+pub use self::layers::machine_layers;
+use self::motion::Motion;
+pub use self::sound_teeth::{NoSoundTeeth, SoundTeeth, with_sound_teeth};
+use crate::forces::ForcesError;
+use crate::progress::filling;
+use crate::report::Missed;
+use crate::rounding::exceeds;
+use crate::side_by_side::both;
+use crate::{Finding, Goal, Place, Report, Severity, Table, Unit};
+
+/// Parts of a turn of the input in each of which a motion has few extremes.
+const PARTS: u32 = 16;
+/// Transmission angle below which a dyad holds badly, degrees: friction may lock it.
+const HOLDS_BADLY: f64 = 30.0;
+/// Distance, rad, from the start or the end of the cycle at which an extreme is at its start: it is found to the square root of
+/// rounding.
+const NEAR: f64 = 1e-7;
+
+/// Checks a composed machine: how well its dyads hold, where joints reverse, how far points go and how fast.
+///
+/// Lengths are mm, angles rad, speeds mm/s. Every extreme is over the whole cycle.
+#[must_use]
+pub fn check_machine(composed: &Machine) -> Report {
+    // Teeth take about as long as the motion, of which they know nothing.
+    let (pairs, motion) = both(
+        || filling([0.0, 0.7], || pairs::checked(composed)),
+        || Motion::new(composed, &ends(composed)),
+    );
+    let made = Made {
+        pairs: OnceLock::from(pairs),
+        ..Made::new(composed)
+    };
+    checked(&made, motion, Depth::Whole)
+}
+
+/// Checks the motion of a composed machine alone: all of [`check_machine`] but teeth, cams, forces and collisions,
+/// which only goals that name them ask for.
+#[must_use]
+pub fn check_machine_motion(composed: &Machine) -> Report {
+    let motion = Motion::new(composed, &ends(composed));
+    checked(&Made::new(composed), motion, Depth::Motion)
+}
+
+/// Checks the goals of a composed machine alone: those of [`check_machine_motion`], without its figures.
+#[must_use]
+pub fn check_machine_goals(composed: &Machine) -> Report {
+    let mut report = Report::default();
+    add_goals(&Made::new(composed), &mut report);
+    report
+}
+
+/// How much is checked.
+#[derive(Clone, Copy, Eq, PartialEq)]
+enum Depth {
+    Motion,
+    Whole,
+}
+
+fn checked(made: &Made<'_>, motion: Motion, depth: Depth) -> Report {
+    let composed = made.composed;
+    let mut report = Report {
+        groups: FIGURES.to_vec(),
+        ..Report::default()
+    };
+    let values = &mut report.values;
+    values.insert("period", composed.period());
+    values.insert("input_rpm", composed.design().input.speed_rpm);
+    values.insert("body_count", composed.bodies().len() as f64 - 1.0);
+    values.insert("dyad_count", composed.dyads().len() as f64);
+    let [x, y] = composed.design().gravity.unwrap_or_default();
+    values.insert("gravity", x.hypot(y));
+    let is_whole = depth == Depth::Whole;
+    dyads(composed, &motion, &mut report);
+    joints::tables(composed, &mut report);
+    joints::joints(composed, &motion, &mut report);
+    joints::four_bars(composed, &mut report);
+    if is_whole {
+        cams::cams(composed, &mut report);
+    }
+    points(composed, motion, &mut report);
+    if is_whole {
+        if let (Some(machine), Some(loaded)) = (made.machine(), made.loaded()) {
+            forces::forces(loaded, composed, machine, &mut report);
+        }
+        held::held(composed, &mut report);
+        pairs::pairs(made, &mut report);
+        let ends = ends(composed);
+        collisions::collisions(made, &ends, &mut report);
+        layers::layers(composed, &ends, &mut report);
+        not_designed(made, &mut report);
+    }
+    add_goals(made, &mut report);
+    report.worst_first();
+    report
+}
+
+/// Notes what the design leaves to the customer.
+fn not_designed(made: &Made<'_>, report: &mut Report) {
+    let hardware = made.composed.design().hardware();
+    let given = made
+        .machine()
+        .into_iter()
+        .flat_map(|machine| &machine.parts);
+    let given = given.filter(|part| part.supply == Supply::Given);
+    let mut given: Vec<String> = given
+        .map(|part| match part.quantity() {
+            0 | 1 => part.name.clone(),
+            n => format!("{n} of {}", part.name),
+        })
+        .collect();
+    // The frame is listed last, and matters first.
+    given.reverse();
+    let (message, remedy) = match hardware {
+        Hardware::None => (
+            "bodies, frame, pins, shafts, bearings and springs are not designed: drawings and solids are of gears and cams only, and bodies have no mass but a given one".to_owned(),
+            Some("hardware = \"list\" for plates and a table per axis"),
+        ),
+        _ if given.is_empty() => return,
+        Hardware::List => (
+            format!("left to the customer: {}", given.join(", ")),
+            Some("hardware = \"full\" for a frame, pins and shafts"),
+        ),
+        Hardware::Full => (format!("left to the customer: {}", given.join(", ")), None),
+    };
+    report.findings.push(Finding {
+        rule: "not-designed",
+        severity: Severity::Note,
+        message,
+        measured: None,
+        required: None,
+        unit: Unit::Count,
+        remedy,
+        place: Place::default(),
+    });
+}
+
+/// Adds the goals to a report, and the findings of those that are missed.
+fn add_goals(made: &Made<'_>, report: &mut Report) {
+    let found = goals::goals(made);
+    clearance::apart(made.composed, &found, report);
+    report.goals = found.iter().map(|found| found.goal.clone()).collect();
+    report.blame_goals(|goal| Missed {
+        input: found
+            .iter()
+            .find(|f| f.goal.name == goal.name)
+            .and_then(|f| f.input),
+        ..Missed::default()
+    });
+}
+
+/// The goals of a composed machine with their figures.
+#[must_use]
+pub fn machine_goals(composed: &Machine) -> Vec<Goal> {
+    let found = goals::goals(&Made::new(composed)).into_iter();
+    found.map(|found| found.goal).collect()
+}
+
+/// A composed machine with what its checks share, each made when it is first asked for.
+struct Made<'a> {
+    composed: &'a Machine,
+    outlined: OnceLock<Option<LinkedMachine>>,
+    machine: OnceLock<Option<LinkedMachine>>,
+    loaded: OnceLock<Option<Result<Loaded, ForcesError>>>,
+    pairs: OnceLock<Vec<Arc<Report>>>,
+}
+
+impl<'a> Made<'a> {
+    fn new(composed: &'a Machine) -> Self {
+        Self {
+            composed,
+            outlined: OnceLock::new(),
+            machine: OnceLock::new(),
+            loaded: OnceLock::new(),
+            pairs: OnceLock::new(),
+        }
+    }
+
+    /// Its bodies as links; none where a plate is no solid.
+    fn machine(&self) -> Option<&LinkedMachine> {
+        let made = || self.composed.machine().ok();
+        self.machine.get_or_init(made).as_ref()
+    }
+
+    /// Its links with their contours, with whatever else is known of them; none where a plate is no solid.
+    fn outlined(&self) -> Option<&LinkedMachine> {
+        match self.machine.get() {
+            Some(made) => made.as_ref(),
+            None => {
+                let made = || self.composed.outlined().ok();
+                self.outlined.get_or_init(made).as_ref()
+            }
+        }
+    }
+
+    /// Checks of its gear pairs.
+    fn pairs(&self) -> &[Arc<Report>] {
+        self.pairs.get_or_init(|| pairs::checked(self.composed))
+    }
+
+    /// Its forces; none where it has no links.
+    fn loaded(&self) -> Option<&Result<Loaded, ForcesError>> {
+        let made = || {
+            self.machine()
+                .map(|machine| Loaded::new(self.composed, machine))
+        };
+        self.loaded.get_or_init(made).as_ref()
+    }
+}
+
+/// Ends of the parts of a cycle between which all motion and load is smooth.
+fn ends(composed: &Machine) -> Vec<f64> {
+    within(composed, 0.0, composed.period())
+}
+
+/// Ends of the parts of a stretch of inputs between which all motion and load is smooth.
+fn within(composed: &Machine, from: f64, to: f64) -> Vec<f64> {
+    let (period, jumps) = (composed.period(), composed.breaks());
+    let cycles = (from / period).floor() as i64..=(to / period).floor() as i64;
+    let breaks: Vec<f64> = cycles
+        .flat_map(|cycle| {
+            let breaks = jumps.iter();
+            breaks.map(move |b| b + cycle as f64 * period)
+        })
+        .collect();
+    let parts = (f64::from(PARTS) * (to - from) / std::f64::consts::TAU).ceil();
+    piece_ends(from, to, parts as u32, &breaks)
+}
+
+/// Transmission angles of the dyads.
+fn dyads(composed: &Machine, motion: &Motion, report: &mut Report) {
+    let mut rows = Vec::new();
+    for (dyad, &[low, high]) in composed.dyads().iter().zip(&motion.angles) {
+        let [low, high] = [low, high].map(|end| Extreme {
+            input: match end.input.min(composed.period() - end.input) < NEAR {
+                true => 0.0,
+                false => end.input,
+            },
+            ..end
+        });
+        let row = vec![low.value, low.input, high.value, high.input];
+        rows.push((dyad.name.clone(), row));
+        // Bars hold as badly at 150 degrees as at 30.
+        let obtuse = PI - high.value < low.value;
+        let (end, held) = match obtuse {
+            true => (high, PI - high.value),
+            false => (low, low.value),
+        };
+        let worst = report.values.get("transmission_angle_min").copied();
+        let worst = worst.unwrap_or(f64::INFINITY).min(held);
+        report.values.insert("transmission_angle_min", worst);
+        if exceeds(HOLDS_BADLY, held.to_degrees()) {
+            let (reaches, limit) = match obtuse {
+                true => ("rises", format!("above {:.0}", 180.0 - HOLDS_BADLY)),
+                false => ("falls", format!("below {HOLDS_BADLY}")),
+            };
+            let degrees = end.value.to_degrees();
+            report.findings.push(Finding {
+                rule: "transmission-angle",
+                severity: Severity::Warning,
+                message: format!(
+                    "the transmission angle of dyad {} {reaches} to {degrees:.2} deg: {limit} deg friction may lock it",
+                    dyad.name
+                ),
+                measured: Some(held),
+                required: Some(HOLDS_BADLY.to_radians()),
+                unit: Unit::Angle,
+                remedy: Some("longer bars against the motion that drives them, or other pins"),
+                place: Place {
+                    part: Some(dyad.name.clone()),
+                    input: Some(end.input),
+                    ..Place::default()
+                },
+            });
+        }
+    }
+    if !rows.is_empty() {
+        report.tables.push(Table {
+            name: "transmission-angles",
+            title: "Transmission angle of dyad",
+            unit: Unit::Angle,
+            columns: ["minimum", "at", "maximum", "at"].map(String::from).into(),
+            rows,
+        });
+    }
+}
+
+/// Reach and speed of every point that moves.
+fn points(composed: &Machine, motion: Motion, report: &mut Report) {
+    let (mut reach, mut speed) = (Vec::new(), Vec::new());
+    for point in motion.points {
+        reach.push((point.name.clone(), point.sides.to_vec()));
+        speed.push((point.name, vec![point.fastest * composed.speed()]));
+    }
+    if reach.is_empty() {
+        return;
+    }
+    report.tables.push(Table {
+        name: "reach",
+        title: "Reach of point",
+        unit: Unit::Millimetre,
+        columns: ["least x", "greatest x", "least y", "greatest y"]
+            .map(String::from)
+            .into(),
+        rows: reach,
+    });
+    report.tables.push(Table {
+        name: "speed",
+        title: "Greatest speed of point",
+        unit: Unit::MillimetrePerSecond,
+        columns: vec!["speed".into()],
+        rows: speed,
+    });
+}

@@ -1,0 +1,149 @@
+//! Teeth for the pairs of a machine made from the path of its tip, or from the motion of its output.
+
+use std::f64::consts::PI;
+
+use centrode_gear::design::{Addendum, GearPairDesign};
+use centrode_gear::{FlankCount, GearPair, GearPairError};
+use centrode_geometry::checkpoint;
+use centrode_machines::machine::MachineDesign;
+
+use crate::MAX_TEETH;
+use crate::gear_pair::{is_carried, minimum_count};
+
+/// First tooth count tried.
+const FIRST: u32 = 40;
+/// Most full teeth: where more would be needed, fitted ones are larger.
+const MAX_FULL: u32 = 120;
+
+/// Teeth of a pair whose flanks carry its motion alone.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SoundTeeth {
+    /// Name of the pair.
+    pub pair: String,
+    /// Height of the teeth.
+    pub addendum: Addendum,
+    /// Teeth of the driver.
+    pub tooth_count: u32,
+    /// Module, mm.
+    pub module: f64,
+    /// Largest module at which no full tooth can be undercut or short, mm.
+    pub full_module: f64,
+}
+
+/// Reason why a pair has no sound teeth.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum NoSoundTeeth {
+    /// No teeth can be cut.
+    #[error("pair {pair}: {error}")]
+    Gears {
+        /// Name of the pair.
+        pair: String,
+        /// Reason.
+        error: Box<GearPairError>,
+    },
+    /// The flanks carry the motion with no tooth count tried.
+    #[error(
+        "pair {pair}: full teeth are undercut above a module of {full_module:.4} mm, and fitted ones carry the motion by their flanks alone with no count up to {MAX_TEETH}: take another axis, bend or split, or ease the path; of a drive, leave more room between what its goals want"
+    )]
+    None {
+        /// Name of the pair.
+        pair: String,
+        /// Largest module of full teeth, mm.
+        full_module: f64,
+    },
+}
+
+/// Gives those pairs of a machine that `of` picks by name the largest teeth of a kind whose flanks carry the motion alone: full ones of which none is
+/// undercut or short, where 120 or fewer on the driver are so, else fitted ones.
+///
+/// # Errors
+/// [`NoSoundTeeth`] with the pair and the largest module of full teeth.
+pub fn with_sound_teeth(
+    design: &MachineDesign,
+    of: impl Fn(&str) -> bool,
+) -> Result<(MachineDesign, Vec<SoundTeeth>), NoSoundTeeth> {
+    let mut changed = design.clone();
+    let mut found = Vec::new();
+    for (name, pair) in changed.pairs.iter_mut().filter(|(name, _)| of(name)) {
+        checkpoint();
+        let (sound, teeth) = sound(name, pair)?;
+        *pair = sound;
+        found.push(teeth);
+    }
+    Ok((changed, found))
+}
+
+fn sound(
+    name: &str,
+    design: &GearPairDesign,
+) -> Result<(GearPairDesign, SoundTeeth), NoSoundTeeth> {
+    let pair = cut(name, design)?;
+    let length = pair.driver().pitch_length();
+    let limits = pair.limits();
+    let full_module = limits.largest_module_of_full_teeth();
+    let teeth = |addendum: Addendum, count: u32| {
+        let mut sound = design.with_tooth_count(count);
+        sound.teeth.addendum = addendum;
+        let teeth = SoundTeeth {
+            pair: name.into(),
+            addendum,
+            tooth_count: count,
+            module: length / (PI * f64::from(count)),
+            full_module,
+        };
+        (sound, teeth)
+    };
+    if let Some(count) = full(design, &pair, length / (PI * limits.largest_module)) {
+        return Ok(teeth(Addendum::Full, count));
+    }
+    let mut fitted = design.clone();
+    fitted.teeth.addendum = Addendum::Fitted;
+    let count = minimum_count(&fitted, FIRST, MAX_TEETH).ok_or_else(|| NoSoundTeeth::None {
+        pair: name.into(),
+        full_module,
+    })?;
+    Ok(teeth(Addendum::Fitted, count))
+}
+
+/// The least count of full teeth that are sound and carry, from the count on at which the pitch curves bear them anyway.
+fn full(design: &GearPairDesign, pair: &GearPair, borne: f64) -> Option<u32> {
+    let mut full = design.clone();
+    full.teeth.addendum = Addendum::Full;
+    let is_sound = |count: u32| {
+        let counted = FlankCount::new(&full.with_tooth_count(count), pair.rolling());
+        counted.is_ok_and(|gears| gears.iter().all(|gear| gear.unsound == 0))
+    };
+    // Not a number is no count either.
+    if borne.is_nan() || borne > f64::from(MAX_FULL) {
+        return None;
+    }
+    let mut count = (borne.ceil() as u32).max(3);
+    // Flanks may miss the sharpest places of the pitch curves.
+    while count > 3 && is_sound(count - 1) {
+        checkpoint();
+        count -= 1;
+    }
+    (count..=MAX_FULL).find(|&count| {
+        checkpoint();
+        is_sound(count) && is_carried(&full.with_tooth_count(count))
+    })
+}
+
+/// The pair with the first tooth count with which it can be cut.
+fn cut(name: &str, design: &GearPairDesign) -> Result<GearPair, NoSoundTeeth> {
+    let mut count = FIRST;
+    loop {
+        checkpoint();
+        match GearPair::resolve(&design.with_tooth_count(count)) {
+            Ok(pair) => return Ok(pair),
+            Err(error) if count >= MAX_TEETH => {
+                return Err(NoSoundTeeth::Gears {
+                    pair: name.into(),
+                    error: Box::new(error),
+                });
+            }
+            Err(_) => count = (count + count / 4).min(MAX_TEETH),
+        }
+    }
+}

@@ -1,0 +1,183 @@
+//! Spaces fitted to the tips that enter them.
+
+use centrode_geometry::{bracketed_root, checkpoint};
+
+use super::{
+    fitted::{Fitting, Tip},
+    flank::{Flank, Side},
+    profile::{FlankPlan, ToothPlan},
+    rolling::Member,
+    tool::{Corner, Tool},
+};
+
+/// Active depth of a flank over its mate's reach, so that the mate's tip edge clears the fillet.
+const SPARE: f64 = 1.02;
+
+/// Greatest rounding of a space's corner, as a share of its depth.
+const ROUNDEST: f64 = 0.8;
+
+/// Least share of a straight rack's flank speed down to which a flank goes on below where its mate works.
+const SLOWEST: f64 = 0.01;
+
+/// Places of a tip on its way from the flank to the root at which it is held against the corner: at first, and where it is near.
+const PLACES: [u32; 2] = [8, 32];
+
+/// Nearness of a tip to the corner that so many places may miss, as a share of the depth times the square of their number.
+const BETWEEN: f64 = 1e-2;
+
+/// Place of a tip on that way: the arc length rolled, and how far the tip is ahead and above the point at which the pitch curves touch.
+type Place = (f64, [f64; 2]);
+
+impl Fitting<'_> {
+    /// The corner of a space of some depth beside a flank that a tip works on; none where it would cut into that flank.
+    pub(super) fn corner_below(
+        &self,
+        member: Member,
+        depth: f64,
+        tip: Tip,
+        space: f64,
+    ) -> Option<Corner> {
+        let end = SPARE * tip.0;
+        let found = corner(self.tool(member), depth, end, space);
+        (found.end <= end * (1.0 + 1e-9)).then_some(found)
+    }
+
+    /// Fits every space of a gear to the tips that enter it: of `meshes` teeth the mate's k + `ahead` enters the
+    /// space after tooth k. One depth a space, below the higher tip,
+    /// where the flanks bear it; a fillet below each flank. The teeth take up `length` of the pitch curve.
+    pub(super) fn serve(
+        &self,
+        member: Member,
+        teeth: &mut [ToothPlan],
+        (mates, ahead, meshes): (&[[Tip; 2]], usize, usize),
+        length: f64,
+        space: f64,
+    ) {
+        let (tool, clearance) = (self.tool(member), self.clearance(member));
+        let higher = |a: Tip, b: Tip| (a.0.max(b.0), a.1.max(b.1));
+        let count = teeth.len();
+        for k in 0..count {
+            checkpoint();
+            let entering: Vec<(f64, [Tip; 2])> = (k..meshes)
+                .step_by(count)
+                .map(|turn| {
+                    let rolled = length * (turn / count) as f64;
+                    (rolled, mates[(turn + ahead) % mates.len()])
+                })
+                .collect();
+            let highest = |side: usize| {
+                let tips = entering.iter().map(|(_, tips)| tips[side]);
+                tips.fold((0.0, 0.0), higher)
+            };
+            let (before, after) = (highest(0), highest(1));
+            let depth = before.1.max(after.1) + clearance;
+            let settle = |flank: &mut FlankPlan, side: Side, rolled: f64, tip: Tip| {
+                // Where the shared depth would undercut the flank, the root rises to its own.
+                let shared = self.corner_below(member, depth, tip, space);
+                let corner =
+                    shared.unwrap_or_else(|| corner(tool, tip.1 + clearance, SPARE * tip.0, space));
+                let mate = usize::from(side == Side::Leading);
+                flank.corner = entering.iter().fold(corner, |corner, &(turns, tips)| {
+                    let flank = self.flank(member, side, flank.crossing + rolled + turns);
+                    self.clear_corner(corner, &flank, tips[mate].0)
+                });
+                flank.active_depth = tip.0;
+            };
+            settle(&mut teeth[k].trailing, Side::Trailing, 0.0, before);
+            let (next, rolled) = match k + 1 {
+                next if next == count => (0, length),
+                next => (next, 0.0),
+            };
+            settle(&mut teeth[next].leading, Side::Leading, rolled, after);
+        }
+    }
+
+    /// A corner with the rounding made as small as the mate's tip needs, which comes by it on its way from the flank to the root, as
+    /// far as the flank goes on above it. The tip works on the flank down to a roll.
+    fn clear_corner(&self, corner: Corner, flank: &Flank<'_>, rolled: f64) -> Corner {
+        let beyond = |path: &[Place], radius: f64| {
+            let corner = flank.tool.corner(corner.depth, radius);
+            path.iter()
+                .map(|&(arc, tip)| flank.beyond_corner(&corner, arc, tip))
+                .fold(-radius, f64::max)
+                + BETWEEN * corner.depth / (path.len() as f64).powi(2)
+        };
+        let mut path = Vec::new();
+        let mut round = 0.0;
+        for places in PLACES {
+            path = tip_path(flank, rolled, places);
+            round = beyond(&path, corner.radius);
+            if round <= 0.0 || corner.radius == 0.0 {
+                return corner;
+            }
+        }
+        let beyond = |radius: f64| beyond(&path, radius);
+        let sharp = flank.tool.corner(corner.depth, 0.0).end;
+        // The flank goes on as far as it moves on.
+        let [from, to] = [rolled, sharp].map(|roll| {
+            let arc = flank.crossing + flank.side.sign() * roll;
+            flank.rolling.parameter(arc)
+        });
+        let deepest = match flank.slower(SLOWEST, from, to) {
+            Some(t) => flank.side.sign() * (flank.rolling.arc_length(t) - flank.crossing),
+            None => sharp,
+        };
+        let ends = |radius: f64| flank.tool.corner(corner.depth, radius).end - deepest;
+        let minimum = match ends(corner.radius) {
+            above if above >= 0.0 => return corner,
+            above if sharp > deepest => {
+                bracketed_root(ends, 0.0, corner.radius, sharp - deepest, above)
+            }
+            _ => 0.0,
+        };
+        let small = beyond(minimum);
+        let radius = match small <= 0.0 {
+            true => bracketed_root(beyond, minimum, corner.radius, small, round),
+            false => minimum,
+        };
+        flank.tool.corner(corner.depth, radius)
+    }
+}
+
+/// The way of a mate's tip from a flank, on which it works down to a roll below the crossing, to the root.
+fn tip_path(flank: &Flank<'_>, rolled: f64, places: u32) -> Vec<Place> {
+    let cos = flank.tool.pressure_angle.cos();
+    let mate = Flank {
+        member: flank.member.mate(),
+        side: flank.side.other(),
+        ..*flank
+    };
+    let arc = |share: f64| mate.crossing - mate.side.sign() * rolled * share;
+    let tip = mate.point(mate.rolling.parameter(arc(1.0)));
+    // The tip is deepest about where it stands above the pitch curve.
+    let shares = (1..=places).map(|i| 1.0 - cos * cos * f64::from(i) / f64::from(places));
+    shares
+        .map(|share| {
+            let frame = mate.frame(mate.rolling.parameter(arc(share)));
+            let offset = tip - frame.point;
+            (
+                arc(share),
+                [offset.dot(&frame.tangent), -offset.dot(&frame.normal)],
+            )
+        })
+        .collect()
+}
+
+/// The corner of a space whose root is `depth` deep and whose flank is worked down to a roll `end`
+/// below its crossing: the largest rounding that starts there and fits a space `space` wide.
+fn corner(tool: &Tool, depth: f64, end: f64, space: f64) -> Corner {
+    // A centre on the pitch curve itself would cut the whole fillet in one instant.
+    let maximum = tool
+        .maximum_tip_radius(depth, space)
+        .clamp(0.0, ROUNDEST * depth);
+    let beyond = |radius: f64| tool.corner(depth, radius).end - end;
+    let (sharp, round) = (beyond(0.0), beyond(maximum));
+    let radius = if round >= 0.0 {
+        maximum
+    } else if sharp <= 0.0 {
+        0.0
+    } else {
+        bracketed_root(beyond, 0.0, maximum, sharp, round)
+    };
+    tool.corner(depth, radius)
+}

@@ -1,0 +1,37 @@
+//! Copies of loads.
+
+use nalgebra::{Rotation2, Vector2};
+
+use super::{ChainCopy, Spin};
+use crate::machine::points::Reference;
+use crate::machine::{LoadAxes, MachineDesign, MachineError};
+
+impl ChainCopy<'_> {
+    /// Adds the loads on the bodies that are copied: turned with a copy that is the original turned, ahead by the input where
+    /// a copy stands as the original does later.
+    pub(super) fn loads(&mut self, design: &MachineDesign) -> Result<(), MachineError> {
+        for (name, load) in &design.loads {
+            if !self.bodies.contains(&Reference::to_body(&load.on).body) {
+                continue;
+            }
+            let key = format!("loads.{name}");
+            let mut copy = load.clone();
+            copy.on = self.word(&format!("{key}.on"), &load.on)?;
+            if let (Spin::Still, LoadAxes::World, Some(force)) =
+                (self.spin, load.axes, &mut copy.force)
+            {
+                let turned = Rotation2::new(self.turn) * Vector2::from(*force);
+                *force = turned.into();
+            }
+            let taken = self.whole.loads.contains_key(&self.copy(name));
+            let copied = self.name(name, taken)?;
+            if load.expression.is_some() || load.over.is_some() {
+                let what = format!("a load that changes with the input, {name}");
+                let ahead = self.ahead(&key, &what)?;
+                self.run_ahead(format!("loads.{copied}"), ahead);
+            }
+            self.whole.loads.insert(copied, copy);
+        }
+        Ok(())
+    }
+}

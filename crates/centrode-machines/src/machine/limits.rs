@@ -1,0 +1,147 @@
+//! Limits of the numbers and names of a composed machine's file.
+
+use std::collections::BTreeMap;
+
+use super::{Machine, MachineDesign, MachineError};
+use centrode_spec::rule::in_range;
+use centrode_spec::{Design, SpecError, numbers_of};
+
+/// Greatest length and coordinate, mm.
+const FAR: f64 = 1e5;
+/// Greatest number of any other kind.
+const MOST: f64 = 1e9;
+/// Words of keys that hold lengths.
+const LENGTHS: [&str; 19] = [
+    "arm_length",
+    "base_radius",
+    "below",
+    "center",
+    "circle",
+    "corner_radius",
+    "face_offset",
+    "gap",
+    "heights",
+    "lengths",
+    "lift",
+    "offset",
+    "outline",
+    "points",
+    "radius",
+    "roller_radius",
+    "start",
+    "thickness",
+    "width",
+];
+/// Files of the whole machine.
+const OWN_FILES: [&str; 2] = ["assembly", "sheets"];
+/// Tables of the whole machine: gears and cams have tables, too.
+const OWN_TABLES: [&str; 2] = ["motion", "parts"];
+/// Names that Windows keeps for devices.
+const DEVICES: [&str; 4] = ["aux", "con", "nul", "prn"];
+/// Tables whose numbers say what is wanted, not what the machine is.
+const REQUIRED: [&str; 2] = ["goals", "vary"];
+
+impl MachineDesign {
+    /// Checks that no number is beyond what a machine can have.
+    pub(super) fn check_sizes(&self) -> Result<(), SpecError> {
+        for (key, number) in numbers_of(self) {
+            let mut words = key.split(['.', '[']);
+            let is_length = words.any(|word| LENGTHS.contains(&word));
+            let (most, unit) = if is_length { (FAR, " mm") } else { (MOST, "") };
+            in_range(&key, number, [-most, most], unit)?;
+        }
+        Ok(())
+    }
+
+    /// Checks that whatever a search may move is a number of the machine.
+    ///
+    /// # Errors
+    /// [`MachineError::Refused`] with the key at fault.
+    pub fn check_vary(&self) -> Result<(), MachineError> {
+        for key in self.vary.keys() {
+            let refused = |why: String| MachineError::Refused {
+                key: format!("vary.{key}"),
+                why,
+            };
+            let table = key.split('.').next().unwrap_or_default();
+            if REQUIRED.contains(&table) || key == "input.turns" {
+                return Err(refused(
+                    "says what is wanted: a search moves numbers of the machine alone".into(),
+                ));
+            }
+            let numbered = Design::numbered(self, key);
+            numbered.map_err(|error| refused(error.message()))?;
+        }
+        Ok(())
+    }
+}
+
+impl Machine {
+    /// Checks that every part has files of its own.
+    pub(super) fn check_names(&self) -> Result<(), MachineError> {
+        let named = |table: &str, name: &String| (format!("{table}.{name}"), name.clone());
+        let design = &self.written;
+        let mut stems: Vec<(String, String)> = Vec::new();
+        stems.extend(design.bodies.keys().map(|name| named("bodies", name)));
+        for name in design.gears.keys() {
+            let (key, name) = named("gears", name);
+            stems.push((key.clone(), format!("{name}-pins")));
+            stems.push((key, name));
+        }
+        for name in design.cams.keys() {
+            let (key, name) = named("cams", name);
+            stems.push((key.clone(), format!("{name}-assembly")));
+            stems.push((key, name));
+        }
+        if self.has_frame_plates() {
+            stems.extend(
+                [Self::FRAME_TOP, Self::POSTS].map(|name| ("hardware".to_owned(), name.to_owned())),
+            );
+        }
+        let mut taken: BTreeMap<String, String> = BTreeMap::new();
+        for (key, stem) in &stems {
+            let refused = |why: String| {
+                let key = key.clone();
+                Err(MachineError::Refused { key, why })
+            };
+            // File systems may take small and capital letters for one.
+            let small = stem.to_ascii_lowercase();
+            let is_tabled = !key.starts_with("bodies.");
+            let is_table = is_tabled && OWN_TABLES.contains(&small.as_str());
+            if OWN_FILES.contains(&without_sheet(&small)) || is_table {
+                return refused(format!(
+                    "a file of the whole machine is named {small}: give the part another name"
+                ));
+            }
+            if DEVICES.contains(&small.as_str()) || small.starts_with('-') {
+                return refused("is no name for a file: give the part another one".into());
+            }
+            if let Some(other) = taken.insert(small, key.clone()) {
+                return refused(one_name(key, &other));
+            }
+        }
+        for (key, stem) in stems {
+            let small = stem.to_ascii_lowercase();
+            let part = without_sheet(&small);
+            if let Some(other) = taken.get(part).filter(|_| part != small) {
+                let why = one_name(&key, other);
+                return Err(MachineError::Refused { key, why });
+            }
+        }
+        Ok(())
+    }
+}
+
+fn one_name(key: &str, other: &str) -> String {
+    format!("the files of {key} and {other} would have one name: give one of them another")
+}
+
+/// The name of the part whose drawing sheet a name could be: `a` for `a-sheet` and `a-sheet-2`.
+fn without_sheet(name: &str) -> &str {
+    let numbered = name
+        .trim_end_matches(|c: char| c.is_ascii_digit())
+        .strip_suffix('-');
+    let is_sheet = |name: &&str| name.ends_with("-sheet");
+    let sheet = numbered.filter(is_sheet).unwrap_or(name);
+    sheet.strip_suffix("-sheet").unwrap_or(name)
+}

@@ -1,0 +1,415 @@
+//! Composed machines: bodies that turn, slide or are fixed, driven by laws of one input and tied by dyads.
+//!
+//! A body has axes of its own. One that turns has its origin on its pin; one that slides has its first axis along its line;
+//! the bodies of a dyad have theirs as those of a [`Linkage`]. The input is the angle of the driving shaft, rad.
+
+mod axis;
+mod axis_list;
+mod body;
+mod build;
+mod camming;
+mod cams;
+mod clearance_end;
+mod contour;
+mod copies;
+mod copying;
+mod corner;
+mod cutting;
+mod design;
+mod drive;
+mod dyad;
+mod error;
+mod expansion;
+mod figure;
+mod frame;
+mod gearing;
+mod gears;
+mod given_mass;
+mod goal;
+mod hardware;
+mod input_formula;
+mod law;
+mod layers;
+mod limits;
+mod links;
+mod load;
+mod mesh;
+mod obstacle;
+mod pair_figure;
+mod pieces;
+mod pins;
+mod plates;
+mod points;
+mod resolve;
+mod seating;
+mod shaft_parts;
+mod shafts;
+mod sizes;
+mod slots;
+mod spacing;
+mod table;
+#[cfg(test)]
+mod tests;
+mod touching;
+
+use std::collections::BTreeMap;
+use std::sync::{Arc, OnceLock};
+
+use centrode_geometry::{Jet, Outline, Point, Vector};
+
+pub use body::MachineBodySpec;
+pub use camming::MachineCam;
+pub use cams::{
+    MachineCamSpec, MachineFollowerSpec, MachineSlidingRoller, MachineSwingingFlat,
+    MachineSwingingRoller,
+};
+pub use clearance_end::ClearanceEnd;
+pub use contour::{MachineCircleSpec, MachineCornerSpec};
+pub use copies::MachineCopiesSpec;
+pub use corner::{CornerSpec, MachinePointsSpec, Side};
+pub use design::{MachineDesign, MachineInputSpec};
+pub use drive::{IntermittentSpec, TraverseSpec};
+pub use dyad::{DyadKind, MachineDyadSpec};
+pub use error::MachineError;
+pub use figure::{FIGURE_FORMS, MachineFigure, PointPart};
+pub use frame::Overhang;
+pub use gearing::MachineGear;
+pub use gears::{GearRole, MachineGearSpec, MachineLoopSpec, MachineMeshSpec};
+pub use goal::{MachineGoalSpec, Over};
+pub use hardware::Hardware;
+pub use law::{MachineLawError, MachineLawSpec};
+pub use layers::LayerOrders;
+pub use load::{LoadAxes, MachineLoadSpec};
+pub use obstacle::{MachineObstacle, MachineObstacleSpec};
+pub use pair_figure::PAIR_FIGURES;
+pub use plates::{MachinePlatesSpec, PinHole};
+pub use shafts::{Hold, MachineShaft, ShaftPart};
+pub use sizes::Plates;
+pub use slots::Slot;
+pub use spacing::Frames;
+pub use table::TableReading;
+
+use self::expansion::Expansion;
+use self::frame::FramePlates;
+use self::gearing::Meshing;
+use self::load::MachineLoad;
+use self::points::BodyPoints;
+use self::sizes::Sized;
+use self::spacing::Passage;
+use centrode_kinematics::linkage::{Line, LinkId, Linkage};
+use centrode_kinematics::machine::{JointKind, TurnedPieces};
+use centrode_kinematics::transmission::{MotionJet, Transmission};
+
+/// A composed machine: its bodies in the order in which they need each other, and their motion.
+#[derive(Clone, Debug)]
+pub struct Machine {
+    /// The design as written, and with its copies written out.
+    written: MachineDesign,
+    design: Sized,
+    expansion: Expansion,
+    linkage: Linkage,
+    bodies: Vec<MachineBody>,
+    dyads: Vec<MachineDyad>,
+    pins: Vec<Pin>,
+    points: BodyPoints,
+    /// Contours of the bodies that are drawn by hand, by name.
+    drawn: BTreeMap<String, Outline>,
+    figures: Vec<MachineFigure>,
+    gears: Vec<MachineGear>,
+    meshes: Vec<Meshing>,
+    cams: Vec<MachineCam>,
+    loads: Vec<MachineLoad>,
+    obstacles: Vec<MachineObstacle>,
+    shafts: OnceLock<Vec<MachineShaft>>,
+    turned: OnceLock<Vec<TurnedPieces>>,
+    passage: OnceLock<Passage>,
+    frame: OnceLock<Option<FramePlates>>,
+}
+
+/// A body of a composed machine.
+#[derive(Clone, Debug)]
+pub struct MachineBody {
+    /// Name.
+    pub name: String,
+    /// Link of the linkage.
+    pub link: LinkId,
+    /// Joint that carries it; none for the frame.
+    pub mount: Option<Mount>,
+}
+
+/// Joint that carries a body.
+#[derive(Clone, Debug)]
+pub struct Mount {
+    /// Index of the body that carries.
+    pub carrier: usize,
+    /// Place of the joint in the carrier's axes, mm.
+    pub at: Point,
+    /// Turn of the joint's axes against the carrier's, rad.
+    pub angle: f64,
+    /// How it moves; a slide along the first axis.
+    pub kind: JointKind,
+    /// Its coordinate by the input, rad or mm.
+    pub law: Arc<dyn Transmission>,
+}
+
+/// A dyad of a composed machine.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MachineDyad {
+    /// Name.
+    pub name: String,
+    /// Kind.
+    pub kind: DyadKind,
+    /// Indices of its two bodies.
+    pub bodies: [usize; 2],
+}
+
+/// Pin that closes a loop.
+#[derive(Clone, Debug, PartialEq)]
+struct Pin {
+    bodies: [usize; 2],
+    /// Place in the axes of the first, mm.
+    at: Point,
+}
+
+impl Pin {
+    fn new(bodies: [usize; 2], at: Point) -> Self {
+        Self { bodies, at }
+    }
+}
+
+impl Mount {
+    fn fixed(carrier: usize, at: Point, angle: f64) -> Self {
+        Self {
+            carrier,
+            at,
+            angle,
+            kind: JointKind::Fixed,
+            law: Arc::new(centrode_kinematics::machine::Constant(0.0)),
+        }
+    }
+
+    fn turning(carrier: usize, at: Point, law: Arc<dyn Transmission>) -> Self {
+        Self {
+            kind: JointKind::Turning,
+            law,
+            ..Self::fixed(carrier, at, 0.0)
+        }
+    }
+
+    fn sliding(carrier: usize, line: &Line, law: Arc<dyn Transmission>, range: [f64; 2]) -> Self {
+        Self {
+            kind: JointKind::Sliding(range),
+            law,
+            ..Self::fixed(carrier, line.through, line.angle)
+        }
+    }
+
+    /// Place of what slides along it by a distance, in the carrier's axes, mm.
+    fn along(&self, distance: f64) -> Point {
+        let (sin, cos) = self.angle.sin_cos();
+        self.at + Vector::new(cos, sin) * distance
+    }
+
+    /// Sets the motion, and the range of a slide.
+    fn follow(
+        &mut self,
+        law: Arc<dyn Transmission>,
+        range: impl Fn(&dyn Transmission) -> [f64; 2],
+    ) {
+        if let JointKind::Sliding(of) = &mut self.kind {
+            *of = range(law.as_ref());
+        }
+        self.law = law;
+    }
+}
+
+impl Machine {
+    /// The design as written.
+    #[must_use]
+    pub fn design(&self) -> &MachineDesign {
+        &self.written
+    }
+
+    /// The design with its copies written out.
+    #[must_use]
+    pub fn whole(&self) -> &MachineDesign {
+        &self.design
+    }
+
+    /// Original of a body, dyad, gear or cam by its name: itself where it is no copy.
+    #[must_use]
+    pub fn original<'a>(&'a self, name: &'a str) -> &'a str {
+        self.expansion.original(name)
+    }
+
+    /// The machine as a linkage.
+    #[must_use]
+    pub fn linkage(&self) -> &Linkage {
+        &self.linkage
+    }
+
+    /// Bodies in the order in which they need each other, the frame first.
+    #[must_use]
+    pub fn bodies(&self) -> &[MachineBody] {
+        &self.bodies
+    }
+
+    /// Dyads in the order in which they close.
+    #[must_use]
+    pub fn dyads(&self) -> &[MachineDyad] {
+        &self.dyads
+    }
+
+    /// Gears in the order of their names.
+    #[must_use]
+    pub fn gears(&self) -> &[MachineGear] {
+        &self.gears
+    }
+
+    /// Cams in the order of their names.
+    #[must_use]
+    pub fn cams(&self) -> &[MachineCam] {
+        &self.cams
+    }
+
+    /// Figures of the goals, in the order of their names.
+    #[must_use]
+    pub fn figures(&self) -> &[MachineFigure] {
+        &self.figures
+    }
+
+    /// Input after which the machine repeats, rad.
+    #[must_use]
+    pub fn period(&self) -> f64 {
+        self.linkage.period()
+    }
+
+    /// Inputs in a period at which a motion or a load may jump, ascending.
+    #[must_use]
+    pub fn breaks(&self) -> Vec<f64> {
+        let mut breaks = self.linkage.breaks().to_vec();
+        breaks.extend(self.loads.iter().flat_map(MachineLoad::breaks));
+        breaks.sort_by(f64::total_cmp);
+        breaks.dedup();
+        breaks
+    }
+
+    /// Speed of the input, rad/s.
+    #[must_use]
+    pub fn speed(&self) -> f64 {
+        self.design.input.speed_rpm * std::f64::consts::TAU / 60.0
+    }
+
+    /// Index of a body by its name.
+    #[must_use]
+    pub fn body_named(&self, name: &str) -> Option<usize> {
+        self.bodies.iter().position(|body| body.name == name)
+    }
+
+    /// Every point by `body.point`, with the index of its body and its place in the body's axes, mm: those of the bodies
+    /// themselves, not the pins on which they turn.
+    pub fn points(&self) -> impl Iterator<Item = (String, usize, Point)> + '_ {
+        self.bodies
+            .iter()
+            .enumerate()
+            .flat_map(move |(index, body)| {
+                let points = self.points.get(&body.name).into_iter().flatten();
+                let own = points.filter(|(_, point)| point.own);
+                own.map(move |(name, point)| (format!("{}.{name}", body.name), index, point.at))
+            })
+    }
+
+    /// Finds a point by `body.point`, or by its own name where no other body has one of that name: index of its body, and
+    /// place in the body's axes, mm.
+    #[must_use]
+    pub fn point_named(&self, word: &str) -> Option<(usize, Point)> {
+        if let Some((body, point)) = word.split_once('.') {
+            let at = self.points.get(body)?.get(point)?.at;
+            return Some((self.body_named(body)?, at));
+        }
+        let named = |name: &str| {
+            name.rsplit_once('.')
+                .is_some_and(|(_, point)| point == word)
+        };
+        let mut found = self.points().filter(|(name, ..)| named(name));
+        match (found.next(), found.next()) {
+            (Some((_, body, at)), None) => Some((body, at)),
+            _ => None,
+        }
+    }
+
+    /// Motion of a point of a body by the input: place in mm and its derivatives.
+    ///
+    /// # Panics
+    /// Never for the index of a body.
+    #[must_use]
+    pub fn point(&self, body: usize, at: Point, input: f64) -> Jet {
+        self.linkage.body(self.bodies[body].link, input).point(at)
+    }
+
+    /// Place of a point of a body at an input, mm.
+    ///
+    /// # Panics
+    /// Never for the index of a body.
+    #[must_use]
+    pub fn place(&self, body: usize, at: Point, input: f64) -> Point {
+        self.linkage.place(self.bodies[body].link, at, input)
+    }
+
+    /// Places of points of bodies at each of many inputs, mm, input by input; see [`Linkage::places_each`].
+    ///
+    /// # Panics
+    /// Never for indices of bodies.
+    #[must_use]
+    pub fn places_each(&self, points: &[(usize, Point)], inputs: &[f64]) -> Vec<[f64; 2]> {
+        self.linkage.places_each(&self.on_links(points), inputs)
+    }
+
+    /// Writes [`places_each`](Self::places_each), as far as there is room; see [`Linkage::write_places`].
+    ///
+    /// # Panics
+    /// Never for indices of bodies.
+    pub fn write_places(&self, points: &[(usize, Point)], inputs: &[f64], places: &mut [[f64; 2]]) {
+        let points = self.on_links(points);
+        self.linkage.write_places(&points, inputs, places);
+    }
+
+    /// Place (mm) and velocity (mm per radian of the input) of each of several points of bodies at an input; see
+    /// [`Linkage::moving`].
+    ///
+    /// # Panics
+    /// Never for indices of bodies.
+    #[must_use]
+    pub fn moving(&self, points: &[(usize, Point)], input: f64) -> Vec<(Point, Vector)> {
+        self.linkage.moving(&self.on_links(points), input)
+    }
+
+    /// Points of bodies as points of links.
+    fn on_links(&self, points: &[(usize, Point)]) -> Vec<(LinkId, Point)> {
+        let points = points.iter();
+        points
+            .map(|(body, at)| (self.bodies[*body].link, *at))
+            .collect()
+    }
+
+    /// Angle of a body's first axis by the input, without jumps, rad.
+    #[must_use]
+    pub fn angle(&self, body: usize, input: f64) -> MotionJet {
+        let Some(mount) = self.bodies.get(body).and_then(|body| body.mount.as_ref()) else {
+            return MotionJet::default();
+        };
+        let mut angle = self.angle(mount.carrier, input);
+        angle.position += mount.angle;
+        match mount.kind {
+            JointKind::Turning => angle.plus(1.0, &mount.law.at(input)),
+            _ => angle,
+        }
+    }
+
+    /// Transmission angles of the dyads, in their order, at an input, rad: a right angle where a dyad holds best; see
+    /// [`Linkage::transmission_angles`].
+    #[must_use]
+    pub fn transmission_angles(&self, input: f64) -> Vec<f64> {
+        self.linkage.transmission_angles(input)
+    }
+}

@@ -1,0 +1,155 @@
+//! Motion of a dyad's ends, from which another type takes its lengths and lines.
+
+use centrode_geometry::{Point, Vector};
+use centrode_machines::machine::Machine;
+use serde_json::Value as Json;
+
+/// Inputs of a period at which the old dyad is looked at.
+const SAMPLES: u32 = 48;
+
+/// Words of a key of the dyad as written.
+pub(super) fn written(spec: &Json, key: &str) -> Option<String> {
+    Some(spec.get(key)?.as_str()?.to_owned())
+}
+
+/// The words of both ends: pins, or points of lines.
+pub(super) fn ends(spec: &Json) -> Option<[String; 2]> {
+    let words: Vec<String> = ["from", "to", "line", "second_line"]
+        .iter()
+        .filter_map(|key| written(spec, key))
+        .collect();
+    words.try_into().ok()
+}
+
+/// Motion of a dyad's ends and of its joint.
+#[derive(Clone)]
+pub(super) struct Course {
+    /// The ends, in the axes of the frame, at every input.
+    pub(super) ends: [Vec<Point>; 2],
+    /// The bodies that hold them.
+    pub(super) holders: [Vec<Frame>; 2],
+    /// The joint, where it has one.
+    pub(super) joint: Option<Vec<Point>>,
+    /// The points that the type gives its two bodies, with their names.
+    pub(super) given: [Vec<(String, Vec<Point>)>; 2],
+}
+
+impl Course {
+    pub(super) fn new(machine: &Machine, name: &str, spec: &Json) -> Option<Self> {
+        let inputs: Vec<f64> = (0..SAMPLES)
+            .map(|i| machine.period() * f64::from(i) / f64::from(SAMPLES))
+            .collect();
+        let way = |(body, at): (usize, Point)| -> Vec<Point> {
+            inputs.iter().map(|i| machine.place(body, at, *i)).collect()
+        };
+        let found = |word: &String| match word.split_once('.') {
+            Some(_) => machine.point_named(word),
+            None => Some((machine.body_named(word)?, Point::origin())),
+        };
+        let held = ends(spec)?;
+        let [a, b] = [found(&held[0])?, found(&held[1])?];
+        let frames = |body: usize| -> Vec<Frame> {
+            let at = inputs.iter().map(|input| Frame {
+                origin: machine.place(body, Point::origin(), *input),
+                angle: machine.angle(body, *input).position,
+            });
+            at.collect()
+        };
+        let dyad = machine.dyads().iter().find(|dyad| dyad.name == name)?;
+        let joint = written(spec, "joint");
+        let joint = joint.and_then(|joint| {
+            let bodies = dyad.bodies.iter();
+            let mut places = bodies.filter_map(|body| {
+                let word = format!("{}.{joint}", machine.bodies()[*body].name);
+                machine.point_named(&word)
+            });
+            places.next()
+        });
+        let joint = joint.or_else(|| {
+            // A yoke's own place where its slot crosses its line.
+            (spec.get("type")? == "RPP").then(|| (dyad.bodies[1], Point::origin()))
+        });
+        let names = ["from", "to", "joint"].map(|key| written(spec, key));
+        let names: Vec<String> = names
+            .into_iter()
+            .flatten()
+            .filter_map(|word| Some(word.rsplit('.').next()?.to_owned()))
+            .collect();
+        let given = dyad.bodies.map(|body| {
+            let own = &machine.bodies()[body].name;
+            let spec = machine.whole().bodies.get(own);
+            let is_written = |name: &str| {
+                spec.is_some_and(|own| {
+                    own.points.contains_key(name) || own.corners.contains_key(name)
+                })
+            };
+            let names = names.iter().filter(|name| !is_written(name));
+            let named = names.filter_map(|name| {
+                let place = machine.point_named(&format!("{own}.{name}"))?;
+                Some((name.clone(), way(place)))
+            });
+            named.collect()
+        });
+        Some(Self {
+            ends: [way(a), way(b)],
+            holders: [frames(a.0), frames(b.0)],
+            joint: joint.map(way),
+            given,
+        })
+    }
+
+    pub(super) fn count(&self) -> usize {
+        self.ends[0].len()
+    }
+
+    /// Distance of the ends, mm, at every input.
+    fn apart(&self) -> impl Iterator<Item = f64> + '_ {
+        let [a, b] = &self.ends;
+        a.iter().zip(b).map(|(a, b)| (b - a).norm())
+    }
+
+    pub(super) fn farthest(&self) -> f64 {
+        self.apart().fold(0.0, f64::max)
+    }
+
+    /// The dyad from its other end.
+    pub(super) fn reversed(mut self) -> Self {
+        self.ends.reverse();
+        self.holders.reverse();
+        self.given.reverse();
+        self
+    }
+
+    /// Greatest distance of the first end from a line through a point of the second end's holder.
+    pub(super) fn off(&self, through: Point, angle: f64) -> f64 {
+        let along = unit(angle);
+        let places = self.ends[0].iter().zip(&self.holders[1]);
+        let off = places.map(|(a, holder)| along.perp(&(holder.seen(*a) - through)).abs());
+        off.fold(0.0, f64::max)
+    }
+}
+
+/// Axes of a body.
+#[derive(Clone, Copy)]
+pub(super) struct Frame {
+    pub(super) origin: Point,
+    pub(super) angle: f64,
+}
+
+impl Frame {
+    /// Axes at a place, the first one along a way.
+    pub(super) fn along(origin: Point, way: Vector) -> Self {
+        let angle = way.y.atan2(way.x);
+        Self { origin, angle }
+    }
+
+    /// A place as it is seen from these axes.
+    pub(super) fn seen(&self, place: Point) -> Point {
+        let (way, along) = (place - self.origin, unit(self.angle));
+        Point::new(along.dot(&way), along.perp(&way))
+    }
+}
+
+pub(super) fn unit(angle: f64) -> Vector {
+    Vector::new(angle.cos(), angle.sin())
+}

@@ -1,8 +1,0 @@
-//! Composed machines made from paths, and gears that drive a machine's crank.
-
-mod driven;
-mod reversed;
-
-pub use driven::{GearDrive, GearDriveError, GearDriveSpec};
-pub use reversed::{MachineError, ReversedMachine};
-pub(crate) use reversed::{free_backlash, free_body};
