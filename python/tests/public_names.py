@@ -142,7 +142,7 @@ def read(text):
 
 
 def removed(old, new):
-    """Names and parameters that are there no more, as a line in CHANGELOG.md has to tell them."""
+    """Names and parameters that are there no more, as CHANGELOG.md has to name them."""
     gone = []
     for name, words in old.items():
         if name not in new:
@@ -154,9 +154,11 @@ def removed(old, new):
 
 
 def untold(gone, changelog):
-    """Names of those that have gone of which the changelog does not tell since the last release."""
-    told = re.search(r"^## \[Unreleased\]$(.*?)(?=^## |\Z)", changelog, re.MULTILINE | re.DOTALL)[1]
-    return [name for name in gone if f"`{name}`" not in told]
+    """Names of those that have gone that the changelog does not name since the last release; before the first, none."""
+    if not re.search(r"^## \[\d", changelog, re.MULTILINE):
+        return []
+    stated = re.search(r"^## \[Unreleased\]$(.*?)(?=^## |\Z)", changelog, re.MULTILINE | re.DOTALL)[1]
+    return [name for name in gone if f"`{name}`" not in stated]
 
 
 def main():

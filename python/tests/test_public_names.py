@@ -54,4 +54,5 @@ def test_what_has_gone_must_be_told():
     assert removed(new, old) == ["A.f(w=)"]
     log = "# Changelog\n## [Unreleased]\n### Removed\n- `B`, and `A(x=)`.\n## [0.1.0]\n- `cam.h`\n"
     assert untold(["A(x=)", "B", "cam.h"], log) == ["cam.h"]
+    assert untold(["cam.h"], "# Changelog\n## [Unreleased]\n") == []
     assert read(written(old)) == old

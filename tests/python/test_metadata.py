@@ -187,3 +187,24 @@ def test_files_about_the_project_name_files_that_exist():
             assert (ROOT / called).exists(), f"{name}: {called}"
         for document in re.findall(r"\b([A-Z_]{4,}\.md)\b", text):
             assert Path(ROOT, document).exists(), f"{name}: {document}"
+
+
+def test_the_architecture_is_short_and_every_file_it_names_is_there():
+    text = (ROOT / "ARCHITECTURE.md").read_text()
+    assert text.count("\n") <= 120
+    walks = re.findall(r"`((?:crates|python)/[^`]+)`", text)
+    assert len(walks) > 25
+    assert [name for name in walks if not (ROOT / name).exists()] == []
+    named = set(re.findall(r"^\| `(centrode[a-z-]*)` \|", text, re.MULTILINE))
+    assert named == {path.parent.name for path in (ROOT / "crates").glob("*/Cargo.toml")}
+
+
+def test_each_file_to_add_has_its_folder_and_its_one_line_a_file():
+    table = (ROOT / "CONTRIBUTING.md").read_text().partition("one file, one line")[2].partition("\n\n`")[0]
+    rows = [row.split("|") for row in table.splitlines() if row.startswith("| a ")]
+    assert len(rows) > 8
+    for row in rows:
+        for name in re.findall(r"`((?:crates|tests|docs|python)/[^`]+)`", row[2] + row[3]):
+            folder = name.replace("<family>", "feeder").replace("<folder>", "theory")
+            folder = folder.rpartition("/")[0] if "<name>" in folder or "*" in folder else folder
+            assert (ROOT / folder).exists(), name
