@@ -61,7 +61,7 @@ const LINES = {
   trace: ["accent", 1.5, []],
   locus: ["pinned", 1.5, [2, 3]],
   overground: ["accent", 1.2, [2, 4]],
-  beside: ["muted", 1.2, [3, 2]],
+  adjacent: ["muted", 1.2, [3, 2]],
   pose: ["pinned", 1.5, [5, 3]],
   ground: ["muted", 1.5, [12, 4]],
   window: ["pinned", 1.2, [6, 4]],

@@ -355,7 +355,7 @@ export function wantedLines(wish) {
   const { x, y, direction_deg, direction_tolerance_deg } = wish[wish.given];
   const at = (i) => [x[i], y[i]];
   if (wish.given === "poses") return direction_deg.map((angle, i) => ray("clamp", at(i), CLAMP * sizeOf(wish.poses), angle));
-  const found = wish.given === "stroke" ? [{ role: "beside", closed: false, vertices: x.flatMap((one, i) => [one, y[i], 0]) }] : [];
+  const found = wish.given === "stroke" ? [{ role: "adjacent", closed: false, vertices: x.flatMap((one, i) => [one, y[i], 0]) }] : [];
   const length = ARROW * sizeOf(wish[wish.given]);
   if (wish.directed) {
     direction_deg.forEach((angle, i) => {
@@ -387,7 +387,7 @@ export function wantedPicture(wish) {
   const { x, y } = wish[wish.given];
   const room = 2 * CLAMP * sizeOf({ x, y });
   return {
-    shapes: [[{ role: "beside", closed: wish.given !== "stroke", vertices: x.flatMap((one, i) => [one, y[i], 0]) }]],
+    shapes: [[{ role: "adjacent", closed: wish.given !== "stroke", vertices: x.flatMap((one, i) => [one, y[i], 0]) }]],
     links: [{ name: "path", shape: 0 }],
     motion: { input_name: "carrier", input: [0, 2 * Math.PI], poses: [[0, 0, 0]] },
     handles: [],
