@@ -1,7 +1,6 @@
 //! Text within XML files: SVG, 3MF, URDF and MJCF.
 
 /// Text for an element or an attribute in double quotes: reserved characters become entities, those that XML cannot hold a space.
-
 pub(crate) fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {

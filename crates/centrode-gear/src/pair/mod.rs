@@ -53,6 +53,9 @@ impl GearPair {
     /// Pair of a design, as [`GearPair::resolve`] makes it.
     ///
     /// Teeth take long; those of a machine in which other things change are cut once.
+    ///
+    /// # Errors
+    /// [`GearPairError`], as of [`Self::resolve`].
     pub fn kept(design: &GearPairDesign) -> Result<Arc<Self>, GearPairError> {
         static CUT: Recent<GearPairDesign, Result<Arc<GearPair>, GearPairError>> = Recent::new();
         CUT.get(design, || Self::resolve(design).map(Arc::new))
@@ -130,6 +133,9 @@ impl GearPair {
     }
 
     /// The driver's pitch curve in words, and both pitch curves rolling, without any teeth.
+    ///
+    /// # Errors
+    /// [`GearPairError`] where the pitch curves do not roll.
     pub fn roll(design: &GearPairDesign) -> Result<(String, Rolling), GearPairError> {
         let (definition, reference) = Self::reference(design)?;
         let (generation, rolling) = Generation::new(design, reference)?;

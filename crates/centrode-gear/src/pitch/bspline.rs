@@ -67,6 +67,9 @@ impl Default for Bspline {
 
 impl Bspline {
     /// Checks the points by the rules of a design file.
+    ///
+    /// # Errors
+    /// [`PitchError`] with the key.
     pub fn check(&self) -> Result<(), PitchError> {
         self.lists().check(self.fewest())
     }

@@ -170,7 +170,7 @@ pub(super) struct NearSearch<'a, F, R> {
     /// inside another it does not exceed that of the outer one.
     pub(in crate::contact) reach: R,
     /// Maps a point of the driver to the driven gear's axes.
-    pub(in crate::contact) to_driven: F,
+    pub(in crate::contact) point_to_driven: F,
 }
 
 impl<F: Fn(&Point) -> Point, R: Fn(&Point, f64) -> f64> NearSearch<'_, F, R> {
@@ -186,7 +186,7 @@ impl<F: Fn(&Point) -> Point, R: Fn(&Point, f64) -> f64> NearSearch<'_, F, R> {
 
     fn posed(&self, group: &PartGroup) -> PosedGroup {
         PosedGroup {
-            center: (self.to_driven)(&group.center).coords,
+            center: (self.point_to_driven)(&group.center).coords,
             reach: (self.reach)(&group.center, group.radius),
             first: group.first,
             count: group.count,
@@ -260,26 +260,26 @@ mod tests {
         for (first, second) in [(1, 7), (40, 61), (400, 128)] {
             let (a, b) = (ring(first, 20.0), ring(second, 31.0));
             for (x, near) in [(50.0, 0.3), (49.0, 3.0), (60.0, 1.0), (20.0, 0.1)] {
-                let to_driven = |p: &Point| p + Vector::new(x, 0.4);
+                let point_to_driven = |p: &Point| p + Vector::new(x, 0.4);
                 let (one, other) = (CircleTree::new(&a), CircleTree::new(&b));
                 let search = NearSearch {
                     driver: &one,
                     driven: &other,
                     reach: |_: &Point, radius: f64| radius + near,
-                    to_driven,
+                    point_to_driven,
                 };
                 let mut found = Vec::new();
                 search.pairs(|i, j| found.push((i, j)));
                 let mut expected = Vec::new();
                 for (j, (center, radius)) in b.iter().enumerate() {
                     for (i, (mate, reach)) in a.iter().enumerate() {
-                        if (to_driven(mate) - center).norm() < radius + reach + near {
+                        if (point_to_driven(mate) - center).norm() < radius + reach + near {
                             expected.push((i, j));
                         }
                     }
                 }
                 assert_eq!(found, expected, "{first} {second} {x} {near}");
-                let inside = |(c, r): &(Point, f64)| 28.0 - to_driven(c).coords.norm() - r;
+                let inside = |(c, r): &(Point, f64)| 28.0 - point_to_driven(c).coords.norm() - r;
                 let deepest = a.iter().map(inside).fold(0.0, f64::max);
                 let center = Point::new(-x, -0.4);
                 assert!((one.deepest(&center, 28.0) - deepest).abs() < 1e-12);

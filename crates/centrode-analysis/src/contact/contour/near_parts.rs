@@ -98,7 +98,7 @@ impl PairCache {
     ) -> bool {
         self.reference.as_ref().is_some_and(|reference| {
             let (point, from) = (&reference.pitch_point, &reference.pose);
-            let moved = (pose.to_driven(point) - from.to_driven(point)).norm();
+            let moved = (pose.point_to_driven(point) - from.point_to_driven(point)).norm();
             near <= reference.near
                 && from.turn_between(pose) <= tolerance.turn
                 && moved <= tolerance.turn * tolerance.drift
@@ -127,7 +127,7 @@ impl PairCache {
             reach: |center: &Point, radius: f64| {
                 radius + near + turn * ((center - pitch_point).norm() + radius + drift)
             },
-            to_driven: |p: &Point| pose.to_driven(p),
+            point_to_driven: |p: &Point| pose.point_to_driven(p),
         };
         self.reference = Some(reference);
         self.drivers.clear();
@@ -157,8 +157,12 @@ impl PairCache {
         near: f64,
         mut found: impl FnMut(usize, usize, usize),
     ) {
-        let posed =
-            |circle: &PartCircle| (pose.to_driven(&circle.center).coords, circle.radius + near);
+        let posed = |circle: &PartCircle| {
+            (
+                pose.point_to_driven(&circle.center).coords,
+                circle.radius + near,
+            )
+        };
         let drivers: Vec<(Vector, f64)> = self.drivers.iter().map(posed).collect();
         for &(k, m) in &self.pairs {
             let (center, reach) = drivers[k as usize];

@@ -43,12 +43,12 @@ impl Pose {
     }
 
     /// A point of the driven gear in the driver's axes.
-    pub(in crate::contact) fn to_driver(&self, p: &Point) -> Point {
+    pub(in crate::contact) fn point_to_driver(&self, p: &Point) -> Point {
         self.axis + self.vector_to_driver(&p.coords)
     }
 
     /// A point of the driver in the driven gear's axes.
-    pub(in crate::contact) fn to_driven(&self, p: &Point) -> Point {
+    pub(in crate::contact) fn point_to_driven(&self, p: &Point) -> Point {
         let v = p - self.axis;
         Point::new(
             self.cos * v.x + self.sin * v.y,
@@ -59,7 +59,7 @@ impl Pose {
     /// A point of the driven gear with its derivatives in the driver's axes.
     pub(in crate::contact) fn jet_to_driver(&self, jet: &SegmentJet) -> SegmentJet {
         SegmentJet {
-            point: self.to_driver(&jet.point),
+            point: self.point_to_driver(&jet.point),
             first: self.vector_to_driver(&jet.first),
             second: self.vector_to_driver(&jet.second),
         }

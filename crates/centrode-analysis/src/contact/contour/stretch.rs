@@ -220,14 +220,14 @@ pub(in crate::contact) struct PosedContour<'a> {
 
 impl PosedContour<'_> {
     pub(in crate::contact) fn at(&self, part: usize, u: f64) -> SegmentJet {
-        self.to_driven(&self.body.parts[part].segment.at(u))
+        self.jet_to_driven(&self.body.parts[part].segment.at(u))
     }
 
-    fn to_driven(&self, jet: &SegmentJet) -> SegmentJet {
+    fn jet_to_driven(&self, jet: &SegmentJet) -> SegmentJet {
         match &self.pose {
             None => *jet,
             Some(pose) => SegmentJet {
-                point: pose.to_driven(&jet.point),
+                point: pose.point_to_driven(&jet.point),
                 first: pose.vector_to_driven(&jet.first),
                 second: pose.vector_to_driven(&jet.second),
             },
@@ -314,7 +314,7 @@ impl PosedContour<'_> {
         let segment = self.body.parts[stretch.part].segment;
         let (jet, bounds) = if stretch.is_whole() {
             let halves = self.body.halves(stretch.part);
-            (self.to_driven(&halves.middle), halves.bounds)
+            (self.jet_to_driven(&halves.middle), halves.bounds)
         } else {
             let bounds =
                 [(u0, middle), (middle, u1)].map(|(u0, u1)| CurveBounds::new(segment, u0, u1));

@@ -89,7 +89,7 @@ fn pitch_point(member: Member, ratio: f64, pose: &Pose) -> Vector {
     let from_driver = pose.axis.coords * (ratio / (1.0 + ratio));
     match member {
         Member::Driver => from_driver,
-        Member::Driven => pose.to_driven(&Point::from(from_driver)).coords,
+        Member::Driven => pose.point_to_driven(&Point::from(from_driver)).coords,
     }
 }
 
@@ -216,8 +216,8 @@ impl Meshing<'_> {
         let contact_point =
             Point::from(edge.point.coords + edge.normal * self.flank_gap(contact.position));
         let (mate, point) = match contact.member {
-            Member::Driver => (&self.driven, pose.to_driven(&contact_point)),
-            Member::Driven => (&self.driver, pose.to_driver(&contact_point)),
+            Member::Driver => (&self.driven, pose.point_to_driven(&contact_point)),
+            Member::Driven => (&self.driver, pose.point_to_driver(&contact_point)),
         };
         let near = MATE_DISTANCE * self.module;
         let is_near = |group: &PartGroup| {

@@ -193,8 +193,8 @@ impl EdgeApproach<'_> {
     /// The edge in the mate's axes.
     fn point(&self, pose: &Pose) -> Point {
         match self.member {
-            Member::Driver => pose.to_driven(&self.corner.point),
-            Member::Driven => pose.to_driver(&self.corner.point),
+            Member::Driver => pose.point_to_driven(&self.corner.point),
+            Member::Driven => pose.point_to_driver(&self.corner.point),
         }
     }
 

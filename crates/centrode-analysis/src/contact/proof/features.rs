@@ -116,12 +116,11 @@ impl Meshing<'_> {
             at: (mut u, mut v),
             mut angle,
         } = near;
-        match feature.corner {
-            Some(FeatureCorner { member, end }) => match member {
+        if let Some(FeatureCorner { member, end }) = feature.corner {
+            match member {
                 Member::Driver => u = end,
                 Member::Driven => v = end,
-            },
-            None => {}
+            }
         }
         for _ in 0..20 {
             let pose = Pose::new(phi, angle, a);

@@ -46,7 +46,7 @@ impl AngularContact {
         let normal = Vector::new(tangent.y, -tangent.x) / tangent.norm();
         let point = Point::from(self.meeting.driver.point);
         ContactNormal {
-            point: pose.to_driver(&point),
+            point: pose.point_to_driver(&point),
             normal: pose.vector_to_driver(&normal),
         }
     }

@@ -153,7 +153,7 @@ pub(in crate::contact) fn facing_driven_corner(
     corner: &Corner,
     pose: &Pose,
 ) -> Option<FacingPoints> {
-    let mate = pose.to_driver(&corner.point);
+    let mate = pose.point_to_driver(&corner.point);
     let Foot { u, jet } = foot(a, &mate)?;
     let normal = Vector::new(jet.first.y, -jet.first.x) / jet.first.norm();
     Some(FacingPoints::new(jet.point, mate, normal, (u, 0.0), pose))
@@ -165,12 +165,12 @@ pub(in crate::contact) fn facing_driver_corner(
     b: &OutlinePart<'_>,
     pose: &Pose,
 ) -> Option<FacingPoints> {
-    let Foot { u: v, jet } = foot(b, &pose.to_driven(&corner.point))?;
+    let Foot { u: v, jet } = foot(b, &pose.point_to_driven(&corner.point))?;
     let outward = Vector::new(jet.first.y, -jet.first.x) / jet.first.norm();
     let normal = -pose.vector_to_driver(&outward);
     Some(FacingPoints::new(
         corner.point,
-        pose.to_driver(&jet.point),
+        pose.point_to_driver(&jet.point),
         normal,
         (0.0, v),
         pose,

@@ -87,7 +87,7 @@ impl Meshing<'_> {
                 let stretch = Stretch::from_part(
                     i,
                     part,
-                    |p| pose.to_driven(p),
+                    |p| pose.point_to_driven(p),
                     |v| pose.vector_to_driven(v),
                 );
                 let normals = part
@@ -249,7 +249,7 @@ impl Meshing<'_> {
     fn is_real(&self, points: &FacingPoints, pose: &Pose) -> bool {
         points.gap > -ROUNDED * self.module || {
             let inside = points.point + points.normal * (0.5 * points.gap);
-            self.driver.contains(inside) && self.driven.contains(pose.to_driven(&inside))
+            self.driver.contains(inside) && self.driven.contains(pose.point_to_driven(&inside))
         }
     }
 }

@@ -135,21 +135,21 @@ impl Meshing<'_> {
         let (driver, driven) = (&self.driver, &self.driven);
         let depth = TEST_DEPTH * self.module;
         let on_driver = |group: &PartGroup| {
-            let center = pose.to_driven(&group.center).coords;
+            let center = pose.point_to_driven(&group.center).coords;
             driven.is_near(&center, group.radius + depth)
         };
         let on_driven = |group: &PartGroup| {
-            let center = pose.to_driver(&group.center).coords;
+            let center = pose.point_to_driver(&group.center).coords;
             driver.is_near(&center, group.radius + depth)
         };
         driver.tree.any(&on_driver, &mut |i| {
             driver.inner_point(i, depth).is_some_and(|p| {
-                let back = pose.to_driven(&p);
+                let back = pose.point_to_driven(&p);
                 driven.is_near(&back.coords, 0.0) && driven.contains(back)
             })
         }) || driven.tree.any(&on_driven, &mut |j| {
             driven.inner_point(j, depth).is_some_and(|p| {
-                let placed = pose.to_driver(&p);
+                let placed = pose.point_to_driver(&p);
                 driver.is_near(&placed.coords, 0.0) && driver.contains(placed)
             })
         })
@@ -164,7 +164,8 @@ impl Meshing<'_> {
     ) -> Vec<AngularContact> {
         let (driver, driven) = (&self.driver, &self.driven);
         let penetrates = |a: &Vector, b: &Vector| {
-            driven.contains(Point::from(*a)) || driver.contains(pose.to_driver(&Point::from(*b)))
+            driven.contains(Point::from(*a))
+                || driver.contains(pose.point_to_driver(&Point::from(*b)))
         };
         let limits = TurnLimits {
             max_turn: self.flank_distance / self.pair.center_distance(),
