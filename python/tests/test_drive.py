@@ -11,7 +11,8 @@ frame.points = { O = [0, 0] }
 bodies.crank = { on = "frame.O", law = { ratio = 1 }, points = { A = [30, 0] } }
 dyads.ram = { type = "RRP", from = "crank.A", lengths = [120], line = "frame.O", line_deg = 0, side = "forward",
     bodies = ["rod", "ram"], joint = "B" }
-goals.steady = { figure = "ram.travel", over = "deviation", within_deg = [30, 120], uniform = [110, 140], maximum = 1e-4}
+goals.steady = { figure = "ram.travel", over = "deviation", within_deg = [30, 120], uniform = [110, 140],
+    maximum = 1e-4 }
 goals.rest = { figure = "ram.travel", over = "span", within_deg = [170, 210], maximum = 1.5 }
 """
 
