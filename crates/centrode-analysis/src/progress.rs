@@ -46,7 +46,7 @@ impl Progress {
             to: 1.0,
         };
         let result = whole.clone().fill(check);
-        whole.tell(1.0);
+        whole.report(1.0);
         result
     }
 
@@ -69,7 +69,7 @@ impl Part {
         job()
     }
 
-    fn tell(&self, share: f64) {
+    fn report(&self, share: f64) {
         let whole = self.from + share.clamp(0.0, 1.0) * (self.to - self.from);
         self.progress
             .0
@@ -95,7 +95,7 @@ pub(crate) fn filling<T>([from, to]: [f64; 2], job: impl FnOnce() -> T) -> T {
         progress: part.progress.clone(),
     };
     let result = narrow.clone().fill(job);
-    narrow.tell(1.0);
+    narrow.report(1.0);
     result
 }
 
@@ -120,7 +120,7 @@ impl Steps {
     pub(crate) fn step(&self) {
         let Some(part) = &self.part else { return };
         let done = 1 + self.done.fetch_add(1, Ordering::Relaxed);
-        part.tell(done as f64 / self.count as f64);
+        part.report(done as f64 / self.count as f64);
     }
 }
 

@@ -152,7 +152,8 @@ impl Report {
                 unit,
                 ..
             } = goal;
-            let [value_stated, margin_stated] = [value, -margin].map(|figure| unit.tell(figure));
+            let [value_stated, margin_stated] =
+                [value, -margin].map(|figure| unit.with_unit(figure));
             Some(Finding {
                 // A goal that a design names has no rule of its own.
                 rule: match &goal.name {

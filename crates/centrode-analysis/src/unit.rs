@@ -119,7 +119,7 @@ impl Unit {
 
     /// The figure as [`Unit::show`] has it, with its unit; one below 1e-9 keeps its leading digits, for nothing is missed by 0.
     #[must_use]
-    pub fn tell(self, value: f64) -> String {
+    pub fn with_unit(self, value: f64) -> String {
         format!("{} {}", self.digits(value), self.shown())
             .trim_end()
             .to_owned()
@@ -184,8 +184,8 @@ mod tests {
         assert_eq!(Unit::Radian.show(f64::INFINITY), "infinite");
         assert_eq!(Unit::Radian.show(-0.0), "0");
         assert_eq!(Unit::Radian.show(2.489e-7), "2.5e-7");
-        assert_eq!(Unit::Angle.tell(PI), "180.0000 deg");
-        assert_eq!(Unit::Count.tell(3.0), "3");
-        assert_eq!(Unit::Millimetre.tell(3.5e-12), "3.5e-12 mm");
+        assert_eq!(Unit::Angle.with_unit(PI), "180.0000 deg");
+        assert_eq!(Unit::Count.with_unit(3.0), "3");
+        assert_eq!(Unit::Millimetre.with_unit(3.5e-12), "3.5e-12 mm");
     }
 }

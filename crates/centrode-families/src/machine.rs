@@ -33,7 +33,7 @@ impl Mechanism for Machine {
             "{}, {}; input at {}",
             count(self.bodies().len() - 1, "body", "bodies"),
             count(self.dyads().len(), "dyad", "dyads"),
-            Unit::TurnsPerMinute.tell(self.design().input.speed_rpm)
+            Unit::TurnsPerMinute.with_unit(self.design().input.speed_rpm)
         )
     }
 

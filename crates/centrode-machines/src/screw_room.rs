@@ -1,7 +1,7 @@
 use centrode_geometry::{Outline, Point};
 use centrode_kinematics::machine::FasteningError;
 
-/// Most places looked at along a segment of a line.
+/// Maximum number of positions tried along a segment of a line.
 const MAX_PLACES: f64 = 500.0;
 
 /// Fewest screws that hold a plate.
@@ -10,13 +10,13 @@ const FEWEST: usize = 3;
 /// Where screws may be: on a line, clear of what else is there.
 #[derive(Clone, Debug)]
 pub(crate) struct ScrewRoom {
-    /// Line on which their axes lie; none where there is no such.
+    /// Line on which their axes lie; `None` if there is none.
     pub(crate) line: Option<Outline>,
-    /// Room taken already: circles that move along a straight line between two places, with their radius, mm.
+    /// Occupied room: circles that move along a straight line between two points, with their radius, mm.
     pub(crate) taken: Vec<([Point; 2], f64)>,
-    /// Every place is there as often, turned about the origin.
+    /// Number of copies of every position, turned about the origin.
     pub(crate) turns: u32,
-    /// Step of the coordinates of the places, mm, which are then beside the line by less than that; zero for none.
+    /// Step to which coordinates are rounded, mm; positions may be off the line by less than that. Zero: no rounding.
     pub(crate) grid: f64,
 }
 

@@ -86,7 +86,7 @@ impl Run {
         self.stop.load(Ordering::Relaxed)
     }
 
-    fn tell(&self, progress: Progress) {
+    fn report(&self, progress: Progress) {
         let history = &mut self.state().history;
         if history.len() >= DRAWN {
             let mut odd = false;
@@ -232,7 +232,7 @@ fn work(run: &Run, text: &str, problem: &dyn DesignProblem, mut search: DesignSe
         let due = Instant::now() + SHOW;
         let mut shown = false;
         let ended = search.run(problem, &mut |progress| {
-            run.tell(*progress);
+            run.report(*progress);
             shown = Instant::now() >= due;
             if shown || run.stopped() {
                 ControlFlow::Break(())

@@ -203,8 +203,8 @@ fn sampled_corners(pair: &GearPair) -> impl Iterator<Item = Finding> {
             severity: Severity::Warning,
             message: format!(
                 "the samples of the pitch curve have a corner of {} at {}: the curve through them rounds it",
-                unit.tell(corner.turn.abs()),
-                unit.tell(corner.angle)
+                unit.with_unit(corner.turn.abs()),
+                unit.with_unit(corner.angle)
             ),
             measured: Some(corner.turn.abs()),
             required: Some(0.0),
@@ -303,7 +303,7 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
         });
     }
     let interferes = contact.interferes(pair);
-    let mm = |depth: f64| Unit::Millimetre.tell(depth);
+    let mm = |depth: f64| Unit::Millimetre.with_unit(depth);
     let overlap = |rule, depth: Extreme, message: String| Finding {
         rule,
         remedy: remedy(rule),
@@ -373,7 +373,7 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
                 },
                 // Of some gears nothing is followed between the samples.
                 if contact.is_followed(pair) { "up to" } else { "at least" },
-                Unit::Angle.tell(worst.value),
+                Unit::Angle.with_unit(worst.value),
             ),
             measured: Some(worst.value),
             required: Some(allowed),
@@ -398,8 +398,8 @@ pub(crate) fn negative_backlash(pair: &GearPair, backlash: f64) -> Option<Findin
         severity: Severity::of_overlap(-minimum),
         message: format!(
             "teeth of maximum thickness overlap their mates by {} along the normal: the backlash must be at least {}",
-            unit.tell(-minimum),
-            unit.tell(backlash - minimum),
+            unit.with_unit(-minimum),
+            unit.with_unit(backlash - minimum),
         ),
         measured: Some(minimum),
         required: Some(0.0),
@@ -442,7 +442,7 @@ fn seat_jump(pair: &GearPair, contact: &Contact) -> Option<Finding> {
         severity: Severity::of_deviation(maximum.turn * pair.rolling().radii(Member::Driven).1),
         message: format!(
             "driver tooth {driver} hits driven tooth {driven} within the backlash: the driven gear pushed {pushed} can jump by {} or jam{others}",
-            Unit::Angle.tell(maximum.turn)
+            Unit::Angle.with_unit(maximum.turn)
         ),
         measured: Some(maximum.turn),
         required: Some(0.0),

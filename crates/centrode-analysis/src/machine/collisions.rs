@@ -245,8 +245,8 @@ fn collision(
             "{kind} {} and {} share a height and overlap by {} at an input of {}",
             one.name,
             other.name,
-            Unit::Millimetre.tell(-minimum),
-            Unit::Angle.tell(input)
+            Unit::Millimetre.with_unit(-minimum),
+            Unit::Angle.with_unit(input)
         ),
         measured: Some(minimum),
         required: Some(0.0),

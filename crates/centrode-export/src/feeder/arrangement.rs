@@ -17,7 +17,7 @@ const POINTS: u32 = 360;
 const PLACES: usize = 4;
 
 /// Lists plates, pins and gears, and tells the arrangement: the six-bar as its effector rests.
-pub(super) fn tell(feeder: &Feeder, plates: &[Plate], machine: &mut LinkedMachine) {
+pub(super) fn annotate(feeder: &Feeder, plates: &[Plate], machine: &mut LinkedMachine) {
     paths(feeder, machine);
     let ends = ["driver", "driven gear"].map(|figure| machine.place_on(figure, [0.0; 2]));
     if let [Some(from), Some(to)] = ends {

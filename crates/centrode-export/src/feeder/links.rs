@@ -54,7 +54,7 @@ pub(super) fn machine(feeder: &Feeder, plates: &[Plate]) -> Result<LinkedMachine
     }
     spacers(feeder, &mut machine)?;
     // Shafts and pins add to the masses of the plates.
-    arrangement::tell(feeder, plates, &mut machine);
+    arrangement::annotate(feeder, plates, &mut machine);
     Ok(machine)
 }
 

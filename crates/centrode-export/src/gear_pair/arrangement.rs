@@ -20,7 +20,7 @@ pub fn contact_data(contact_ratio: [f64; 2], backlash: [f64; 2]) -> Vec<Datum> {
 }
 
 /// Lists the gears and tells the pair's arrangement.
-pub(super) fn tell(pair: &GearPair, machine: &mut LinkedMachine) {
+pub(super) fn annotate(pair: &GearPair, machine: &mut LinkedMachine) {
     list_pair(pair, "", &[Member::Driver, Member::Driven], machine);
     let stated = &mut machine.arrangement;
     stated.title = "Gear pair".into();

@@ -88,7 +88,7 @@ pub fn drawn(pair: &GearPair) -> LinkedMachine {
         let sketch = machine.sketch(member.name(), lines(pair.gear(member)));
         machine.draw(member.name(), link, sketch);
     }
-    arrangement::tell(pair, &mut machine);
+    arrangement::annotate(pair, &mut machine);
     machine
 }
 

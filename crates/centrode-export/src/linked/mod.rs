@@ -35,7 +35,7 @@ pub(crate) use {model::simulated, motion::lines};
 /// Name of the simulator models, without its end.
 const MODEL: &str = "machine";
 
-/// Adds the table of motion with its description, the parts list and, as asked for, URDF and MJCF with the STL files they show and scripts
+/// Adds the table of motion with its description, the parts list and, if requested, URDF and MJCF with the STL files they show and scripts
 /// that play them.
 pub(crate) fn add(machine: &LinkedMachine, package: &mut Package<'_>) -> Result<(), ExportError> {
     let tolerance = package.tolerance();

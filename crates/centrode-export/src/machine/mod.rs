@@ -41,7 +41,7 @@ pub fn outlined(composed: &Machine) -> Result<LinkedMachine, ExportError> {
     made.map_err(ExportError::no_solid(&composed.design().name))
 }
 
-/// The files of a composed machine in the formats asked for, not yet on disk.
+/// The files of a machine in the requested formats, not yet on disk.
 ///
 /// Each body is a plate named after it, each gear and cam a part of its name; `assembly` is the machine where its cycle begins, with the ways of its points. MJCF
 /// closes the loops by equality constraints; URDF, which has no loops, leaves them open and says so.

@@ -10,7 +10,7 @@ use centrode_kinematics::machine::{Axis, Blank, Datum, Dimension, LinkedMachine,
 use std::f64::consts::TAU;
 
 /// Lists shaft, slider, box and gears with their masses, and tells the arrangement: the groove unrolled, the slider in it.
-pub(super) fn tell(parts: &Parts<'_>, machine: &mut LinkedMachine) -> Result<(), ExportError> {
+pub(super) fn annotate(parts: &Parts<'_>, machine: &mut LinkedMachine) -> Result<(), ExportError> {
     list(parts, machine)?;
     let shaft = parts.shaft;
     let stated = &mut machine.arrangement;

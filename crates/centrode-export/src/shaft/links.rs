@@ -63,7 +63,7 @@ pub(super) fn machine(parts: &Parts<'_>) -> Result<machine::LinkedMachine, Expor
             gear_pair::embody(&mut machine, link, (&gears.pair, member), GEARS)?;
         }
     }
-    arrangement::tell(parts, &mut machine)?;
+    arrangement::annotate(parts, &mut machine)?;
     Ok(machine)
 }
 

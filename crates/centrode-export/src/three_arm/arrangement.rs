@@ -9,7 +9,7 @@ use centrode_kinematics::machine::{self, Axis, Blank, Callout, Datum, Dimension,
 use centrode_machines::three_arm::ThreeArm;
 
 /// Lists the parts and tells the arrangement: the mechanism as its first arm picks.
-pub(super) fn tell(parts: &Parts<'_>, machine: &mut machine::LinkedMachine) {
+pub(super) fn annotate(parts: &Parts<'_>, machine: &mut machine::LinkedMachine) {
     let mechanism = parts.mechanism;
     for part in ThreeArmPart::ALL {
         if part != ThreeArmPart::Assembly {

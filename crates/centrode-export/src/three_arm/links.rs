@@ -75,7 +75,7 @@ pub(super) fn machine(
     builder.tips();
     figures::draw(mechanism, (parts, teeth), &mut builder.machine);
     if let Some(parts) = parts {
-        arrangement::tell(parts, &mut builder.machine);
+        arrangement::annotate(parts, &mut builder.machine);
     }
     Ok(builder.machine)
 }

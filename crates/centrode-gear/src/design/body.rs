@@ -141,7 +141,7 @@ mod tests {
             let turns = (keyed.keyway_angle + mount) / TAU;
             assert!((turns - turns.round()).abs() < 1e-12, "{mount}");
             assert!(keyed.keyway_angle.abs() <= TAU && keyed.validate().is_ok());
-            // Below the least bore of the standard there is none, and no angle of one.
+            // Below the minimum bore of the standard there is no keyway, and no angle of one.
             let small = body(5.0).keyed(mount);
             assert_eq!((small.keyway, small.keyway_angle), (None, 0.0));
         }

@@ -40,7 +40,7 @@ struct Cylinders {
 }
 
 impl Axis {
-    /// Whether places over the period, as [`Machine::places_of`] tells them, are on it.
+    /// Whether places over the period, as [`Machine::places_of`] returns them, are on it.
     pub(super) fn is_one(&self, places: &[Point]) -> bool {
         let near = ONE * self.size;
         let mut both = self.places.iter().zip(places);

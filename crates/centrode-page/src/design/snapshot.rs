@@ -268,9 +268,9 @@ impl Subject {
     ///
     /// # Errors
     /// That of the JSON writer.
-    pub fn drawn(&self, tell: &dyn Fn(String)) -> serde_json::Result<()> {
-        tell(self.snapshot.head()? + "\n");
-        tell(self.beside().json()?);
+    pub fn drawn(&self, send: &dyn Fn(String)) -> serde_json::Result<()> {
+        send(self.snapshot.head()? + "\n");
+        send(self.beside().json()?);
         Ok(())
     }
 

@@ -181,7 +181,7 @@ fn places(fault: &AxisFault) -> Vec<Mark> {
 }
 
 fn figures(chain: &TwoBar, bend: Option<f64>) -> Vec<Figure> {
-    let mm = |x: f64| Unit::Millimetre.tell(x);
+    let mm = |x: f64| Unit::Millimetre.with_unit(x);
     let axis = chain.axis();
     let at = format!("{:.4}, {:.4} mm", axis.x, axis.y);
     let mut found = vec![figure("axis of the carrier", at)];

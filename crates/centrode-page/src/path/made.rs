@@ -66,7 +66,7 @@ pub fn machine(
 fn without_teeth(error: &NoSoundTeeth) -> String {
     match error {
         NoSoundTeeth::None { pair, full_module } => {
-            let module = Unit::Millimetre.tell(*full_module);
+            let module = Unit::Millimetre.with_unit(*full_module);
             format!(
                 "No teeth of pair {pair} carry the motion by their flanks alone: full ones are undercut above a module of {module}, and no fitted ones will do."
             )

@@ -62,7 +62,7 @@ fn read(text: &str) -> Result<Opened, String> {
     let mut design = PathDesign::default();
     let drawn = drawn(bytes, WITHIN).map_err(|error| error.to_string())?;
     let (points, note) = if let Some(drawn) = drawn {
-        let off = Unit::Millimetre.tell(drawn.deviation.value);
+        let off = Unit::Millimetre.with_unit(drawn.deviation.value);
         let count = drawn.points.len();
         let note = format!("{count} points, within {off} of the drawing");
         (drawn.points, note)

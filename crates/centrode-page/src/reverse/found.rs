@@ -192,7 +192,7 @@ fn check_crossing(design: &PathDesign, path: &RequiredPath) -> Result<(), NotFou
 
 /// Lines on how far a path was eased, and what full teeth it bears.
 fn eased_words(eased: &EasedPath, module: Option<f64>, is_moved: bool) -> Vec<Labelled> {
-    let mm = |x: f64| Unit::Millimetre.tell(x);
+    let mm = |x: f64| Unit::Millimetre.with_unit(x);
     let moved = eased.moved.iter().enumerate();
     let (most, far) = moved.fold((0, 0.0), |most, (i, &moved)| match moved > most.1 {
         true => (i, moved),

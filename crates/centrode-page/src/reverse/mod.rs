@@ -29,7 +29,7 @@ pub fn drawn(bytes: &[u8], within: f64) -> Result<Option<DrawnPath>, PathError> 
 pub fn sharpest(chain: &TwoBar, split: &Split) -> String {
     match ReversedMachine::new(chain, split, 1, None) {
         Ok(made) => {
-            let minimum = Unit::Millimetre.tell(made.minimum_radius());
+            let minimum = Unit::Millimetre.with_unit(made.minimum_radius());
             format!("possible, least convex radius {minimum}")
         }
         Err(error) => error.to_string(),

@@ -9,7 +9,7 @@ use centrode_synthesis::reverse::{ReversedMachine, TwoBar};
 pub type Labelled = (String, String);
 
 fn mm(x: f64) -> String {
-    Unit::Millimetre.tell(x)
+    Unit::Millimetre.with_unit(x)
 }
 
 /// Range of ratios.
@@ -60,14 +60,14 @@ pub fn tip_error(made: &ReversedMachine) -> (&'static str, String) {
 
 /// Line on the clamp.
 pub(crate) fn clamp(angle: f64) -> Labelled {
-    let words = format!("{} from the arm", Unit::Angle.tell(angle));
+    let words = format!("{} from the arm", Unit::Angle.with_unit(angle));
     ("clamp".to_owned(), words)
 }
 
 /// Lines on the clamp and on how far each pose is missed.
 pub fn poses(angle: f64, misses: &[[f64; 2]]) -> Vec<Labelled> {
     let pose = |(index, [off, turned]): (usize, &[f64; 2])| {
-        let (off, turned) = (mm(*off), Unit::Angle.tell(*turned));
+        let (off, turned) = (mm(*off), Unit::Angle.with_unit(*turned));
         let name = format!("pose {}", index + 1);
         (name, format!("missed by {off} and {turned}"))
     };
@@ -77,16 +77,16 @@ pub fn poses(angle: f64, misses: &[[f64; 2]]) -> Vec<Labelled> {
 
 /// Line on a goal: its figure, what was wanted, and by how much it is missed.
 pub fn goal(goal: &Goal) -> Labelled {
-    let tell = |x: f64| goal.unit.tell(x);
-    let value = goal.value.map_or_else(String::new, tell);
+    let show = |x: f64| goal.unit.with_unit(x);
+    let value = goal.value.map_or_else(String::new, show);
     let required = match goal.required {
-        [Some(minimum), Some(most)] => format!("{} to {}", tell(minimum), tell(most)),
-        [Some(minimum), None] => format!("at least {}", tell(minimum)),
-        [None, Some(most)] => format!("at most {}", tell(most)),
+        [Some(minimum), Some(most)] => format!("{} to {}", show(minimum), show(most)),
+        [Some(minimum), None] => format!("at least {}", show(minimum)),
+        [None, Some(most)] => format!("at most {}", show(most)),
         [None, None] => String::new(),
     };
     let missed = match goal.margin {
-        Some(margin) if margin < 0.0 => format!(", missed by {}", tell(-margin)),
+        Some(margin) if margin < 0.0 => format!(", missed by {}", show(-margin)),
         _ => String::new(),
     };
     let words = format!("{} {value}, wanted {required}{missed}", goal.title);
@@ -106,7 +106,7 @@ pub fn finding(finding: &Finding) -> Labelled {
 
 /// Line on the teeth of a pair.
 pub fn teeth(teeth: &SoundTeeth) -> Labelled {
-    let mm = |x: f64| Unit::Millimetre.tell(x);
+    let mm = |x: f64| Unit::Millimetre.with_unit(x);
     let (kind, full) = match teeth.addendum {
         Addendum::Full => ("full", String::new()),
         Addendum::Fitted => {

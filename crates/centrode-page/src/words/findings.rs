@@ -71,7 +71,7 @@ pub fn finding_words(finding: &Finding) -> FindingWords {
         about.push(format!("input at {degrees:.2} deg"));
     }
     let figures = finding.measured.map_or_else(String::new, |measured| {
-        let show = |value: f64| finding.unit.tell(value);
+        let show = |value: f64| finding.unit.with_unit(value);
         let required = finding
             .required
             .map(|required| format!(", required {}", show(required)));

@@ -44,13 +44,13 @@ pub fn goal_words(goal: &Goal) -> GoalWords {
     let verdict = match (goal.met(), goal.margin) {
         (Some(true), _) => "met".into(),
         (Some(false), Some(margin)) => {
-            format!("missed by {}", goal.unit.tell(-margin))
+            format!("missed by {}", goal.unit.with_unit(-margin))
         }
         _ => "not checked".into(),
     };
     let spare = goal.margin.filter(|_| goal.met() == Some(true));
     GoalWords {
-        spare: spare.map(|margin| goal.unit.tell(margin)),
+        spare: spare.map(|margin| goal.unit.with_unit(margin)),
         number: goal.number,
         paper: goal.paper,
         name: goal.name.clone().into_owned(),

@@ -88,11 +88,11 @@ impl Easing {
         let axis = match spec.axis {
             Some(axis) => (TwoBar::new(&path, axis, None)?.axis(), None),
             None => {
-                let (axis, room) = sought(&path, points.len(), spec)?;
+                let (axis, room) = starting_axis(&path, points.len(), spec)?;
                 // The path is eased by another curve, for which that place may be none.
                 let smooth = RequiredPath::smoothly_through(points)?;
                 let is_possible = TwoBar::new(&smooth, axis, None).is_ok();
-                let again = (!is_possible).then(|| sought(&smooth, points.len(), spec));
+                let again = (!is_possible).then(|| starting_axis(&smooth, points.len(), spec));
                 let (axis, room) = again.and_then(Result::ok).unwrap_or((axis, room));
                 (axis, Some(room))
             }
@@ -352,8 +352,8 @@ impl Problem for Easing {
     }
 }
 
-/// Axis from which a search starts, and the box in which it is sought.
-fn sought(
+/// Axis from which a search starts, and the box that it searches.
+fn starting_axis(
     path: &RequiredPath,
     points: usize,
     spec: &EasingSpec,

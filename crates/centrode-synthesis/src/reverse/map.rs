@@ -155,7 +155,7 @@ impl AxisMap {
         self.found.iter().filter(|found| found.is_ok()).count()
     }
 
-    /// The axis of the grid whose gears are the bluntest: that of the greatest [`minimum_radius`](PossibleAxis::minimum_radius); none
+    /// The axis of the grid whose gears are the bluntest: that of the maximum [`minimum_radius`](PossibleAxis::minimum_radius); none
     /// where none is possible.
     #[must_use]
     pub fn bluntest(&self, bend: f64) -> Option<Point> {

@@ -63,20 +63,20 @@ fn found(made: &GearDrive, out: &mut impl Write) -> std::io::Result<()> {
     } else {
         Unit::Millimetre
     };
-    let [minimum, maximum] = made.timing.places().map(|place| unit.tell(place));
+    let [minimum, maximum] = made.timing.places().map(|place| unit.with_unit(place));
     line(out, "output", &format!("{minimum} to {maximum}"))?;
     let [low, high] = made.timing.ratios();
     let words = format!(
         "{}, least at {}, greatest at {} of the input",
         range([low.value, high.value]),
-        Unit::Angle.tell(low.input),
-        Unit::Angle.tell(high.input)
+        Unit::Angle.with_unit(low.input),
+        Unit::Angle.with_unit(high.input)
     );
     line(out, "ratio", &words)?;
     minimum_radii(out, GearDrive::PAIR, made.minimum_radii)?;
     let words = format!(
         "{} at most, with a law of {} steps",
-        unit.tell(made.miss.value),
+        unit.with_unit(made.miss.value),
         made.steps
     );
     line(out, "output off its law", &words)?;

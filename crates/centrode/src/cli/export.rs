@@ -30,7 +30,7 @@ pub(crate) fn run(command: &Export, out: &mut impl Write) -> Result<Status, Fail
         writeln!(out, "{}", path.display())?;
     }
     out.flush()?;
-    tell(&found, written.len(), command);
+    summarise(&found, written.len(), command);
     Ok(Status::new(found.ok()))
 }
 
@@ -107,7 +107,7 @@ fn bundle(
 }
 
 /// Writes a line on standard error: the findings, and that the files are there all the same.
-fn tell(found: &crate::analysis::Report, files: usize, command: &Export) {
+fn summarise(found: &crate::analysis::Report, files: usize, command: &Export) {
     let mut err = anstream::stderr();
     let summary = summary(found);
     let design = command.design.display();

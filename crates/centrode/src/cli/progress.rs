@@ -49,7 +49,7 @@ impl Progress {
     }
 
     /// Says how far a step is.
-    pub(crate) fn tell(&self, words: String) {
+    pub(crate) fn report(&self, words: String) {
         self.bar.set_message(words);
     }
 }

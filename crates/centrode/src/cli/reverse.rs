@@ -47,7 +47,7 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
         }
         false => {
             let requested = Request::read(command)?;
-            let (found, interrupt) = sought(command, &requested, &progress)?;
+            let (found, interrupt) = search(command, &requested, &progress)?;
             (requested, found, interrupt)
         }
     };
@@ -106,8 +106,8 @@ pub(crate) fn line(out: &mut impl Write, name: &str, words: &str) -> std::io::Re
     writeln!(out, "{name:NAME$}{words}")
 }
 
-/// Seeks the machine of a path; progress is told, and Ctrl-C ends the search and keeps the best so far.
-fn sought(
+/// Searches the machine of a path; shows progress, and Ctrl-C ends the search with the best so far.
+fn search(
     command: &Reverse,
     requested: &Request,
     progress: &Progress,
@@ -122,7 +122,7 @@ fn sought(
     let mut evaluations = 0;
     let found = Found::by_path(&requested.design, &requested.points, &mut |done| {
         evaluations = done;
-        progress.tell(format!("seeking the path, {done} evaluations,"));
+        progress.report(format!("seeking the path, {done} evaluations,"));
         match came() {
             true => ControlFlow::Break(()),
             false => ControlFlow::Continue(()),
@@ -190,7 +190,7 @@ fn chosen(
     }
     let (name, words) = words::minimum_radius(made);
     line(out, name, &words)?;
-    let shaft = Unit::Millimetre.tell(chain.shaft_distance());
+    let shaft = Unit::Millimetre.with_unit(chain.shaft_distance());
     line(out, "tip passes the shaft at", &shaft)?;
     let words = format!(
         "{}, bend {bend} deg, {arms} {}",

@@ -21,7 +21,7 @@ pub fn axis_at_border(axis: Point, room: &Bounds) -> Option<Finding> {
     let &(_, at, side) = met.first()?;
     let ends = met.iter();
     let ends =
-        ends.map(|(name, _, side)| format!("{name} ends at {}", Unit::Millimetre.tell(*side)));
+        ends.map(|(name, _, side)| format!("{name} ends at {}", Unit::Millimetre.with_unit(*side)));
     let ends: Vec<String> = ends.collect();
     Some(Finding {
         rule: "axis-at-border",

@@ -31,7 +31,7 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
     })
     .map_err(|error| source.refused(&error))?;
     drop(progress);
-    let mm = |x: f64| Unit::Millimetre.tell(x);
+    let mm = |x: f64| Unit::Millimetre.with_unit(x);
     let (found, design) = (&posed.poses, &posed.design);
     let chain = &found.chain;
     for (name, words) in words::poses(found.clamp, &posed.misses) {
@@ -47,7 +47,7 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
     line(out, "arm", &mm(chain.arm()))?;
     let bend = format!(
         "{}, found in {} evaluations",
-        Unit::Angle.tell(design.bend),
+        Unit::Angle.with_unit(design.bend),
         posed.evaluations
     );
     line(out, "bend", &bend)?;
@@ -85,7 +85,7 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
 
 /// A goal and whether it is reached.
 fn words(goal: &Goal) -> String {
-    let value = goal.value.map(|value| goal.unit.tell(value));
+    let value = goal.value.map(|value| goal.unit.with_unit(value));
     let met = match goal.met() {
         Some(true) => "met",
         Some(false) => "missed",

@@ -85,7 +85,7 @@ impl Request {
         let bytes = self.source.bytes();
         let drawn = drawn(bytes, command.within.unwrap_or(WITHIN));
         if let Some(drawn) = drawn.map_err(|error| self.source.refused(&error))? {
-            let off = Unit::Millimetre.tell(drawn.deviation.value);
+            let off = Unit::Millimetre.with_unit(drawn.deviation.value);
             let points = drawn.points.len();
             self.points = drawn.points;
             self.drawing = Some(format!(

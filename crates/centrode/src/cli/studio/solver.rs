@@ -141,7 +141,7 @@ impl Solver {
         let (teller, mut later) = unbounded_channel();
         let job = move || {
             let parts = teller.clone();
-            let stated = || solver.tell(text, depth, &|part| drop(parts.send(Ok(part))));
+            let stated = || solver.answer(text, depth, &|part| drop(parts.send(Ok(part))));
             if let Err(error) = outcome(|| progress.during(|| cancel.run(stated))) {
                 // Nobody may be there any more.
                 drop(teller.send(Err(error)));
@@ -167,9 +167,9 @@ impl Solver {
         Some(under_way.get(page)?.progress.share())
     }
 
-    fn tell(&self, text: String, depth: Depth, tell: &dyn Fn(String)) -> serde_json::Result<()> {
+    fn answer(&self, text: String, depth: Depth, send: &dyn Fn(String)) -> serde_json::Result<()> {
         if depth == Depth::Numbers {
-            tell(Snapshot::cancelled(text).json()?);
+            send(Snapshot::cancelled(text).json()?);
             return Ok(());
         }
         let last = held(&self.last).clone();
@@ -178,18 +178,18 @@ impl Solver {
             None => match Subject::without_faulty_details(text) {
                 Ok(subject) => Arc::new(subject),
                 Err(snapshot) => {
-                    tell(snapshot.json()?);
+                    send(snapshot.json()?);
                     return Ok(());
                 }
             },
         };
         *held(&self.last) = Some(Arc::clone(&subject));
         match depth {
-            Depth::Numbers | Depth::Picture => subject.drawn(tell)?,
+            Depth::Numbers | Depth::Picture => subject.drawn(send)?,
             // The page has the rest.
-            Depth::Goals => tell(serde_json::to_string(&subject.goals())?),
-            Depth::Detail => tell(subject.detailed().json()?),
-            Depth::Checks => tell(subject.checked().json()?),
+            Depth::Goals => send(serde_json::to_string(&subject.goals())?),
+            Depth::Detail => send(subject.detailed().json()?),
+            Depth::Checks => send(subject.checked().json()?),
         }
         Ok(())
     }
