@@ -52,11 +52,11 @@ pub struct GearPair {
 impl GearPair {
     /// Pair of a design, as [`GearPair::resolve`] makes it.
     ///
-    /// Teeth take long; those of a machine in which other things change are cut once.
+    /// Cutting takes long: the teeth of a machine in which other things change are cut once.
     ///
     /// # Errors
     /// [`GearPairError`], as of [`Self::resolve`].
-    pub fn kept(design: &GearPairDesign) -> Result<Arc<Self>, GearPairError> {
+    pub fn cached(design: &GearPairDesign) -> Result<Arc<Self>, GearPairError> {
         static CUT: Recent<GearPairDesign, Result<Arc<GearPair>, GearPairError>> = Recent::new();
         CUT.get(design, || Self::resolve(design).map(Arc::new))
     }

@@ -58,7 +58,7 @@ pub use standard::{
 };
 pub use stock::Stock;
 pub use turned::{HeldLength, SeatedKey, TurnedPart, TurnedPiece, TurnedPieces, TurnedStep};
-pub use validate::{LinkedMachineError, loose_link};
+pub use validate::LinkedMachineError;
 
 /// Rigid links, and how each of them moves with the one input.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, Serialize)]

@@ -277,8 +277,7 @@ impl Quantity {
 
 /// The first of some links that does not hang from link 0 by one chain of joints, each given by its parent and child, and
 /// by how many it does: 0 may mean a ring.
-#[must_use]
-pub fn loose_link(links: usize, joints: &[[usize; 2]]) -> Option<(usize, usize)> {
+fn loose_link(links: usize, joints: &[[usize; 2]]) -> Option<(usize, usize)> {
     (0..links).find_map(|link| {
         let carriers = joints.iter().filter(|[_, child]| *child == link).count();
         let ways = carriers + usize::from(link == 0);

@@ -142,7 +142,7 @@ pub(super) fn gears_of(
             name: name.clone(),
             ..pair.clone()
         };
-        let made = GearPair::kept(&named).map_err(|error| MachineError::Pair {
+        let made = GearPair::cached(&named).map_err(|error| MachineError::Pair {
             key: format!("pairs.{name}.{}", error.key_in(&named)),
             error: Box::new(error),
         })?;

@@ -193,7 +193,7 @@ impl ThreeArm {
     /// # Errors
     /// [`GearPairError`] where no teeth can be laid out or cut.
     pub fn pair(&self) -> Result<GearPair, GearPairError> {
-        GearPair::kept(&self.design.pair()).map(|pair| GearPair::clone(&pair))
+        GearPair::cached(&self.design.pair()).map(|pair| GearPair::clone(&pair))
     }
 
     /// Counts the sound flanks of the sun (and so of each planet) and of each intermediate gear at full height.
