@@ -126,7 +126,7 @@ raised! {
     }
 }
 
-/// Errors whose rule at fault is told by their mechanism's.
+/// Errors whose rule at fault is named by their mechanism's.
 macro_rules! of_mechanism {
     ($($error:ty),*) => {
         $(impl From<$error> for Raised {

@@ -57,7 +57,7 @@ impl Feeder {
     /// >>> import centrode as ct
     /// >>> import math
     /// >>> six = ct.Feeder.from_toml(ct.template("feeder")).six_bar
-    /// >>> round(math.degrees(six.least_transmission_angle), 3)
+    /// >>> round(math.degrees(six.minimum_transmission_angle), 3)
     /// 40.001
     #[getter]
     fn six_bar(&self) -> SixBar {

@@ -123,7 +123,7 @@ impl Gear {
         self.inner().outline().area()
     }
 
-    /// Least and greatest distance of the outline from the shaft axis, mm.
+    /// Minimum and maximum distance of the outline from the shaft axis, mm.
     #[getter]
     fn radii(&self) -> (f64, f64) {
         self.inner().radii()
@@ -330,7 +330,7 @@ impl Gear {
     /// Args:
     ///     size: "A4" to "A0"; left out, the design's, or the smallest that takes the gear.
     ///     projection: "first-angle" or "third-angle"; left out, the design's.
-    ///     tolerance: Greatest distance of a drawn line from the exact one on the part, mm.
+    ///     tolerance: Maximum distance of a drawn line from the exact one on the part, mm.
     ///
     /// Raises:
     ///     ExportError: The gear does not fit on that size.

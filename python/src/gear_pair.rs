@@ -31,7 +31,7 @@ use crate::word::Word;
 /// Most inputs a pitch of a contact analysis.
 const MAX_PER_PITCH: u32 = 10_000;
 
-/// Greatest driver angle of a contact analysis, rad: with all its digits one is known to 1e-10 rad.
+/// Maximum driver angle of a contact analysis, rad: with all its digits one is known to 1e-10 rad.
 const FARTHEST: f64 = 1e6;
 
 /// A non-circular gear pair: exact pitch curves, finished teeth.
@@ -54,7 +54,7 @@ const FARTHEST: f64 = 1e6;
 ///     backlash: Play of the pair along the normal, mm.
 ///     backlash_angle: Play of the driven gear at most, rad, instead of `backlash`.
 ///     thickness_split: The driver's share of the pitch.
-///     least_tip_width_coefficient: Least width of a tooth at its tip, in modules, before it is reported.
+///     minimum_tip_width_coefficient: Minimum width of a tooth at its tip, in modules, before it is reported.
 ///     thickness_deviations: Upper and lower deviation of the finished teeth's thickness from the design, mm, each within
 ///         half a module: limits of the measures over pins. Default: zero and minus the tolerance of DIN 3967 for the
 ///         accuracy class.
@@ -411,7 +411,7 @@ impl GearPair {
     ///
     /// >>> import centrode as ct
     /// >>> pitch = ct.pitch.from_ratio("1 + 0.4*cos(phi)", module=2, tooth_count=8)
-    /// >>> [(found.addendum, len(found.fit), found.least_tooth_count) for found in ct.GearPair(pitch).remedies()]
+    /// >>> [(found.addendum, len(found.fit), found.minimum_tooth_count) for found in ct.GearPair(pitch).remedies()]
     /// [('full', 0, 12), ('fitted', 0, 10), ('fitted', 3, 9)]
     fn remedies<'py>(&self, py: Python<'py>) -> Answer<Bound<'py, PyTuple>> {
         let pair = Arc::clone(&self.0);

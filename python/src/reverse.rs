@@ -117,7 +117,7 @@ impl Reversed {
         self.chain.direction().word()
     }
 
-    /// Least and greatest ratio of the total law.
+    /// Minimum and maximum ratio of the total law.
     #[getter]
     fn ratios(&self) -> (f64, f64) {
         let [minimum, maximum] = self.chain.ratios();
@@ -130,7 +130,7 @@ impl Reversed {
         self.made.minimum_radius()
     }
 
-    /// Least distance of the tip from the carrier's axis, mm.
+    /// Minimum distance of the tip from the carrier's axis, mm.
     #[getter]
     fn shaft_distance(&self) -> f64 {
         self.chain.shaft_distance()
@@ -182,7 +182,7 @@ impl Reversed {
         record::findings(py, &found)
     }
 
-    /// Greatest distance of the tip from the path, mm, with the laws of the gears as the design holds them.
+    /// Maximum distance of the tip from the path, mm, with the laws of the gears as the design holds them.
     #[getter]
     fn tip_error(&self) -> f64 {
         self.made.tip_error.value
@@ -223,7 +223,7 @@ impl Reversed {
     /// >>> path = [(0, 0), (60, 70), (150, 150), (230, 215), (262, 262), (235, 300), (170, 330),
     /// ...         (100, 330), (40, 300), (-5, 250), (-30, 190), (-38, 130), (-30, 60)]
     /// >>> powers, mildest, one_pair = ct.reverse(path, (260, 160), bend_deg=40).splits
-    /// >>> mildest.name, mildest.least_radius > 1.2 * powers.least_radius
+    /// >>> mildest.name, mildest.minimum_radius > 1.2 * powers.minimum_radius
     /// ('mildest', True)
     #[getter]
     fn splits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {

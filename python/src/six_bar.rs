@@ -143,7 +143,7 @@ impl SixBar {
         self.0.swing()
     }
 
-    /// Least angle between the lines of coupler and rocker over the cycle, rad.
+    /// Minimum angle between the lines of coupler and rocker over the cycle, rad.
     #[getter]
     fn minimum_transmission_angle(&self) -> f64 {
         self.0.four_bar().minimum_transmission_angle()

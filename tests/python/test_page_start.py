@@ -222,9 +222,10 @@ def test_pictures_move_only_while_they_are_to(start):
     page.locator("#path").focus()
     page.mouse.move(2, 2)
     page.wait_for_timeout(100)
+    # A picture drawn for the first time meanwhile is no movement.
     before = inputs(page)
     page.wait_for_timeout(300)
-    assert inputs(page) == before
+    assert all(then in (None, now) for then, now in zip(before, inputs(page), strict=True))
 
 
 def test_who_asks_for_less_motion_gets_none(browser, served):

@@ -134,7 +134,7 @@ impl DiscCam {
         self.cam.disc().start_angle()
     }
 
-    /// Least and greatest distance of the profile from the axis, mm.
+    /// Minimum and maximum distance of the profile from the axis, mm.
     #[getter]
     fn radii(&self) -> (f64, f64) {
         self.cam.radii()
@@ -200,7 +200,7 @@ impl DiscCam {
         self.cam.profile().undercut().to_vec()
     }
 
-    /// Greatest "lift", "velocity", "acceleration" and "jerk" of the follower, each with its cam angle.
+    /// Maximum "lift", "velocity", "acceleration" and "jerk" of the follower, each with its cam angle.
     #[getter]
     fn peaks(&self) -> BTreeMap<&'static str, Peak> {
         let peaks = self.cam.disc().peaks();
@@ -213,7 +213,7 @@ impl DiscCam {
     }
 
     /// Limits of the cam, each with its cam angle: "rise_pressure_angle" and "return_pressure_angle"
-    /// (rad), "largest_roller" (rollers only), "least_radius" of the convex profile, at most zero where it
+    /// (rad), "largest_roller" (rollers only), "minimum_radius" of the convex profile, at most zero where it
     /// is undercut, "largest_wheel" that can grind it (mm), and "regularity", above zero for a sound cam.
     #[getter]
     fn limits(&self) -> BTreeMap<&'static str, Peak> {
@@ -229,7 +229,7 @@ impl DiscCam {
         named
     }
 
-    /// The least base radius, mm, that keeps the pressure angle below `rise` while the cam lifts and
+    /// The minimum base radius, mm, that keeps the pressure angle below `rise` while the cam lifts and
     /// below `fall` while the follower returns, rad (any, if left out); None where none does.
     #[pyo3(signature = (*, rise, fall=None))]
     fn minimum_base_radius(
@@ -247,7 +247,7 @@ impl DiscCam {
     ///
     /// Args:
     ///     formats: Any of "dxf", "svg", "stl", "step", "3mf" and "csv"; all of these if left out.
-    ///     tolerance: Greatest distance of every arc and mesh from the exact curve, mm.
+    ///     tolerance: Maximum distance of every arc and mesh from the exact curve, mm.
     ///
     /// Raises:
     ///     ExportError: A file cannot be made.

@@ -95,26 +95,26 @@ pub(crate) fn gear_drive(
 
 #[pymethods]
 impl GearDrive {
-    /// Least and greatest ratio: speed of the crank by that of the new shaft.
+    /// Minimum and maximum ratio: speed of the crank by that of the new shaft.
     #[getter]
     fn ratios(&self) -> (f64, f64) {
         let [minimum, maximum] = self.timing.ratios();
         (minimum.value, maximum.value)
     }
 
-    /// Least and greatest place of the output, mm or rad.
+    /// Minimum and maximum place of the output, mm or rad.
     #[getter]
     fn places(&self) -> (f64, f64) {
         self.timing.places().into()
     }
 
-    /// Greatest distance of the output from where the law has it, mm or rad, with the law as the design holds it.
+    /// Maximum distance of the output from where the law has it, mm or rad, with the law as the design holds it.
     #[getter]
     fn miss(&self) -> f64 {
         self.found.miss.value
     }
 
-    /// Least radii of curvature of both pitch curves where convex, mm: driver and driven gear.
+    /// Minimum radii of curvature of both pitch curves where convex, mm: driver and driven gear.
     #[getter]
     fn minimum_radii(&self) -> (f64, f64) {
         self.found.minimum_radii.into()

@@ -156,7 +156,7 @@ impl Machine {
     }
 
     /// Clearance of two bodies, with their plates and gears, or of a body and an obstacle, mm, proven between samples to within
-    /// `tolerance` (mm): the least over the cycle and the input there, rad, or at inputs an array of the shape of `phi`.
+    /// `tolerance` (mm): the minimum over the cycle and the input there, rad, or at inputs an array of the shape of `phi`.
     /// Negative where they overlap: how deep one lies in the other. Infinite where they share no height along the shafts.
     ///
     /// Args:
@@ -170,8 +170,8 @@ impl Machine {
     ///
     /// >>> import centrode as ct
     /// >>> leg = ct.Machine.from_toml(ct.template("machine") + "[obstacles.ground]\nbelow = -100")
-    /// >>> least, phi = leg.clearance("shin", "ground")
-    /// >>> round(least, 1), round(leg.clearance("shin", "ground", phi), 1)
+    /// >>> minimum, phi = leg.clearance("shin", "ground")
+    /// >>> round(minimum, 1), round(leg.clearance("shin", "ground", phi), 1)
     /// (4.2, 4.2)
     #[pyo3(signature = (first, second, phi=None, *, tolerance=1e-3))]
     fn clearance<'py>(

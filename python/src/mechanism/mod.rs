@@ -346,7 +346,7 @@ impl Mechanism {
     ///     formats: Any of "dxf", "svg", "sheet", "pdf", "stl", "step", "3mf", "csv", "urdf" and "mjcf"; all if left out.
     ///     parts: Names of parts, as their files have them, or "assembly"; all if left out. Motion and models are of the
     ///         whole. A family whose parts have no names takes none.
-    ///     tolerance: Greatest distance of every arc, point sequence and mesh from the exact curve or surface, mm.
+    ///     tolerance: Maximum distance of every arc, point sequence and mesh from the exact curve or surface, mm.
     ///     dxf_version: "R2010" or "R12".
     ///     dxf_curves: "arcs" or "splines".
     ///     force: Whether to replace files that no export wrote into the directory, or that were changed since.

@@ -39,7 +39,7 @@ pub(super) enum Given {
 /// Args:
 ///     path: Points in the order in which the tip passes them, mm, an array (N, 2): a closed periodic cubic spline runs
 ///         through them.
-///     axis: Axis of the carrier, mm; left out, the mildest: that of the least change of the gears' ratio.
+///     axis: Axis of the carrier, mm; default: the mildest, that of the minimum change of the gears' ratio.
 ///     split: "powers", two different pairs, "mildest", two whose sharpest pitch curve is as blunt as can be, or "one-pair", one
 ///         pair twice.
 ///     axis_box: Two corners of the box in which the axis is sought, mm; left out, the path's box with a quarter of its size round
@@ -52,7 +52,7 @@ pub(super) enum Given {
 ///     open: Whether the points are the working part alone: the return from the last to the first is sought, too.
 ///     module: Module of full teeth, mm, for which it is eased, and no more.
 ///     aim: What is made the most of where something is free: "module", the largest teeth, "mild", the ratio nearest to 1, or
-///         "small", the least reach of the tip; left out, the largest teeth where the path is eased or something is wished, else
+///         "small", the minimum reach of the tip; left out, the largest teeth where the path is eased or something is wished, else
 ///         the mildest ratio.
 ///     wishes: What else is wanted, with the keys of the table wishes of a design file of family path: carrier, arm,
 ///         center_distance, ratio, directions, clamp_deg, turn, keep_out. `goals` tells how far they are reached.

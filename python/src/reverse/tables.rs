@@ -5,7 +5,7 @@ use pyo3::types::PyTuple;
 
 use crate::record::record;
 
-/// Possible axes of a carrier; least radii for a bend, rad.
+/// Possible axes of a carrier; minimum radii for a bend, rad.
 pub(super) fn axis_map<'py>(
     py: Python<'py>,
     map: &AxisMap,

@@ -24,7 +24,7 @@ use crate::word::Word;
 ///     scheme: "shaft", "elliptic-gear" or "both"; left out, "shaft" without gears, "elliptic-gear" with gears
 ///         before a plain shaft, "both" before another.
 ///     eccentricity: Of the pitch ellipses.
-///     speed_ratio: Greatest speed of the shaft over its least, instead of the eccentricity.
+///     speed_ratio: Maximum speed of the shaft over its minimum, instead of the eccentricity.
 ///     moved_distance: Distance a plain shaft shall move the box in the window, mm, instead of both.
 ///     module: Of the gears, mm.
 ///     tooth_count: Of each gear.

@@ -175,7 +175,7 @@ impl SpiralShaft {
     /// >>> shaft = ct.SpiralShaft.for_moved_distance(2.05, lead=20)
     /// >>> round(shaft.amplitude, 6)
     /// 1.283333
-    /// >>> round(shaft.speed_ratio[0], 6)  # least speed over the mean
+    /// >>> round(shaft.speed_ratio[0], 6)  # minimum speed over the mean
     /// 0.596829
     #[classmethod]
     #[pyo3(signature = (moved_distance, **keywords))]
@@ -213,7 +213,7 @@ impl SpiralShaft {
         self.0.amplitude()
     }
 
-    /// Least and greatest speed of the strokes over their mean.
+    /// Minimum and maximum speed of the strokes over their mean.
     #[getter]
     fn speed_ratio(&self) -> (f64, f64) {
         self.0.speed_ratio()

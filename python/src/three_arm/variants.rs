@@ -13,7 +13,7 @@ use crate::array::Values;
 use crate::error::{Answer, Raised};
 use crate::wait::wait;
 
-/// Greatest number of variants and inputs that memory holds.
+/// Maximum number of variants and inputs that memory holds.
 const MOST: usize = 50_000_000;
 const MAX_INPUTS: usize = 100_000;
 
