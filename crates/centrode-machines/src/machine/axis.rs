@@ -4,7 +4,7 @@ use centrode_geometry::Point;
 use nalgebra::Isometry2;
 
 use super::Mount;
-use super::mesh::Angle;
+use super::gears::mesh::Angle;
 use super::resolve::Builder;
 use centrode_kinematics::machine::JointKind;
 

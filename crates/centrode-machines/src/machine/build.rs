@@ -2,10 +2,11 @@ use std::sync::Arc;
 
 use centrode_geometry::{Point, extremes, piece_ends};
 
+use super::copies::copying;
 use super::resolve::{Builder, blame};
 use super::{
     DyadKind, MachineBody, MachineDyad, MachineDyadSpec, MachineError, MachineLawSpec, Mount, Pin,
-    Side, copying,
+    Side,
 };
 use centrode_kinematics::linkage::{Branch, Coordinate, JointId, Line, LinkId, Linkage};
 use centrode_kinematics::machine::{Constant, JointKind};

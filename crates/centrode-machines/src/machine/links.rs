@@ -1,7 +1,7 @@
 use centrode_geometry::{Outline, Point, SolidError};
 
+use super::hardware::pieces::Pieces;
 use super::load::MachineLoad;
-use super::pieces::Pieces;
 use super::{Hardware, Hold, Machine, MachineBody};
 use centrode_kinematics::machine::{
     Blank, Closure, Fit, Form, GearMesh, Input, Joint, JointKind, Line, LineRole, Link, LinkPoint,

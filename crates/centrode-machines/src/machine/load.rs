@@ -7,8 +7,8 @@ use centrode_geometry::Point;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::input_formula::formula_of;
-use super::points::Reference;
+use super::body::points::Reference;
+use super::motion::input_formula::formula_of;
 use super::resolve::Builder;
 use super::{MachineError, MachineLawError};
 use centrode_kinematics::machine::{Axes, Constant, Load, Quantity};

@@ -2,55 +2,29 @@
 //!
 //! A body has axes of its own. One that turns has its origin on its pin; one that slides has its first axis along its line;
 //! the bodies of a dyad have theirs as those of a [`Linkage`]. The input is the angle of the driving shaft, rad.
+//!
+//! To read it: `design` (the file), `build` and `resolve` (from the file to bodies in the order of need), then the rooms:
+//! `body` (points and contours), `motion` (laws), `dyad`, `gears`, `cams`, `copies`, `load`, `goal` (figures and
+//! obstacles), `hardware` (pins, shafts, plates and the frame).
 
 mod axis;
-mod axis_list;
 mod body;
 mod build;
-mod camming;
 mod cams;
-mod clearance_end;
-mod contour;
 mod copies;
-mod copying;
-mod corner;
-mod cutting;
 mod design;
-mod drive;
 mod dyad;
 mod error;
-mod expansion;
-mod figure;
-mod frame;
-mod gearing;
 mod gears;
-mod given_mass;
 mod goal;
 mod hardware;
-mod input_formula;
-mod law;
-mod layers;
 mod limits;
 mod links;
 mod load;
-mod mesh;
-mod obstacle;
-mod pair_figure;
-mod pieces;
-mod pins;
-mod plates;
-mod points;
+mod motion;
 mod resolve;
-mod seating;
-mod shaft_parts;
-mod shafts;
-mod sizes;
-mod slots;
-mod spacing;
-mod table;
 #[cfg(test)]
 mod tests;
-mod touching;
 
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
@@ -58,44 +32,44 @@ use std::sync::{Arc, OnceLock};
 use centrode_geometry::{Jet, Outline, Point, Vector};
 
 pub use body::MachineBodySpec;
-pub use camming::MachineCam;
+pub use body::contour::{MachineCircleSpec, MachineCornerSpec};
+pub use body::corner::{CornerSpec, MachinePointsSpec, Side};
+pub use cams::camming::MachineCam;
 pub use cams::{
     MachineCamSpec, MachineFollowerSpec, MachineSlidingRoller, MachineSwingingFlat,
     MachineSwingingRoller,
 };
-pub use clearance_end::ClearanceEnd;
-pub use contour::{MachineCircleSpec, MachineCornerSpec};
 pub use copies::MachineCopiesSpec;
-pub use corner::{CornerSpec, MachinePointsSpec, Side};
 pub use design::{MachineDesign, MachineInputSpec};
-pub use drive::{IntermittentSpec, TraverseSpec};
 pub use dyad::{DyadKind, MachineDyadSpec};
 pub use error::MachineError;
-pub use figure::{FIGURE_FORMS, MachineFigure, PointPart};
-pub use frame::Overhang;
-pub use gearing::MachineGear;
+pub use gears::gearing::MachineGear;
+pub use gears::pair_figure::PAIR_FIGURES;
 pub use gears::{GearRole, MachineGearSpec, MachineLoopSpec, MachineMeshSpec};
+pub use goal::clearance_end::ClearanceEnd;
+pub use goal::figure::{FIGURE_FORMS, MachineFigure, PointPart};
+pub use goal::obstacle::{MachineObstacle, MachineObstacleSpec};
 pub use goal::{MachineGoalSpec, Over};
 pub use hardware::Hardware;
-pub use law::{MachineLawError, MachineLawSpec};
-pub use layers::LayerOrders;
+pub use hardware::frame::Overhang;
+pub use hardware::layers::LayerOrders;
+pub use hardware::plates::{MachinePlatesSpec, PinHole};
+pub use hardware::shafts::{Hold, MachineShaft, ShaftPart};
+pub use hardware::sizes::Plates;
+pub use hardware::slots::Slot;
+pub use hardware::spacing::Frames;
 pub use load::{LoadAxes, MachineLoadSpec};
-pub use obstacle::{MachineObstacle, MachineObstacleSpec};
-pub use pair_figure::PAIR_FIGURES;
-pub use plates::{MachinePlatesSpec, PinHole};
-pub use shafts::{Hold, MachineShaft, ShaftPart};
-pub use sizes::Plates;
-pub use slots::Slot;
-pub use spacing::Frames;
-pub use table::TableReading;
+pub use motion::drive::{IntermittentSpec, TraverseSpec};
+pub use motion::law::{MachineLawError, MachineLawSpec};
+pub use motion::table::TableReading;
 
-use self::expansion::Expansion;
-use self::frame::FramePlates;
-use self::gearing::Meshing;
+use self::body::points::BodyPoints;
+use self::copies::expansion::Expansion;
+use self::gears::gearing::Meshing;
+use self::hardware::frame::FramePlates;
+use self::hardware::sizes::Sized;
+use self::hardware::spacing::Passage;
 use self::load::MachineLoad;
-use self::points::BodyPoints;
-use self::sizes::Sized;
-use self::spacing::Passage;
 use centrode_kinematics::linkage::{Line, LinkId, Linkage};
 use centrode_kinematics::machine::{JointKind, TurnedPieces};
 use centrode_kinematics::transmission::{MotionJet, Transmission};

@@ -3,12 +3,12 @@ use std::sync::{Arc, OnceLock};
 
 use centrode_geometry::Point;
 
+use super::body::points::{BodyPoints, Reference, followed_cam, points_of};
 use super::build::range;
+use super::copies::expansion::Expansion;
 use super::design::FRAME;
-use super::expansion::Expansion;
-use super::gearing::{Meshing, gears_of};
-use super::plates::drawn;
-use super::points::{BodyPoints, Reference, followed_cam, points_of};
+use super::gears::gearing::{Meshing, gears_of};
+use super::hardware::plates::drawn;
 use super::{
     Hardware, Machine, MachineBody, MachineCam, MachineDesign, MachineDyad, MachineDyadSpec,
     MachineError, MachineFigure, MachineGear, Over, Pin,

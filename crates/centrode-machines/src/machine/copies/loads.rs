@@ -3,7 +3,7 @@
 use nalgebra::{Rotation2, Vector2};
 
 use super::{ChainCopy, Spin};
-use crate::machine::points::Reference;
+use crate::machine::body::points::Reference;
 use crate::machine::{LoadAxes, MachineDesign, MachineError};
 
 impl ChainCopy<'_> {

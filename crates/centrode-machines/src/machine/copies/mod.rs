@@ -1,6 +1,8 @@
 //! Copies of a chain of bodies, evenly spaced: a design written out without them.
 
+pub(super) mod copying;
 mod dyads;
+pub(super) mod expansion;
 mod loads;
 
 use std::collections::BTreeSet;
@@ -11,9 +13,9 @@ use nalgebra::Rotation2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use self::expansion::Expansion;
+use super::body::points::{BodyPoints, Reference};
 use super::design::FRAME;
-use super::expansion::Expansion;
-use super::points::{BodyPoints, Reference};
 use super::{MachineBodySpec, MachineCamSpec, MachineDesign, MachineError};
 use centrode_spec::SpecError;
 use centrode_spec::rule::{Rule, broken, count_in_range};

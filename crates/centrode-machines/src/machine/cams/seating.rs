@@ -1,0 +1,211 @@
+//! Cams and followers in their places against each other.
+
+use std::f64::consts::{PI, TAU};
+
+use centrode_geometry::{Point, Vector, extremes, piece_ends};
+
+use crate::machine::gears::mesh::Angle;
+use crate::machine::resolve::Builder;
+use crate::machine::{MachineCamSpec, MachineError};
+use centrode_gear::cam::DiscCam;
+use centrode_gear::cam::design::{Follower, Turn};
+use centrode_kinematics::transmission::{MotionJet, Transmission, crossings, sorted};
+
+/// Greatest difference of lengths, as a share of the longer one, or of turns that is rounding.
+pub(in crate::machine) const ROUNDING: f64 = 1e-9;
+/// Parts of a turn of the input in each of which the turn of a cam has few extremes.
+const PARTS: u32 = 24;
+/// Movement of an axis, as a share of the base radius, below which it stands still.
+const SAME: f64 = 1e-12;
+
+/// A cam and the body that carries its follower.
+pub(in crate::machine) struct Seat {
+    /// Body of the cam, and the place of its axis there, mm.
+    pub(in crate::machine) body: usize,
+    pub(in crate::machine) at: Point,
+    /// The carrier, and the place of the axis there, mm.
+    pub(in crate::machine) carrier: usize,
+    pub(in crate::machine) axis: Point,
+    /// Direction on the carrier of the slide, or to the pin, rad.
+    pub(in crate::machine) direction: f64,
+    /// Distance of the slide or of the pin from the axis, mm.
+    pub(in crate::machine) distance: f64,
+    /// Distance from the axis to where the body is held, along its slide, mm.
+    along: f64,
+}
+
+impl Seat {
+    /// Coordinate, on the base circle, of a body whose first axis points to the roller or along the face, or whose origin is
+    /// the roller's centre or on the face, rad or mm.
+    pub(in crate::machine) fn lowest(&self, disc: &DiscCam, sense: f64) -> f64 {
+        match disc.follower() {
+            Follower::TranslatingRoller(_) => disc.start_distance() - self.along,
+            Follower::TranslatingFlat(_) => disc.base_radius() - self.along,
+            _ => wrapped(self.direction + PI + sense * disc.start_angle()),
+        }
+    }
+}
+
+/// Turn of a cam by the input.
+#[derive(Clone, Debug)]
+pub(in crate::machine) struct Turned {
+    cam: Angle,
+    carrier: Angle,
+    /// Direction on the carrier of the slide, or to the pin, rad.
+    direction: f64,
+    pub(in crate::machine) sense: f64,
+}
+
+impl Turned {
+    pub(in crate::machine) fn at(&self, input: f64) -> MotionJet {
+        let mut turn = self.cam.at(input).plus(-1.0, &self.carrier.at(input));
+        turn.position -= self.direction;
+        MotionJet::default().plus(self.sense, &turn)
+    }
+
+    /// Inputs of a period at which a derivative of a motion by this turn may jump.
+    pub(in crate::machine) fn breaks(&self, motion: &dyn Transmission, period: f64) -> Vec<f64> {
+        let own = (&motion.breaks()[..], motion.period());
+        let jumps: Vec<f64> = self.jumps(period).collect();
+        let met = crossings(|input| self.at(input).position, own, period, &jumps);
+        sorted(jumps.into_iter().chain(met), period)
+    }
+
+    /// Inputs of a period at which a derivative of the turn itself may jump.
+    pub(in crate::machine) fn jumps(&self, period: f64) -> impl Iterator<Item = f64> + use<> {
+        let [cam, carrier] = [&self.cam, &self.carrier].map(|angle| angle.breaks(period));
+        cam.into_iter().chain(carrier)
+    }
+}
+
+impl Builder<'_> {
+    /// Where a body that is held at a place of its carrier, and slides in a direction or turns, has the axis of its cam.
+    pub(in crate::machine) fn seat(
+        &self,
+        key: &str,
+        (name, slides): (&str, Option<f64>),
+        (cam, spec): (&str, &MachineCamSpec),
+        (carrier, pin): (usize, Point),
+    ) -> Result<Seat, MachineError> {
+        let cam_key = format!("cams.{cam}");
+        let words = ["slides", "turns"].map(|word| format!("a body that {word}"));
+        let swings = spec.follower.swings();
+        if swings == slides.is_some() {
+            let [own, other] = [&words[usize::from(!swings)], &words[usize::from(swings)]];
+            return wrong(
+                key,
+                format!("cam {cam} has a follower on {other}, not on {own}"),
+            );
+        }
+        let still = SAME * spec.base_radius;
+        let (body, mut at) = self.place(&format!("{cam_key}.on"), &spec.on)?;
+        if let Some(about) = &spec.about {
+            let key = format!("{cam_key}.about");
+            let there = self.place(&key, about)?;
+            let Some(found) = self.axis_on(body, there, still) else {
+                let why = format!("{about} moves on body {}", self.bodies[body].name);
+                return wrong(
+                    &key,
+                    format!("{why}, on which cam {cam} is mounted about it"),
+                );
+            };
+            at = found;
+        }
+        let Some(axis) = self.axis_on(carrier, (body, at), still) else {
+            let why = format!(
+                "the axis of cam {cam} moves on body {}, which must carry it",
+                self.bodies[carrier].name
+            );
+            return wrong(key, why);
+        };
+        let way = pin - axis;
+        let (direction, distance, along) = match slides {
+            Some(direction) => {
+                let unit = Vector::new(direction.cos(), direction.sin());
+                (direction, unit.perp(&way), unit.dot(&way))
+            }
+            None => (way.y.atan2(way.x), way.norm(), 0.0),
+        };
+        let (what, written) = spec.follower.written();
+        if let Some(written) = written
+            && (written - distance).abs() > ROUNDING * distance.abs().max(written.abs())
+        {
+            let why = format!("is {written} mm, but body {name} is held at {distance} mm");
+            return wrong(&format!("{cam_key}.follower.{what}"), why);
+        }
+        Ok(Seat {
+            body,
+            at,
+            carrier,
+            axis,
+            direction,
+            distance,
+            along,
+        })
+    }
+
+    /// Turn of a cam against the carrier of a follower, its sense, and whole turns in a period, in that sense.
+    pub(in crate::machine) fn turned(
+        &self,
+        key: &str,
+        name: &str,
+        (cam, spec): (&str, &MachineCamSpec),
+        seat: &Seat,
+    ) -> Result<(Turned, Turn, f64), MachineError> {
+        let carrier = &self.bodies[seat.carrier].name;
+        let mut turn = Turned {
+            cam: self.angle(seat.body).plus(spec.mount),
+            carrier: self.angle(seat.carrier),
+            direction: seat.direction,
+            sense: 1.0,
+        };
+        let period = self.linkage.period();
+        let turns = (turn.at(period).position - turn.at(0.0).position) / TAU;
+        if (turns - turns.round()).abs() > ROUNDING {
+            let why = format!(
+                "cam {cam} makes {turns:.9} turns against body {carrier} in the period of {} turns of the input, which must be a whole number: set input.turns",
+                self.design.input.turns
+            );
+            return wrong(key, why);
+        }
+        let jumps: Vec<f64> = turn.jumps(period).collect();
+        let parts = piece_ends(0.0, period, PARTS * self.design.input.turns, &jumps);
+        let rate = |input: f64| turn.at(input).velocity;
+        let stands = || {
+            let [slow, fast] = extremes(rate, &parts);
+            slow.value.abs().max(fast.value) <= ROUNDING
+        };
+        // Most often it turns wherever one looks.
+        if parts.iter().all(|input| rate(*input).abs() <= ROUNDING) && stands() {
+            let why = format!(
+                "cam {cam} does not turn against body {carrier}, on which {name} follows it"
+            );
+            return wrong(key, why);
+        }
+        let rotation = match (spec.rotation, turns.round()) {
+            (None, turns) if turns < 0.0 => Turn::Clockwise,
+            (None, _) => Turn::CounterClockwise,
+            (Some(rotation), turns) if turns * rotation.sign() < 0.0 => {
+                let why = format!(
+                    "cam {cam} makes {turns} turns (counter-clockwise positive) against body {carrier}, on which {name} follows it: it turns the other way"
+                );
+                return wrong(&format!("cams.{cam}.rotation"), why);
+            }
+            (Some(rotation), _) => rotation,
+        };
+        turn.sense = rotation.sign();
+        let turns = turn.sense * turns.round();
+        Ok((turn, rotation, turns))
+    }
+}
+
+/// A cam that cannot be followed.
+pub(in crate::machine) fn wrong<T>(key: &str, why: String) -> Result<T, MachineError> {
+    let key = key.into();
+    Err(MachineError::NoFollower { key, why })
+}
+
+/// An angle less whole turns, from -pi to pi.
+fn wrapped(angle: f64) -> f64 {
+    angle - TAU * (angle / TAU).round()
+}

@@ -1,0 +1,311 @@
+//! Machines with copies: made of the design written out, and held against the originals.
+
+use std::collections::BTreeMap;
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use centrode_geometry::{Extreme, Point, bracketed_root, maximum, piece_ends, run_both};
+use nalgebra::Rotation2;
+
+use crate::machine::copies::expansion::Expansion;
+use crate::machine::copies::{self, MachineCopiesSpec, Spin};
+use crate::machine::resolve::Builder;
+use crate::machine::{Machine, MachineDesign, MachineError};
+use centrode_kinematics::transmission::{FromFn, Transmission, sorted};
+
+/// Inputs of a turn at which copies are held against their originals.
+const SAMPLES: u32 = 120;
+/// Parts of a turn of the input in each of which a mismatch has few extremes.
+const PARTS: u32 = 24;
+/// Greatest mismatch that is rounding: mm, as a share of a length of 1 mm or of the machine's, and rad.
+const ROUNDING: f64 = 1e-8;
+/// Change of a rate, as a share of it, below which a body turns evenly.
+const EVEN: f64 = 1e-12;
+
+/// A law that runs ahead of another.
+pub(in crate::machine) fn ahead(law: Arc<dyn Transmission>, by: f64) -> Arc<dyn Transmission> {
+    let (period, advance) = (law.period(), law.advance());
+    let breaks = law.breaks().into_iter();
+    let breaks = sorted(breaks.map(|b| (b - by).rem_euclid(period)), period);
+    Arc::new(FromFn::new(period, advance, breaks, move |input| {
+        law.at(input + by)
+    }))
+}
+
+impl Machine {
+    /// Resolves a design with copies: first without them, then written out.
+    pub(in crate::machine) fn with_copies(design: &MachineDesign) -> Result<Self, MachineError> {
+        let bare = MachineDesign {
+            copies: BTreeMap::new(),
+            // These may name copies.
+            loads: BTreeMap::new(),
+            obstacles: BTreeMap::new(),
+            goals: BTreeMap::new(),
+            vary: BTreeMap::new(),
+            ..design.clone()
+        };
+        let none = Expansion::default();
+        let mut first = Builder::assembled(&bare, &none, None)?;
+        // Loads of copies may stand on the followers of cams that are cut.
+        let cut_before = !design.loads.is_empty();
+        if cut_before {
+            first.cut_cams()?;
+        }
+        let one = first.clone().so_far(&bare);
+        let (mut whole, mut expansion) = (design.clone(), Expansion::default());
+        let add = |(name, spec): (&String, &MachineCopiesSpec)| {
+            let key = format!("copies.{name}");
+            one.can_copy(design, &key, spec)?;
+            let spin = one.spin(&key, &spec.about)?;
+            copies::add(&mut whole, &mut expansion, &one.points, (name, spin))
+        };
+        let added = design.copies.iter().try_for_each(add);
+        let cut = || {
+            if !cut_before {
+                first.cut_cams()?;
+            }
+            first.finished(&bare)
+        };
+        let copied = || {
+            added?;
+            let made = Builder::assembled(&whole, &expansion, Some(&one));
+            made.map_err(|error| of_copy(error, &expansion))
+        };
+        // A cam takes as long to cut as the copies to assemble, which know nothing of it.
+        let (one, made) = run_both(cut, copied);
+        let (one, mut made) = (one?, made?);
+        made.bare = Some(&one);
+        let made = made.cut_cams().and_then(|()| made.finished(design));
+        let made = made.map_err(|error| of_copy(error, &expansion))?;
+        for (name, spec) in &design.copies {
+            made.check_copies(&format!("copies.{name}"), spec)?;
+        }
+        Ok(made)
+    }
+
+    /// Checks that bodies of copies are there, and each in one chain only.
+    fn can_copy(
+        &self,
+        design: &MachineDesign,
+        key: &str,
+        spec: &MachineCopiesSpec,
+    ) -> Result<(), MachineError> {
+        let known = || self.bodies.iter().map(|body| body.name.clone()).collect();
+        let named = spec.bodies.iter().map(|body| (body, "bodies"));
+        for (body, word) in named.chain([(&spec.about, "about")]) {
+            if self.body_named(body).is_none() {
+                return Err(MachineError::NoBody {
+                    key: format!("{key}.{word}"),
+                    body: body.clone(),
+                    known: known(),
+                });
+            }
+        }
+        let times = |body: &String| {
+            let all = design.copies.values().flat_map(|copies| &copies.bodies);
+            all.filter(|other| *other == body).count()
+        };
+        let wrong = |word: &str, why: String| {
+            let key = format!("{key}.{word}");
+            Err(MachineError::NoCopies { key, why })
+        };
+        if let Some(body) = spec.bodies.iter().find(|body| times(body) > 1) {
+            return wrong("bodies", format!("body {body} would be copied twice"));
+        }
+        if let Some(body) = spec
+            .bodies
+            .iter()
+            .find(|body| *body == crate::machine::design::FRAME)
+        {
+            return wrong("bodies", format!("the {body} stands still: there is one"));
+        }
+        match times(&spec.about) {
+            0 => Ok(()),
+            _ => wrong("about", format!("body {} is copied itself", spec.about)),
+        }
+    }
+
+    /// Motion of the body about which copies are spaced.
+    fn spin(&self, key: &str, about: &str) -> Result<Spin, MachineError> {
+        let body = self.body_named(about).unwrap_or(0);
+        let ends = self.parts();
+        let rate = |input: f64| self.angle(body, input).velocity;
+        let [low, high] = centrode_geometry::extremes(rate, &ends);
+        let size = low.value.abs().max(high.value.abs());
+        if high.value - low.value <= EVEN * size {
+            return Ok(if size == 0.0 {
+                Spin::Still
+            } else {
+                Spin::Even(high.value)
+            });
+        }
+        if low.value * high.value > 0.0 {
+            return Ok(Spin::Uneven(low.value.signum()));
+        }
+        let back = if high.value + low.value > 0.0 {
+            low
+        } else {
+            high
+        };
+        Err(MachineError::NoCopies {
+            key: format!("{key}.about"),
+            why: format!(
+                "body {about} turns to and fro, at an input of {:.4} deg with {:.6} of the input's speed: copies about it need one that stands still or turns one way",
+                back.input.to_degrees(),
+                back.value
+            ),
+        })
+    }
+
+    /// Ends of the parts of a cycle between which all motion is smooth.
+    fn parts(&self) -> Vec<f64> {
+        let parts = PARTS * self.design.input.turns;
+        piece_ends(0.0, self.period(), parts, self.linkage.breaks())
+    }
+
+    /// Checks that each copy stands as its original does where the body in the middle has turned on.
+    fn check_copies(&self, key: &str, spec: &MachineCopiesSpec) -> Result<(), MachineError> {
+        let about = self.body_named(&spec.about).unwrap_or(0);
+        let spin = self.spin(key, &spec.about)?;
+        let size = self.points().map(|(.., at)| at.coords.norm());
+        let size = size.fold(1.0, f64::max);
+        let copied = |name: &str, piece: u32| format!("{name}-{}", piece + 1);
+        let is_off = |piece: u32| {
+            let both = spec.bodies.iter().filter_map(|name| {
+                let copy = self.body_named(&copied(name, piece))?;
+                Some((self.body_named(name)?, copy))
+            });
+            let both: Vec<_> = both.collect();
+            self.maximum_off(about, &both, (spin, spec.turn(piece)))
+                .iter()
+                .any(|[length, angle]| *length > ROUNDING * size || *angle > ROUNDING)
+        };
+        if !(1..spec.count).any(is_off) {
+            return Ok(());
+        }
+        for (name, piece) in spec
+            .bodies
+            .iter()
+            .flat_map(|name| (1..spec.count).map(move |k| (name, k)))
+        {
+            let (copied, turn) = (copied(name, piece), spec.turn(piece));
+            let (Some(body), Some(copy)) = (self.body_named(name), self.body_named(&copied)) else {
+                continue;
+            };
+            let off = |input: f64| self.off(about, (body, copy), (spin, turn), input);
+            let [length, angle] = [0, 1].map(|i| maximum(|input| off(input)[i], &self.parts()));
+            if length.value > ROUNDING * size || angle.value > ROUNDING {
+                return Err(MachineError::NoCopies {
+                    key: key.into(),
+                    why: repeats([name, &copied, &spec.about], turn, [length, angle]),
+                });
+            }
+        }
+        Ok(())
+    }
+
+    /// Greatest distance and angle by which each of several copies is off at the inputs that are looked at.
+    fn maximum_off(
+        &self,
+        about: usize,
+        both: &[(usize, usize)],
+        (spin, turn): (Spin, f64),
+    ) -> Vec<[f64; 2]> {
+        let count = SAMPLES * self.design.input.turns;
+        let inputs = (0..count).map(|i| self.period() * f64::from(i) / f64::from(count));
+        let inputs: Vec<f64> = inputs.collect();
+        let later = |input: &f64| self.later(about, (spin, turn), *input);
+        let later: Vec<f64> = inputs.iter().map(later).collect();
+        let origins = |bodies: Vec<usize>, inputs: &[f64]| {
+            let points: Vec<_> = bodies.into_iter().map(|b| (b, Point::origin())).collect();
+            self.places_each(&points, inputs)
+        };
+        let (bodies, copies) = both.iter().copied().unzip();
+        let (from, found) = (origins(bodies, &later), origins(copies, &inputs));
+        let mut maximum = vec![[0.0_f64; 2]; both.len()];
+        for (k, (from, found)) in from.into_iter().zip(found).enumerate() {
+            let (number, look) = (k % both.len(), k / both.len());
+            let (body, copy) = both[number];
+            let from = (from.into(), self.angle(body, later[look]).position);
+            let found = (found.into(), self.angle(copy, inputs[look]).position);
+            let off = self.apart(about, (spin, turn), inputs[look], [from, found]);
+            for (most, off) in maximum[number].iter_mut().zip(off) {
+                *most = most.max(off);
+            }
+        }
+        maximum
+    }
+
+    /// Distance and angle by which a copy is off where its original stands when the body in the middle has turned on.
+    fn off(
+        &self,
+        about: usize,
+        (body, copy): (usize, usize),
+        (spin, turn): (Spin, f64),
+        input: f64,
+    ) -> [f64; 2] {
+        let pose = |body: usize, input: f64| {
+            let at = self.place(body, Point::origin(), input);
+            (at, self.angle(body, input).position)
+        };
+        let from = pose(body, self.later(about, (spin, turn), input));
+        self.apart(about, (spin, turn), input, [from, pose(copy, input)])
+    }
+
+    /// Distance and angle between where an original is to stand and where its copy stands: place and angle of both.
+    fn apart(
+        &self,
+        about: usize,
+        (spin, turn): (Spin, f64),
+        input: f64,
+        [(mut at, mut angle), (found, turned)]: [(Point, f64); 2],
+    ) -> [f64; 2] {
+        if spin == Spin::Still {
+            let middle = self.place(about, Point::origin(), input);
+            at = middle + Rotation2::new(turn) * (at - middle);
+            angle += turn;
+        }
+        let off = turned - angle;
+        [(found - at).norm(), (off - TAU * (off / TAU).round()).abs()]
+    }
+
+    /// Input at which the body in the middle has turned on by an angle, whole turns aside.
+    fn later(&self, about: usize, (spin, turn): (Spin, f64), input: f64) -> f64 {
+        let angle = |input: f64| self.angle(about, input).position;
+        let sign = match spin {
+            Spin::Even(rate) | Spin::Uneven(rate) => rate.signum(),
+            Spin::Still => return input,
+        };
+        let required = angle(input) + if sign > 0.0 { turn } else { turn - TAU };
+        let end = input + self.period();
+        let off = |input: f64| angle(input) - required;
+        bracketed_root(off, input, end, off(input), off(end))
+    }
+}
+
+/// An error of the design written out, told of what is copied.
+fn of_copy(error: MachineError, expansion: &Expansion) -> MachineError {
+    match expansion.written(&error.key()) {
+        key if key == error.key() => error,
+        key => MachineError::Copy {
+            key,
+            error: Box::new(error),
+        },
+    }
+}
+
+/// Words of a chain that does not repeat.
+fn repeats([name, copy, about]: [&str; 3], turn: f64, [length, angle]: [Extreme; 2]) -> String {
+    let degrees = turn.to_degrees();
+    let what = match about {
+        crate::machine::design::FRAME => format!("as {name} does, turned by {degrees:.4} deg"),
+        _ => format!("where {name} does when {about} has turned {degrees:.4} deg further"),
+    };
+    format!(
+        "the train does not repeat: {copy} does not stand {what}, but is up to {:.6} mm off (at an input of {:.4} deg) and {:.6} deg (at {:.4} deg)",
+        length.value,
+        length.input.to_degrees(),
+        angle.value.to_degrees(),
+        angle.input.to_degrees()
+    )
+}

@@ -1,0 +1,352 @@
+use std::f64::consts::PI;
+
+use centrode_geometry::Point;
+
+use crate::machine::body::points::Reference;
+use crate::machine::goal::clearance_end::ClearanceEnd;
+use crate::machine::{Machine, MachineBody, MachineError, Pin};
+use centrode_kinematics::machine::JointKind;
+
+/// Grammar of the figures of a composed machine: form, meaning, unit as shown.
+pub const FIGURE_FORMS: [[&str; 3]; 15] = [
+    [
+        "point.x",
+        "x of a point: of body.point, or of a point whose name no other body has",
+        "mm",
+    ],
+    ["point.y", "y of a point", "mm"],
+    [
+        "point.speed",
+        "speed of a point at the design's speed",
+        "mm/s",
+    ],
+    [
+        "point.acceleration",
+        "acceleration of a point at the design's speed",
+        "m/s²",
+    ],
+    [
+        "body.angle",
+        "angle of a body against the frame, without jumps",
+        "deg",
+    ],
+    [
+        "body.angular_speed",
+        "speed at which a body turns, at the design's speed",
+        "rad/s",
+    ],
+    [
+        "body.swing",
+        "angle of a body against the one that carries it, on a pin",
+        "deg",
+    ],
+    [
+        "body.travel",
+        "place of a body along the one that carries it, on a slide",
+        "mm",
+    ],
+    ["transmission(dyad)", "transmission angle of a dyad", "deg"],
+    [
+        "distance(body.point, body.point)",
+        "distance of two points",
+        "mm",
+    ],
+    [
+        "clearance(body, body)",
+        "least clearance of two bodies, plates and gears that overlap in height, or of a body and an obstacle, over the cycle",
+        "mm",
+    ],
+    [
+        "input.torque",
+        "torque that the input needs at the design's speed, with inertia, weight and loads",
+        "N mm",
+    ],
+    [
+        "joint(body).force",
+        "force in the joint that carries a body, or joint(body-body) in the pin at which a dyad's bodies meet",
+        "N",
+    ],
+    [
+        "mesh(body).force",
+        "force along the normal of the teeth by which a body is moved",
+        "N",
+    ],
+    [
+        "pair(pair).figure",
+        "figure of the check of a gear pair by its key, pair(drive).contact_ratio_mean: the teeth by themselves, over their own cycle",
+        "as there",
+    ],
+];
+
+/// A figure of a composed machine, found by its words.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum MachineFigure {
+    /// A component of a point's motion.
+    Point {
+        /// Index of its body.
+        body: usize,
+        /// Place in the body's axes, mm.
+        at: Point,
+        /// The component.
+        part: PointPart,
+    },
+    /// Angle of a body against the frame, rad.
+    Angle(usize),
+    /// Angular speed of a body at the design's speed, rad/s.
+    AngularSpeed(usize),
+    /// Coordinate of the pin that carries a body, rad.
+    Swing(usize),
+    /// Coordinate of the slide that carries a body, mm.
+    Travel(usize),
+    /// Angle between the lines of a dyad's two bodies, from 0 to a right angle, rad; its number in the order of closing.
+    Transmission(usize),
+    /// Distance of two points, mm: of each the index of its body and the place in its axes.
+    Distance([(usize, Point); 2]),
+    /// Least clearance of two bodies, or of a body and an obstacle, over the cycle, mm.
+    Clearance([ClearanceEnd; 2]),
+    /// Torque of the input, N mm.
+    InputTorque,
+    /// Force in a joint, N; its index among the joints of the machine.
+    JointForce(usize),
+    /// Force in the pin that closes a loop, N; its index among the closures of the machine.
+    PinForce(usize),
+    /// Force along the normal of a mesh, N, positive on the flanks that drive with a counter-clockwise torque on the driven gear; its
+    /// index among the meshes of the machine.
+    MeshForce(usize),
+    /// A figure of the check of a gear pair, which does not change with the input.
+    OfPair {
+        /// The pair's number among [`Machine::pairs`].
+        pair: usize,
+        /// Key of the figure.
+        figure: &'static str,
+    },
+}
+
+impl MachineFigure {
+    /// Whether it is of forces, which the motion alone does not tell.
+    #[must_use]
+    pub fn is_of_forces(&self) -> bool {
+        matches!(
+            self,
+            Self::InputTorque | Self::JointForce(_) | Self::PinForce(_) | Self::MeshForce(_)
+        )
+    }
+}
+
+/// Component of a point's motion.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+pub enum PointPart {
+    /// x, mm.
+    X,
+    /// y, mm.
+    Y,
+    /// Speed at the design's speed, mm/s.
+    Speed,
+    /// Acceleration at the design's speed, m/s².
+    Acceleration,
+}
+
+impl Machine {
+    /// Finds a figure by its words, as [`FIGURE_FORMS`] tells; `key` is that of the design which names it.
+    ///
+    /// # Errors
+    /// [`MachineError`] where there is no such figure.
+    pub fn figure(&self, key: &str, words: &str) -> Result<MachineFigure, MachineError> {
+        let none = || MachineError::NoFigure {
+            key: key.into(),
+            words: words.into(),
+            known: FIGURE_FORMS
+                .iter()
+                .map(|[form, ..]| (*form).into())
+                .collect(),
+        };
+        if let Some(found) = self.figure_of_forces(key, words) {
+            return found?.ok_or_else(none);
+        }
+        if let Some(found) = self.figure_of_pair(key, words) {
+            return found;
+        }
+        if let Some((function, inside)) = words.split_once('(') {
+            let inside = inside.strip_suffix(')').ok_or_else(none)?;
+            let names: Vec<&str> = inside.split(',').map(str::trim).collect();
+            return match (function.trim(), &names[..]) {
+                ("transmission", [dyad]) => {
+                    let found = self.dyads.iter().position(|d| d.name == *dyad);
+                    found
+                        .map(MachineFigure::Transmission)
+                        .ok_or_else(|| MachineError::NoDyad {
+                            key: key.into(),
+                            dyad: (*dyad).into(),
+                            known: self.dyads.iter().map(|d| d.name.clone()).collect(),
+                        })
+                }
+                ("distance", [one, other]) => Ok(MachineFigure::Distance([
+                    self.point_of(key, one)?,
+                    self.point_of(key, other)?,
+                ])),
+                ("clearance", [one, other]) => self
+                    .clearance_ends(key, [one, other])
+                    .map(MachineFigure::Clearance),
+                _ => Err(none()),
+            };
+        }
+        let (of, part) = words.rsplit_once('.').ok_or_else(none)?;
+        let parts = [
+            ("x", PointPart::X),
+            ("y", PointPart::Y),
+            ("speed", PointPart::Speed),
+            ("acceleration", PointPart::Acceleration),
+        ];
+        if let Some((_, part)) = parts.into_iter().find(|(word, _)| *word == part) {
+            let (body, at) = self.point_of(key, of)?;
+            return Ok(MachineFigure::Point { body, at, part });
+        }
+        let kind = |body: usize| self.bodies[body].mount.as_ref().map(|mount| mount.kind);
+        match part {
+            "angle" => Ok(MachineFigure::Angle(self.body_of(key, of)?)),
+            "angular_speed" => Ok(MachineFigure::AngularSpeed(self.body_of(key, of)?)),
+            "swing" | "travel" => {
+                let body = self.body_of(key, of)?;
+                match (part, kind(body)) {
+                    ("swing", Some(JointKind::Turning)) => Ok(MachineFigure::Swing(body)),
+                    ("travel", Some(JointKind::Sliding(_))) => Ok(MachineFigure::Travel(body)),
+                    _ => Err(none()),
+                }
+            }
+            _ => Err(none()),
+        }
+    }
+
+    /// A figure of the forces; none within where it is none of theirs after all.
+    fn figure_of_forces(
+        &self,
+        key: &str,
+        words: &str,
+    ) -> Option<Result<Option<MachineFigure>, MachineError>> {
+        if words == "input.torque" {
+            return Some(Ok(Some(MachineFigure::InputTorque)));
+        }
+        let (function, name) = words.strip_suffix(").force")?.split_once('(')?;
+        let name = name.trim();
+        let body = || self.body_of(key, name);
+        Some(match function.trim() {
+            "joint" => match self.pins.iter().position(|pin| self.pair_name(pin) == name) {
+                Some(pin) => Ok(Some(MachineFigure::PinForce(pin))),
+                // Each body but the frame is carried by the joint before it.
+                None => body().map(|body| body.checked_sub(1).map(MachineFigure::JointForce)),
+            },
+            "mesh" => body().map(|body| {
+                let mesh = self.meshes.iter().position(|mesh| mesh.moved == body);
+                mesh.map(MachineFigure::MeshForce)
+            }),
+            _ => Ok(None),
+        })
+    }
+
+    /// Name of a pin that closes a loop: those of its two bodies.
+    fn pair_name(&self, pin: &Pin) -> String {
+        pin.bodies
+            .map(|body| self.bodies[body].name.as_str())
+            .join("-")
+    }
+
+    /// Words of the figures of single points, bodies, dyads and meshes, of the torque and of the forces in joints, for goals
+    /// to name.
+    #[must_use]
+    pub fn figure_words(&self) -> Vec<String> {
+        let all = |of: &str, parts: &[&str]| -> Vec<String> {
+            parts.iter().map(|part| format!("{of}.{part}")).collect()
+        };
+        let moving = self.points().filter(|(_, body, _)| *body > 0);
+        let of_points =
+            moving.flat_map(|(name, ..)| all(&name, &["x", "y", "speed", "acceleration"]));
+        let of_bodies = self.bodies.iter().skip(1).flat_map(|body| {
+            let joint = match body.mount.as_ref().map(|mount| mount.kind) {
+                Some(JointKind::Turning) => &["angle", "angular_speed", "swing"][..],
+                Some(JointKind::Sliding(_)) => &["angle", "angular_speed", "travel"],
+                _ => &["angle", "angular_speed"],
+            };
+            all(&body.name, joint)
+        });
+        let of_dyads = self.dyads.iter();
+        let of_dyads = of_dyads.map(|dyad| format!("transmission({})", dyad.name));
+        let motions = of_points.chain(of_bodies).chain(of_dyads);
+        let moves = |body: &&MachineBody| {
+            let mount = body.mount.as_ref();
+            mount.is_some_and(|mount| mount.kind != JointKind::Fixed)
+        };
+        let carried = self.bodies.iter().filter(moves);
+        let carried = carried.map(|body| body.name.clone());
+        let pins = self.pins.iter().map(|pin| self.pair_name(pin));
+        let of_joints = carried
+            .chain(pins)
+            .map(|name| format!("joint({name}).force"));
+        let meshes = self.meshes.iter();
+        let of_meshes = meshes.map(|mesh| format!("mesh({}).force", self.bodies[mesh.moved].name));
+        motions
+            .chain(["input.torque".to_owned()])
+            .chain(of_joints)
+            .chain(of_meshes)
+            .collect()
+    }
+
+    /// Index of a body that a key names.
+    pub(super) fn body_of(&self, key: &str, name: &str) -> Result<usize, MachineError> {
+        self.body_named(name).ok_or_else(|| MachineError::NoBody {
+            key: key.into(),
+            body: name.into(),
+            known: self.bodies.iter().map(|body| body.name.clone()).collect(),
+        })
+    }
+
+    /// Body and place of a point that a key names.
+    fn point_of(&self, key: &str, word: &str) -> Result<(usize, Point), MachineError> {
+        if let Some(found) = self.point_named(word) {
+            return Ok(found);
+        }
+        let reference = Reference::to_point(key, word)?;
+        reference.find(key, &self.points)?;
+        Err(MachineError::NoReference {
+            key: key.into(),
+            word: word.into(),
+        })
+    }
+
+    /// Value of a figure at an input, in mm, rad, mm/s, m/s² or rad/s; none for a clearance, which is of the whole cycle, for a
+    /// force, nor for a figure of a pair.
+    #[must_use]
+    pub fn value(&self, figure: &MachineFigure, input: f64) -> Option<f64> {
+        let speed = self.speed();
+        let coordinate = |body: usize| {
+            let mount = self.bodies.get(body)?.mount.as_ref()?;
+            Some(mount.law.at(input).position)
+        };
+        Some(match *figure {
+            MachineFigure::Point { body, at, part } => match part {
+                PointPart::X => self.place(body, at, input).x,
+                PointPart::Y => self.place(body, at, input).y,
+                PointPart::Speed => self.point(body, at, input).first.norm() * speed,
+                PointPart::Acceleration => {
+                    1e-3 * self.point(body, at, input).second.norm() * speed * speed
+                }
+            },
+            MachineFigure::Angle(body) => self.angle(body, input).position,
+            MachineFigure::AngularSpeed(body) => self.angle(body, input).velocity * speed,
+            MachineFigure::Swing(body) | MachineFigure::Travel(body) => coordinate(body)?,
+            MachineFigure::Transmission(dyad) => {
+                let angle = *self.transmission_angles(input).get(dyad)?;
+                angle.min(PI - angle)
+            }
+            MachineFigure::Distance(ends) => {
+                let [p, q] = ends.map(|(body, at)| self.place(body, at, input));
+                (p - q).norm()
+            }
+            MachineFigure::Clearance(_)
+            | MachineFigure::InputTorque
+            | MachineFigure::JointForce(_)
+            | MachineFigure::PinForce(_)
+            | MachineFigure::MeshForce(_)
+            | MachineFigure::OfPair { .. } => return None,
+        })
+    }
+}

@@ -1,0 +1,175 @@
+//! Goals as written.
+
+pub(super) mod clearance_end;
+pub(super) mod figure;
+pub(super) mod obstacle;
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use centrode_spec::rule::{Rule, broken, finite, positive, single_line};
+use centrode_spec::{SpecError, degrees};
+
+/// A goal: a figure, where in the cycle it counts, and the range in which it is wanted, in the figure's unit: mm, deg, mm/s.
+#[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
+#[serde(deny_unknown_fields)]
+pub struct MachineGoalSpec {
+    /// Figure by its words: `foot.x`, `crank.angle`, `transmission(knee)`; `centrode schema figures` lists them.
+    pub figure: String,
+    /// Goal in a few words, for reports.
+    #[serde(default, skip_serializing_if = "String::is_empty")]
+    pub title: String,
+    /// Extreme over the cycle that counts; left out, the figure counts at an input.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub over: Option<Over>,
+    /// Input at which it counts, rad (degrees in the file).
+    #[serde(
+        default,
+        rename = "at_deg",
+        with = "degrees",
+        skip_serializing_if = "Option::is_none"
+    )]
+    #[schemars(with = "Option<f64>")]
+    pub at: Option<f64>,
+    /// Inputs between which the extreme is looked for, rad (degrees in the file); left out, the cycle.
+    #[serde(
+        default,
+        rename = "within_deg",
+        with = "degrees",
+        skip_serializing_if = "Vec::is_empty"
+    )]
+    #[schemars(with = "Vec<f64>")]
+    pub within: Vec<f64>,
+    /// Figure wanted at the first and at the last of these inputs, between which it shall change evenly: what a departure
+    /// counts from.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub uniform: Option<[f64; 2]>,
+    /// Least figure wanted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub minimum: Option<f64>,
+    /// Greatest figure wanted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub maximum: Option<f64>,
+    /// Least and greatest figure wanted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub between: Option<[f64; 2]>,
+    /// Miss that is half way to the goal, for a search; left out, the size of what is wanted.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scale: Option<f64>,
+}
+
+/// Value of a figure over a cycle.
+#[derive(Clone, Copy, Debug, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Over {
+    /// The least.
+    Minimum,
+    /// The greatest.
+    Maximum,
+    /// The greatest less the least.
+    Span,
+    /// The greatest distance from an even course.
+    Deviation,
+}
+
+impl MachineGoalSpec {
+    /// Goal of a least clearance of two bodies, or of a body and an obstacle, mm.
+    pub fn clearance([one, other]: [&str; 2], minimum: f64) -> Self {
+        Self {
+            figure: format!("clearance({one}, {other})"),
+            title: format!("clearance of {one} from {other}"),
+            over: Some(Over::Minimum),
+            at: None,
+            within: Vec::new(),
+            uniform: None,
+            minimum: Some(minimum),
+            maximum: None,
+            between: None,
+            scale: None,
+        }
+    }
+
+    /// Figure and where it counts, in words.
+    #[must_use]
+    pub fn words(&self) -> String {
+        let figure = &self.figure;
+        match (self.over, self.at) {
+            (Some(Over::Minimum), _) => format!("least {figure}"),
+            (Some(Over::Maximum), _) => format!("greatest {figure}"),
+            (Some(Over::Span), _) => format!("span of {figure}"),
+            (Some(Over::Deviation), _) => format!("deviation of {figure} from uniform motion"),
+            (None, at) => format!("{figure} at {} deg", at.unwrap_or(0.0).to_degrees()),
+        }
+    }
+
+    /// Least and greatest figure wanted, in the unit shown.
+    #[must_use]
+    pub fn required(&self) -> [Option<f64>; 2] {
+        match self.between {
+            Some([minimum, maximum]) => [Some(minimum), Some(maximum)],
+            None => [self.minimum, self.maximum],
+        }
+    }
+
+    pub(in crate::machine) fn validate(&self) -> Result<(), SpecError> {
+        single_line("title", &self.title)?;
+        match (self.over, self.at) {
+            (Some(_), Some(_)) => return broken("at_deg", Rule::Excludes("over")),
+            (None, None) => return broken("over", Rule::NeedsOneOf("over and at_deg")),
+            _ => {}
+        }
+        finite("at_deg", self.at.unwrap_or(0.0))?;
+        for &end in &self.within {
+            finite("within_deg", end)?;
+        }
+        match self.within[..] {
+            [] => {}
+            _ if self.over.is_none() => return broken("within_deg", Rule::Unused("without over")),
+            [from, to] if from < to => {}
+            [from, to] => {
+                let rule = Rule::NotInOrder(degrees::rounded(from), degrees::rounded(to));
+                return broken("within_deg", rule);
+            }
+            _ => return broken("within_deg", Rule::Needed("as two inputs, from and to")),
+        }
+        self.validate_uniform()?;
+        for (key, value) in [("minimum", self.minimum), ("maximum", self.maximum)] {
+            if value.is_some() && self.between.is_some() {
+                return broken(key, Rule::Excludes("between"));
+            }
+            finite(key, value.unwrap_or(0.0))?;
+        }
+        for end in self.between.iter().flatten() {
+            finite("between", *end)?;
+        }
+        match self.required() {
+            [None, None] => {
+                return broken("minimum", Rule::NeedsOneOf("minimum, maximum and between"));
+            }
+            [Some(minimum), Some(maximum)] if minimum > maximum => {
+                let key = if self.between.is_some() {
+                    "between"
+                } else {
+                    "maximum"
+                };
+                return broken(key, Rule::NotInOrder(minimum, maximum));
+            }
+            _ => {}
+        }
+        match self.scale {
+            Some(scale) => positive("scale", scale),
+            None => Ok(()),
+        }
+    }
+
+    fn validate_uniform(&self) -> Result<(), SpecError> {
+        let departs = self.over == Some(Over::Deviation);
+        match self.uniform {
+            None if departs => broken("uniform", Rule::Needed("for a deviation")),
+            Some(_) if !departs => broken("uniform", Rule::Unused("but for a deviation")),
+            Some(_) if self.within.is_empty() => broken("within_deg", Rule::Needed("with uniform")),
+            Some(ends) => ends.iter().try_for_each(|&end| finite("uniform", end)),
+            None => Ok(()),
+        }
+    }
+}

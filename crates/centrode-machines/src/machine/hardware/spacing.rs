@@ -1,0 +1,228 @@
+//! Rings in the gaps between parts on pins and shafts.
+
+use centrode_geometry::{Outline, Point, Tolerance, Vector};
+
+use crate::machine::Machine;
+use crate::machine::hardware::shafts::ROUNDING;
+use centrode_kinematics::machine::Spacer;
+
+/// Steps of the cycle at which what passes a ring is looked at.
+const STEPS: u32 = 360;
+/// Distance from their contours within which the corners of what passes are, mm.
+const FINE: f64 = 1e-2;
+
+/// A plate, gear, cam or roller that may pass a ring: its body, its heights and its corners there.
+#[derive(Clone, Debug)]
+pub(in crate::machine) struct Passing {
+    pub(in crate::machine) body: usize,
+    span: [f64; 2],
+    pub(in crate::machine) corners: Vec<Point>,
+    outline: Outline,
+    /// Distance of its farthest point from the origin of the body, mm.
+    reach: f64,
+}
+
+/// Parts that may pass a ring, and the motion of all bodies.
+#[derive(Clone, Debug)]
+pub(in crate::machine) struct Passage {
+    pub(in crate::machine) parts: Vec<Passing>,
+    pub(in crate::machine) frames: Frames,
+}
+
+/// Positions of all bodies at several inputs.
+#[derive(Clone, Debug)]
+pub struct Frames {
+    /// Origin of every body and the point at 1 mm on its first axis, mm, input by input.
+    places: Vec<[f64; 2]>,
+    bodies: usize,
+}
+
+impl Frames {
+    /// Path of a point of a body in the axes of another, mm: one point per input.
+    ///
+    /// # Panics
+    /// If a body is not one of the machine's.
+    pub fn path(
+        &self,
+        body: usize,
+        (own, at): (usize, Point),
+    ) -> impl Iterator<Item = Point> + Clone {
+        let frame = |places: &[[f64; 2]], body: usize| {
+            let [origin, unit] = [2 * body, 2 * body + 1].map(|k| Point::from(places[k]));
+            (origin, unit - origin)
+        };
+        self.places.chunks(2 * self.bodies).map(move |places| {
+            let (origin, axis) = frame(places, own);
+            let at = origin + axis * at.x + Vector::new(-axis.y, axis.x) * at.y;
+            let (origin, axis) = frame(places, body);
+            let at = at - origin;
+            Point::new(axis.dot(&at), axis.perp(&at))
+        })
+    }
+}
+
+impl Machine {
+    /// Positions of all bodies at several inputs, rad.
+    #[must_use]
+    pub fn frames(&self, inputs: &[f64]) -> Frames {
+        let bodies = self.bodies.len();
+        let ends = [Point::origin(), Point::new(1.0, 0.0)];
+        let points: Vec<(usize, Point)> = (0..bodies)
+            .flat_map(|body| ends.map(|at| (body, at)))
+            .collect();
+        Frames {
+            places: self.places_each(&points, inputs),
+            bodies,
+        }
+    }
+
+    /// Rings in the gaps between parts, given by their faces (mm), on an axis at a place of a body, with the height of
+    /// the lower face of each. None in a gap that another part reaches into, or where one passes closer than the plates' gap.
+    pub(in crate::machine) fn spacers(
+        &self,
+        own: (usize, Point),
+        diameter: f64,
+        on_it: &[[f64; 2]],
+    ) -> Vec<(Spacer, f64)> {
+        let mut spans = on_it.to_vec();
+        spans.sort_by(|a, b| a[0].total_cmp(&b[0]));
+        let mut top = f64::INFINITY;
+        let mut found = Vec::new();
+        for [low, high] in spans {
+            let gap = [top, low];
+            top = if top.is_finite() { top.max(high) } else { high };
+            if gap[1] - gap[0] <= ROUNDING {
+                continue;
+            }
+            let rings = Spacer::filling(diameter, gap[1] - gap[0]);
+            let outer = rings.first().map_or(0.0, |ring| ring.outer);
+            if rings.is_empty() || !self.is_clear(own, 0.5 * outer, gap) {
+                continue;
+            }
+            let mut at = gap[0];
+            for ring in rings {
+                found.push((ring, at));
+                at += ring.length;
+            }
+        }
+        found
+    }
+
+    /// Whether all parts keep farther from an axis than a radius and the plates' gap, mm, between two heights.
+    pub(super) fn is_clear(&self, own: (usize, Point), radius: f64, gap: [f64; 2]) -> bool {
+        let passage = self.passage();
+        let frame = self.frame_plates().map(|frame| &frame.lower);
+        let required = radius + self.design.plates.gap;
+        let reaches_into =
+            |part: &&Passing| part.span[0] < gap[1] - ROUNDING && part.span[1] > gap[0] + ROUNDING;
+        let parts = passage.parts.iter().chain(frame);
+        parts.filter(reaches_into).all(|part| {
+            let path = passage.frames.path(part.body, own);
+            // Between two steps the axis comes nearer by at most half the distance between them.
+            let keeps_away = |distance: &dyn Fn(Point) -> f64| {
+                let mut before: Option<(Point, f64)> = None;
+                path.clone().all(|at| {
+                    let near = distance(at);
+                    let step = before.map_or(0.0, |(last, _)| (at - last).norm());
+                    let nearest = before.map_or(near, |(_, last)| last.min(near)) - 0.5 * step;
+                    before = Some((at, near));
+                    nearest > required
+                })
+            };
+            keeps_away(&|at| at.coords.norm() - part.reach) || keeps_away(&|at| part.distance(at))
+        })
+    }
+
+    /// Whether the plate of a body comes nearer to an axis than a radius, mm, at a step of the cycle, whatever their heights.
+    pub(super) fn meets(&self, own: (usize, Point), radius: f64, body: usize) -> bool {
+        let passage = self.passage();
+        // A body's plate comes before its gears.
+        let plate = passage.parts.iter().find(|part| part.body == body);
+        plate.is_some_and(|part| {
+            let mut path = passage.frames.path(body, own);
+            path.any(|at| {
+                at.coords.norm() < part.reach + radius && part.distance(at) + FINE < radius
+            })
+        })
+    }
+
+    /// Parts that may pass a ring but the frame's two plates, and the motion of all bodies.
+    pub(in crate::machine) fn passage(&self) -> &Passage {
+        self.passage.get_or_init(|| {
+            let step = self.period() / f64::from(STEPS);
+            let inputs: Vec<f64> = (0..=STEPS).map(|k| f64::from(k) * step).collect();
+            Passage {
+                parts: self.passing(),
+                frames: self.frames(&inputs),
+            }
+        })
+    }
+
+    /// Plates, gears, cams and rollers.
+    fn passing(&self) -> Vec<Passing> {
+        let round = |body: &str, at: Point, outline: &Outline| {
+            let reach = outline.maximum_distance(Point::origin());
+            Some((self.body_named(body)?, Outline::circle(at, reach)))
+        };
+        let first = usize::from(self.has_frame_plates());
+        let plates = (first..self.bodies.len()).filter_map(|body| {
+            let span = (self.bottom(body), self.thickness(body));
+            Some((span, (body, self.contours(body)?.0)))
+        });
+        let gears = self.gears.iter().filter_map(|gear| {
+            let span = (self.gear_bottom(gear), gear.gear().body().width);
+            Some((
+                span,
+                round(&gear.body_name, gear.at, gear.gear().outline())?,
+            ))
+        });
+        let cams = self.cams.iter().filter_map(|cam| {
+            let span = (self.cam_bottom(cam), cam.part.body().width);
+            Some((
+                span,
+                round(&cam.body_name, cam.at, cam.part.profile().outline())?,
+            ))
+        });
+        let rollers = self.rollers().into_iter().map(|(body, at, (roller, low))| {
+            let outline = Outline::circle(at, 0.5 * roller.outer);
+            ((low, roller.length), (body, outline))
+        });
+        let all = plates.chain(gears).chain(cams).chain(rollers);
+        all.filter_map(|((low, thick), (body, outline))| {
+            Passing::new(body, [low, low + thick], outline)
+        })
+        .collect()
+    }
+}
+
+impl Passing {
+    /// A part of a body with a contour between two heights, mm.
+    pub(in crate::machine) fn new(body: usize, span: [f64; 2], outline: Outline) -> Option<Self> {
+        Some(Self {
+            body,
+            span,
+            corners: outline.flatten(Tolerance::new(FINE).ok()?),
+            reach: outline.maximum_distance(Point::origin()),
+            outline,
+        })
+    }
+
+    /// Distance of a place in the body's axes from the part, mm; zero inside.
+    fn distance(&self, at: Point) -> f64 {
+        if self.outline.contains(at) {
+            return 0.0;
+        }
+        let next = self.corners.iter().cycle().skip(1);
+        let sides = self.corners.iter().zip(next).map(|(a, b)| {
+            let side = b - a;
+            let square = side.norm_squared();
+            let share = if square > 0.0 {
+                (at - a).dot(&side) / square
+            } else {
+                0.0
+            };
+            (a + side * share.clamp(0.0, 1.0) - at).norm()
+        });
+        sides.fold(f64::INFINITY, f64::min) - FINE
+    }
+}

@@ -1,0 +1,75 @@
+//! Formulas of the input as motions and loads.
+
+use std::f64::consts::TAU;
+use std::sync::Arc;
+
+use crate::machine::MachineLawError;
+use crate::machine::motion::law::ROUNDING;
+use centrode_kinematics::formula::Formula;
+use centrode_kinematics::transmission::{FromFn, MotionJet, Transmission};
+
+/// A formula that has values all over a period.
+pub(in crate::machine) fn formula_of(
+    text: &str,
+    period: f64,
+) -> Result<impl Fn(f64) -> MotionJet + Send + Sync + use<>, MachineLawError> {
+    const SAMPLES: u32 = 720;
+    let formula = Formula::read(text).map_err(|e| MachineLawError::Formula(e.to_string()))?;
+    let jet = move |input: f64| MotionJet::from_series(&formula.at(input));
+    for i in 0..=SAMPLES {
+        let input = period * f64::from(i) / f64::from(SAMPLES);
+        let MotionJet {
+            position,
+            velocity,
+            acceleration,
+            jerk,
+        } = jet(input);
+        if !(position + velocity + acceleration + jerk).is_finite() {
+            let degrees = input.to_degrees();
+            return Err(MachineLawError::NoValue { degrees });
+        }
+    }
+    Ok(jet)
+}
+
+/// A formula as a law that repeats up to its growth over the period.
+pub(in crate::machine) fn expression(
+    text: &str,
+    start: f64,
+    period: f64,
+) -> Result<Arc<dyn Transmission>, MachineLawError> {
+    let formula = formula_of(text, period)?;
+    let jet = move |input: f64| {
+        let mut jet = formula(input);
+        jet.position += start;
+        jet
+    };
+    let (first, last) = (jet(0.0), jet(period));
+    for (what, start, end) in [
+        ("its rate", first.velocity, last.velocity),
+        ("its acceleration", first.acceleration, last.acceleration),
+    ] {
+        if (start - end).abs() > ROUNDING * start.abs().max(1.0) {
+            return Err(MachineLawError::Open { what, start, end });
+        }
+    }
+    let advance = last.position - first.position;
+    // Whole turns, none among them, up to rounding.
+    let whole = TAU * (advance / TAU).round();
+    let advance = if (advance - whole).abs() <= ROUNDING * first.position.abs().max(1.0) {
+        whole
+    } else {
+        advance
+    };
+    Ok(Arc::new(FromFn::new(
+        period,
+        advance,
+        Vec::new(),
+        move |input| {
+            let turns = (input / period).floor();
+            let mut jet = jet(input - turns * period);
+            jet.position += turns * advance;
+            jet
+        },
+    )))
+}
