@@ -3,7 +3,7 @@ use std::f64::consts::{PI, TAU};
 use centrode_analysis::{between_arms, machine_clearance};
 use centrode_geometry::{Outline, Point, Segment, Tolerance, Vector, extremes};
 use centrode_kinematics::transmission::MotionJet;
-use centrode_machines::machine::{Machine, MachineDesign};
+use centrode_machines::machine::{BodyPoint, Machine, MachineDesign};
 use centrode_machines::three_arm::ThreeArm;
 use centrode_machines::three_arm::design::ThreeArmDesign;
 use centrode_spec::DesignSpec as _;
@@ -106,7 +106,10 @@ fn the_cam_in_every_arm_is_that_of_the_family_of_its_own() {
         } else {
             format!("-{}", arm + 1)
         };
-        let (fork, roller) = composed
+        let BodyPoint {
+            body: fork,
+            at: roller,
+        } = composed
             .point_named(&format!("fork{end}.roller"))
             .expect("there");
         for i in 0..180 {
@@ -245,7 +248,7 @@ fn the_indexing_table_stands_still_and_turns_by_a_quarter_a_turn_of_the_shaft() 
     let whole = index.angle(table, index.period()).position - start(table);
     assert!((whole + TAU).abs() < 1e-11);
     let seat = index.point_named("table.seat").expect("a seat");
-    let radius = index.place(seat.0, seat.1, 1.0) - index.place(table, Point::origin(), 1.0);
+    let radius = index.place(seat.body, seat.at, 1.0) - index.place(table, Point::origin(), 1.0);
     assert!((Vector::norm(&radius) - 50.0).abs() < 1e-12);
 }
 

@@ -9,7 +9,7 @@ use centrode_analysis::{Goal, Report, check_feeder, check_machine};
 use centrode_groove::{MovingBox, MovingBoxDesign};
 use centrode_kinematics::transmission::MotionJet;
 use centrode_machines::feeder::{Feeder, FeederDesign};
-use centrode_machines::machine::{Machine, MachineDesign};
+use centrode_machines::machine::{BodyPoint, Machine, MachineDesign};
 use centrode_spec::DesignSpec;
 
 const SAMPLES: u32 = 500;
@@ -49,7 +49,7 @@ fn a_composed_feeder_moves_as_the_feeder_does() {
     let made = composed("composed-feeder.toml");
     assert!((made.speed() - whole.speed()).abs() < 1e-12);
     let body = |name: &str| made.body_named(name).expect(name);
-    let (tip_body, tip) = made.point_named("effector.tip").expect("a tip");
+    let tip = made.point_named("effector.tip").expect("a tip");
     for i in 0..SAMPLES {
         let input = TAU * f64::from(i) / f64::from(SAMPLES);
         let (crank, effector) = (whole.crank(input), whole.effector(input));
@@ -57,12 +57,12 @@ fn a_composed_feeder_moves_as_the_feeder_does() {
         same(&made.angle(body("crank"), input), &crank, size, "crank");
         let found = made.angle(body("effector"), input);
         same(&found, &effector, [1.0, 10.0, 1e3, 1e5], "effector");
-        let place = made.place(tip_body, tip, input);
+        let place = made.place(tip.body, tip.at, input);
         assert!(
             (place - whole.tip(input)).norm() < 1e-9 * 200.0,
             "tip at {input}"
         );
-        let speed = made.point(tip_body, tip, input).first.norm() * made.speed();
+        let speed = made.point(tip.body, tip.at, input).first.norm() * made.speed();
         assert!(
             (speed - whole.tip_speed(input)).abs() < 1e-9 * 2e3,
             "speed at {input}"
@@ -89,7 +89,10 @@ fn a_composed_box_moves_as_the_moving_box_does() {
     let whole = MovingBox::resolve(&whole).expect("a moving box");
     let made = composed("composed-box.toml");
     let travel = made.figure("", "box.travel").expect("a figure");
-    let (on, middle) = made.point_named("box.middle").expect("a point");
+    let BodyPoint {
+        body: on,
+        at: middle,
+    } = made.point_named("box.middle").expect("a point");
     let shaft = made.body_named("shaft").expect("a shaft");
     assert!((made.period() - whole.motion().period()).abs() < 1e-12);
     for i in 0..SAMPLES {

@@ -3,8 +3,7 @@ pub(crate) mod drive;
 use std::sync::Arc;
 
 use centrode_analysis::machine_clearance;
-use centrode_geometry::Point;
-use centrode_machines::machine as mechanism;
+use centrode_machines::machine::{self as mechanism, BodyPoint};
 use pyo3::IntoPyObjectExt;
 use pyo3::prelude::{
     Bound, PyAny, PyClassInitializer, PyRef, PyResult, Python, pyclass, pymethods,
@@ -53,7 +52,7 @@ fn checked(order: Count) -> Answer<usize> {
 
 impl Machine {
     /// Places of points at inputs, worked out side by side.
-    fn at_each(&self, phi: Values, tail: &[usize], points: Vec<(usize, Point)>) -> Course {
+    fn at_each(&self, phi: Values, tail: &[usize], points: Vec<BodyPoint>) -> Course {
         let made = Arc::clone(&self.0);
         Course::by_blocks(phi, tail, move |phi, places| {
             made.write_places(&points, phi, places.as_chunks_mut().0);
@@ -105,16 +104,16 @@ impl Machine {
     ///     DesignError: There is no such point.
     #[pyo3(signature = (name, phi, order=Count::Fits(0)), text_signature = "($self, name, phi, order=0)")]
     fn point(&self, name: &str, phi: Values, order: Count) -> Answer<Course> {
-        let Some((body, at)) = self.0.point_named(name) else {
+        let Some(point) = self.0.point_named(name) else {
             let known: Vec<String> = self.0.points().map(|(name, ..)| name).collect();
             let known: Vec<&str> = known.iter().map(String::as_str).collect();
             return Err(Raised::word("name", name, &known));
         };
         let order = checked(order)?;
         Ok(match order {
-            0 => self.at_each(phi, &[2], vec![(body, at)]),
+            0 => self.at_each(phi, &[2], vec![point]),
             _ => self.rows(phi, move |made, phi| {
-                let jet = made.point(body, at, phi);
+                let jet = made.point(point.body, point.at, phi);
                 [jet.first, jet.second, jet.third][order - 1].into()
             }),
         })
@@ -127,7 +126,7 @@ impl Machine {
     /// >>> leg.places([0.0, 0.1]).shape == (2, len(leg.points), 2)
     /// True
     fn places(&self, phi: Values) -> Course {
-        let points: Vec<(usize, Point)> = self.0.points().map(|(_, body, at)| (body, at)).collect();
+        let points: Vec<BodyPoint> = self.0.points().map(|(_, point)| point).collect();
         self.at_each(phi, &[points.len(), 2], points)
     }
 

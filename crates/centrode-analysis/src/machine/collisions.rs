@@ -2,7 +2,7 @@
 
 use centrode_geometry::{Bounds, Point, Tolerance, Vector, maxima};
 use centrode_kinematics::machine::{JointKind, LinkedMachine, Surface};
-use centrode_machines::machine::{Machine, MachineDesign};
+use centrode_machines::machine::{BodyPoint, Machine, MachineDesign};
 
 use super::clearance::surfaces;
 use super::{Made, ends as ends_of, through};
@@ -81,10 +81,10 @@ pub(super) fn collisions(made: &Made<'_>, ends: &[f64], report: &mut Report) {
     };
     let plates: Vec<PartSurfaces<'_>> = (0..machine.links.len()).filter_map(plate).collect();
     let may_collide = |pair: [usize; 2]| !held(machine, pair.map(|plate| plates[plate].link));
-    let found = overlaps(composed, machine, (&plates, may_collide), (ends, tolerance));
+    let found = overlaps(composed, machine, &plates, may_collide, ends, tolerance);
     let remedy = "another layer for one of them, or a narrower plate";
-    let stated = ("plates-collide", "the plates of", remedy);
-    report.findings.extend(findings(stated, &found));
+    let found = findings("plates-collide", "the plates of", remedy, &found);
+    report.findings.extend(found);
     let gears = composed.gears().iter().filter_map(|gear| {
         let (link, name) = (composed.body_named(gear.body_name())?, gear.surface_name());
         let own = surfaces(machine, link).filter(|surface| surface.name == name);
@@ -93,12 +93,12 @@ pub(super) fn collisions(made: &Made<'_>, ends: &[f64], report: &mut Report) {
     let gears: Vec<PartSurfaces<'_>> = gears.collect();
     let may_collide =
         |pair: [usize; 2]| !is_meshed(composed, machine, pair.map(|gear| &gears[gear]));
-    let found = overlaps(composed, machine, (&gears, may_collide), (ends, tolerance));
+    let found = overlaps(composed, machine, &gears, may_collide, ends, tolerance);
     let remedy =
         "fewer copies, smaller gears, or gears of another pair, which lies at another height";
-    let stated = ("gears-collide", "gears", remedy);
-    report.findings.extend(findings(stated, &found));
-    through::collisions(composed, machine, (ends, tolerance), report);
+    let found = findings("gears-collide", "gears", remedy, &found);
+    report.findings.extend(found);
+    through::collisions(composed, machine, ends, tolerance, report);
 }
 
 /// Parts of a kind that overlap, and how many pairs are not looked at since so many do.
@@ -117,10 +117,16 @@ type Overlap<'a> = ([&'a PartSurfaces<'a>; 2], [f64; 2]);
 pub(super) fn overlaps<'a>(
     composed: &Machine,
     machine: &LinkedMachine,
-    (pieces, may_collide): (&'a [PartSurfaces<'a>], impl Fn([usize; 2]) -> bool),
-    (ends, tolerance): (&[f64], Tolerance),
+    pieces: &'a [PartSurfaces<'a>],
+    may_collide: impl Fn([usize; 2]) -> bool,
+    ends: &[f64],
+    tolerance: Tolerance,
 ) -> Overlaps<'a> {
-    let centers: Vec<(usize, Point)> = pieces.iter().map(|p| (p.link, p.center)).collect();
+    let center = |part: &PartSurfaces<'_>| BodyPoint {
+        body: part.link,
+        at: part.center,
+    };
+    let centers: Vec<BodyPoint> = pieces.iter().map(center).collect();
     let pairs = meeting(&swept(composed, pieces, &centers, ends));
     let pairs: Vec<[usize; 2]> = pairs
         .into_iter()
@@ -165,7 +171,7 @@ const SAMPLES: u32 = 24;
 fn swept(
     composed: &Machine,
     pieces: &[PartSurfaces<'_>],
-    centers: &[(usize, Point)],
+    centers: &[BodyPoint],
     ends: &[f64],
 ) -> Vec<Bounds> {
     let inputs = ends.windows(2).flat_map(|ends| {
@@ -204,10 +210,11 @@ fn meeting(boxes: &[Bounds]) -> Vec<[usize; 2]> {
 
 /// Findings of parts of a kind that overlap: rule, words for them, and remedy.
 pub(super) fn findings<'a>(
-    stated: (&'static str, &'static str, &'static str),
+    rule: &'static str,
+    kind: &'static str,
+    remedy: &'static str,
     overlaps: &'a Overlaps<'a>,
 ) -> impl Iterator<Item = Finding> + 'a {
-    let (rule, _, remedy) = stated;
     let pairs = overlaps.found.iter();
     let worst = pairs
         .map(|(_, [minimum, _])| Severity::of_overlap(-minimum))
@@ -228,13 +235,15 @@ pub(super) fn findings<'a>(
     overlaps
         .found
         .iter()
-        .map(move |overlap| collision(stated, overlap))
+        .map(move |overlap| collision(rule, kind, remedy, overlap))
         .chain(left)
 }
 
 /// Two parts of a kind that overlap, by the rule that they break.
 fn collision(
-    (rule, kind, remedy): (&'static str, &'static str, &'static str),
+    rule: &'static str,
+    kind: &str,
+    remedy: &'static str,
     &(pair, [minimum, input]): &Overlap<'_>,
 ) -> Finding {
     let [one, other] = pair;

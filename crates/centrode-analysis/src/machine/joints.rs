@@ -138,12 +138,12 @@ pub(super) fn four_bars(composed: &Machine, report: &mut Report) {
             ([from, to], [spec.lengths[0], spec.lengths[1]]),
             ([to, from], [spec.lengths[1], spec.lengths[0]]),
         ] {
-            let Some(mount) = &composed.bodies()[crank.0].mount else {
+            let Some(mount) = &composed.bodies()[crank.body].mount else {
                 continue;
             };
-            if mount.kind == JointKind::Turning && mount.carrier == ground.0 {
-                let own = crank.1.coords.norm();
-                let frame = (ground.1 - mount.at).norm();
+            if mount.kind == JointKind::Turning && mount.carrier == ground.body {
+                let own = crank.at.coords.norm();
+                let frame = (ground.at - mount.at).norm();
                 let bar = FourBar::new(own, lengths[0], lengths[1], frame, Branch::Upper);
                 four = bar.ok().map(|bar| bar.grashof_margin());
             }

@@ -1,5 +1,5 @@
-use centrode_geometry::{Extreme, Point, maxima, rounding};
-use centrode_machines::machine::Machine;
+use centrode_geometry::{Extreme, maxima, rounding};
+use centrode_machines::machine::{BodyPoint, Machine};
 
 /// Extremes over the cycle of all that a check tells of the motion, found in one sweep.
 pub(super) struct Motion {
@@ -29,15 +29,14 @@ impl Motion {
     pub(super) fn new(composed: &Machine, ends: &[f64]) -> Self {
         let (names, points): (Vec<_>, Vec<_>) = composed
             .points()
-            .filter(|(_, body, _)| *body > 0)
-            .map(|(name, body, at)| (name, (body, at)))
+            .filter(|(_, point)| point.body > 0)
             .unzip();
         let (dyads, bodies) = (composed.dyads().len(), composed.bodies().len());
         let joint = |body: usize, input: f64| {
             let mount = composed.bodies()[body].mount.as_ref();
             mount.map_or(0.0, |mount| mount.law.at(input).position)
         };
-        let of_points = |points: &[(usize, Point)], input: f64| -> Vec<[f64; OF_POINT]> {
+        let of_points = |points: &[BodyPoint], input: f64| -> Vec<[f64; OF_POINT]> {
             let all = composed.moving(points, input).into_iter();
             all.map(|(at, velocity)| [-at.x, at.x, -at.y, at.y, velocity.norm()])
                 .collect()

@@ -6,7 +6,7 @@ use centrode_geometry::{Outline, Point, Tolerance};
 use centrode_kinematics::machine::{
     Form, LinkedMachine, SpacerKind, Surface, TurnedPiece, TurnedPieces,
 };
-use centrode_machines::machine::{Frames, Machine};
+use centrode_machines::machine::{BodyPoint, Frames, Machine};
 
 use super::collisions::{PartSurfaces, findings, overlaps};
 use crate::Report;
@@ -43,7 +43,8 @@ struct Round {
 pub(super) fn collisions(
     composed: &Machine,
     machine: &LinkedMachine,
-    (ends, tolerance): (&[f64], Tolerance),
+    ends: &[f64],
+    tolerance: Tolerance,
     report: &mut Report,
 ) {
     let turned = on_axes(composed, machine);
@@ -80,24 +81,25 @@ pub(super) fn collisions(
         let Kind::Turned { axis, is_roller } = kinds[one] else {
             return false;
         };
-        let own = (pieces[one].link, axis);
+        let (body, link) = (pieces[one].link, pieces[other].link);
+        let own = BodyPoint { body, at: axis };
         let is_free = || match kinds[other] {
-            Kind::Turned { axis, .. } => !is_one(&frames, own, (pieces[other].link, axis)),
+            Kind::Turned { axis, .. } => !is_one(&frames, own, link, axis),
             // A roller touches its cam, and goes through no hole of a pin.
-            Kind::Cam(bores) => !is_roller && !is_in_hole(&frames, own, pieces[other].link, bores),
-            Kind::Gear(bores) => is_roller || !is_in_hole(&frames, own, pieces[other].link, bores),
+            Kind::Cam(bores) => !is_roller && !is_in_hole(&frames, own, link, bores),
+            Kind::Gear(bores) => is_roller || !is_in_hole(&frames, own, link, bores),
             Kind::Plate(holes) => {
                 is_roller
-                    || !(is_in_hole(&frames, own, pieces[other].link, holes)
-                        || is_in_slot(composed, paths, (own, &pieces[one]), &pieces[other]))
+                    || !(is_in_hole(&frames, own, link, holes)
+                        || is_in_slot(composed, paths, own, &pieces[one], &pieces[other]))
             }
         };
         is_level([one, other]) && is_free()
     };
-    let found = overlaps(composed, machine, (&pieces, pins_may), (ends, tolerance));
+    let found = overlaps(composed, machine, &pieces, pins_may, ends, tolerance);
     let remedy = "another layer for a plate or cam that it joins, or for what it runs into";
-    let stated = ("pins-collide", "parts", remedy);
-    report.findings.extend(findings(stated, &found));
+    let found = findings("pins-collide", "parts", remedy, &found);
+    report.findings.extend(found);
     // Plates among each other, and gears, are looked at by themselves.
     let parts_may = |pair: [usize; 2]| {
         let is_ours = matches!(
@@ -109,10 +111,10 @@ pub(super) fn collisions(
         );
         is_ours && is_level(pair)
     };
-    let found = overlaps(composed, machine, (&pieces, parts_may), (ends, tolerance));
+    let found = overlaps(composed, machine, &pieces, parts_may, ends, tolerance);
     let remedy = "another layer for the cam or plate";
-    let stated = ("parts-collide", "parts", remedy);
-    report.findings.extend(findings(stated, &found));
+    let found = findings("parts-collide", "parts", remedy, &found);
+    report.findings.extend(found);
 }
 
 /// Each pin and shaft with its sleeves, and the rollers on it.
@@ -203,12 +205,12 @@ fn parts<'a>(
 }
 
 /// Whether two axes are one all through the cycle.
-fn is_one(frames: &Frames, own: (usize, Point), (body, axis): (usize, Point)) -> bool {
+fn is_one(frames: &Frames, own: BodyPoint, body: usize, axis: Point) -> bool {
     frames.path(body, own).all(|at| (at - axis).norm() < LEVEL)
 }
 
 /// Whether the axis of a pin lies in one hole of a part all through the cycle.
-fn is_in_hole(frames: &Frames, own: (usize, Point), link: usize, holes: &[Outline]) -> bool {
+fn is_in_hole(frames: &Frames, own: BodyPoint, link: usize, holes: &[Outline]) -> bool {
     let mut holes = holes.iter();
     holes.any(|hole| frames.path(link, own).all(|at| hole.contains(at)))
 }
@@ -217,7 +219,8 @@ fn is_in_hole(frames: &Frames, own: (usize, Point), link: usize, holes: &[Outlin
 fn is_in_slot<'a>(
     composed: &Machine,
     paths: impl Fn() -> &'a Frames,
-    (own, pin): ((usize, Point), &PartSurfaces<'_>),
+    own: BodyPoint,
+    pin: &PartSurfaces<'_>,
     plate: &PartSurfaces<'_>,
 ) -> bool {
     let is_level = |a: &Surface, b: &Surface| a.span[0] < b.span[1] && b.span[0] < a.span[1];
@@ -225,7 +228,7 @@ fn is_in_slot<'a>(
         let mut others = plate.surfaces.iter();
         others.any(|b| is_level(a, b))
     });
-    let radii = level.map(|surface| surface.outline.maximum_distance(own.1));
+    let radii = level.map(|surface| surface.outline.maximum_distance(own.at));
     let radius = radii.fold(0.0, f64::max);
     let slots = composed.slots(plate.link);
     slots.iter().any(|slot| {

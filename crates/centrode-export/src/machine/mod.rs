@@ -7,7 +7,7 @@ use centrode_formats::drawing::{Color, Drawing, EntityShape, LineType};
 use centrode_formats::{Bundle, Format};
 use centrode_geometry::{MassProperties, Point, Solid};
 use centrode_kinematics::machine::{Form, LinePath, LinkedMachine};
-use centrode_machines::machine::{Hardware, Machine};
+use centrode_machines::machine::{BodyPoint, Hardware, Machine};
 use nalgebra::{Isometry2, Matrix3, Point3};
 
 use crate::{ExportError, Options, Package, turned};
@@ -114,7 +114,7 @@ fn assembly(composed: &Machine, machine: &LinkedMachine) -> Drawing {
         }
     }
     drawing = scenery(drawing, composed, machine);
-    for (_, body, at) in composed.points().filter(|(_, body, _)| *body > 0) {
+    for (_, BodyPoint { body, at }) in composed.points().filter(|(_, point)| point.body > 0) {
         let way = (0..=POINTS).map(|i| {
             let input = composed.period() * f64::from(i) / f64::from(POINTS);
             composed.place(body, at, input)

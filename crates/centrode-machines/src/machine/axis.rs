@@ -3,9 +3,9 @@
 use centrode_geometry::Point;
 use nalgebra::Isometry2;
 
-use super::Mount;
 use super::gears::mesh::Angle;
 use super::resolve::Builder;
+use super::{BodyPoint, Mount};
 use centrode_kinematics::machine::JointKind;
 
 impl Mount {
@@ -30,34 +30,29 @@ impl Builder<'_> {
 
     /// Place, in the axes of a body that carries it, of a point of another that stands still there; none where it moves by
     /// more than a length.
-    pub(super) fn axis_on(
-        &self,
-        carrier: usize,
-        (mut body, mut at): (usize, Point),
-        size: f64,
-    ) -> Option<Point> {
+    pub(super) fn axis_on(&self, carrier: usize, mut point: BodyPoint, size: f64) -> Option<Point> {
         loop {
-            if let Some(found) = self.down(carrier, (body, at), size) {
+            if let Some(found) = self.down(carrier, point, size) {
                 return Some(found);
             }
             // The same point on the body below: that of the pin, or any of a body fixed to it.
-            let mount = self.bodies[body].mount.as_ref()?;
-            at = match mount.kind {
-                JointKind::Fixed => mount.seat() * at,
-                JointKind::Turning if at.coords.norm() <= size => mount.at,
+            let mount = self.bodies[point.body].mount.as_ref()?;
+            point.at = match mount.kind {
+                JointKind::Fixed => mount.seat() * point.at,
+                JointKind::Turning if point.at.coords.norm() <= size => mount.at,
                 _ => return None,
             };
-            body = mount.carrier;
+            point.body = mount.carrier;
         }
     }
 
     /// A point of a body in the axes of one that it carries, where it stands still.
-    fn down(&self, carrier: usize, (body, at): (usize, Point), size: f64) -> Option<Point> {
-        if carrier == body {
-            return Some(at);
+    fn down(&self, carrier: usize, point: BodyPoint, size: f64) -> Option<Point> {
+        if carrier == point.body {
+            return Some(point.at);
         }
         let mount = self.bodies[carrier].mount.as_ref()?;
-        let below = self.down(mount.carrier, (body, at), size)?;
+        let below = self.down(mount.carrier, point, size)?;
         match mount.kind {
             JointKind::Fixed => Some(mount.seat().inverse() * below),
             JointKind::Turning if (below - mount.at).norm() <= size => Some(Point::origin()),

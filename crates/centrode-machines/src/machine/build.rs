@@ -5,8 +5,8 @@ use centrode_geometry::{Point, extremes, piece_ends};
 use super::copies::copying;
 use super::resolve::{Builder, blame};
 use super::{
-    DyadKind, MachineBody, MachineDyad, MachineDyadSpec, MachineError, MachineLawSpec, Mount, Pin,
-    Side,
+    BodyPoint, DyadKind, MachineBody, MachineDyad, MachineDyadSpec, MachineError, MachineLawSpec,
+    Mount, Pin, Side,
 };
 use centrode_kinematics::linkage::{Branch, Coordinate, JointId, Line, LinkId, Linkage};
 use centrode_kinematics::machine::{Constant, JointKind};
@@ -17,20 +17,17 @@ const PARTS: u32 = 8;
 
 impl Builder<'_> {
     fn line(&self, key: &str, word: &str, angle: f64) -> Result<(usize, Line), MachineError> {
-        let (body, through) = self.place(key, word)?;
-        let link = self.bodies[body].link;
-        Ok((
-            body,
-            Line {
-                link,
-                through,
-                angle,
-            },
-        ))
+        let BodyPoint { body, at } = self.place(key, word)?;
+        let line = Line {
+            link: self.bodies[body].link,
+            through: at,
+            angle,
+        };
+        Ok((body, line))
     }
 
     fn joint(&mut self, key: &str, word: &str) -> Result<(usize, Point, JointId), MachineError> {
-        let (body, at) = self.place(key, word)?;
+        let BodyPoint { body, at } = self.place(key, word)?;
         let joint = self.linkage.point(self.bodies[body].link, at);
         Ok((body, at, joint.map_err(blame(key))?))
     }
@@ -149,8 +146,8 @@ impl Builder<'_> {
                 let (to, q_at, q) = self.joint(&to_key, &word(&dyad.to))?;
                 let bars = self.linkage.rrr(p, q, (length(0), length(1)), branch);
                 let bars = bars.map_err(wrong)?;
-                let one = self.turning(&key, (first, bars.first), from, p_at);
-                let other = self.turning(&key, (second, bars.second), to, q_at);
+                let one = self.turning(&key, first, bars.first, from, p_at);
+                let other = self.turning(&key, second, bars.second, to, q_at);
                 self.pins
                     .push(Pin::new([one, other], Point::new(length(0), 0.0)));
                 [one, other]
@@ -162,8 +159,8 @@ impl Builder<'_> {
                     .linkage
                     .rrp(p, length(0), line, branch)
                     .map_err(wrong)?;
-                let bar = self.turning(&key, (first, made.link), from, at);
-                let block = self.sliding(&key, (second, made.block), guide, line);
+                let bar = self.turning(&key, first, made.link, from, at);
+                let block = self.sliding(&key, second, made.block, guide, line);
                 self.pins
                     .push(Pin::new([bar, block], Point::new(length(0), 0.0)));
                 [bar, block]
@@ -173,13 +170,13 @@ impl Builder<'_> {
                 let (to, at, q) = self.joint(&to_key, &word(&dyad.to))?;
                 let offset = dyad.offset.unwrap_or(0.0);
                 let made = self.linkage.rpr(p, q, offset, branch).map_err(wrong)?;
-                let guide = self.turning(&key, (second, made.link), to, at);
+                let guide = self.turning(&key, second, made.link, to, at);
                 let line = Line {
                     link: made.link,
                     through: Point::new(0.0, offset),
                     angle: 0.0,
                 };
-                let block = self.sliding(&key, (first, made.block), guide, line);
+                let block = self.sliding(&key, first, made.block, guide, line);
                 self.pins.push(Pin::new([block, from], origin));
                 [block, guide]
             }
@@ -189,8 +186,8 @@ impl Builder<'_> {
                 let second_key = format!("{key}.second_line");
                 let (other, across) = self.line(&second_key, &word(&dyad.second_line), turn)?;
                 let made = self.linkage.prp(line, across).map_err(wrong)?;
-                let block = self.sliding(&key, (first, made.block), guide, line);
-                let mate = self.sliding(&key, (second, made.link), other, across);
+                let block = self.sliding(&key, first, made.block, guide, line);
+                let mate = self.sliding(&key, second, made.link, other, across);
                 self.pins.push(Pin::new([block, mate], origin));
                 [block, mate]
             }
@@ -199,13 +196,13 @@ impl Builder<'_> {
                 let (from, _, p) = self.joint(&from_key, &word(&dyad.from))?;
                 let (guide, line) = self.line(&format!("{key}.line"), &word(&dyad.line), angle)?;
                 let made = self.linkage.rpp(p, line, slot).map_err(wrong)?;
-                let yoke = self.sliding(&key, (second, made.link), guide, line);
+                let yoke = self.sliding(&key, second, made.link, guide, line);
                 let along = Line {
                     link: made.link,
                     through: origin,
                     angle: slot,
                 };
-                let block = self.sliding(&key, (first, made.block), yoke, along);
+                let block = self.sliding(&key, first, made.block, yoke, along);
                 self.pins.push(Pin::new([block, from], origin));
                 [block, yoke]
             }
@@ -219,13 +216,7 @@ impl Builder<'_> {
     }
 
     /// Adds a body of a dyad that turns on a pin; its motion is followed when all is built.
-    fn turning(
-        &mut self,
-        key: &str,
-        (name, link): (&str, LinkId),
-        carrier: usize,
-        at: Point,
-    ) -> usize {
+    fn turning(&mut self, key: &str, name: &str, link: LinkId, carrier: usize, at: Point) -> usize {
         let against = self.bodies[carrier].link;
         let law = Arc::new(Constant(0.0));
         let body = self.push(name, link, Mount::turning(carrier, at, law));
@@ -238,7 +229,8 @@ impl Builder<'_> {
     fn sliding(
         &mut self,
         key: &str,
-        (name, link): (&str, LinkId),
+        name: &str,
+        link: LinkId,
         carrier: usize,
         line: Line,
     ) -> usize {

@@ -1,8 +1,8 @@
-use centrode_geometry::{Outline, Point, SolidError};
+use centrode_geometry::{Outline, SolidError};
 
 use super::hardware::pieces::Pieces;
 use super::load::MachineLoad;
-use super::{Hardware, Hold, Machine, MachineBody};
+use super::{BodyPoint, Hardware, Hold, Machine, MachineBody};
 use centrode_kinematics::machine::{
     Blank, Closure, Fit, Form, GearMesh, Input, Joint, JointKind, Line, LineRole, Link, LinkPoint,
     LinkedMachine, Mark, Part, PitchCurves, Quantity, Shape, Surface,
@@ -317,7 +317,7 @@ impl Machine {
     }
 
     fn add_points(&self, machine: &mut LinkedMachine) {
-        for (name, body, at) in self.points().filter(|(_, body, _)| *body > 0) {
+        for (name, BodyPoint { body, at }) in self.points().filter(|(_, point)| point.body > 0) {
             let point = machine.points.len();
             let column = name.replace(['.', '-'], "_");
             machine.points.push(LinkPoint {
@@ -365,10 +365,10 @@ impl Machine {
         // Links are drawn in their own order.
         let marks = self
             .points()
-            .map(|(name, figure, at): (String, usize, Point)| Mark {
+            .map(|(name, point): (String, BodyPoint)| Mark {
                 name: name.rsplit('.').next().unwrap_or_default().to_owned(),
-                figure,
-                at: at.coords.into(),
+                figure: point.body,
+                at: point.at.coords.into(),
             });
         machine.marks.extend(marks);
         self.draw_obstacles(machine);

@@ -146,9 +146,8 @@ impl Builder<'_> {
             let key = format!("loads.{name}");
             let on = format!("{key}.on");
             let at = Reference::to_body(&spec.on).find(&on, &self.points)?;
-            let (body, _) = self.place(&on, &spec.on)?;
             Ok(MachineLoad {
-                body,
+                body: self.place(&on, &spec.on)?.body,
                 at,
                 force: spec.force.unwrap_or_default(),
                 torque: spec.torque.unwrap_or_default(),

@@ -34,6 +34,7 @@ use centrode_geometry::{Jet, Outline, Point, Vector};
 pub use body::MachineBodySpec;
 pub use body::contour::{MachineCircleSpec, MachineCornerSpec};
 pub use body::corner::{CornerSpec, MachinePointsSpec, Side};
+pub use body::points::BodyPoint;
 pub use cams::camming::MachineCam;
 pub use cams::{
     MachineCamSpec, MachineFollowerSpec, MachineSlidingRoller, MachineSwingingFlat,
@@ -63,7 +64,7 @@ pub use motion::drive::{IntermittentSpec, TraverseSpec};
 pub use motion::law::{MachineLawError, MachineLawSpec};
 pub use motion::table::TableReading;
 
-use self::body::points::BodyPoints;
+use self::body::points::{BodyPoints, LocalPoint};
 use self::copies::expansion::Expansion;
 use self::gears::gearing::Meshing;
 use self::hardware::frame::FramePlates;
@@ -280,26 +281,29 @@ impl Machine {
         self.bodies.iter().position(|body| body.name == name)
     }
 
-    /// Every point by `body.point`, with the index of its body and its place in the body's axes, mm: those of the bodies
+    /// Every point by `body.point`, with its body and place: those of the bodies
     /// themselves, not the pins on which they turn.
-    pub fn points(&self) -> impl Iterator<Item = (String, usize, Point)> + '_ {
+    pub fn points(&self) -> impl Iterator<Item = (String, BodyPoint)> + '_ {
         self.bodies
             .iter()
             .enumerate()
             .flat_map(move |(index, body)| {
                 let points = self.points.get(&body.name).into_iter().flatten();
                 let own = points.filter(|(_, point)| point.own);
-                own.map(move |(name, point)| (format!("{}.{name}", body.name), index, point.at))
+                own.map(move |(name, &LocalPoint { at, .. })| {
+                    let point = BodyPoint { body: index, at };
+                    (format!("{}.{name}", body.name), point)
+                })
             })
     }
 
-    /// Finds a point by `body.point`, or by its own name where no other body has one of that name: index of its body, and
-    /// place in the body's axes, mm.
+    /// Finds a point by `body.point`, or by its own name where no other body has one of that name.
     #[must_use]
-    pub fn point_named(&self, word: &str) -> Option<(usize, Point)> {
+    pub fn point_named(&self, word: &str) -> Option<BodyPoint> {
         if let Some((body, point)) = word.split_once('.') {
             let at = self.points.get(body)?.get(point)?.at;
-            return Some((self.body_named(body)?, at));
+            let body = self.body_named(body)?;
+            return Some(BodyPoint { body, at });
         }
         let named = |name: &str| {
             name.rsplit_once('.')
@@ -307,7 +311,7 @@ impl Machine {
         };
         let mut found = self.points().filter(|(name, ..)| named(name));
         match (found.next(), found.next()) {
-            (Some((_, body, at)), None) => Some((body, at)),
+            (Some((_, point)), None) => Some(point),
             _ => None,
         }
     }
@@ -335,7 +339,7 @@ impl Machine {
     /// # Panics
     /// Never for indices of bodies.
     #[must_use]
-    pub fn places_each(&self, points: &[(usize, Point)], inputs: &[f64]) -> Vec<[f64; 2]> {
+    pub fn places_each(&self, points: &[BodyPoint], inputs: &[f64]) -> Vec<[f64; 2]> {
         self.linkage.places_each(&self.on_links(points), inputs)
     }
 
@@ -343,7 +347,7 @@ impl Machine {
     ///
     /// # Panics
     /// Never for indices of bodies.
-    pub fn write_places(&self, points: &[(usize, Point)], inputs: &[f64], places: &mut [[f64; 2]]) {
+    pub fn write_places(&self, points: &[BodyPoint], inputs: &[f64], places: &mut [[f64; 2]]) {
         let points = self.on_links(points);
         self.linkage.write_places(&points, inputs, places);
     }
@@ -354,15 +358,15 @@ impl Machine {
     /// # Panics
     /// Never for indices of bodies.
     #[must_use]
-    pub fn moving(&self, points: &[(usize, Point)], input: f64) -> Vec<(Point, Vector)> {
+    pub fn moving(&self, points: &[BodyPoint], input: f64) -> Vec<(Point, Vector)> {
         self.linkage.moving(&self.on_links(points), input)
     }
 
     /// Points of bodies as points of links.
-    fn on_links(&self, points: &[(usize, Point)]) -> Vec<(LinkId, Point)> {
+    fn on_links(&self, points: &[BodyPoint]) -> Vec<(LinkId, Point)> {
         let points = points.iter();
         points
-            .map(|(body, at)| (self.bodies[*body].link, *at))
+            .map(|point| (self.bodies[point.body].link, point.at))
             .collect()
     }
 

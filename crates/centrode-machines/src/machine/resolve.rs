@@ -1,9 +1,7 @@
 use std::collections::BTreeMap;
 use std::sync::{Arc, OnceLock};
 
-use centrode_geometry::Point;
-
-use super::body::points::{BodyPoints, Reference, followed_cam, points_of};
+use super::body::points::{BodyPoint, BodyPoints, Reference, followed_cam, points_of};
 use super::build::range;
 use super::copies::expansion::Expansion;
 use super::design::FRAME;
@@ -315,12 +313,12 @@ impl<'a> Builder<'a> {
         self.bodies.iter().position(|body| body.name == name)
     }
 
-    /// A point of a body that is there: the body's index, the place in its axes.
-    pub(super) fn place(&self, key: &str, word: &str) -> Result<(usize, Point), MachineError> {
+    /// A point of a body that is there.
+    pub(super) fn place(&self, key: &str, word: &str) -> Result<BodyPoint, MachineError> {
         let reference = Reference::to_body(word);
         let at = reference.find(key, &self.points)?;
-        let index = self.body_named(&reference.body);
-        Ok((index.unwrap_or(0), at))
+        let body = self.body_named(&reference.body).unwrap_or(0);
+        Ok(BodyPoint { body, at })
     }
 
     /// The machine without copies and, there, a body or that of which it is a copy.

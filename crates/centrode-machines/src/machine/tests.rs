@@ -57,8 +57,8 @@ fn the_template_is_a_machine_whatever_the_order_of_its_names() {
     for i in 0..50 {
         let input = 0.3 * f64::from(i) - 4.0;
         assert_eq!(
-            leg.place(one.0, one.1, input),
-            other.place(two.0, two.1, input)
+            leg.place(one.body, one.at, input),
+            other.place(two.body, two.at, input)
         );
     }
 }
@@ -531,14 +531,14 @@ fn a_machine_k_times_as_large_moves_k_times_as_far() {
         dyad.lengths.iter_mut().for_each(|l| *l *= k);
     }
     let [one, other] = [&read(LEG), &large].map(|d| Machine::resolve(d).expect("a machine"));
-    let (body, at) = one.point_named("foot").expect("a foot");
-    let (large_body, large_at) = other.point_named("foot").expect("a foot");
-    assert!((large_at.coords - at.coords * k).norm() < 1e-12 * k * at.coords.norm());
+    let BodyPoint { body, at } = one.point_named("foot").expect("a foot");
+    let large_foot = other.point_named("foot").expect("a foot");
+    assert!((large_foot.at.coords - at.coords * k).norm() < 1e-12 * k * at.coords.norm());
     for i in 0..40 {
         let input = 0.17 * f64::from(i);
         let (a, b) = (
             one.point(body, at, input),
-            other.point(large_body, large_at, input),
+            other.point(large_foot.body, large_foot.at, input),
         );
         let off = (a.point.coords * k - b.point.coords).norm() + (a.third * k - b.third).norm();
         assert!(

@@ -31,6 +31,22 @@ pub(in crate::machine) struct LocalPoint {
     pub(in crate::machine) own: bool,
 }
 
+/// A point of a body of a machine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BodyPoint {
+    /// Index of the body.
+    pub body: usize,
+    /// Place in the body's axes, mm.
+    pub at: Point,
+}
+
+impl BodyPoint {
+    /// Whether another is of the same body and nearer than a length, mm.
+    pub(in crate::machine) fn is_near(self, other: Self, length: f64) -> bool {
+        self.body == other.body && (self.at - other.at).norm() < length
+    }
+}
+
 /// A point of a body, or the body's origin, as it is named elsewhere.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::machine) struct Reference {
@@ -365,8 +381,8 @@ impl Machine {
             Some(names) => !names.iter().any(|name| words.contains(name)),
             None => !words.contains(name),
         };
-        let moving = self.points().filter(|(_, body, _)| *body > 0);
-        let all = moving.map(|(name, ..)| name).filter(free);
+        let moving = self.points().filter(|(_, point)| point.body > 0);
+        let all = moving.map(|(name, _)| name).filter(free);
         let (ties, given): (Vec<String>, Vec<String>) = all.partition(|name| of(name).is_some());
         if given.is_empty() { ties } else { given }
     }

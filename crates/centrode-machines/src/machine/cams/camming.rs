@@ -153,11 +153,11 @@ impl Builder<'_> {
         self.follow()?;
         let on = body.on.as_deref().unwrap_or_default();
         let held = self.place(&format!("bodies.{name}.on"), on)?;
-        let seat = self.seat(&key, (name, body.slides), (cam, spec), held)?;
-        let (turn, rotation, _) = self.turned(&key, name, (cam, spec), &seat)?;
+        let seat = self.seat(&key, name, body.slides, cam, spec, held)?;
+        let (turn, rotation, _) = self.turned(&key, name, cam, spec, &seat)?;
         let period = self.linkage.period();
         let follower = spec.follower.at(seat.distance);
-        let part = self.cut(name, cam, spec, (follower, rotation))?;
+        let part = self.cut(name, cam, spec, follower, rotation)?;
         let disc = part.disc().clone();
         let start = body
             .law
@@ -166,7 +166,7 @@ impl Builder<'_> {
         let sense = spec.follower.sense();
         let zero = start + seat.lowest(&disc, sense);
         let breaks = turn.breaks(disc.motion(), period);
-        self.add_cam(name, (cam, spec), &seat, part, turn.clone());
+        self.add_cam(name, cam, spec, &seat, part, turn.clone());
         let at = move |input: f64| {
             let turned = turn.at(input);
             let lift = disc.motion().at(turned.position).after(&turned);
@@ -181,7 +181,8 @@ impl Builder<'_> {
     pub(super) fn add_cam(
         &mut self,
         follower: &str,
-        (cam, spec): (&str, &MachineCamSpec),
+        cam: &str,
+        spec: &MachineCamSpec,
         seat: &Seat,
         part: Arc<Cam>,
         turn: Turned,
@@ -204,7 +205,8 @@ impl Builder<'_> {
         name: &str,
         cam: &str,
         spec: &MachineCamSpec,
-        (follower, rotation): (Follower, Turn),
+        follower: Follower,
+        rotation: Turn,
     ) -> Result<Arc<Cam>, MachineError> {
         if let Some(made) = self.cams.get(cam) {
             let disc = made.disc();

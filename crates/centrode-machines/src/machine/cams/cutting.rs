@@ -9,7 +9,7 @@ use nalgebra::Rotation2;
 use crate::machine::body::points::{FACE, LocalPoint, ROLLER};
 use crate::machine::cams::seating::{Seat, Turned, wrong};
 use crate::machine::resolve::Builder;
-use crate::machine::{MachineCamSpec, MachineError, Mount};
+use crate::machine::{BodyPoint, MachineCamSpec, MachineError, Mount};
 use centrode_gear::cam::{Cam, CamError, DiscCam};
 use centrode_kinematics::machine::JointKind;
 use centrode_kinematics::transmission::{
@@ -47,17 +47,13 @@ impl Builder<'_> {
         let design = self.design;
         for (name, spec) in &design.cams {
             if let Some(body) = &spec.cut_to {
-                self.cut_to((name, spec), body)?;
+                self.cut_to(name, spec, body)?;
             }
         }
         Ok(())
     }
 
-    fn cut_to(
-        &mut self,
-        (cam, spec): (&str, &MachineCamSpec),
-        name: &str,
-    ) -> Result<(), MachineError> {
+    fn cut_to(&mut self, cam: &str, spec: &MachineCamSpec, name: &str) -> Result<(), MachineError> {
         let key = format!("cams.{cam}.cut_to");
         let Some(body) = self.body_named(name) else {
             let known = self.bodies.iter().map(|body| body.name.clone());
@@ -72,9 +68,9 @@ impl Builder<'_> {
             return wrong(&key, format!("body {name} neither turns nor slides"));
         };
         let slides = matches!(mount.kind, JointKind::Sliding(_)).then_some(mount.angle);
-        let held = (mount.carrier, mount.at);
-        let seat = self.seat(&key, (name, slides), (cam, spec), held)?;
-        let (turn, rotation, turns) = self.turned(&key, name, (cam, spec), &seat)?;
+        let (body, at) = (mount.carrier, mount.at);
+        let seat = self.seat(&key, name, slides, cam, spec, BodyPoint { body, at })?;
+        let (turn, rotation, turns) = self.turned(&key, name, cam, spec, &seat)?;
         let point = match spec.follower.arm() {
             Some(_) => ROLLER,
             None => FACE,
@@ -89,11 +85,11 @@ impl Builder<'_> {
                 MachineError::Cam { cam, error }
             }
         };
-        let (part, at) = match self.cut_before(cam, (name, point)) {
+        let (part, at) = match self.cut_before(cam, name, point) {
             Some((cut, at)) if *cut.body() == spec.body => (cut.renamed(cam), at),
             _ => {
                 let sense = spec.follower.sense();
-                let moved = self.moved(&key, (cam, name), &mount, (&turn, sense))?;
+                let moved = self.moved(&key, cam, name, &mount, &turn, sense)?;
                 let carrier = &self.bodies[seat.carrier].name;
                 let motion = moved.by_turn(&key, &turn, turns, carrier)?;
                 let follower = spec.follower.at(seat.distance);
@@ -111,12 +107,12 @@ impl Builder<'_> {
             let (body, point) = (name.into(), point.into());
             return Err(MachineError::PointTwice { key, body, point });
         }
-        self.add_cam(name, (cam, spec), &seat, Arc::new(part), turn);
+        self.add_cam(name, cam, spec, &seat, Arc::new(part), turn);
         Ok(())
     }
 
     /// The cam of which one is a copy, as it was cut, and the point of its follower.
-    fn cut_before(&self, cam: &str, (body, point): (&str, &str)) -> Option<(Arc<Cam>, Point)> {
+    fn cut_before(&self, cam: &str, body: &str, point: &str) -> Option<(Arc<Cam>, Point)> {
         let (bare, _) = self.original(body)?;
         let [cam, body] = [cam, body].map(|name| self.expansion.original(name));
         let cut = bare.cams().iter().find(|cut| cut.name == cam)?;
@@ -128,9 +124,11 @@ impl Builder<'_> {
     fn moved<'a>(
         &self,
         key: &str,
-        (cam, body): (&'a str, &'a str),
+        cam: &'a str,
+        body: &'a str,
         mount: &Mount,
-        (turn, sense): (&Turned, f64),
+        turn: &Turned,
+        sense: f64,
     ) -> Result<Moved<'a>, MachineError> {
         let (law, period) = (Arc::clone(&mount.law), self.linkage.period());
         let turned = (law.at(period).position - law.at(0.0).position) / TAU;

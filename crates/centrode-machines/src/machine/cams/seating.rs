@@ -6,7 +6,7 @@ use centrode_geometry::{Point, Vector, extremes, piece_ends};
 
 use crate::machine::gears::mesh::Angle;
 use crate::machine::resolve::Builder;
-use crate::machine::{MachineCamSpec, MachineError};
+use crate::machine::{BodyPoint, MachineCamSpec, MachineError};
 use centrode_gear::cam::DiscCam;
 use centrode_gear::cam::design::{Follower, Turn};
 use centrode_kinematics::transmission::{MotionJet, Transmission, crossings, sorted};
@@ -83,9 +83,11 @@ impl Builder<'_> {
     pub(in crate::machine) fn seat(
         &self,
         key: &str,
-        (name, slides): (&str, Option<f64>),
-        (cam, spec): (&str, &MachineCamSpec),
-        (carrier, pin): (usize, Point),
+        name: &str,
+        slides: Option<f64>,
+        cam: &str,
+        spec: &MachineCamSpec,
+        pin: BodyPoint,
     ) -> Result<Seat, MachineError> {
         let cam_key = format!("cams.{cam}");
         let words = ["slides", "turns"].map(|word| format!("a body that {word}"));
@@ -98,27 +100,28 @@ impl Builder<'_> {
             );
         }
         let still = SAME * spec.base_radius;
-        let (body, mut at) = self.place(&format!("{cam_key}.on"), &spec.on)?;
+        let mut point = self.place(&format!("{cam_key}.on"), &spec.on)?;
         if let Some(about) = &spec.about {
             let key = format!("{cam_key}.about");
             let there = self.place(&key, about)?;
-            let Some(found) = self.axis_on(body, there, still) else {
-                let why = format!("{about} moves on body {}", self.bodies[body].name);
+            let Some(found) = self.axis_on(point.body, there, still) else {
+                let why = format!("{about} moves on body {}", self.bodies[point.body].name);
                 return wrong(
                     &key,
                     format!("{why}, on which cam {cam} is mounted about it"),
                 );
             };
-            at = found;
+            point.at = found;
         }
-        let Some(axis) = self.axis_on(carrier, (body, at), still) else {
+        let carrier = pin.body;
+        let Some(axis) = self.axis_on(carrier, point, still) else {
             let why = format!(
                 "the axis of cam {cam} moves on body {}, which must carry it",
                 self.bodies[carrier].name
             );
             return wrong(key, why);
         };
-        let way = pin - axis;
+        let way = pin.at - axis;
         let (direction, distance, along) = match slides {
             Some(direction) => {
                 let unit = Vector::new(direction.cos(), direction.sin());
@@ -134,8 +137,8 @@ impl Builder<'_> {
             return wrong(&format!("{cam_key}.follower.{what}"), why);
         }
         Ok(Seat {
-            body,
-            at,
+            body: point.body,
+            at: point.at,
             carrier,
             axis,
             direction,
@@ -149,7 +152,8 @@ impl Builder<'_> {
         &self,
         key: &str,
         name: &str,
-        (cam, spec): (&str, &MachineCamSpec),
+        cam: &str,
+        spec: &MachineCamSpec,
         seat: &Seat,
     ) -> Result<(Turned, Turn, f64), MachineError> {
         let carrier = &self.bodies[seat.carrier].name;

@@ -10,7 +10,7 @@ use nalgebra::Rotation2;
 use crate::machine::copies::expansion::Expansion;
 use crate::machine::copies::{self, MachineCopiesSpec, Spin};
 use crate::machine::resolve::Builder;
-use crate::machine::{Machine, MachineDesign, MachineError};
+use crate::machine::{BodyPoint, Machine, MachineDesign, MachineError};
 use centrode_kinematics::transmission::{FromFn, Transmission, sorted};
 
 /// Inputs of a turn at which copies are held against their originals.
@@ -21,6 +21,23 @@ const PARTS: u32 = 24;
 const ROUNDING: f64 = 1e-8;
 /// Change of a rate, as a share of it, below which a body turns evenly.
 const EVEN: f64 = 1e-12;
+
+/// How a copy stands against its original.
+#[derive(Clone, Copy)]
+struct CopyTurn {
+    /// Index of the body in the middle.
+    about: usize,
+    spin: Spin,
+    /// Turn against the original, rad.
+    turn: f64,
+}
+
+/// Origin of a body (mm) and its angle (rad).
+#[derive(Clone, Copy)]
+struct Pose {
+    at: Point,
+    angle: f64,
+}
 
 /// A law that runs ahead of another.
 pub(in crate::machine) fn ahead(law: Arc<dyn Transmission>, by: f64) -> Arc<dyn Transmission> {
@@ -57,7 +74,7 @@ impl Machine {
             let key = format!("copies.{name}");
             one.can_copy(design, &key, spec)?;
             let spin = one.spin(&key, &spec.about)?;
-            copies::add(&mut whole, &mut expansion, &one.points, (name, spin))
+            copies::add(&mut whole, &mut expansion, &one.points, name, spin)
         };
         let added = design.copies.iter().try_for_each(add);
         let cut = || {
@@ -167,7 +184,7 @@ impl Machine {
     fn check_copies(&self, key: &str, spec: &MachineCopiesSpec) -> Result<(), MachineError> {
         let about = self.body_named(&spec.about).unwrap_or(0);
         let spin = self.spin(key, &spec.about)?;
-        let size = self.points().map(|(.., at)| at.coords.norm());
+        let size = self.points().map(|(_, point)| point.at.coords.norm());
         let size = size.fold(1.0, f64::max);
         let copied = |name: &str, piece: u32| format!("{name}-{}", piece + 1);
         let is_off = |piece: u32| {
@@ -176,7 +193,8 @@ impl Machine {
                 Some((self.body_named(name)?, copy))
             });
             let both: Vec<_> = both.collect();
-            self.maximum_off(about, &both, (spin, spec.turn(piece)))
+            let turn = spec.turn(piece);
+            self.maximum_off(CopyTurn { about, spin, turn }, &both)
                 .iter()
                 .any(|[length, angle]| *length > ROUNDING * size || *angle > ROUNDING)
         };
@@ -192,7 +210,7 @@ impl Machine {
             let (Some(body), Some(copy)) = (self.body_named(name), self.body_named(&copied)) else {
                 continue;
             };
-            let off = |input: f64| self.off(about, (body, copy), (spin, turn), input);
+            let off = |input: f64| self.off(CopyTurn { about, spin, turn }, body, copy, input);
             let [length, angle] = [0, 1].map(|i| maximum(|input| off(input)[i], &self.parts()));
             if length.value > ROUNDING * size || angle.value > ROUNDING {
                 return Err(MachineError::NoCopies {
@@ -205,20 +223,16 @@ impl Machine {
     }
 
     /// Greatest distance and angle by which each of several copies is off at the inputs that are looked at.
-    fn maximum_off(
-        &self,
-        about: usize,
-        both: &[(usize, usize)],
-        (spin, turn): (Spin, f64),
-    ) -> Vec<[f64; 2]> {
+    fn maximum_off(&self, by: CopyTurn, both: &[(usize, usize)]) -> Vec<[f64; 2]> {
         let count = SAMPLES * self.design.input.turns;
         let inputs = (0..count).map(|i| self.period() * f64::from(i) / f64::from(count));
         let inputs: Vec<f64> = inputs.collect();
-        let later = |input: &f64| self.later(about, (spin, turn), *input);
+        let later = |input: &f64| self.later(by, *input);
         let later: Vec<f64> = inputs.iter().map(later).collect();
         let origins = |bodies: Vec<usize>, inputs: &[f64]| {
-            let points: Vec<_> = bodies.into_iter().map(|b| (b, Point::origin())).collect();
-            self.places_each(&points, inputs)
+            let at = Point::origin();
+            let points = bodies.into_iter().map(|body| BodyPoint { body, at });
+            self.places_each(&points.collect::<Vec<_>>(), inputs)
         };
         let (bodies, copies) = both.iter().copied().unzip();
         let (from, found) = (origins(bodies, &later), origins(copies, &inputs));
@@ -226,9 +240,15 @@ impl Machine {
         for (k, (from, found)) in from.into_iter().zip(found).enumerate() {
             let (number, look) = (k % both.len(), k / both.len());
             let (body, copy) = both[number];
-            let from = (from.into(), self.angle(body, later[look]).position);
-            let found = (found.into(), self.angle(copy, inputs[look]).position);
-            let off = self.apart(about, (spin, turn), inputs[look], [from, found]);
+            let pose = |body: usize, at: [f64; 2], input: f64| Pose {
+                at: at.into(),
+                angle: self.angle(body, input).position,
+            };
+            let [from, found] = [
+                pose(body, from, later[look]),
+                pose(copy, found, inputs[look]),
+            ];
+            let off = self.apart(by, inputs[look], from, found);
             for (most, off) in maximum[number].iter_mut().zip(off) {
                 *most = most.max(off);
             }
@@ -237,46 +257,37 @@ impl Machine {
     }
 
     /// Distance and angle by which a copy is off where its original stands when the body in the middle has turned on.
-    fn off(
-        &self,
-        about: usize,
-        (body, copy): (usize, usize),
-        (spin, turn): (Spin, f64),
-        input: f64,
-    ) -> [f64; 2] {
-        let pose = |body: usize, input: f64| {
-            let at = self.place(body, Point::origin(), input);
-            (at, self.angle(body, input).position)
+    fn off(&self, by: CopyTurn, body: usize, copy: usize, input: f64) -> [f64; 2] {
+        let pose = |body: usize, input: f64| Pose {
+            at: self.place(body, Point::origin(), input),
+            angle: self.angle(body, input).position,
         };
-        let from = pose(body, self.later(about, (spin, turn), input));
-        self.apart(about, (spin, turn), input, [from, pose(copy, input)])
+        let from = pose(body, self.later(by, input));
+        self.apart(by, input, from, pose(copy, input))
     }
 
-    /// Distance and angle between where an original is to stand and where its copy stands: place and angle of both.
-    fn apart(
-        &self,
-        about: usize,
-        (spin, turn): (Spin, f64),
-        input: f64,
-        [(mut at, mut angle), (found, turned)]: [(Point, f64); 2],
-    ) -> [f64; 2] {
-        if spin == Spin::Still {
-            let middle = self.place(about, Point::origin(), input);
-            at = middle + Rotation2::new(turn) * (at - middle);
-            angle += turn;
+    /// Distance and angle between where an original is to stand and where its copy stands.
+    fn apart(&self, by: CopyTurn, input: f64, mut from: Pose, found: Pose) -> [f64; 2] {
+        if by.spin == Spin::Still {
+            let middle = self.place(by.about, Point::origin(), input);
+            from.at = middle + Rotation2::new(by.turn) * (from.at - middle);
+            from.angle += by.turn;
         }
-        let off = turned - angle;
-        [(found - at).norm(), (off - TAU * (off / TAU).round()).abs()]
+        let off = found.angle - from.angle;
+        [
+            (found.at - from.at).norm(),
+            (off - TAU * (off / TAU).round()).abs(),
+        ]
     }
 
     /// Input at which the body in the middle has turned on by an angle, whole turns aside.
-    fn later(&self, about: usize, (spin, turn): (Spin, f64), input: f64) -> f64 {
-        let angle = |input: f64| self.angle(about, input).position;
-        let sign = match spin {
+    fn later(&self, by: CopyTurn, input: f64) -> f64 {
+        let angle = |input: f64| self.angle(by.about, input).position;
+        let sign = match by.spin {
             Spin::Even(rate) | Spin::Uneven(rate) => rate.signum(),
             Spin::Still => return input,
         };
-        let required = angle(input) + if sign > 0.0 { turn } else { turn - TAU };
+        let required = angle(input) + if sign > 0.0 { by.turn } else { by.turn - TAU };
         let end = input + self.period();
         let off = |input: f64| angle(input) - required;
         bracketed_root(off, input, end, off(input), off(end))

@@ -85,7 +85,8 @@ pub(super) fn add(
     whole: &mut MachineDesign,
     expansion: &mut Expansion,
     points: &BodyPoints,
-    (name, spin): (&str, Spin),
+    name: &str,
+    spin: Spin,
 ) -> Result<(), MachineError> {
     let design = whole.clone();
     let spec = &design.copies[name];

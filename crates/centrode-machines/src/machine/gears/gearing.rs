@@ -8,7 +8,8 @@ use crate::machine::body::points::{LocalPoint, Reference};
 use crate::machine::gears::mesh::{Angle, MeshedBody, RollingMesh};
 use crate::machine::resolve::{Builder, blame};
 use crate::machine::{
-    GearRole, Machine, MachineBodySpec, MachineDesign, MachineError, MachineMeshSpec, Mount,
+    BodyPoint, GearRole, Machine, MachineBodySpec, MachineDesign, MachineError, MachineMeshSpec,
+    Mount,
 };
 use centrode_gear::design::GearPairDesign;
 use centrode_gear::pitch::gcd;
@@ -234,14 +235,14 @@ impl Builder<'_> {
         // The laws of dyads before it.
         self.follow()?;
         let on = body.on.as_deref().unwrap_or_default();
-        let (carrier, base) = self.place(&format!("bodies.{name}.on"), on)?;
+        let base = self.place(&format!("bodies.{name}.on"), on)?;
         let [own, with] = self.both(&key, [&mesh.gear, &mesh.with])?;
         let gear = &self.gears[own];
         let wrong = |why: String| MachineError::NoMesh {
             key: key.clone(),
             why,
         };
-        if gear.body_name != name || gear.at != Point::origin() || base != Point::origin() {
+        if gear.body_name != name || gear.at != Point::origin() || base.at != Point::origin() {
             return Err(wrong(format!(
                 "gear {} must be on body {name} at its origin, and the body on another body without a point: the mesh places it",
                 gear.name
@@ -251,7 +252,7 @@ impl Builder<'_> {
         let other = &self.gears[with];
         let axis = self.body_named(&other.body_name).and_then(|body| {
             let size = SAME * pair.center_distance();
-            self.axis_on(carrier, (body, other.at), size)
+            self.axis_on(base.body, BodyPoint { body, at: other.at }, size)
         });
         let axis = axis.ok_or_else(|| {
             wrong(format!(
@@ -262,7 +263,7 @@ impl Builder<'_> {
         let (sin, cos) = mesh.direction.sin_cos();
         let at = axis + Vector::new(cos, sin) * pair.center_distance();
         let is_driven = gear.member == Member::Driven;
-        let on_carrier = self.angle(carrier);
+        let on_carrier = self.angle(base.body);
         let mesh = RollingMesh {
             rolling: pair.shared_rolling(),
             lambda: on_carrier.plus(if is_driven {
@@ -287,18 +288,18 @@ impl Builder<'_> {
         }
         let of_carrier = self
             .points
-            .entry(self.bodies[carrier].name.clone())
+            .entry(self.bodies[base.body].name.clone())
             .or_default();
         of_carrier
             .entry(format!("axis-of-{name}"))
             .or_insert(LocalPoint { at, own: false });
-        let joint = self.linkage.point(self.bodies[carrier].link, at);
+        let joint = self.linkage.point(self.bodies[base.body].link, at);
         let joint = joint.map_err(blame(&key))?;
         let link = self.linkage.turning(joint, law.clone());
         let moved = self.push(
             name,
             link.map_err(blame(&key))?,
-            Mount::turning(carrier, at, law),
+            Mount::turning(base.body, at, law),
         );
         self.meshes.push(Meshing {
             gears: if is_driven { [with, own] } else { [own, with] },

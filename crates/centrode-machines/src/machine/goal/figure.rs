@@ -2,7 +2,7 @@ use std::f64::consts::PI;
 
 use centrode_geometry::Point;
 
-use crate::machine::body::points::Reference;
+use crate::machine::body::points::{BodyPoint, Reference};
 use crate::machine::goal::clearance_end::ClearanceEnd;
 use crate::machine::{Machine, MachineBody, MachineError, Pin};
 use centrode_kinematics::machine::JointKind;
@@ -100,8 +100,8 @@ pub enum MachineFigure {
     Travel(usize),
     /// Angle between the lines of a dyad's two bodies, from 0 to a right angle, rad; its number in the order of closing.
     Transmission(usize),
-    /// Distance of two points, mm: of each the index of its body and the place in its axes.
-    Distance([(usize, Point); 2]),
+    /// Distance of two points, mm.
+    Distance([BodyPoint; 2]),
     /// Least clearance of two bodies, or of a body and an obstacle, over the cycle, mm.
     Clearance([ClearanceEnd; 2]),
     /// Torque of the input, N mm.
@@ -198,7 +198,7 @@ impl Machine {
             ("acceleration", PointPart::Acceleration),
         ];
         if let Some((_, part)) = parts.into_iter().find(|(word, _)| *word == part) {
-            let (body, at) = self.point_of(key, of)?;
+            let BodyPoint { body, at } = self.point_of(key, of)?;
             return Ok(MachineFigure::Point { body, at, part });
         }
         let kind = |body: usize| self.bodies[body].mount.as_ref().map(|mount| mount.kind);
@@ -257,7 +257,7 @@ impl Machine {
         let all = |of: &str, parts: &[&str]| -> Vec<String> {
             parts.iter().map(|part| format!("{of}.{part}")).collect()
         };
-        let moving = self.points().filter(|(_, body, _)| *body > 0);
+        let moving = self.points().filter(|(_, point)| point.body > 0);
         let of_points =
             moving.flat_map(|(name, ..)| all(&name, &["x", "y", "speed", "acceleration"]));
         let of_bodies = self.bodies.iter().skip(1).flat_map(|body| {
@@ -300,7 +300,7 @@ impl Machine {
     }
 
     /// Body and place of a point that a key names.
-    fn point_of(&self, key: &str, word: &str) -> Result<(usize, Point), MachineError> {
+    fn point_of(&self, key: &str, word: &str) -> Result<BodyPoint, MachineError> {
         if let Some(found) = self.point_named(word) {
             return Ok(found);
         }
@@ -338,7 +338,7 @@ impl Machine {
                 angle.min(PI - angle)
             }
             MachineFigure::Distance(ends) => {
-                let [p, q] = ends.map(|(body, at)| self.place(body, at, input));
+                let [p, q] = ends.map(|BodyPoint { body, at }| self.place(body, at, input));
                 (p - q).norm()
             }
             MachineFigure::Clearance(_)

@@ -200,8 +200,9 @@ impl Machine {
             let input = self.period() * f64::from(i) / f64::from(SAMPLES * self.design.input.turns);
             let origin = self.place(body, Point::origin(), input);
             let turned = Isometry2::new(origin.coords, self.angle(body, input).position);
-            for (_, other, at) in self.points() {
-                let seen = turned.inverse_transform_point(&self.place(other, at, input));
+            for (_, point) in self.points() {
+                let place = self.place(point.body, point.at, input);
+                let seen = turned.inverse_transform_point(&place);
                 low = low.min(seen.x - width);
                 high = high.max(seen.x + width);
             }

@@ -4,7 +4,7 @@ use centrode_geometry::Point;
 
 use crate::machine::design::FRAME;
 use crate::machine::hardware::pins::Axis;
-use crate::machine::{Hardware, Hold, Machine, Mount};
+use crate::machine::{BodyPoint, Hardware, Hold, Machine, Mount};
 use centrode_kinematics::machine::{
     ArrangementTable, JointKind, Line, LineRole, LinkedMachine, Part, SpacerKind, Supply,
     TurnedPiece, TurnedPieces,
@@ -29,7 +29,7 @@ impl Machine {
         let axes = self.axes();
         let points = self
             .points()
-            .map(|(name, body, at)| (name, self.places_of(body, at)));
+            .map(|(name, point)| (name, self.places_of(point.body, point.at)));
         let points: Vec<(String, Vec<Point>)> = points.collect();
         for pieces in self.turned() {
             let size = format!(
@@ -221,7 +221,7 @@ impl Machine {
     fn rows(&self, pieces: &TurnedPieces, piece: &TurnedPiece, axes: &[Axis]) -> Vec<Vec<String>> {
         let at = Point::new(piece.at[0], piece.at[1]);
         let body = self.body_named(&piece.link).unwrap_or(0);
-        let mut rows: Vec<Row> = self.parts_on((body, at), pieces, axes);
+        let mut rows: Vec<Row> = self.parts_on(BodyPoint { body, at }, pieces, axes);
         let bottom = piece.at[2];
         for fastener in pieces.fasteners() {
             let low = bottom + fastener.at[2];
@@ -270,12 +270,7 @@ impl Machine {
     }
 
     /// Plates, gears and cams on a shaft or pin.
-    fn parts_on(
-        &self,
-        (body, at): (usize, Point),
-        pieces: &TurnedPieces,
-        axes: &[Axis],
-    ) -> Vec<Row> {
+    fn parts_on(&self, point: BodyPoint, pieces: &TurnedPieces, axes: &[Axis]) -> Vec<Row> {
         let made = |body: usize, is_plate: bool| match is_plate && !self.has_plate(body) {
             true => Supply::Given,
             false => Supply::Made,
@@ -283,7 +278,9 @@ impl Machine {
         let plates = &self.design.plates;
         let shaft = self.shafts().iter().find(|shaft| {
             let name = format!("shaft-{}", self.original(&shaft.name));
-            shaft.body == body && (shaft.at - at).norm() < ONE && pieces.part.name == name
+            shaft.body == point.body
+                && (shaft.at - point.at).norm() < ONE
+                && pieces.part.name == name
         });
         if let Some(shaft) = shaft {
             let size = |class: &str| format!("Ø{} {class}", thousandths(shaft.hub.bore));
@@ -300,20 +297,13 @@ impl Machine {
             };
             return shaft.parts.iter().map(row).collect();
         }
-        let is_here = |hole: &(usize, Point)| hole.0 == body && (hole.1 - at).norm() < ONE;
+        let is_here = |hole: &BodyPoint| hole.is_near(point, ONE);
         let axis = axes.iter().find(|axis| axis.holes.iter().any(is_here));
-        let row = |(&(body, _), &span): (&(usize, Point), &[f64; 2])| {
-            let name = self.bodies[body].name.clone();
+        let row = |(hole, &span): (&BodyPoint, &[f64; 2])| {
+            let name = self.bodies[hole.body].name.clone();
             let size = format!("Ø{} {}", thousandths(plates.pin_diameter), plates.hole_fit);
-            (
-                span,
-                [
-                    name,
-                    size,
-                    "turns on it".into(),
-                    made(body, true).name().into(),
-                ],
-            )
+            let supply = made(hole.body, true).name().into();
+            (span, [name, size, "turns on it".into(), supply])
         };
         let rows = axis.map(|axis| axis.holes.iter().zip(&axis.plates).map(row).collect());
         rows.unwrap_or_default()

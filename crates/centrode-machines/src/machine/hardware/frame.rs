@@ -6,7 +6,9 @@ use crate::machine::design::FRAME;
 use crate::machine::hardware::pins::SPARE;
 use crate::machine::hardware::plates::ONE;
 use crate::machine::hardware::spacing::Passing;
-use crate::machine::{Hardware, Hold, Machine, MachineError, MachineShaft, PinHole, ShaftPart};
+use crate::machine::{
+    BodyPoint, Hardware, Hold, Machine, MachineError, MachineShaft, PinHole, ShaftPart,
+};
 use centrode_gear::design::BodySpec;
 use centrode_kinematics::machine::{
     Bar, Circlip, Fastening, Fit, JointKind, Stock, TurnedPiece, TurnedPieces,
@@ -155,7 +157,8 @@ impl Machine {
     /// Whether a shaft or pin on the frame goes on from a height to the upper plate without meeting anything.
     fn reaches_top(&self, at: Point, diameter: f64, from: f64) -> bool {
         let tops = self.frame_plates().map(|frame| frame.spans[1][0]);
-        tops.is_some_and(|top| self.is_clear((0, at), 0.5 * diameter, [from, top]))
+        let own = BodyPoint { body: 0, at };
+        tops.is_some_and(|top| self.is_clear(own, 0.5 * diameter, [from, top]))
     }
 
     /// The upper plate of the frame on a shaft or pin through the lower one, from the height of what is on it; `None` if it
@@ -179,7 +182,7 @@ impl Machine {
         let axes = self.axes();
         let holes = self.pin_holes(0).into_iter().flatten();
         let found = holes.filter_map(|hole| {
-            let is_here = |held: &(usize, Point)| held.0 == 0 && held.1 == hole.at;
+            let is_here = |held: &BodyPoint| held.body == 0 && held.at == hole.at;
             let axis = axes.iter().find(|axis| axis.holes.iter().any(is_here))?;
             let shaft = self.shaft_at(0, hole.at).map(|(shaft, _)| shaft);
             let spans: Vec<[f64; 2]> = match shaft {
@@ -317,8 +320,8 @@ impl Machine {
     fn swept(&self) -> Bounds {
         let passage = self.passage();
         let moved = passage.parts.iter().flat_map(|part| {
-            let corners = part.corners.iter();
-            corners.flat_map(|corner| passage.frames.path(0, (part.body, *corner)))
+            let (body, corners) = (part.body, part.corners.iter());
+            corners.flat_map(move |&at| passage.frames.path(0, BodyPoint { body, at }))
         });
         let bores = self.hole_places(0).into_iter().flatten();
         let bores = bores.flat_map(|(_, at)| {

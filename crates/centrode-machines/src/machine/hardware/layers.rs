@@ -2,11 +2,11 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use centrode_geometry::{Point, checkpoint};
+use centrode_geometry::checkpoint;
 
-use crate::machine::Machine;
 use crate::machine::hardware::pins::Axis;
 use crate::machine::hardware::plates::ONE;
+use crate::machine::{BodyPoint, Machine};
 
 /// Most plates without a layer whose orders are searched: the work doubles with each.
 const MAX_PLATES: usize = 12;
@@ -72,7 +72,7 @@ impl Machine {
         let of_body = |body: usize| units.iter().position(|unit| unit.bodies.contains(&body));
         let (mut pins, mut hits) = (Vec::new(), BTreeSet::new());
         for axis in self.axes() {
-            let joined = axis.holes.iter().filter_map(|(body, _)| of_body(*body));
+            let joined = axis.holes.iter().filter_map(|hole| of_body(hole.body));
             let joined = joined.fold(0, |all, unit| all | 1_u64 << unit);
             let fixed = self.fixed_on(&axis);
             if joined.count_ones() + u32::from(fixed.is_some()) < 2 {
@@ -184,31 +184,27 @@ impl Machine {
 
     /// Lowest and highest face of gears, cams and rollers on an axis, mm.
     fn fixed_on(&self, axis: &Axis) -> Option<[f64; 2]> {
-        let (body, at) = axis.holes[0];
+        let BodyPoint { body, at } = axis.holes[0];
         let shaft = self.shaft_at(body, at).map(|(shaft, _)| shaft);
         let parts = shaft.into_iter().flat_map(|shaft| &shaft.parts);
         let wheels = parts.filter(|part| !part.is_plate).map(|part| part.span);
         let near = ONE * self.plates().pin_diameter;
-        let is_on = |body: usize, at: Point| {
-            let mut holes = axis.holes.iter();
-            holes.any(|hole| hole.0 == body && (hole.1 - at).norm() < near)
-        };
-        let rollers = self.rollers().into_iter();
-        let rollers = rollers.filter(|(body, at, _)| is_on(*body, *at));
-        let rollers = rollers.map(|(_, _, (roller, low))| [low, low + roller.length]);
+        let is_on = |at: BodyPoint| axis.holes.iter().any(|hole| hole.is_near(at, near));
+        let rollers = self.rollers().into_iter().filter(|(at, _)| is_on(*at));
+        let rollers = rollers.map(|(_, (roller, low))| [low, low + roller.length]);
         let all = wheels.chain(rollers);
         all.reduce(|[a, b], [low, high]| [a.min(low), b.max(high)])
     }
 
     fn diameter_on(&self, axis: &Axis) -> f64 {
-        let (body, at) = axis.holes[0];
+        let BodyPoint { body, at } = axis.holes[0];
         let shaft = self.shaft_at(body, at);
         shaft.map_or(self.plates().pin_diameter, |(shaft, _)| shaft.hub.bore)
     }
 
     /// Name of a pin by a point on it.
     fn pin_name(&self, axis: &Axis) -> String {
-        let (body, at) = axis.holes[0];
+        let BodyPoint { body, at } = axis.holes[0];
         let mut holes = self.hole_places(body).into_iter().flatten();
         let name = holes.find(|hole| hole.1 == at).map(|hole| hole.0);
         format!("{}.{}", self.bodies[body].name, name.unwrap_or_default())

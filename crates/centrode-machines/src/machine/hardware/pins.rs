@@ -3,7 +3,7 @@
 use centrode_geometry::Point;
 
 use crate::machine::body::points::ROLLER;
-use crate::machine::{Machine, MachineCam, ShaftPart};
+use crate::machine::{BodyPoint, Machine, MachineCam, ShaftPart};
 use centrode_kinematics::machine::{Bar, Circlip, Fit, Spacer, TurnedPiece, TurnedPieces};
 use centrode_spec::digits::thousandths;
 
@@ -16,8 +16,8 @@ pub(super) const SPARE: f64 = 1.0;
 /// Holes on one axis.
 pub(in crate::machine) struct Axis {
     places: Vec<Point>,
-    /// The bodies with a hole there, and its place in their axes.
-    pub(in crate::machine) holes: Vec<(usize, Point)>,
+    /// The holes there.
+    pub(in crate::machine) holes: Vec<BodyPoint>,
     /// Lower and upper faces of the plates with these holes, mm.
     pub(in crate::machine) plates: Vec<[f64; 2]>,
     /// Rollers of followers on it, with the height of their lower faces, mm.
@@ -30,8 +30,8 @@ pub(in crate::machine) struct Axis {
 
 /// A pin or shaft with its rings, as others near it see them.
 struct Cylinders {
-    /// The bodies with a hole for it, and its place in their axes.
-    holes: Vec<(usize, Point)>,
+    /// The holes for it.
+    holes: Vec<BodyPoint>,
     radius: f64,
     span: [f64; 2],
     rings: Vec<(Spacer, f64)>,
@@ -73,10 +73,11 @@ impl Axis {
         }
     }
 
-    /// The body nearest to the frame, with the place in its axes.
-    fn owner(&self) -> (usize, Point) {
-        let nearest = self.holes.iter().min_by_key(|(body, _)| *body);
-        nearest.copied().unwrap_or((0, Point::origin()))
+    /// The hole in the body nearest to the frame.
+    fn owner(&self) -> BodyPoint {
+        let nearest = self.holes.iter().min_by_key(|hole| hole.body);
+        let (body, at) = (0, Point::origin());
+        nearest.copied().unwrap_or(BodyPoint { body, at })
     }
 
     /// Height of the highest face, mm.
@@ -109,10 +110,11 @@ impl Machine {
     pub fn pins_in_plates(&self) -> Vec<TurnedPieces> {
         let mut axes = self.axes();
         for axis in axes.iter_mut().filter(|axis| !self.has_shaft(axis)) {
-            let in_frame = axis.holes.iter().find(|(body, _)| *body == 0);
-            let upper = in_frame.and_then(|(_, at)| self.top_part(*at, axis.size, axis.top()));
+            let in_frame = axis.holes.iter().find(|hole| hole.body == 0);
+            let upper = in_frame.and_then(|hole| self.top_part(hole.at, axis.size, axis.top()));
             if let Some(upper) = upper {
-                axis.holes.push((0, upper.at));
+                let (body, at) = (0, upper.at);
+                axis.holes.push(BodyPoint { body, at });
                 axis.plates.push(upper.span);
                 axis.span[1] = upper.span[1];
             }
@@ -128,7 +130,7 @@ impl Machine {
             let rings = rings.into_iter().map(|ring| axis.clear_of_cams(ring));
             let is_free = |(ring, low): &(Spacer, f64)| {
                 let span = [*low, low + ring.length];
-                is_clear_of(&bars, number, (0.5 * ring.outer, span))
+                is_clear_of(&bars, number, 0.5 * ring.outer, span)
             };
             let rings: Vec<(Spacer, f64)> = rings.filter(is_free).collect();
             bars[number].rings.extend(rings);
@@ -166,7 +168,7 @@ impl Machine {
     /// The pin of an axis among others.
     fn pin(&self, axis: &Axis, bars: &[Cylinders], number: usize) -> TurnedPieces {
         let spec = &self.design.plates;
-        let (body, at) = axis.owner();
+        let own = axis.owner();
         let rings = bars[number].rings.iter();
         let raised = |[low, high]: [f64; 2]| {
             // Heights of many layers have rounding of their own.
@@ -182,10 +184,10 @@ impl Machine {
             .collect();
         let [_, length] = raised(axis.span);
         let general = &self.design.drawing.general_tolerance;
-        let is_free = |reach: f64, span: [f64; 2]| is_clear_of(bars, number, (reach, span));
+        let is_free = |reach: f64, span: [f64; 2]| is_clear_of(bars, number, reach, span);
         let [low, high] = axis.span;
         let room = [(low, false), (high, true)]
-            .map(|face| self.room_at((body, at), axis.size, face, &is_free));
+            .map(|(wall, is_above)| self.room_at(own, axis.size, wall, is_above, &is_free));
         let held = |room: [f64; 2]| {
             let bar = Bar::new(spec.pin_diameter, &spec.pin_fit, [0.0, length]);
             bar.held(room).through(&on_it)
@@ -202,11 +204,11 @@ impl Machine {
             [false, false] => "no room for rings",
             _ => "room for one ring",
         };
-        let name = &self.bodies[body].name;
+        let name = &self.bodies[own.body].name;
         let given = self.design.bodies.get(name).map(|body| body.given_mass());
         let piece = TurnedPiece {
             is_counted: given.is_some_and(|given| given.mass.is_some()),
-            ..TurnedPiece::upright(name, [at.x, at.y, bottom])
+            ..TurnedPiece::upright(name, [own.at.x, own.at.y, bottom])
         };
         let fit = Fit::new("", spec.pin_diameter, [&spec.hole_fit, &spec.pin_fit]);
         TurnedPieces {
@@ -221,9 +223,10 @@ impl Machine {
     /// and what else is asked of its reach and heights is so.
     pub(super) fn room_at(
         &self,
-        own: (usize, Point),
+        own: BodyPoint,
         diameter: f64,
-        (wall, is_above): (f64, bool),
+        wall: f64,
+        is_above: bool,
         is_free: &dyn Fn(f64, [f64; 2]) -> bool,
     ) -> f64 {
         let gap = self.design.plates.gap;
@@ -241,7 +244,7 @@ impl Machine {
 
     /// Pin or shaft on an axis, of which others must keep clear.
     fn cylinders(&self, axis: &Axis) -> Cylinders {
-        let &(body, at) = &axis.holes[0];
+        let BodyPoint { body, at } = axis.holes[0];
         let shaft = self.shaft_at(body, at).map(|(shaft, _)| shaft);
         let spans = shaft.into_iter().flat_map(|shaft| &shaft.parts);
         let spans = spans.map(|part| part.span).chain([axis.span]);
@@ -257,7 +260,7 @@ impl Machine {
 
     /// Whether a shaft is on an axis.
     fn has_shaft(&self, axis: &Axis) -> bool {
-        let &(body, at) = &axis.holes[0];
+        let BodyPoint { body, at } = axis.holes[0];
         let is_here = |part: &ShaftPart| {
             part.is_plate && part.body == body && (part.at - at).norm() < ONE * axis.size
         };
@@ -282,12 +285,12 @@ impl Machine {
                 match axes.iter_mut().find(|axis| axis.is_one(&places)) {
                     Some(axis) => {
                         axis.span = [axis.span[0].min(bottom), axis.span[1].max(top)];
-                        axis.holes.push((body, at));
+                        axis.holes.push(BodyPoint { body, at });
                         axis.plates.push([bottom, top]);
                     }
                     None => axes.push(Axis {
                         places,
-                        holes: vec![(body, at)],
+                        holes: vec![BodyPoint { body, at }],
                         plates: vec![[bottom, top]],
                         rollers: Vec::new(),
                         span: [bottom, top],
@@ -296,11 +299,10 @@ impl Machine {
                 }
             }
         }
-        for (body, at, (roller, low)) in self.rollers() {
+        for (at, (roller, low)) in self.rollers() {
             let is_here = |axis: &&mut Axis| {
-                let near = |(_, hole): &&(usize, Point)| (hole - at).norm() < ONE * axis.size;
                 let mut holes = axis.holes.iter();
-                holes.any(|hole| hole.0 == body && near(&hole))
+                holes.any(|hole| hole.is_near(at, ONE * axis.size))
             };
             if let Some(axis) = axes.iter_mut().find(is_here) {
                 axis.span = [axis.span[0].min(low), axis.span[1].max(low + roller.length)];
@@ -310,19 +312,16 @@ impl Machine {
         axes
     }
 
-    /// Rollers of the bodies that follow cams, each with its body, its axis there and the height of its lower face, mm: as wide as the
+    /// Rollers of the bodies that follow cams, each with its axis and the height of its lower face, mm: as wide as the
     /// cam, and as high.
-    pub(in crate::machine) fn rollers(&self) -> Vec<(usize, Point, (Spacer, f64))> {
+    pub(in crate::machine) fn rollers(&self) -> Vec<(BodyPoint, (Spacer, f64))> {
         let of = |cam: &MachineCam, follower: &String| {
             let radius = cam.disc().follower().roller_radius()?;
             let at = self.points.get(follower)?.get(ROLLER)?.at;
             let (pin, width) = (self.design.plates.pin_diameter, cam.part.body().width);
             let roller = Spacer::roller(radius, pin, width)?;
-            Some((
-                self.body_named(follower)?,
-                at,
-                (roller, self.cam_bottom(cam)),
-            ))
+            let body = self.body_named(follower)?;
+            Some((BodyPoint { body, at }, (roller, self.cam_bottom(cam))))
         };
         let cams = self.cams.iter();
         let pairs = cams.flat_map(|cam| cam.followers.iter().map(move |name| (cam, name)));
@@ -331,14 +330,14 @@ impl Machine {
 }
 
 /// Whether a ring of a radius between two heights keeps clear of the other pins and shafts of the bodies that its own holds.
-fn is_clear_of(all: &[Cylinders], own: usize, (radius, span): (f64, [f64; 2])) -> bool {
+fn is_clear_of(all: &[Cylinders], own: usize, radius: f64, span: [f64; 2]) -> bool {
     let others = all.iter().enumerate().filter(|(other, _)| *other != own);
     let is_level = |[low, high]: [f64; 2]| low < span[1] && high > span[0];
     others.into_iter().all(|(_, other)| {
         let holes = all[own].holes.iter();
         let pairs = holes.flat_map(|a| other.holes.iter().map(move |b| (a, b)));
-        let shared = pairs.filter(|(a, b)| a.0 == b.0);
-        let apart = shared.map(|(a, b)| (a.1 - b.1).norm());
+        let shared = pairs.filter(|(a, b)| a.body == b.body);
+        let apart = shared.map(|(a, b)| (a.at - b.at).norm());
         let apart = apart.fold(f64::INFINITY, f64::min);
         let rings = other.rings.iter();
         let rings = rings.map(|(ring, low)| (0.5 * ring.outer, [*low, low + ring.length]));

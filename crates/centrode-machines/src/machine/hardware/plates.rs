@@ -181,7 +181,7 @@ impl Machine {
     #[must_use]
     pub fn pin_holes(&self, body: usize) -> Option<Vec<PinHole>> {
         let holes = self.hole_places(body)?.into_iter();
-        Some(holes.map(|place| self.hole(body, place)).collect())
+        Some(holes.map(|(name, at)| self.hole(body, name, at)).collect())
     }
 
     /// Two holes of one plate, or a hole and a slot, that overlap, as words for a message; `None` if there are none.

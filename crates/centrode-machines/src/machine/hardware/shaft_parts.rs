@@ -1,7 +1,7 @@
 //! Shafts of a composed machine as turned parts, and what the parts list says of them.
 
 use crate::machine::hardware::shafts::ROUNDING;
-use crate::machine::{Hardware, Hold, Machine, MachineShaft, ShaftPart};
+use crate::machine::{BodyPoint, Hardware, Hold, Machine, MachineShaft, ShaftPart};
 use centrode_kinematics::machine::{
     Bar, Fit, JointKind, Keyway, LinkedMachine, Part, SeatedKey, Supply, TurnedPiece, TurnedPieces,
 };
@@ -45,14 +45,11 @@ impl Machine {
             .map(|part| part.span[1])
             .fold(f64::NEG_INFINITY, f64::max);
         let [deepest, highest] = self.extent_from(0);
+        let (body, at) = (shaft.body, shaft.at);
+        let own = BodyPoint { body, at };
         let beyond = |wall: f64, is_above: bool, is_last: bool| match is_last {
             true => f64::INFINITY,
-            false => self.room_at(
-                (shaft.body, shaft.at),
-                hub.bore,
-                (wall, is_above),
-                &|_, _| true,
-            ),
+            false => self.room_at(own, hub.bore, wall, is_above, &|_, _| true),
         };
         let (is_lowest, is_highest) = (low <= deepest + ROUNDING, high >= highest - ROUNDING);
         let end = match shaft.is_driven && is_lowest {
@@ -70,7 +67,7 @@ impl Machine {
             .ring(low, false, beyond(low, false, is_lowest))
             .ring(high, true, above);
         let spans: Vec<[f64; 2]> = on_it.iter().map(|part| part.span).collect();
-        let spacers = self.spacers((shaft.body, shaft.at), hub.bore, &spans);
+        let spacers = self.spacers(own, hub.bore, &spans);
         let rings = spacers.iter().map(|(ring, at)| [*at, at + ring.length]);
         let general = &self.design.drawing.general_tolerance;
         bar = bar.through(&spans).through(&rings.collect::<Vec<_>>());

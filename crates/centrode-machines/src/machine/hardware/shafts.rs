@@ -7,7 +7,7 @@ use nalgebra::Isometry2;
 
 use crate::machine::gears::gearing::Meshing;
 use crate::machine::hardware::pins::Axis;
-use crate::machine::{Machine, PinHole};
+use crate::machine::{BodyPoint, Machine, PinHole};
 use centrode_gear::design::BodySpec;
 use centrode_kinematics::machine::{JointKind, Key, Keyway};
 
@@ -174,20 +174,22 @@ impl Machine {
             narrower.then(b.span[1].total_cmp(&a.span[1]))
         });
         // By the joint on the frame at its origin, or with another plate that is fixed to it.
-        let is_own = |&&(body, at): &&(usize, Point)| {
+        let is_own = |&&BodyPoint { body, at }: &&BodyPoint| {
             let here = at.coords.norm() <= ROUNDING * self.design.plates.width;
             let root = self.rigid(body).0;
             let mates = axis
                 .holes
                 .iter()
-                .filter(|(other, _)| self.rigid(*other).0 == root);
+                .filter(|other| self.rigid(other.body).0 == root);
             here && (self.is_driven(body) || (root != 0 && mates.count() > 1))
         };
         let driven = axis.holes.iter().find(is_own);
         let plates = &self.design.plates;
         let (name, body, at, hub) = match (own.first(), driven) {
             (Some(first), _) => (first.name.clone(), first.body, first.at, first.hub.clone()),
-            (None, Some(&(body, at))) if axis.holes.len() > 1 && plates.pin_diameter > 0.0 => {
+            (None, Some(&BodyPoint { body, at }))
+                if axis.holes.len() > 1 && plates.pin_diameter > 0.0 =>
+            {
                 // Seats with keys have the classes of gears, all others those of pins.
                 let keyway = Keyway::of_bore(plates.pin_diameter);
                 let classes = match keyway {
@@ -212,29 +214,29 @@ impl Machine {
         };
         let (root, place) = self.rigid(body);
         let with_it = |other: usize| self.rigid(other).0 == root;
-        let of_plates = axis
-            .holes
-            .iter()
-            .zip(&axis.plates)
-            .map(|(&(body, at), &span)| {
-                let key = hub
-                    .keyway
-                    .and_then(|hub| Key::fitting(hub, span[1] - span[0]));
-                let hold = match key {
-                    _ if !with_it(body) => Hold::Turning,
-                    Some(key) => Hold::Keyed(key),
-                    None => Hold::Given,
-                };
-                let (name, is_plate) = (self.bodies[body].name.clone(), true);
-                ShaftPart {
-                    name,
-                    body,
-                    at,
-                    is_plate,
-                    span,
-                    hold,
-                }
-            });
+        let of_plates =
+            axis.holes
+                .iter()
+                .zip(&axis.plates)
+                .map(|(&BodyPoint { body, at }, &span)| {
+                    let key = hub
+                        .keyway
+                        .and_then(|hub| Key::fitting(hub, span[1] - span[0]));
+                    let hold = match key {
+                        _ if !with_it(body) => Hold::Turning,
+                        Some(key) => Hold::Keyed(key),
+                        None => Hold::Given,
+                    };
+                    let (name, is_plate) = (self.bodies[body].name.clone(), true);
+                    ShaftPart {
+                        name,
+                        body,
+                        at,
+                        is_plate,
+                        span,
+                        hold,
+                    }
+                });
         let of_wheels = own.iter().map(|wheel| {
             let turn = self.rigid(wheel.body).1.rotation.angle() + wheel.hub.keyway_angle
                 - place.rotation.angle()
@@ -294,7 +296,7 @@ impl Machine {
     }
 
     /// A hole in a body's plate as a shaft or a pin asks for it.
-    pub(in crate::machine) fn hole(&self, body: usize, (name, at): (String, Point)) -> PinHole {
+    pub(in crate::machine) fn hole(&self, body: usize, name: String, at: Point) -> PinHole {
         let spec = &self.design.plates;
         let pin = BodySpec {
             bore: spec.pin_diameter,

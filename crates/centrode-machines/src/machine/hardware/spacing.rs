@@ -2,8 +2,8 @@
 
 use centrode_geometry::{Outline, Point, Tolerance, Vector};
 
-use crate::machine::Machine;
 use crate::machine::hardware::shafts::ROUNDING;
+use crate::machine::{BodyPoint, Machine};
 use centrode_kinematics::machine::Spacer;
 
 /// Steps of the cycle at which what passes a ring is looked at.
@@ -42,18 +42,14 @@ impl Frames {
     ///
     /// # Panics
     /// If a body is not one of the machine's.
-    pub fn path(
-        &self,
-        body: usize,
-        (own, at): (usize, Point),
-    ) -> impl Iterator<Item = Point> + Clone {
+    pub fn path(&self, body: usize, point: BodyPoint) -> impl Iterator<Item = Point> + Clone {
         let frame = |places: &[[f64; 2]], body: usize| {
             let [origin, unit] = [2 * body, 2 * body + 1].map(|k| Point::from(places[k]));
             (origin, unit - origin)
         };
         self.places.chunks(2 * self.bodies).map(move |places| {
-            let (origin, axis) = frame(places, own);
-            let at = origin + axis * at.x + Vector::new(-axis.y, axis.x) * at.y;
+            let (origin, axis) = frame(places, point.body);
+            let at = origin + axis * point.at.x + Vector::new(-axis.y, axis.x) * point.at.y;
             let (origin, axis) = frame(places, body);
             let at = at - origin;
             Point::new(axis.dot(&at), axis.perp(&at))
@@ -67,8 +63,8 @@ impl Machine {
     pub fn frames(&self, inputs: &[f64]) -> Frames {
         let bodies = self.bodies.len();
         let ends = [Point::origin(), Point::new(1.0, 0.0)];
-        let points: Vec<(usize, Point)> = (0..bodies)
-            .flat_map(|body| ends.map(|at| (body, at)))
+        let points: Vec<BodyPoint> = (0..bodies)
+            .flat_map(|body| ends.map(|at| BodyPoint { body, at }))
             .collect();
         Frames {
             places: self.places_each(&points, inputs),
@@ -80,7 +76,7 @@ impl Machine {
     /// the lower face of each. None in a gap that another part reaches into, or where one passes closer than the plates' gap.
     pub(in crate::machine) fn spacers(
         &self,
-        own: (usize, Point),
+        own: BodyPoint,
         diameter: f64,
         on_it: &[[f64; 2]],
     ) -> Vec<(Spacer, f64)> {
@@ -109,7 +105,7 @@ impl Machine {
     }
 
     /// Whether all parts keep farther from an axis than a radius and the plates' gap, mm, between two heights.
-    pub(super) fn is_clear(&self, own: (usize, Point), radius: f64, gap: [f64; 2]) -> bool {
+    pub(super) fn is_clear(&self, own: BodyPoint, radius: f64, gap: [f64; 2]) -> bool {
         let passage = self.passage();
         let frame = self.frame_plates().map(|frame| &frame.lower);
         let required = radius + self.design.plates.gap;
@@ -134,7 +130,7 @@ impl Machine {
     }
 
     /// Whether the plate of a body comes nearer to an axis than a radius, mm, at a step of the cycle, whatever their heights.
-    pub(super) fn meets(&self, own: (usize, Point), radius: f64, body: usize) -> bool {
+    pub(super) fn meets(&self, own: BodyPoint, radius: f64, body: usize) -> bool {
         let passage = self.passage();
         // A body's plate comes before its gears.
         let plate = passage.parts.iter().find(|part| part.body == body);
@@ -183,9 +179,9 @@ impl Machine {
                 round(&cam.body_name, cam.at, cam.part.profile().outline())?,
             ))
         });
-        let rollers = self.rollers().into_iter().map(|(body, at, (roller, low))| {
-            let outline = Outline::circle(at, 0.5 * roller.outer);
-            ((low, roller.length), (body, outline))
+        let rollers = self.rollers().into_iter().map(|(point, (roller, low))| {
+            let outline = Outline::circle(point.at, 0.5 * roller.outer);
+            ((low, roller.length), (point.body, outline))
         });
         let all = plates.chain(gears).chain(cams).chain(rollers);
         all.filter_map(|((low, thick), (body, outline))| {

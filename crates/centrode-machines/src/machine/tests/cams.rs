@@ -4,7 +4,7 @@ use centrode_geometry::{Point, Vector};
 use nalgebra::Isometry2;
 
 use super::{made, refused};
-use crate::machine::Machine;
+use crate::machine::{BodyPoint, Machine};
 use centrode_kinematics::machine::JointKind;
 
 /// Followers of every kind, with their motion and the way the body is held on its carrier.
@@ -122,7 +122,7 @@ fn every_follower_stays_on_its_cam_whatever_turns() {
                 // The contact in the follower's axes: on its roller, or on its face.
                 let touched = frame(&machine, lever, input).inverse() * (place * contact.point);
                 let off = match (roller, follower) {
-                    (Some((_, at)), _) => {
+                    (Some(BodyPoint { at, .. }), _) => {
                         let path = disc.roller_center(turn).expect("a roller").point;
                         let off = place * path - machine.place(lever, at, input);
                         off.norm().max(((touched - at).norm() - 4.0).abs())

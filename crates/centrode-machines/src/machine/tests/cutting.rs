@@ -102,7 +102,7 @@ fn a_cam_cut_to_a_moving_body_touches_it_all_round_and_its_base_circle_where_it_
                     (turn, contact, path.unwrap_or(contact))
                 })
                 .collect();
-            if let Some((_, roller)) = machine.point_named("lever.roller") {
+            if let Some(roller) = machine.point_named("lever.roller").map(|point| point.at) {
                 for (turn, contact, path) in &touches {
                     let off = (path - roller).norm();
                     assert!(off < 1e-10, "{drive} {follower} {turn}: {off}");
@@ -115,7 +115,7 @@ fn a_cam_cut_to_a_moving_body_touches_it_all_round_and_its_base_circle_where_it_
                 };
                 assert!(off.abs() < 1e-10, "{off}");
             } else {
-                let (_, face) = machine.point_named("lever.face").expect("a face");
+                let face = machine.point_named("lever.face").expect("a face").at;
                 // All that is touched lies on a straight line, square to a slide or at its distance from the pin.
                 let far = touches.iter().map(|(_, contact, _)| contact - face);
                 let far = far.max_by(|a, b| a.norm().total_cmp(&b.norm()));

@@ -5,7 +5,8 @@ use std::f64::consts::TAU;
 use centrode_geometry::Point;
 
 use super::super::{
-    DyadKind, Machine, MachineBodySpec, MachineDesign, MachineDyadSpec, MachineLawSpec, Side,
+    BodyPoint, DyadKind, Machine, MachineBodySpec, MachineDesign, MachineDyadSpec, MachineLawSpec,
+    Side,
 };
 use centrode_kinematics::machine::LinkedMachine;
 
@@ -65,9 +66,10 @@ fn law(random: &mut Random, slides: bool) -> MachineLawSpec {
 
 /// A dyad between two points, or from a point to a line, with lengths that let it close by what its ends do.
 fn dyad(random: &mut Random, machine: &Machine, bodies: [String; 2]) -> MachineDyadSpec {
-    let points: Vec<(String, usize, Point)> = machine.points().collect();
+    let points: Vec<(String, BodyPoint)> = machine.points().collect();
     let [p, q] = [0; 2].map(|_| points[random.below(points.len())].clone());
-    let place = |point: &(String, usize, Point), input| machine.place(point.1, point.2, input);
+    let place =
+        |(_, point): &(String, BodyPoint), input| machine.place(point.body, point.at, input);
     let [near, far] = spread(|input| (place(&p, input) - place(&q, input)).norm());
     let angle = random.within(-3.0, 3.0);
     let kinds = [
@@ -144,7 +146,7 @@ fn machine(seed: u32) -> Machine {
         }
         let mut more = design.clone();
         let (one, other) = (random.name(2 * number), random.name(2 * number + 1));
-        let points: Vec<(String, usize, Point)> = found.points().collect();
+        let points: Vec<(String, BodyPoint)> = found.points().collect();
         let on = points[random.below(points.len())].0.clone();
         let tip = [0; 2].map(|_| random.within(-30.0, 30.0));
         let mut body = MachineBodySpec::default();
@@ -235,7 +237,7 @@ fn derivatives_of_random_machines_are_those_of_their_places() {
         for dyad in made.dyads() {
             dyads[dyad.kind as usize] += 1;
         }
-        for (name, body, at) in made.points() {
+        for (name, BodyPoint { body, at }) in made.points() {
             let input = 0.7 + 0.01 * f64::from(seed);
             let here = made.point(body, at, input);
             let at = |k: f64| {
@@ -277,13 +279,13 @@ fn joints_of_random_machines_hang_together_as_their_linkages_do() {
 fn points_of_random_machines_side_by_side_are_those_at_single_inputs() {
     for seed in 1..=100 {
         let composed = machine(seed);
-        let points: Vec<_> = composed.points().map(|(_, body, at)| (body, at)).collect();
+        let points: Vec<_> = composed.points().map(|(_, point)| point).collect();
         let inputs: Vec<f64> = (0..7).map(|i| 0.9 * f64::from(i) - 1.0).collect();
         let together = composed.places_each(&points, &inputs);
         assert_eq!(together.len(), points.len() * inputs.len());
         let mut found = together.iter();
         for &input in &inputs {
-            for (point, &(body, at)) in points.iter().enumerate() {
+            for (point, &BodyPoint { body, at }) in points.iter().enumerate() {
                 let alone = composed.place(body, at, input);
                 let beside = Point::from(*found.next().expect("a place"));
                 let size = 1.0 + alone.coords.norm();

@@ -189,8 +189,8 @@ joint = "J"
         let inputs = (0..100).map(|k| f64::from(k) * TAU / 100.0);
         let frames = machine.frames(&inputs.collect::<Vec<_>>());
         let corners = [[8.0, 4.8], [-8.0, 4.8], [8.0, -4.8], [-8.0, -4.8]].map(Point::from);
-        for corner in corners {
-            let mut path = frames.path(guide, (block, corner));
+        for at in corners {
+            let mut path = frames.path(guide, BodyPoint { body: block, at });
             assert!(path.all(|at| slots[0].depth(at) > -1e-9));
         }
     }

@@ -1,7 +1,7 @@
 //! Motion of a dyad's ends, from which another type takes its lengths and lines.
 
 use centrode_geometry::{Point, Vector};
-use centrode_machines::machine::Machine;
+use centrode_machines::machine::{BodyPoint, Machine};
 use serde_json::Value as Json;
 
 /// Inputs of a period at which the old dyad is looked at.
@@ -39,12 +39,16 @@ impl Course {
         let inputs: Vec<f64> = (0..SAMPLES)
             .map(|i| machine.period() * f64::from(i) / f64::from(SAMPLES))
             .collect();
-        let way = |(body, at): (usize, Point)| -> Vec<Point> {
+        let way = |BodyPoint { body, at }: BodyPoint| -> Vec<Point> {
             inputs.iter().map(|i| machine.place(body, at, *i)).collect()
+        };
+        let origin = |body: usize| BodyPoint {
+            body,
+            at: Point::origin(),
         };
         let found = |word: &String| match word.split_once('.') {
             Some(_) => machine.point_named(word),
-            None => Some((machine.body_named(word)?, Point::origin())),
+            None => machine.body_named(word).map(origin),
         };
         let held = ends(spec)?;
         let [a, b] = [found(&held[0])?, found(&held[1])?];
@@ -67,7 +71,7 @@ impl Course {
         });
         let joint = joint.or_else(|| {
             // A yoke's own place where its slot crosses its line.
-            (spec.get("type")? == "RPP").then(|| (dyad.bodies[1], Point::origin()))
+            (spec.get("type")? == "RPP").then(|| origin(dyad.bodies[1]))
         });
         let names = ["from", "to", "joint"].map(|key| written(spec, key));
         let names: Vec<String> = names
@@ -92,7 +96,7 @@ impl Course {
         });
         Some(Self {
             ends: [way(a), way(b)],
-            holders: [frames(a.0), frames(b.0)],
+            holders: [frames(a.body), frames(b.body)],
             joint: joint.map(way),
             given,
         })
