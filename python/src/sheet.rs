@@ -49,9 +49,10 @@ fn laid_out(
     };
     let pages = sheets(pair, subject, &layout, tolerance)?;
     let size = pages.first().map_or("", |page| page.size.name()).into();
-    let (named, options) = ([pair.name(), pair.title()], Options::new(tolerance));
+    let options = Options::new(tolerance);
+    let (name, title) = (pair.name(), pair.title());
     let formats = [Format::Sheet, Format::Pdf];
-    let mut package = Package::new("a gear pair", named, &formats, &options);
+    let mut package = Package::new("a gear pair", name, title, &formats, &options);
     package.sheets(subject.name(), || Ok(pages))?;
     Ok((size, package.finish()?))
 }

@@ -55,7 +55,8 @@ impl<'a> Package<'a> {
     #[must_use]
     pub fn new(
         machine: &'static str,
-        [name, title]: [&'a str; 2],
+        name: &'a str,
+        title: &'a str,
         formats: &[Format],
         options: &'a Options,
     ) -> Self {
@@ -221,7 +222,7 @@ impl<'a> Package<'a> {
         name: &str,
         columns: impl FnOnce() -> Vec<Column>,
     ) -> Result<(), ExportError> {
-        self.columns([part, name], &[Format::Csv], columns)
+        self.columns(part, name, &[Format::Csv], columns)
     }
 
     /// Offers points that the sheets of a part name: they go with those sheets, too.
@@ -232,12 +233,13 @@ impl<'a> Package<'a> {
         columns: impl FnOnce() -> Vec<Column>,
     ) -> Result<(), ExportError> {
         let [sheet, pdf] = SHEETS;
-        self.columns([part, name], &[Format::Csv, sheet, pdf], columns)
+        self.columns(part, name, &[Format::Csv, sheet, pdf], columns)
     }
 
     fn columns(
         &mut self,
-        [part, name]: [&str; 2],
+        part: &str,
+        name: &str,
         formats: &[Format],
         columns: impl FnOnce() -> Vec<Column>,
     ) -> Result<(), ExportError> {
@@ -308,10 +310,11 @@ impl<'a> Package<'a> {
     pub(crate) fn within(
         &mut self,
         prefix: &'static str,
-        [name, title]: [&str; 2],
+        name: &str,
+        title: &str,
         fill: impl FnOnce(&mut Package<'_>) -> Result<(), ExportError>,
     ) -> Result<(), ExportError> {
-        let mut inner = Package::new(self.machine, [name, title], &self.formats, self.options);
+        let mut inner = Package::new(self.machine, name, title, &self.formats, self.options);
         inner.prefix = prefix;
         inner
             .formats

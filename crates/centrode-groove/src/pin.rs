@@ -15,7 +15,7 @@ impl SpiralShaft {
         let length = slider.reach + IN_BOX * slider.pin_diameter;
         let bar = Bar::new(slider.pin_diameter, &slider.pin_fit, [0.0, length]);
         let stock = Stock::new(&slider.material, slider.density);
-        let mut part = bar.part(["pin", "Pin of the slider"], stock, "");
+        let mut part = bar.part("pin", "Pin of the slider", stock, "");
         part.notes = vec![format!(
             "{} mm of it in the slider.",
             thousandths(slider.reach)

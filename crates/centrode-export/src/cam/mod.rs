@@ -43,7 +43,7 @@ pub fn files(cam: &Cam, formats: &[Format], options: &Options) -> Result<Bundle,
     if let Some(format) = formats.iter().find(|format| !FORMATS.contains(format)) {
         return Err(ExportError::NoModel(*format));
     }
-    let mut package = Package::new("a cam", [cam.name(), cam.title()], formats, options);
+    let mut package = Package::new("a cam", cam.name(), cam.title(), formats, options);
     let title = package.design().to_owned();
     add(&mut package, cam, &title, options.tolerance)?;
     package.finish()

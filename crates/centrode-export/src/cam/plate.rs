@@ -4,7 +4,7 @@ use centrode_formats::sheet::Table;
 use centrode_gear::cam::Cam;
 
 /// A cam as a plate, with the file of its profile; in a machine that has so many of it.
-pub(crate) fn plate(cam: &Cam, [name, title]: [&str; 2], quantity: usize) -> Plate {
+pub(crate) fn plate(cam: &Cam, name: &str, title: &str, quantity: usize) -> Plate {
     let (body, disc) = (cam.body(), cam.disc());
     let base = format!("Base radius {:.4} mm", disc.base_radius());
     let follower = match disc.follower().roller_radius() {
@@ -21,6 +21,6 @@ pub(crate) fn plate(cam: &Cam, [name, title]: [&str; 2], quantity: usize) -> Pla
             &columns(cam, ROWS),
         )],
         exactness: Some(Exactness::Profile),
-        ..Plate::of_body([name, title], outline, cam.bore(), body)
+        ..Plate::of_body(name, title, outline, cam.bore(), body)
     }
 }

@@ -33,15 +33,11 @@ pub(super) fn parts(feeder: &Feeder, gears: &IntermittentPair, tolerance: Tolera
     let part = |body: GearBody| {
         let name = body.name;
         let is_cam = body.is_cam();
-        let mut part = Plate::of_body(
-            [name, &capital(title(name))],
-            body.outline,
-            body.bore,
-            driver.body(),
-        )
-        .noted("Drawn as the motion begins: on the intermittent gear x points to the axis of")
-        .noted("the gear on the crank, on that away from the intermittent gear's.")
-        .noted("Keyed along x: gears and cams stand right on the shaft.");
+        let (title, bore) = (capital(title(name)), body.bore);
+        let mut part = Plate::of_body(name, &title, body.outline, bore, driver.body())
+            .noted("Drawn as the motion begins: on the intermittent gear x points to the axis of")
+            .noted("the gear on the crank, on that away from the intermittent gear's.")
+            .noted("Keyed along x: gears and cams stand right on the shaft.");
         let cams = TITLES[2..].iter().zip(gears.cams());
         let labels = cams.flat_map(|(cam, own)| own.pins.iter().map(move |_| cam));
         if !body.pins.is_empty() {

@@ -64,8 +64,8 @@ pub fn files(
 ) -> Result<Bundle, ExportError> {
     let design = feeder.design();
     let plates = cut(feeder)?;
-    let named = [design.name.as_str(), design.title.as_str()];
-    let mut package = Package::new("a feeder", named, formats, options);
+    let (name, title) = (&design.name, &design.title);
+    let mut package = Package::new("a feeder", name, title, formats, options);
     for part in &plates {
         plates::made(feeder, part).add(&mut package, &design.drawing)?;
     }

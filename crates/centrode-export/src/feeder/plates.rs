@@ -78,8 +78,8 @@ pub(super) fn spacer(feeder: &Feeder) -> Option<plate::Plate> {
     let spec = &feeder.design().plates;
     let screws = feeder.frame_screws()?.ok()?;
     let stock = Stock::new(&spec.material, spec.density);
-    let made = (screws.at.len(), stock);
-    Some(plate::Plate::spacer(&screws, "Spacer of the frame", made))
+    let title = "Spacer of the frame";
+    Some(plate::Plate::spacer(&screws, title, screws.at.len(), stock))
 }
 
 /// The six-bar where it rests, seen along the shafts, with the paths of its joints and its tip.

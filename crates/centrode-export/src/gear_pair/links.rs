@@ -18,7 +18,7 @@ use crate::ExportError;
 pub fn machine(pair: &GearPair) -> Result<LinkedMachine, ExportError> {
     let mut machine = drawn(pair);
     for (link, member) in [(1, Member::Driver), (2, Member::Driven)] {
-        embody(&mut machine, link, (pair, member), "")?;
+        embody(&mut machine, link, pair, member, "")?;
     }
     Ok(machine)
 }
@@ -109,7 +109,8 @@ pub(crate) fn lines_within(outline: &Outline, gear: &Gear) -> Vec<Line> {
 pub(crate) fn embody(
     machine: &mut LinkedMachine,
     link: usize,
-    (pair, member): (&GearPair, Member),
+    pair: &GearPair,
+    member: Member,
     prefix: &str,
 ) -> Result<(), ExportError> {
     let solid = solid(pair, member)?;

@@ -70,8 +70,7 @@ pub fn subject_files(
 }
 
 fn package<'a>(pair: &'a GearPair, formats: &[Format], options: &'a Options) -> Package<'a> {
-    let named = [pair.name(), pair.title()];
-    Package::new("a gear pair", named, formats, options)
+    Package::new("a gear pair", pair.name(), pair.title(), formats, options)
 }
 
 /// Offers everything of a pair.
@@ -115,7 +114,7 @@ fn add(
     };
     let file = package.name_of(name);
     package.sheets(name, || {
-        sheets::labelled(pair, subject, (label, &file), &sheet, tolerance)
+        sheets::labelled(pair, subject, label, &file, &sheet, tolerance)
     })?;
     let title = match label {
         None => package.titled(&format!("{name} gear")),

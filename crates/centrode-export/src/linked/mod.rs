@@ -45,10 +45,10 @@ pub(crate) fn add(machine: &LinkedMachine, package: &mut Package<'_>) -> Result<
     let lines = motion::lines(&pieces);
     let exact = motion::with_rates(machine.clone(), &lines);
     let machine = motion::with_rates(pieces, &lines);
-    let rows = motion::steps(&machine, tolerance);
-    let table = csv::write(&motion::columns(&exact, rows.0))?;
+    let (steps, off) = motion::steps(&machine, tolerance);
+    let table = csv::write(&motion::columns(&exact, steps))?;
     package.file(motion::TABLE, table)?;
-    let about = motion::description(&machine, &lines, rows);
+    let about = motion::description(&machine, &lines, steps, off);
     let mut json = serde_json::to_string_pretty(&about)?;
     json.push('\n');
     package.file("motion.json", json.into_bytes())?;

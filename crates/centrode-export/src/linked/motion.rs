@@ -192,7 +192,8 @@ pub(super) fn columns(machine: &LinkedMachine, steps: u32) -> Vec<Column> {
 pub(super) fn description(
     machine: &LinkedMachine,
     lines: &[Line],
-    (steps, linear_error_max_mm): (u32, f64),
+    steps: u32,
+    linear_error_max_mm: f64,
 ) -> MotionFile {
     let link = |index: usize| machine.links[index].name.clone();
     let column = |index: usize| machine.columns[index].name.clone();

@@ -109,7 +109,7 @@ impl Course {
         let sudden = sudden(machine, &required);
         let course = |steps: f64| {
             let input = inputs(period, steps.ceil() as u32, &sudden);
-            Self::new(machine, (&required, &traced), input)
+            Self::new(machine, &required, &traced, input)
         };
         let minimum = FEWEST.max(period / TAU * PER_TURN);
         let coarse = course(minimum);
@@ -123,11 +123,7 @@ impl Course {
         }
     }
 
-    fn new(
-        machine: &LinkedMachine,
-        (required, traced): (&[bool], &[bool]),
-        input: Vec<f64>,
-    ) -> Self {
+    fn new(machine: &LinkedMachine, required: &[bool], traced: &[bool], input: Vec<f64>) -> Self {
         let mut poses: Vec<Vec<[f64; 3]>> =
             vec![Vec::with_capacity(input.len()); machine.figures.len()];
         let mut points = vec![Vec::new(); machine.points.len()];
@@ -135,7 +131,7 @@ impl Course {
             let places = machine.places(now, required);
             for (figure, poses) in machine.figures.iter().zip(&mut poses) {
                 let before = poses.last().map(|pose| pose[2]);
-                poses.push(pose(machine, figure, &places, (now, before)));
+                poses.push(pose(machine, figure, &places, now, before));
             }
             for (index, ways) in points.iter_mut().enumerate().filter(|(i, _)| traced[*i]) {
                 let point = &machine.points[index];
@@ -238,7 +234,8 @@ pub(super) fn pose(
     machine: &LinkedMachine,
     figure: &Figure,
     places: &[Option<Isometry3<f64>>],
-    (input, before): (f64, Option<f64>),
+    input: f64,
+    before: Option<f64>,
 ) -> [f64; 3] {
     let [x, y, turn] = figure.at;
     let seat = match &figure.seat {

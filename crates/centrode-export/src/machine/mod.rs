@@ -58,8 +58,8 @@ pub fn files(
         return Err(ExportError::missing_at("plates.pin_diameter", overlap));
     }
     let made = machine(composed)?;
-    let named = [design.name.as_str(), design.title.as_str()];
-    let mut package = Package::new("a composed machine", named, formats, options);
+    let (name, title) = (&design.name, &design.title);
+    let mut package = Package::new("a composed machine", name, title, formats, options);
     if design.hardware() != Hardware::None {
         package.finer_than(composed.plates().pin_diameter, "pins' diameter")?;
     }

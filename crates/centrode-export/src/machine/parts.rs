@@ -48,11 +48,8 @@ pub(super) fn add(
     }
     for part in composed.cams().iter().filter(|cam| !is_copy(&cam.name)) {
         let (title, tolerance) = (package.titled(&part.name), package.tolerance());
-        let plate = cam::plate(
-            &part.part,
-            [&part.name, &capital(&part.name)],
-            quantity(&part.name),
-        );
+        let (name, quantity) = (&part.name, quantity(&part.name));
+        let plate = cam::plate(&part.part, name, &capital(name), quantity);
         plate.add_sheets(package, drawing)?;
         cam::add(package, &part.part, &title, tolerance)?;
     }

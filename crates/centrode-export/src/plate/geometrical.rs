@@ -153,7 +153,7 @@ mod tests {
         let body = BodySpec::default();
         Plate {
             holes,
-            ..Plate::of_body(["plate", "Plate"], outline, None, &body)
+            ..Plate::of_body("plate", "Plate", outline, None, &body)
         }
     }
 

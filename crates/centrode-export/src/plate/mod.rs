@@ -68,7 +68,8 @@ pub(crate) enum Exactness {
 impl Plate {
     /// A body with its bore, as gears and cams have it, of files of a name and with a title.
     pub(crate) fn of_body(
-        [name, title]: [&str; 2],
+        name: &str,
+        title: &str,
         outline: Outline,
         bore: Option<Outline>,
         body: &BodySpec,
@@ -99,7 +100,8 @@ impl Plate {
     pub(crate) fn spacer(
         screws: &Fastening,
         title: &str,
-        (quantity, stock): (usize, Stock<'_>),
+        quantity: usize,
+        stock: Stock<'_>,
     ) -> Self {
         let one = Fastening {
             at: vec![Point::origin()],
@@ -194,9 +196,9 @@ impl Plate {
         spec: &DrawingSpec,
     ) -> Result<(), ExportError> {
         let (name, options, tolerance) = (&*self.name, package.options(), package.tolerance());
-        let spec = (spec, package.design());
+        let supplement = package.design();
         package.sheets(name, || {
-            self.sheets(spec, &options.sheet, tolerance)
+            self.sheets(spec, supplement, &options.sheet, tolerance)
                 .map_err(ExportError::no_sheet(name))
         })
     }

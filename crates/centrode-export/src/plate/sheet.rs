@@ -29,12 +29,13 @@ impl Plate {
     /// The drawing sheets: face, edge, dimensions, notes.
     pub(crate) fn sheets(
         &self,
-        (spec, supplement): (&DrawingSpec, &str),
+        spec: &DrawingSpec,
+        supplement: &str,
         options: &SheetOptions,
         tolerance: Tolerance,
     ) -> Result<Vec<Sheet>, SheetError> {
-        let words = [&*self.name, &*self.title];
-        let mut block = TitleBlock::of_part(spec, words, supplement, options.projection);
+        let (name, title, projection) = (&self.name, &self.title, options.projection);
+        let mut block = TitleBlock::of_part(spec, name, title, supplement, projection);
         block.material.clone_from(&self.material);
         block.mass = self.weight();
         let plain = Plate {

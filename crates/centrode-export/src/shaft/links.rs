@@ -60,7 +60,7 @@ pub(super) fn machine(parts: &Parts<'_>) -> Result<machine::LinkedMachine, Expor
     if let Some(gears) = &parts.gears {
         for member in MEMBERS {
             let link = machine.link_named(member.name()).unwrap_or(0);
-            gear_pair::embody(&mut machine, link, (&gears.pair, member), GEARS)?;
+            gear_pair::embody(&mut machine, link, &gears.pair, member, GEARS)?;
         }
     }
     arrangement::annotate(parts, &mut machine)?;

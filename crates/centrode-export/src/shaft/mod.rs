@@ -101,15 +101,14 @@ fn all(
     options: &Options,
 ) -> Result<Bundle, ExportError> {
     let (shaft, tolerance) = (machine.shaft, options.tolerance);
-    let named = [machine.name, machine.title];
-    let mut package = Package::new(kind, named, formats, options);
+    let mut package = Package::new(kind, machine.name, machine.title, formats, options);
     package.finer_than(shaft.groove().depth(), "groove's depth")?;
     package.drawing("groove", |_| Ok(developed(shaft, tolerance)?))?;
     package.drawing("shaft", |_| Ok(side_view(shaft, tolerance)?))?;
     package.drawing("slider", |_| Ok(slider(shaft)))?;
     // The title block has the shaft's own title, and so have the pages.
     let design = shaft.design();
-    package.within("", [&design.name, &design.title], |package| {
+    package.within("", &design.name, &design.title, |package| {
         package.sheets("shaft", || shaft_sheets(shaft, options))?;
         package.sheets("slider", || slider_sheets(shaft, options))?;
         turned::add(&[shaft.pin(links::BOX)], package, shaft.drawing())
@@ -127,7 +126,7 @@ fn all(
     package.text("groove", "groove.ngc", || program(shaft, tolerance))?;
     if let Some(gears) = &machine.gears {
         let (pair, prefix) = (&gears.pair, links::GEARS);
-        package.within(prefix, [pair.name(), pair.title()], |gears| {
+        package.within(prefix, pair.name(), pair.title(), |gears| {
             gear_pair::fill(gears, pair)
         })?;
     }

@@ -22,7 +22,8 @@ const ROUNDING: f64 = 1e-12;
 /// arms as bars without parts.
 pub(super) fn draw(
     mechanism: &ThreeArm,
-    (parts, teeth): (Option<&Parts<'_>>, Option<&GearPair>),
+    parts: Option<&Parts<'_>>,
+    teeth: Option<&GearPair>,
     machine: &mut LinkedMachine,
 ) {
     let link = |machine: &LinkedMachine, name: &str| machine.link_named(name).unwrap_or(0);

@@ -69,11 +69,11 @@ pub(super) fn machine(
     let limbs = parts.map(|parts| Limbs::new(parts, &mut builder));
     let limbs = limbs.transpose()?;
     for chain in 0..mechanism.arms() {
-        builder.chain(chain, (carrier, sun), limbs.as_ref())?;
+        builder.chain(chain, carrier, sun, limbs.as_ref())?;
     }
     builder.ground_column();
     builder.tips();
-    figures::draw(mechanism, (parts, teeth), &mut builder.machine);
+    figures::draw(mechanism, parts, teeth, &mut builder.machine);
     if let Some(parts) = parts {
         arrangement::annotate(parts, &mut builder.machine);
     }
@@ -287,17 +287,18 @@ impl Builder<'_> {
     fn chain(
         &mut self,
         k: u32,
-        (carrier, sun): (usize, usize),
+        carrier: usize,
+        sun: usize,
         limbs: Option<&Limbs>,
     ) -> Result<(), ExportError> {
         let mechanism = self.mechanism;
         let name = format!("intermediate_{k}");
         let intermediate = self.gear(ThreeArmPart::Intermediate, &name)?;
-        let first = self.on_carrier(carrier, intermediate, (k, 0));
+        let first = self.on_carrier(carrier, intermediate, k, 0);
         self.column(first, &name, "rad", "intermediate gear against the carrier");
         let name = format!("planet_{k}");
         let planet = self.gear(ThreeArmPart::Planet, &name)?;
-        let second = self.on_carrier(carrier, planet, (k, 1));
+        let second = self.on_carrier(carrier, planet, k, 1);
         let meaning = "planet, and the arm with it, against the carrier";
         self.column(second, &name, "rad", meaning);
         for (links, joint) in [
@@ -341,7 +342,7 @@ impl Builder<'_> {
     }
 
     /// The joint of a gear on the carrier: of a chain its intermediate gear, or its planet.
-    fn on_carrier(&mut self, carrier: usize, gear: usize, (chain, number): (u32, usize)) -> usize {
+    fn on_carrier(&mut self, carrier: usize, gear: usize, chain: u32, number: usize) -> usize {
         let mechanism = self.mechanism;
         let turn = move |laws: &Laws, input: f64| {
             let train = laws.mechanism.train();

@@ -317,7 +317,7 @@ impl<'a> Parts<'a> {
             ThreeArmPart::Spacer => {
                 let screws = self.screws[0].as_ref()?;
                 let quantity = part.quantity(self.mechanism.arms()) as usize;
-                Some(Plate::spacer(screws, part.title(), (quantity, STEEL)))
+                Some(Plate::spacer(screws, part.title(), quantity, STEEL))
             }
             ThreeArmPart::Housing => Some(
                 self.housing(light("housing")?)
@@ -368,11 +368,11 @@ impl<'a> Parts<'a> {
     }
 
     fn cam(&self) -> Plate {
-        let names = [ThreeArmPart::Cam.name(), ThreeArmPart::Cam.title()];
-        let quantity = ThreeArmPart::Cam.quantity(self.mechanism.arms()) as usize;
+        let part = ThreeArmPart::Cam;
+        let quantity = part.quantity(self.mechanism.arms()) as usize;
         let spec = self.pusher.fork_spec();
         let cam = self.pusher.cam();
-        let mut plate = cam::plate(cam, names, quantity)
+        let mut plate = cam::plate(cam, part.name(), part.title(), quantity)
             .noted("x points to the fork's pivot at the carrier's start:")
             .noted("timing by the mark on it.");
         // Half way from the bore to the least radius.

@@ -73,8 +73,8 @@ pub fn files(
 ) -> Result<Bundle, ExportError> {
     let (machine, tolerance) = (Parts::new(mechanism)?, options.tolerance);
     let design = mechanism.design();
-    let named = [design.name.as_str(), design.title.as_str()];
-    let mut package = Package::new("a three-arm mechanism", named, formats, options);
+    let (name, title) = (&design.name, &design.title);
+    let mut package = Package::new("a three-arm mechanism", name, title, formats, options);
     package.finer_than(machine.pairs[0].module(), "module")?;
     for part in ThreeArmPart::ALL {
         if let Some((pair, member)) = machine.gear(part) {

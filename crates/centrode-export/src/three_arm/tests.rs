@@ -115,8 +115,8 @@ fn words_touch_nothing_on_the_sheets_of_plates() {
         .into_iter()
         .filter_map(|p| machine.plate_of(p))
     {
-        let spec = (&design.drawing, design.title.as_str());
-        let sheets = plate.sheets(spec, &options().sheet, tolerance);
+        let sheet = options().sheet;
+        let sheets = plate.sheets(&design.drawing, &design.title, &sheet, tolerance);
         for sheet in sheets.expect("laid out") {
             assert_eq!(overlaps(&sheet), [], "{}", plate.name);
             seen += 1;
@@ -227,7 +227,7 @@ fn the_model_has_every_link_once_and_every_law_a_joint() {
         }
         let options = options();
         let formats = [Format::Urdf, Format::Mjcf];
-        let mut package = Package::new("a three-arm mechanism", ["", ""], &formats, &options);
+        let mut package = Package::new("a three-arm mechanism", "", "", &formats, &options);
         let added = package.machine(|| Ok(linked));
         assert!(added.is_ok(), "{added:?}");
     }

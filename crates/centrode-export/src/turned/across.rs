@@ -17,7 +17,9 @@ const ROOM: f64 = 45.0;
 /// it is seen towards the left end. The keyway is symmetrical to datum A where there is such.
 pub(crate) fn across(
     diameter: f64,
-    (keyway, class, has_datum): (Option<Keyway>, &str, bool),
+    keyway: Option<Keyway>,
+    class: &str,
+    has_datum: bool,
     letter: char,
     words: &[NoteLine],
     tolerance: Tolerance,

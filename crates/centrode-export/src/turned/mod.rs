@@ -54,9 +54,9 @@ pub(crate) fn add(
         let (part, name) = (Drawn(&pieces.part), &*pieces.part.name);
         package.drawing(name, |_| Ok(part.drawing()))?;
         let (options, tolerance) = (package.options(), package.tolerance());
-        let words = (spec, package.design());
+        let (supplement, count) = (package.design(), pieces.pieces.len());
         package.sheets(name, || {
-            part.sheets(words, pieces.pieces.len(), &options.sheet, tolerance)
+            part.sheets(spec, supplement, count, &options.sheet, tolerance)
                 .map_err(ExportError::no_sheet(name))
         })?;
         let body = || part.solid().map_err(ExportError::no_solid(name));
@@ -101,8 +101,8 @@ fn made_rings(all: &[TurnedPieces]) -> Vec<Plate> {
                 ..BodySpec::default()
             };
             let bore = Some(circle(spacer.inner));
-            let names = [&*file, &*spacer.name()];
-            let ring = Plate::of_body(names, circle(spacer.outer), bore, &body);
+            let (outer, title) = (circle(spacer.outer), spacer.name());
+            let ring = Plate::of_body(&file, &title, outer, bore, &body);
             found.push(Plate {
                 quantity,
                 classes: [rim.into(), String::new()],

@@ -31,13 +31,14 @@ impl Drawn<'_> {
     /// The drawing sheets: the part from the side, a section across its keyway.
     pub(super) fn sheets(
         &self,
-        (spec, supplement): (&DrawingSpec, &str),
+        spec: &DrawingSpec,
+        supplement: &str,
         quantity: usize,
         options: &SheetOptions,
         tolerance: Tolerance,
     ) -> Result<Vec<Sheet>, SheetError> {
-        let words = [&*self.name, &*self.title];
-        let mut block = TitleBlock::of_part(spec, words, supplement, options.projection);
+        let (name, title, projection) = (&self.name, &self.title, options.projection);
+        let mut block = TitleBlock::of_part(spec, name, title, supplement, projection);
         block.material.clone_from(&self.material);
         block.mass = self.mass().map(|kg| mass(kg * 1e3)).unwrap_or_default();
         let mut lines = vec![format!("{quantity} for each machine.")];
@@ -54,15 +55,10 @@ impl Drawn<'_> {
             .iter()
             .find(|step| step.is_keyed && step.ring.is_none());
         let section = keyed.map(|step| {
-            let words = [NoteLine::from(fit::bore(step.diameter, &step.class))];
+            let (size, class, key) = (step.diameter, fit::SHAFT_KEYWAY, self.keyway);
+            let words = [NoteLine::from(fit::bore(size, &step.class))];
             let is_datum = self.datum().is_some();
-            across(
-                step.diameter,
-                (self.keyway, fit::SHAFT_KEYWAY, is_datum),
-                SECTION,
-                &words,
-                tolerance,
-            )
+            across(size, key, class, is_datum, SECTION, &words, tolerance)
         });
         let pieces = |scale: Scale, size: SheetSize| {
             let mut pieces = vec![

@@ -107,7 +107,7 @@ impl Mechanism for Disc {
     }
 
     fn files(&self, formats: &[Format], options: &Options) -> Result<Bundle, ExportError> {
-        let mut package = Package::new("a disc", [&self.0.name, ""], formats, options);
+        let mut package = Package::new("a disc", &self.0.name, "", formats, options);
         let radius = || vec![Column::numbers("radius_mm", [self.0.radius])];
         package.table("disc", "disc", radius)?;
         package.machine(|| self.machine())?;

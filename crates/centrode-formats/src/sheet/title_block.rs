@@ -83,7 +83,8 @@ impl TitleBlock {
     /// Fields of a part drawing, of a part by name and title, with the machine's title below.
     pub fn of_part(
         spec: &DrawingSpec,
-        [name, title]: [&str; 2],
+        name: &str,
+        title: &str,
         supplement: &str,
         projection: Option<Projection>,
     ) -> Self {

@@ -237,7 +237,7 @@ impl Bar {
     }
 
     /// The part that it is: names of its files and in words, material, and the general tolerances.
-    pub fn part(&self, [name, title]: [&str; 2], stock: Stock<'_>, general: &str) -> TurnedPart {
+    pub fn part(&self, name: &str, title: &str, stock: Stock<'_>, general: &str) -> TurnedPart {
         let (mut steps, mut held) = (self.steps(), self.held_lengths(general));
         lengthen(&mut steps, &mut held);
         let lands = [steps.first(), steps.last()].into_iter().flatten();

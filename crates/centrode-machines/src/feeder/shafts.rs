@@ -41,7 +41,7 @@ impl Feeder {
         // Without gears none has a place.
         let at = at.chain(std::iter::repeat([0.0; 3]));
         let pieces = at.take(2 * stops as usize);
-        let made = bar.part(["pin-cam", "Pin of a cam"], body.shaft_stock(), "");
+        let made = bar.part("pin-cam", "Pin of a cam", body.shaft_stock(), "");
         self.has_cams().then(|| TurnedPieces {
             role: standard
                 .map_or("", |_| "pressed into the driven gear")
@@ -112,12 +112,12 @@ impl Feeder {
                 vec![level(FeederPart::Effector), frame[2]],
             ),
         ]
-        .map(|(names, link, axis, span, room, parts)| {
+        .map(|([name, title], link, axis, span, room, parts)| {
             let bar = Bar::new(spec.pin_diameter, &spec.pin_fit, span).held(room);
             let bar = bar.through(&parts);
             let at = axis - self.place(link, self.start()).translation.vector;
             let at = [at.x, at.y, bar.bottom()];
-            let part = bar.part(names, spec.pin_stock(), general);
+            let part = bar.part(name, title, spec.pin_stock(), general);
             TurnedPieces {
                 pieces: vec![TurnedPiece::upright(link.name(), at)],
                 axis: Some(axis.coords.into()),
@@ -173,7 +173,7 @@ impl Feeder {
         let own = keyed(own, [f64::NEG_INFINITY, last - beyond]).ring(front, true, before);
         let on_it = hubs.iter().map(|&bottom| hub(bottom));
         let own = own.through(&on_it.chain([[rear, front]]).collect::<Vec<_>>());
-        let mut of_crank = crank.part(["shaft-a", "Shaft A"], stock, general);
+        let mut of_crank = crank.part("shaft-a", "Shaft A", stock, general);
         of_crank.notes =
             vec!["The crank is pressed on its seat and key, flush with the end.".into()];
         let on_shaft = |part: TurnedPart, bar: &Bar, link: &str| TurnedPieces {
@@ -209,7 +209,7 @@ impl Feeder {
                 keys: hubs.iter().filter_map(|&low| key(low, &own)).collect(),
                 axis: Some([-distance, 0.0]),
                 ..on_shaft(
-                    own.part(["shaft-g", "Shaft G"], stock, general),
+                    own.part("shaft-g", "Shaft G", stock, general),
                     &own,
                     GearBody::NAMES[0],
                 )

@@ -48,14 +48,18 @@ impl ThreeArm {
         let between = self.shaft(
             &design.intermediate,
             self.on_chains("intermediate", [0.0; 3]),
-            ["shaft-intermediate", "Shaft of an intermediate gear"],
-            ([rear[0], front[1]], [free, clearance]),
+            "shaft-intermediate",
+            "Shaft of an intermediate gear",
+            [rear[0], front[1]],
+            [free, clearance],
         );
         let planet = self.shaft(
             &design.planet,
             self.on_chains("planet", [0.0; 3]),
-            ["shaft-planet", "Shaft of a planet gear"],
-            ([rear[0], beyond], [free, free]),
+            "shaft-planet",
+            "Shaft of a planet gear",
+            [rear[0], beyond],
+            [free; 2],
         );
         let all = [self.carrier_shaft(), between, planet];
         all.into_iter().flatten().collect()
@@ -69,8 +73,10 @@ impl ThreeArm {
         let mut made = self.shaft(
             &design.sun,
             vec![TurnedPiece::upright("sun", [0.0; 3])],
-            ["shaft-carrier", "Shaft of the carrier"],
-            ([behind, front[1]], [0.0, design.gearbox.clearance]),
+            "shaft-carrier",
+            "Shaft of the carrier",
+            [behind, front[1]],
+            [0.0, design.gearbox.clearance],
         )?;
         made.part.notes = vec![
             "Held fast at its free end, to be cut to length; the carrier turns about it.".into(),
@@ -78,13 +84,15 @@ impl ThreeArm {
         Some(made)
     }
 
-    /// A shaft in the bore of a gear, on links, with its names, between two heights with room for rings beyond them.
+    /// A shaft in the bore of a gear, on links, between two heights with room for rings beyond them.
     fn shaft(
         &self,
         body: &BodySpec,
         links: Vec<TurnedPiece>,
-        names: [&str; 2],
-        (span, room): ([f64; 2], [f64; 2]),
+        name: &str,
+        title: &str,
+        span: [f64; 2],
+        room: [f64; 2],
     ) -> Option<TurnedPieces> {
         let [rear, front] = self.gearbox().filter(|_| body.bore > 0.0)?.spans;
         let general = &self.design().drawing.general_tolerance;
@@ -104,7 +112,7 @@ impl ThreeArm {
             bar = bar.seat([low, low + bearing.width], BEARING[1]);
         }
         let above = |(bearing, low): (Bearing, f64)| (bearing, low - bar.bottom());
-        let part = bar.part(names, body.shaft_stock(), general);
+        let part = bar.part(name, title, body.shaft_stock(), general);
         let fit = Fit::new("", body.bore, [&body.bore_fit, &body.shaft_fit]);
         let key = body.keyway.and_then(|hub| Key::fitting(hub, body.width));
         let key = key.map(|key| SeatedKey {
@@ -139,7 +147,7 @@ impl ThreeArm {
         let low = standard.map_or(fork[0], |pin| cover - pin.length);
         let bar = Bar::new(seat.size, seat.pin, [low, cover]);
         let stock = STEEL.treated(&spec.pin_heat_treatment);
-        let mut pivot = bar.part(["pin-fork", "Pin of the fork"], stock, "");
+        let mut pivot = bar.part("pin-fork", "Pin of the fork", stock, "");
         pivot.notes = vec!["Pressed into the front cover, flush with its outside.".into()];
         let at = pusher.pivot();
         let [pressed, _] = seat.fits([""; 2]);
@@ -158,16 +166,14 @@ impl ThreeArm {
         let seat = pusher.roller_fit();
         let bar = Bar::new(seat.size, seat.pin, [high - long, high]);
         let [pressed, _] = seat.fits([""; 2]);
+        let made = bar.part("pin-roller", "Pin of the roller", stock, "");
         let roller = TurnedPieces {
             pieces: self.on_chains("fork", [spec.arm_length, 0.0, high - long]),
             role: standard
                 .map_or("", |_| "of the roller, pressed into the fork")
                 .into(),
             standard: standard.map(Dowel::name),
-            ..TurnedPieces::new(
-                bar.part(["pin-roller", "Pin of the roller"], stock, ""),
-                pressed,
-            )
+            ..TurnedPieces::new(made, pressed)
         };
         let thin = 0.5 * spec.slot_width;
         let [under, over] = wide("push-rod");

@@ -91,7 +91,7 @@ fn files(machine: &LinkedMachine, options: &Options) -> Bundle {
 }
 
 fn in_formats(machine: &LinkedMachine, formats: &[Format], options: &Options) -> Bundle {
-    let mut package = Package::new("a machine", ["", ""], formats, options);
+    let mut package = Package::new("a machine", "", "", formats, options);
     package.machine(|| Ok(machine.clone())).expect("written");
     package.finish().expect("whole")
 }

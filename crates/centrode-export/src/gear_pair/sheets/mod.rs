@@ -92,15 +92,15 @@ pub fn sheets(
     options: &SheetOptions,
     tolerance: Tolerance,
 ) -> Result<Vec<Sheet>, ExportError> {
-    let names = (None, subject.name());
-    labelled(pair, subject, names, options, tolerance)
+    labelled(pair, subject, None, subject.name(), options, tolerance)
 }
 
 /// The sheets of a gear under a label, or of a subject, whose files have a name.
 pub(super) fn labelled(
     pair: &GearPair,
     subject: Subject,
-    (label, file): (Option<Label<'_>>, &str),
+    label: Option<Label<'_>>,
+    file: &str,
     options: &SheetOptions,
     tolerance: Tolerance,
 ) -> Result<Vec<Sheet>, ExportError> {

@@ -52,7 +52,7 @@ impl<'a> Scene<'a> {
         let input = machine.arrangement.input;
         let places = machine.places(input, &vec![true; machine.links.len()]);
         let poses = machine.figures.iter().map(|figure| {
-            let pose = pose(machine, figure, &places, (input, None));
+            let pose = pose(machine, figure, &places, input, None);
             placed(&pose)
         });
         let mut scene = Self {
@@ -200,7 +200,7 @@ fn way(machine: &LinkedMachine, figure: &Figure, point: &LinkPoint) -> Vec<Point
         let input = machine.input.period * f64::from(i) / f64::from(STEPS);
         let places = machine.places(input, &required);
         let own = places[point.link].unwrap_or_else(Isometry3::identity);
-        let seen = placed(&pose(machine, figure, &places, (input, None)));
+        let seen = placed(&pose(machine, figure, &places, input, None));
         seen.inverse() * (own * nalgebra::Point3::from(point.at)).xy()
     };
     (0..=STEPS).map(at).collect()

@@ -40,6 +40,14 @@ struct Cut {
     hatched: bool,
 }
 
+/// An upright plane through an axis of the machine.
+#[derive(Clone, Copy)]
+struct Plane {
+    axis: Point,
+    /// Horizontal direction in it.
+    across: Vector,
+}
+
 /// A body in the place that it has at the arrangement's input.
 struct Placed<'a> {
     link: usize,
@@ -76,7 +84,7 @@ impl Stack {
                 continue;
             }
             known.push(&body.shape.name);
-            found.extend(Self::through((body, turned), (machine, &bodies), tolerance));
+            found.extend(Self::through(body, turned, machine, &bodies, tolerance));
         }
         let items = |stack: &Self| -> Vec<usize> { stack.items.iter().map(|(i, _)| *i).collect() };
         let all: Vec<Vec<usize>> = found.iter().map(items).collect();
@@ -93,14 +101,17 @@ impl Stack {
     }
 
     fn through(
-        (body, turned): (&Placed<'_>, &TurnedPart),
-        (machine, bodies): (&LinkedMachine, &[Placed<'_>]),
+        body: &Placed<'_>,
+        turned: &TurnedPart,
+        machine: &LinkedMachine,
+        bodies: &[Placed<'_>],
         tolerance: Tolerance,
     ) -> Option<Self> {
-        let axis = Point::from(body.place.translation.vector.xy());
-        let across = (body.place.rotation * Vector3::x())
-            .xy()
-            .try_normalize(0.0)?;
+        let across = (body.place.rotation * Vector3::x()).xy();
+        let plane = Plane {
+            axis: Point::from(body.place.translation.vector.xy()),
+            across: across.try_normalize(0.0)?,
+        };
         let wide = WIDE * turned.diameter();
         let mut stack = Self {
             name: turned.title.clone(),
@@ -112,7 +123,7 @@ impl Stack {
         let ends = [0.0, turned.length()].map(|z| (body.place * Point3::new(0.0, 0.0, z)).z);
         let span = [ends[0].min(ends[1]) - ONE, ends[0].max(ends[1]) + ONE];
         for other in bodies {
-            let cuts = other.cuts((axis, across), (wide, span), tolerance);
+            let cuts = other.cuts(plane, wide, span, tolerance);
             for (cut, size) in cuts {
                 let item = other.item(machine, size);
                 let hatched = !matches!(other.shape.form, Form::Turned(_))
@@ -224,8 +235,9 @@ impl Placed<'_> {
     /// its diameter about the axis.
     fn cuts(
         &self,
-        plane: (Point, Vector),
-        (half, span): (f64, [f64; 2]),
+        plane: Plane,
+        half: f64,
+        span: [f64; 2],
         tolerance: Tolerance,
     ) -> Vec<(Bounds, [f64; 2])> {
         let upright = (self.place.rotation * Vector3::z()).z.abs() > 1.0 - 1e-9;
@@ -233,7 +245,7 @@ impl Placed<'_> {
         let up = (self.place.rotation * Vector3::z()).z;
         match &self.shape.form {
             Form::Turned(turned) if upright => {
-                let (axis, across) = plane;
+                let Plane { axis, across } = plane;
                 let off = Point::from(self.place.translation.vector.xy()) - axis;
                 let (along, beside) = (off.dot(&across), off.perp(&across));
                 let mut low = 0.0;
@@ -269,7 +281,7 @@ impl Placed<'_> {
                     if bottom > span[1] || top < span[0] {
                         return Vec::new();
                     }
-                    let about = self.place.inverse() * Point3::new(plane.0.x, plane.0.y, z);
+                    let about = self.place.inverse() * Point3::new(plane.axis.x, plane.axis.y, z);
                     let about = solid
                         .outline()
                         .maximum_distance(Point::new(about.x, about.y));
@@ -286,7 +298,7 @@ impl Placed<'_> {
                 .collect(),
             // A key lies along the plane.
             Form::Solids(solids) => {
-                let (axis, across) = plane;
+                let Plane { axis, across } = plane;
                 let mut bounds = Bounds::EMPTY;
                 let mut sides = [f64::INFINITY, f64::NEG_INFINITY];
                 for solid in solids {
@@ -323,7 +335,7 @@ impl Placed<'_> {
     fn spans(
         &self,
         solid: &Solid,
-        (axis, across): (Point, Vector),
+        Plane { axis, across }: Plane,
         half: f64,
         tolerance: Tolerance,
     ) -> Vec<[f64; 2]> {

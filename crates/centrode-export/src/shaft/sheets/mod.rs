@@ -88,12 +88,8 @@ pub fn slider_sheets(shaft: &SpiralShaft, options: &Options) -> Result<Vec<Sheet
 
 fn block(shaft: &SpiralShaft, part: &str, title: &str, options: &Options) -> TitleBlock {
     let supplement = title_or_name(&shaft.design().title, &shaft.design().name);
-    TitleBlock::of_part(
-        shaft.drawing(),
-        [part, title],
-        supplement,
-        options.sheet.projection,
-    )
+    let (spec, projection) = (shaft.drawing(), options.sheet.projection);
+    TitleBlock::of_part(spec, part, title, supplement, projection)
 }
 
 fn notes(shaft: &SpiralShaft) -> Vec<String> {

@@ -24,8 +24,8 @@ pub(super) fn journal(shaft: &SpiralShaft, tolerance: Tolerance) -> Draft {
         Frame::datum('A').into(),
         "both journals".to_owned().into(),
     ];
-    let key = (body.keyway, &*body.keyway_fit, true);
-    across(body.journal_diameter, key, SECTION, &words, tolerance)
+    let (size, key, class) = (body.journal_diameter, body.keyway, &body.keyway_fit);
+    across(size, key, class, true, SECTION, &words, tolerance)
 }
 
 /// Section across the groove, enlarged.

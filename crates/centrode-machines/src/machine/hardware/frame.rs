@@ -247,7 +247,7 @@ impl Machine {
         let stock = Stock::new(&spec.material, spec.density);
         let general = &self.design.drawing.general_tolerance;
         let bar = Bar::new(diameter, "", [low, high]);
-        let mut post = bar.part([Self::POSTS, "Post"], stock, general);
+        let mut post = bar.part(Self::POSTS, "Post", stock, general);
         let thread = screws.screw.thread();
         post.notes.push(match screws.thread_depth() {
             Some(depth) => format!("{thread}, {} deep, in both ends.", thousandths(depth)),

@@ -198,7 +198,7 @@ impl Machine {
         let bar = held(room.map(|room| if needed + moved > room { 0.0 } else { room }));
         let bottom = axis.span[0] + bar.bottom() - 0.5 * bar.growth(general);
         let title = format!("Pin through {} mm", thousandths(length));
-        let part = bar.part(["pin", &title], spec.pin_stock(), general);
+        let part = bar.part("pin", &title, spec.pin_stock(), general);
         let role = match bar.rings() {
             [true, true] => "",
             [false, false] => "no room for rings",

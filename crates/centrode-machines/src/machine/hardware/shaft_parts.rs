@@ -103,7 +103,7 @@ impl Machine {
         }
         let title = format!("Shaft of {}", self.original(&shaft.name));
         let name = format!("shaft-{}", self.original(&shaft.name));
-        let mut part = bar.part([&name, &title], hub.shaft_stock(), general);
+        let mut part = bar.part(&name, &title, hub.shaft_stock(), general);
         part.notes.extend(notes(&on_it, end > 0.0));
         let owner = &self.bodies[shaft.body].name;
         let given = self.design.bodies.get(owner).map(|body| body.given_mass());
