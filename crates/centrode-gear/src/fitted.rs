@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use centrode_geometry::{Point, bracketed_root, checkpoint, parallel_map};
+use centrode_geometry::{bracketed_root, checkpoint, parallel_map};
 
 use super::{
     flank::{Flank, Side},
@@ -11,7 +11,7 @@ use super::{
     profile::{FlankPlan, ToothPlan, Top},
     rolling::{Member, Rolling},
     tool::Tool,
-    tooth_chords::circle,
+    tooth_chords::{Circle, circle},
     tooth_passage::{Candidate, Poses, Reaches, ToothPassage},
 };
 
@@ -40,7 +40,7 @@ struct Meeting<'a> {
 
 impl Meeting<'_> {
     /// Both teeth. A flank is needed as far down as any mate reaches; the mates' own reach bounds it.
-    fn candidates(&self, (driver, driven): (Reaches, Reaches)) -> [Candidate; 2] {
+    fn candidates(&self, [driver, driven]: [Reaches; 2]) -> [Candidate; 2] {
         let candidate = |member, reaches, mates: Reaches| Candidate {
             member,
             crossings: self.crossings[member as usize],
@@ -102,8 +102,9 @@ impl Fitting<'_> {
             let count = counts[member as usize] as isize;
             let circles = &circles[member as usize];
             let place = tooth.rem_euclid(count) as usize;
-            let (center, radius) = circles[place % circles.len()];
-            (patterns.of(member).turn(place) * center, radius)
+            let Circle { center, radius } = circles[place % circles.len()];
+            let center = patterns.of(member).turn(place) * center;
+            Circle { center, radius }
         };
         let middle = 0.5 * (driver[0].leading.crossing + driver[0].trailing.crossing);
         let mut poses = Poses::new(self.rolling, middle + 0.25 * pitch, pitch);
@@ -151,7 +152,7 @@ impl Fitting<'_> {
                     crossings,
                 }));
             }
-            let known = |[i, j]: [usize; 2]| (reach_1[i], reach_2[j]);
+            let known = |[i, j]: [usize; 2]| [reach_1[i], reach_2[j]];
             let are_foul = parallel_map(&met, |meeting| {
                 let teeth = meeting.candidates(known(meeting.teeth));
                 meeting.passage.is_foul(&teeth)
@@ -171,17 +172,17 @@ impl Fitting<'_> {
                     is_free == [true, true]
                 });
                 left = later;
-                let known = |[i, j]: [usize; 2]| (reach_1[i], reach_2[j]);
+                let known = |[i, j]: [usize; 2]| [reach_1[i], reach_2[j]];
                 let cleared = parallel_map(&first, |meeting| {
                     let teeth = meeting.candidates(known(meeting.teeth));
                     meeting.passage.clear(&teeth)
                 });
                 for (meeting, cleared) in first.iter().zip(cleared) {
                     let [i, j] = meeting.teeth;
-                    if cleared != (reach_1[i], reach_2[j]) {
+                    if cleared != [reach_1[i], reach_2[j]] {
                         changed = to;
                     }
-                    (reach_1[i], reach_2[j]) = cleared;
+                    [reach_1[i], reach_2[j]] = cleared;
                 }
             }
         }
@@ -194,29 +195,16 @@ impl Fitting<'_> {
         };
         let tips_1 = settled(Member::Driver, driver, reach_1);
         let tips_2 = settled(Member::Driven, driven, reach_2);
-        // Driven tooth k works in the driver's space after tooth k, driver tooth k + 1 in the driven
-        // gear's.
         let meshes = meshes as usize;
-        self.serve(
-            Member::Driver,
-            driver,
-            (&tips_2, 0, meshes),
-            lengths[0],
-            space(Member::Driver),
-        );
-        self.serve(
-            Member::Driven,
-            driven,
-            (&tips_1, 1, meshes),
-            lengths[1],
-            space(Member::Driven),
-        );
+        let (one, two) = (Member::Driver, Member::Driven);
+        self.serve(one, driver, &tips_2, meshes, lengths[0], space(one));
+        self.serve(two, driven, &tips_1, meshes, lengths[1], space(two));
         patterns.driver.repeat(all_1, pitch);
         patterns.driven.repeat(all_2, pitch);
     }
 
     /// Circles around the teeth of both gears before any is trimmed, as deep as any mate reaches.
-    fn circles(&self, gears: [(&[ToothPlan], &[Reaches]); 2]) -> [Vec<(Point, f64)>; 2] {
+    fn circles(&self, gears: [(&[ToothPlan], &[Reaches]); 2]) -> [Vec<Circle>; 2] {
         [Member::Driver, Member::Driven].map(|member| {
             let (teeth, reaches) = gears[member as usize];
             let mates = gears[member.mate() as usize].1.iter().flatten();
@@ -228,7 +216,7 @@ impl Fitting<'_> {
                     reaches,
                     depths: [depth; 2],
                 };
-                circle((self.rolling, self.tools), &candidate)
+                circle(self.rolling, self.tools, &candidate)
             };
             teeth.iter().zip(reaches).map(around).collect()
         })
@@ -292,14 +280,7 @@ impl Fitting<'_> {
             .at_height(height)
             .map_or_else(|| flank.farthest(height), |(t, _)| t);
         let rolled = side.sign() * (flank.crossing - self.rolling.arc_length(end));
-        let most = rolled.max(0.0);
-        reach(
-            self.rolling,
-            self.tool(member),
-            (member, side),
-            plan.crossing,
-            most,
-        )
+        reach(&flank, rolled.max(0.0))
     }
 
     /// Settles every tip of a gear, wide enough at the top.
@@ -310,8 +291,8 @@ impl Fitting<'_> {
             |&(tooth, &[lead, trail]): &(&ToothPlan, &[f64; 2])| {
                 let leading = self.flank(member, Side::Leading, tooth.leading.crossing);
                 let trailing = self.flank(member, Side::Trailing, tooth.trailing.crossing);
-                let share =
-                    share_for_width((&leading, lead), (&trailing, trail), self.minimum_tip_width);
+                let flanks = [&leading, &trailing];
+                let share = share_for_width(flanks, [lead, trail], self.minimum_tip_width);
                 let (lead, trail) = (share * lead, share * trail);
                 let tip = |flank: &Flank<'_>, reach: f64| {
                     let t = self
@@ -330,28 +311,21 @@ impl Fitting<'_> {
     }
 }
 
-/// Roll length, in arc, up to which the flank of `member` on `side` that crosses the pitch curve at `crossing`
-/// can work above it together with its mate, at most `limit`.
+/// Roll length, in arc, up to which a flank can work above the pitch curve together with its mate, at most `limit`.
 ///
 /// A roll v above the crossing both flanks are regular while sin alpha + kappa v cos alpha (its own
 /// curvature) and sin alpha - kappa v cos alpha (its mate's) are positive.
-pub(crate) fn reach(
-    rolling: &Rolling,
-    tool: &Tool,
-    (member, side): (Member, Side),
-    crossing: f64,
-    limit: f64,
-) -> f64 {
+fn reach(flank: &Flank<'_>, limit: f64) -> f64 {
     const STEPS: u32 = 48;
-    let (sin, cos) = tool.pressure_angle.sin_cos();
-    let mate = member.mate();
+    let (sin, cos) = flank.tool.pressure_angle.sin_cos();
+    let (rolling, mate) = (flank.rolling, flank.member.mate());
     let margin = |v: f64| {
-        let t = rolling.parameter(crossing - side.sign() * v);
-        let own = sin + rolling.frame(member, t).curvature * v * cos;
+        let t = rolling.parameter(flank.crossing - flank.side.sign() * v);
+        let own = sin + rolling.frame(flank.member, t).curvature * v * cos;
         let other = sin - rolling.frame(mate, t).curvature * v * cos;
         own.min(other) - MIN_SPEED * sin
     };
-    let limit = limit.min(tool.addendum_reach());
+    let limit = limit.min(flank.tool.addendum_reach());
     let mut before = (0.0, sin * (1.0 - MIN_SPEED));
     for i in 1..=STEPS {
         let v = limit * f64::from(i) / f64::from(STEPS);
@@ -365,19 +339,16 @@ pub(crate) fn reach(
 }
 
 /// Share of both roll lengths a tooth can keep with a top land at least `width` wide.
-pub(crate) fn share_for_width(
-    leading: (&Flank<'_>, f64),
-    trailing: (&Flank<'_>, f64),
-    width: f64,
-) -> f64 {
+fn share_for_width(flanks: [&Flank<'_>; 2], reaches: Reaches, width: f64) -> f64 {
+    let [leading, trailing] = flanks;
     let land = |share: f64| {
-        let tip = |(flank, reach): (&Flank<'_>, f64)| {
-            let arc = flank.crossing - flank.side.sign() * share * reach;
+        let tip = |flank: &Flank<'_>| {
+            let arc = flank.crossing - flank.side.sign() * share * reaches[flank.side as usize];
             flank.point(flank.rolling.parameter(arc))
         };
         let (a, b) = (tip(leading), tip(trailing));
-        let middle = 0.5 * (leading.0.crossing + trailing.0.crossing);
-        let frame = leading.0.frame(leading.0.rolling.parameter(middle));
+        let middle = 0.5 * (leading.crossing + trailing.crossing);
+        let frame = leading.frame(leading.rolling.parameter(middle));
         (b - a).dot(&frame.tangent) - width
     };
     let (low, high) = (land(0.0), land(1.0));

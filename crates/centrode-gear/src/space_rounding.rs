@@ -42,20 +42,21 @@ impl Fitting<'_> {
         (found.end <= end * (1.0 + 1e-9)).then_some(found)
     }
 
-    /// Fits every space of a gear to the tips that enter it: of `meshes` teeth the mate's k + `ahead` enters the
-    /// space after tooth k. One depth a space, below the higher tip,
-    /// where the flanks bear it; a fillet below each flank. The teeth take up `length` of the pitch curve.
+    /// Fits every space of a gear to the tips that enter it: of `meshes` teeth the driven gear's k enters
+    /// the space after the driver's tooth k, the driver's k + 1 that after the driven gear's. One depth a space, below the
+    /// higher tip, where the flanks bear it; a fillet below each flank. The teeth take up `length` of the pitch curve.
     pub(super) fn serve(
         &self,
         member: Member,
         teeth: &mut [ToothPlan],
-        (mates, ahead, meshes): (&[[Tip; 2]], usize, usize),
+        mates: &[[Tip; 2]],
+        meshes: usize,
         length: f64,
         space: f64,
     ) {
         let (tool, clearance) = (self.tool(member), self.clearance(member));
         let higher = |a: Tip, b: Tip| (a.0.max(b.0), a.1.max(b.1));
-        let count = teeth.len();
+        let (count, ahead) = (teeth.len(), usize::from(member == Member::Driven));
         for k in 0..count {
             checkpoint();
             let entering: Vec<(f64, [Tip; 2])> = (k..meshes)

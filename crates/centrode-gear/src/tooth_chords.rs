@@ -35,18 +35,23 @@ pub(super) struct ToothChords {
 /// Multiple of the distance of a tooth's ends and corners from its middle within which all of it lies.
 const ROUND: f64 = 1.25;
 
+/// A circle that has a tooth within it, mm.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Circle {
+    pub(crate) center: Point,
+    pub(crate) radius: f64,
+}
+
 /// A circle around the working part of a tooth.
-pub(super) fn circle(
-    (rolling, tools): (&Rolling, &[Tool; 2]),
-    candidate: &Candidate,
-) -> (Point, f64) {
+pub(super) fn circle(rolling: &Rolling, tools: &[Tool; 2], candidate: &Candidate) -> Circle {
     let [leading, trailing] = [Side::Leading, Side::Trailing].map(|side| {
         let flank = candidate.flank(rolling, tools, side);
         [0.0, 0.5, 1.0].map(|share| candidate.along(&flank, share))
     });
-    let middle = nalgebra::center(&leading[1], &trailing[1]);
-    let away = leading.iter().chain(&trailing).map(|p| (p - middle).norm());
-    (middle, ROUND * away.fold(0.0, f64::max))
+    let center = nalgebra::center(&leading[1], &trailing[1]);
+    let away = leading.iter().chain(&trailing).map(|p| (p - center).norm());
+    let radius = ROUND * away.fold(0.0, f64::max);
+    Circle { center, radius }
 }
 
 impl Candidate {
@@ -74,7 +79,7 @@ impl Candidate {
 }
 
 impl ToothChords {
-    pub(super) fn new((rolling, tools): (&Rolling, &[Tool; 2]), candidate: &Candidate) -> Self {
+    pub(super) fn new(rolling: &Rolling, tools: &[Tool; 2], candidate: &Candidate) -> Self {
         let [leading, trailing] =
             [Side::Leading, Side::Trailing].map(|side| candidate.flank(rolling, tools, side));
         let top = |flank: &Flank<'_>| {

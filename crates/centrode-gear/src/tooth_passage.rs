@@ -9,7 +9,7 @@ use centrode_geometry::{Point, checkpoint, parallel_map};
 use super::{
     rolling::{Frame, Member, Rolling},
     tool::Tool,
-    tooth_chords::ToothChords,
+    tooth_chords::{Circle, ToothChords},
 };
 
 /// Poses a pitch at which two teeth are held against each other.
@@ -52,7 +52,7 @@ pub(crate) struct Poses<'a> {
     step: f64,
     /// Number of the first pose kept.
     first: i64,
-    kept: VecDeque<(Frame, Frame)>,
+    kept: VecDeque<[Frame; 2]>,
 }
 
 impl<'a> Poses<'a> {
@@ -90,7 +90,7 @@ impl<'a> Poses<'a> {
     }
 
     /// The poses within eight pitches of an arc length.
-    fn about(&mut self, middle: f64) -> impl Iterator<Item = &(Frame, Frame)> + Clone {
+    fn about(&mut self, middle: f64) -> impl Iterator<Item = &[Frame; 2]> + Clone {
         let (from, count) = (self.from(middle), Self::COUNT);
         self.find([middle; 2]);
         // The passages of a tooth come in order, those of the next begin seven half pitches back at most.
@@ -110,7 +110,7 @@ pub(crate) struct ToothPassage<'a> {
     tools: &'a [Tool; 2],
     pitch: f64,
     /// Poses at which the teeth may meet.
-    near: Vec<(Frame, Frame)>,
+    near: Vec<[Frame; 2]>,
 }
 
 /// A tooth of which a share of the reaches is kept, with its shapes as far as they have been asked for.
@@ -137,7 +137,8 @@ impl<'a> Trimmed<'a> {
         let new = || {
             let reaches = self.reaches(share);
             Rc::new(ToothChords::new(
-                (passage.rolling, passage.tools),
+                passage.rolling,
+                passage.tools,
                 &Candidate {
                     reaches,
                     ..*self.candidate
@@ -166,16 +167,17 @@ impl<'a> ToothPassage<'a> {
         tools: &'a [Tool; 2],
         middle: f64,
         pitch: f64,
-        [(one, first), (two, second)]: [&(Point, f64); 2],
+        [one, two]: [&Circle; 2],
     ) -> Option<Self> {
         let rolling = poses.rolling;
         let poses = poses.about(middle);
-        let concave = |(a, b): &(Frame, Frame)| a.curvature < 0.0 || b.curvature < 0.0;
+        let concave = |[a, b]: &[Frame; 2]| a.curvature < 0.0 || b.curvature < 0.0;
         if !poses.clone().any(concave) {
             return None;
         }
-        let reach = (first + second).powi(2);
-        let meets = |(a, b): &&(Frame, Frame)| (carry(a, b, one) - two).norm_squared() < reach;
+        let reach = (one.radius + two.radius).powi(2);
+        let meets =
+            |[a, b]: &&[Frame; 2]| (carry(a, b, &one.center) - two.center).norm_squared() < reach;
         let near: Vec<_> = poses.filter(meets).copied().collect();
         (!near.is_empty()).then_some(Self {
             rolling,
@@ -188,14 +190,14 @@ impl<'a> ToothPassage<'a> {
     /// Whether two teeth penetrate each other at any pose.
     pub(crate) fn is_foul(&self, teeth: &[Candidate; 2]) -> bool {
         checkpoint();
-        let shape = |candidate| Rc::new(ToothChords::new((self.rolling, self.tools), candidate));
+        let shape = |candidate| Rc::new(ToothChords::new(self.rolling, self.tools, candidate));
         let teeth = teeth.each_ref().map(shape);
         let mut poses = self.near.iter();
         poses.any(|pose| penetrate(pose, &teeth, self.pitch))
     }
 
     /// Shortens one tooth or the other, whichever costs less, or both, until they penetrate nowhere.
-    pub(crate) fn clear(&self, teeth: &[Candidate; 2]) -> (Reaches, Reaches) {
+    pub(crate) fn clear(&self, teeth: &[Candidate; 2]) -> [Reaches; 2] {
         let [driver, driven] = teeth.each_ref().map(Trimmed::new);
         let shapes = |[first, second]: [f64; 2]| {
             checkpoint();
@@ -205,7 +207,7 @@ impl<'a> ToothPassage<'a> {
         // A shorter tooth lies within a longer one: where these are clear, all are.
         let foul = self.foul(&whole);
         if foul.is_empty() {
-            return (driver.candidate.reaches, driven.candidate.reaches);
+            return [driver.candidate.reaches, driven.candidate.reaches];
         }
         let mut best = (f64::NEG_INFINITY, [1.0, 1.0]);
         for cut in [[true, false], [false, true], [true, true]] {
@@ -217,7 +219,7 @@ impl<'a> ToothPassage<'a> {
             if minimum == PARTS {
                 continue;
             }
-            let clear = |pose: &(Frame, Frame), part: u32| {
+            let clear = |pose: &[Frame; 2], part: u32| {
                 let shapes = shapes(shares(share(part)));
                 !penetrate(pose, &shapes, self.pitch)
             };
@@ -231,12 +233,12 @@ impl<'a> ToothPassage<'a> {
             }
         }
         let [first, second] = best.1;
-        (driver.reaches(first), driven.reaches(second))
+        [driver.reaches(first), driven.reaches(second)]
     }
 
     /// Poses at which two teeth penetrate each other, and more between them and beside them where corners move far from one to the
     /// next.
-    fn foul(&self, teeth: &[Rc<ToothChords>; 2]) -> Vec<(Frame, Frame)> {
+    fn foul(&self, teeth: &[Rc<ToothChords>; 2]) -> Vec<[Frame; 2]> {
         let near = &self.near;
         let is_foul: Vec<bool> = (near.iter())
             .map(|pose| penetrate(pose, teeth, self.pitch))
@@ -249,21 +251,21 @@ impl<'a> ToothPassage<'a> {
             let Some(next) = near.get(k + 1) else {
                 continue;
             };
-            let follows = next.0.arc - pose.0.arc < 1.5 * self.pitch / f64::from(POSES);
+            let follows = next[0].arc - pose[0].arc < 1.5 * self.pitch / f64::from(POSES);
             if !(follows && (is_foul[k] || is_foul[k + 1])) {
                 continue;
             }
             let [one, two] = teeth;
-            let way = |tooth: &ToothChords, at: &dyn Fn(&(Frame, Frame), &Point) -> Point| {
+            let way = |tooth: &ToothChords, at: &dyn Fn(&[Frame; 2], &Point) -> Point| {
                 let ways = tooth
                     .corners()
                     .map(|p| (at(next, &p) - at(pose, &p)).norm());
                 ways[0].max(ways[1])
             };
             let longest =
-                way(one, &|(a, b), p| carry(a, b, p)).max(way(two, &|(a, b), p| carry(b, a, p)));
+                way(one, &|[a, b], p| carry(a, b, p)).max(way(two, &|[a, b], p| carry(b, a, p)));
             let steps = (longest / (WAY * self.pitch)).ceil();
-            let (from, to) = (pose.0.arc, next.0.arc);
+            let (from, to) = (pose[0].arc, next[0].arc);
             let between = (1..steps as u32)
                 .map(|i| pose_at(self.rolling, from + (to - from) * f64::from(i) / steps));
             foul.extend(between);
@@ -273,14 +275,14 @@ impl<'a> ToothPassage<'a> {
 }
 
 /// Rolling frames of both gears at an arc length.
-fn pose_at(rolling: &Rolling, arc: f64) -> (Frame, Frame) {
+fn pose_at(rolling: &Rolling, arc: f64) -> [Frame; 2] {
     let t = rolling.parameter(arc);
     let frame = |member| rolling.frame(member, t);
-    (frame(Member::Driver), frame(Member::Driven))
+    [frame(Member::Driver), frame(Member::Driven)]
 }
 
 /// Whether two teeth penetrate each other at a pose.
-fn penetrate((a, b): &(Frame, Frame), teeth: &[Rc<ToothChords>; 2], pitch: f64) -> bool {
+fn penetrate([a, b]: &[Frame; 2], teeth: &[Rc<ToothChords>; 2], pitch: f64) -> bool {
     let [one, two] = teeth;
     let reach = one.radius + two.radius;
     if (carry(a, b, &one.middle) - two.middle).norm_squared() > reach * reach {

@@ -73,11 +73,10 @@ impl Ellipse {
         );
         draft(
             Focal::new(1, self.eccentricity, self.semi_major_axis)?,
-            (
-                self.semi_major_axis,
-                [self.module, self.diametral_pitch],
-                self.tooth_count,
-            ),
+            self.semi_major_axis,
+            self.module,
+            self.diametral_pitch,
+            self.tooth_count,
             definition,
         )
     }
@@ -92,11 +91,10 @@ impl LobedEllipse {
         );
         draft(
             Focal::new(self.lobes, self.eccentricity, self.semi_major_axis)?,
-            (
-                self.semi_major_axis,
-                [self.module, self.diametral_pitch],
-                self.tooth_count,
-            ),
+            self.semi_major_axis,
+            self.module,
+            self.diametral_pitch,
+            self.tooth_count,
             definition,
         )
     }
@@ -104,7 +102,10 @@ impl LobedEllipse {
 
 fn draft(
     law: Focal,
-    (own, [module, diametral_pitch], tooth_count): (Option<f64>, [Option<f64>; 2], Option<u32>),
+    own: Option<f64>,
+    module: Option<f64>,
+    diametral_pitch: Option<f64>,
+    tooth_count: Option<u32>,
     definition: String,
 ) -> Result<Draft, PitchError> {
     let key = "semi_major_axis";

@@ -126,12 +126,8 @@ pub(crate) struct Fourier {
 }
 
 impl Fourier {
-    pub(crate) fn new(
-        mean: f64,
-        (cos_key, cos): (&'static str, &[f64]),
-        (sin_key, sin): (&'static str, &[f64]),
-    ) -> Result<Self, PitchError> {
-        for (key, list) in [(cos_key, cos), (sin_key, sin)] {
+    pub(crate) fn new(mean: f64, cos: &[f64], sin: &[f64]) -> Result<Self, PitchError> {
+        for (key, list) in [("cos", cos), ("sin", sin)] {
             if list.len() > MAX_HARMONICS {
                 let (count, limit) = (list.len(), MAX_HARMONICS);
                 return Err(PitchError::TooManyPoints { key, count, limit });

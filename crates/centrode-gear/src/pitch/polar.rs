@@ -85,7 +85,7 @@ impl Polar {
             for (key, list) in [("cos", &self.cos), ("sin", &self.sin)] {
                 list.iter().try_for_each(|&c| finite(key, c).map(drop))?;
             }
-            let series = Fourier::new(mean, ("cos", &self.cos), ("sin", &self.sin))?;
+            let series = Fourier::new(mean, &self.cos, &self.sin)?;
             let definition = format!(
                 "polar, Fourier series of {} harmonics",
                 self.cos.len().max(self.sin.len())

@@ -232,7 +232,7 @@ impl Cutter<'_> {
                 // One piece never suffices: not trying it saves a third of the work.
                 cuts.insert(1, 0.5 * (cuts[0] + cuts[1]));
             }
-            self.fit(pieces, (Role::Fillet, flank.side, index), cuts, &|w| {
+            self.fit(pieces, Role::Fillet, flank.side, index, cuts, &|w| {
                 flank.fillet(corner, swing.parameter(w))
             });
         };
@@ -240,13 +240,11 @@ impl Cutter<'_> {
         let add =
             |side: Side, flank: &Flank<'_>, from: f64, to: f64, pieces: &mut Vec<ToothCurve>| {
                 let cuts = self.cuts(from, to).collect();
-                self.fit(pieces, (Role::Flank, side, index), cuts, &|t| {
-                    flank.point(t)
-                });
+                self.fit(pieces, Role::Flank, side, index, cuts, &|t| flank.point(t));
             };
         add(Side::Leading, &leading, lead_end, lead.tip, pieces);
         let top = [(lead.foot, lead.height), (trail.foot, trail.height)];
-        self.land(pieces, (Role::Tip, index), &leading, top, |share| share);
+        self.land(pieces, Role::Tip, index, &leading, top, |share| share);
         add(Side::Trailing, &trailing, trail.tip, trail_end, pieces);
         fillet(&trailing, &plan.trailing.corner, pieces);
         let side = |flank: &Flank<'_>, plan: &FlankPlan, ends: &Ends| ToothSide {
@@ -277,7 +275,7 @@ impl Cutter<'_> {
             (trail_center, -plan.trailing.corner.depth),
             (next_center, -next.corner.depth),
         ];
-        self.land(pieces, (Role::Root, index), &leading, bottom, |share| {
+        self.land(pieces, Role::Root, index, &leading, bottom, |share| {
             share * share * (3.0 - 2.0 * share)
         });
     }
@@ -287,7 +285,8 @@ impl Cutter<'_> {
     fn land(
         &self,
         pieces: &mut Vec<ToothCurve>,
-        (role, tooth): (Role, u32),
+        role: Role,
+        tooth: u32,
         flank: &Flank<'_>,
         [(from, low), (to, high)]: [(f64, f64); 2],
         blend: fn(f64) -> f64,
@@ -305,7 +304,7 @@ impl Cutter<'_> {
             self.cuts(from, to).map(|t| (t - from) / width).collect()
         };
         // By the share of the way: a parameter has too few digits for the height along a narrow one.
-        self.fit(pieces, (role, Side::Trailing, tooth), cuts, &|share| {
+        self.fit(pieces, role, Side::Trailing, tooth, cuts, &|share| {
             let frame = flank.frame(from + share * width);
             frame.point + frame.normal * height(share)
         });
@@ -321,7 +320,9 @@ impl Cutter<'_> {
     fn fit(
         &self,
         pieces: &mut Vec<ToothCurve>,
-        (role, side, tooth): (Role, Side, u32),
+        role: Role,
+        side: Side,
+        tooth: u32,
         cuts: Vec<f64>,
         curve: &dyn Fn(f64) -> Point,
     ) {
