@@ -4,7 +4,8 @@ use crate::{Finding, Place, Severity, Unit};
 
 /// Finding of plates, by the part and in words, for which screws are asked and none are found; none where they are.
 pub(crate) fn no_screws(
-    (part, plates): (&str, &str),
+    part: &str,
+    plates: &str,
     screws: Option<Result<Fastening, FasteningError>>,
     remedy: &'static str,
 ) -> Option<Finding> {

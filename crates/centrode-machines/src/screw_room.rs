@@ -28,7 +28,8 @@ impl ScrewRoom {
     /// [`FasteningError::NoRoom`] for a screw of a diameter.
     pub(crate) fn places(
         &self,
-        (diameter, radius): (f64, f64),
+        diameter: f64,
+        radius: f64,
         count: usize,
     ) -> Result<Vec<Point>, FasteningError> {
         let step = 0.25 * diameter;
@@ -118,21 +119,21 @@ mod tests {
             turns: 1,
             grid: 0.0,
         };
-        let found = room.places((4.0, 4.0), 4).expect("room");
+        let found = room.places(4.0, 4.0, 4).expect("room");
         assert_eq!(found.len(), 4);
         for (i, at) in found.iter().enumerate() {
             assert!((at - middle).norm() >= 14.0, "{at}");
             assert!(found[..i].iter().all(|other| (at - other).norm() >= 16.0));
         }
         room.grid = 0.8;
-        for at in room.places((4.0, 4.0), 4).expect("room") {
+        for at in room.places(4.0, 4.0, 4).expect("room") {
             assert!((at - middle).norm() >= 14.0, "{at}");
             let off = at.coords.map(|x| x / 0.8 - (x / 0.8).round()).norm();
             assert!(off < 1e-9, "{at}");
         }
         let across = [Point::new(-50.0, 20.0), Point::new(90.0, 20.0)];
         room.taken.push((across, 19.0));
-        let error = room.places((4.0, 4.0), 4).expect_err("no room");
+        let error = room.places(4.0, 4.0, 4).expect_err("no room");
         assert!(
             matches!(error, FasteningError::NoRoom { found: 0, .. }),
             "{error}"

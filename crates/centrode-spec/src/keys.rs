@@ -87,7 +87,8 @@ fn is_on(message: &str, value: &DeValue<'_>) -> bool {
 /// Serde gathers a table whose `kind` decides its other keys before it looks at them, and loses their places on the way.
 pub(super) fn inside(
     text: &str,
-    (around, offset): (&str, usize),
+    around: &str,
+    offset: usize,
     message: &str,
 ) -> Option<(String, usize)> {
     let root = DeTable::parse(text).ok()?;

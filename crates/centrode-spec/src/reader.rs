@@ -137,7 +137,7 @@ impl<'a> Reader<'a> {
         let offset = error.span().map_or(0, |s| s.start);
         let key = self.keys.around(offset).unwrap_or_default().to_owned();
         let message = error.message();
-        let (key, offset) = inside(self.text, (&key, offset), message).unwrap_or((key, offset));
+        let (key, offset) = inside(self.text, &key, offset, message).unwrap_or((key, offset));
         let names = quoted(message);
         if message.starts_with("unknown field") {
             let mut known: Vec<String> = names.iter().skip(1).cloned().collect();

@@ -66,7 +66,8 @@ pub fn check_strokes(feeder: &Feeder) -> Report {
 fn screws(feeder: &Feeder, report: &mut Report) {
     let found = feeder.frame_screws();
     report.findings.extend(no_screws(
-        ("frame", "the plates of the frame"),
+        "frame",
+        "the plates of the frame",
         found,
         "thicker plates (plates.thickness), or a smaller plates.screw",
     ));

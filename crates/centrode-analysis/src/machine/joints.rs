@@ -35,7 +35,7 @@ pub(super) fn joints(composed: &Machine, motion: &Motion, report: &mut Report) {
         rows.push((body.name.clone(), span));
         let stroke = high.value - low.value;
         let period = composed.period();
-        let dead = |found| dead_centre(mount.law.as_ref(), &found, (stroke, period));
+        let dead = |found| dead_centre(mount.law.as_ref(), &found, stroke, period);
         let dead = [low, high].map(dead);
         centres.push((body.name.clone(), dead.to_vec()));
     }
@@ -95,7 +95,7 @@ pub(super) fn tables(composed: &Machine, report: &mut Report) {
 }
 
 /// Input at which a motion stands in an extreme: where its speed is zero, and in the first turn of several alike.
-fn dead_centre(law: &dyn Transmission, found: &Extreme, (stroke, period): (f64, f64)) -> f64 {
+fn dead_centre(law: &dyn Transmission, found: &Extreme, stroke: f64, period: f64) -> f64 {
     let alike = |input: &f64| {
         let off = law.at(*input).position - found.value;
         *input >= 0.0 && off.abs() <= ROUNDING * stroke

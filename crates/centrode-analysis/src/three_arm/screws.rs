@@ -23,7 +23,7 @@ pub(super) fn check_screws(mechanism: &ThreeArm, pusher: &Pusher, report: &mut R
         ),
     ];
     for (part, plates, screws, remedy) in plates {
-        let found = no_screws((part, plates), screws, remedy);
+        let found = no_screws(part, plates, screws, remedy);
         report.findings.extend(found);
     }
 }

@@ -109,9 +109,9 @@ pub(super) fn drawn(parts: &Parts<'_>) -> Result<machine::LinkedMachine, ExportE
     );
     let turning = machine.joint(Joint::turning(frame, turned, Arc::new(back)));
     let (low, high) = shaft.traverse().reach();
-    let way = ([0.0, 0.0, 1.0], [low - ROOM, high + ROOM]);
+    let (axis, range) = ([0.0, 0.0, 1.0], [low - ROOM, high + ROOM]);
     let swivel = swivel(&turn, &stroke, groove.radius());
-    let boxed = Joint::sliding(frame, carriage, way, stroke).led_by(turning);
+    let boxed = Joint::sliding(frame, carriage, axis, range, stroke).led_by(turning);
     let boxed = machine.joint(boxed);
     let swivelling = Joint::turning(carriage, slid, Arc::new(swivel))
         .at([groove.radius() - slider.reach, 0.0, 0.0])

@@ -219,8 +219,8 @@ impl Builder<'_> {
             slope: mechanism.train().direction().sign() * mechanism.advance(),
         };
         let travel = TAU * mechanism.advance();
-        let slide = ([1.0, 0.0, 0.0], [-travel, travel]);
-        let slide = Joint::sliding(base, ground, slide, Arc::new(law));
+        let (axis, range) = ([1.0, 0.0, 0.0], [-travel, travel]);
+        let slide = Joint::sliding(base, ground, axis, range, Arc::new(law));
         self.machine.joint(slide);
     }
 

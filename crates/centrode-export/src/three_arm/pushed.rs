@@ -42,8 +42,10 @@ impl Builder<'_> {
             let back = pusher.map(|pusher| back(laws, pusher, input));
             MotionJet::default().plus(-1.0, &back.unwrap_or_default())
         });
-        let slide = ([1.0, 0.0, 0.0], [-pusher.stroke(), 0.0]);
-        let joint = self.machine.joint(Joint::sliding(arm, rod, slide, law));
+        let (axis, range) = ([1.0, 0.0, 0.0], [-pusher.stroke(), 0.0]);
+        let joint = self
+            .machine
+            .joint(Joint::sliding(arm, rod, axis, range, law));
         let meaning = "push rod along its arm's x axis, zero thrown out";
         self.column(joint, &name, "mm", meaning);
         if let (Some(pin), Some(slot)) = (pusher.pin(), pusher.slot()) {

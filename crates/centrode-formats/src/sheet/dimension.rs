@@ -62,7 +62,7 @@ impl Draft {
         let origin = start.coords.dot(&along);
         let sign = if turned { -1.0 } else { 1.0 };
         let lines: Vec<f64> = lines.iter().map(|line| sign * line - origin).collect();
-        let middle = clear_middle((length, width), (between, usual), &lines);
+        let middle = clear_middle(length, width, between, usual, &lines);
         let (from, to) = if inside {
             (start, end)
         } else {
@@ -214,7 +214,7 @@ fn fitting(length: f64, width: f64) -> (bool, bool, f64) {
 
 /// Middle of the words of a dimension nearest to the usual one at which they leave lines free, mm from its start; the usual one
 /// where there is none. Words between the arrows stay there, others move outwards.
-fn clear_middle((length, width): (f64, f64), (between, usual): (bool, f64), lines: &[f64]) -> f64 {
+fn clear_middle(length: f64, width: f64, between: bool, usual: f64, lines: &[f64]) -> f64 {
     let half = 0.5 * width + AIR;
     let free = |middle: &f64| lines.iter().all(|line| (line - middle).abs() > half);
     let allowed = |middle: &f64| {

@@ -57,7 +57,7 @@ fn grooved(
             let top = fitted(fit, radius, [start, end], angles, heights, &at)?;
             let foot = fitted(fit, floor, [start, end], angles, heights, &at)?;
             let raised = plan.edge(edge).wall == Wall::Left;
-            let sides = (boundary.bezier(top.clone()), boundary.bezier(foot.clone()));
+            let sides = [boundary.bezier(top.clone()), boundary.bezier(foot.clone())];
             wall(boundary, [foot, top], sides, raised);
             walls.push((heights, sides));
         }
@@ -77,7 +77,7 @@ fn grooved(
                 let all = [low[side]].into_iter().chain(between).chain([high[side]]);
                 all.map(|z| ring(side, z)).collect::<Vec<usize>>()
             });
-            let of = |sides: (ShellSide, ShellSide)| if land { sides.0 } else { sides.1 };
+            let of = |sides: [ShellSide; 2]| sides[usize::from(!land)];
             let bottom = match k.checked_sub(1) {
                 Some(k) => of(walls[k].1),
                 None => boundary.arc(left[0], right[0], r),
@@ -101,7 +101,7 @@ fn grooved(
 fn wall(
     boundary: &mut ShellBuilder,
     points: [Vec<[f64; 3]>; 2],
-    (top, foot): (ShellSide, ShellSide),
+    [top, foot]: [ShellSide; 2],
     raised: bool,
 ) {
     let last = points[0].len() - 1;

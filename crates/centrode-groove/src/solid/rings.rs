@@ -121,7 +121,7 @@ impl<'a> Rings<'a> {
         }
         let at_start = feet(mesh, straight);
         let rim = [before[open - 1], before[0]];
-        self.slot_end(mesh, (&arc, rim, at_start), way);
+        self.slot_end(mesh, &arc, rim, at_start, way);
         before.extend(at_start);
         let mut stations = vec![(radius, end)];
         if c > 0.0 {
@@ -138,7 +138,7 @@ impl<'a> Rings<'a> {
 
     /// The end of the slot, between the arc that it removes and the lower and upper corners where its straight walls begin: on the rim,
     /// and at its foot.
-    fn slot_end(&self, mesh: &mut Mesh, (arc, rim, feet): (&[u32], [u32; 2], [u32; 2]), way: f64) {
+    fn slot_end(&self, mesh: &mut Mesh, arc: &[u32], rim: [u32; 2], feet: [u32; 2], way: f64) {
         let half = self.body.keyway_rounding();
         if half == 0.0 {
             // A plane wall.

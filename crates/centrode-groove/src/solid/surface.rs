@@ -182,7 +182,7 @@ impl<'a> Surface<'a> {
                 && low < z
                 && z < high
             {
-                self.vertex_at((line + side) % self.plan.lines.len(), (z, RIDGE), radius);
+                self.vertex_at((line + side) % self.plan.lines.len(), z, RIDGE, radius);
                 (z, RIDGE)
             } else {
                 (low, level)
@@ -243,10 +243,10 @@ impl<'a> Surface<'a> {
             }
             level => self.plan.levels[level].radius,
         };
-        self.vertex_at(line, (z, level), radius)
+        self.vertex_at(line, z, level, radius)
     }
 
-    fn vertex_at(&mut self, line: usize, (z, level): (f64, usize), radius: f64) -> u32 {
+    fn vertex_at(&mut self, line: usize, z: f64, level: usize, radius: f64) -> u32 {
         let (vertices, (sin, cos)) = (&mut self.vertices, self.ways[line]);
         *self.on_line[line]
             .entry((key(z), level))

@@ -66,7 +66,8 @@ impl Fastening {
     /// [`FasteningError::TooShort`] where it then enters less than so many diameters.
     pub fn new(
         diameter: f64,
-        (faces, plate): ([f64; 2], f64),
+        faces: [f64; 2],
+        plate: f64,
         minimum: f64,
     ) -> Result<Self, FasteningError> {
         let between = faces[1] - faces[0] - 2.0 * plate;
@@ -187,7 +188,7 @@ mod tests {
     fn screws_enter_no_more_than_two_diameters_and_do_not_meet() {
         let between = |distance: f64| {
             let faces = [-6.0, distance + 6.0];
-            Fastening::new(6.0, (faces, 6.0), 1.0).map(|f| (f.screw.length, f.thread_depth()))
+            Fastening::new(6.0, faces, 6.0, 1.0).map(|f| (f.screw.length, f.thread_depth()))
         };
         assert_eq!(between(14.0), Ok((12.0, None)));
         // Screws of 16 mm would end in the middle of 20 mm.

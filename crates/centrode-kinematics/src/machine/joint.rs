@@ -80,7 +80,8 @@ impl Joint {
     pub fn sliding(
         parent: usize,
         child: usize,
-        (axis, range): ([f64; 3], [f64; 2]),
+        axis: [f64; 3],
+        range: [f64; 2],
         law: Arc<dyn Transmission>,
     ) -> Self {
         Self {

@@ -148,7 +148,7 @@ impl LinkedMachine {
                 form: Form::Turned(part.clone()),
             });
             for piece in &all.pieces {
-                self.mount(shape, piece, ([0.0; 3], [0.0; 3]), own);
+                self.mount(shape, piece, [0.0; 3], [0.0; 3], own);
             }
         }
         self.part(listed);
@@ -179,7 +179,7 @@ impl LinkedMachine {
                     form: Form::Solids(vec![solid]),
                 });
                 for piece in &all.pieces {
-                    self.mount(shape, piece, (fastener.at, fastener.turn), own);
+                    self.mount(shape, piece, fastener.at, fastener.turn, own);
                 }
             }
             self.part(listed);
@@ -191,7 +191,8 @@ impl LinkedMachine {
         &mut self,
         shape: usize,
         piece: &TurnedPiece,
-        (at, turn): ([f64; 3], [f64; 3]),
+        at: [f64; 3],
+        turn: [f64; 3],
         own: Option<MassProperties>,
     ) {
         let link = self.link_named(&piece.link);

@@ -34,7 +34,7 @@ fn machine() -> LinkedMachine {
             .turned([0.1, -0.2, 0.7]),
     );
     let axis = [0.6, 0.0, 0.8];
-    machine.joint(Joint::sliding(links[2], links[3], (axis, [-1.0, 1.0]), wavy(0.0)).at([7.0; 3]));
+    machine.joint(Joint::sliding(links[2], links[3], axis, [-1.0, 1.0], wavy(0.0)).at([7.0; 3]));
     machine.joint(Joint::turning(links[0], links[1], wavy(1.0)));
     machine.points.push(LinkPoint {
         name: "tip".into(),

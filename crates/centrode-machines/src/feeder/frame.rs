@@ -37,10 +37,10 @@ impl Feeder {
         let key = (design.linkage.clone(), spec.clone(), design.gears.clone());
         FOUND.get(&key, || {
             let next = spec.thickness + spec.gap;
-            let faces = ([-next, -next + 5.0 * next + spec.thickness], spec.thickness);
+            let faces = [-next, -next + 5.0 * next + spec.thickness];
             let taken = self.swept();
             Fastening::largest(spec.screw, spec.thickness, |diameter| {
-                let mut found = Fastening::new(diameter, faces, ENTERED)?;
+                let mut found = Fastening::new(diameter, faces, spec.thickness, ENTERED)?;
                 found.at = self.around(diameter, &taken)?;
                 Ok(found)
             })
@@ -89,7 +89,7 @@ impl Feeder {
                 turns: 1,
                 grid: GRID,
             };
-            match room.places((diameter, diameter), SCREWS) {
+            match room.places(diameter, diameter, SCREWS) {
                 Ok(places) if is_within(Point::from(middle), &places) => return Ok(places),
                 Ok(places) => {
                     last = Some(FasteningError::NoRoom {

@@ -66,7 +66,8 @@ impl Feeder {
             };
             let law = self.joint_law(part);
             let joint = if part == FeederPart::Slider {
-                Joint::sliding(carrier.link(), link, self.slide(), law)
+                let (axis, range) = self.slide();
+                Joint::sliding(carrier.link(), link, axis, range, law)
             } else {
                 Joint::turning(carrier.link(), link, law)
             };

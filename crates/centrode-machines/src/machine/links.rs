@@ -299,8 +299,8 @@ impl Machine {
             JointKind::Fixed => Joint::fixed(carrier, body),
             JointKind::Turning => Joint::turning(carrier, body, mount.law.clone()),
             JointKind::Sliding(range) => {
-                let along = ([1.0, 0.0, 0.0], range);
-                Joint::sliding(carrier, body, along, mount.law.clone())
+                let along = [1.0, 0.0, 0.0];
+                Joint::sliding(carrier, body, along, range, mount.law.clone())
             }
         };
         let at = [mount.at.x, mount.at.y, 0.0];

@@ -31,10 +31,10 @@ impl ThreeArm {
     pub fn carrier_screws(&self, arm: &ArmBody) -> Option<Result<Fastening, FasteningError>> {
         let spec = &self.design().gearbox;
         let [rear, front] = self.gearbox()?.spans;
-        let faces = ([rear[0], front[1]], spec.wall);
+        let faces = [rear[0], front[1]];
         let reach = farthest(&arm.within(0.0)?, Point::origin());
         Fastening::largest(spec.screw, spec.wall, |diameter| {
-            let mut found = Fastening::new(diameter, faces, ENTERED[0])?;
+            let mut found = Fastening::new(diameter, faces, spec.wall, ENTERED[0])?;
             let inside = spec.housing_offset - EDGE * diameter;
             let belt = Outline::hull(&self.around_gears(inside));
             let teeth = self.design().tool.addendum_coefficient() * self.module().unwrap_or(0.0);
@@ -51,7 +51,7 @@ impl ThreeArm {
                 turns: self.arms(),
                 grid: 0.0,
             };
-            found.at = room.places((diameter, diameter), OF_CARRIER)?;
+            found.at = room.places(diameter, diameter, OF_CARRIER)?;
             Ok(found)
         })
     }
@@ -67,8 +67,8 @@ impl ThreeArm {
         let housing = self.arm_sizes().housing;
         let half = 0.5 * housing.width;
         Fastening::largest(housing.screw, housing.wall, |diameter| {
-            let faces = ([-half, half], housing.wall);
-            let mut found = Fastening::new(diameter, faces, ENTERED[1])?;
+            let (faces, wall) = ([-half, half], housing.wall);
+            let mut found = Fastening::new(diameter, faces, wall, ENTERED[1])?;
             let room = ScrewRoom {
                 line: arm.within(COVER_EDGE * found.screw.clearance_hole()),
                 taken: self.moving_inside(pusher, arm),
@@ -76,7 +76,7 @@ impl ThreeArm {
                 grid: 0.0,
             };
             let radius = diameter + 0.5 * housing.wall;
-            found.at = room.places((diameter, radius), OF_COVER)?;
+            found.at = room.places(diameter, radius, OF_COVER)?;
             Ok(found)
         })
     }

@@ -77,7 +77,7 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
         line(out, &name, &words)?;
     }
     findings(&found.findings, out)?;
-    chosen((design.arms, bend_deg), &found, (&split, &made), out)?;
+    chosen(design.arms, bend_deg, &found, &split, &made, out)?;
     gears(&made, out)?;
     if let Some(map) = map(&requested, &found) {
         possible(&map, out)?;
@@ -176,9 +176,11 @@ fn source(command: &Reverse) -> Result<Source, Failure> {
 }
 
 fn chosen(
-    (arms, bend): (u32, f64),
+    arms: u32,
+    bend: f64,
     found: &Found,
-    (split, made): (&Split, &ReversedMachine),
+    split: &Split,
+    made: &ReversedMachine,
     out: &mut impl Write,
 ) -> std::io::Result<()> {
     let (chain, why) = (&found.chain, &found.why);

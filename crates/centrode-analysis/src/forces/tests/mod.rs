@@ -134,7 +134,7 @@ fn slider_crank(piston: f64) -> LinkedMachine {
     });
     found.joint(Joint::turning(0, 1, turning(1.0)));
     found.joint(Joint::turning(1, 2, rod).at([r, 0.0, 0.0]));
-    found.joint(Joint::sliding(0, 3, ([1.0, 0.0, 0.0], [0.0, 200.0]), way));
+    found.joint(Joint::sliding(0, 3, [1.0, 0.0, 0.0], [0.0, 200.0], way));
     found.closures.push(Closure {
         links: [2, 3],
         at: [l, 0.0, 0.0],

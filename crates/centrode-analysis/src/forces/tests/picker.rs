@@ -50,7 +50,7 @@ fn picker() -> LinkedMachine {
         }
     };
     let [crank, first, second, effector, rod] = turns;
-    let x = ([1.0, 0.0, 0.0], [-1e3, 1e3]);
+    let (x, range) = ([1.0, 0.0, 0.0], [-1e3, 1e3]);
     let mut found = machine(&[
         "frame", "crank", "first", "second", "effector", "block", "rod", "shoe",
     ]);
@@ -59,9 +59,9 @@ fn picker() -> LinkedMachine {
         Joint::turning(1, 2, angle(first, Some(crank))).at([77.0, 0.0, 0.0]),
         Joint::turning(0, 3, angle(second, None)).at([105.0, 0.0, 0.0]),
         Joint::turning(0, 4, angle(effector, None)).at([100.0, 67.0, 0.0]),
-        Joint::sliding(4, 5, x, slide(0, from_pivot)),
+        Joint::sliding(4, 5, x, range, slide(0, from_pivot)),
         Joint::turning(3, 6, angle(rod, Some(second))).at([60.0, 10.0, 0.0]),
-        Joint::sliding(0, 7, x, slide(1, on_line))
+        Joint::sliding(0, 7, x, range, slide(1, on_line))
             .at([0.0, -60.0, 0.0])
             .turned([0.0, 0.0, 0.2]),
     ];

@@ -249,8 +249,7 @@ fn at_tray<R>(
     };
     let tray = mechanism.tray_body();
     let housing = std::slice::from_ref(&housing.outline);
-    let plate = (&[tray.plate][..], tray.place);
-    at_rest(mechanism, housing, plate, shares, look).map(Some)
+    at_rest(mechanism, housing, &[tray.plate], tray.place, shares, look).map(Some)
 }
 
 fn from_unpicked(
@@ -263,9 +262,9 @@ fn from_unpicked(
         return Ok(None);
     }
     let arm = std::slice::from_ref(arm.outline());
-    let stems = (&tray.stems[..], tray.place);
+    let (stems, place) = (&tray.stems, tray.place);
     let shares = PhaseShifts::new(tolerance);
-    at_rest(mechanism, arm, stems, shares, |moving, pairs| {
+    at_rest(mechanism, arm, stems, place, shares, |moving, pairs| {
         shares.minimum(moving, pairs, [0.0, TAU])
     })
 }
@@ -274,7 +273,8 @@ fn from_unpicked(
 fn at_rest<R>(
     mechanism: &ThreeArm,
     carried: &[Outline],
-    (still, place): (&[Outline], Isometry2<f64>),
+    still: &[Outline],
+    place: Isometry2<f64>,
     shares: PhaseShifts,
     look: impl FnOnce(&[Moving<'_>], &[[usize; 2]]) -> Result<R, InterferenceError>,
 ) -> Result<R, ArmClearanceError> {

@@ -149,7 +149,7 @@ pub(in crate::machine) fn points_of(
                 return Err(MachineError::Ring { key, names });
             }
             let pin = expansion.pin(&pin);
-            add(&mut all, &key, [name, &pin], Point::origin(), false)?;
+            add(&mut all, &key, name, &pin, Point::origin(), false)?;
         }
     }
     for (name, body) in &design.bodies {
@@ -161,11 +161,11 @@ pub(in crate::machine) fn points_of(
                 Some(_) => Point::new(arm - law.offset(), 0.0),
                 None => Rotation2::new(-law.offset()) * Point::new(arm, 0.0),
             };
-            add(&mut all, &key, [name, ROLLER], at, true)?;
+            add(&mut all, &key, name, ROLLER, at, true)?;
         }
     }
     for (name, dyad) in &design.dyads {
-        pins(&format!("dyads.{name}"), (dyad, expansion), &mut all)?;
+        pins(&format!("dyads.{name}"), dyad, expansion, &mut all)?;
     }
     let frame = &design.frame;
     let of_frame = (FRAME.to_owned(), (FRAME, &frame.points, &frame.corners));
@@ -176,7 +176,7 @@ pub(in crate::machine) fn points_of(
     for (key, (body, points, corners)) in std::iter::once(of_frame).chain(of_bodies) {
         for (point, at) in points {
             let key = format!("{key}.points.{point}");
-            add(&mut all, &key, [body, point], Point::from(*at), true)?;
+            add(&mut all, &key, body, point, Point::from(*at), true)?;
         }
         place_corners(&format!("{key}.corners"), body, corners, &mut all)?;
     }
@@ -192,7 +192,8 @@ pub(in crate::machine) fn points_of(
 /// Adds the points at which a dyad's bodies are pinned, each in its body's axes.
 fn pins(
     key: &str,
-    (dyad, expansion): (&MachineDyadSpec, &Expansion),
+    dyad: &MachineDyadSpec,
+    expansion: &Expansion,
     all: &mut BodyPoints,
 ) -> Result<(), MachineError> {
     let [first, second] = &dyad.bodies;
@@ -240,7 +241,7 @@ fn pins(
     };
     for (body, (point, key), at, own) in made {
         if !point.is_empty() {
-            add(all, key, [body, point], at, own)?;
+            add(all, key, body, point, at, own)?;
         }
     }
     Ok(())
@@ -249,7 +250,8 @@ fn pins(
 fn add(
     all: &mut BodyPoints,
     key: &str,
-    [body, point]: [&str; 2],
+    body: &str,
+    point: &str,
     at: Point,
     own: bool,
 ) -> Result<(), MachineError> {
@@ -285,7 +287,7 @@ fn place_corners(
         let key = format!("{key}.{name}");
         let [p, q] = corner.from.each_ref().map(|name| known[name].at);
         let at = third_corner(&key, [p, q], corner)?;
-        add(all, &key, [body, name], at, true)?;
+        add(all, &key, body, name, at, true)?;
     }
     let Some((name, corner)) = left.first() else {
         return Ok(());

@@ -215,7 +215,7 @@ impl Machine {
             if length.value > ROUNDING * size || angle.value > ROUNDING {
                 return Err(MachineError::NoCopies {
                     key: key.into(),
-                    why: repeats([name, &copied, &spec.about], turn, [length, angle]),
+                    why: repeats(name, &copied, &spec.about, turn, [length, angle]),
                 });
             }
         }
@@ -306,7 +306,13 @@ fn of_copy(error: MachineError, expansion: &Expansion) -> MachineError {
 }
 
 /// Words of a chain that does not repeat.
-fn repeats([name, copy, about]: [&str; 3], turn: f64, [length, angle]: [Extreme; 2]) -> String {
+fn repeats(
+    name: &str,
+    copy: &str,
+    about: &str,
+    turn: f64,
+    [length, angle]: [Extreme; 2],
+) -> String {
     let degrees = turn.to_degrees();
     let what = match about {
         crate::machine::design::FRAME => format!("as {name} does, turned by {degrees:.4} deg"),

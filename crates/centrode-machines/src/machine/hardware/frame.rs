@@ -92,7 +92,7 @@ impl Machine {
     fn post_screws(&self) -> Result<Fastening, MachineError> {
         let thickness = self.thickness(0);
         let [[low, _], [_, high]] = self.frame_spans();
-        let of = |diameter| Fastening::new(diameter, ([low, high], thickness), ENTERED);
+        let of = |diameter| Fastening::new(diameter, [low, high], thickness, ENTERED);
         let refused = |why: String| MachineError::Refused {
             key: "hardware".into(),
             why: format!(

@@ -55,7 +55,7 @@ impl Axis {
     }
 
     /// A ring on it, no wider than lets it run past the cam beside a roller next to it: a sleeve in the place of a wider shim.
-    fn clear_of_cams(&self, (ring, low): (Spacer, f64)) -> (Spacer, f64) {
+    fn clear_of_cams(&self, ring: Spacer, low: f64) -> (Spacer, f64) {
         let span = [low, low + ring.length];
         let is_next = |roller: &Spacer, at: f64| {
             let off = (at - span[1])
@@ -127,7 +127,8 @@ impl Machine {
         for &number in &pins {
             let axis = &axes[number];
             let rings = self.spacers(axis.owner(), axis.size, &axis.parts());
-            let rings = rings.into_iter().map(|ring| axis.clear_of_cams(ring));
+            let rings = rings.into_iter();
+            let rings = rings.map(|(ring, low)| axis.clear_of_cams(ring, low));
             let is_free = |(ring, low): &(Spacer, f64)| {
                 let span = [*low, low + ring.length];
                 is_clear_of(&bars, number, 0.5 * ring.outer, span)

@@ -114,7 +114,7 @@ impl Retype<'_> {
             let tangent = tangent.y.atan2(tangent.x);
             for turn in 0..DIRECTIONS {
                 let angle = tangent + f64::from(turn) * FRAC_PI_4;
-                found.extend(self.on_line(course, stand, (joint, place, angle)));
+                found.extend(self.on_line(course, stand, joint, place, angle));
             }
         }
         // The line through the second end itself.
@@ -122,7 +122,7 @@ impl Retype<'_> {
         for turn in 0..DIRECTIONS {
             let angle = f64::from(turn) * FRAC_PI_4;
             let through = course.ends[1][0];
-            if let Some(form) = self.on_line(course, 0, (through, place, angle)) {
+            if let Some(form) = self.on_line(course, 0, through, place, angle) {
                 found.push(Form {
                     point: None,
                     ..form
@@ -137,7 +137,9 @@ impl Retype<'_> {
         &self,
         course: &Course,
         stand: usize,
-        (joint, place, angle): (Point, Point, f64),
+        joint: Point,
+        place: Point,
+        angle: f64,
     ) -> Option<Form> {
         let a = course.ends[0][stand];
         let line = unit(course.holders[1][stand].angle + angle);

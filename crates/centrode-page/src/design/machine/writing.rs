@@ -61,7 +61,7 @@ impl Retype<'_> {
             table.insert(key, Item::Value(fresh(value)?));
         }
         if let Some(course) = course {
-            self.keep_points(&mut made, form, course, (&bodies, is_turned, &keys))?;
+            self.keep_points(&mut made, form, course, &bodies, is_turned, &keys)?;
         }
         Some(made)
     }
@@ -88,7 +88,9 @@ impl Retype<'_> {
         made: &mut DocumentMut,
         form: &Form,
         course: &Course,
-        (bodies, is_turned, keys): (&[String], bool, &Map<String, Json>),
+        bodies: &[String],
+        is_turned: bool,
+        keys: &Map<String, Json>,
     ) -> Option<()> {
         let text = self.document.to_string();
         let pin = |key: &str| {
