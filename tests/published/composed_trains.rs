@@ -3,7 +3,7 @@ use std::f64::consts::{PI, TAU};
 use centrode_analysis::{between_arms, machine_clearance};
 use centrode_geometry::{Outline, Point, Segment, Tolerance, Vector, extremes};
 use centrode_kinematics::transmission::MotionJet;
-use centrode_machines::machine::{BodyPoint, Machine, MachineDesign};
+use centrode_machines::machine::{Machine, MachineDesign};
 use centrode_machines::three_arm::ThreeArm;
 use centrode_machines::three_arm::design::ThreeArmDesign;
 use centrode_spec::DesignSpec as _;
@@ -106,10 +106,7 @@ fn the_cam_in_every_arm_is_that_of_the_family_of_its_own() {
         } else {
             format!("-{}", arm + 1)
         };
-        let BodyPoint {
-            body: fork,
-            at: roller,
-        } = composed
+        let roller = composed
             .point_named(&format!("fork{end}.roller"))
             .expect("there");
         for i in 0..180 {
@@ -118,7 +115,7 @@ fn the_cam_in_every_arm_is_that_of_the_family_of_its_own() {
             let at = disc.contact(cam.turn(input).position).point;
             let touched =
                 composed.place(carrier, cam.at, input) + Rotation2::new(turned) * at.coords;
-            let far = (touched - composed.place(fork, roller, input)).norm();
+            let far = (touched - composed.place(roller.body, roller.at, input)).norm();
             assert!((far - 4.0).abs() < 1e-10, "{arm} {input}: {far}");
         }
     }

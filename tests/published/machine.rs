@@ -9,7 +9,7 @@ use centrode_analysis::{Goal, Report, check_feeder, check_machine};
 use centrode_groove::{MovingBox, MovingBoxDesign};
 use centrode_kinematics::transmission::MotionJet;
 use centrode_machines::feeder::{Feeder, FeederDesign};
-use centrode_machines::machine::{BodyPoint, Machine, MachineDesign};
+use centrode_machines::machine::{Machine, MachineDesign};
 use centrode_spec::DesignSpec;
 
 const SAMPLES: u32 = 500;
@@ -89,10 +89,7 @@ fn a_composed_box_moves_as_the_moving_box_does() {
     let whole = MovingBox::resolve(&whole).expect("a moving box");
     let made = composed("composed-box.toml");
     let travel = made.figure("", "box.travel").expect("a figure");
-    let BodyPoint {
-        body: on,
-        at: middle,
-    } = made.point_named("box.middle").expect("a point");
+    let middle = made.point_named("box.middle").expect("a point");
     let shaft = made.body_named("shaft").expect("a shaft");
     assert!((made.period() - whole.motion().period()).abs() < 1e-12);
     for i in 0..SAMPLES {
@@ -105,7 +102,7 @@ fn a_composed_box_moves_as_the_moving_box_does() {
             "shaft",
         );
         let motion = whole.motion().at(input);
-        let found = made.point(on, middle, input);
+        let found = made.point(middle.body, middle.at, input);
         let at = made.value(&travel, input).expect("a place");
         for (a, b, size) in [
             (at, motion.position, 270.0),

@@ -53,7 +53,7 @@ fn unit(made: &Made<'_>, figure: &MachineFigure) -> Unit {
             let unit = made.pairs().get(*pair).and_then(|own| own.unit(figure));
             unit.unwrap_or(Unit::Number)
         }
-        MachineFigure::Point { part, .. } => match part {
+        MachineFigure::Point(_, part) => match part {
             PointPart::X | PointPart::Y => Unit::Millimetre,
             PointPart::Speed => Unit::MillimetrePerSecond,
             PointPart::Acceleration => Unit::MetrePerSecondSquared,

@@ -74,8 +74,8 @@ pub(crate) fn list_pair(
         (Member::Driven, "Driven gear"),
     ] {
         let (file, links) = (format!("{prefix}{}", member.name()), links(machine, member));
-        let words = [name, &file, member.name()];
-        list(machine, pair.gear(member), words, links);
+        let gear = pair.gear(member);
+        list(machine, gear, name, &file, member.name(), links);
     }
     for &member in shafts {
         let (name, links) = (
@@ -90,7 +90,9 @@ pub(crate) fn list_pair(
 pub(crate) fn list(
     machine: &mut LinkedMachine,
     gear: &Gear,
-    [name, file, figure]: [&str; 3],
+    name: &str,
+    file: &str,
+    figure: &str,
     links: Vec<usize>,
 ) {
     machine.part(Part {

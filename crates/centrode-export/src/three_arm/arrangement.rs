@@ -187,8 +187,8 @@ fn list(parts: &Parts<'_>, part: ThreeArmPart, machine: &mut machine::LinkedMach
             ThreeArmPart::Intermediate => arm("intermediate gear", 1),
             _ => arm("planet", 2),
         };
-        let words = [part.title(), part.name(), &figure];
-        return gear_pair::list(machine, pair.gear(member), words, links);
+        let (gear, title, file) = (pair.gear(member), part.title(), part.name());
+        return gear_pair::list(machine, gear, title, file, &figure, links);
     }
     let Some(plate) = parts.plate_of(part) else {
         return;

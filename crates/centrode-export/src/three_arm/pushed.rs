@@ -43,9 +43,8 @@ impl Builder<'_> {
             MotionJet::default().plus(-1.0, &back.unwrap_or_default())
         });
         let (axis, range) = ([1.0, 0.0, 0.0], [-pusher.stroke(), 0.0]);
-        let joint = self
-            .machine
-            .joint(Joint::sliding(arm, rod, axis, range, law));
+        let joint = Joint::sliding(arm, rod, axis, range, law);
+        let joint = self.machine.joint(joint);
         let meaning = "push rod along its arm's x axis, zero thrown out";
         self.column(joint, &name, "mm", meaning);
         if let (Some(pin), Some(slot)) = (pusher.pin(), pusher.slot()) {

@@ -1,7 +1,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::error::{eccentricity, positive};
+use super::error::eccentricity;
 use super::plane::{Derivatives, Direction, PolarCurve, RadiusLaw};
 use super::size::{OwnSize, Size};
 use super::{Draft, PitchError, Scaled, Symmetry};
@@ -46,20 +46,13 @@ pub struct EccentricCircle {
     pub tooth_count: Option<u32>,
 }
 
-fn own_size(radius: Option<f64>) -> Result<OwnSize, PitchError> {
-    match radius {
-        Some(r) => positive("radius", r).map(|_| OwnSize::Fixed("radius")),
-        None => Ok(OwnSize::Missing("radius")),
-    }
-}
-
 impl Circle {
     pub(crate) fn draft(&self) -> Result<Draft, PitchError> {
         let size = Size {
             module: self.module,
             diametral_pitch: self.diametral_pitch,
             tooth_count: self.tooth_count,
-            own: own_size(self.radius)?,
+            own: OwnSize::of("radius", self.radius)?,
         };
         let law = Eccentric {
             radius: self.radius.unwrap_or(1.0),
@@ -81,7 +74,7 @@ impl EccentricCircle {
             module: self.module,
             diametral_pitch: self.diametral_pitch,
             tooth_count: self.tooth_count,
-            own: own_size(self.radius)?,
+            own: OwnSize::of("radius", self.radius)?,
         };
         let definition = format!(
             "eccentric circle, r = R (e cos phi + sqrt(1 - e^2 sin^2 phi)), e = {}",

@@ -1,7 +1,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::error::{eccentricity, positive};
+use super::error::eccentricity;
 use super::plane::{Derivatives, Direction, PolarCurve, RadiusLaw};
 use super::size::{OwnSize, Size};
 use super::{Draft, PitchError, Scaled, Symmetry};
@@ -108,16 +108,11 @@ fn draft(
     tooth_count: Option<u32>,
     definition: String,
 ) -> Result<Draft, PitchError> {
-    let key = "semi_major_axis";
-    let own_size = match own {
-        Some(a) => positive(key, a).map(|_| OwnSize::Fixed(key))?,
-        None => OwnSize::Missing(key),
-    };
     let size = Size {
         module,
         diametral_pitch,
         tooth_count,
-        own: own_size,
+        own: OwnSize::of("semi_major_axis", own)?,
     };
     let draft = Draft::new("eccentricity", PolarCurve::new(law), size, definition)?;
     Ok(draft.scaled(Scaled::Length("A", own.unwrap_or(1.0))))

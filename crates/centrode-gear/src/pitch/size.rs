@@ -25,6 +25,16 @@ pub(crate) enum OwnSize {
     Written,
 }
 
+impl OwnSize {
+    /// Size of a shape whose length, mm, a key gives, if it is written.
+    pub(crate) fn of(key: &'static str, length: Option<f64>) -> Result<Self, PitchError> {
+        match length {
+            Some(length) => positive(key, length).map(|_| Self::Fixed(key)),
+            None => Ok(Self::Missing(key)),
+        }
+    }
+}
+
 impl Size {
     /// Module, mm, as written or by the diametral pitch.
     pub(crate) fn module(&self) -> Option<f64> {

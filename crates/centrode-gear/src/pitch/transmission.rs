@@ -155,7 +155,8 @@ impl Transmission {
     fn size(&self) -> Result<Size, PitchError> {
         size(
             self.center_distance,
-            [self.module, self.diametral_pitch],
+            self.module,
+            self.diametral_pitch,
             self.tooth_count,
         )
     }
@@ -174,7 +175,8 @@ impl Ratio {
     pub(crate) fn draft(&self) -> Result<Draft, PitchError> {
         let size = size(
             self.center_distance,
-            [self.module, self.diametral_pitch],
+            self.module,
+            self.diametral_pitch,
             self.tooth_count,
         )?;
         if let Some(text) = &self.expression {
@@ -226,19 +228,15 @@ fn formula_alone(
 
 fn size(
     own: Option<f64>,
-    [module, diametral_pitch]: [Option<f64>; 2],
-    z: Option<u32>,
+    module: Option<f64>,
+    diametral_pitch: Option<f64>,
+    tooth_count: Option<u32>,
 ) -> Result<Size, PitchError> {
-    let key = "center_distance";
-    let own = match own {
-        Some(a) => positive(key, a).map(|_| OwnSize::Fixed(key))?,
-        None => OwnSize::Missing(key),
-    };
     let size = Size {
         module,
         diametral_pitch,
-        tooth_count: z,
-        own,
+        tooth_count,
+        own: OwnSize::of("center_distance", own)?,
     };
     size.check().map(|()| size)
 }

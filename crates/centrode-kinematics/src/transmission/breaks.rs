@@ -24,7 +24,8 @@ pub fn repeated(law: &(impl Transmission + ?Sized), period: f64) -> Vec<f64> {
 /// The position is smooth but for `breaks`, and repeats with the period up to whole cycles.
 pub fn crossings(
     position: impl Fn(f64) -> f64,
-    (values, cycle): (&[f64], f64),
+    values: &[f64],
+    cycle: f64,
     period: f64,
     breaks: &[f64],
 ) -> Vec<f64> {
@@ -88,7 +89,7 @@ mod tests {
         for sign in [1.0, -1.0] {
             for start in [0.25, 0.25 - 1e-16, 0.25 + 1e-16] {
                 let position = |t: f64| start + sign * 3.0 * t;
-                let found = crossings(position, (&[0.25], TAU), TAU, &[]);
+                let found = crossings(position, &[0.25], TAU, TAU, &[]);
                 assert_eq!(found.len(), 3, "{sign} {start} {found:?}");
                 for (i, input) in found.iter().enumerate() {
                     let off = input - TAU / 3.0 * i as f64;
@@ -100,6 +101,6 @@ mod tests {
 
     #[test]
     fn nothing_is_met_without_values() {
-        assert!(crossings(|t| t, (&[], TAU), TAU, &[]).is_empty());
+        assert!(crossings(|t| t, &[], TAU, TAU, &[]).is_empty());
     }
 }

@@ -84,9 +84,9 @@ impl Transmission for Chain {
         let found = || {
             let period = self.period();
             let own = repeated(&*self.inner, period);
-            let of_outer = (&self.outer.breaks()[..], self.outer.period());
+            let (values, cycle) = (self.outer.breaks(), self.outer.period());
             let place = |input: f64| self.inner.at(input).position;
-            let met = crossings(place, of_outer, period, &own);
+            let met = crossings(place, &values, cycle, period, &own);
             sorted(own.into_iter().chain(met), period)
         };
         self.breaks.get_or_init(found).clone()

@@ -3,14 +3,12 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use centrode_geometry::Point;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::body::points::Reference;
 use super::motion::input_formula::formula_of;
 use super::resolve::Builder;
-use super::{MachineError, MachineLawError};
+use super::{BodyPoint, MachineError, MachineLawError};
 use centrode_kinematics::machine::{Axes, Constant, Load, Quantity};
 use centrode_kinematics::transmission::{FromFn, MotionJet, Transmission};
 use centrode_spec::rule::{Rule, broken, finite};
@@ -70,8 +68,7 @@ impl LoadAxes {
 /// A load on a body.
 #[derive(Clone, Debug)]
 pub(super) struct MachineLoad {
-    body: usize,
-    at: Point,
+    on: BodyPoint,
     force: [f64; 2],
     torque: f64,
     axes: Axes,
@@ -145,10 +142,8 @@ impl Builder<'_> {
         let load = |(name, spec): (&String, &MachineLoadSpec)| {
             let key = format!("loads.{name}");
             let on = format!("{key}.on");
-            let at = Reference::to_body(&spec.on).find(&on, &self.points)?;
             Ok(MachineLoad {
-                body: self.place(&on, &spec.on)?.body,
-                at,
+                on: self.place(&on, &spec.on)?,
                 force: spec.force.unwrap_or_default(),
                 torque: spec.torque.unwrap_or_default(),
                 axes: match spec.axes {
@@ -174,15 +169,15 @@ impl MachineLoad {
         let [x, y] = self.force;
         if self.force != [0.0; 2] {
             parts.push(Load::Force {
-                link: self.body,
-                at: [self.at.x, self.at.y, 0.0],
+                link: self.on.body,
+                at: [self.on.at.x, self.on.at.y, 0.0],
                 force: [x, y, 0.0].map(|size| self.times(size)),
                 axes: self.axes,
             });
         }
         if self.torque != 0.0 {
             parts.push(Load::Torque {
-                link: self.body,
+                link: self.on.body,
                 torque: [0.0, 0.0, self.torque].map(|size| self.times(size)),
                 axes: self.axes,
             });

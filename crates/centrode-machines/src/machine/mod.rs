@@ -281,8 +281,8 @@ impl Machine {
         self.bodies.iter().position(|body| body.name == name)
     }
 
-    /// Every point by `body.point`, with its body and place: those of the bodies
-    /// themselves, not the pins on which they turn.
+    /// Every point by `body.point`, with its body and place: those of the bodies themselves, not the pins on which
+    /// they turn.
     pub fn points(&self) -> impl Iterator<Item = (String, BodyPoint)> + '_ {
         self.bodies
             .iter()

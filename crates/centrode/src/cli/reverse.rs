@@ -59,7 +59,7 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
     let bend_deg = requested.bend_deg(command);
     progress.step("splitting the motion");
     let split = Split::new(chain, kind, bend)
-        .map_err(|error| requested.blame(command.bend.is_some(), ["--bend", "bend_deg"], error))?;
+        .map_err(|error| requested.blame(command.bend.is_some(), "--bend", "bend_deg", error))?;
     progress.step("rolling the pitch curves");
     let made = rolled(design, chain, &split);
     let made = made.map_err(|error| Failure::Files(Box::new(error)))?;
@@ -142,11 +142,11 @@ fn refused(command: &Reverse, requested: &Request, error: NotFound) -> Failure {
             let name = requested.source.name();
             Failure::Usage(format!(
                 "{name}: {error} Such a path is taken with {}.",
-                requested.spelled(["--crossing", "path.crossing = true"])
+                requested.spelled("--crossing", "path.crossing = true")
             ))
         }
         NotFound::Axis { fault, .. } => {
-            requested.blame(command.axis.is_some(), ["--axis", "axis"], fault)
+            requested.blame(command.axis.is_some(), "--axis", "axis", fault)
         }
         NotFound::Easing(EasingError::Module { .. }) => {
             let module = command.module.unwrap_or_default();

@@ -235,7 +235,7 @@ impl Placed<'_> {
     /// its diameter about the axis.
     fn cuts(
         &self,
-        plane: Plane,
+        plane @ Plane { axis, across }: Plane,
         half: f64,
         span: [f64; 2],
         tolerance: Tolerance,
@@ -245,7 +245,6 @@ impl Placed<'_> {
         let up = (self.place.rotation * Vector3::z()).z;
         match &self.shape.form {
             Form::Turned(turned) if upright => {
-                let Plane { axis, across } = plane;
                 let off = Point::from(self.place.translation.vector.xy()) - axis;
                 let (along, beside) = (off.dot(&across), off.perp(&across));
                 let mut low = 0.0;
@@ -281,7 +280,7 @@ impl Placed<'_> {
                     if bottom > span[1] || top < span[0] {
                         return Vec::new();
                     }
-                    let about = self.place.inverse() * Point3::new(plane.axis.x, plane.axis.y, z);
+                    let about = self.place.inverse() * Point3::new(axis.x, axis.y, z);
                     let about = solid
                         .outline()
                         .maximum_distance(Point::new(about.x, about.y));
@@ -298,7 +297,6 @@ impl Placed<'_> {
                 .collect(),
             // A key lies along the plane.
             Form::Solids(solids) => {
-                let Plane { axis, across } = plane;
                 let mut bounds = Bounds::EMPTY;
                 let mut sides = [f64::INFINITY, f64::NEG_INFINITY];
                 for solid in solids {

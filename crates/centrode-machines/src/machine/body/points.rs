@@ -31,8 +31,8 @@ pub(in crate::machine) struct LocalPoint {
     pub(in crate::machine) own: bool,
 }
 
-/// A point of a body of a machine.
-#[derive(Clone, Copy, Debug, PartialEq)]
+/// A point of a body of a machine; the origin of the frame by default.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct BodyPoint {
     /// Index of the body.
     pub body: usize,

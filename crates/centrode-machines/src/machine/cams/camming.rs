@@ -55,12 +55,8 @@ impl MachineCam {
     /// Inputs of a period at which the cam has turned by an angle, rad, or by whole turns more.
     #[must_use]
     pub fn inputs(&self, angle: f64, period: f64) -> Vec<f64> {
-        crossings(
-            |input| self.turn.at(input).position,
-            (&[angle], TAU),
-            period,
-            &[],
-        )
+        let turned = |input: f64| self.turn.at(input).position;
+        crossings(turned, &[angle], TAU, period, &[])
     }
 
     /// Name of its surface in the machine.
@@ -191,7 +187,7 @@ impl Builder<'_> {
             name: cam.into(),
             body_name: Reference::to_body(&spec.on).body,
             part,
-            at: seat.at,
+            at: seat.cam.at,
             mount: spec.mount,
             followers: Vec::new(),
             turn,

@@ -20,9 +20,8 @@ const SAME: f64 = 1e-12;
 
 /// A cam and the body that carries its follower.
 pub(in crate::machine) struct Seat {
-    /// Body of the cam, and the place of its axis there, mm.
-    pub(in crate::machine) body: usize,
-    pub(in crate::machine) at: Point,
+    /// The axis, as a point of the body of the cam.
+    pub(in crate::machine) cam: BodyPoint,
     /// The carrier, and the place of the axis there, mm.
     pub(in crate::machine) carrier: usize,
     pub(in crate::machine) axis: Point,
@@ -65,9 +64,9 @@ impl Turned {
 
     /// Inputs of a period at which a derivative of a motion by this turn may jump.
     pub(in crate::machine) fn breaks(&self, motion: &dyn Transmission, period: f64) -> Vec<f64> {
-        let own = (&motion.breaks()[..], motion.period());
+        let (own, cycle) = (motion.breaks(), motion.period());
         let jumps: Vec<f64> = self.jumps(period).collect();
-        let met = crossings(|input| self.at(input).position, own, period, &jumps);
+        let met = crossings(|input| self.at(input).position, &own, cycle, period, &jumps);
         sorted(jumps.into_iter().chain(met), period)
     }
 
@@ -113,11 +112,10 @@ impl Builder<'_> {
             };
             point.at = found;
         }
-        let carrier = pin.body;
-        let Some(axis) = self.axis_on(carrier, point, still) else {
+        let Some(axis) = self.axis_on(pin.body, point, still) else {
             let why = format!(
                 "the axis of cam {cam} moves on body {}, which must carry it",
-                self.bodies[carrier].name
+                self.bodies[pin.body].name
             );
             return wrong(key, why);
         };
@@ -137,9 +135,8 @@ impl Builder<'_> {
             return wrong(&format!("{cam_key}.follower.{what}"), why);
         }
         Ok(Seat {
-            body: point.body,
-            at: point.at,
-            carrier,
+            cam: point,
+            carrier: pin.body,
             axis,
             direction,
             distance,
@@ -158,7 +155,7 @@ impl Builder<'_> {
     ) -> Result<(Turned, Turn, f64), MachineError> {
         let carrier = &self.bodies[seat.carrier].name;
         let mut turn = Turned {
-            cam: self.angle(seat.body).plus(spec.mount),
+            cam: self.angle(seat.cam.body).plus(spec.mount),
             carrier: self.angle(seat.carrier),
             direction: seat.direction,
             sense: 1.0,

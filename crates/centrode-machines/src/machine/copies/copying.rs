@@ -244,11 +244,8 @@ impl Machine {
                 at: at.into(),
                 angle: self.angle(body, input).position,
             };
-            let [from, found] = [
-                pose(body, from, later[look]),
-                pose(copy, found, inputs[look]),
-            ];
-            let off = self.apart(by, inputs[look], from, found);
+            let from = pose(body, from, later[look]);
+            let off = self.apart(by, inputs[look], from, pose(copy, found, inputs[look]));
             for (most, off) in maximum[number].iter_mut().zip(off) {
                 *most = most.max(off);
             }
@@ -274,10 +271,8 @@ impl Machine {
             from.angle += by.turn;
         }
         let off = found.angle - from.angle;
-        [
-            (found.at - from.at).norm(),
-            (off - TAU * (off / TAU).round()).abs(),
-        ]
+        let distance = (found.at - from.at).norm();
+        [distance, (off - TAU * (off / TAU).round()).abs()]
     }
 
     /// Input at which the body in the middle has turned on by an angle, whole turns aside.
@@ -306,13 +301,8 @@ fn of_copy(error: MachineError, expansion: &Expansion) -> MachineError {
 }
 
 /// Words of a chain that does not repeat.
-fn repeats(
-    name: &str,
-    copy: &str,
-    about: &str,
-    turn: f64,
-    [length, angle]: [Extreme; 2],
-) -> String {
+fn repeats(name: &str, copy: &str, about: &str, turn: f64, off: [Extreme; 2]) -> String {
+    let [length, angle] = off;
     let degrees = turn.to_degrees();
     let what = match about {
         crate::machine::design::FRAME => format!("as {name} does, turned by {degrees:.4} deg"),

@@ -131,8 +131,8 @@ impl MeshedBody {
         let mut found = self.other.breaks(period);
         found.extend(self.carrier.breaks(period));
         let rolling = &self.mesh.rolling;
-        let bends = (&rolling.breaks()[..], rolling.period());
-        let met = crossings(|input| self.polar(input), bends, period, &found);
+        let (bends, cycle) = (rolling.breaks(), rolling.period());
+        let met = crossings(|input| self.polar(input), &bends, cycle, period, &found);
         sorted(found.into_iter().chain(met), period)
     }
 

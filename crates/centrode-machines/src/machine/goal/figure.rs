@@ -1,7 +1,5 @@
 use std::f64::consts::PI;
 
-use centrode_geometry::Point;
-
 use crate::machine::body::points::{BodyPoint, Reference};
 use crate::machine::goal::clearance_end::ClearanceEnd;
 use crate::machine::{Machine, MachineBody, MachineError, Pin};
@@ -82,14 +80,7 @@ pub const FIGURE_FORMS: [[&str; 3]; 15] = [
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MachineFigure {
     /// A component of a point's motion.
-    Point {
-        /// Index of its body.
-        body: usize,
-        /// Place in the body's axes, mm.
-        at: Point,
-        /// The component.
-        part: PointPart,
-    },
+    Point(BodyPoint, PointPart),
     /// Angle of a body against the frame, rad.
     Angle(usize),
     /// Angular speed of a body at the design's speed, rad/s.
@@ -198,8 +189,7 @@ impl Machine {
             ("acceleration", PointPart::Acceleration),
         ];
         if let Some((_, part)) = parts.into_iter().find(|(word, _)| *word == part) {
-            let BodyPoint { body, at } = self.point_of(key, of)?;
-            return Ok(MachineFigure::Point { body, at, part });
+            return Ok(MachineFigure::Point(self.point_of(key, of)?, part));
         }
         let kind = |body: usize| self.bodies[body].mount.as_ref().map(|mount| mount.kind);
         match part {
@@ -322,7 +312,7 @@ impl Machine {
             Some(mount.law.at(input).position)
         };
         Some(match *figure {
-            MachineFigure::Point { body, at, part } => match part {
+            MachineFigure::Point(BodyPoint { body, at }, part) => match part {
                 PointPart::X => self.place(body, at, input).x,
                 PointPart::Y => self.place(body, at, input).y,
                 PointPart::Speed => self.point(body, at, input).first.norm() * speed,

@@ -297,8 +297,8 @@ impl Machine {
             };
             return shaft.parts.iter().map(row).collect();
         }
-        let is_here = |hole: &BodyPoint| hole.is_near(point, ONE);
-        let axis = axes.iter().find(|axis| axis.holes.iter().any(is_here));
+        let is_here = |axis: &&Axis| axis.holes.iter().any(|hole| hole.is_near(point, ONE));
+        let axis = axes.iter().find(is_here);
         let row = |(hole, &span): (&BodyPoint, &[f64; 2])| {
             let name = self.bodies[hole.body].name.clone();
             let size = format!("Ø{} {}", thousandths(plates.pin_diameter), plates.hole_fit);

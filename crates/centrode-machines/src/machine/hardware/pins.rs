@@ -76,8 +76,7 @@ impl Axis {
     /// The hole in the body nearest to the frame.
     fn owner(&self) -> BodyPoint {
         let nearest = self.holes.iter().min_by_key(|hole| hole.body);
-        let (body, at) = (0, Point::origin());
-        nearest.copied().unwrap_or(BodyPoint { body, at })
+        nearest.copied().unwrap_or_default()
     }
 
     /// Height of the highest face, mm.
@@ -302,8 +301,8 @@ impl Machine {
         }
         for (at, (roller, low)) in self.rollers() {
             let is_here = |axis: &&mut Axis| {
-                let mut holes = axis.holes.iter();
-                holes.any(|hole| hole.is_near(at, ONE * axis.size))
+                let near = ONE * axis.size;
+                axis.holes.iter().any(|hole| hole.is_near(at, near))
             };
             if let Some(axis) = axes.iter_mut().find(is_here) {
                 axis.span = [axis.span[0].min(low), axis.span[1].max(low + roller.length)];

@@ -214,29 +214,26 @@ impl Machine {
         };
         let (root, place) = self.rigid(body);
         let with_it = |other: usize| self.rigid(other).0 == root;
-        let of_plates =
-            axis.holes
-                .iter()
-                .zip(&axis.plates)
-                .map(|(&BodyPoint { body, at }, &span)| {
-                    let key = hub
-                        .keyway
-                        .and_then(|hub| Key::fitting(hub, span[1] - span[0]));
-                    let hold = match key {
-                        _ if !with_it(body) => Hold::Turning,
-                        Some(key) => Hold::Keyed(key),
-                        None => Hold::Given,
-                    };
-                    let (name, is_plate) = (self.bodies[body].name.clone(), true);
-                    ShaftPart {
-                        name,
-                        body,
-                        at,
-                        is_plate,
-                        span,
-                        hold,
-                    }
-                });
+        let of_plates = axis.holes.iter().zip(&axis.plates);
+        let of_plates = of_plates.map(|(&BodyPoint { body, at }, &span)| {
+            let key = hub
+                .keyway
+                .and_then(|hub| Key::fitting(hub, span[1] - span[0]));
+            let hold = match key {
+                _ if !with_it(body) => Hold::Turning,
+                Some(key) => Hold::Keyed(key),
+                None => Hold::Given,
+            };
+            let (name, is_plate) = (self.bodies[body].name.clone(), true);
+            ShaftPart {
+                name,
+                body,
+                at,
+                is_plate,
+                span,
+                hold,
+            }
+        });
         let of_wheels = own.iter().map(|wheel| {
             let turn = self.rigid(wheel.body).1.rotation.angle() + wheel.hub.keyway_angle
                 - place.rotation.angle()

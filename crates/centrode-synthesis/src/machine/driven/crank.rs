@@ -1,6 +1,6 @@
 use std::f64::consts::{PI, TAU};
 
-use centrode_geometry::{Extreme, Point, maximum, piece_ends};
+use centrode_geometry::{Extreme, maximum, piece_ends};
 
 use super::{GearDriveError, GearDriveSpec, table_pair};
 use crate::reverse::Timing;
@@ -143,9 +143,7 @@ impl<'a> Crank<'a> {
         table: Vec<f64>,
     ) -> Result<MachineDesign, GearDriveError> {
         let mut design = self.design.clone();
-        let axis = composed
-            .point_named(self.on)
-            .map_or(Point::origin(), |point| point.at);
+        let axis = composed.point_named(self.on).unwrap_or_default().at;
         let (sin, cos) = self.spec.direction.sin_cos();
         let distance = self.spec.center_distance;
         let shaft = [axis.x + distance * cos, axis.y + distance * sin];

@@ -4,7 +4,9 @@ use std::sync::Arc;
 use super::GearDriveError;
 use crate::reverse::{Required, Section};
 use centrode_kinematics::transmission::{FromFn, MotionJet, Transmission};
-use centrode_machines::machine::{Machine, MachineFigure, MachineGoalSpec, Over, PointPart};
+use centrode_machines::machine::{
+    BodyPoint, Machine, MachineFigure, MachineGoalSpec, Over, PointPart,
+};
 
 /// An output over a turn of the crank, whether it is an angle, and what is wanted of it.
 type Output = (Arc<dyn Transmission>, bool, Vec<Section>);
@@ -88,7 +90,7 @@ fn section(goal: &MachineGoalSpec, figure: &MachineFigure) -> Option<([f64; 2], 
 /// Motion of a place or an angle by the input; none of another figure.
 fn motion(composed: &Machine, figure: &MachineFigure, input: f64) -> Option<MotionJet> {
     Some(match *figure {
-        MachineFigure::Point { body, at, part } => {
+        MachineFigure::Point(BodyPoint { body, at }, part) => {
             let k = match part {
                 PointPart::X => 0,
                 PointPart::Y => 1,

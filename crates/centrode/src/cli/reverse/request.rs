@@ -99,7 +99,7 @@ impl Request {
             if command.band.is_some() || self.design.path.band.is_some() {
                 let words = "the file of points has a tolerance for each point: remove this one";
                 let is_option = command.band.is_some();
-                return Err(self.blame(is_option, ["--band", "path.band"], Sentence(words)));
+                return Err(self.blame(is_option, "--band", "path.band", Sentence(words)));
             }
             self.design.path.tolerance = tolerances;
         }
@@ -109,7 +109,7 @@ impl Request {
     }
 
     /// The option or, if there is a design file, the key.
-    pub(super) fn spelled<'a>(&self, [option, key]: [&'a str; 2]) -> &'a str {
+    pub(super) fn spelled<'a>(&self, option: &'a str, key: &'a str) -> &'a str {
         if self.file.is_some() { key } else { option }
     }
 
@@ -117,12 +117,13 @@ impl Request {
     pub(super) fn blame(
         &self,
         is_option: bool,
-        [option, key]: [&'static str; 2],
+        option: &'static str,
+        key: &'static str,
         error: impl std::error::Error + Send + Sync + 'static,
     ) -> Failure {
         let key = match is_option {
             true => option,
-            false => self.spelled([option, key]),
+            false => self.spelled(option, key),
         };
         self.refused(MechanismError::new(key.into(), error))
     }
@@ -171,7 +172,7 @@ impl Request {
                     "it eases a path: say by how much with path.band, path.tolerance or a column headed tolerance"
                 }
             });
-            return Err(self.blame(is_option, ["--module", "path.module"], words));
+            return Err(self.blame(is_option, "--module", "path.module", words));
         }
         let checked = self.design.check_axes(&self.points);
         checked.map_err(|error| {
