@@ -3,7 +3,7 @@
 use centrode_gear::cam::Limits;
 
 use crate::rounding::exceeds;
-use crate::{Finding, Place, Report, Severity, Unit};
+use crate::{Finding, Report, Severity, Unit};
 
 /// A cam of a machine and the words in which its findings are told.
 pub(crate) struct CheckedCam<'a> {
@@ -24,37 +24,30 @@ pub(crate) struct CheckedCam<'a> {
 impl CheckedCam<'_> {
     /// Reports undercut and pressure angle. The return is left to a spring, which no pressure angle hinders.
     pub(crate) fn report(self, limits: &Limits, report: &mut Report) {
-        let place = |cam_angle: f64| Place {
-            part: Some(self.part.into()),
-            input: (self.input)(cam_angle),
-            ..Place::default()
-        };
         let pressure = limits.rise_pressure_angle;
         if limits.regularity.value <= 0.0 {
-            report.findings.push(Finding {
-                rule: "cam-undercut",
-                severity: Severity::Error,
-                message: self.undercut,
-                measured: Some(limits.minimum_radius.value),
-                required: Some(0.0),
-                unit: Unit::Millimetre,
-                remedy: Some(self.remedies[0]),
-                place: place(limits.regularity.input),
-            });
+            report.findings.push(
+                Finding::new("cam-undercut", Severity::Error, self.undercut)
+                    .measured(limits.minimum_radius.value, 0.0, Unit::Millimetre)
+                    .remedy(self.remedies[0])
+                    .on(self.part)
+                    .at((self.input)(limits.regularity.input)),
+            );
         }
         if exceeds(pressure.value, self.pressure_angle) {
             let [before, behind] = self.pushes;
             let degrees = pressure.value.to_degrees();
-            report.findings.push(Finding {
-                rule: "cam-pressure-angle",
-                severity: Severity::of_pressure_angle(pressure.value),
-                message: format!("{before} {degrees:.1} deg {behind}"),
-                measured: Some(pressure.value),
-                required: Some(self.pressure_angle),
-                unit: Unit::Angle,
-                remedy: Some(self.remedies[1]),
-                place: place(pressure.input),
-            });
+            report.findings.push(
+                Finding::new(
+                    "cam-pressure-angle",
+                    Severity::of_pressure_angle(pressure.value),
+                    format!("{before} {degrees:.1} deg {behind}"),
+                )
+                .measured(pressure.value, self.pressure_angle, Unit::Angle)
+                .remedy(self.remedies[1])
+                .on(self.part)
+                .at((self.input)(pressure.input)),
+            );
         }
     }
 }

@@ -2,7 +2,7 @@ use centrode_geometry::Extreme;
 use centrode_kinematics::machine::{Key, Keyway, allowed_pressure};
 
 use crate::rounding::exceeds;
-use crate::{Finding, Place, Report, Severity, Unit};
+use crate::{Finding, Report, Severity, Unit};
 
 /// A key that carries a torque from a shaft to a hub.
 pub(crate) struct LoadedKey<'a> {
@@ -44,21 +44,15 @@ impl LoadedKey<'_> {
         }
         let (name, part) = (self.key.name(), self.part);
         let Extreme { input, value } = self.torque;
-        report.findings.push(Finding {
-            rule: "key-pressure",
-            severity: Severity::Error,
-            message: format!(
-                "{name} in the {part} is pressed by {pressure:.1} N/mm² at {value:.0} N·mm: its hub and shaft bear {allowed:.1} N/mm²"
-            ),
-            measured: Some(pressure),
-            required: Some(allowed),
-            unit: Unit::NewtonPerSquareMillimetre,
-            remedy: Some("a thicker hub, or a wider bore with its key"),
-            place: Place {
-                part: Some(part.into()),
-                input: Some(input),
-                ..Place::default()
-            },
-        });
+        let message = format!(
+            "{name} in the {part} is pressed by {pressure:.1} N/mm² at {value:.0} N·mm: its hub and shaft bear {allowed:.1} N/mm²"
+        );
+        report.findings.push(
+            Finding::new("key-pressure", Severity::Error, message)
+                .measured(pressure, allowed, Unit::NewtonPerSquareMillimetre)
+                .remedy("a thicker hub, or a wider bore with its key")
+                .on(part)
+                .at(input),
+        );
     }
 }

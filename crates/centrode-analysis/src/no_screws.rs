@@ -1,6 +1,6 @@
 use centrode_kinematics::machine::{Fastening, FasteningError};
 
-use crate::{Finding, Place, Severity, Unit};
+use crate::{Finding, Severity, Unit};
 
 /// Finding of plates, by the part and in words, for which screws are asked and none are found; none where they are.
 pub(crate) fn no_screws(
@@ -16,17 +16,14 @@ pub(crate) fn no_screws(
         } => (Some(*between), Some(2.0 * minimum)),
         _ => (None, None),
     };
-    Some(Finding {
-        rule: "no-screws",
-        severity: Severity::Warning,
-        message: format!("nothing holds {plates} together: {error}"),
-        measured,
-        required,
-        unit: Unit::Millimetre,
-        remedy: Some(remedy),
-        place: Place {
-            part: Some(part.into()),
-            ..Place::default()
-        },
-    })
+    Some(
+        Finding::new(
+            "no-screws",
+            Severity::Warning,
+            format!("nothing holds {plates} together: {error}"),
+        )
+        .measured(measured, required, Unit::Millimetre)
+        .remedy(remedy)
+        .on(part),
+    )
 }

@@ -68,6 +68,70 @@ pub struct Finding {
     pub place: Place,
 }
 
+impl Finding {
+    /// A finding of a rule, in one sentence for a person; figures, remedy and place follow where there are any.
+    #[must_use]
+    pub fn new(rule: &'static str, severity: Severity, message: impl Into<String>) -> Self {
+        Self {
+            rule,
+            severity,
+            message: message.into(),
+            measured: None,
+            required: None,
+            unit: Unit::Count,
+            remedy: None,
+            place: Place::default(),
+        }
+    }
+
+    /// With its figures.
+    #[must_use]
+    pub fn measured(
+        self,
+        measured: impl Into<Option<f64>>,
+        required: impl Into<Option<f64>>,
+        unit: Unit,
+    ) -> Self {
+        Self {
+            measured: measured.into(),
+            required: required.into(),
+            unit,
+            ..self
+        }
+    }
+
+    /// With its usual remedy.
+    #[must_use]
+    pub fn remedy(self, remedy: impl Into<Option<&'static str>>) -> Self {
+        Self {
+            remedy: remedy.into(),
+            ..self
+        }
+    }
+
+    /// On a link or part.
+    #[must_use]
+    pub fn on(mut self, part: impl Into<String>) -> Self {
+        self.place.part = Some(part.into());
+        self
+    }
+
+    /// On teeth of the part, and the sides of them that it is about.
+    #[must_use]
+    pub fn teeth(mut self, teeth: Vec<u32>, flanks: Vec<FlankPlace>) -> Self {
+        self.place.teeth = teeth;
+        self.place.flanks = flanks;
+        self
+    }
+
+    /// At an input, rad.
+    #[must_use]
+    pub fn at(mut self, input: impl Into<Option<f64>>) -> Self {
+        self.place.input = input.into();
+        self
+    }
+}
+
 /// Figures in rows and columns.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Table {

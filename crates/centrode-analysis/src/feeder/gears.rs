@@ -6,7 +6,7 @@ use centrode_machines::feeder::{Feeder, GearsSpec};
 
 use crate::gear_pair::negative_backlash;
 use crate::rounding::exceeds;
-use crate::{Finding, IntermittentContact, Place, Report, Severity, Unit};
+use crate::{Finding, IntermittentContact, Report, Severity, Unit};
 
 /// Number of inputs at which the intermittent gears are held against each other.
 const GEAR_SAMPLES: u32 = 240;
@@ -24,19 +24,11 @@ static PROVEN: Recent<GearsSpec, Arc<IntermittentContact>> = Recent::new();
 /// free by no more than the backlash asked for.
 pub(super) fn gears(feeder: &Feeder, report: &mut Report) {
     let about_gears =
-        |rule, severity, message, [measured, required]: [Option<f64>; 2], unit, input| Finding {
-            rule,
-            severity,
-            message,
-            measured,
-            required,
-            unit,
-            remedy: None,
-            place: Place {
-                part: Some("gears".into()),
-                input,
-                ..Place::default()
-            },
+        |rule, severity, message, [measured, required]: [Option<f64>; 2], unit, input| {
+            Finding::new(rule, severity, message)
+                .measured(measured, required, unit)
+                .on("gears")
+                .at(input)
         };
     let spec = &feeder.design().gears;
     let cut = feeder.gears();
@@ -60,13 +52,7 @@ pub(super) fn gears(feeder: &Feeder, report: &mut Report) {
     let Ok(tolerance) = Tolerance::new(CONTOUR * spec.module) else {
         return;
     };
-    let overlap = negative_backlash(pair.pair(), spec.backlash).map(|finding| Finding {
-        place: Place {
-            part: Some("gears".into()),
-            ..Place::default()
-        },
-        ..finding
-    });
+    let overlap = negative_backlash(pair.pair(), spec.backlash).map(|finding| finding.on("gears"));
     report.findings.extend(overlap);
     let contact = PROVEN.get(spec, || {
         Arc::new(IntermittentContact::analyse(&pair, GEAR_SAMPLES, tolerance))

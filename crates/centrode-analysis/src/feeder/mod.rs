@@ -24,7 +24,7 @@ use self::figures::FIGURES;
 use crate::no_screws::no_screws;
 use crate::progress::filling;
 use crate::rounding::exceeds;
-use crate::{Finding, Place, Report, Severity, Table, Unit};
+use crate::{Finding, Report, Severity, Table, Unit};
 
 /// Number of random six-bars, Monte Carlo samples within the tolerances.
 const MADE: u32 = 2000;
@@ -172,21 +172,17 @@ fn spread(feeder: &Feeder, report: &mut Report) {
     let goals = &feeder.design().goals;
     let miss = (spread.maximum - goals.swing).max(goals.swing - spread.minimum);
     if exceeds(miss, goals.swing_tolerance) {
-        report.findings.push(Finding {
-            rule: "swing-spread",
-            severity: Severity::Warning,
-            message: format!(
-                "lengths made to +-{} mm and a pivot set to +-{} mm let the swing miss by up to {:.3} deg",
-                making.length_tolerance,
-                making.pivot_tolerance,
-                miss.to_degrees()
-            ),
-            measured: Some(miss),
-            required: Some(goals.swing_tolerance),
-            unit: Unit::Angle,
-            remedy: Some("closer tolerances, or a pivot nearer the middle of the chord"),
-            place: Place::default(),
-        });
+        let message = format!(
+            "lengths made to +-{} mm and a pivot set to +-{} mm let the swing miss by up to {:.3} deg",
+            making.length_tolerance,
+            making.pivot_tolerance,
+            miss.to_degrees()
+        );
+        report.findings.push(
+            Finding::new("swing-spread", Severity::Warning, message)
+                .measured(miss, goals.swing_tolerance, Unit::Angle)
+                .remedy("closer tolerances, or a pivot nearer the middle of the chord"),
+        );
     }
 }
 
@@ -199,16 +195,14 @@ fn vacuous(feeder: &Feeder, report: &mut Report) {
     if distance > ON_CHORD * frame {
         return;
     }
-    report.findings.push(Finding {
-        rule: "pivot-on-chord",
-        severity: Severity::Note,
-        message: format!(
-            "the effector's pivot lies {distance:.4} mm from the chord between the slider's dead centres: there lengths of any size swing it by half a turn, so a search must not move the pivot with them"
+    let message = format!(
+        "the effector's pivot lies {distance:.4} mm from the chord between the slider's dead centres: there lengths of any size swing it by half a turn, so a search must not move the pivot with them"
+    );
+    report.findings.push(
+        Finding::new("pivot-on-chord", Severity::Note, message).measured(
+            distance,
+            None,
+            Unit::Millimetre,
         ),
-        measured: Some(distance),
-        required: None,
-        unit: Unit::Millimetre,
-        remedy: None,
-        place: Place::default(),
-    });
+    );
 }

@@ -1,49 +1,36 @@
 use centrode_geometry::{Extreme, minimum};
 use centrode_machines::feeder::{Feeder, FeederPart};
 
-use crate::{Finding, Place, Report, Severity, Unit};
+use crate::{Finding, Report, Severity, Unit};
 
 /// Checks that the links can be cut from plate, and run clear of the shaft that passes them.
 pub(super) fn plates(feeder: &Feeder, report: &mut Report) {
     let cut = FeederPart::ALL.map(|part| (part, feeder.plate(part)));
     for (part, plate) in cut {
         let Err(error) = plate else { continue };
-        report.findings.push(Finding {
-            rule: "no-plate",
-            severity: Severity::Error,
-            message: error.to_string(),
-            measured: None,
-            required: None,
-            unit: Unit::Millimetre,
-            remedy: None,
-            place: Place {
-                part: Some(part.name().into()),
-                ..Place::default()
-            },
-        });
+        report.findings.push(
+            Finding::new("no-plate", Severity::Error, error.to_string())
+                .measured(None, None, Unit::Millimetre)
+                .on(part.name()),
+        );
     }
     let room = |input: f64| feeder.shaft_clearance(input);
     let Extreme { input, value } = minimum(room, &feeder.pieces());
     report.values.insert("shaft_clearance_min", value);
     if value < 0.0 {
-        report.findings.push(Finding {
-            rule: "effector-meets-shaft",
-            severity: Severity::Error,
-            message: format!(
-                "the effector runs into the rocker's shaft, which passes it: {:.4} mm too near",
-                -value
-            ),
-            measured: Some(value),
-            required: Some(0.0),
-            unit: Unit::Millimetre,
-            remedy: Some(
-                "narrower plates, a thinner pin, or the pivot farther from the rocker's shaft",
-            ),
-            place: Place {
-                part: Some("effector".into()),
-                input: Some(input),
-                ..Place::default()
-            },
-        });
+        report.findings.push(
+            Finding::new(
+                "effector-meets-shaft",
+                Severity::Error,
+                format!(
+                    "the effector runs into the rocker's shaft, which passes it: {:.4} mm too near",
+                    -value
+                ),
+            )
+            .measured(value, 0.0, Unit::Millimetre)
+            .remedy("narrower plates, a thinner pin, or the pivot farther from the rocker's shaft")
+            .on("effector")
+            .at(input),
+        );
     }
 }

@@ -19,7 +19,7 @@ use self::teeth::teeth;
 use crate::contact::{Meshing, oscillates_per_tooth};
 use crate::progress::filling;
 use crate::rounding::exceeds;
-use crate::{Contact, ContactExtremes, Finding, Place, Report, Severity, Unit};
+use crate::{Contact, ContactExtremes, Finding, Report, Severity, Unit};
 
 pub(crate) use figures::FIGURES;
 pub use remedies::{MAX_TEETH, PairRemedy, remedies};
@@ -144,20 +144,17 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
             && concave > 0.0
             && radius * concave >= 1.0
         {
-            report.findings.push(Finding {
-                rule: "shaper-radius",
-                remedy: remedy("shaper-radius"),
-                severity: Severity::Error,
-                message: format!(
-                    "the shaper's pitch radius of {radius:.4} mm does not fit the {}'s concave arc, whose radius falls to {:.4} mm",
-                    member.name(),
-                    1.0 / concave
-                ),
-                measured: Some(radius),
-                required: Some(1.0 / concave),
-                unit: Unit::Millimetre,
-                place: Place { part: Some(member.name().into()), ..Place::default() },
-            });
+            let message = format!(
+                "the shaper's pitch radius of {radius:.4} mm does not fit the {}'s concave arc, whose radius falls to {:.4} mm",
+                member.name(),
+                1.0 / concave
+            );
+            report.findings.push(
+                Finding::new("shaper-radius", Severity::Error, message)
+                    .measured(radius, 1.0 / concave, Unit::Millimetre)
+                    .remedy(remedy("shaper-radius"))
+                    .on(member.name()),
+            );
         }
     }
     report.findings.extend(pitch_overlap(pair));
@@ -168,22 +165,20 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
     } = pair.maximum_pressure_angle();
     report.values.insert("pressure_angle_max", steepest);
     if exceeds(steepest, PRESSURE_ANGLE) {
-        report.findings.push(Finding {
-            rule: "pressure-angle",
-            remedy: remedy("pressure-angle"),
-            severity: Severity::of_pressure_angle(steepest),
-            message: format!(
-                "the force on the driven gear stands up to {:.1} deg off its direction of turning",
-                steepest.to_degrees()
-            ),
-            measured: Some(steepest),
-            required: Some(PRESSURE_ANGLE),
-            unit: Unit::Angle,
-            place: Place {
-                input: Some(input),
-                ..Place::default()
-            },
-        });
+        let message = format!(
+            "the force on the driven gear stands up to {:.1} deg off its direction of turning",
+            steepest.to_degrees()
+        );
+        report.findings.push(
+            Finding::new(
+                "pressure-angle",
+                Severity::of_pressure_angle(steepest),
+                message,
+            )
+            .measured(steepest, PRESSURE_ANGLE, Unit::Angle)
+            .remedy(remedy("pressure-angle"))
+            .at(input),
+        );
     }
     report
         .values
@@ -197,24 +192,16 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
 fn sampled_corners(pair: &GearPair) -> impl Iterator<Item = Finding> {
     pair.rolling().sampled_corners().iter().map(|corner| {
         let unit = Unit::Angle;
-        Finding {
-            rule: "pitch-curve-corner",
-            remedy: remedy("pitch-curve-corner"),
-            severity: Severity::Warning,
-            message: format!(
-                "the samples of the pitch curve have a corner of {} at {}: the curve through them rounds it",
-                unit.with_unit(corner.turn.abs()),
-                unit.with_unit(corner.angle)
-            ),
-            measured: Some(corner.turn.abs()),
-            required: Some(0.0),
-            unit,
-            place: Place {
-                part: Some(Member::Driver.name().into()),
-                input: Some(corner.angle),
-                ..Place::default()
-            },
-        }
+        let message = format!(
+            "the samples of the pitch curve have a corner of {} at {}: the curve through them rounds it",
+            unit.with_unit(corner.turn.abs()),
+            unit.with_unit(corner.angle)
+        );
+        Finding::new("pitch-curve-corner", Severity::Warning, message)
+            .measured(corner.turn.abs(), 0.0, unit)
+            .remedy(remedy("pitch-curve-corner"))
+            .on(Member::Driver.name())
+            .at(corner.angle)
     })
 }
 
@@ -222,21 +209,15 @@ fn sampled_corners(pair: &GearPair) -> impl Iterator<Item = Finding> {
 #[must_use]
 pub fn pitch_overlap(pair: &GearPair) -> Option<Finding> {
     let Extreme { input, value } = pair.rolling().overlap()?;
-    Some(Finding {
-        rule: "pitch-curves-overlap",
-        remedy: remedy("pitch-curves-overlap"),
-        severity: Severity::of_overlap(value),
-        message: format!(
-            "away from the point at which they roll the pitch curves overlap by up to {value:.4} mm: teeth of any size meet there"
-        ),
-        measured: Some(value),
-        required: Some(0.0),
-        unit: Unit::Millimetre,
-        place: Place {
-            input: Some(input),
-            ..Place::default()
-        },
-    })
+    let message = format!(
+        "away from the point at which they roll the pitch curves overlap by up to {value:.4} mm: teeth of any size meet there"
+    );
+    Some(
+        Finding::new("pitch-curves-overlap", Severity::of_overlap(value), message)
+            .measured(value, 0.0, Unit::Millimetre)
+            .remedy(remedy("pitch-curves-overlap"))
+            .at(input),
+    )
 }
 
 /// Share of the cycle without contact of flanks above which the pair does not work.
@@ -280,10 +261,6 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
     values.insert("clearance_min", clearance.value);
     values.insert("fillet_clearance_min", fillet.value);
     values.insert("sliding_max", extremes.sliding.value);
-    let place = |input: f64| Place {
-        input: Some(input),
-        ..Place::default()
-    };
     // Between samples the extremes find a gap that no sample does.
     let samples = contact.backlash.iter().zip(&contact.input);
     let of_samples = samples.map(|(&value, &input)| Extreme { input, value });
@@ -291,28 +268,23 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
         .chain([error, reverse, extremes.backlash[1]])
         .find(|figure| !figure.value.is_finite());
     if let Some(Extreme { input, .. }) = loose {
-        report.findings.push(Finding {
-            rule: "disengaged",
-            remedy: remedy("disengaged"),
-            severity: Severity::Error,
-            message: "nothing holds the driven gear: no tooth of one gear reaches the other".into(),
-            measured: None,
-            required: None,
-            unit: Unit::Count,
-            place: place(input),
-        });
+        report.findings.push(
+            Finding::new(
+                "disengaged",
+                Severity::Error,
+                "nothing holds the driven gear: no tooth of one gear reaches the other",
+            )
+            .remedy(remedy("disengaged"))
+            .at(input),
+        );
     }
     let interferes = contact.interferes(pair);
     let mm = |depth: f64| Unit::Millimetre.with_unit(depth);
-    let overlap = |rule, depth: Extreme, message: String| Finding {
-        rule,
-        remedy: remedy(rule),
-        severity: Severity::of_overlap(depth.value),
-        message,
-        measured: Some(depth.value),
-        required: Some(0.0),
-        unit: Unit::Millimetre,
-        place: place(depth.input),
+    let overlap = |rule, depth: Extreme, message: String| {
+        Finding::new(rule, Severity::of_overlap(depth.value), message)
+            .measured(depth.value, 0.0, Unit::Millimetre)
+            .remedy(remedy(rule))
+            .at(depth.input)
     };
     if penetration.value > PENETRATION * module {
         let words = if interferes { "the gears jam: " } else { "" };
@@ -357,29 +329,34 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
     };
     // Gears that jam carry no motion at all.
     if worst.value.is_finite() && worst.value > allowed && !interferes {
-        report.findings.push(Finding {
-            rule: "contact-lost",
-            remedy: remedy("contact-lost"),
-            severity: if share > CARRIED {
-                Severity::Error
-            } else {
-                Severity::of_deviation(worst.value * pair.rolling().radii(Member::Driven).1)
+        let message = format!(
+            "for {} % of the cycle contact is on a tooth edge, not on the flanks; the driven gear is {} {} off",
+            match 100.0 * share {
+                percent if percent < 0.1 => "less than 0.1".to_owned(),
+                percent => format!("{percent:.1}"),
             },
-            message: format!(
-                "for {} % of the cycle contact is on a tooth edge, not on the flanks; the driven gear is {} {} off",
-                match 100.0 * share {
-                    percent if percent < 0.1 => "less than 0.1".to_owned(),
-                    percent => format!("{percent:.1}"),
+            // Of some gears nothing is followed between the samples.
+            if contact.is_followed(pair) {
+                "up to"
+            } else {
+                "at least"
+            },
+            Unit::Angle.with_unit(worst.value),
+        );
+        report.findings.push(
+            Finding::new(
+                "contact-lost",
+                if share > CARRIED {
+                    Severity::Error
+                } else {
+                    Severity::of_deviation(worst.value * pair.rolling().radii(Member::Driven).1)
                 },
-                // Of some gears nothing is followed between the samples.
-                if contact.is_followed(pair) { "up to" } else { "at least" },
-                Unit::Angle.with_unit(worst.value),
-            ),
-            measured: Some(worst.value),
-            required: Some(allowed),
-            unit: Unit::Angle,
-            place: place(worst.input),
-        });
+                message,
+            )
+            .measured(worst.value, allowed, Unit::Angle)
+            .remedy(remedy("contact-lost"))
+            .at(worst.input),
+        );
     }
     report
         .findings
@@ -392,38 +369,36 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
 pub(crate) fn negative_backlash(pair: &GearPair, backlash: f64) -> Option<Finding> {
     let [minimum, _] = pair.backlash_limits(backlash);
     let unit = Unit::Millimetre;
-    (-minimum > PENETRATION * pair.module()).then(|| Finding {
-        rule: "negative-backlash",
-        remedy: remedy("negative-backlash"),
-        severity: Severity::of_overlap(-minimum),
-        message: format!(
-            "teeth of maximum thickness overlap their mates by {} along the normal: the backlash must be at least {}",
-            unit.with_unit(-minimum),
-            unit.with_unit(backlash - minimum),
-        ),
-        measured: Some(minimum),
-        required: Some(0.0),
-        unit,
-        place: Place::default(),
-    })
+    if -minimum <= PENETRATION * pair.module() {
+        return None;
+    }
+    let message = format!(
+        "teeth of maximum thickness overlap their mates by {} along the normal: the backlash must be at least {}",
+        unit.with_unit(-minimum),
+        unit.with_unit(backlash - minimum),
+    );
+    Some(
+        Finding::new("negative-backlash", Severity::of_overlap(-minimum), message)
+            .measured(minimum, 0.0, unit)
+            .remedy(remedy("negative-backlash")),
+    )
 }
 
 /// Pitch curves that oscillate so often that figures of the mesh are those of the samples, as a finding.
 fn oscillations(pair: &GearPair, contact: &Contact) -> Option<Finding> {
     let (swings, teeth) = (pair.rolling().swings(), pair.driver().tooth_count());
-    oscillates_per_tooth(pair).then(|| Finding {
-        rule: "pitch-curve-swings",
-        remedy: remedy("pitch-curve-swings"),
-        severity: Severity::Note,
-        message: format!(
-            "the pitch curves swing {swings} times for {teeth} teeth: the figures of the mesh are the greatest and least at {} places, and others between them may go beyond",
-            contact.input.len()
-        ),
-        measured: Some(swings as f64),
-        required: Some(f64::from(2 * teeth)),
-        unit: Unit::Count,
-        place: Place::default(),
-    })
+    if !oscillates_per_tooth(pair) {
+        return None;
+    }
+    let message = format!(
+        "the pitch curves swing {swings} times for {teeth} teeth: the figures of the mesh are the greatest and least at {} places, and others between them may go beyond",
+        contact.input.len()
+    );
+    Some(
+        Finding::new("pitch-curve-swings", Severity::Note, message)
+            .measured(swings as f64, f64::from(2 * teeth), Unit::Count)
+            .remedy(remedy("pitch-curve-swings")),
+    )
 }
 
 /// The greatest jump of a seat, as a finding.
@@ -436,20 +411,18 @@ fn seat_jump(pair: &GearPair, contact: &Contact) -> Option<Finding> {
         0 => String::new(),
         others => format!("; so it does at {others} more inputs"),
     };
-    Some(Finding {
-        rule: "seat-jump",
-        remedy: remedy("seat-jump"),
-        severity: Severity::of_deviation(maximum.turn * pair.rolling().radii(Member::Driven).1),
-        message: format!(
-            "driver tooth {driver} hits driven tooth {driven} within the backlash: the driven gear pushed {pushed} can jump by {} or jam{others}",
-            Unit::Angle.with_unit(maximum.turn)
-        ),
-        measured: Some(maximum.turn),
-        required: Some(0.0),
-        unit: Unit::Angle,
-        place: Place {
-            input: Some(maximum.input),
-            ..Place::default()
-        },
-    })
+    let message = format!(
+        "driver tooth {driver} hits driven tooth {driven} within the backlash: the driven gear pushed {pushed} can jump by {} or jam{others}",
+        Unit::Angle.with_unit(maximum.turn)
+    );
+    Some(
+        Finding::new(
+            "seat-jump",
+            Severity::of_deviation(maximum.turn * pair.rolling().radii(Member::Driven).1),
+            message,
+        )
+        .measured(maximum.turn, 0.0, Unit::Angle)
+        .remedy(remedy("seat-jump"))
+        .at(maximum.input),
+    )
 }

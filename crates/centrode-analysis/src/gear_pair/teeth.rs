@@ -1,7 +1,7 @@
 use centrode_gear::{Gear, GearPair, Limits, Member, Side, Tooth, ToothSide};
 
 use super::remedy::remedy_of_teeth;
-use crate::{Finding, FlankPlace, Place, Report, Severity, Unit};
+use crate::{Finding, FlankPlace, Report, Severity, Unit};
 
 /// Flanks of teeth that are not cut off of which `found` holds, with the end at the root or at the tip.
 fn flanks(
@@ -83,30 +83,23 @@ pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut 
             numbers.len(),
             gear.tooth_count()
         );
-        report.findings.push(Finding {
-            rule,
-            remedy: remedy_of_teeth(rule, pair.teeth().addendum),
-            severity,
-            message: say(&who, worst),
-            // Of a thin tip the worst is what is missing.
-            measured: Some(if rule == "thin-tip" {
-                minimum - worst
-            } else {
-                worst
-            }),
-            required,
-            unit,
-            place: Place {
-                part: Some(part.into()),
-                teeth: numbers,
-                flanks: match rule {
-                    "undercut" => flanks(pair, gear, &|side| side.undercut > 0.0, false),
-                    "short-tooth" => flanks(pair, gear, &|side| side.tip_shortening > small, true),
-                    _ => Vec::new(),
-                },
-                input: None,
-            },
-        });
+        // Of a thin tip the worst is what is missing.
+        let measured = match rule {
+            "thin-tip" => minimum - worst,
+            _ => worst,
+        };
+        let flanks = match rule {
+            "undercut" => flanks(pair, gear, &|side| side.undercut > 0.0, false),
+            "short-tooth" => flanks(pair, gear, &|side| side.tip_shortening > small, true),
+            _ => Vec::new(),
+        };
+        report.findings.push(
+            Finding::new(rule, severity, say(&who, worst))
+                .measured(measured, required, unit)
+                .remedy(remedy_of_teeth(rule, pair.teeth().addendum))
+                .on(part)
+                .teeth(numbers, flanks),
+        );
     };
     let cut_through = collect(&|t| t.cut_through.then_some(1.0));
     add(

@@ -4,7 +4,7 @@ use centrode_kinematics::machine::Spacer;
 use centrode_machines::machine::{Machine, MachineCam};
 
 use crate::cam::CheckedCam;
-use crate::{Finding, Place, Report, Severity, Table, Unit};
+use crate::{Finding, Report, Severity, Table, Unit};
 
 /// Pressure angles up to which a sliding and a swinging follower run well while they are lifted, rad. VDI 2142 part 2.
 const PRESSURE_ANGLES: [f64; 2] = [FRAC_PI_6, FRAC_PI_4];
@@ -73,21 +73,15 @@ fn thin_roller(composed: &Machine, cam: &MachineCam, report: &mut Report) {
         return;
     }
     let (wall, minimum) = (radius - 0.5 * pin, Spacer::ROLLER_WALL * pin);
-    report.findings.push(Finding {
-        rule: "thin-roller",
-        severity: Severity::Warning,
-        message: format!(
-            "the roller on cam {}, Ø{:.3} mm, has a wall of {wall:.3} mm on a pin of Ø{pin:.3} mm, {minimum:.3} mm are needed: it is no part, and has no pin",
-            cam.name,
-            2.0 * radius
-        ),
-        measured: Some(wall),
-        required: Some(minimum),
-        unit: Unit::Millimetre,
-        remedy: Some("a larger roller_radius, or a smaller pin_diameter"),
-        place: Place {
-            part: Some(cam.name.clone()),
-            ..Place::default()
-        },
-    });
+    let message = format!(
+        "the roller on cam {}, Ø{:.3} mm, has a wall of {wall:.3} mm on a pin of Ø{pin:.3} mm, {minimum:.3} mm are needed: it is no part, and has no pin",
+        cam.name,
+        2.0 * radius
+    );
+    report.findings.push(
+        Finding::new("thin-roller", Severity::Warning, message)
+            .measured(wall, minimum, Unit::Millimetre)
+            .remedy("a larger roller_radius, or a smaller pin_diameter")
+            .on(cam.name.clone()),
+    );
 }

@@ -4,7 +4,7 @@ use centrode_machines::machine::{ClearanceEnd, Machine, MachineFigure};
 
 use super::goals::Found;
 use crate::interference::{LinkClearanceError, LinkPair};
-use crate::{Finding, Place, Report, Severity, Unit};
+use crate::{Finding, Report, Severity, Unit};
 
 /// Clearance of two bodies, or of a body and an obstacle, of a composed machine, made ready; none where they lie apart along
 /// the shafts.
@@ -43,21 +43,15 @@ pub(super) fn apart(composed: &Machine, found: &[Found], report: &mut Report) {
             continue;
         };
         let [one, other] = ends.map(|end| composed.name_of_end(end));
-        report.findings.push(Finding {
-            rule: "no-common-height",
-            severity: Severity::Note,
-            message: format!(
-                "goal {}, {}: {one} and {other} share no height along the shafts, so that their clearance is infinite",
-                found.goal.number, found.goal.title
-            ),
-            measured: Some(f64::INFINITY),
-            required: None,
-            unit: Unit::Millimetre,
-            remedy: Some("one layer for both, if they are to pass each other in one plane"),
-            place: Place {
-                part: Some(one.to_owned()),
-                ..Place::default()
-            },
-        });
+        let message = format!(
+            "goal {}, {}: {one} and {other} share no height along the shafts, so that their clearance is infinite",
+            found.goal.number, found.goal.title
+        );
+        report.findings.push(
+            Finding::new("no-common-height", Severity::Note, message)
+                .measured(f64::INFINITY, None, Unit::Millimetre)
+                .remedy("one layer for both, if they are to pass each other in one plane")
+                .on(one),
+        );
     }
 }

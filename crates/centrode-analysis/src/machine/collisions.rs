@@ -7,7 +7,7 @@ use centrode_machines::machine::{BodyPoint, Machine, MachineDesign};
 use super::clearance::surfaces;
 use super::{Made, ends as ends_of, through};
 use crate::interference::LinkPair;
-use crate::{Finding, Place, Report, Severity, Unit};
+use crate::{Finding, Report, Severity, Unit};
 
 /// Accuracy to which collisions of parts are sought, as a share of a plate's width.
 const ACCURACY: f64 = 1e-3;
@@ -219,18 +219,12 @@ pub(super) fn findings<'a>(
     let worst = pairs
         .map(|(_, [minimum, _])| Severity::of_overlap(-minimum))
         .max();
-    let left = worst.filter(|_| overlaps.left > 0).map(|severity| Finding {
-        rule,
-        severity,
-        message: format!(
+    let left = worst.filter(|_| overlaps.left > 0).map(|severity| {
+        let message = format!(
             "{} more of such pairs come near each other; they are not looked at, since {MOST} collide already",
             overlaps.left
-        ),
-        measured: None,
-        required: None,
-        unit: Unit::Count,
-        remedy: Some(remedy),
-        place: Place::default(),
+        );
+        Finding::new(rule, severity, message).remedy(remedy)
     });
     overlaps
         .found
@@ -247,26 +241,21 @@ fn collision(
     &(pair, [minimum, input]): &Overlap<'_>,
 ) -> Finding {
     let [one, other] = pair;
-    Finding {
+    Finding::new(
         rule,
-        severity: Severity::of_overlap(-minimum),
-        message: format!(
+        Severity::of_overlap(-minimum),
+        format!(
             "{kind} {} and {} share a height and overlap by {} at an input of {}",
             one.name,
             other.name,
             Unit::Millimetre.with_unit(-minimum),
             Unit::Angle.with_unit(input)
         ),
-        measured: Some(minimum),
-        required: Some(0.0),
-        unit: Unit::Millimetre,
-        remedy: Some(remedy),
-        place: Place {
-            part: Some(one.name.to_owned()),
-            input: Some(input),
-            ..Place::default()
-        },
-    }
+    )
+    .measured(minimum, 0.0, Unit::Millimetre)
+    .remedy(remedy)
+    .on(one.name)
+    .at(input)
 }
 
 /// Whether two gears are to mesh, or stand on each other.

@@ -6,7 +6,7 @@ use centrode_machines::machine::{Machine, MachineFigure};
 
 use super::{ends, keys};
 use crate::forces::{Balance, Forces, ForcesError};
-use crate::{Finding, Place, Report, Severity, Table, Unit};
+use crate::{Finding, Report, Severity, Table, Unit};
 
 /// Rounding of the torque, in that of a single product of a force and an arm.
 const ROUNDING: f64 = 1e3;
@@ -256,42 +256,33 @@ fn excessive<'a>(
         return;
     };
     if load > 0.0 {
-        report.findings.push(Finding {
-            rule: "excessive-force",
-            severity: Severity::Error,
-            message: format!(
-                "the force of {kind} {name} reaches {:.3e} N, {:.0} times the largest load of {load:.4} N: the machine nearly locks there",
-                force.value,
-                force.value / load
-            ),
-            measured: Some(force.value),
-            required: Some(EXCESSIVE * load),
-            unit: Unit::Newton,
-            remedy: Some(
-                "other lengths, another pressure angle or a gentler ratio, so that the driving force acts along the motion",
-            ),
-            place: Place {
-                part: Some(name.clone()),
-                input: Some(force.input),
-                ..Place::default()
-            },
-        });
+        let message = format!(
+            "the force of {kind} {name} reaches {:.3e} N, {:.0} times the largest load of {load:.4} N: the machine nearly locks there",
+            force.value,
+            force.value / load
+        );
+        let remedy = "other lengths, another pressure angle or a gentler ratio, so that the driving force acts along the motion";
+        report.findings.push(
+            Finding::new("excessive-force", Severity::Error, message)
+                .measured(force.value, EXCESSIVE * load, Unit::Newton)
+                .remedy(remedy)
+                .on(name.clone())
+                .at(force.input),
+        );
     }
 }
 
 /// Reports why the forces are not known: a dead position, where they grow beyond bounds, is an error.
 fn undetermined(error: &ForcesError, report: &mut Report) {
-    report.findings.push(Finding {
-        rule: "forces-undetermined",
-        severity: match error {
-            ForcesError::Dead { .. } => Severity::Error,
-            _ => Severity::Note,
-        },
-        message: format!("there are no forces: {error}"),
-        measured: None,
-        required: None,
-        unit: Unit::Newton,
-        remedy: None,
-        place: Place::default(),
-    });
+    report.findings.push(
+        Finding::new(
+            "forces-undetermined",
+            match error {
+                ForcesError::Dead { .. } => Severity::Error,
+                _ => Severity::Note,
+            },
+            format!("there are no forces: {error}"),
+        )
+        .measured(None, None, Unit::Newton),
+    );
 }

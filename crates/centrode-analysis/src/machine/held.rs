@@ -6,7 +6,7 @@ use centrode_kinematics::machine::allowed_pressure;
 use centrode_machines::machine::{Hardware, Hold, Machine, Overhang};
 
 use crate::rounding::exceeds;
-use crate::{Finding, Place, Report, Severity, Unit};
+use crate::{Finding, Report, Severity, Unit};
 
 /// Rings that hold what is on a pin or shaft, one at each end.
 const RINGS: usize = 2;
@@ -16,18 +16,8 @@ pub(super) fn held(composed: &Machine, report: &mut Report) {
     if composed.design().hardware() != Hardware::Full {
         return;
     }
-    let finding = |part: &str, severity: Severity, message: String| Finding {
-        rule: "not-held",
-        severity,
-        message,
-        measured: None,
-        required: None,
-        unit: Unit::Count,
-        remedy: None,
-        place: Place {
-            part: Some(part.into()),
-            ..Place::default()
-        },
+    let finding = |part: &str, severity: Severity, message: String| {
+        Finding::new("not-held", severity, message).on(part)
     };
     for pieces in composed.turned_in_plates() {
         let rings = pieces.part.steps.iter();
@@ -39,12 +29,11 @@ pub(super) fn held(composed: &Machine, report: &mut Report) {
                 _ => "one retaining ring",
             };
             let message = format!("{name} has room for {found}: what is on it can slide off");
-            report.findings.push(Finding {
-                measured: Some(rings as f64),
-                required: Some(RINGS as f64),
-                remedy: Some("a wider plates.gap, another layer, or a diameter of DIN 471"),
-                ..finding(name, Severity::Error, message)
-            });
+            report.findings.push(
+                finding(name, Severity::Error, message)
+                    .measured(rings as f64, RINGS as f64, Unit::Count)
+                    .remedy("a wider plates.gap, another layer, or a diameter of DIN 471"),
+            );
         }
     }
     for shaft in composed.shafts() {
@@ -61,10 +50,9 @@ pub(super) fn held(composed: &Machine, report: &mut Report) {
                 _ => continue,
             };
             let message = format!("{} turns with the shaft of {} {why}", part.name, shaft.name);
-            report.findings.push(Finding {
-                remedy: Some(remedy),
-                ..finding(&part.name, Severity::Error, message)
-            });
+            report
+                .findings
+                .push(finding(&part.name, Severity::Error, message).remedy(remedy));
         }
     }
     let mut maximum: Option<f64> = None;
@@ -99,14 +87,12 @@ pub(super) fn held(composed: &Machine, report: &mut Report) {
                 (Severity::Note, message)
             }
         };
-        report.findings.push(Finding {
-            rule: "overhung",
-            measured: Some(stress),
-            required: allowed,
-            unit: Unit::NewtonPerSquareMillimetre,
-            remedy: Some("a thicker frame, a wider shaft, or a layer nearer to the frame"),
-            ..finding(name, severity, message)
-        });
+        report.findings.push(
+            Finding::new("overhung", severity, message)
+                .measured(stress, allowed, Unit::NewtonPerSquareMillimetre)
+                .remedy("a thicker frame, a wider shaft, or a layer nearer to the frame")
+                .on(name),
+        );
     }
     report
         .values

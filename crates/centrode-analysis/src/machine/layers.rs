@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use centrode_machines::machine::{Hardware, LayerOrders, Machine, MachineDesign};
 
 use super::{Made, collisions, ends as ends_of};
-use crate::{Finding, Place, Report, Severity, Unit};
+use crate::{Finding, Report, Severity};
 
 /// Findings that another order of the plates may remove.
 const RULES: [&str; 3] = ["plates-collide", "pins-collide", "parts-collide"];
@@ -70,16 +70,9 @@ pub(super) fn layers(composed: &Machine, ends: &[f64], report: &mut Report) {
             "a layer for some of the bodies",
         ),
     };
-    report.findings.push(Finding {
-        rule: "layer-order",
-        severity: Severity::Note,
-        message,
-        measured: None,
-        required: None,
-        unit: Unit::Count,
-        remedy: Some(remedy),
-        place: Place::default(),
-    });
+    report
+        .findings
+        .push(Finding::new("layer-order", Severity::Note, message).remedy(remedy));
 }
 
 /// Layers for a machine whose plates or pins collide; `None` if they do not.

@@ -37,7 +37,7 @@ use crate::progress::filling;
 use crate::report::Missed;
 use crate::rounding::exceeds;
 use crate::side_by_side::both;
-use crate::{Finding, Goal, Place, Report, Severity, Table, Unit};
+use crate::{Finding, Goal, Report, Severity, Table, Unit};
 
 /// Parts of a turn of the input in each of which a motion has few extremes.
 const PARTS: u32 = 16;
@@ -153,16 +153,9 @@ fn not_designed(made: &Made<'_>, report: &mut Report) {
         ),
         Hardware::Full => (format!("left to the customer: {}", given.join(", ")), None),
     };
-    report.findings.push(Finding {
-        rule: "not-designed",
-        severity: Severity::Note,
-        message,
-        measured: None,
-        required: None,
-        unit: Unit::Count,
-        remedy,
-        place: Place::default(),
-    });
+    report
+        .findings
+        .push(Finding::new("not-designed", Severity::Note, message).remedy(remedy));
 }
 
 /// Adds the goals to a report, and the findings of those that are missed.
@@ -285,23 +278,17 @@ fn dyads(composed: &Machine, motion: &Motion, report: &mut Report) {
                 false => ("falls", format!("below {HOLDS_BADLY}")),
             };
             let degrees = end.value.to_degrees();
-            report.findings.push(Finding {
-                rule: "transmission-angle",
-                severity: Severity::Warning,
-                message: format!(
-                    "the transmission angle of dyad {} {reaches} to {degrees:.2} deg: {limit} deg friction may lock it",
-                    dyad.name
-                ),
-                measured: Some(held),
-                required: Some(HOLDS_BADLY.to_radians()),
-                unit: Unit::Angle,
-                remedy: Some("longer bars against the motion that drives them, or other pins"),
-                place: Place {
-                    part: Some(dyad.name.clone()),
-                    input: Some(end.input),
-                    ..Place::default()
-                },
-            });
+            let message = format!(
+                "the transmission angle of dyad {} {reaches} to {degrees:.2} deg: {limit} deg friction may lock it",
+                dyad.name
+            );
+            report.findings.push(
+                Finding::new("transmission-angle", Severity::Warning, message)
+                    .measured(held, HOLDS_BADLY.to_radians(), Unit::Angle)
+                    .remedy("longer bars against the motion that drives them, or other pins")
+                    .on(dyad.name.clone())
+                    .at(end.input),
+            );
         }
     }
     if !rows.is_empty() {

@@ -1,8 +1,8 @@
 use centrode_groove::{ClearOffset, Crossing, ShaftError, SpiralShaft};
 
-use super::{at, from_turn};
+use super::from_turn;
 use crate::rounding::exceeds;
-use crate::{Finding, Place, Report, Severity, Unit};
+use crate::{Finding, Report, Severity, Unit};
 
 pub(super) fn crossings(shaft: &SpiralShaft, report: &mut Report) {
     let groove = shaft.groove();
@@ -15,22 +15,16 @@ pub(super) fn crossings(shaft: &SpiralShaft, report: &mut Report) {
     let length = shaft.slider().length;
     if !exceeds(length, longest) {
         let open = all.iter().filter(|c| !exceeds(length, c.gap)).count();
-        report.findings.push(Finding {
-            rule: "slider-length",
-            severity: Severity::Error,
-            message: format!(
-                "a slider {length} mm long loses both walls at {open} of {} crossings; it takes more than {longest:.3} mm",
-                all.len()
-            ),
-            measured: Some(length),
-            required: Some(longest),
-            unit: Unit::Millimetre,
-            remedy: Some("a longer slider, a narrower groove, or a return_offset"),
-            place: Place {
-                part: Some("slider".into()),
-                ..Place::default()
-            },
-        });
+        let message = format!(
+            "a slider {length} mm long loses both walls at {open} of {} crossings; it takes more than {longest:.3} mm",
+            all.len()
+        );
+        report.findings.push(
+            Finding::new("slider-length", Severity::Error, message)
+                .measured(length, longest, Unit::Millimetre)
+                .remedy("a longer slider, a narrower groove, or a return_offset")
+                .on("slider"),
+        );
     }
     tilt(shaft, longest, report);
     let design = shaft.design();
@@ -46,21 +40,19 @@ pub(super) fn crossings(shaft: &SpiralShaft, report: &mut Report) {
     let Some(first) = all.iter().find(in_window) else {
         return;
     };
-    report.findings.push(Finding {
-        rule: "crossing-while-picking",
-        severity: Severity::Warning,
-        message: format!(
-            "{picked} of {} crossings are passed while a seedling is picked, where the walls are missing over {:.2} mm; {}",
-            all.len(),
-            first.gap,
-            advice(shaft)
-        ),
-        measured: Some(first.gap),
-        required: Some(length),
-        unit: Unit::Millimetre,
-        remedy: Some("a slider longer than the gap, or a return_offset"),
-        place: at(first.out),
-    });
+    let message = format!(
+        "{picked} of {} crossings are passed while a seedling is picked, where the walls are missing over {:.2} mm; {}",
+        all.len(),
+        first.gap,
+        advice(shaft)
+    );
+    report.findings.push(
+        Finding::new("crossing-while-picking", Severity::Warning, message)
+            .measured(first.gap, length, Unit::Millimetre)
+            .remedy("a slider longer than the gap, or a return_offset")
+            .on("shaft")
+            .at(first.out),
+    );
 }
 
 /// Checks a slider free on its pin, pushed against one wall, where a crossing interrupts that wall over `gap` mm.
@@ -74,22 +66,16 @@ fn tilt(shaft: &SpiralShaft, gap: f64, report: &mut Report) {
     if !exceeds(2.0 * gap, length) {
         return;
     }
-    report.findings.push(Finding {
-        rule: "slider-tilts",
-        severity: Severity::Warning,
-        message: format!(
-            "a crossing takes the wall that pushes the slider away over {gap:.2} mm: {length} mm long and free on its pin, the slider can turn into the other groove there; held by the walls alone it must be {:.2} mm long",
-            2.0 * gap
-        ),
-        measured: Some(length),
-        required: Some(2.0 * gap),
-        unit: Unit::Millimetre,
-        remedy: Some("a narrower groove, a longer slider, or a pin that does not turn freely"),
-        place: Place {
-            part: Some("slider".into()),
-            ..Place::default()
-        },
-    });
+    let message = format!(
+        "a crossing takes the wall that pushes the slider away over {gap:.2} mm: {length} mm long and free on its pin, the slider can turn into the other groove there; held by the walls alone it must be {:.2} mm long",
+        2.0 * gap
+    );
+    report.findings.push(
+        Finding::new("slider-tilts", Severity::Warning, message)
+            .measured(length, 2.0 * gap, Unit::Millimetre)
+            .remedy("a narrower groove, a longer slider, or a pin that does not turn freely")
+            .on("slider"),
+    );
 }
 
 /// Shift of the return groove that brings the slow places off the crossings, in words.

@@ -13,7 +13,7 @@ use self::crossings::crossings;
 use self::figures::FIGURES;
 use crate::key_pressure::LoadedKey;
 use crate::rounding::{ROUNDING, exceeds};
-use crate::{Finding, Place, Report, Severity, Unit};
+use crate::{Finding, Report, Severity, Unit};
 
 pub use moving_box::check_moving_box;
 
@@ -46,14 +46,6 @@ pub fn check_shaft(shaft: &SpiralShaft) -> Report {
     report
 }
 
-fn at(theta: f64) -> Place {
-    Place {
-        part: Some("shaft".into()),
-        input: Some(theta),
-        ..Place::default()
-    }
-}
-
 /// Checks the movement of the box while a seedling is picked, in full stroke and at the pick where it moves most,
 /// against a sixth of the pot.
 fn moved(shaft: &SpiralShaft, moved: f64, picks: &Schedule, report: &mut Report) {
@@ -67,18 +59,17 @@ fn moved(shaft: &SpiralShaft, moved: f64, picks: &Schedule, report: &mut Report)
     report.values.insert("moved_distance_limit", limit);
     report.values.insert("moved_distance_of_cycle_max", most);
     if exceeds(most, limit) {
-        report.findings.push(Finding {
-            rule: "moved-distance",
-            severity: Severity::Error,
-            message: format!(
-                "the box moves {most:.4} mm while a seedling is picked, more than a sixth of the pot, {limit:.4} mm"
-            ),
-            measured: Some(most),
-            required: Some(limit),
-            unit: Unit::Millimetre,
-            remedy: Some("a larger amplitude, moved_distance to solve for it, or a slow place where the picks are"),
-            place: at(theta),
-        });
+        let message = format!(
+            "the box moves {most:.4} mm while a seedling is picked, more than a sixth of the pot, {limit:.4} mm"
+        );
+        let remedy = "a larger amplitude, moved_distance to solve for it, or a slow place where the picks are";
+        report.findings.push(
+            Finding::new("moved-distance", Severity::Error, message)
+                .measured(most, limit, Unit::Millimetre)
+                .remedy(remedy)
+                .on("shaft")
+                .at(theta),
+        );
     }
 }
 
@@ -124,19 +115,20 @@ fn schedule(shaft: &SpiralShaft, schedule: &Schedule, report: &mut Report) {
         } else {
             Severity::of_deviation(misplacement.abs())
         };
-        report.findings.push(Finding {
-            rule: "misplaced-hole",
-            severity,
-            message: format!(
-                "turn {turn} of the cycle picks {:.4} mm beside hole {hole}",
-                misplacement.abs()
-            ),
-            measured: Some(misplacement.abs()),
-            required: Some(limit),
-            unit: Unit::Millimetre,
-            remedy: Some("a reversal of 360 deg, and no more return_offset than needed"),
-            place: at(*theta),
-        });
+        report.findings.push(
+            Finding::new(
+                "misplaced-hole",
+                severity,
+                format!(
+                    "turn {turn} of the cycle picks {:.4} mm beside hole {hole}",
+                    misplacement.abs()
+                ),
+            )
+            .measured(misplacement.abs(), limit, Unit::Millimetre)
+            .remedy("a reversal of 360 deg, and no more return_offset than needed")
+            .on("shaft")
+            .at(*theta),
+        );
     }
     let uneven: Vec<u32> = (0..)
         .zip(&schedule.visits)
@@ -144,20 +136,22 @@ fn schedule(shaft: &SpiralShaft, schedule: &Schedule, report: &mut Report) {
         .map(|(hole, _)| hole)
         .collect();
     if let Some(first) = uneven.first() {
-        report.findings.push(Finding {
-            rule: "hole-not-picked-twice",
-            severity: Severity::Error,
-            message: format!(
-                "{} of {} holes, hole {first} the first of them, are not picked exactly once each way",
-                uneven.len(),
-                schedule.visits.len()
-            ),
-            measured: Some(f64::from(schedule.visits[*first as usize])),
-            required: Some(2.0),
-            unit: Unit::Count,
-            remedy: Some("a reversal of 360 deg"),
-            place: at(shaft.design().pick),
-        });
+        let message = format!(
+            "{} of {} holes, hole {first} the first of them, are not picked exactly once each way",
+            uneven.len(),
+            schedule.visits.len()
+        );
+        report.findings.push(
+            Finding::new("hole-not-picked-twice", Severity::Error, message)
+                .measured(
+                    f64::from(schedule.visits[*first as usize]),
+                    2.0,
+                    Unit::Count,
+                )
+                .remedy("a reversal of 360 deg")
+                .on("shaft")
+                .at(shaft.design().pick),
+        );
     }
 }
 
@@ -172,19 +166,20 @@ fn groove(shaft: &SpiralShaft, report: &mut Report) {
     values.insert("bend_radius_min", 1.0 / groove.tightest().value);
     values.insert("wall_deviation_max", groove.wall_deviation());
     if exceeds(steepest.value, PRESSURE_ANGLE) {
-        report.findings.push(Finding {
-            rule: "pressure-angle",
-            severity: Severity::Warning,
-            message: format!(
-                "the wall pushes the slider up to {:.2} deg off its way",
-                steepest.value.to_degrees()
-            ),
-            measured: Some(steepest.value),
-            required: Some(PRESSURE_ANGLE),
-            unit: Unit::Angle,
-            remedy: Some("a larger radius, or a smaller lead or amplitude"),
-            place: at(steepest.input),
-        });
+        report.findings.push(
+            Finding::new(
+                "pressure-angle",
+                Severity::Warning,
+                format!(
+                    "the wall pushes the slider up to {:.2} deg off its way",
+                    steepest.value.to_degrees()
+                ),
+            )
+            .measured(steepest.value, PRESSURE_ANGLE, Unit::Angle)
+            .remedy("a larger radius, or a smaller lead or amplitude")
+            .on("shaft")
+            .at(steepest.input),
+        );
     }
 }
 
@@ -199,41 +194,37 @@ fn slider(shaft: &SpiralShaft, report: &mut Report) {
     let needed = slider.needed_clearance(shaft.groove());
     report.values.insert("slider_clearance_min", needed);
     if exceeds(needed, slider.clearance) {
-        report.findings.push(Finding {
-            rule: "slider-clearance",
-            severity: Severity::of_overlap(needed - slider.clearance),
-            message: format!(
-                "a straight slider {} mm long needs {needed:.4} mm of clearance where the groove bends most, and has {}",
-                slider.length, slider.clearance
-            ),
-            measured: Some(slider.clearance),
-            required: Some(needed),
-            unit: Unit::Millimetre,
-            remedy: Some("more clearance, a shorter slider, or a larger radius"),
-            place: at(shaft.groove().tightest().input),
-        });
+        let message = format!(
+            "a straight slider {} mm long needs {needed:.4} mm of clearance where the groove bends most, and has {}",
+            slider.length, slider.clearance
+        );
+        report.findings.push(
+            Finding::new(
+                "slider-clearance",
+                Severity::of_overlap(needed - slider.clearance),
+                message,
+            )
+            .measured(slider.clearance, needed, Unit::Millimetre)
+            .remedy("more clearance, a shorter slider, or a larger radius")
+            .on("shaft")
+            .at(shaft.groove().tightest().input),
+        );
     }
     let guided = slider.guided_length(shaft.groove().radius());
     report.values.insert("slider_guided_length", guided);
     let gaps = shaft.groove().crossings().into_iter().map(|c| c.gap);
     let longest = gaps.fold(0.0, f64::max);
     if !exceeds(guided, longest) && exceeds(slider.length, longest) {
-        report.findings.push(Finding {
-            rule: "flat-slider",
-            severity: Severity::Warning,
-            message: format!(
-                "of a flat slider {} mm long only {guided:.2} mm reach into a groove on a shaft this thin: to bridge {longest:.2} mm without walls it must be bent round the shaft",
-                slider.length
-            ),
-            measured: Some(guided),
-            required: Some(longest),
-            unit: Unit::Millimetre,
-            remedy: Some("a thicker shaft, or a slider bent round it"),
-            place: Place {
-                part: Some("slider".into()),
-                ..Place::default()
-            },
-        });
+        let message = format!(
+            "of a flat slider {} mm long only {guided:.2} mm reach into a groove on a shaft this thin: to bridge {longest:.2} mm without walls it must be bent round the shaft",
+            slider.length
+        );
+        report.findings.push(
+            Finding::new("flat-slider", Severity::Warning, message)
+                .measured(guided, longest, Unit::Millimetre)
+                .remedy("a thicker shaft, or a slider bent round it")
+                .on("slider"),
+        );
     }
 }
 
@@ -269,20 +260,21 @@ fn forces(shaft: &SpiralShaft, report: &mut Report) {
     contact(limit, load.speed_rpm, report);
     let steepest = shaft.groove().steepest();
     if !exceeds(load.jamming_angle(), steepest.value) {
-        report.findings.push(Finding {
-            rule: "jamming",
-            severity: Severity::Error,
-            message: format!(
-                "at {:.2} deg the slider jams: friction allows less than {:.2} deg",
-                steepest.value.to_degrees(),
-                load.jamming_angle().to_degrees()
-            ),
-            measured: Some(steepest.value),
-            required: Some(load.jamming_angle()),
-            unit: Unit::Angle,
-            remedy: Some("a larger radius, or less friction in the groove"),
-            place: at(steepest.input),
-        });
+        report.findings.push(
+            Finding::new(
+                "jamming",
+                Severity::Error,
+                format!(
+                    "at {:.2} deg the slider jams: friction allows less than {:.2} deg",
+                    steepest.value.to_degrees(),
+                    load.jamming_angle().to_degrees()
+                ),
+            )
+            .measured(steepest.value, load.jamming_angle(), Unit::Angle)
+            .remedy("a larger radius, or less friction in the groove")
+            .on("shaft")
+            .at(steepest.input),
+        );
     }
 }
 
@@ -320,29 +312,23 @@ fn contact_limit(shaft: &SpiralShaft, deceleration: f64) -> f64 {
 
 fn contact(limit: f64, speed: f64, report: &mut Report) {
     if exceeds(speed, limit) {
-        report.findings.push(Finding {
-            rule: "contact-lost",
-            severity: Severity::Warning,
-            message: if limit > 0.0 {
-                format!(
-                    "at {speed} r/min the box runs ahead and the slider changes walls on the stroke; it stays on one up to {limit:.2} r/min"
-                )
-            } else {
-                "without friction on the rails the box runs ahead, and the slider changes walls on the stroke at any speed".into()
-            },
-            measured: Some(speed),
-            required: Some(limit),
-            unit: Unit::TurnsPerMinute,
-            remedy: Some(if limit > 0.0 {
-                "a lower speed, a smaller amplitude, or fewer waves a turn"
-            } else {
-                "friction on the rails, rail_friction, or a box that moves evenly"
-            }),
-            place: Place {
-                part: Some("slider".into()),
-                ..Place::default()
-            },
-        });
+        let message = if limit > 0.0 {
+            format!(
+                "at {speed} r/min the box runs ahead and the slider changes walls on the stroke; it stays on one up to {limit:.2} r/min"
+            )
+        } else {
+            "without friction on the rails the box runs ahead, and the slider changes walls on the stroke at any speed".into()
+        };
+        report.findings.push(
+            Finding::new("contact-lost", Severity::Warning, message)
+                .measured(speed, limit, Unit::TurnsPerMinute)
+                .remedy(if limit > 0.0 {
+                    "a lower speed, a smaller amplitude, or fewer waves a turn"
+                } else {
+                    "friction on the rails, rail_friction, or a box that moves evenly"
+                })
+                .on("slider"),
+        );
     }
 }
 

@@ -6,7 +6,7 @@ use centrode_kinematics::transmission::Transmission;
 
 use super::{check_shaft, contact, contact_limit, moved, tables};
 use crate::key_pressure::LoadedKey;
-use crate::{Finding, Place, Report, Severity, Unit, gear_pair};
+use crate::{Finding, Report, Severity, Unit, gear_pair};
 
 /// Checks a moving box: its shaft, and the motion its drive gives it. The figures of the box itself begin
 /// with `box_`; those without are the shaft's, turned evenly.
@@ -134,19 +134,14 @@ fn gears(machine: &MovingBox, drive: &EllipticDrive, report: &mut Report) {
     };
     match GearPair::resolve(&design) {
         Ok(pair) => report.findings.extend(gear_pair::check(&pair).findings),
-        Err(error) => report.findings.push(Finding {
-            rule: "no-gears",
-            severity: Severity::Error,
-            message: format!("no gears can be cut: {}: {error}", error.key()),
-            measured: None,
-            required: None,
-            unit: Unit::Count,
-            remedy: None,
-            place: Place {
-                part: Some("gears".into()),
-                ..Place::default()
-            },
-        }),
+        Err(error) => report.findings.push(
+            Finding::new(
+                "no-gears",
+                Severity::Error,
+                format!("no gears can be cut: {}: {error}", error.key()),
+            )
+            .on("gears"),
+        ),
     }
 }
 
@@ -159,19 +154,13 @@ fn seat(machine: &MovingBox, report: &mut Report) {
     if bore == 0.0 || bore == journal {
         return;
     }
-    report.findings.push(Finding {
-        rule: "gear-seat",
-        severity: Severity::Error,
-        message: format!(
-            "the driven gear's bore of {bore} mm does not fit the shaft's journal of {journal} mm"
-        ),
-        measured: Some(bore),
-        required: Some(journal),
-        unit: Unit::Millimetre,
-        remedy: Some("leave gears.body.bore out, or change shaft.body.journal_diameter"),
-        place: Place {
-            part: Some("gears".into()),
-            ..Place::default()
-        },
-    });
+    let message = format!(
+        "the driven gear's bore of {bore} mm does not fit the shaft's journal of {journal} mm"
+    );
+    report.findings.push(
+        Finding::new("gear-seat", Severity::Error, message)
+            .measured(bore, journal, Unit::Millimetre)
+            .remedy("leave gears.body.bore out, or change shaft.body.journal_diameter")
+            .on("gears"),
+    );
 }

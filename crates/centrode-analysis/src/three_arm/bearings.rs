@@ -1,7 +1,7 @@
 use centrode_kinematics::machine::Bearing;
 use centrode_machines::three_arm::ThreeArm;
 
-use crate::{Finding, Place, Report, Severity, Unit};
+use crate::{Finding, Report, Severity, Unit};
 
 /// Tells of shafts for which bearings are asked and none is as narrow as the carrier's plates are thick.
 pub(super) fn check_bearings(mechanism: &ThreeArm, report: &mut Report) {
@@ -26,22 +26,17 @@ pub(super) fn check_bearings(mechanism: &ThreeArm, report: &mut Report) {
             ),
             None => format!("no bearing of series 618, 60 and 62 has a bore of {bore} mm"),
         };
-        report.findings.push(Finding {
-            rule: "no-bearing",
-            severity: Severity::Warning,
-            message: format!(
-                "the shaft of {bore} mm of the {part} turns in the bare plates: {why}"
-            ),
-            measured: Some(wall),
-            required: narrowest,
-            unit: Unit::Millimetre,
-            remedy: Some(
+        report.findings.push(
+            Finding::new(
+                "no-bearing",
+                Severity::Warning,
+                format!("the shaft of {bore} mm of the {part} turns in the bare plates: {why}"),
+            )
+            .measured(wall, narrowest, Unit::Millimetre)
+            .remedy(
                 "thicker plates (wall), or a bore of 5 to 10, 12, 15, 17, 20, 25, 30, 35 or 40 mm",
-            ),
-            place: Place {
-                part: Some(part.into()),
-                ..Place::default()
-            },
-        });
+            )
+            .on(part),
+        );
     }
 }

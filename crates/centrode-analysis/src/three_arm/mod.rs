@@ -24,7 +24,7 @@ use self::screws::check_screws;
 use crate::progress::filling;
 use crate::report::Missed;
 use crate::side_by_side::both;
-use crate::{Finding, Goal, Place, Report, Severity, Table, Unit, gear_pair};
+use crate::{Finding, Goal, Report, Severity, Table, Unit, gear_pair};
 
 pub use arm_clearance::{ArmClearance, ArmClearanceCourse, ArmClearanceError, between_arms};
 pub use gear_train::{TrainTeeth, carrier_turn};
@@ -119,33 +119,22 @@ fn check_teeth(
     match teeth {
         Ok(None) => {}
         Ok(Some(teeth)) => check_gear_train(mechanism, teeth, report),
-        Err(error) => report.findings.push(Finding {
-            rule: "teeth",
-            severity: Severity::Error,
-            message: format!("no teeth can be cut: {}: {error}", error.key()),
-            measured: None,
-            required: None,
-            unit: Unit::Count,
-            remedy: None,
-            place: Place::default(),
-        }),
+        Err(error) => report.findings.push(Finding::new(
+            "teeth",
+            Severity::Error,
+            format!("no teeth can be cut: {}: {error}", error.key()),
+        )),
     }
 }
 
 /// Clearances of the arms; none where nothing is finite.
 fn arm_clearance(mechanism: &ThreeArm) -> Result<Option<ArmClearance>, Box<Finding>> {
-    let body = mechanism.arm_body().map_err(|error| Finding {
-        rule: "arm-body",
-        severity: Severity::Error,
-        message: format!("there is no such arm: {error}"),
-        measured: None,
-        required: None,
-        unit: Unit::Count,
-        place: Place {
-            part: Some("arm.body".into()),
-            ..Place::default()
-        },
-        remedy: Some("a shorter arm.clamp_length, a longer arm.tip_distance, or sizes of your own in arm.body"),
+    let body = mechanism.arm_body().map_err(|error| {
+        let message = format!("there is no such arm: {error}");
+        let remedy = "a shorter arm.clamp_length, a longer arm.tip_distance, or sizes of your own in arm.body";
+        Finding::new("arm-body", Severity::Error, message)
+            .remedy(remedy)
+            .on("arm.body")
     })?;
     Ok(arm_tolerance(mechanism).and_then(|t| ArmClearance::analyse(mechanism, &body, t).ok()))
 }
@@ -210,21 +199,15 @@ fn crowded(arms: Option<&ArmClearance>, report: &mut Report) {
     if found.minimum >= 0.0 {
         return;
     }
-    report.findings.push(Finding {
-        rule: "unpicked-seedlings",
-        // Stems in a tray are held by their plugs and spring back.
-        severity: Severity::of_deviation(-found.minimum),
-        message: "an arm bends stems of the rows still in the tray".into(),
-        measured: Some(found.minimum),
-        required: Some(0.0),
-        unit: Unit::Millimetre,
-        remedy: None,
-        place: Place {
-            part: Some("tray".into()),
-            input: Some(found.input),
-            ..Place::default()
-        },
-    });
+    // Stems in a tray are held by their plugs and spring back.
+    let severity = Severity::of_deviation(-found.minimum);
+    let message = "an arm bends stems of the rows still in the tray";
+    report.findings.push(
+        Finding::new("unpicked-seedlings", severity, message)
+            .measured(found.minimum, 0.0, Unit::Millimetre)
+            .on("tray")
+            .at(found.input),
+    );
 }
 
 /// Reports a gearbox that reaches into the tray.
@@ -233,19 +216,16 @@ fn gearbox_in_tray(mechanism: &ThreeArm, report: &mut Report) {
     if clearance >= 0.0 {
         return;
     }
-    report.findings.push(Finding {
-        rule: "gearbox-tray",
-        severity: Severity::Warning,
-        message: "the gearbox reaches behind the tray's surface".into(),
-        measured: Some(clearance),
-        required: Some(0.0),
-        unit: Unit::Millimetre,
-        remedy: Some("a smaller bend_deg either way, or a tray farther away"),
-        place: Place {
-            part: Some("tray".into()),
-            ..Place::default()
-        },
-    });
+    report.findings.push(
+        Finding::new(
+            "gearbox-tray",
+            Severity::Warning,
+            "the gearbox reaches behind the tray's surface",
+        )
+        .measured(clearance, 0.0, Unit::Millimetre)
+        .remedy("a smaller bend_deg either way, or a tray farther away")
+        .on("tray"),
+    );
 }
 
 /// Table 1 of the paper: carrier turns at which each arm picks and plants.
@@ -292,19 +272,11 @@ fn unmet(mechanism: &ThreeArm, arms: Option<&ArmClearance>, report: &mut Report)
         ..Missed::default()
     });
     let mut note = |rule, message: &str, input: f64| {
-        report.findings.push(Finding {
-            rule,
-            severity: Severity::Note,
-            message: message.into(),
-            measured: Some(input.rem_euclid(TAU)),
-            required: None,
-            unit: Unit::Angle,
-            remedy: None,
-            place: Place {
-                input: Some(input),
-                ..Place::default()
-            },
-        });
+        report.findings.push(
+            Finding::new(rule, Severity::Note, message)
+                .measured(input.rem_euclid(TAU), None, Unit::Angle)
+                .at(input),
+        );
     };
     match path.picking_rule {
         PickingRule::Given => {}
@@ -342,16 +314,12 @@ fn unchecked(mechanism: &ThreeArm, report: &mut Report) {
     let findings: Vec<Finding> = open
         .map(|goal| {
             let (severity, why) = reason(goal);
-            Finding {
-                rule: "goal-not-checked",
+            Finding::new(
+                "goal-not-checked",
                 severity,
-                message: format!("goal {} is not checked, {}: {why}", goal.number, goal.title),
-                measured: None,
-                required: goal.required[0].or(goal.required[1]),
-                unit: goal.unit,
-                remedy: None,
-                place: Place::default(),
-            }
+                format!("goal {} is not checked, {}: {why}", goal.number, goal.title),
+            )
+            .measured(None, goal.required[0].or(goal.required[1]), goal.unit)
         })
         .collect();
     report.findings.extend(findings);
@@ -363,21 +331,14 @@ fn tooth_findings(teeth: &[FlankCount; 2], report: &mut Report) {
         if sound.unsound == 0 {
             continue;
         }
-        report.findings.push(Finding {
-            rule: "full-teeth",
-            severity: Severity::Warning,
-            message: format!(
-                "of {} flanks of each of the {part}, {} are undercut and {} short of the full addendum at this module",
-                sound.flanks, sound.undercut, sound.short
-            ),
-            measured: Some(f64::from(sound.unsound)),
-            required: Some(0.0),
-            unit: Unit::Count,
-            remedy: None,
-            place: Place {
-                part: Some(part.into()),
-                ..Place::default()
-            },
-        });
+        let message = format!(
+            "of {} flanks of each of the {part}, {} are undercut and {} short of the full addendum at this module",
+            sound.flanks, sound.undercut, sound.short
+        );
+        report.findings.push(
+            Finding::new("full-teeth", Severity::Warning, message)
+                .measured(f64::from(sound.unsound), 0.0, Unit::Count)
+                .on(part),
+        );
     }
 }

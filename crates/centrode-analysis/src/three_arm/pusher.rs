@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use centrode_machines::three_arm::{Pusher, PusherError};
 
 use crate::cam::CheckedCam;
-use crate::{Finding, Place, Report, Severity, Unit};
+use crate::{Finding, Report, Severity};
 
 /// Pressure angle, rad, up to which a swinging follower runs well while it is lifted. VDI 2142 part 2.
 const PRESSURE_ANGLE: f64 = PI / 4.0;
@@ -15,20 +15,11 @@ pub(super) fn check_pusher(pusher: &Result<Pusher, PusherError>, report: &mut Re
     let pusher = match pusher {
         Ok(pusher) => pusher,
         Err(error) => {
-            report.findings.push(Finding {
-                rule: "pusher",
-                // Without it there is no machine, and no file of one.
-                severity: Severity::Error,
-                message: format!("nothing moves the push rods: {}: {error}", error.key()),
-                measured: None,
-                required: None,
-                unit: Unit::Count,
-                remedy: None,
-                place: Place {
-                    part: Some("cam".into()),
-                    ..Place::default()
-                },
-            });
+            let message = format!("nothing moves the push rods: {}: {error}", error.key());
+            // Without it there is no machine, and no file of one.
+            report
+                .findings
+                .push(Finding::new("pusher", Severity::Error, message).on("cam"));
             return;
         }
     };

@@ -2,7 +2,7 @@
 
 use super::edit::{Edit, edited};
 use super::field::{Table, tables};
-use centrode_analysis::{Finding, Place, Report, Severity, Unit};
+use centrode_analysis::{Finding, Report, Severity, Unit};
 use centrode_families::{FAMILIES, Mechanism};
 use centrode_spec::{DesignError, DesignFault};
 use std::sync::Arc;
@@ -63,16 +63,11 @@ impl LeftOut {
 
     /// Adds the finding of the details to a report, before all others.
     pub fn report(&self, report: &mut Report) {
-        let finding = Finding {
-            rule: "detail",
-            severity: Severity::Error,
-            message: self.message(),
-            measured: None,
-            required: None,
-            unit: Unit::Number,
-            remedy: None,
-            place: Place::default(),
-        };
+        let finding = Finding::new("detail", Severity::Error, self.message()).measured(
+            None,
+            None,
+            Unit::Number,
+        );
         report.findings.insert(0, finding);
     }
 }

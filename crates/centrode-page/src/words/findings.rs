@@ -162,7 +162,7 @@ fn ranges(teeth: &[u32]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use centrode_analysis::{Place, Unit};
+    use centrode_analysis::Unit;
 
     #[test]
     fn runs_of_teeth_are_short() {
@@ -186,16 +186,11 @@ mod tests {
             (0.0, "measured 0 deg, required 0 deg"),
             (1.6, "measured 91.6732 deg, required 0 deg"),
         ] {
-            let finding = Finding {
-                rule: "contact-lost",
-                severity: Severity::Note,
-                message: String::new(),
-                measured: Some(measured),
-                required: Some(0.0),
-                unit: Unit::Angle,
-                remedy: None,
-                place: Place::default(),
-            };
+            let finding = Finding::new("contact-lost", Severity::Note, String::new()).measured(
+                measured,
+                0.0,
+                Unit::Angle,
+            );
             assert_eq!(
                 finding_words(&finding).figures.replace('\u{a0}', " "),
                 figures

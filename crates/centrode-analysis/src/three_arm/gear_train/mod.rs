@@ -78,19 +78,15 @@ pub(crate) fn check_gear_train(mechanism: &ThreeArm, teeth: &TrainTeeth, report:
     let (off, input) = phase_error(mechanism, pair);
     report.values.insert("mesh_phase_error_max", off);
     if off > PHASE {
-        report.findings.push(Finding {
-            rule: "tooth-phase",
-            severity: Severity::Error,
-            message: "the teeth of a mesh do not meet those of its mate".into(),
-            measured: Some(off),
-            required: Some(PHASE),
-            unit: Unit::Angle,
-            remedy: None,
-            place: Place {
-                input: Some(input),
-                ..Place::default()
-            },
-        });
+        report.findings.push(
+            Finding::new(
+                "tooth-phase",
+                Severity::Error,
+                "the teeth of a mesh do not meet those of its mate",
+            )
+            .measured(off, PHASE, Unit::Angle)
+            .at(input),
+        );
     }
     for name in [
         "transmission_error_max",
@@ -164,23 +160,20 @@ fn apart(mechanism: &ThreeArm, pair: &GearPair, report: &mut Report) {
     let Some(found) = minimum.found.filter(|found| found.minimum <= 0.0) else {
         return;
     };
-    report.findings.push(Finding {
-        rule: "gears-collide",
-        severity: Severity::of_overlap(-found.minimum),
-        message: format!(
-            "{} and {} run into each other",
-            minimum.pair[0], minimum.pair[1]
-        ),
-        measured: Some(found.minimum),
-        required: Some(0.0),
-        unit: Unit::Millimetre,
-        remedy: Some("a smaller bend, fewer arms, or a pitch curve of a smaller greatest radius"),
-        place: Place {
-            part: Some("gears".into()),
-            input: Some(found.input),
-            ..Place::default()
-        },
-    });
+    report.findings.push(
+        Finding::new(
+            "gears-collide",
+            Severity::of_overlap(-found.minimum),
+            format!(
+                "{} and {} run into each other",
+                minimum.pair[0], minimum.pair[1]
+            ),
+        )
+        .measured(found.minimum, 0.0, Unit::Millimetre)
+        .remedy("a smaller bend, fewer arms, or a pitch curve of a smaller greatest radius")
+        .on("gears")
+        .at(found.input),
+    );
 }
 
 /// Nearest two gears that are not in mesh.

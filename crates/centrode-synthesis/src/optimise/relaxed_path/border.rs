@@ -1,6 +1,6 @@
 use centrode_geometry::{Bounds, Point};
 
-use centrode_analysis::{Finding, Place, Severity, Unit};
+use centrode_analysis::{Finding, Severity, Unit};
 
 /// Distance from a side of the box that is none, as a share of the box's diagonal: a search ends so near to a bound.
 const NEAR: f64 = 1e-3;
@@ -23,24 +23,18 @@ pub fn axis_at_border(axis: Point, room: &Bounds) -> Option<Finding> {
     let ends =
         ends.map(|(name, _, side)| format!("{name} ends at {}", Unit::Millimetre.with_unit(*side)));
     let ends: Vec<String> = ends.collect();
-    Some(Finding {
-        rule: "axis-at-border",
-        severity: Severity::Note,
-        message: format!(
-            "the axis found, ({:.4}, {:.4}) mm, is at the border of the box that was searched, where {}: there may be a better one outside",
-            axis.x,
-            axis.y,
-            ends.join(" and ")
-        ),
-        measured: Some(at),
-        required: Some(side),
-        unit: Unit::Millimetre,
-        remedy: Some("a wider box, axis_box, or an axis that is given"),
-        place: Place {
-            part: Some("carrier".into()),
-            ..Place::default()
-        },
-    })
+    let message = format!(
+        "the axis found, ({:.4}, {:.4}) mm, is at the border of the box that was searched, where {}: there may be a better one outside",
+        axis.x,
+        axis.y,
+        ends.join(" and ")
+    );
+    Some(
+        Finding::new("axis-at-border", Severity::Note, message)
+            .measured(at, side, Unit::Millimetre)
+            .remedy("a wider box, axis_box, or an axis that is given")
+            .on("carrier"),
+    )
 }
 
 #[cfg(test)]

@@ -44,30 +44,30 @@ fn one(finding: &Finding, out: &mut impl Write) -> Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::analysis::{FlankPlace, Place, Unit};
+    use crate::analysis::{FlankPlace, Unit};
 
     #[test]
     fn a_finding_says_where_how_much_and_what_helps() {
         let report = Report {
-            findings: vec![Finding {
-                rule: "undercut",
-                severity: Severity::Warning,
-                message: "3 of 23 teeth of the driver are undercut".into(),
-                measured: Some(0.0312),
-                required: Some(0.0),
-                unit: Unit::Millimetre,
-                remedy: Some("fewer teeth of a larger module"),
-                place: Place {
-                    part: Some("driver".into()),
-                    teeth: vec![4, 5, 6],
-                    flanks: vec![FlankPlace {
+            findings: vec![
+                Finding::new(
+                    "undercut",
+                    Severity::Warning,
+                    "3 of 23 teeth of the driver are undercut",
+                )
+                .measured(0.0312, 0.0, Unit::Millimetre)
+                .remedy("fewer teeth of a larger module")
+                .on("driver")
+                .at(std::f64::consts::PI)
+                .teeth(
+                    vec![4, 5, 6],
+                    vec![FlankPlace {
                         tooth: 4,
                         side: "trailing",
                         radius: Some(21.340_4),
                     }],
-                    input: Some(std::f64::consts::PI),
-                },
-            }],
+                ),
+            ],
             ..Report::default()
         };
         let mut out = anstream::StripStream::new(Vec::new());
