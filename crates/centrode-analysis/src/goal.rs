@@ -3,8 +3,8 @@ use std::borrow::Cow;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use crate::rounding::ROUNDING;
 use crate::{JsonNumber, Unit, figure};
+use centrode_geometry::COMPUTED;
 
 /// Goal of a mechanism: a figure and the range in which it is wanted.
 ///
@@ -88,7 +88,7 @@ impl Goal {
         let below = self.required[1].map_or(f64::INFINITY, |maximum| maximum - value);
         let margin = match above.min(below) {
             // At its limit but for rounding: the goal is met.
-            margin if margin.abs() <= ROUNDING * value.abs().min(f64::MAX).max(self.scale) => 0.0,
+            margin if margin.abs() <= COMPUTED * value.abs().min(f64::MAX).max(self.scale) => 0.0,
             margin => margin,
         };
         let miss = (-margin).max(0.0) / self.scale;

@@ -2,7 +2,8 @@ use std::f64::consts::{PI, TAU};
 
 use centrode_gear::{Cam, IntermittentPair, Member};
 use centrode_geometry::{
-    Extreme, Outline, Point, SampledPiece, Tolerance, Vector, bracketed_minimum_below, checkpoint,
+    Extreme, Outline, Point, SampledPiece, Tolerance, Vector, WRITTEN, bracketed_minimum_below,
+    checkpoint,
 };
 use centrode_kinematics::transmission::Transmission;
 use nalgebra::Isometry2;
@@ -11,8 +12,6 @@ use crate::progress::Steps;
 
 /// Greatest turn of the driven gear searched, rad.
 const FREE: f64 = 0.5;
-/// Share of a squared distance that rounding may be off.
-const ROUNDING: f64 = 1e-12;
 /// Corners of a pin.
 const PIN_CORNERS: u32 = 240;
 /// Steps in which the path of a pin along its cam is sampled, per step of the free angle: a distance is quick to compute.
@@ -398,8 +397,8 @@ impl Edge {
         Self {
             from,
             way,
-            low: foot.min(ends[0]).min(ends[1]) * (1.0 - ROUNDING),
-            high: ends[0].max(ends[1]) * (1.0 + ROUNDING),
+            low: foot.min(ends[0]).min(ends[1]) * (1.0 - WRITTEN),
+            high: ends[0].max(ends[1]) * (1.0 + WRITTEN),
         }
     }
 

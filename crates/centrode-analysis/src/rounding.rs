@@ -1,12 +1,10 @@
-/// Relative difference within which a figure and its limit count as equal. It covers the rounding of a figure that follows
-/// from many steps; at 1e-8 a proven penetration of 0.1 um could be lost next to a limit of 10 mm.
-pub(crate) const ROUNDING: f64 = 1e-9;
+use centrode_geometry::COMPUTED;
 
 /// Whether a figure is above its limit by more than rounding, both in the same unit.
 ///
 /// A limit of 0 has no size to round by: there every figure above 0 exceeds it.
 pub(crate) fn exceeds(measured: f64, limit: f64) -> bool {
-    measured - limit > ROUNDING * measured.abs().max(limit.abs()).min(f64::MAX)
+    measured - limit > COMPUTED * measured.abs().max(limit.abs()).min(f64::MAX)
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-use centrode_geometry::bracketed_root;
+use centrode_geometry::{WRITTEN, bracketed_root};
 
 use centrode_spec::digits::digits;
 use centrode_spec::rule::in_range;
@@ -19,13 +19,7 @@ use super::{
 };
 
 /// Relative difference below which a written centre distance is the computed one: it is written to a micrometre or so.
-const WRITTEN: f64 = 1e-6;
-
-/// Relative difference of the radii of a pitch curve below which it is a circle.
-const ROUND: f64 = 1e-12;
-
-/// Sum of two written shifts that is rounding.
-const ROUNDING: f64 = 1e-12;
+const DISTANCE: f64 = 1e-6;
 
 /// Pressure angle above that of any pair, rad: its involute function exceeds the greatest sum of shifts on the fewest teeth.
 const STEEPEST: f64 = 1.5;
@@ -85,7 +79,7 @@ impl Generation {
             },
             angles,
         };
-        if sum.abs() <= ROUNDING {
+        if sum.abs() <= WRITTEN {
             if let Some(required) = other {
                 return Err(GearPairError::CenterDistance { required, needed });
             }
@@ -207,7 +201,7 @@ impl Generation {
 
 /// Whether a written centre distance is another than the computed one.
 fn is_other(required: f64, needed: f64) -> bool {
-    (required - needed).abs() > WRITTEN * needed
+    (required - needed).abs() > DISTANCE * needed
 }
 
 /// Involute function, rad.
@@ -279,6 +273,6 @@ impl Rolling {
     /// Whether the pitch curves are circles.
     pub(super) fn is_round(&self) -> bool {
         let (minimum, maximum) = self.radii(Member::Driver);
-        maximum - minimum <= ROUND * maximum
+        maximum - minimum <= WRITTEN * maximum
     }
 }

@@ -20,11 +20,11 @@ pub use curve::{
     SegmentJet, SegmentRange, crossings, self_crossings,
 };
 pub use numeric::{
-    Antiderivative, BadTolerance, CHEBYSHEV_TERMS, Cancel, Cancelled, Extreme, Recent,
-    SampledPiece, Scope, Tolerance, bracketed_minimum, bracketed_minimum_below, bracketed_newton,
-    bracketed_root, chebyshev_roots, chebyshev_series, checkpoint, extremes, gauss_legendre,
-    maxima, maximum, maximum_of_each, maximum_of_samples, minimum, parallel_map, piece_ends,
-    rounding, run_both, stay_on_one_thread,
+    Antiderivative, BadTolerance, CHEBYSHEV_TERMS, COMPUTED, Cancel, Cancelled, Extreme, Recent,
+    SampledPiece, Scope, Tolerance, WRITTEN, bracketed_minimum, bracketed_minimum_below,
+    bracketed_newton, bracketed_root, chebyshev_roots, chebyshev_series, checkpoint, extremes,
+    gauss_legendre, maxima, maximum, maximum_of_each, maximum_of_samples, minimum, parallel_map,
+    piece_ends, rounding, run_both, stay_on_one_thread,
 };
 pub use region::{
     AreaMoments, ConvexPieces, Crossing, LoopError, OpenOutline, Outline, ShortSide, convex_hull,

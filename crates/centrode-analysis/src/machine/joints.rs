@@ -1,6 +1,6 @@
 use std::f64::consts::TAU;
 
-use centrode_geometry::{Extreme, bracketed_root};
+use centrode_geometry::{Extreme, WRITTEN, bracketed_root};
 use centrode_kinematics::linkage::{Branch, FourBar};
 use centrode_kinematics::machine::JointKind;
 use centrode_kinematics::transmission::Transmission;
@@ -11,9 +11,6 @@ use crate::{Report, Table, Unit};
 
 /// Distance, as a share of a turn, within which a dead centre lies of the extreme that is found by places alone.
 const NEAR: f64 = 1e-5;
-/// Difference of places, as a share of a stroke, that is rounding.
-const ROUNDING: f64 = 1e-12;
-
 /// Swings and strokes of joints that come back, and the inputs of their dead centres.
 pub(super) fn joints(composed: &Machine, motion: &Motion, report: &mut Report) {
     let (mut swings, mut centres) = (Vec::new(), Vec::new());
@@ -98,7 +95,7 @@ pub(super) fn tables(composed: &Machine, report: &mut Report) {
 fn dead_centre(law: &dyn Transmission, found: &Extreme, stroke: f64, period: f64) -> f64 {
     let alike = |input: &f64| {
         let off = law.at(*input).position - found.value;
-        *input >= 0.0 && off.abs() <= ROUNDING * stroke
+        *input >= 0.0 && off.abs() <= WRITTEN * stroke
     };
     let turns = (found.input / TAU).floor() as u32;
     let mut earlier = (1..=turns)
@@ -113,7 +110,7 @@ fn dead_centre(law: &dyn Transmission, found: &Extreme, stroke: f64, period: f64
         return input;
     }
     let root = bracketed_root(speed, from, to, before, after);
-    match root.abs() <= ROUNDING {
+    match root.abs() <= WRITTEN {
         true => 0.0,
         false => root.rem_euclid(period),
     }

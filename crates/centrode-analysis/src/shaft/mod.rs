@@ -5,14 +5,14 @@ mod tables;
 
 use std::f64::consts::{FRAC_PI_6, TAU};
 
-use centrode_geometry::Extreme;
+use centrode_geometry::{COMPUTED, Extreme};
 use centrode_groove::{Pick, Schedule, SpiralShaft};
 use centrode_kinematics::machine::{Key, Keyway};
 
 use self::crossings::crossings;
 use self::figures::FIGURES;
 use crate::key_pressure::LoadedKey;
-use crate::rounding::{ROUNDING, exceeds};
+use crate::rounding::exceeds;
 use crate::{Finding, Report, Severity, Unit};
 
 pub use moving_box::check_moving_box;
@@ -305,7 +305,7 @@ fn key(shaft: &SpiralShaft, torque: Extreme, report: &mut Report) {
 
 /// Speed up to which the slider stays on one wall for a maximum deceleration (mm/rad^2), r/min. A deceleration of rounding is none.
 fn contact_limit(shaft: &SpiralShaft, deceleration: f64) -> f64 {
-    let is_even = deceleration <= ROUNDING * shaft.law().mean_speed();
+    let is_even = deceleration <= COMPUTED * shaft.law().mean_speed();
     let deceleration = if is_even { 0.0 } else { deceleration };
     shaft.load().contact_limit_rpm(deceleration)
 }

@@ -1,12 +1,9 @@
 use crate::fit;
 use centrode_formats::sheet::number;
 use centrode_gear::design::BodySpec;
-use centrode_geometry::{Outline, Point, Segment};
+use centrode_geometry::{COMPUTED, Outline, Point, Segment};
 use centrode_kinematics::machine::{Fastening, Screw};
 use std::f64::consts::TAU;
-
-/// Share of a radius by which arcs of one circle may differ: rounding.
-const ROUNDING: f64 = 1e-9;
 
 /// A contour cut out of a plate.
 #[derive(Clone, Debug)]
@@ -207,7 +204,7 @@ pub(super) fn circle(contour: &Outline) -> Option<(Point, f64)> {
         };
         let (center, radius) = (arc.center(), arc.radius());
         let same = found.is_none_or(|(c, r)| {
-            (center - c).norm() < ROUNDING * radius && (r - radius).abs() < ROUNDING * radius
+            (center - c).norm() < COMPUTED * radius && (r - radius).abs() < COMPUTED * radius
         });
         if !same {
             return None;

@@ -4,7 +4,7 @@ use centrode_formats::sheet::{
     Draft, Pen, Scale, Sheet, SheetBlock, SheetError, Table, TitleBlock, compose, lettering,
     number, steady, view_letters,
 };
-use centrode_geometry::{Arc, Bounds, Outline, Point, Segment, Tolerance, Vector};
+use centrode_geometry::{Arc, Bounds, COMPUTED, Outline, Point, Segment, Tolerance, Vector};
 use centrode_spec::{DrawingSpec, Projection, SheetSize};
 
 use super::hole::circle;
@@ -16,8 +16,6 @@ use crate::{number::fixed, treatment::treatment_note};
 const CALLED_OUT: usize = 6;
 /// Most sides of a contour that a sheet is read for; more are in the cutting file alone.
 const SIDES: usize = 40;
-/// Bulge of a half circle beyond one by which an arc is no longer: rounding.
-const ROUNDING: f64 = 1e-9;
 /// Radius of a timing mark on a sheet, mm.
 const MARK: f64 = 0.6;
 /// How much farther from a hole than next to it its label may stand, mm.
@@ -338,7 +336,7 @@ fn rounding(arc: &Arc, counter_clockwise: bool) -> String {
     let bulges = (arc.bulge > 0.0) == counter_clockwise;
     let [concave, long] = [
         (!bulges, ", concave"),
-        (arc.bulge.abs() > 1.0 + ROUNDING, ", over 180°"),
+        (arc.bulge.abs() > 1.0 + COMPUTED, ", over 180°"),
     ]
     .map(|(is, words)| if is { words } else { "" });
     format!("{}{concave}{long}", number(arc.radius(), PLACES))

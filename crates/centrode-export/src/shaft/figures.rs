@@ -1,7 +1,7 @@
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
 
-use centrode_geometry::{Outline, Point, Tolerance, Vector};
+use centrode_geometry::{Outline, Point, Tolerance, Vector, WRITTEN};
 use centrode_groove::{ShaftSolid, SpiralShaft};
 use centrode_kinematics::machine::{Constant, Line, LineRole, LinkedMachine, Quantity, Seat};
 use centrode_kinematics::transmission::{FromFn, MotionJet, Transmission};
@@ -14,9 +14,6 @@ use crate::{ExportError, gear_pair};
 /// a turn has some 700 strips.
 const DRAWN: f64 = 5e-3;
 const FINEST: f64 = 1e-5;
-/// Share of a turn within which the slider has left one edge of the development for the other.
-const ROUNDING: f64 = 1e-12;
-
 /// A point of the development as drawn: the shaft lies along x.
 fn drawn(point: Point) -> Point {
     Point::new(point.y, -point.x)
@@ -51,7 +48,7 @@ pub(super) fn develop(
     let own = turn.clone();
     let round = move |input: f64| {
         let mut jet = own.at(input);
-        jet.position -= TAU * (jet.position / TAU + ROUNDING).floor();
+        jet.position -= TAU * (jet.position / TAU + WRITTEN).floor();
         MotionJet::default().plus(-radius, &jet)
     };
     let round = FromFn::new(

@@ -2,7 +2,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use centrode_gear::{GearPair, Member};
-use centrode_geometry::{Outline, Point};
+use centrode_geometry::{Outline, Point, WRITTEN};
 use centrode_kinematics::machine::{Constant, Line, LineRole, LinkedMachine, Mark, Quantity, Seat};
 use centrode_kinematics::transmission::{FromFn, MotionJet};
 use centrode_machines::three_arm::{ThreeArm, ThreeArmLink};
@@ -15,9 +15,6 @@ use crate::gear_pair;
 const SEEDLINGS: u32 = 4;
 /// Corners of each curve drawn in place of teeth.
 const CORNERS: u32 = 240;
-/// Share of the way between two plantings within which an input counts as the later one's.
-const ROUNDING: f64 = 1e-12;
-
 /// Draws gears, carrier, arms, the path of the tip, tray and seedlings; the gears by their pitch curves without a pair, carrier and
 /// arms as bars without parts.
 pub(super) fn draw(
@@ -99,7 +96,7 @@ fn planted(mechanism: &ThreeArm, machine: &mut LinkedMachine) {
     for before in 0..SEEDLINGS {
         let place = move |input: f64| {
             let steps = (input - release) / apart;
-            let since = steps - (steps + ROUNDING).floor() + f64::from(before);
+            let since = steps - (steps + WRITTEN).floor() + f64::from(before);
             MotionJet {
                 position: foot.x + velocity * since * apart,
                 velocity,

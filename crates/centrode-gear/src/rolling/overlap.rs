@@ -2,15 +2,12 @@
 
 use std::f64::consts::{PI, TAU};
 
-use centrode_geometry::{Extreme, Point, bracketed_minimum, checkpoint};
+use centrode_geometry::{COMPUTED, Extreme, Point, bracketed_minimum, checkpoint};
 
 use super::Rolling;
 
 /// Places on a turn of the driver among which an overlap is sought.
 const PLACES: usize = 360;
-
-/// Share of the centre distance by which no overlap is told from a touch.
-const ROUNDING: f64 = 1e-9;
 
 /// A place of the driver's pitch curve, with what the driven gear's has there.
 struct Place {
@@ -63,7 +60,7 @@ impl Rolling {
                 best = Some(one);
             }
         }
-        best.filter(|best| best.value > ROUNDING * self.center_distance)
+        best.filter(|best| best.value > COMPUTED * self.center_distance)
     }
 
     /// Place at an arc length.

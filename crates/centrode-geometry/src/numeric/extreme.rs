@@ -15,6 +15,13 @@ const SAMPLES: usize = 48;
 /// Minimum number of samples per piece of a range with pieces of different length.
 const MIN_SAMPLES: usize = 12;
 
+/// Difference, as a share of the figures' size, within which two that are computed in many steps count as equal. Ten times larger
+/// takes 0.1 µm in 10 mm for rounding; ten times smaller takes the rounding of long computations for a difference.
+pub const COMPUTED: f64 = 1e-9;
+/// Difference, as a share of the figures' size, within which two that follow from written ones in a few steps count as equal. Ten
+/// times larger takes digits that were written for rounding; a thousand times smaller refuses sums of written figures.
+pub const WRITTEN: f64 = 1e-12;
+
 /// Difference, below which two values of a size are equal but for rounding.
 #[must_use]
 pub fn rounding(size: f64) -> f64 {

@@ -19,8 +19,8 @@ pub use cancel::{
 };
 pub use chebyshev::{CHEBYSHEV_TERMS, chebyshev_roots, chebyshev_series};
 pub use extreme::{
-    Extreme, SampledPiece, extremes, maxima, maximum, maximum_of_each, maximum_of_samples, minimum,
-    piece_ends, rounding,
+    COMPUTED, Extreme, SampledPiece, WRITTEN, extremes, maxima, maximum, maximum_of_each,
+    maximum_of_samples, minimum, piece_ends, rounding,
 };
 pub(crate) use quadrature::GAUSS_NODES;
 pub use quadrature::gauss_legendre;

@@ -1,6 +1,7 @@
 //! How fast a formula changes, so that nothing narrow is stepped over.
 
 use super::{Formula, Taylor};
+use centrode_geometry::WRITTEN;
 
 /// Places of a turn at which any formula is looked at.
 const FEWEST: usize = 512;
@@ -19,9 +20,6 @@ const PARTS: usize = 60;
 
 /// Most parts of a turn.
 const MAX_PARTS: usize = 1200;
-
-/// Share of a value that is rounding, and its slope with it.
-const ROUNDING: f64 = 1e-12;
 
 /// A formula with features too narrow to be followed.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,7 +60,7 @@ impl Course {
     fn rate(&self) -> f64 {
         let range = self.high - self.low;
         let rate = self.steepest / range;
-        let changes = range > ROUNDING * self.high.abs().max(self.low.abs());
+        let changes = range > WRITTEN * self.high.abs().max(self.low.abs());
         if changes && rate.is_finite() {
             rate
         } else {

@@ -1,6 +1,6 @@
 use std::f64::consts::{PI, TAU};
 
-use centrode_geometry::{Jet, Point};
+use centrode_geometry::{Jet, Point, WRITTEN};
 
 use super::dyad::{Branch, Closed, Length, rrr};
 use super::point_series::PointSeries;
@@ -79,9 +79,6 @@ pub enum FourBarError {
     },
 }
 
-/// Difference of lengths that is rounding, as a share of the longest one.
-const ROUNDING: f64 = 1e-12;
-
 /// The positions at which crank and coupler lie in one line: the rocker's ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct DeadCenters {
@@ -155,7 +152,7 @@ impl FourBar {
         let shortest = lengths.into_iter().fold(f64::INFINITY, f64::min);
         let room = self.grashof_margin();
         let longest = lengths.into_iter().fold(0.0, f64::max);
-        if room.abs() <= ROUNDING * longest {
+        if room.abs() <= WRITTEN * longest {
             Grashof::ChangePoint
         } else if room < 0.0 {
             Grashof::TripleRocker
@@ -205,7 +202,7 @@ impl FourBar {
             (0.0, (d - a).abs() - (b - c).abs()),
             (PI, (d + a) - (b + c)),
         ];
-        let rounding = ROUNDING * (a + d).max(b + c);
+        let rounding = WRITTEN * (a + d).max(b + c);
         let found = ends.into_iter().filter(|(_, room)| room.abs() <= rounding);
         found.map(|(input, _)| input).collect()
     }
@@ -220,7 +217,7 @@ impl FourBar {
         };
         // An angle at the frame line is known to the square root of rounding.
         let mut flat = self.change_points().into_iter();
-        match flat.find(|point| (point - limit).abs() <= ROUNDING.sqrt()) {
+        match flat.find(|point| (point - limit).abs() <= WRITTEN.sqrt()) {
             Some(input) => FourBarError::ChangePoint { input },
             None => FourBarError::DoesNotClose { input, limit },
         }

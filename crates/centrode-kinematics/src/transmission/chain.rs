@@ -1,12 +1,10 @@
+use centrode_geometry::COMPUTED;
 use std::sync::{Arc, OnceLock};
 
 use super::{MotionJet, Transmission, TransmissionError, crossings, repeated, sorted};
 
 /// Most cycles of the driving motion in one of the chain.
 const MOST: u32 = 1000;
-/// Greatest miss of whole cycles that is rounding, as a share of one.
-const ROUNDING: f64 = 1e-9;
-
 /// One transmission driven by another: `outer` of `inner`, which may stop and run back.
 #[derive(Clone, Debug)]
 pub struct Chain {
@@ -32,7 +30,7 @@ impl Chain {
         let once = advance / period;
         let whole = |cycles: &f64| {
             let turned = cycles * once;
-            (turned - turned.round()).abs() <= ROUNDING * turned.abs().max(1.0)
+            (turned - turned.round()).abs() <= COMPUTED * turned.abs().max(1.0)
         };
         let cycles = (1..=MOST).map(f64::from).find(whole);
         let most = MOST;

@@ -2,16 +2,13 @@
 
 use std::cell::OnceCell;
 
-use centrode_geometry::{Point, SegmentJet, Vector};
+use centrode_geometry::{COMPUTED, Point, SegmentJet, Vector};
 
 use super::{
     curve_bounds::{self, CurveBounds, TangentAngle},
     outline::{GearOutline, OutlinePart},
     pose::Pose,
 };
-
-/// Rounding of a position along a stretch, as a share of its length.
-const ROUNDING: f64 = 1e-9;
 
 /// Minimum lever at which a stretch counts as monotone, as a share of the minimum lever of a contact. Meetings are ill-conditioned
 /// close to an extreme of the distance, where the lever is zero.
@@ -123,7 +120,7 @@ impl Stretch {
         let size = chord.norm();
         let along = (point - self.point[0]).dot(&chord) / size;
         // If tangents are oblique to the chord, points beyond its ends may be faced too.
-        let off = self.bounds.tangent_angle.sin * within + ROUNDING * size;
+        let off = self.bounds.tangent_angle.sin * within + COMPUTED * size;
         !self.bounds.slopes.1.is_finite()
             || (-off <= along && along <= size + off)
             || along.is_nan()

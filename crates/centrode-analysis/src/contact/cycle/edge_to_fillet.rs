@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use centrode_gear::{Member, Role};
-use centrode_geometry::{Extreme, Point, SegmentJet, Vector, bracketed_minimum_below};
+use centrode_geometry::{Extreme, Point, SegmentJet, Vector, WRITTEN, bracketed_minimum_below};
 
 use super::{cycle_samples::at_angle, pose_sampling::PoseSampling};
 use crate::contact::contour::{Corner, GearOutline, Pose};
@@ -17,9 +17,6 @@ const MIN_SEARCH_DISTANCE: f64 = 0.02;
 
 /// Maximum motion of an edge in a step, as a multiple of its motion in the steps before and after.
 const STEP_FACTOR: f64 = 1.5;
-
-/// Rounding of a clearance, as a share of the search distance.
-const ROUNDING: f64 = 1e-12;
 
 /// Possible drop of a clearance below its minimum at three steps, as a share of the second difference: that of a kink. A parabola
 /// drops by at most a quarter of it.
@@ -160,7 +157,7 @@ impl Meshing<'_> {
         // The lowest bound first: most of the others then cannot be below it.
         candidates.sort_by(|(_, p), (_, q)| p.bound.total_cmp(&q.bound));
         let mut best: Option<Extreme> = None;
-        let rounding = within * ROUNDING;
+        let rounding = within * WRITTEN;
         for (approach, NearestCandidate { bound, bracket }) in candidates {
             let reached = best.map_or(known + rounding, |b| b.value);
             if bound >= reached {
@@ -389,7 +386,7 @@ impl EdgeApproach<'_> {
                     let pose = self.pose(phi);
                     self.smooth_gap(fillet, self.fillet_gap(fillet, &pose), &pose)
                 };
-                let rounding = self.within * ROUNDING;
+                let rounding = self.within * WRITTEN;
                 let (input, value) = bracketed_minimum_below(gap, gaps, known, rounding);
                 // If the minimum is on an extension, the edge is nearest at an end of the fillet.
                 let faces = self.fillet_gap(fillet, &self.pose(input)).is_some();

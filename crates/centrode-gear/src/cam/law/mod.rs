@@ -5,7 +5,7 @@
 use std::fmt;
 use std::sync::Arc;
 
-use centrode_geometry::{Extreme, maximum};
+use centrode_geometry::{COMPUTED, Extreme, maximum};
 use schemars::JsonSchema;
 use serde::de::Error as _;
 use serde::{Deserialize, Deserializer, Serialize};
@@ -194,9 +194,6 @@ pub struct Law {
     outside: [[f64; 2]; 2],
 }
 
-/// Jump of a derivative that is rounding, as a share of its peak.
-const ROUNDING: f64 = 1e-9;
-
 /// Characteristic values of a law between two rests, as in VDI 2143: peaks of its derivatives.
 ///
 /// A follower with the lift h over the cam angle B has the peak velocity `Cv h / B`, the peak
@@ -262,7 +259,7 @@ impl Law {
                 .iter()
                 .map(|(before, after)| (after[k] - before[k]).abs());
             let jump = jumps.fold(0.0, f64::max);
-            if jump > ROUNDING * peak { jump } else { 0.0 }
+            if jump > COMPUTED * peak { jump } else { 0.0 }
         };
         let velocity = peak(&|s| s.velocity);
         let acceleration_inside = peak(&|s| s.acceleration);

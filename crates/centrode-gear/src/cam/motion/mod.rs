@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use centrode_geometry::{Extreme, maximum};
+use centrode_geometry::{COMPUTED, Extreme, maximum};
 use thiserror::Error;
 
 use super::design::{MotionSpec, SegmentSpec};
@@ -10,9 +10,6 @@ use super::law::{Coefficients, Law};
 use centrode_kinematics::formula::Taylor;
 use centrode_kinematics::transmission::{MotionJet, Transmission};
 use centrode_spec::SpecError;
-
-/// Error allowed to sums of written figures, as a share of a whole turn, or of the greatest stroke or velocity.
-const ROUNDING: f64 = 1e-9;
 
 /// Motion of a follower in one turn of the cam: exact, and without a jump of position or velocity.
 #[derive(Clone, Debug)]
@@ -135,7 +132,7 @@ impl Motion {
     pub fn resolve(spec: &MotionSpec) -> Result<Self, MotionError> {
         spec.validate()?;
         let total: f64 = spec.segments.iter().map(SegmentSpec::span).sum();
-        if (total - TAU).abs() > ROUNDING * TAU {
+        if (total - TAU).abs() > COMPUTED * TAU {
             return Err(MotionError::Spans {
                 degrees: total.to_degrees(),
             });
@@ -143,7 +140,7 @@ impl Motion {
         let changes: Vec<f64> = spec.segments.iter().map(SegmentSpec::change).collect();
         let rise: f64 = changes.iter().filter(|c| **c > 0.0).sum();
         let fall: f64 = -changes.iter().filter(|c| **c < 0.0).sum::<f64>();
-        if (rise - fall).abs() > ROUNDING * rise.max(fall) {
+        if (rise - fall).abs() > COMPUTED * rise.max(fall) {
             let swings = spec.swings() == Some(true);
             return Err(MotionError::Open { rise, fall, swings });
         }
@@ -175,7 +172,7 @@ impl Motion {
     fn velocity_is_continuous(&self) -> Result<(), MotionError> {
         let scale = self.peaks().velocity.value;
         for (input, before, after) in self.meetings() {
-            if (after.velocity - before.velocity).abs() > ROUNDING * scale {
+            if (after.velocity - before.velocity).abs() > COMPUTED * scale {
                 return Err(MotionError::VelocityJump {
                     degrees: input.to_degrees(),
                     before: before.velocity,

@@ -8,6 +8,7 @@ mod mesh;
 mod ring;
 mod round_end;
 
+use crate::COMPUTED;
 use std::f64::consts::PI;
 
 use nalgebra::{Matrix3, Vector3};
@@ -20,9 +21,6 @@ use crate::{
 };
 pub use boundary::TurnedEnd;
 use round_end::Part;
-
-/// Fraction of a length by which a cone may deviate from 45°: rounding. Ten times smaller refuses computed cones.
-const ROUNDING: f64 = 1e-9;
 
 /// Body turned about the z axis: a stack of cylinders and cones of 45°, some of them with a slot at the side of +x.
 #[derive(Clone, Debug, PartialEq)]
@@ -107,7 +105,7 @@ impl Turned {
         let [low, high] = section.radii;
         let sized = section.length > 0.0 && section.minimum_radius() > 0.0;
         let finite = section.length.is_finite() && low.is_finite() && high.is_finite();
-        let cone = ((high - low).abs() - section.length).abs() <= ROUNDING * section.length;
+        let cone = ((high - low).abs() - section.length).abs() <= COMPUTED * section.length;
         if !sized || !finite || (low != high && !cone) {
             return false;
         }

@@ -1,10 +1,11 @@
 //! Half round ends of a slot in a cylinder, as milled with an end mill.
 
+use crate::COMPUTED;
 use std::f64::consts::FRAC_PI_2;
 
 use super::boundary::RingedPart;
 use super::ring::{Ring, oriented};
-use super::{ROUNDING, Turned, TurnedSection, TurnedSlot};
+use super::{Turned, TurnedSection, TurnedSlot};
 use crate::curve::BezierFit;
 use crate::{
     numeric::gauss_legendre,
@@ -56,7 +57,7 @@ impl Turned {
         };
         let is_round = |index: usize, up: bool| {
             let both = f64::from(u8::from(ends_in(index, !up))) + 1.0;
-            ends_in(index, up) && all[index].length >= both * half * (1.0 - ROUNDING)
+            ends_in(index, up) && all[index].length >= both * half * (1.0 - COMPUTED)
         };
         let mut parts = Vec::new();
         for (index, section) in all.iter().enumerate() {
@@ -67,7 +68,7 @@ impl Turned {
             if section.slotted {
                 let ends = [false, true].map(|up| f64::from(u8::from(is_round(index, up))));
                 let length = section.length - half * (ends[0] + ends[1]);
-                if length > ROUNDING * half {
+                if length > COMPUTED * half {
                     parts.push(part(length, None));
                 }
                 continue;

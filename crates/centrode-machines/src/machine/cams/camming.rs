@@ -3,11 +3,11 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use centrode_geometry::{Outline, Point, Solid, SolidError, Tolerance};
+use centrode_geometry::{COMPUTED, Outline, Point, Solid, SolidError, Tolerance};
 use nalgebra::Isometry2;
 
 use crate::machine::body::points::{ROLLER, Reference};
-use crate::machine::cams::seating::{ROUNDING, Seat, Turned, wrong};
+use crate::machine::cams::seating::{Seat, Turned, wrong};
 use crate::machine::resolve::Builder;
 use crate::machine::{Machine, MachineBodySpec, MachineCamSpec, MachineError};
 use centrode_gear::cam::design::{Follower, Turn};
@@ -207,7 +207,7 @@ impl Builder<'_> {
         if let Some(made) = self.cams.get(cam) {
             let disc = made.disc();
             let (own, other) = (follower.axis_distance(), disc.follower().axis_distance());
-            let off = (own - other).abs() > ROUNDING * own.abs().max(other.abs());
+            let off = (own - other).abs() > COMPUTED * own.abs().max(other.abs());
             if off || disc.rotation() != rotation {
                 let why = match off {
                     true => format!("is held {own} mm from the axis of cam {cam}"),

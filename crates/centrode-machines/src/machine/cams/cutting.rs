@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use centrode_geometry::{Extreme, Point, extremes, maximum, piece_ends};
+use centrode_geometry::{COMPUTED, Extreme, Point, extremes, maximum, piece_ends};
 use nalgebra::Rotation2;
 
 use crate::machine::body::points::{FACE, LocalPoint, ROLLER};
@@ -18,9 +18,6 @@ use centrode_kinematics::transmission::{
 
 /// Parts of a turn of the input, or of the cam, in each of which a motion has few extremes.
 const PARTS: u32 = 24;
-/// Greatest difference of a motion after a turn of its cam, or of its rates beside a break, that is rounding: as a share of
-/// the stroke, or of the greatest rate.
-const ROUNDING: f64 = 1e-9;
 const JUMP: f64 = 1e-4;
 /// Distance from a break at which rates are compared, as a share of the period.
 const BESIDE: f64 = 1e-8;
@@ -145,7 +142,7 @@ impl Builder<'_> {
         let ends = piece_ends(0.0, period, parts, &breaks);
         let [low, high] = extremes(|input| sense * law.at(input).position, &ends);
         let stroke = high.value - low.value;
-        if stroke <= ROUNDING {
+        if stroke <= COMPUTED {
             let why = format!("body {body} stands still: there is no cam to cut");
             return wrong(key, why);
         }
@@ -232,7 +229,7 @@ impl Moved<'_> {
             let later = f64::from(turn) * TAU;
             let off = |angle: f64| (lift(angle + later).position - lift(angle).position).abs();
             let off = maximum(off, &ends);
-            if off.value > ROUNDING * self.stroke {
+            if off.value > COMPUTED * self.stroke {
                 let at = |angle: f64| inverse.at(angle).position.rem_euclid(self.period);
                 let [first, then] = [off.input, off.input + later].map(at);
                 let why = format!(

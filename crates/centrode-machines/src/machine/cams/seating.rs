@@ -2,7 +2,7 @@
 
 use std::f64::consts::{PI, TAU};
 
-use centrode_geometry::{Point, Vector, extremes, piece_ends};
+use centrode_geometry::{COMPUTED, Point, Vector, extremes, piece_ends};
 
 use crate::machine::gears::mesh::Angle;
 use crate::machine::resolve::Builder;
@@ -11,8 +11,6 @@ use centrode_gear::cam::DiscCam;
 use centrode_gear::cam::design::{Follower, Turn};
 use centrode_kinematics::transmission::{MotionJet, Transmission, crossings, sorted};
 
-/// Greatest difference of lengths, as a share of the longer one, or of turns that is rounding.
-pub(in crate::machine) const ROUNDING: f64 = 1e-9;
 /// Parts of a turn of the input in each of which the turn of a cam has few extremes.
 const PARTS: u32 = 24;
 /// Movement of an axis, as a share of the base radius, below which it stands still.
@@ -129,7 +127,7 @@ impl Builder<'_> {
         };
         let (what, written) = spec.follower.written();
         if let Some(written) = written
-            && (written - distance).abs() > ROUNDING * distance.abs().max(written.abs())
+            && (written - distance).abs() > COMPUTED * distance.abs().max(written.abs())
         {
             let why = format!("is {written} mm, but body {name} is held at {distance} mm");
             return wrong(&format!("{cam_key}.follower.{what}"), why);
@@ -162,7 +160,7 @@ impl Builder<'_> {
         };
         let period = self.linkage.period();
         let turns = (turn.at(period).position - turn.at(0.0).position) / TAU;
-        if (turns - turns.round()).abs() > ROUNDING {
+        if (turns - turns.round()).abs() > COMPUTED {
             let why = format!(
                 "cam {cam} makes {turns:.9} turns against body {carrier} in the period of {} turns of the input, which must be a whole number: set input.turns",
                 self.design.input.turns
@@ -174,10 +172,10 @@ impl Builder<'_> {
         let rate = |input: f64| turn.at(input).velocity;
         let stands = || {
             let [slow, fast] = extremes(rate, &parts);
-            slow.value.abs().max(fast.value) <= ROUNDING
+            slow.value.abs().max(fast.value) <= COMPUTED
         };
         // Most often it turns wherever one looks.
-        if parts.iter().all(|input| rate(*input).abs() <= ROUNDING) && stands() {
+        if parts.iter().all(|input| rate(*input).abs() <= COMPUTED) && stands() {
             let why = format!(
                 "cam {cam} does not turn against body {carrier}, on which {name} follows it"
             );

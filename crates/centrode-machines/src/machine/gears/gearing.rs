@@ -1,7 +1,7 @@
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-use centrode_geometry::{Outline, Point, Solid, SolidError, Vector};
+use centrode_geometry::{COMPUTED, Outline, Point, Solid, SolidError, Vector};
 use nalgebra::Isometry2;
 
 use crate::machine::body::points::{LocalPoint, Reference};
@@ -18,8 +18,6 @@ use centrode_kinematics::machine::{Line, LineRole, Surface};
 
 /// Samples of a turn of the input at which a loop of meshes is checked.
 const SAMPLES: u32 = 720;
-/// Greatest mismatch of a loop of meshes that is rounding, rad, or as a share of the centre distance.
-const ROUNDING: f64 = 1e-9;
 /// Distance of two axes, as a share of the centre distance, below which they are one.
 const SAME: f64 = 1e-12;
 
@@ -279,7 +277,7 @@ impl Builder<'_> {
             carrier: on_carrier.plus(gear.mount),
         };
         let (law, turns) = moved.law(self.linkage.period());
-        if (turns - turns.round()).abs() > ROUNDING {
+        if (turns - turns.round()).abs() > COMPUTED {
             return Err(wrong(format!(
                 "turns body {name} by {} turns on {on} in the period of {} turns of the input, which must be a whole number: set input.turns",
                 (turns * 1e9).round() / 1e9,
@@ -318,7 +316,7 @@ impl Builder<'_> {
                 Member::Driven => [both[1], both[0]],
             };
             let (mismatch, input) = self.mismatch(&key, [driver, driven])?;
-            if mismatch > ROUNDING {
+            if mismatch > COMPUTED {
                 let [one, other] = [driver, driven].map(|gear| self.gears[gear].name.clone());
                 return Err(MachineError::NoMesh {
                     key,
@@ -363,7 +361,7 @@ impl Builder<'_> {
             };
             let way = to - from;
             let (apart, distance) = (way.norm(), pair.center_distance());
-            if (apart - distance).abs() > ROUNDING * distance {
+            if (apart - distance).abs() > COMPUTED * distance {
                 return Err(MachineError::NoMesh {
                     key: key.into(),
                     why: format!(

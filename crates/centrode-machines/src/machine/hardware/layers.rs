@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use centrode_geometry::checkpoint;
+use centrode_geometry::{COMPUTED, checkpoint};
 
 use crate::machine::hardware::pins::Axis;
 use crate::machine::hardware::plates::ONE;
@@ -12,9 +12,6 @@ use crate::machine::{BodyPoint, Machine};
 const MAX_PLATES: usize = 12;
 /// Most orders that are returned.
 const MAX_ORDERS: usize = 8;
-/// Rounding of a thickness against whole layers, as a share of one.
-const ROUNDING: f64 = 1e-9;
-
 /// Orders of the plates of a machine that have no layer of their own.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LayerOrders {
@@ -161,7 +158,7 @@ impl Machine {
             }
             let name = self.original(&self.bodies[lying].name);
             let thick = (self.thickness(body) + self.plates().gap) / pitch;
-            let count = (thick - ROUNDING).ceil() as i32;
+            let count = (thick - COMPUTED).ceil() as i32;
             match units.iter_mut().find(|unit| unit.name == name) {
                 Some(unit) => {
                     unit.bodies.push(body);

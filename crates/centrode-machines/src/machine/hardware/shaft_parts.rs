@@ -1,7 +1,7 @@
 //! Shafts of a composed machine as turned parts, and what the parts list says of them.
 
-use crate::machine::hardware::shafts::ROUNDING;
 use crate::machine::{BodyPoint, Hardware, Hold, Machine, MachineShaft, ShaftPart};
+use centrode_geometry::COMPUTED;
 use centrode_kinematics::machine::{
     Bar, Fit, JointKind, Keyway, LinkedMachine, Part, SeatedKey, Supply, TurnedPiece, TurnedPieces,
 };
@@ -51,7 +51,7 @@ impl Machine {
             true => f64::INFINITY,
             false => self.room_at(own, hub.bore, wall, is_above, &|_, _| true),
         };
-        let (is_lowest, is_highest) = (low <= deepest + ROUNDING, high >= highest - ROUNDING);
+        let (is_lowest, is_highest) = (low <= deepest + COMPUTED, high >= highest - COMPUTED);
         let end = match shaft.is_driven && is_lowest {
             true => FREE_END * hub.bore,
             false => 0.0,
@@ -248,7 +248,7 @@ impl Machine {
 /// turns are none.
 fn joined(mut seats: Vec<[f64; 2]>, turning: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let is_free = |from: f64, to: f64| {
-        let within = |part: &[f64; 2]| part[0] < to - ROUNDING && part[1] > from + ROUNDING;
+        let within = |part: &[f64; 2]| part[0] < to - COMPUTED && part[1] > from + COMPUTED;
         !turning.iter().any(within)
     };
     let (low, high) = (f64::NEG_INFINITY, f64::INFINITY);

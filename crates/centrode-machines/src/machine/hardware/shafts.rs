@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use centrode_geometry::Point;
+use centrode_geometry::{COMPUTED, Point};
 use nalgebra::Isometry2;
 
 use crate::machine::gears::gearing::Meshing;
@@ -15,9 +15,6 @@ use centrode_kinematics::machine::{JointKind, Key, Keyway};
 const WALL: f64 = 0.14;
 /// Steps of the diameter of a plate about a shaft, mm.
 const STEP: f64 = 0.5;
-/// Difference of angles (rad), or of diameters (mm), that is rounding.
-pub(in crate::machine) const ROUNDING: f64 = 1e-9;
-
 /// Shaft through plates, gears and cams on one axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MachineShaft {
@@ -175,7 +172,7 @@ impl Machine {
         });
         // By the joint on the frame at its origin, or with another plate that is fixed to it.
         let is_own = |&&BodyPoint { body, at }: &&BodyPoint| {
-            let here = at.coords.norm() <= ROUNDING * self.design.plates.width;
+            let here = at.coords.norm() <= COMPUTED * self.design.plates.width;
             let root = self.rigid(body).0;
             let mates = axis
                 .holes
@@ -239,9 +236,9 @@ impl Machine {
                 - place.rotation.angle()
                 - hub.keyway_angle;
             let off = (turn - TAU * (turn / TAU).round()).abs();
-            let is_seat = (wheel.hub.bore - hub.bore).abs() < ROUNDING
+            let is_seat = (wheel.hub.bore - hub.bore).abs() < COMPUTED
                 && wheel.hub.keyway == hub.keyway
-                && (hub.keyway.is_none() || off < ROUNDING);
+                && (hub.keyway.is_none() || off < COMPUTED);
             let key = hub
                 .keyway
                 .and_then(|hub| Key::fitting(hub, wheel.hub.width));
@@ -283,7 +280,7 @@ impl Machine {
 
     /// The shaft through a body's plate at a place, and how the plate is joined with it.
     pub(super) fn shaft_at(&self, body: usize, at: Point) -> Option<(&MachineShaft, Hold)> {
-        let near = ROUNDING * self.design.plates.width;
+        let near = COMPUTED * self.design.plates.width;
         let is_here =
             |part: &&ShaftPart| part.is_plate && part.body == body && (part.at - at).norm() <= near;
         self.shafts().iter().find_map(|shaft| {

@@ -1,8 +1,7 @@
 //! Rings in the gaps between parts on pins and shafts.
 
-use centrode_geometry::{Outline, Point, Tolerance, Vector};
+use centrode_geometry::{COMPUTED, Outline, Point, Tolerance, Vector};
 
-use crate::machine::hardware::shafts::ROUNDING;
 use crate::machine::{BodyPoint, Machine};
 use centrode_kinematics::machine::Spacer;
 
@@ -87,7 +86,7 @@ impl Machine {
         for [low, high] in spans {
             let gap = [top, low];
             top = if top.is_finite() { top.max(high) } else { high };
-            if gap[1] - gap[0] <= ROUNDING {
+            if gap[1] - gap[0] <= COMPUTED {
                 continue;
             }
             let rings = Spacer::filling(diameter, gap[1] - gap[0]);
@@ -110,7 +109,7 @@ impl Machine {
         let frame = self.frame_plates().map(|frame| &frame.lower);
         let required = radius + self.design.plates.gap;
         let reaches_into =
-            |part: &&Passing| part.span[0] < gap[1] - ROUNDING && part.span[1] > gap[0] + ROUNDING;
+            |part: &&Passing| part.span[0] < gap[1] - COMPUTED && part.span[1] > gap[0] + COMPUTED;
         let parts = passage.parts.iter().chain(frame);
         parts.filter(reaches_into).all(|part| {
             let path = passage.frames.path(part.body, own);

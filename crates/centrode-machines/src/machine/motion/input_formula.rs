@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use crate::machine::MachineLawError;
-use crate::machine::motion::law::ROUNDING;
+use centrode_geometry::COMPUTED;
 use centrode_kinematics::formula::Formula;
 use centrode_kinematics::transmission::{FromFn, MotionJet, Transmission};
 
@@ -49,14 +49,14 @@ pub(in crate::machine) fn expression(
         ("its rate", first.velocity, last.velocity),
         ("its acceleration", first.acceleration, last.acceleration),
     ] {
-        if (start - end).abs() > ROUNDING * start.abs().max(1.0) {
+        if (start - end).abs() > COMPUTED * start.abs().max(1.0) {
             return Err(MachineLawError::Open { what, start, end });
         }
     }
     let advance = last.position - first.position;
     // Whole turns, none among them, up to rounding.
     let whole = TAU * (advance / TAU).round();
-    let advance = if (advance - whole).abs() <= ROUNDING * first.position.abs().max(1.0) {
+    let advance = if (advance - whole).abs() <= COMPUTED * first.position.abs().max(1.0) {
         whole
     } else {
         advance

@@ -1,7 +1,7 @@
 use std::f64::consts::TAU;
 use std::sync::Arc;
 
-use centrode_geometry::Recent;
+use centrode_geometry::{COMPUTED, Recent};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -16,8 +16,6 @@ use centrode_spec::digits::stated;
 use centrode_spec::rule::{Rule, broken, finite, in_range};
 use centrode_spec::{SpecError, degrees};
 
-/// Greatest difference of a law's ends over a period that is rounding, as a share of its size or of 1 rad or mm.
-pub(in crate::machine) const ROUNDING: f64 = 1e-9;
 /// Greatest speed of a body, rad or mm per rad of the input; only at a pole is one faster.
 const FASTEST: f64 = 1e4;
 /// Inputs a turn at which the speed is looked at: within half a step of a pole like that of tan(phi) it is above the limit.
@@ -350,8 +348,8 @@ impl MachineLawSpec {
         }
         let turned = advance / TAU;
         let repeats = period / law.period();
-        if (turned - turned.round()).abs() > ROUNDING
-            || (repeats - repeats.round()).abs() > ROUNDING
+        if (turned - turned.round()).abs() > COMPUTED
+            || (repeats - repeats.round()).abs() > COMPUTED
         {
             return Err(MachineLawError::NoWholeTurns {
                 turns: turned,
@@ -406,7 +404,7 @@ impl MachineLawSpec {
 /// Least number of turns of the input, up to a limit, after which a motion is back, whole turns of its own aside.
 fn minimum_turns(law: &dyn Transmission) -> Option<u32> {
     const MOST: u32 = 60;
-    let whole = |x: f64| (x - x.round()).abs() <= ROUNDING;
+    let whole = |x: f64| (x - x.round()).abs() <= COMPUTED;
     (1..=MOST).find(|&turns| {
         let repeats = TAU * f64::from(turns) / law.period();
         whole(repeats) && whole(repeats * law.advance() / TAU)

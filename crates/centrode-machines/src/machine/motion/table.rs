@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 use std::sync::Arc;
 
 use crate::machine::MachineLawError;
-use crate::machine::motion::law::ROUNDING;
 use centrode_gear::pitch::{Interpolation, Periodic};
+use centrode_geometry::COMPUTED;
 use centrode_kinematics::transmission::{FromFn, MotionJet, Transmission};
 use centrode_spec::digits::stated;
 
@@ -45,7 +45,7 @@ impl TableReading {
         let near = with((-back / TAU).round() as i32);
         let next = near.last_step.signum() as i32;
         let far = with(near.turns.saturating_sub(next));
-        let limit = LARGEST * largest_step + ROUNDING * largest_step.max(1.0);
+        let limit = LARGEST * largest_step + COMPUTED * largest_step.max(1.0);
         match near.last_step.abs() <= limit && far.last_step.abs() > limit {
             true => Ok(near),
             false => Err([near, far]),

@@ -1,6 +1,6 @@
 use std::f64::consts::TAU;
 
-use centrode_geometry::{bracketed_root, piece_ends};
+use centrode_geometry::{COMPUTED, bracketed_root, piece_ends};
 
 use super::{Required, Section, TimingError};
 use centrode_kinematics::transmission::Transmission;
@@ -8,9 +8,6 @@ use centrode_spec::degrees;
 
 /// Looks a turn for turning points of the output.
 const SAMPLES: u32 = 720;
-/// Angle that is rounding, rad.
-const ROUNDING: f64 = 1e-9;
-
 /// Share of the stroke by which a rest stays within its band.
 const SLACK: f64 = 1e-6;
 /// Least band of a rest, as a share of the stroke: the crank turns by the root of it, and a law in a table has digits left.
@@ -120,7 +117,7 @@ pub(super) fn placed<'a>(
                 });
                 // Within a turn of the first.
                 let [start, end] = [way[0].angles[0], angles[1]];
-                if end < start + TAU - ROUNDING {
+                if end < start + TAU - COMPUTED {
                     grown.push(way);
                 }
             }
@@ -158,7 +155,7 @@ fn in_order(sections: &[Section]) -> Result<Vec<(&Section, [f64; 2])>, TimingErr
         if i + 1 == all.len() {
             next += TAU;
         }
-        let has_room = to > from && next > to + ROUNDING;
+        let has_room = to > from && next > to + COMPUTED;
         if !has_room {
             let [from, to, next] = [from, to, next].map(degrees::rounded);
             let (name, other) = (section.name.clone(), other.name.clone());
