@@ -41,34 +41,47 @@ pub struct Goal {
 }
 
 impl Goal {
-    /// Makes a goal with its figure. `scale` is a positive size, in `unit`: a miss by it is half way.
+    /// Makes a goal without a range or figure, to be completed by what follows.
     #[must_use]
     pub fn new(
-        (number, name, title): (
-            u32,
-            impl Into<Cow<'static, str>>,
-            impl Into<Cow<'static, str>>,
-        ),
-        value: Option<f64>,
-        required: [Option<f64>; 2],
+        number: u32,
+        name: impl Into<Cow<'static, str>>,
+        title: impl Into<Cow<'static, str>>,
         unit: Unit,
-        scale: f64,
     ) -> Self {
-        let goal = Self {
+        Self {
             number,
             paper: None,
             name: name.into(),
             title: title.into(),
             value: None,
-            required,
+            required: [None; 2],
             unit,
-            scale,
+            scale: 1.0,
             margin: None,
             progress: None,
-        };
-        match value {
-            Some(value) => goal.with(value),
-            None => goal,
+        }
+    }
+
+    /// Goal with a minimum, of which `scale` is the size: positive, in the unit. A miss by it is half way.
+    #[must_use]
+    pub fn minimum(self, minimum: f64, scale: f64) -> Self {
+        self.range([Some(minimum), None], scale)
+    }
+
+    /// Goal with a maximum; `scale` as of [`minimum`](Self::minimum).
+    #[must_use]
+    pub fn maximum(self, maximum: f64, scale: f64) -> Self {
+        self.range([None, Some(maximum)], scale)
+    }
+
+    /// Goal with a range, open where an end is none; `scale` as of [`minimum`](Self::minimum).
+    #[must_use]
+    pub fn range(self, required: [Option<f64>; 2], scale: f64) -> Self {
+        Self {
+            required,
+            scale,
+            ..self
         }
     }
 
@@ -81,9 +94,17 @@ impl Goal {
         goals
     }
 
-    /// Goal with another figure.
+    /// Goal with a figure for its range; without one if it is not known.
     #[must_use]
-    pub fn with(self, value: f64) -> Self {
+    pub fn with(self, value: impl Into<Option<f64>>) -> Self {
+        let Some(value) = value.into() else {
+            return Self {
+                value: None,
+                margin: None,
+                progress: None,
+                ..self
+            };
+        };
         let above = self.required[0].map_or(f64::INFINITY, |minimum| value - minimum);
         let below = self.required[1].map_or(f64::INFINITY, |maximum| maximum - value);
         let margin = match above.min(below) {
@@ -112,14 +133,9 @@ mod tests {
     use super::*;
 
     fn goal(value: f64) -> Goal {
-        let about = (2, "pick-angle", "pick angle");
-        Goal::new(
-            about,
-            Some(value),
-            [Some(-5.0), Some(15.0)],
-            Unit::Count,
-            20.0,
-        )
+        Goal::new(2, "pick-angle", "pick angle", Unit::Count)
+            .range([Some(-5.0), Some(15.0)], 20.0)
+            .with(value)
     }
 
     #[test]
@@ -170,8 +186,8 @@ mod tests {
 
     #[test]
     fn what_was_not_looked_at_has_no_figure() {
-        let about = (1, "arm-clearance", "arms clear of each other");
-        let unknown = Goal::new(about, None, [Some(0.0), None], Unit::Millimetre, 1.0);
+        let known = Goal::new(1, "arm-clearance", "arms clear", Unit::Millimetre).with(1.0);
+        let unknown = known.minimum(0.0, 1.0).with(None);
         assert_eq!(
             (unknown.met(), unknown.margin, unknown.progress),
             (None, None, None)

@@ -300,13 +300,7 @@ mod tests {
         report.values.insert("limit", f64::INFINITY);
         report.values.insert("least", f64::NEG_INFINITY);
         report.values.insert("module", 2.25);
-        let goal = Goal::new(
-            (1, "a", "a"),
-            Some(f64::INFINITY),
-            [None; 2],
-            Unit::Count,
-            1.0,
-        );
+        let goal = Goal::new(1, "a", "a", Unit::Count).with(f64::INFINITY);
         report.goals.push(goal);
         report.tables.push(Table {
             name: "t",

@@ -18,27 +18,32 @@ pub fn feeder_goals(feeder: &Feeder) -> Vec<Goal> {
         pushing_time,
     } = feeder.design().goals;
     let (six_bar, bar) = (feeder.six_bar(), feeder.six_bar().four_bar());
-    let minimum = |about, value, required, unit, scale| {
-        Goal::new(about, Some(value), [Some(required), None], unit, scale)
+    let minimum = |number, name, title, value: f64, required, unit, scale| {
+        Goal::new(number, name, title, unit)
+            .minimum(required, scale)
+            .with(value)
     };
     let size = |required: f64| if required > 0.0 { required } else { 1.0 };
     let mut goals = vec![
-        Goal::new(
-            (1, "swing", "swing of the effector"),
-            Some(six_bar.swing()),
-            [Some(swing - swing_tolerance), Some(swing + swing_tolerance)],
-            Unit::Angle,
-            swing_tolerance,
-        ),
+        Goal::new(1, "swing", "swing of the effector", Unit::Angle)
+            .range(
+                [swing - swing_tolerance, swing + swing_tolerance].map(Some),
+                swing_tolerance,
+            )
+            .with(six_bar.swing()),
         minimum(
-            (2, "crank-rocker", "crank turns: Grashof's margin"),
+            2,
+            "crank-rocker",
+            "crank turns: Grashof's margin",
             bar.grashof_margin(),
             0.0,
             Unit::Millimetre,
             bar.lengths()[0],
         ),
         minimum(
-            (3, "transmission-angle", "least transmission angle"),
+            3,
+            "transmission-angle",
+            "least transmission angle",
             bar.minimum_transmission_angle(),
             transmission_angle,
             Unit::Angle,
@@ -55,33 +60,33 @@ pub fn feeder_goals(feeder: &Feeder) -> Vec<Goal> {
     for ((length, (_, [low, high])), (name, title)) in
         bar.lengths().into_iter().zip(bounds).zip(names)
     {
-        let required = [Some(low), Some(high)];
-        let goal = Goal::new(
-            (4, name, title),
-            Some(length),
-            required,
-            Unit::Millimetre,
-            high - low,
-        );
-        goals.push(goal);
+        let goal = Goal::new(4, name, title, Unit::Millimetre);
+        let goal = goal.range([Some(low), Some(high)], high - low);
+        goals.push(goal.with(length));
     }
     goals.extend([
         minimum(
-            (5, "quick-return", "crank turns for the feed stroke"),
+            5,
+            "quick-return",
+            "crank turns for the feed stroke",
             six_bar.extremes().longer_stroke(),
             TAU * quick_return / (1.0 + quick_return),
             Unit::Angle,
             PI,
         ),
         minimum(
-            (6, "feed-rate", "cuttings a minute"),
+            6,
+            "feed-rate",
+            "cuttings a minute",
             feeder.feed_rate(),
             feed_rate,
             Unit::PerMinute,
             size(feed_rate),
         ),
         minimum(
-            (7, "dwell", "effector rests while it is filled"),
+            7,
+            "dwell",
+            "effector rests while it is filled",
             feeder.dwell_time(),
             pushing_time,
             Unit::Second,

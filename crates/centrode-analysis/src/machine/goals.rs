@@ -40,8 +40,8 @@ pub(super) fn goals(made: &Made<'_>) -> Vec<Found> {
             .fold(0.0, |size: f64, w| size.max(w.abs()));
         let usual = if size > 0.0 { size } else { kept(1.0) };
         let scale = spec.scale.map_or(usual, kept);
-        let about = (number, String::clone(name), title);
-        let goal = Goal::new(about, value, required, unit, scale);
+        let goal = Goal::new(number, String::clone(name), title, unit);
+        let goal = goal.range(required, scale).with(value);
         Found { goal, input }
     })
 }

@@ -8,72 +8,76 @@ use crate::{Goal, Unit};
 /// Goals of a mechanism as far as its figures reach: those of arms, seedlings and flanks are left open.
 #[must_use]
 pub fn three_arm_goals(figures: &Figures, required: &GoalsSpec) -> Vec<Goal> {
-    let range = |[minimum, maximum]: [f64; 2]| [Some(minimum), Some(maximum)];
-    let minimum = |minimum: f64| [Some(minimum), None];
-    let angle = |about, value, required: [f64; 2]| {
-        Goal::new(
-            about,
-            Some(value),
-            range(required),
-            Unit::Angle,
-            required[1] - required[0],
-        )
+    let angle = |number, name, title, value: f64, required: [f64; 2]| {
+        Goal::new(number, name, title, Unit::Angle)
+            .range(required.map(Some), required[1] - required[0])
+            .with(value)
     };
     // A clearance of 20 mm is the paper's own; it is the scale where any clearance will do.
     let size = |required: f64| if required > 0.0 { required } else { 20.0 };
-    let length = |about, value, required: f64| {
-        Goal::new(
-            about,
-            value,
-            minimum(required),
-            Unit::Millimetre,
-            size(required),
-        )
+    let length = |number, name, title, value: Option<f64>, required: f64| {
+        Goal::new(number, name, title, Unit::Millimetre)
+            .minimum(required, size(required))
+            .with(value)
     };
     Goal::listed(vec![
         length(
-            (1, "arm-clearance", "arms clear of each other"),
+            1,
+            "arm-clearance",
+            "arms clear of each other",
             None,
             required.arm_clearance,
         ),
         angle(
-            (2, "pick-angle", "clamp above horizontal at picking"),
+            2,
+            "pick-angle",
+            "clamp above horizontal at picking",
             figures.pick_angle,
             required.pick_angle,
         ),
         angle(
-            (3, "push-angle", "clamp below horizontal at planting"),
+            3,
+            "push-angle",
+            "clamp below horizontal at planting",
             figures.push_angle,
             required.push_angle,
         ),
         angle(
-            (4, "angle-difference", "turn from picking to planting"),
+            4,
+            "angle-difference",
+            "turn from picking to planting",
             figures.angle_difference,
             required.angle_difference,
         ),
         length(
-            (5, "seedling-clearance", "clamp clear of planted seedlings"),
+            5,
+            "seedling-clearance",
+            "clamp clear of planted seedlings",
             None,
             required.seedling_clearance,
         ),
         length(
-            (6, "gearbox-clearance", "gearbox above the ground"),
+            6,
+            "gearbox-clearance",
+            "gearbox above the ground",
             Some(figures.gearbox_clearance),
             required.gearbox_clearance,
         ),
         length(
-            (7, "trajectory-height", "height of the trajectory"),
+            7,
+            "trajectory-height",
+            "height of the trajectory",
             Some(figures.trajectory_height),
             required.trajectory_height,
         ),
-        length((8, "module", "module"), figures.module, required.module),
+        length(8, "module", "module", figures.module, required.module),
         Goal::new(
-            (8, "sound-teeth", "flanks unsound at full height"),
-            None,
-            [None, Some(0.0)],
+            8,
+            "sound-teeth",
+            "flanks unsound at full height",
             Unit::Count,
-            10.0,
-        ),
+        )
+        .maximum(0.0, 10.0),
     ])
 }
 

@@ -71,8 +71,8 @@ pub(super) fn goals(
     ];
     let mut goals = Vec::new();
     let mut add = |name: String, title: String, value: f64, required, unit, scale| {
-        let about = (goals.len() as u32 + 1, name, title);
-        goals.push(Goal::new(about, Some(value), required, unit, scale));
+        let goal = Goal::new(goals.len() as u32 + 1, name, title, unit);
+        goals.push(goal.range(required, scale).with(value));
     };
     for (name, title, [minimum, maximum], required, unit, scale) in figures {
         let words = |end: &str| match minimum == maximum {
@@ -81,7 +81,7 @@ pub(super) fn goals(
         };
         if let Some(end) = required.minimum {
             add(
-                format!("{name}-least"),
+                format!("{name}-minimum"),
                 words("minimum"),
                 minimum,
                 [Some(end), None],
@@ -91,7 +91,7 @@ pub(super) fn goals(
         }
         if let Some(end) = required.maximum {
             add(
-                format!("{name}-greatest"),
+                format!("{name}-maximum"),
                 words("maximum"),
                 maximum,
                 [None, Some(end)],

@@ -67,52 +67,40 @@ pub(super) fn exact(mechanism: &ThreeArm) -> Option<Vec<Goal>> {
     Some(goals)
 }
 
-/// Depth of the picking loop, as a goal of number zero.
+/// A constraint next to the goals: one of number zero.
+pub(super) fn constraint(name: &'static str, title: &'static str, unit: Unit) -> Goal {
+    Goal::new(0, name, title, unit)
+}
+
+/// A clearance as a constraint.
+fn clear(name: &'static str, title: &'static str, minimum: f64) -> Goal {
+    constraint(name, title, Unit::Millimetre).minimum(minimum, 20.0)
+}
+
+/// Depth of the picking loop as a constraint.
 pub(super) fn picking_depth(design: &ThreeArmDesign, depth: f64) -> Goal {
-    let about = (0, "picking-depth", "depth of the picking loop");
-    Goal::new(
-        about,
-        Some(depth),
-        [Some(design.optimise.picking_depth), None],
-        Unit::Millimetre,
-        20.0,
-    )
+    let minimum = design.optimise.picking_depth;
+    clear("picking-depth", "depth of the picking loop", minimum).with(depth)
 }
 
-/// Clearance of the gearbox from the tray, as a goal of number zero.
+/// Clearance of the gearbox from the tray as a constraint.
 pub(super) fn gearbox_tray(mechanism: &ThreeArm) -> Goal {
-    Goal::new(
-        (0, "gearbox-tray", "gearbox clear of the tray"),
-        Some(mechanism.gearbox_tray_clearance()),
-        [Some(0.0), None],
-        Unit::Millimetre,
-        20.0,
-    )
+    clear("gearbox-tray", "gearbox clear of the tray", 0.0).with(mechanism.gearbox_tray_clearance())
 }
 
-/// Constraints besides the goals, as goals of number zero.
+/// Constraints next to the goals.
 fn kept(mechanism: &ThreeArm, arms: Option<&ArmClearance>) -> Vec<Goal> {
     let design = mechanism.design();
-    let minimum = |minimum: f64| [Some(minimum), None];
+    let tray = design.optimise.tray_clearance;
     let clearance =
         |found: Option<centrode_analysis::interference::Clearance>| found.map(|f| f.minimum);
     vec![
         picking_depth(design, mechanism.picking_depth()),
         gearbox_tray(mechanism),
-        Goal::new(
-            (0, "tray-clearance", "arm's housing clear of the tray"),
-            arms.and_then(|a| clearance(a.tray)),
-            minimum(design.optimise.tray_clearance),
-            Unit::Millimetre,
-            20.0,
-        ),
-        Goal::new(
-            (0, "stem-clearance", "arm clear of stems planted before"),
-            arms.and_then(|a| clearance(a.seedlings)),
-            minimum(0.0),
-            Unit::Millimetre,
-            20.0,
-        ),
+        clear("tray-clearance", "arm's housing clear of the tray", tray)
+            .with(arms.and_then(|a| clearance(a.tray))),
+        clear("stem-clearance", "arm clear of stems planted before", 0.0)
+            .with(arms.and_then(|a| clearance(a.seedlings))),
     ]
 }
 

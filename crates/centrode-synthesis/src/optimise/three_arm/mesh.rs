@@ -2,6 +2,7 @@ use centrode_gear::GearPair;
 use centrode_gear::design::{Addendum, GearPairDesign, TeethSpec};
 use centrode_machines::three_arm::design::ThreeArmDesign;
 
+use super::evaluation::constraint;
 use centrode_analysis::{Goal, SLIGHT_TRANSMISSION_ERROR, Severity, Unit, check};
 
 /// Transmission error of half the progress, rad.
@@ -32,19 +33,15 @@ pub(super) fn mesh(design: &ThreeArmDesign) -> Option<[Goal; 2]> {
     let other = ["contact-lost", "seat-jump", "pressure-angle"];
     let against = worse.filter(|f| !other.contains(&f.rule)).count();
     Some([
-        Goal::new(
-            (0, "transmission-error", "transmission error of full teeth"),
-            error.filter(|error| error.is_finite()).or(Some(1.0)),
-            [None, Some(SLIGHT_TRANSMISSION_ERROR)],
+        constraint(
+            "transmission-error",
+            "transmission error of full teeth",
             Unit::Angle,
-            ERROR,
-        ),
-        Goal::new(
-            (0, "tooth-findings", "findings against full teeth"),
-            Some(against as f64),
-            [None, Some(0.0)],
-            Unit::Count,
-            10.0,
-        ),
+        )
+        .maximum(SLIGHT_TRANSMISSION_ERROR, ERROR)
+        .with(error.filter(|error| error.is_finite()).unwrap_or(1.0)),
+        constraint("tooth-findings", "findings against full teeth", Unit::Count)
+            .maximum(0.0, 10.0)
+            .with(against as f64),
     ])
 }

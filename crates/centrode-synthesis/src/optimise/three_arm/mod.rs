@@ -215,18 +215,10 @@ impl DesignProblem for ThreeArmProblem {
         for goal in &mut goals {
             // A count of flanks has no slope; the module that every place of the curves bears has.
             if goal.name == "sound-teeth" && goal.met() == Some(false) {
-                let about = (
-                    goal.number,
-                    goal.name.clone(),
-                    "module over what the curves bear",
-                );
-                *goal = Goal::new(
-                    about,
-                    Some(1.0 + quick.overload.max(1e-3)),
-                    [None, Some(1.0)],
-                    Unit::Count,
-                    1.0,
-                );
+                let title = "module over what the curves bear";
+                *goal = Goal::new(goal.number, goal.name.clone(), title, Unit::Count)
+                    .maximum(1.0, 1.0)
+                    .with(1.0 + quick.overload.max(1e-3));
             }
         }
         if quick.overload <= 0.0 {

@@ -79,14 +79,10 @@ mod tests {
 
     #[test]
     fn a_row_says_figure_range_and_miss() {
-        let length = |number, name, title, value| {
-            Goal::new(
-                (number, name, title),
-                value,
-                [Some(20.0), None],
-                Unit::Millimetre,
-                20.0,
-            )
+        let length = |number, name, title, value: Option<f64>| {
+            Goal::new(number, name, title, Unit::Millimetre)
+                .minimum(20.0, 20.0)
+                .with(value)
         };
         let report = Report {
             goals: vec![
