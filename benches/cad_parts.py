@@ -44,7 +44,7 @@ def main():
     parts()
     for name, call in (("edges alone", edges), ("both gears", parts)):
         found = milliseconds(call, options.times)
-        print(f"{name}: {statistics.median(found):.1f} ms, least {min(found):.1f}, greatest {max(found):.1f}")
+        print(f"{name}: {statistics.median(found):.1f} ms, minimum {min(found):.1f}, maximum {max(found):.1f}")
     sides = sum(len(contour) for solid in edges() for contour in solid.contours)
     print(f"{sides} edges in {adapter.__name__}, {options.times} times")
 

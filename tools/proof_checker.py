@@ -11,7 +11,7 @@ The driver stands in its own axes. At the driver angle phi the driven gear, turn
 
     X = a e^(i phi) + e^(i (phi + psi)) q.
 
-Its seat `on` is the least psi of its backlash, `back` the greatest. With w the half width, for every phi of the cycle:
+Its seat `on` is the minimum psi of its backlash, `back` the maximum. With w the half width, for every phi of the cycle:
 
  1. Neither contour meets the other at any psi from on + w to back - w. Two pieces are apart by the discs around them,
     by a strip along one of them, or by a parabola H(X) = Im y - k (Re y)^2 = 0, y = conj(T) (X - c), through a point c

@@ -70,7 +70,7 @@ def crossings(outline, curve, alpha, reach, side):
 
 
 def profile_error(outline, curve, alpha, pitch, reach):
-    """Greatest distance, mm along the normal, of points and chord midpoints from true flanks."""
+    """Maximum distance, mm along the normal, of points and chord midpoints from true flanks."""
     middle = 0.5 * (outline + np.roll(outline, -1, 0))
     step = np.linalg.norm(np.roll(outline, -1, 0) - outline, axis=-1)
     worst = 0.0

@@ -1,4 +1,4 @@
-"""A grooved shaft beside cadquery: one plain helical groove there, both grooves of a variable-speed shaft here."""
+"""A grooved shaft next to cadquery: one plain helical groove there, both grooves of a variable-speed shaft here."""
 
 import math
 import time
@@ -40,7 +40,7 @@ def timed(action):
 
 
 def rows():
-    """Least seconds of several runs, alternating: cut and STL there, solid and STL here."""
+    """Minimum seconds of several runs, alternating: cut and STL there, solid and STL here."""
     shaft = ct.SpiralShaft.for_moved_distance(2.05, lead=LEAD, radius=RADIUS, groove_width=WIDTH, groove_depth=DEPTH)
     cuts, whole, ours = [], [], []
     with TemporaryDirectory() as folder:

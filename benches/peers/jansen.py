@@ -1,4 +1,4 @@
-"""All points of Jansen's leg: centrode's composed machine beside pylinkage's compiled steps; prints ratios.
+"""All points of Jansen's leg: centrode's composed machine next to pylinkage's compiled steps; prints ratios.
 
     python benches/peers/jansen.py [--rounds 5]
 

@@ -1,4 +1,4 @@
-"""Runs the linkage bench beside pylinkage's compiled steps and scipy's differential evolution; prints ratios.
+"""Runs the linkage bench next to pylinkage's compiled steps and scipy's differential evolution; prints ratios.
 
     python benches/peers/linkage.py [--rounds 3]
 

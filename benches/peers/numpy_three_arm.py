@@ -99,9 +99,9 @@ class Block:
 
     @staticmethod
     def _center_distance(weight: np.ndarray, r: np.ndarray, most: np.ndarray) -> np.ndarray:
-        """Where the driven curve closes after one turn, between the greatest radius and three times it.
+        """Where the driven curve closes after one turn, between the maximum radius and three times it.
 
-        A bisection brings Newton's method near: the integral falls steeply close to the greatest radius.
+        A bisection brings Newton's method near: the integral falls steeply close to the maximum radius.
         """
         count = len(r)
         weight, r = weight.reshape(count, -1), r.reshape(count, -1)
@@ -178,7 +178,7 @@ def _basis(t):
 
 
 def _extremes(radii):
-    """Greatest and least radius of each design: at the pieces' ends, and where a piece has its vertex."""
+    """Maximum and minimum radius of each design: at the pieces' ends, and where a piece has its vertex."""
     before, middle, after = np.moveaxis(radii, 2, 0)
     bend, slope = before - 2 * middle + after, middle - before
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -190,7 +190,7 @@ def _extremes(radii):
 
 
 def _crest(y):
-    """Greatest value of a periodic curve: the quartic's crest through the five samples around the greatest."""
+    """Maximum value of a periodic curve: the quartic's crest through the five samples around the maximum."""
     row, best = np.arange(len(y)), y.argmax(1)
     a, b, c, d, e = (y[row, (best + k) % y.shape[1]] for k in (-2, -1, 0, 1, 2))
     one, two = (8 * (d - b) - (e - a)) / 12, (16 * (b + d) - (a + e) - 30 * c) / 24

@@ -1,4 +1,4 @@
-"""Three-arm mechanism beside its peers: interference beside collision libraries, a sweep beside NumPy."""
+"""Three-arm mechanism next to its peers: interference next to collision libraries, a sweep next to NumPy."""
 
 import argparse
 import math

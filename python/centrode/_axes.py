@@ -23,14 +23,14 @@ class AxisMap:
     arm: NDArray[float64]
     """Length of the arm, mm."""
     ratios: NDArray[float64]
-    """Least and greatest ratio of the total law along the last axis of the array."""
+    """Minimum and maximum ratio of the total law along the last axis of the array."""
     minimum_radius: NDArray[float64]
     """Minimum convex radius of the four pitch curves by powers, mm, mostly within 5 % of the gears as they are written.
 
     Up to 40 % more where the law has a narrow peak. Of a path of more than 64 pieces 64 are sampled.
     """
     shaft_distance: NDArray[float64]
-    """Least distance of the tip from the axis, mm."""
+    """Minimum distance of the tip from the axis, mm."""
 
 
 @dataclass(frozen=True)
@@ -42,15 +42,15 @@ class SplitFigures:
     name: str
     """Word for the split: "powers", "mildest" or "one-pair"."""
     minimum_radii: tuple[tuple[float, float], ...]
-    """Least convex radii of driver and driven gear of each pair, mm; none where there is no split."""
+    """Minimum convex radii of driver and driven gear of each pair, mm; none where there is no split."""
     convex: tuple[tuple[bool, bool], ...]
     """Whether driver and driven gear of each pair are convex all round."""
     tip_error: float
-    """Greatest distance of the tip from the path, mm, with laws in tables; NaN where there is no split."""
+    """Maximum distance of the tip from the path, mm, with laws in tables; NaN where there is no split."""
     refusal: str | None
     """Why the motion cannot be split so; None where it can."""
 
     @property
     def minimum_radius(self) -> float:
-        """The least of all least radii, mm; NaN where there is no split."""
+        """The minimum of all minimum radii, mm; NaN where there is no split."""
         return min((radius for pair in self.minimum_radii for radius in pair), default=float("nan"))

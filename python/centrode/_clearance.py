@@ -8,7 +8,7 @@ class Clearance:
     __module__ = "centrode"
 
     minimum: float
-    """Least distance found, mm; negative where they overlap: how deep one lies in the other."""
+    """Minimum distance found, mm; negative where they overlap: how deep one lies in the other."""
     lower_bound: float
     """The clearance is proven to be nowhere smaller, mm."""
     input: float

@@ -34,9 +34,9 @@ class Contact:
     penetration: NDArray[float64]
     """Deepest penetration of the two outlines with the driven gear seated, mm."""
     clearance: NDArray[float64]
-    """Least distance of a tip from a root, mm; infinite where none is near."""
+    """Minimum distance of a tip from a root, mm; infinite where none is near."""
     fillet_clearance: NDArray[float64]
-    """Least distance of anything from a fillet, mm; infinite where nothing is near."""
+    """Minimum distance of anything from a fillet, mm; infinite where nothing is near."""
     sliding: NDArray[float64]
     """Maximum sliding speed of the teeth in contact per driver speed, pushed on, mm/rad."""
 

@@ -8,7 +8,7 @@ class Goal:
     __module__ = "centrode"
 
     number: int
-    """Number in its list, from one; 0 for a constraint of a search beside the goals."""
+    """Number in its list, from one; 0 for a constraint of a search next to the goals."""
     paper: int | None
     """Number in the paper that it is from, where that is another."""
     name: str

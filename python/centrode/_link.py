@@ -26,7 +26,7 @@ class Joint:
     axis: tuple[float, float, float]
     """Unit vector of the axis, in the frame of the carried link."""
     range: tuple[float, float] | None
-    """Least and greatest coordinate of a sliding joint, mm; None for the others."""
+    """Minimum and maximum coordinate of a sliding joint, mm; None for the others."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -16,7 +16,7 @@ class PairRemedy:
     addendum: Literal["full", "fitted"]
     """Height of the teeth."""
     fit: tuple[Literal["thickness_split", "pressure_angle", "phase"], ...]
-    """What was chosen beside it, and is written in the pair."""
+    """What was chosen next to it, and is written in the pair."""
     minimum_tooth_count: int
     """Tooth count of the driver at which they do, and with one step fewer do not; a greater one may fail again."""
     pair: GearPair

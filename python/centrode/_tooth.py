@@ -22,7 +22,7 @@ class ToothSide:
     active: tuple[float, float] | None
     """Arc lengths of roll between which flank is left; None when nothing is."""
     fillet_radius: float
-    """Least radius of curvature of the fillet."""
+    """Minimum radius of curvature of the fillet."""
 
 
 @dataclass(frozen=True, slots=True)

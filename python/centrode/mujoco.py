@@ -37,7 +37,7 @@ def load(
         of: The machine, of whatever family.
         speed: Speed of the input, rad/s; that of the design if left out, negative to run it back.
         contact: Whether bodies touch. They need not where all are moved by their laws, and steps are quicker.
-        tolerance: Greatest distance of the meshes from the exact solids, mm.
+        tolerance: Maximum distance of the meshes from the exact solids, mm.
 
     Returns:
         The model, and its control: hand it to `mujoco.set_mjcb_control`, or step with it.

@@ -123,7 +123,7 @@ def motion(pair: GearPair, ax: Axes | None = None) -> Axes:
 def moving(
     *machines: SpiralShaft | MovingBox, turns: float = 1.0, start: float = -np.pi, ax: Axes | None = None
 ) -> Axes:
-    """Draw where the box is over the input's turn, beside a plain shaft: Figures 3 and 11 of Zhou et al. 2018.
+    """Draw where the box is over the input's turn, next to a plain shaft: Figures 3 and 11 of Zhou et al. 2018.
 
     Args:
         machines: Shafts or moving boxes, a line each.
@@ -150,7 +150,7 @@ def speed(
     speed_rpm: float = 200.0,
     ax: Axes | None = None,
 ) -> Axes:
-    """Draw how fast the box is over the input's turn, beside a plain shaft: Figure 9 of Zhou et al. 2018.
+    """Draw how fast the box is over the input's turn, next to a plain shaft: Figure 9 of Zhou et al. 2018.
 
     Args:
         machines: Shafts or moving boxes, a line each.

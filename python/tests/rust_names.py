@@ -1,6 +1,6 @@
 """Public names of the crates, read from the pages that `cargo doc` has made of them.
 
-Run as a program it writes `api.txt` beside each crate's `Cargo.toml`, unless a name has gone that CHANGELOG.md does not
+Run as a program it writes `api.txt` next to each crate's `Cargo.toml`, unless a name has gone that CHANGELOG.md does not
 tell of; with `--check` it compares and writes nothing.
 """
 

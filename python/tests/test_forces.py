@@ -1,4 +1,4 @@
-"""Forces of every family's machine, beside MuJoCo's inverse dynamics and closed forms."""
+"""Forces of every family's machine, next to MuJoCo's inverse dynamics and closed forms."""
 
 import json
 import math

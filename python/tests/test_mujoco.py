@@ -33,7 +33,7 @@ def callback():
 
 
 def off_frames(machine, model, data, phi):
-    """Greatest distance of any link of the model from where the machine has it, m, or rad of its turn."""
+    """Maximum distance of any link of the model from where the machine has it, m, or rad of its turn."""
     off = 0.0
     for name, frame in machine.frames(phi).items():
         # The link that stands still is the world.

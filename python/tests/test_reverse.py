@@ -33,7 +33,7 @@ DRAWN = np.array(
 
 
 def test_bars_are_half_the_sum_and_half_the_difference_of_the_extreme_distances():
-    # An ellipse seen from a place on its long axis, outside: its distances are greatest and least at the vertices.
+    # An ellipse seen from a place on its long axis, outside: its distances are maximum and minimum at the vertices.
     t = np.linspace(0, 2 * np.pi, 400, endpoint=False)
     path = np.column_stack([50 * np.cos(t), 45 * np.sin(t)])
     made = ct.reverse(path, (120, 0))
@@ -342,7 +342,7 @@ def test_a_machine_of_an_eased_path_follows_it_through_tooth_contact_alone(tmp_p
     command = [sys.executable, str(tmp_path / "play_mujoco.py"), *how]
     played = subprocess.run(command, capture_output=True, text=True, check=True)
     found = json.loads(played.stdout.splitlines()[-1])
-    # Half the play of the first mesh, as the second hands it on, and half of the second, by the least pitch radius.
+    # Half the play of the first mesh, as the second hands it on, and half of the second, by the minimum pitch radius.
     pair = tomllib.loads(machine.to_toml())["pairs"]["first-stage"]
     distance, backlash = pair["pitch"]["center_distance"], pair["teeth"]["backlash"]
     ratio = made.ratios[1]

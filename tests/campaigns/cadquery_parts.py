@@ -1,4 +1,4 @@
-"""Parts and assemblies of CadQuery beside the kernel's checker, Green's theorem and the machine's own poses.
+"""Parts and assemblies of CadQuery next to the kernel's checker, Green's theorem and the machine's own poses.
 
 CadQuery and build123d stand on different versions of one kernel, so they cannot share an environment. `scripts/test`
 makes one for CadQuery, 1.4 GB, and `tests/python/test_cadquery.py` runs this on a few designs:

@@ -21,7 +21,7 @@ import shapely
 from shapely.geometry import Polygon
 
 CHORD = 1e-5
-"""Greatest distance of a polygon from its contour, mm and modules, whichever is less."""
+"""Maximum distance of a polygon from its contour, mm and modules, whichever is less."""
 FURTHER_ANGLE, FURTHER = 1e-5, 2e-4
 """Turn, rad, or way along the contact's normal, mm, after which the gears must penetrate."""
 KINDS = ["ellipse", "lobed", "waves", "eccentric", "limacon", "spline", "concave", "circle"]

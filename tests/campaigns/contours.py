@@ -23,7 +23,7 @@ import numpy as np
 import shapely
 
 COARSE, FINE = 1e-6, 1e-9
-"""Greatest distances of a polygon from its contour, modules."""
+"""Maximum distances of a polygon from its contour, modules."""
 PATIENCE = 60
 """Seconds of processor time after which a pair is given up."""
 

@@ -66,7 +66,7 @@ def bodies(document):
 
 
 def far(placement, frame):
-    """Greatest difference of a placement from a frame."""
+    """Maximum difference of a placement from a frame."""
     matrix = placement.toMatrix().A
     return max(abs(a - b) for a, b in zip(matrix, frame.ravel().tolist(), strict=True))
 

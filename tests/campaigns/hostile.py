@@ -29,7 +29,7 @@ DESIGNS = Path(__file__).parents[1] / "designs"
 BIN = os.environ.get("CENTRODE_BIN", "centrode")
 MOST_TEETH = 200
 MEMORY = 4 << 30
-"""Greatest address space of a check, bytes."""
+"""Maximum address space of a check, bytes."""
 
 
 def toml(value):

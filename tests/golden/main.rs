@@ -16,7 +16,7 @@ use centrode_formats::{Bundle, Format};
 use centrode_geometry::Tolerance;
 use serde_json::{Value, json};
 
-/// Greatest difference of a figure, of its size or of 1 mm or 1 rad, whichever is more.
+/// Maximum difference of a figure, of its size or of 1 mm or 1 rad, whichever is more.
 const DIFFERENCE: f64 = 1e-9;
 
 fn folder(name: &str) -> PathBuf {

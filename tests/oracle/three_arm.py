@@ -99,7 +99,7 @@ class Machine:
         return x, y, clamp - 2 * pi * floor(clamp / (2 * pi) + mpf(1) / 2)
 
     def crest(self, sign):
-        """Greatest height of the tip (sign 1), or least (-1)."""
+        """Maximum height of the tip (sign 1), or minimum (-1)."""
         _, best = max((sign * self.at(2 * pi * i / 24)[1], 2 * pi * i / 24) for i in range(24))
         # Golden section: a crest is flat, so half the digits of the place give all of the height.
         ratio = (sqrt(mpf(5)) - 1) / 2

@@ -58,7 +58,7 @@ def read(arcs, curvatures, s):
 
 
 def worst(arcs, curvatures, crossing, side, reach):
-    """Least speed of generation while the rack rolls on by `reach`."""
+    """Minimum speed of generation while the rack rolls on by `reach`."""
     rolled = (reach * i / STEPS for i in range(1, STEPS + 1))
     return min(sin(ALPHA) - read(arcs, curvatures, crossing + side * x) * x * cos(ALPHA) for x in rolled)
 

@@ -8,7 +8,7 @@ use centrode_kinematics::transmission::MotionJet;
 use nalgebra::Matrix2;
 use proptest::prelude::{Just, ProptestConfig, Strategy, any, prop_assert, prop_oneof, proptest};
 
-/// Least transmission angle: nearer to a change point nothing is known to ten digits.
+/// Minimum transmission angle: nearer to a change point nothing is known to ten digits.
 const MINIMUM: f64 = 0.25;
 
 /// Two equations that a joint fulfils, each a distance to a moving point.
@@ -138,7 +138,7 @@ fn six_bars() -> impl Strategy<Value = SixBar> {
     })
 }
 
-/// Greatest difference of a joint from what was solved, as a share of its size.
+/// Maximum difference of a joint from what was solved, as a share of its size.
 fn off(found: &Jet, solved: &Motion) -> f64 {
     let pairs = [found.point.coords, found.first, found.second].into_iter();
     let size = |v: Vector| 1.0 + v.norm();
@@ -217,7 +217,7 @@ proptest! {
             for (a, b) in six_bar.joints(input).into_iter().zip(joints[i]) {
                 prop_assert!((a - b).norm() <= 1e-12 * 200.0);
             }
-            // Bits do not depend on what is worked out beside.
+            // Bits do not depend on what is worked out next to.
             prop_assert!(six_bar.at_each(&[input]) == [beside]);
         }
     }

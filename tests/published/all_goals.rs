@@ -1,4 +1,4 @@
-//! The shipped design that reaches all eight goals, beside the published set it was found from.
+//! The shipped design that reaches all eight goals, next to the published set it was found from.
 
 use std::collections::BTreeSet;
 use std::fmt::Write as _;
@@ -115,7 +115,7 @@ fn table() -> String {
     let rows: [(&str, (f64, f64)); 11] = [
         ("centre distance, mm", both(&|m, _| m.center_distance())),
         (
-            "least radius of the sun, mm",
+            "minimum radius of the sun, mm",
             both(&|_, r| r.values["sun_radius_min"]),
         ),
         (

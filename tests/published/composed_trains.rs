@@ -21,7 +21,7 @@ fn made(name: &str) -> Machine {
     Machine::resolve(&design).expect("a machine")
 }
 
-/// Greatest difference of two motions, whole turns aside.
+/// Maximum difference of two motions, whole turns aside.
 fn apart(one: &MotionJet, other: &MotionJet) -> f64 {
     let turns = ((one.position - other.position) / TAU).round();
     let position = one.position - other.position - TAU * turns;

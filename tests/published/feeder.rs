@@ -1,4 +1,4 @@
-//! The six-bar of the 2022 feeder. The published figures are in the comments beside what holds.
+//! The six-bar of the 2022 feeder. The published figures are in the comments next to what holds.
 
 use std::f64::consts::PI;
 use std::ops::ControlFlow;
@@ -149,7 +149,7 @@ fn the_best_transmission_angle_of_the_published_bounds_is_12_degrees() {
     }
 }
 
-/// Bounds widened by 24.35 % have been given as the least that hold 40 degrees, with the first lengths
+/// Bounds widened by 24.35 % have been given as the minimum that hold 40 degrees, with the first lengths
 /// below. They hold it, but 22.443 % are enough, with three lengths at their bounds.
 #[test]
 fn bounds_widened_by_less_than_a_quarter_hold_forty_degrees() {

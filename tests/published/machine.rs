@@ -72,8 +72,8 @@ fn a_composed_feeder_moves_as_the_feeder_does() {
     for (one, other) in [
         ("swing: span of effector.swing", "swing of the effector"),
         (
-            "transmission: least transmission(four-bar)",
-            "least transmission angle",
+            "transmission: minimum transmission(four-bar)",
+            "minimum transmission angle",
         ),
     ] {
         let (one, other) = (goal(&own, one), goal(&of_family, other));

@@ -1,4 +1,4 @@
-//! The variable-speed spiral shaft of 2018 and the elliptic scheme beside it: every figure of the theory.
+//! The variable-speed spiral shaft of 2018 and the elliptic scheme next to it: every figure of the theory.
 
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;

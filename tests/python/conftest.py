@@ -136,7 +136,7 @@ def fine_meshes(tmp_path_factory):
 
 @pytest.fixture(scope="session")
 def fine(exported, fine_meshes):
-    """The URDF of a design beside meshes so fine that their volumes are those of the curves."""
+    """The URDF of a design next to meshes so fine that their volumes are those of the curves."""
     return fine_meshes(exported.design)
 
 

@@ -5,10 +5,10 @@ FORMULA = "part of a formula"
 LIMIT = "a constant of the program, or a bound that its own tests keep"
 RUST = "held by a test in Rust, in tests/published"
 PEERS = "time, measured by benches/peers/run"
-TIME = "time, measured by the bench or command named beside it"
+TIME = "time, measured by the bench or command named next to it"
 PROOF = "the checker's count and time, minutes each: tools/proof_checker.py"
-CAMPAIGN = "counted by the campaign named beside it"
-SIMULATED = "measured by the play script named beside it, in the simulator"
+CAMPAIGN = "counted by the campaign named next to it"
+SIMULATED = "measured by the play script named next to it, in the simulator"
 
 EVERYWHERE = {
     "number of a heading or an item": (r"^#* ?\d+\. ",),
@@ -29,7 +29,7 @@ EVERYWHERE = {
 EXEMPT = {
     "README.md": {
         INPUT: (r"with 0\.05 mm of it", r"5-axis"),
-        TIME: (r"^\| (?:generate; prove|whole command|beside ncgears).*",),
+        TIME: (r"^\| (?:generate; prove|whole command|next to ncgears).*",),
     },
     "docs/adapters.md": {
         LIMIT: (r"1e-6 mm, are closed up: a kernel takes points 1e-7 mm",),
@@ -142,7 +142,7 @@ EXEMPT = {
         LIMIT: (r"poses to 1e-12", r"forces to 1e-6"),
     },
     "docs/measured.md": {
-        TIME: (r"^\| (?:generate; prove|whole command|beside ncgears).*", r"which costs 7 %"),
+        TIME: (r"^\| (?:generate; prove|whole command|next to ncgears).*", r"which costs 7 %"),
         CAMPAIGN: (
             r"^## Many teeth\n(?:.*\n)*?(?=## Seats)",
             r"^## Seats\n(?:.*\n)*?(?=## B-splines)",
@@ -300,7 +300,7 @@ EXEMPT = {
             r"<!-- all goals -->\n(?:.*\n)*?<!-- end of all goals -->",
             r"the sun's 66 .*",
         ),
-        "counted by the search named beside it": (
+        "counted by the search named next to it": (
             r"after 4320 evaluations",
             r"after 3000 evaluations the module is still 85 %",
         ),

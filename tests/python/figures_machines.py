@@ -43,7 +43,7 @@ def from_report(*names, scale=1.0):
 
 
 def least_transmission(lengths):
-    """Least transmission angle of a crank-rocker, deg: with the crank along the frame."""
+    """Minimum transmission angle of a crank-rocker, deg: with the crank along the frame."""
     crank, coupler, rocker, frame = lengths
     cosines = [(coupler**2 + rocker**2 - (frame + way * crank) ** 2) / (2 * coupler * rocker) for way in (-1, 1)]
     return 90 - degrees(asin(min(max(map(abs, cosines)), 1)))
@@ -77,7 +77,7 @@ def strokes(name):
 
 @cache
 def best_in_bounds():
-    """The crank-rocker within the paper's bounds (18) whose least transmission angle is greatest."""
+    """The crank-rocker within the paper's bounds (18) whose minimum transmission angle is maximum."""
     bounds = [(77, 81), (136, 147), (127, 138), (100, 106)]
 
     def missing(lengths):
@@ -104,7 +104,7 @@ def sensitivity(lengths, pivot):
 
 
 def rounded():
-    """Change of the swing with every length off by half a millimetre: to first order, greatest and least."""
+    """Change of the swing with every length off by half a millimetre: to first order, maximum and minimum."""
     lengths, pivot = middle()
     first = 0.5 * sum(map(abs, sensitivity(lengths, pivot)[:4]))
     corners = itertools.product((-0.5, 0.5), repeat=4)
@@ -145,7 +145,7 @@ FEEDER = [
         lambda: of_both(lambda name: swing(design(name).six_bar.lengths, design(name).six_bar.pivot)),
     ),
     Said(
-        "| least transmission angle | **{} deg** | {} deg |",
+        "| minimum transmission angle | **{} deg** | {} deg |",
         lambda: of_both(lambda name: least_transmission(design(name).six_bar.lengths)),
     ),
     Said("| rocker swing | {} deg | {} deg |", from_report("rocker_swing", scale=180 / pi)),
@@ -221,7 +221,7 @@ def wall(slope, acceleration):
 
 
 def scheme(speed, acceleration, slope=None):
-    """Least and greatest speed over the mean, range of the normal force, r/min at which the slider changes walls."""
+    """Minimum and maximum speed over the mean, range of the normal force, r/min at which the slider changes walls."""
     theta = np.linspace(0, TAU, 400_001)
     v, a = speed(theta), acceleration(theta)
     force = wall(slope or v, a)
@@ -275,7 +275,7 @@ def departure():
 
 
 def tables(theta_deg):
-    """A row of the page's table: ours beside (14) to (18)."""
+    """A row of the page's table: ours next to (14) to (18)."""
     theta = radians(theta_deg)
     speed, ours = MEAN - B * cos(theta), B * sin(theta) * OMEGA**2 / 1000
     lead = atan(speed / RADIUS)
@@ -297,14 +297,14 @@ def gap(speed, width=WIDTH):
 
 @cache
 def bend_radius():
-    """Least radius of curvature of the development of the strokes."""
+    """Minimum radius of curvature of the development of the strokes."""
     theta = np.linspace(0, TAU, 400_001)
     speed, acceleration = MEAN - B * np.cos(theta), B * np.sin(theta)
     return 1 / (RADIUS * abs(acceleration) / (RADIUS**2 + speed**2) ** 1.5).max()
 
 
 def bent_bar(length, speed):
-    """Least greatest distance along the shaft of a bar bent round it, that swivels, from the groove it lies in."""
+    """Minimum of the maximum distance along the shaft of a bar bent round it, that swivels, from the groove it lies in."""
     half = length / 2 * cos(atan(speed / RADIUS)) / RADIUS
     turn = np.linspace(0, half, 20_001)
     off = lambda slope: abs(speed * turn - slope * np.sin(turn)).max()  # noqa: E731
@@ -440,7 +440,7 @@ def reference():
 
 
 def cam_radius():
-    """Least radius of curvature of the cam, mm."""
+    """Minimum radius of curvature of the cam, mm."""
     return 1 / design("three-arm-2021").cam.curvature(np.linspace(0, TAU, 20_001)).max()
 
 

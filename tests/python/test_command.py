@@ -100,7 +100,7 @@ def test_what_a_killed_export_left_is_cleared_by_the_next(exported, tmp_path):
             break
     else:
         pytest.fail("none was killed while it wrote")
-    # What is there under its own name is whole; an export beside a live one clears only what is dead.
+    # What is there under its own name is whole; an export next to a live one clears only what is dead.
     seen = {path: contents for path, contents in everything(tmp_path).items() if path.parts[0][-5:] != ".part"}
     assert seen == whole
     both = [subprocess.Popen(command, stdout=subprocess.DEVNULL) for _ in range(2)]

@@ -34,7 +34,7 @@ def test_mujoco_closes_the_loops_and_every_joint_follows_the_law(name, exported)
     command = [sys.executable, str(folder / "play_mujoco.py"), "--check", "--contact"]
     done = subprocess.run(command, check=True, capture_output=True, text=True, timeout=300, cwd="/")
     off = json.loads(done.stdout.splitlines()[-1])
-    # Two joints a loop at least, beside the one that is driven.
+    # Two joints a loop at least, next to the one that is driven.
     assert len(off["joints"]) >= 2 * len(SHIPPED[name]["dyads"])
     for joint, found in off["joints"].items():
         assert found["off_max"] < 1e-5, joint

@@ -42,7 +42,7 @@ def contours(file):
 
 
 def rectangle(polygon):
-    """Sides of the least rectangle around a polygon, the longer first."""
+    """Sides of the minimum rectangle around a polygon, the longer first."""
     corners = np.array(polygon.minimum_rotated_rectangle.exterior.coords)
     sides = np.linalg.norm(np.diff(corners, axis=0), axis=1)[:2]
     return sides.max(), sides.min()

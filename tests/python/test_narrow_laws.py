@@ -1,4 +1,4 @@
-"""Pitch curves by formulas with bumps and steps far narrower than a tooth, beside sums of values at even places."""
+"""Pitch curves by formulas with bumps and steps far narrower than a tooth, next to sums of values at even places."""
 
 import centrode as ct
 import numpy as np

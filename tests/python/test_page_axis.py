@@ -35,7 +35,7 @@ def limits(svg):
     ("design", "name", "wanted", "goal"),
     [
         (FEEDER, "Angle of coupler and rocker", [40, 140], "transmission-angle"),
-        (COMPOSED, "Least transmission angle", [40], "transmission"),
+        (COMPOSED, "Minimum transmission angle", [40], "transmission"),
         (ARMS, "Clearance of the arms", [0], "arm-clearance"),
     ],
     ids=lambda value: getattr(value, "stem", ""),
@@ -62,7 +62,7 @@ def test_a_limit_goes_with_the_goal_that_sets_it(browser, tmp_path):
         page.get_by_role("textbox", name="Design file").fill(text.replace("minimum = 40", "minimum = 12.5"))
         page.get_by_role("button", name="Apply").click()
         expect(page.locator(".series-limit:visible")).to_have_text("at least 12.5")
-        assert limits(taken(page, "Least transmission angle", "SVG")) == [12.5]
+        assert limits(taken(page, "Minimum transmission angle", "SVG")) == [12.5]
 
 
 def along(page, name, first, last):

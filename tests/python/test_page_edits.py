@@ -267,13 +267,13 @@ def test_on_paper_the_drawing_keeps_its_shape_dark_on_light(browser, tmp_path, s
         darkest = stage.evaluate(
             """canvas => {
               const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
-              let least = 255, filled = 0, light = 0;
+              let minimum = 255, filled = 0, light = 0;
               for (let i = 0; i < data.length; i += 4) if (data[i + 3] === 255) {
                 filled += 1;
                 if (data[i + 1] > 180) light += 1;
-                least = Math.min(least, data[i + 1]);
+                minimum = Math.min(minimum, data[i + 1]);
               }
-              return [least, light / filled];
+              return [minimum, light / filled];
             }"""
         )
         assert darkest[0] < 80

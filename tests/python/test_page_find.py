@@ -85,7 +85,7 @@ def test_the_source_has_the_numbers_of_its_lines(browser, tmp_path):
         page.get_by_role("button", name="Source").click()
         numbers, area = page.locator(".line-numbers"), page.get_by_role("textbox", name="Design file")
         lines = len(copy.read_text().split("\n"))
-        # From the top, with a number in sight beside every line that is.
+        # From the top, with a number in sight next to every line that is.
         assert area.evaluate("box => [box.scrollTop, box.selectionStart, box.selectionEnd]") == [0, 0, 0]
         high = "box => box.clientHeight"
         assert numbers.evaluate(high) == pytest.approx(area.evaluate(high), abs=4)
@@ -96,6 +96,6 @@ def test_the_source_has_the_numbers_of_its_lines(browser, tmp_path):
         assert area.evaluate("box => box.scrollTop") > 0
         tops = "['.line-numbers', 'textarea'].map(name => document.querySelector(name).scrollTop)"
         until(page, f"new Set({tops}).size === 1")
-        # A number stands beside its line: both have lines of one height.
+        # A number stands next to its line: both have lines of one height.
         assert len({box.evaluate("box => getComputedStyle(box).lineHeight") for box in (numbers, area)}) == 1
         assert Axe().run(page).response["violations"] == []

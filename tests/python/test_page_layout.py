@@ -31,7 +31,7 @@ def test_the_picture_of_a_narrow_window_stays_in_sight(browser, tmp_path, size):
             scrolled(page, 100)
             expect(page.locator("#stage")).to_be_in_viewport(ratio=0.99)
             assert page.evaluate("document.documentElement.scrollWidth") <= size[0]
-            # The pane has room beside or below it.
+            # The pane has room next to or below it.
             assert (
                 page.locator(".picture").evaluate("box => box.clientHeight * box.clientWidth")
                 < 0.75 * size[0] * size[1]

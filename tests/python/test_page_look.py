@@ -10,7 +10,7 @@ from playwright.sync_api import expect
 from sample import sampled
 
 SVG = "{http://www.w3.org/2000/svg}"
-# Greatest radius of sun and planets, mm: the driver of the same pair as a design of its own has it as a figure.
+# Maximum radius of sun and planets, mm: the driver of the same pair as a design of its own has it as a figure.
 REACH = 57.955
 
 

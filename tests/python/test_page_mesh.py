@@ -138,7 +138,7 @@ def test_a_change_keeps_the_view_at_the_mesh_of_three_arms(browser, tmp_path):
     ("name", "share"), [("elliptic-pair-2018", 0.0), ("lobed-pair-5-2", 0.0), ("transplanter-pair-2021", 0.04)]
 )
 def test_as_many_flanks_touch_as_the_contact_analysis_of_the_finished_outlines_counts(tmp_path, name, share):
-    """The paths come from the law of gearing alone; a sample beside the end of one may count otherwise."""
+    """The paths come from the law of gearing alone; a sample next to the end of one may count otherwise."""
     copy = tmp_path / f"{name}.toml"
     copy.write_text(POINTS.with_name(copy.name).read_text())
     with studio(copy) as served:

@@ -171,7 +171,7 @@ def test_gears_roll_as_drawn_and_the_tip_runs_along_the_path(running):
     # The sharpest place of the chart is that of the figure.
     charts = {(curve["chart"], curve["name"]): curve["value"] for curve in answer["curves"]}
     sharpest = max(max(value) for (chart, _), value in charts.items() if chart.startswith("Curvature"))
-    words = next(figure["words"] for figure in answer["figures"] if figure["name"] == "least convex radius")
+    words = next(figure["words"] for figure in answer["figures"] if figure["name"] == "minimum convex radius")
     assert 1 / sharpest == pytest.approx(float(words.split()[0]), rel=0.03)
     assert min(charts["Ratio", ""]) == pytest.approx(0.5155, abs=2e-4)
 
@@ -249,11 +249,11 @@ def test_the_field_tells_of_every_place(page):
     readout = page.locator("#field-readout")
     x, y = middle(page, "axis of the carrier")
     page.mouse.move(x + 9, y)
-    words = re.compile(r"Axis at 27\d\.\d, 1[56]\d\.\d: ratio 0\.\d+ to \d\.\d+, least radius \d")
+    words = re.compile(r"Axis at 27\d\.\d, 1[56]\d\.\d: ratio 0\.\d+ to \d\.\d+, minimum radius \d")
     expect(readout).to_contain_text(words)
     x, y = middle(page, "point 12 of the path")
     page.mouse.move(x + 60, y)
-    expect(readout).to_contain_text("not possible, the distance along the path has several greatest and least places")
+    expect(readout).to_contain_text("not possible, the distance along the path has several maxima and minima")
     expect(page.locator('#field-faults li[data-fault="extremes"]')).to_be_visible()
     painted = "document.querySelector('#stage canvas').toDataURL()"
     by_ratio = page.evaluate(painted)
@@ -673,7 +673,7 @@ def test_what_is_out_of_reach_is_told_with_the_miss(page, running):
     dialog = page.locator("#dialog")
     expect(dialog).to_contain_text("Wishes: 1 of 1 missed", timeout=60_000)
     expect(dialog.locator("li")).to_contain_text("missed by")
-    # Eight arms have no room beside each other.
+    # Eight arms have no room next to each other.
     expect(dialog.locator('[data-rule="gears-collide"]')).to_contain_text(re.compile("overlap by .* at an input of"))
     page.keyboard.press("Escape")
 

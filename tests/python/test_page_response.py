@@ -56,14 +56,14 @@ def test_a_count_answers_in_whole_numbers(browser, tmp_path):
         ends = page.locator("#response-from, #response-to").evaluate_all("ends => ends.map(({ value }) => value)")
         assert ends == ["22", "26"]
         page.locator("#response-from").press("Enter")
-        # At this ratio the driven gear has no whole number of teeth beside an odd one: that is told.
+        # At this ratio the driven gear has no whole number of teeth next to an odd one: that is told.
         names = [re.match(r"\s*(\d+)", row.inner_text())[1] for row in answered(page, 5).all()]
         assert names == ["24", "22", "23", "25", "26"]
 
 
 def test_a_way_that_is_pointed_at_lies_in_front(browser, tmp_path):
     with opened(browser, tmp_path, FEEDER) as (page, _):
-        # A pointer finds the button beside the field.
+        # A pointer finds the button next to the field.
         row = page.locator(".field", has=field(page, "linkage.crank"))
         row.hover()
         row.get_by_role("button", name="Response to Crank").click()

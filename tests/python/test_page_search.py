@@ -92,7 +92,7 @@ def test_the_end_of_a_search_that_is_heard_late_leaves_the_next_one(arms):
         route.continue_()
     page.unroute("**/search")
     # It goes on, generation by generation.
-    done = "least => parseInt(document.querySelector('#search [role=status]').textContent) > least"
+    done = "minimum => parseInt(document.querySelector('#search [role=status]').textContent) > minimum"
     for _ in range(3):
         told = page.locator("#search [role=status]").inner_text()
         until(page, done, int(told.split()[0]) if told else 0, 30_000)

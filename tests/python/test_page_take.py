@@ -274,7 +274,7 @@ def test_designs_are_compared_side_by_side_and_one_is_taken(browser, tmp_path):
         assert heads == ["Kept 1", "Kept 2", "Kept 3"]
         row = (
             page.locator(".compared tbody tr")
-            .filter(has_text="least transmission angle")
+            .filter(has_text="minimum transmission angle")
             .locator("td")
             .all_inner_texts()
         )
@@ -411,7 +411,7 @@ def test_parts_of_a_machine_are_those_that_its_design_names(browser, tmp_path):
         assert all(name in unknown.stderr for name in names)
 
 
-@pytest.mark.parametrize("others", [[], ["json"]], ids=["alone", "beside"])
+@pytest.mark.parametrize("others", [[], ["json"]], ids=["alone", "next to"])
 def test_the_report_is_among_the_files_of_the_export(browser, tmp_path, others):
     with opened(browser, tmp_path, CIRCLE) as (page, copy):
         page.locator("#export").click()

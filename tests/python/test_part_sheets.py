@@ -514,7 +514,7 @@ def keyed(diameter, width, over, degrees):
 
 
 def told_holes(texts):
-    """Holes of a gear or cam as its sheet tells them: by a detail of the bore, or by lines beside it."""
+    """Holes of a gear or cam as its sheet tells them: by a detail of the bore, or by lines next to it."""
     found = []
     for index, text in enumerate(texts):
         if not (hole := HOLE.match(text)) or text.startswith("Ø +") or "(" not in text:
@@ -727,7 +727,7 @@ def slot_area(radius, width, foot):
 
 
 def milled_ends(steps):
-    """Steps in which the keyway ends half round: those beside one that is as thick without it."""
+    """Steps in which the keyway ends half round: those next to one that is as thick without it."""
     for step, other in [*pairwise(steps), *((b, a) for a, b in pairwise(steps))]:
         if step["keyed"] and not other["keyed"] and step["diameter"] == other["diameter"]:
             yield step
@@ -819,7 +819,7 @@ def test_gears_of_a_machine_are_keyed_on_shafts_of_their_bore_as_both_sheets_tel
         slot = next(float(match[1]) for text in texts if (match := SLOT.match(text)))
         assert key == slot, gear
         wide = thickness(solid(folder / f"{gear['files']}.step"))
-        # The keyway beside it may begin under the gear: its lengths follow each other.
+        # The keyway next to it may begin under the gear: its lengths follow each other.
         lengths = [step["length"] if step["keyed"] and "groove" not in step else math.nan for step in steps]
         spans = [sum(lengths[i:k]) for i in range(len(lengths)) for k in range(i + 1, len(lengths) + 1)]
         assert any(abs(length - wide) < 1e-3 for length in spans), (gear, lengths)
@@ -850,7 +850,7 @@ HELD = {
 
 @pytest.mark.parametrize("name", sampled(name for name in [*DESIGNS, *TEMPLATES] if family(name) in HELD))
 def test_what_rings_hold_has_play_along_the_axis_whatever_the_tolerances_make_of_it(name, exported):
-    """Least play from the sheets alone: the shortest room between rings in their grooves, less the thickest parts."""
+    """Minimum play from the sheets alone: the shortest room between rings in their grooves, less the thickest parts."""
     folder = exported(name)
 
     def thickness_told(part):

@@ -1,4 +1,4 @@
-"""Pitch curves that reach into each other away from the point at which they roll, beside polygons."""
+"""Pitch curves that reach into each other away from the point at which they roll, next to polygons."""
 
 import centrode as ct
 import numpy as np
@@ -26,7 +26,7 @@ LAWS = {
 
 
 def overlaps(pair):
-    """Greatest area that the pitch curves share, and radial depth of a driven curve's point in the driver's."""
+    """Maximum area that the pitch curves share, and radial depth of a driven curve's point in the driver's."""
     a, cycle = pair.center_distance, np.linspace(0, 2 * np.pi, 2000, endpoint=False)
     ratio = np.asarray(pair.ratio(cycle))
     radius, driven = a * ratio / (1 + ratio), np.asarray(pair.driven_angle(cycle))
@@ -54,6 +54,6 @@ def test_curves_that_reach_into_each_other_are_told_and_no_others(law, overlap):
     assert bool(found) == overlap
     if overlap:
         assert found[0].measured == pytest.approx(depth, rel=2e-3)
-        # Sampled depths do not reach beyond the true greatest.
+        # Sampled depths do not reach beyond the true maximum.
         assert found[0].measured > depth - 1e-4
         assert not pair.remedies()

@@ -130,7 +130,7 @@ def test_seats_that_touch_at_a_turning_place_are_not_taken_to_cross(monkeypatch)
 
 
 def along_a_piece(piece, beside):
-    """Contour of a piece and two straight ones by way of a point beside it."""
+    """Contour of a piece and two straight ones by way of a point next to it."""
     start, stop = (sum(c * end**k for k, c in enumerate(piece)) for end in (-1, 1))
     lines = [[(a + b) / 2, (b - a) / 2] for a, b in pairwise((stop, beside, start))]
     return Contour([[(c.real, c.imag) for c in map(complex, p)] for p in (piece, *lines)], "gear")
@@ -149,7 +149,7 @@ def test_parts_that_meet_are_not_taken_to_lie_on_either_side_of_a_strip():
     driven = along_a_piece([1, 0.001], 1 + 0.001j).part(0, -1.0, 1.0)
     box = SimpleNamespace(between=motion)
     assert not Box.is_beside(box, driver, driven, motion.reach(driven.centre), 1.0, 0.0)
-    # Moved off by more than the strip is thick it is beside it.
+    # Moved off by more than the strip is thick it is next to it.
     moved = [piece[0] - 60j * along, *piece[1:]]
     driver = along_a_piece(moved, 9 - 50j * along).part(0, -1.0, 1.0)
     assert Box.is_beside(box, driver, driven, motion.reach(driven.centre), 1.0, 0.0)

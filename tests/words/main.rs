@@ -100,10 +100,46 @@ fn replaced_words_stay_gone() -> io::Result<()> {
     Ok(())
 }
 
+/// Files that name the old keys.
+const OLD_KEYS: [&str; 2] = [
+    "crates/centrode-spec/src/fault.rs",
+    "crates/centrode-machines/tests/design_file.rs",
+];
+
+#[test]
+fn extremes_are_called_minimum_and_maximum() -> io::Result<()> {
+    let mut found = Vec::new();
+    for (name, text) in sources()? {
+        if OLD_KEYS.contains(&&*name) {
+            continue;
+        }
+        let words: Vec<&str> = text
+            .split(|c: char| !c.is_alphanumeric() && c != '_')
+            .filter(|word| !word.is_empty())
+            .collect();
+        for around in words.windows(3) {
+            let [before, word, after] = around else {
+                continue;
+            };
+            let is_usual =
+                before.eq_ignore_ascii_case("at") || ["squares", "common", "known"].contains(after);
+            if ["least", "greatest"].contains(&&*word.to_lowercase()) && !is_usual {
+                found.push(format!("{name}: {}", around.join(" ")));
+            }
+        }
+    }
+    assert!(
+        found.is_empty(),
+        "say minimum or maximum:\n{}",
+        found.join("\n")
+    );
+    Ok(())
+}
+
 /// Names of the rules in the findings of a source.
 fn rules(text: &str) -> impl Iterator<Item = &str> {
-    let found = text.split("rule: \"").skip(1);
-    found.filter_map(|rest| rest.split('"').next())
+    let found = text.split("Finding::new(").skip(1);
+    found.filter_map(|rest| rest.trim_start().strip_prefix('"')?.split('"').next())
 }
 
 #[test]

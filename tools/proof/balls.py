@@ -28,12 +28,12 @@ def interval(low, high):
 
 
 def low(ball):
-    """Greatest float known to lie below a ball, as a ball."""
+    """Maximum float known to lie below a ball, as a ball."""
     return ball.lower()
 
 
 def high(ball):
-    """Least float known to lie above a ball, as a ball."""
+    """Minimum float known to lie above a ball, as a ball."""
     return ball.upper()
 
 

@@ -7,7 +7,7 @@ from proof.floats import SHARE
 from proof.law import OVERLAP
 from proof.meeting import AROUND, Meeting, ends
 
-#: Greatest number of halvings: of a box, of a piece of a contour.
+#: Maximum number of halvings: of a box, of a piece of a contour.
 DEEP, FINEST = 18, 14
 #: Halvings of a piece before a parabola is tried that is at hand, and one that is not.
 FAR = 7, 10

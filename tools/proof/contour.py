@@ -25,7 +25,7 @@ FALLING = [[float(perm(k, j)) for k in range(40)] for j in range(5)]
 
 class Hull:
     """Bounds on a part of a contour: of the points a middle and how far they reach along either axis, of the unit
-    tangents a disc, of the curvatures least and greatest; no tangents and curvatures where it may stand still."""
+    tangents a disc, of the curvatures minimum and maximum; no tangents and curvatures where it may stand still."""
 
     def __init__(self, points, tangents=None, curvatures=None):
         self.points, self.tangents, self.curvatures = points, tangents, curvatures

@@ -57,7 +57,7 @@ class Walk:
         return self.slack * (1 + 2 * abs(self.k) * (far + self.more)) * (1 + SHARE)
 
     def reach(self, *points):
-        """Greatest x of points, either way."""
+        """Maximum x of points, either way."""
         places = [self.motion.place(point) for point in points]
         return max(abs(y.real) + across for y, across, _ in places)
 
@@ -101,13 +101,13 @@ class Walk:
         return below(way * middle, -off, -way * bend, -2 * abs(self.k) * reach)
 
     def walked(self, start, stop, way):
-        """Least and greatest distance in x between two points, on with the walk."""
+        """Minimum and maximum distance in x between two points, on with the walk."""
         middle, reach = self.motion.across(stop - start, 2 * self.contour.off)
         middle *= self.sign * way
         return below(middle, -reach), above(middle, reach)
 
     def from_touch(self, place, x, height, slope, way):
-        """Last place of the walk from near the parabola's point: there are least and greatest numbers of each."""
+        """Last place of the walk from near the parabola's point: there are minimum and maximum numbers of each."""
         outward, height = self.sign * way, below(height, -self.floor)
         bound, steep = place[1] if way > 0 else -place[0], max(-slope[0], slope[1])
         # The first part is short, for the slope changes its sign there.

@@ -37,7 +37,7 @@ def made(page: Path) -> str:
 
 
 def words(text: str) -> str:
-    """Text without what a notebook has not: pictures beside it, links to other pages."""
+    """Text without what a notebook has not: pictures next to it, links to other pages."""
     text = re.sub(r"^!\[[^\]]*\]\([^)]*\)$", "", text, flags=re.M)
     text = re.sub(r"\[([^\]]*)\]\((?!https?:)[^)]*\)", r"\1", text)
     return re.sub(r"\n{3,}", "\n\n", text).strip()

@@ -12,7 +12,7 @@ use centrode_geometry::COMPUTED;
 /// them.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Goal {
-    /// Number in its list, from one; 0 for a constraint of a search beside the goals.
+    /// Number in its list, from one; 0 for a constraint of a search next to the goals.
     pub number: u32,
     /// Number in the paper that it is from, where that is another: several figures may share one goal there.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -25,7 +25,7 @@ pub struct Goal {
     #[serde(serialize_with = "figure::option")]
     #[schemars(with = "Option<JsonNumber>")]
     pub value: Option<f64>,
-    /// Least and greatest figure wanted; none where it is open.
+    /// Minimum and maximum figure wanted; none where it is open.
     pub required: [Option<f64>; 2],
     /// Unit of the figures.
     pub unit: Unit,

@@ -10,7 +10,7 @@ use nalgebra::Isometry2;
 
 use crate::progress::Steps;
 
-/// Greatest turn of the driven gear searched, rad.
+/// Maximum turn of the driven gear searched, rad.
 const FREE: f64 = 0.5;
 /// Corners of a pin.
 const PIN_CORNERS: u32 = 240;
@@ -125,7 +125,7 @@ impl IntermittentContact {
         out
     }
 
-    /// Greatest of a column where the driven gear moves, or where it rests.
+    /// Maximum of a column where the driven gear moves, or where it rests.
     #[must_use]
     pub fn maximum(&self, column: &[f64], moving: bool) -> f64 {
         let of = column.iter().zip(&self.moving).filter(|c| *c.1 == moving);
@@ -380,7 +380,7 @@ impl Room {
     }
 }
 
-/// Edge of a polygon, and the squares of its least and greatest distance from the axis.
+/// Edge of a polygon, and the squares of its minimum and maximum distance from the axis.
 struct Edge {
     from: Point,
     way: Vector,

@@ -15,20 +15,20 @@ pub(crate) struct LoadedKey<'a> {
     pub(crate) diameter: f64,
     /// Materials of shaft and hub; one of which the design says nothing is left out.
     pub(crate) materials: &'a [&'a str],
-    /// Greatest torque, N mm, and the input at which it comes.
+    /// Maximum torque, N mm, and the input at which it comes.
     pub(crate) torque: Extreme,
     /// Part with the hub.
     pub(crate) part: &'a str,
 }
 
 impl LoadedKey<'_> {
-    /// Greatest pressure on its sides, N/mm²; DIN 6892, method C.
+    /// Maximum pressure on its sides, N/mm²; DIN 6892, method C.
     pub(crate) fn pressure(&self) -> f64 {
         let long = self.key.bearing_length().min(self.face);
         self.hub.pressure(self.torque.value, self.diameter, long)
     }
 
-    /// Tells of a key that is pressed harder than the weakest material beside it allows.
+    /// Tells of a key that is pressed harder than the weakest material next to it allows.
     pub(crate) fn check(&self, report: &mut Report) {
         let allowed = self
             .materials

@@ -279,7 +279,7 @@ impl<'a> ReportFile<'a> {
     }
 }
 
-/// Words of a goal that is missed, beside its figures.
+/// Words of a goal that is missed, next to its figures.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Missed {
     /// Input angle at which the figure is found, rad.
@@ -298,7 +298,7 @@ mod tests {
     fn an_infinite_figure_is_a_word_in_json_that_readers_take_for_it() {
         let mut report = Report::default();
         report.values.insert("limit", f64::INFINITY);
-        report.values.insert("least", f64::NEG_INFINITY);
+        report.values.insert("minimum", f64::NEG_INFINITY);
         report.values.insert("module", 2.25);
         let goal = Goal::new(1, "a", "a", Unit::Count).with(f64::INFINITY);
         report.goals.push(goal);
@@ -311,7 +311,7 @@ mod tests {
         });
         let json = serde_json::to_value(&report).expect("JSON");
         assert_eq!(json["values"]["limit"], "Infinity");
-        assert_eq!(json["values"]["least"], "-Infinity");
+        assert_eq!(json["values"]["minimum"], "-Infinity");
         assert_eq!(json["values"]["module"], 2.25);
         assert_eq!(json["goals"][0]["value"], "Infinity");
         assert_eq!(json["tables"][0]["rows"][0][1][1], "Infinity");

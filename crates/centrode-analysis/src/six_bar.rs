@@ -33,7 +33,7 @@ fn not_crank_rocker(point: &[f64]) -> f64 {
     (crank + longest - others) / frame + 1e-9
 }
 
-/// Problem of lengths that swing the effector by a wanted angle about a fixed pivot, with a wanted least
+/// Problem of lengths that swing the effector by a wanted angle about a fixed pivot, with a wanted minimum
 /// transmission angle: variables are crank, coupler, rocker and frame, mm.
 #[derive(Clone, Debug)]
 pub struct RequiredSwing {
@@ -46,7 +46,7 @@ pub struct RequiredSwing {
     pub branch: Branch,
     /// Wanted swing, rad.
     pub swing: f64,
-    /// Wanted least transmission angle, rad; none leaves constraint (16) out.
+    /// Wanted minimum transmission angle, rad; none leaves constraint (16) out.
     pub minimum_transmission_angle: Option<f64>,
 }
 
@@ -91,7 +91,7 @@ impl Problem for RequiredSwing {
     }
 }
 
-/// Problem of the crank-rocker with the greatest least transmission angle: variables are crank, coupler,
+/// Problem of the crank-rocker with the largest minimum transmission angle: variables are crank, coupler,
 /// rocker and frame, mm.
 ///
 /// It stays below 90 degrees less half the rocker's swing, whatever the lengths.
@@ -106,7 +106,7 @@ impl Problem for BestTransmissionAngle {
         self.bounds.to_vec()
     }
 
-    /// Evaluates a point: the objective is a right angle less the least transmission angle, rad.
+    /// Evaluates a point: the objective is a right angle less the minimum transmission angle, rad.
     fn evaluate(&self, point: &[f64]) -> Evaluation {
         let minimum =
             four_bar(point, Branch::Upper).map_or(0.0, |f| f.minimum_transmission_angle());
@@ -121,18 +121,18 @@ impl Problem for BestTransmissionAngle {
     }
 }
 
-/// Problem of the least common widening of all bounds with which they hold a crank-rocker with a wanted least
+/// Problem of the least common widening of all bounds with which they hold a crank-rocker with a wanted minimum
 /// transmission angle: variables are the widening and each length's place within its widened bounds, from 0 to 1.
 #[derive(Clone, Debug)]
 pub struct MinimumWidening {
     /// Bounds to be widened, mm.
     pub bounds: Lengths,
-    /// Wanted least transmission angle, rad.
+    /// Wanted minimum transmission angle, rad.
     pub minimum_transmission_angle: f64,
 }
 
 impl MinimumWidening {
-    /// Bounds with every least value made smaller and every greatest value made greater by a share.
+    /// Bounds with every minimum value made smaller and every maximum value made greater by a share.
     #[must_use]
     pub fn widened(&self, share: f64) -> Lengths {
         self.bounds

@@ -12,7 +12,7 @@ pub(crate) fn fixed(x: f64, places: usize) -> String {
     }
 }
 
-/// Least and greatest number to so many places; one where both are the same.
+/// Minimum and maximum number to so many places; one where both are the same.
 pub(crate) fn range([low, high]: [f64; 2], places: usize) -> String {
     let [low, high] = [low, high].map(|x| number(x, places));
     if low == high {

@@ -6,7 +6,7 @@ use centrode_spec::{Projection, SheetSize};
 /// How files are written.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Options {
-    /// Greatest distance of every arc, point sequence and mesh from the exact curve.
+    /// Maximum distance of every arc, point sequence and mesh from the exact curve.
     pub tolerance: Tolerance,
     /// Which DXF.
     pub dxf_version: dxf::Version,
@@ -49,6 +49,6 @@ pub struct SheetOptions {
     pub size: Option<SheetSize>,
     /// How views lie to each other; left out, as the design says.
     pub projection: Option<Projection>,
-    /// Findings of checks, told in tables beside the data of the design.
+    /// Findings of checks, told in tables next to the data of the design.
     pub found: Vec<Datum>,
 }

@@ -82,7 +82,7 @@ impl<'a> Package<'a> {
         self.design
     }
 
-    /// Greatest distance of every arc, point sequence and mesh from the exact curve.
+    /// Maximum distance of every arc, point sequence and mesh from the exact curve.
     pub(crate) fn tolerance(&self) -> Tolerance {
         self.options.tolerance
     }

@@ -2,7 +2,7 @@ use centrode_export::picture::{Handle, HandlePlane};
 use centrode_gear::pitch::{PitchSpec, Plane};
 use std::f64::consts::{PI, TAU};
 
-/// Greatest number of points of a pitch curve that get a handle each: more would hide the curve.
+/// Maximum number of points of a pitch curve that get a handle each: more would hide the curve.
 const MAX_HANDLES: usize = 60;
 
 /// Handles at the points of a pitch curve whose length is `length` mm in the picture, on a link.

@@ -8,7 +8,7 @@ use serde::Serialize;
 pub struct Limit {
     /// Chart whose figure it is.
     pub chart: Cow<'static, str>,
-    /// Least or greatest figure wanted.
+    /// Minimum or maximum figure wanted.
     pub value: f64,
     /// Whether the figure is to be no less.
     pub minimum: bool,

@@ -75,14 +75,14 @@ impl Mechanism for Machine {
         machine_figures(self)
     }
 
-    /// Goals of a dyad's least transmission angle are drawn where the least of all dyads is.
+    /// Goals of a dyad's minimum transmission angle are drawn where the minimum of all dyads is.
     fn limits(&self, report: &Report) -> Vec<Limit> {
         let goals = self.design().goals.iter();
         let of_dyads = goals.filter(|(_, goal)| {
             goal.figure.starts_with("transmission(") && goal.over == Some(Over::Minimum)
         });
         of_dyads
-            .flat_map(|(name, _)| Limit::of_goal(report, name, "Least transmission angle"))
+            .flat_map(|(name, _)| Limit::of_goal(report, name, "Minimum transmission angle"))
             .collect()
     }
 

@@ -8,7 +8,7 @@ use centrode_synthesis::optimise::{DesignProblem, NotSearched};
 
 use super::{Depth, Mechanism, OpenDesign, Widening, WideningError};
 
-/// Mechanism of one family: all that the registry reads of it beside the mechanism itself.
+/// Mechanism of one family: all that the registry reads of it next to the mechanism itself.
 pub trait Resolved: Mechanism + Sized {
     /// Design of the family.
     type Design: DesignSpec;
@@ -33,7 +33,7 @@ pub trait Resolved: Mechanism + Sized {
         Err(NotSearched::Family)
     }
 
-    /// Least widening of a design's bounds that lets all its goals be reached.
+    /// Minimum widening of a design's bounds that lets all its goals be reached.
     ///
     /// # Errors
     /// A sentence that says why there is none.
@@ -115,7 +115,7 @@ impl Family {
         (self.problem)(design)
     }
 
-    /// Least widening of a design's bounds that lets all its goals be reached.
+    /// Minimum widening of a design's bounds that lets all its goals be reached.
     ///
     /// # Errors
     /// A sentence that says why there is none.

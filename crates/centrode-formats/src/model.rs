@@ -35,7 +35,7 @@ pub struct ModelLink {
 /// A mesh that a link is seen as.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Seen {
-    /// Name of its file in mm, beside the model file.
+    /// Name of its file in mm, next to the model file.
     pub file: String,
     /// Its origin in the link's frame, mm.
     pub at: [f64; 3],

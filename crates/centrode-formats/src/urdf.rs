@@ -31,7 +31,7 @@ pub enum UrdfError {
 /// Note to `MuJoCo` to search meshes in the folders they are named with; other readers skip it.
 const FOLDERS: &str = "\n  <mujoco><compiler strippath=\"false\"/></mujoco>";
 
-/// Name of the STL file of a model's convex body, in a folder beside the URDF file.
+/// Name of the STL file of a model's convex body, in a folder next to the URDF file.
 ///
 /// One file a body: several in one file, as in OBJ, are one hull to `MuJoCo` and one trimesh to others.
 #[must_use]
@@ -39,7 +39,7 @@ pub fn collision_file(body: &str) -> String {
     format!("collision/{body}.stl")
 }
 
-/// Writes a model as URDF: metres, kilograms, radians; meshes by file name beside it, scaled from mm, the convex bodies
+/// Writes a model as URDF: metres, kilograms, radians; meshes by file name next to it, scaled from mm, the convex bodies
 /// to touch with under the names of [`collision_file`].
 ///
 /// # Errors

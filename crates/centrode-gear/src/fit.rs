@@ -2,8 +2,8 @@
 //!
 //! Along the pitch curve a flank works from its mate's tip to its own, by the sum of both tips' rolls. Where one flank ends the next
 //! has begun if what is left of the one and what there is of the other are more than a pitch together; over the pitch that is the
-//! contact ratio there. Where the least of them is above one, the flanks alone carry the motion. What is free is chosen for the
-//! greatest least: from a grid of places on, by ever smaller steps along each number, first by the layout alone, then by the teeth
+//! contact ratio there. Where the minimum of them is above one, the flanks alone carry the motion. What is free is chosen for the
+//! largest minimum: from a grid of places on, by ever smaller steps along each number, first by the layout alone, then by the teeth
 //! that are cut, whose flanks may end before.
 
 use centrode_geometry::checkpoint;
@@ -17,13 +17,13 @@ use super::{
     teeth::{Counts, Layout, layout},
 };
 
-/// Share of the mean contact ratio that counts beside the least, so that flanks with room to spare are made deeper too.
+/// Share of the mean contact ratio that counts next to the minimum, so that flanks with room to spare are made deeper too.
 const MEAN: f64 = 1e-3;
 
 /// Number that is free.
 struct Free {
     fit: Fit,
-    /// Values tried first, beside the one written.
+    /// Values tried first, next to the one written.
     first: &'static [f64],
     range: [f64; 2],
     /// First step, a power of two times the last.
@@ -169,7 +169,7 @@ impl Fits<'_> {
         layout(self.rolling, self.counts, &teeth).ok()
     }
 
-    /// The least contact ratio from a flank to the next, and a little of their mean; without limit below where there are no teeth.
+    /// The minimum contact ratio from a flank to the next, and a little of their mean; without limit below where there are no teeth.
     fn merit(&self, design: &GearPairDesign) -> f64 {
         checkpoint();
         let is_valid = design.tool.validate().is_ok() && design.teeth.validate().is_ok();
@@ -187,7 +187,7 @@ impl Fits<'_> {
         weighed(self.contact_ratios([&driver, &driven], above))
     }
 
-    /// Least and mean contact ratio, from one flank to the next, of teeth that are cut.
+    /// Minimum and mean contact ratio, from one flank to the next, of teeth that are cut.
     fn worked(&self, teeth: &[Vec<Tooth>; 2]) -> (f64, f64) {
         let flanks = |tooth: &Tooth| [tooth.leading, tooth.trailing];
         let [driver, driven] = [0, 1].map(|k| teeth[k].iter().map(flanks).collect::<Vec<_>>());
@@ -206,7 +206,7 @@ impl Fits<'_> {
         self.contact_ratios([&driver, &driven], above)
     }
 
-    /// Least and mean contact ratio from one flank to the next, of the leading and trailing flanks of both gears, by the roll above
+    /// Minimum and mean contact ratio from one flank to the next, of the leading and trailing flanks of both gears, by the roll above
     /// the crossing over which a flank of some side works with a mate.
     fn contact_ratios<F>(
         &self,
@@ -245,7 +245,7 @@ impl Fits<'_> {
     }
 }
 
-/// The least contact ratio, and a little of the mean.
+/// The minimum contact ratio, and a little of the mean.
 fn weighed((minimum, mean): (f64, f64)) -> f64 {
     minimum + MEAN * mean
 }

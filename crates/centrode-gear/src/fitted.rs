@@ -15,7 +15,7 @@ use super::{
     tooth_passage::{Candidate, Poses, Reaches, ToothPassage},
 };
 
-/// Least share of a straight rack's flank speed kept at the end of a trimmed flank: below it the
+/// Minimum share of a straight rack's flank speed kept at the end of a trimmed flank: below it the
 /// flank ends in a knife edge of no radius of curvature.
 const MIN_SPEED: f64 = 0.05;
 
@@ -108,7 +108,7 @@ impl Fitting<'_> {
         };
         let middle = 0.5 * (driver[0].leading.crossing + driver[0].trailing.crossing);
         let mut poses = Poses::new(self.rolling, middle + 0.25 * pitch, pitch);
-        // Crossings of driver tooth k, and of a driven tooth beside it, with the numbers of both.
+        // Crossings of driver tooth k, and of a driven tooth next to it, with the numbers of both.
         let pair = |k: usize, beside: isize| {
             let i = k % first;
             let one = crossings(&driver[i], (k / first) as f64 * lengths[0]);
@@ -118,7 +118,7 @@ impl Fitting<'_> {
             ([i, j], [one, crossings(&driven[j], turns * lengths[1])])
         };
         let middle = |[one, two]: [[f64; 2]; 2]| 0.25 * (one[0] + one[1] + two[0] + two[1]);
-        // The two driven teeth beside it mesh with it; those beyond can still be met where the
+        // The two driven teeth next to it mesh with it; those beyond can still be met where the
         // pitch curve is concave.
         const BESIDE: [isize; 8] = [-4, -3, -2, -1, 0, 1, 2, 3];
         let cycle = counts[0] / gcd(counts[0] as u32, counts[1] as u32) as usize * counts[1];

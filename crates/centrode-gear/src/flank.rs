@@ -32,7 +32,7 @@ impl Side {
     }
 }
 
-/// Greatest length rolled up to a height, by that of a rack.
+/// Maximum length rolled up to a height, by that of a rack.
 const FARTHEST: f64 = 4.0;
 
 /// The exact flank, fillet, tip and root curves about one crossing of a pitch curve.
@@ -89,8 +89,8 @@ impl Flank<'_> {
             .find_map(|pair| self.slower_between(minimum, pair[0], pair[1]))
     }
 
-    /// [`slower`](Self::slower) between breaks of the pitch curve: at steps that are short beside what a tooth rolls, and at
-    /// the least speed about a step that is slower than its neighbours.
+    /// [`slower`](Self::slower) between breaks of the pitch curve: at steps that are short next to what a tooth rolls, and at
+    /// the minimum speed about a step that is slower than its neighbours.
     fn slower_between(&self, minimum: f64, a: f64, b: f64) -> Option<f64> {
         /// Steps for the length that a rack rolls from the pitch line to its tip, and the fewest.
         const STEPS: f64 = 12.0;

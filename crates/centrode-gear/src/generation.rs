@@ -21,7 +21,7 @@ use super::{
 /// Relative difference below which a written centre distance is the computed one: it is written to a micrometre or so.
 const DISTANCE: f64 = 1e-6;
 
-/// Pressure angle above that of any pair, rad: its involute function exceeds the greatest sum of shifts on the fewest teeth.
+/// Pressure angle above that of any pair, rad: its involute function exceeds the maximum sum of shifts on the fewest teeth.
 const STEEPEST: f64 = 1.5;
 
 /// Generation of both gears of a pair.

@@ -12,12 +12,12 @@ use super::{
 /// Curvature of the pitch curves, and the teeth it allows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
-    /// Greatest curvature of either pitch curve where it is convex, 1/mm; zero where neither is.
+    /// Maximum curvature of either pitch curve where it is convex, 1/mm; zero where neither is.
     pub convex_curvature: f64,
-    /// Greatest curvature of either pitch curve where it is concave, 1/mm; zero for convex curves.
+    /// Maximum curvature of either pitch curve where it is concave, 1/mm; zero for convex curves.
     pub concave_curvature: f64,
     /// Largest module at which the straight sides of this tool undercut or cut short no flank, wherever the teeth fall
-    /// on these pitch curves, mm: least radius x sin^2 alpha over the tool's depth in modules.
+    /// on these pitch curves, mm: minimum radius x sin^2 alpha over the tool's depth in modules.
     pub largest_module: f64,
     /// Largest module at which the rounding of the tool's tip cuts into no flank, mm; infinite for convex curves. Where the
     /// pitch curve is concave the rounding's envelope has a cusp, once the curvature there is above sin alpha rho / (d (d - rho)),
@@ -80,7 +80,7 @@ impl GearPair {
         }
     }
 
-    /// Greatest pressure angle over the cycle, whichever way the driver pushes, and the driver angle at which it is, rad.
+    /// Maximum pressure angle over the cycle, whichever way the driver pushes, and the driver angle at which it is, rad.
     #[must_use]
     pub fn maximum_pressure_angle(&self) -> Extreme {
         let rolling = self.rolling();
@@ -133,7 +133,7 @@ impl GearPair {
         }
     }
 
-    /// The greatest height, up to `limit`, at which no tooth is thinner than asked for.
+    /// The maximum height, up to `limit`, at which no tooth is thinner than asked for.
     fn widest_height(&self, limit: f64) -> f64 {
         let mut height = limit;
         for member in [Member::Driver, Member::Driven] {

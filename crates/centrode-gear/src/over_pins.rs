@@ -40,8 +40,8 @@ pub enum PinFault {
     /// The gear is in the way before the pin touches both flanks.
     #[error("the pin does not get to the flanks of this space: another tooth is in its way")]
     Blocked,
-    /// There is no space: a tooth beside it has been cut off or has no flank.
-    #[error("a tooth beside this space has no flank")]
+    /// There is no space: a tooth next to it has been cut off or has no flank.
+    #[error("a tooth next to this space has no flank")]
     NoFlank,
 }
 

@@ -240,7 +240,7 @@ pub(crate) struct Patterns {
 }
 
 impl Patterns {
-    /// The greatest symmetry that pitch curves and teeth have.
+    /// The maximum symmetry that pitch curves and teeth have.
     pub(crate) fn new(symmetry: Symmetry, counts: &Counts, plan: &Layout, pitch: f64) -> Self {
         let folds = gcd(symmetry.folds, counts.driver);
         let twice = 2.0 * plan.phase;

@@ -13,10 +13,10 @@ use super::{
 /// Active depth of a flank over its mate's reach, so that the mate's tip edge clears the fillet.
 const SPARE: f64 = 1.02;
 
-/// Greatest rounding of a space's corner, as a share of its depth.
+/// Maximum rounding of a space's corner, as a share of its depth.
 const ROUNDEST: f64 = 0.8;
 
-/// Least share of a straight rack's flank speed down to which a flank goes on below where its mate works.
+/// Minimum share of a straight rack's flank speed down to which a flank goes on below where its mate works.
 const SLOWEST: f64 = 0.01;
 
 /// Places of a tip on its way from the flank to the root at which it is held against the corner: at first, and where it is near.
@@ -29,7 +29,7 @@ const BETWEEN: f64 = 1e-2;
 type Place = (f64, [f64; 2]);
 
 impl Fitting<'_> {
-    /// The corner of a space of some depth beside a flank that a tip works on; none where it would cut into that flank.
+    /// The corner of a space of some depth next to a flank that a tip works on; none where it would cut into that flank.
     pub(super) fn corner_below(
         &self,
         member: Member,

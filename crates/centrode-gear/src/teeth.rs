@@ -25,11 +25,11 @@ pub struct TeethParameters {
     pub phase: Phase,
     /// Normal backlash: distance between mating flanks along their common normal, mm.
     pub backlash: f64,
-    /// Greatest angular backlash of the driven gear with the driver held, rad; replaces `backlash`.
+    /// Maximum angular backlash of the driven gear with the driver held, rad; replaces `backlash`.
     pub backlash_angle: Option<f64>,
     /// The driver's share of the pitch, tooth against space; 0.5 for equal teeth.
     pub thickness_split: f64,
-    /// Least width of the top land, mm.
+    /// Minimum width of the top land, mm.
     pub minimum_tip_width: f64,
 }
 
@@ -68,7 +68,7 @@ pub enum TeethError {
         space: f64,
         /// Depth of the space, mm.
         depth: f64,
-        /// Greatest radius that fits, mm.
+        /// Maximum radius that fits, mm.
         maximum: f64,
     },
     /// The tool comes to a point before it is as deep as it must cut.
@@ -100,7 +100,7 @@ pub enum TeethError {
         "phase \"congruent\" needs two pitch curves that are the same; these differ by {difference:e} mm in radius"
     )]
     NotCongruent {
-        /// Greatest difference of radius, mm.
+        /// Maximum difference of radius, mm.
         difference: f64,
     },
 }
@@ -229,7 +229,7 @@ pub(crate) fn layout(
     Ok(layout)
 }
 
-/// Length that turns normal backlash into the greatest angular backlash over the cycle, mm: the least harmonic mean
+/// Length that turns normal backlash into the maximum angular backlash over the cycle, mm: the minimum harmonic mean
 /// of the driven shaft's distances from the two common normals.
 fn minimum_lever(rolling: &Rolling, pressure_angle: f64) -> f64 {
     let (sin, cos) = pressure_angle.sin_cos();
@@ -280,7 +280,7 @@ fn phase(
     }
 }
 
-/// Mirror s* for which r(s) + r(s* - s) comes nearest to a, and the greatest deviation left.
+/// Mirror s* for which r(s) + r(s* - s) comes nearest to a, and the maximum deviation left.
 fn self_mating_difference(rolling: &Rolling, pitch: f64) -> Option<(f64, f64)> {
     const SAMPLES: u32 = 96;
     if rolling.mean_ratio() != (1, 1) {

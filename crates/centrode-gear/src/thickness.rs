@@ -73,7 +73,7 @@ const FIRST: u32 = 21;
 /// Series less the accuracy class: series 26 for class 8. A tolerance is then at least twice what the thickness of the teeth of
 /// one gear of the class varies by, as DIN 3967 asks.
 const ABOVE_CLASS: u32 = 18;
-/// Least module of the standard, mm.
+/// Minimum module of the standard, mm.
 const MIN_MODULE: f64 = 1.0;
 
 /// Upper and lower deviation of the thickness of a gear's teeth.

@@ -82,7 +82,7 @@ impl Tool {
         }
     }
 
-    /// Greatest arc length the tool can generate on the addendum side of a crossing, mm: a shaper's
+    /// Maximum arc length the tool can generate on the addendum side of a crossing, mm: a shaper's
     /// flank starts at its base circle.
     pub(crate) fn addendum_reach(&self) -> f64 {
         match self.kind {
@@ -106,7 +106,7 @@ impl Tool {
         }
     }
 
-    /// Greatest rounding that leaves the tool's tip a flat, for a space of pitch-line width `space`
+    /// Maximum rounding that leaves the tool's tip a flat, for a space of pitch-line width `space`
     /// and `depth`, mm: the two roundings of a tool tooth meet at its middle. Not positive where the tip is
     /// pointed without any.
     pub(crate) fn maximum_tip_radius(&self, depth: f64, space: f64) -> f64 {

@@ -17,13 +17,13 @@ const POSES: u32 = 20;
 /// Pitches, half of them on either side of the middle of a passage, within which teeth are held against each other: on pitch curves that
 /// are concave in turn they still meet some pitches before they mesh.
 const PITCHES: u32 = 16;
-/// Greatest way of a corner in its mate's axes, pitches, from one pose to the next where teeth are trimmed.
+/// Maximum way of a corner in its mate's axes, pitches, from one pose to the next where teeth are trimmed.
 const WAY: f64 = 0.02;
 /// Penetration that may be the approximation's own, as a share of the pitch.
 const PENETRATION: f64 = 3e-5;
 /// Safety factor on a limiting reach; covers what lies between sampled poses.
 const CACHED: f64 = 0.95;
-/// Least share of a whole reach that is taken off a limiting one.
+/// Minimum share of a whole reach that is taken off a limiting one.
 const SPARE: f64 = 0.02;
 
 /// Parts of which a number of a tooth's reach is kept.
@@ -236,7 +236,7 @@ impl<'a> ToothPassage<'a> {
         [driver.reaches(first), driven.reaches(second)]
     }
 
-    /// Poses at which two teeth penetrate each other, and more between them and beside them where corners move far from one to the
+    /// Poses at which two teeth penetrate each other, and more between them and next to them where corners move far from one to the
     /// next.
     fn foul(&self, teeth: &[Rc<ToothChords>; 2]) -> Vec<[Frame; 2]> {
         let near = &self.near;
@@ -337,7 +337,7 @@ fn first_part(holds: impl Fn(u32) -> bool) -> u32 {
     from
 }
 
-/// Greatest number of parts that is clear at every one of some poses, if it is one of `minimum` parts at least. Fewer parts are clear wherever
+/// Maximum number of parts that is clear at every one of some poses, if it is one of `minimum` parts at least. Fewer parts are clear wherever
 /// more are.
 fn clear_part<P>(poses: &[P], minimum: u32, clear: impl Fn(&P, u32) -> bool) -> Option<u32> {
     let mut part = PARTS;

@@ -27,7 +27,7 @@ pub struct Crossing {
 pub struct ClearOffset {
     /// `return_offset`, mm.
     pub return_offset: f64,
-    /// Least length of a slider that bridges every crossing of the strokes then, mm.
+    /// Minimum length of a slider that bridges every crossing of the strokes then, mm.
     pub slider_length: f64,
     /// Distance, mm, by which each pick then misses its hole: half of the offset.
     pub misplacement: f64,
@@ -77,13 +77,13 @@ impl Groove {
         crossings
     }
 
-    /// Least length of a slider that bridges every crossing, mm.
+    /// Minimum length of a slider that bridges every crossing, mm.
     #[must_use]
     pub fn minimum_slider_length(&self) -> f64 {
         longest(&self.crossings(), false)
     }
 
-    /// Least shift of the return stroke with which a slider of this length (mm) bridges every crossing
+    /// Minimum shift of the return stroke with which a slider of this length (mm) bridges every crossing
     /// of the two strokes, or the best there is if none is enough.
     ///
     /// Picking the same hole at the same angle of the shaft on both ways puts a crossing there, whatever

@@ -37,7 +37,7 @@ pub struct SpiralShaftDesign {
     pub pick: f64,
     /// Width of a pot, mm: the box may move by a sixth of it while a seedling is picked.
     pub pot_width: f64,
-    /// Shift of the return groove beside the forward one, mm: brings the slow places off the crossings at the price
+    /// Shift of the return groove next to the forward one, mm: brings the slow places off the crossings at the price
     /// of missing each hole by half of it.
     pub return_offset: f64,
     /// Speed along the shaft.

@@ -45,7 +45,7 @@ impl EllipticDrive {
         }
     }
 
-    /// Elliptic pair whose greatest speed is `ratio` times its least: `k = (sqrt q - 1)/(sqrt q + 1)`.
+    /// Elliptic pair whose maximum speed is `ratio` times its minimum: `k = (sqrt q - 1)/(sqrt q + 1)`.
     ///
     /// # Errors
     /// [`ShaftError::Spec`] unless `ratio` is at least 1.

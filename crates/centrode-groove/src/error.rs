@@ -82,7 +82,7 @@ pub enum ShaftError {
     GrooveWidth {
         /// Width of the groove, mm.
         width: f64,
-        /// Least normal distance of neighbouring turns, mm.
+        /// Minimum normal distance of neighbouring turns, mm.
         room: f64,
     },
     /// A groove as deep as the shaft is thick.
@@ -100,7 +100,7 @@ pub enum ShaftError {
         "the groove bends with a radius of {radius:.6} mm at {angle_deg:.3} deg, less than half its width of {width} mm: no slider cuts or follows it; take a larger reversal angle"
     )]
     Bend {
-        /// Least radius of curvature on the development, mm.
+        /// Minimum radius of curvature on the development, mm.
         radius: f64,
         /// Position, deg of shaft turn.
         angle_deg: f64,

@@ -104,15 +104,15 @@ fn way(motion: &MotionJet) -> f64 {
 /// Extremes of the forces over a whole cycle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ForceRange {
-    /// Least and greatest normal force on the strokes, N.
+    /// Minimum and maximum normal force on the strokes, N.
     pub normal: [Extreme; 2],
-    /// Greatest normal force in a reversal, N.
+    /// Maximum normal force in a reversal, N.
     pub normal_of_reversal: Extreme,
-    /// Least and greatest torque over the cycle, N mm.
+    /// Minimum and maximum torque over the cycle, N mm.
     pub torque: [Extreme; 2],
-    /// Greatest deceleration along the way on the strokes, mm/rad^2.
+    /// Maximum deceleration along the way on the strokes, mm/rad^2.
     pub deceleration: Extreme,
-    /// Greatest deceleration over the whole cycle, with the reversals, mm/rad^2.
+    /// Maximum deceleration over the whole cycle, with the reversals, mm/rad^2.
     pub deceleration_of_cycle: Extreme,
 }
 
@@ -127,7 +127,7 @@ impl Groove {
         )
     }
 
-    /// Least and greatest forces over the cycle.
+    /// Minimum and maximum forces over the cycle.
     #[must_use]
     pub fn force_range(&self, load: &Load) -> ForceRange {
         let ends = self.ends();

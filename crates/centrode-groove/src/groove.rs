@@ -163,13 +163,13 @@ impl Groove {
         self.lead_angle(theta).abs()
     }
 
-    /// Greatest pressure angle, rad, and the shaft angle of it.
+    /// Maximum pressure angle, rad, and the shaft angle of it.
     #[must_use]
     pub fn steepest(&self) -> Extreme {
         maximum(|theta| self.pressure_angle(theta), &self.ends())
     }
 
-    /// A point beside the centre line at a normal distance on the development, mm: left for a positive one.
+    /// A point next to the centre line at a normal distance on the development, mm: left for a positive one.
     #[must_use]
     pub fn beside(&self, theta: f64, distance: f64) -> Point {
         let slope = self.traverse.at(theta).velocity;
@@ -191,13 +191,13 @@ impl Groove {
         r * motion.acceleration / r.hypot(motion.velocity).powi(3)
     }
 
-    /// Greatest curvature of the development, 1/mm, without sign, and the shaft angle of it.
+    /// Maximum curvature of the development, 1/mm, without sign, and the shaft angle of it.
     #[must_use]
     pub fn tightest(&self) -> Extreme {
         self.tightest
     }
 
-    /// Greatest curvature of the strokes without the reversals, 1/mm, without sign, and the shaft angle of it.
+    /// Maximum curvature of the strokes without the reversals, 1/mm, without sign, and the shaft angle of it.
     #[must_use]
     pub fn tightest_of_stroke(&self) -> Extreme {
         let ends = self.ends_between(0.0, self.traverse.stroke());
@@ -239,7 +239,7 @@ impl Groove {
         ]
     }
 
-    /// Greatest distance, mm, between a radial wall and the wall an end mill of the groove's width cuts:
+    /// Maximum distance, mm, between a radial wall and the wall an end mill of the groove's width cuts:
     /// both pass the surface alike, at the foot the mill leaves the groove this much wider on each side.
     #[must_use]
     pub fn wall_deviation(&self) -> f64 {

@@ -40,7 +40,7 @@ pub struct EllipticGears {
     /// Eccentricity of the pitch ellipses.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub eccentricity: Option<f64>,
-    /// Greatest speed of the shaft over its least.
+    /// Maximum speed of the shaft over its minimum.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed_ratio: Option<f64>,
     /// Distance a plain shaft shall move the box in the window, mm.

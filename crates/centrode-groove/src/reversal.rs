@@ -36,7 +36,7 @@ impl Default for Reversal {
     }
 }
 
-/// Greatest reversal, rad.
+/// Maximum reversal, rad.
 const LONGEST: f64 = 40.0 * PI;
 
 impl Reversal {

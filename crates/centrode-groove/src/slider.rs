@@ -141,7 +141,7 @@ impl SliderSpec {
         chord.min(self.length)
     }
 
-    /// Clearance a straight slider of this length needs where the groove's curvature is greatest, mm: the height of
+    /// Clearance a straight slider of this length needs where the groove's curvature is largest, mm: the height of
     /// the bend over the chord between the centres of its round ends.
     ///
     /// `rho - sqrt(rho^2 - l^2 / 4)` with `l` the length less the groove's width; infinite where the bend

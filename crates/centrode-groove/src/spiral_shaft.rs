@@ -174,7 +174,7 @@ impl SpiralShaft {
         Ok(ShaftSolid::new(&self.groove, self.body())?.wall_edges(tolerance))
     }
 
-    /// Least and greatest speed of the strokes over their mean.
+    /// Minimum and maximum speed of the strokes over their mean.
     #[must_use]
     pub fn speed_ratio(&self) -> (f64, f64) {
         let law = self.law();

@@ -65,7 +65,7 @@ impl Mill {
     }
 
     /// Closed paths of the mill's axis on the development, mm, each ending where it began but whole turns
-    /// on: one along the middle, or one beside each wall.
+    /// on: one along the middle, or one next to each wall.
     ///
     /// Between two points the axes move in proportion, and the path is within the tolerance of the exact one.
     #[must_use]
@@ -84,7 +84,7 @@ impl Mill {
 }
 
 impl Groove {
-    /// The line at a constant distance beside the centre line over the whole cycle, as points on the
+    /// The line at a constant distance next to the centre line over the whole cycle, as points on the
     /// development within the tolerance, mm.
     #[must_use]
     pub fn way(&self, beside: f64, tolerance: Tolerance) -> Vec<Point> {

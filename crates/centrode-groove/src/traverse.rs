@@ -143,7 +143,7 @@ impl Traverse {
         self.tips
     }
 
-    /// Least and greatest position of the slider, mm.
+    /// Minimum and maximum position of the slider, mm.
     #[must_use]
     pub fn reach(&self) -> (f64, f64) {
         let [far, near] = self.tips.map(|theta| self.at(theta).position);

@@ -3,7 +3,7 @@ use super::random::Random;
 
 /// Spread of the crossover: the greater, the nearer children stay to their parents.
 const CROSSOVER_INDEX: f64 = 15.0;
-/// Greatest mutation, as a share of the bounds, and the greatest number of its halvings.
+/// Maximum mutation, as a share of the bounds, and the maximum number of its halvings.
 const MUTATION: (f64, f64) = (0.3, 40.0);
 /// Share of the pairs that are crossed.
 const CROSSED: f64 = 0.9;

@@ -50,7 +50,7 @@ pub struct Candidate {
 
 /// Problem of minimisation under constraints.
 pub trait Problem: Sync {
-    /// Least and greatest value of each variable.
+    /// Minimum and maximum value of each variable.
     fn bounds(&self) -> Vec<(f64, f64)>;
 
     /// Point to start from, if one is known.

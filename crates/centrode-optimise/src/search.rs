@@ -44,7 +44,7 @@ pub struct Settings {
     pub seed: u64,
     /// Points a generation; by the method and the number of variables if left out.
     pub population: Option<usize>,
-    /// Greatest number of evaluations; the generation under way is finished.
+    /// Maximum number of evaluations; the generation under way is finished.
     pub evaluations: u64,
     /// Objective at which a feasible point is good enough.
     pub target: Option<f64>,
@@ -117,9 +117,9 @@ pub enum SearchError {
     Bounds {
         /// Index of the variable.
         index: usize,
-        /// Least value.
+        /// Minimum value.
         low: f64,
-        /// Greatest value.
+        /// Maximum value.
         high: f64,
     },
     /// Too few points for a generation.
@@ -132,7 +132,7 @@ pub enum SearchError {
     },
 }
 
-/// Least number of points a generation.
+/// Minimum number of points a generation.
 const MIN_POPULATION: usize = 5;
 
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]

@@ -20,7 +20,7 @@ impl Problem for Rosenbrock {
     }
 }
 
-/// The least x² + 2 y above x y = 3/2, inside a box cut by a line.
+/// The minimum x² + 2 y above x y = 3/2, inside a box cut by a line.
 struct AboveAHyperbola;
 
 impl Problem for AboveAHyperbola {
@@ -66,7 +66,7 @@ fn a_curved_valley_is_followed_to_its_bottom() {
     }
 }
 
-/// On the edge x y = 3/2 the objective x² + 3/x is least at x³ = 3/2.
+/// On the edge x y = 3/2 the objective x² + 3/x is smallest at x³ = 3/2.
 #[test]
 fn constraints_are_held() {
     let x = 1.5_f64.cbrt();

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 /// Number of values at which the design is checked.
 const COUNT: u32 = 13;
 
-/// Greatest number of charts of a family without goals.
+/// Maximum number of charts of a family without goals.
 const MOST: usize = 12;
 
 /// Request of the page: one number of the design, between two values in the file's unit.
@@ -33,7 +33,7 @@ struct Chart {
     unit: &'static str,
     /// Figures; none where there is no mechanism.
     figures: Vec<Option<f64>>,
-    /// Least and greatest figure wanted.
+    /// Minimum and maximum figure wanted.
     required: [Option<f64>; 2],
 }
 

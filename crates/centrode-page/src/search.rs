@@ -16,7 +16,7 @@ use std::time::{Duration, Instant};
 /// Interval at which the best design so far is written out for the page.
 const SHOW: Duration = Duration::from_millis(400);
 
-/// Greatest number of points of the history that the page draws.
+/// Maximum number of points of the history that the page draws.
 const DRAWN: usize = 400;
 
 /// Search for a better design, on a thread of its own; there is one at a time.
@@ -36,7 +36,7 @@ pub struct Ask {
 #[derive(Clone, Debug, Serialize)]
 pub struct State {
     method: String,
-    /// Greatest number of evaluations.
+    /// Maximum number of evaluations.
     evaluations: u64,
     running: bool,
     ended: Option<Ended>,

@@ -34,7 +34,7 @@ pub trait Design: Any + Debug + Send + Sync {
     ///
     /// # Errors
     /// [`DesignFault::NotWritable`] for a number no file can hold, such as a tooth count above the
-    /// greatest whole number of TOML.
+    /// maximum whole number of TOML.
     fn to_toml(&self) -> Result<String, DesignError>;
 
     /// Key in the design file for a word: a parameter's name, `r1`, or the key itself.

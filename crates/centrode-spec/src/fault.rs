@@ -30,7 +30,7 @@ pub enum DesignFault {
     TooLarge {
         /// Bytes seen of it.
         bytes: usize,
-        /// Greatest size read.
+        /// Maximum size read.
         limit: usize,
     },
     /// Not text.

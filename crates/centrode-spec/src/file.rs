@@ -13,7 +13,7 @@ pub struct DesignFile {
 }
 
 impl DesignFile {
-    /// Greatest size of a design file, bytes.
+    /// Maximum size of a design file, bytes.
     pub const LARGEST: usize = 1 << 20;
 
     /// Reads a design file of one of the families, returns which, and checks every rule that needs no geometry.

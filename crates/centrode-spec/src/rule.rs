@@ -33,9 +33,9 @@ pub enum Rule {
     OutOfRange {
         /// Value given.
         value: f64,
-        /// Least value allowed.
+        /// Minimum value allowed.
         minimum: f64,
-        /// Greatest value allowed.
+        /// Maximum value allowed.
         maximum: f64,
         /// Unit with a leading space, or empty.
         unit: &'static str,
@@ -125,7 +125,7 @@ pub enum Rule {
     TipRadius {
         /// Value given.
         value: f64,
-        /// Greatest that fits.
+        /// Maximum that fits.
         maximum: f64,
     },
 }

@@ -41,7 +41,7 @@ use crate::word::Word;
 /// >>> round(ct.MovingBox().moved_in_window, 3)  # a plain shaft
 /// 3.333
 ///
-/// The tables of its report hold the schemes beside a plain shaft, and the forces beside those by the paper's equations.
+/// The tables of its report hold the schemes next to a plain shaft, and the forces next to those by the paper's equations.
 ///
 /// >>> report = ct.MovingBox(moved_distance=2.05).check()
 /// >>> table = report.tables[0]

@@ -42,7 +42,7 @@ use crate::wait::wait;
 ///     pot_width: mm; the box may move by a sixth of it while a seedling is picked.
 ///     reversal_angle: Shaft turn of one reversal, rad: whole half turns.
 ///     reversal_law: How the speed changes sign: a motion law by its name, such as "harmonic" or "cycloidal".
-///     return_offset: How far the return groove runs beside the forward one, mm.
+///     return_offset: How far the return groove runs next to the forward one, mm.
 ///     groove_width: mm, along the normal on the surface.
 ///     groove_depth: mm.
 ///     slider_length: mm, over its round ends.

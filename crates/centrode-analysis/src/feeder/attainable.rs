@@ -9,13 +9,13 @@ use centrode_optimise::{Candidate, Method, Problem, Settings, minimise};
 
 /// Evaluations of the search for the best attainable transmission angle.
 const ATTAINABLE: u64 = 20_000;
-/// Evaluations of the search for the least widening of the bounds.
+/// Evaluations of the search for the minimum widening of the bounds.
 const WIDENING: u64 = 40_000;
 
-/// Greatest least transmission angle that the bounds of a feeder's lengths allow.
+/// Largest minimum transmission angle that the bounds of a feeder's lengths allow.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Attainable {
-    /// Greatest least transmission angle of any crank-rocker within the bounds, rad.
+    /// Largest minimum transmission angle of any crank-rocker within the bounds, rad.
     pub transmission_angle: f64,
     /// Its crank, coupler, rocker and frame, mm.
     pub lengths: [f64; 4],

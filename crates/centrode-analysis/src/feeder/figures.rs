@@ -12,7 +12,7 @@ pub(crate) const FIGURES: &[FigureGroup] = &[
         columns: &["feed", "return", "rest"],
         rows: &[
             row("time", &["feed_time", "return_time", "dwell_time"], Second),
-            row("greatest speed of the tip", &["tip_speed_feed_max", "tip_speed_return_max"], MillimetrePerSecond),
+            row("maximum speed of the tip", &["tip_speed_feed_max", "tip_speed_return_max"], MillimetrePerSecond),
             row("tip at the ends", &["tip_speed_ends_max"], MillimetrePerSecond),
             row("feed time over return time", &["quick_return"], Number),
         ],
@@ -38,7 +38,7 @@ pub(crate) const FIGURES: &[FigureGroup] = &[
             row("swing", &["swing"], Angle),
             row("its standard deviation, as made", &["swing_made_deviation"], Angle),
             row("most off, to first order", &["swing_first_order_max"], Angle),
-            row("least transmission angle", &["transmission_angle_min"], Angle),
+            row("minimum transmission angle", &["transmission_angle_min"], Angle),
             row("the best within the bounds", &["attainable_transmission_angle"], Angle),
             row("bounds to widen by, as a share", &["minimum_widening"], Number),
             row("pivot from the chord", &["pivot_from_chord"], Millimetre),

@@ -124,7 +124,7 @@ impl FeederForces {
     }
 }
 
-/// Greatest torque and joint forces, at rest and moving.
+/// Maximum torque and joint forces, at rest and moving.
 pub(super) fn forces(feeder: &Feeder, report: &mut Report) {
     // A link that cannot be cut is a finding of its own.
     let Ok(system) = FeederForces::analyse(feeder) else {
@@ -170,15 +170,15 @@ pub(super) fn forces(feeder: &Feeder, report: &mut Report) {
     let rows = FeederForces::CONNECTIONS.iter().zip(maximum.skip(2));
     report.tables.push(Table {
         name: "joint_forces",
-        title: "Greatest force in a joint",
+        title: "Maximum force in a joint",
         unit: Unit::Newton,
         columns: vec!["held still".into(), "moving".into()],
         rows: rows.map(|(name, row)| ((*name).into(), row)).collect(),
     });
 }
 
-/// Pressure on the keys of both shafts at the greatest torques, held still or moving, and those that are pressed harder than the
-/// weakest material beside them allows: the crank's shaft carries the torque of the crank, the other that of the input.
+/// Pressure on the keys of both shafts at the maximum torques, held still or moving, and those that are pressed harder than the
+/// weakest material next to them allows: the crank's shaft carries the torque of the crank, the other that of the input.
 fn keys(feeder: &Feeder, [still, moving]: [&[Extreme]; 2], report: &mut Report) {
     let (body, plates) = (feeder.design().gears.body(), &feeder.design().plates);
     let Some(hub) = body.keyway else {

@@ -43,7 +43,7 @@ pub fn feeder_goals(feeder: &Feeder) -> Vec<Goal> {
         minimum(
             3,
             "transmission-angle",
-            "least transmission angle",
+            "minimum transmission angle",
             bar.minimum_transmission_angle(),
             transmission_angle,
             Unit::Angle,

@@ -24,14 +24,14 @@ pub struct SwingSpread {
     pub mean: f64,
     /// Standard deviation, rad.
     pub deviation: f64,
-    /// Least swing met, rad.
+    /// Minimum swing met, rad.
     pub minimum: f64,
-    /// Greatest swing met, rad.
+    /// Maximum swing met, rad.
     pub maximum: f64,
     /// Standard deviation by the sensitivities alone, rad: the root of the sum of squares of
     /// sensitivity times tolerance over root three.
     pub first_order_deviation: f64,
-    /// Greatest change by the sensitivities alone, rad: all tolerances at their worst.
+    /// Maximum change by the sensitivities alone, rad: all tolerances at their worst.
     pub first_order_maximum: f64,
 }
 

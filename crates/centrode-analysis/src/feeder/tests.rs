@@ -126,7 +126,7 @@ fn the_crank_moves_the_masses_of_the_plates() {
     );
 }
 
-/// Greatest torque and joint forces at so many inputs of a cycle and on both sides of every break.
+/// Maximum torque and joint forces at so many inputs of a cycle and on both sides of every break.
 fn maximum_seen(feeder: &Feeder, moving: bool) -> [f64; 8] {
     const COUNT: u32 = 14_400;
     let system = FeederForces::analyse(feeder).expect("plates");

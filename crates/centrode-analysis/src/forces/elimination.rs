@@ -1,4 +1,4 @@
-/// Share of the greatest lever that rounding leaves: below it a force is not determined.
+/// Share of the maximum lever that rounding leaves: below it a force is not determined.
 const DEAD: f64 = 1e-13;
 
 /// Solution of equations, each a row that ends in its right side; none where rounding leaves none.

@@ -100,7 +100,7 @@ pub enum ForcesError {
         link: String,
         /// Mass as given, kg.
         mass: f64,
-        /// Least moment of inertia as given, kg mm².
+        /// Minimum moment of inertia as given, kg mm².
         inertia: f64,
     },
     /// More than one thing holds a link: how they share its load depends on their stiffness.

@@ -4,7 +4,7 @@ use nalgebra::Vector3;
 use super::ForcesError;
 use super::motion::LinkMotion;
 
-/// Something beside the tree of joints that holds two links by a force that is not known beforehand.
+/// Something next to the tree of joints that holds two links by a force that is not known beforehand.
 #[derive(Clone, Debug)]
 pub(super) struct Tie {
     pub(super) kind: TieKind,

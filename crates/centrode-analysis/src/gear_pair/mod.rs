@@ -391,7 +391,7 @@ fn oscillations(pair: &GearPair, contact: &Contact) -> Option<Finding> {
         return None;
     }
     let message = format!(
-        "the pitch curves swing {swings} times for {teeth} teeth: the figures of the mesh are the greatest and least at {} places, and others between them may go beyond",
+        "the pitch curves swing {swings} times for {teeth} teeth: the figures of the mesh are the maximum and minimum at {} places, and others between them may go beyond",
         contact.input.len()
     );
     Some(
@@ -401,7 +401,7 @@ fn oscillations(pair: &GearPair, contact: &Contact) -> Option<Finding> {
     )
 }
 
-/// The greatest jump of a seat, as a finding.
+/// The maximum jump of a seat, as a finding.
 fn seat_jump(pair: &GearPair, contact: &Contact) -> Option<Finding> {
     let jumps = contact.seat_jumps(pair);
     let maximum = jumps.first()?;

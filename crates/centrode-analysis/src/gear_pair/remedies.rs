@@ -8,7 +8,7 @@ use crate::Contact;
 
 /// Transmission error up to which the flanks carry the motion by themselves, rad.
 const CARRIED: f64 = 1e-9;
-/// Greatest tooth count of a driver that [`remedies`] tries.
+/// Maximum tooth count of a driver that [`remedies`] tries.
 pub const MAX_TEETH: u32 = 600;
 
 /// Overlap of the pitch curves, modules, above which no teeth are looked for.
@@ -22,11 +22,11 @@ const SCANNED: u32 = 16;
 pub struct PairRemedy {
     /// Height of the teeth.
     pub addendum: Addendum,
-    /// Numbers chosen beside that height, and written in the design.
+    /// Numbers chosen next to that height, and written in the design.
     pub fit: Vec<Fit>,
     /// Tooth count of the driver at which they do: with one step fewer they do not. A greater one may fail again.
     pub minimum_tooth_count: u32,
-    /// The design with such teeth: as many as written where those are enough, else the least that are, on pitch curves of the
+    /// The design with such teeth: as many as written where those are enough, else as few as are, on pitch curves of the
     /// same size.
     pub design: GearPairDesign,
 }
@@ -85,7 +85,7 @@ pub fn remedies(pair: &GearPair) -> Vec<PairRemedy> {
     found
 }
 
-/// The least tooth count at which the flanks of a design carry its motion, looked for from one on and up to another.
+/// The minimum tooth count at which the flanks of a design carry its motion, looked for from one on and up to another.
 pub(crate) fn minimum_count(design: &GearPairDesign, written: u32, most: u32) -> Option<u32> {
     // The driven gear has a whole number of teeth.
     let step = design.mean_ratio[1];
@@ -100,7 +100,7 @@ pub(crate) fn minimum_count(design: &GearPairDesign, written: u32, most: u32) ->
         low
     } else {
         while low == 0 || !carries(high) {
-            // The last one tried is the greatest there is.
+            // The last one tried is the maximum there is.
             if high >= most / step {
                 return None;
             }

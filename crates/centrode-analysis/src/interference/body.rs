@@ -101,13 +101,13 @@ impl Body {
         self.edges.len()
     }
 
-    /// Greatest distance between the outlines and the polygons that replace them, mm.
+    /// Maximum distance between the outlines and the polygons that replace them, mm.
     #[must_use]
     pub fn flattening(&self) -> f64 {
         self.flattening
     }
 
-    /// Greatest distance of any point of the body from its frame's origin, mm, or a little more.
+    /// Maximum distance of any point of the body from its frame's origin, mm, or a little more.
     #[must_use]
     pub fn reach(&self) -> f64 {
         self.nodes[0].center.coords.norm() + self.nodes[0].radius

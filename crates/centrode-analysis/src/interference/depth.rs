@@ -178,7 +178,7 @@ struct Seen {
     depth: f64,
     /// Distance it can move against the other body from there to the ends of the interval.
     travel: f64,
-    /// Greatest distance of the whole stretch from the other's edge that is nearest to the point, were
+    /// Maximum distance of the whole stretch from the other's edge that is nearest to the point, were
     /// all to go straight on: nothing inside the other is deeper. Distance from an edge is convex.
     beside: f64,
     /// Distance by which it can leave that straight path.

@@ -42,7 +42,7 @@ impl From<MotionError> for LinkClearanceError {
     }
 }
 
-/// Least clearance, over one period of the input, of the contours with which two links of a machine touch others; none
+/// Minimum clearance, over one period of the input, of the contours with which two links of a machine touch others; none
 /// where no two of them overlap in height.
 ///
 /// # Errors
@@ -144,7 +144,7 @@ impl LinkPair {
         }))
     }
 
-    /// Least clearance while the input runs from the first to the second of `inputs`.
+    /// Minimum clearance while the input runs from the first to the second of `inputs`.
     ///
     /// Both links are seen from the nearest link that carries them. Clearances are mm, inputs rad, points in that link's
     /// frame; `pair` is the two links. `minimum` is above the true clearance by no more than the tolerance, `lower_bound`
@@ -167,7 +167,7 @@ impl LinkPair {
             .map(|((_, body), motion)| Moving { body, motion })
             .collect();
         let minimum = self.shares.minimum(&moving, &self.pairs, inputs)?;
-        // There is a pair: it has a least distance.
+        // There is a pair: it has a minimum distance.
         let nowhere = MotionError::NotFinite { input: inputs[0] };
         let found = minimum.ok_or(nowhere)?;
         Ok(Clearance {

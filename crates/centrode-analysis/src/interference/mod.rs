@@ -32,7 +32,7 @@ pub struct Moving<'a> {
 /// Clearance of two bodies while the input runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clearance {
-    /// Least distance found, mm. Where the bodies overlap it is negative: the depth of the deepest point of
+    /// Minimum distance found, mm. Where the bodies overlap it is negative: the depth of the deepest point of
     /// one lies inside the other.
     pub minimum: f64,
     /// Proven lower bound of the clearance, mm.
@@ -46,7 +46,7 @@ pub struct Clearance {
     pub pair: [usize; 2],
 }
 
-/// Division of a tolerance: the errors of two bodies, their motions and the search sum up to the tolerance. The least
+/// Division of a tolerance: the errors of two bodies, their motions and the search sum up to the tolerance. The minimum
 /// clearance found is then above the true one by no more, nor is the bound farther below.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PhaseShifts {
@@ -79,7 +79,7 @@ impl PhaseShifts {
         Tabulated::within(inputs, body.reach(), motion, self.motion)
     }
 
-    /// Least clearance among pairs of such bodies.
+    /// Minimum clearance among pairs of such bodies.
     pub(crate) fn minimum(
         self,
         bodies: &[Moving<'_>],
@@ -107,13 +107,13 @@ pub enum InterferenceError {
     },
 }
 
-/// Least clearance of two bodies while the input runs from the first to the second of `inputs`.
+/// Minimum clearance of two bodies while the input runs from the first to the second of `inputs`.
 ///
-/// The search halves intervals of the input until none can hold a clearance smaller than the least one
-/// found less the tolerance: within an interval no point can leave its tangent by more than its greatest
+/// The search halves intervals of the input until none can hold a clearance smaller than the minimum one
+/// found less the tolerance: within an interval no point can leave its tangent by more than its maximum
 /// second derivative allows. `lower_bound` is `minimum` less at most the tolerance, the flattening of both
 /// bodies and the deviation of both motions; it is proven where [`Motion::bend`] is. Poses may be given in
-/// any one frame; the search is quickest where the bodies' movement is least, for arms on a carrier in
+/// any one frame; the search is quickest where the bodies' movement is smallest, for arms on a carrier in
 /// the carrier's frame. Arms that follow one another in equal phases make one curve: one pair is enough.
 ///
 /// A body inside another, or one that runs through it between two samples, overlaps it. Cost: a few
@@ -130,12 +130,12 @@ pub fn clearance(
     tolerance: Tolerance,
 ) -> Result<Clearance, InterferenceError> {
     let found = below([a, b], [0, 1], inputs, f64::INFINITY, tolerance)?;
-    // Nothing is at infinity: a pair always has a least distance.
+    // Nothing is at infinity: a pair always has a minimum distance.
     let nowhere = MotionError::NotFinite { input: inputs[0] };
     Ok(found.closest.ok_or(nowhere)?)
 }
 
-/// Least clearance among pairs of bodies, each given by two places in `bodies`; `None` without pairs.
+/// Minimum clearance among pairs of bodies, each given by two places in `bodies`; `None` without pairs.
 ///
 /// Quicker than [`clearance`] of every pair: a pair is searched only below the best of those before it.
 /// `lower_bound` holds for all pairs.

@@ -35,16 +35,16 @@ impl PoseJet {
 /// Bound of the change of a body's movement within an interval of the input: never too small.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Bend {
-    /// Greatest length of the second derivative of the position, mm/rad^2.
+    /// Maximum length of the second derivative of the position, mm/rad^2.
     pub acceleration: f64,
-    /// Greatest size of the first derivative of the angle.
+    /// Maximum size of the first derivative of the angle.
     pub turning: f64,
-    /// Greatest size of the second derivative of the angle, 1/rad.
+    /// Maximum size of the second derivative of the angle, 1/rad.
     pub turning_change: f64,
 }
 
 impl Bend {
-    /// Greatest second derivative of the position of a point at a distance from the frame's origin.
+    /// Maximum second derivative of the position of a point at a distance from the frame's origin.
     pub(super) fn of_point(&self, distance: f64) -> f64 {
         // A point at r turns and is drawn inward: p'' + angle'' x r - angle'^2 r.
         self.acceleration + distance * self.turning_change.hypot(self.turning * self.turning)
@@ -69,7 +69,7 @@ pub trait Motion: std::fmt::Debug {
     /// The lower bound of a clearance is proven if these are.
     fn bend(&self, from: f64, to: f64) -> Bend;
 
-    /// Greatest difference of the motion from the one meant: mm of the origin, and rad.
+    /// Maximum difference of the motion from the one meant: mm of the origin, and rad.
     fn deviation(&self) -> (f64, f64) {
         (0.0, 0.0)
     }
@@ -140,7 +140,7 @@ pub struct Tabulated {
     deviation: (f64, f64),
 }
 
-/// Number of cells with which a motion within a tolerance is tabulated first, and the greatest number.
+/// Number of cells with which a motion within a tolerance is tabulated first, and the maximum number.
 const FEWEST: usize = 360;
 const MOST: usize = 360 << 8;
 

@@ -45,7 +45,7 @@ impl Boundary {
         ((found.point - point).length(), found.subshape)
     }
 
-    /// Least distance between two boundaries at their poses, and a closest point of each.
+    /// Minimum distance between two boundaries at their poses, and a closest point of each.
     ///
     /// Says nothing of overlap: one inside the other has a distance too.
     pub(super) fn gap(

@@ -1,4 +1,4 @@
-//! Least distance of two moving boundaries, by branch and bound over input and space at once.
+//! Minimum distance of two moving boundaries, by branch and bound over input and space at once.
 //!
 //! An interval of the input carries the pairs of circles (and in the end edges) that may come closer in
 //! it than the best distance found. A pair's distance at the middle, moved on by the exact velocity along
@@ -20,7 +20,7 @@ const MAX_STEPS: u32 = 50_000_000;
 /// Result of the search of one pair.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Approach {
-    /// Least distance found, and its place; the one to beat if nothing came closer.
+    /// Minimum distance found, and its place; the one to beat if nothing came closer.
     pub(super) minimum: f64,
     pub(super) input: Option<f64>,
     /// Lower bound of the distance.
@@ -36,7 +36,7 @@ struct Span {
 }
 
 impl Ord for Span {
-    /// Reversed order of the bounds: a heap gives the least first.
+    /// Reversed order of the bounds: a heap gives the smallest first.
     fn cmp(&self, other: &Self) -> Ordering {
         other.bound.total_cmp(&self.bound)
     }
@@ -56,9 +56,9 @@ impl PartialEq for Span {
 
 impl Eq for Span {}
 
-/// Least distance of two boundaries while the input runs, to within `tolerance`, searched only below `beat`.
+/// Minimum distance of two boundaries while the input runs, to within `tolerance`, searched only below `beat`.
 ///
-/// Bodies that run beside each other are equally near everywhere: where that would take too long, the bound keeps farther from
+/// Bodies that run next to each other are equally near everywhere: where that would take too long, the bound keeps farther from
 /// the distance.
 pub(super) fn approach(
     [a, b]: [&Moving<'_>; 2],
@@ -112,7 +112,7 @@ pub(super) fn approach(
     Ok(found)
 }
 
-/// Pairs that may still come too close, and the least bound among them.
+/// Pairs that may still come too close, and the minimum bound among them.
 struct Rest {
     pairs: Vec<[u32; 2]>,
     bound: f64,

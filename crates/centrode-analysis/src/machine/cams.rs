@@ -48,14 +48,14 @@ pub(super) fn cams(composed: &Machine, report: &mut Report) {
     }
     report.tables.push(Table {
         name: "cam-pressure-angles",
-        title: "Greatest pressure angle of cam",
+        title: "Maximum pressure angle of cam",
         unit: Unit::Angle,
         columns: ["rise", "return"].map(String::from).into(),
         rows: angles,
     });
     report.tables.push(Table {
         name: "cam-radii",
-        title: "Radius of cam, and least radii of curvature",
+        title: "Radius of cam, and minimum radii of curvature",
         unit: Unit::Millimetre,
         columns: ["minimum", "maximum", "convex", "concave"]
             .map(String::from)

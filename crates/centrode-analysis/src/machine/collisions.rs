@@ -107,7 +107,7 @@ pub(super) struct Overlaps<'a> {
     left: usize,
 }
 
-/// Two parts that overlap, with their least clearance (mm, below zero) and the input there.
+/// Two parts that overlap, with their minimum clearance (mm, below zero) and the input there.
 type Overlap<'a> = ([&'a PartSurfaces<'a>; 2], [f64; 2]);
 
 /// Pairs of parts that overlap within the cycle, among those that may collide, until so many do as are told of.
@@ -221,7 +221,7 @@ pub(super) fn findings<'a>(
         .max();
     let left = worst.filter(|_| overlaps.left > 0).map(|severity| {
         let message = format!(
-            "{} more of such pairs come near each other; they are not looked at, since {MOST} collide already",
+            "{} more of such pairs come near each other; they are not checked, since {MOST} collide already",
             overlaps.left
         );
         Finding::new(rule, severity, message).remedy(remedy)

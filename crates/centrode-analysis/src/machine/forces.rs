@@ -194,7 +194,7 @@ pub(super) fn forces(
     for (name, title, columns, rows) in [
         (
             "joint-forces",
-            "Greatest force of joint",
+            "Maximum force of joint",
             &["force"][..],
             of_joints.collect::<Vec<_>>(),
         ),

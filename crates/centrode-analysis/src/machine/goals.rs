@@ -68,7 +68,7 @@ fn unit(made: &Made<'_>, figure: &MachineFigure) -> Unit {
     }
 }
 
-/// Least and greatest value over the cycle of each figure that a goal can name by one word, a table a unit; without those that
+/// Minimum and maximum value over the cycle of each figure that a goal can name by one word, a table a unit; without those that
 /// are not determined.
 #[must_use]
 pub fn machine_figures(composed: &Machine) -> Vec<Table> {
@@ -192,7 +192,7 @@ fn of(
     }
 }
 
-/// Least clearance of two bodies; infinite where they lie apart along the shafts.
+/// Minimum clearance of two bodies; infinite where they lie apart along the shafts.
 fn clearance(
     made: &Made<'_>,
     ends: [ClearanceEnd; 2],

@@ -19,7 +19,7 @@ pub(super) struct KeyUnderLoad<'a> {
     drive: Option<usize>,
 }
 
-/// The keys whose torque is known: of gears by the forces of their meshes, and of the one part beside them on their shaft by
+/// The keys whose torque is known: of gears by the forces of their meshes, and of the one part next to them on their shaft by
 /// these forces and the drive of the shaft. How several such parts share it depends on what is around them. Inertia of
 /// gears and shafts is left out; of copies the original stands for all.
 pub(super) fn under_load(composed: &Machine) -> Vec<KeyUnderLoad<'_>> {
@@ -76,7 +76,7 @@ impl KeyUnderLoad<'_> {
     }
 }
 
-/// Greatest pressure on the keys under their greatest torques, and those that are pressed harder than the materials allow.
+/// Maximum pressure on the keys under their maximum torques, and those that are pressed harder than the materials allow.
 pub(super) fn check(
     composed: &Machine,
     keys: &[KeyUnderLoad<'_>],

@@ -316,14 +316,14 @@ fn points(composed: &Machine, motion: Motion, report: &mut Report) {
         name: "reach",
         title: "Reach of point",
         unit: Unit::Millimetre,
-        columns: ["least x", "greatest x", "least y", "greatest y"]
+        columns: ["minimum x", "maximum x", "minimum y", "maximum y"]
             .map(String::from)
             .into(),
         rows: reach,
     });
     report.tables.push(Table {
         name: "speed",
-        title: "Greatest speed of point",
+        title: "Maximum speed of point",
         unit: Unit::MillimetrePerSecond,
         columns: vec!["speed".into()],
         rows: speed,

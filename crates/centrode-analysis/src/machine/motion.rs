@@ -3,9 +3,9 @@ use centrode_machines::machine::{BodyPoint, Machine};
 
 /// Extremes over the cycle of all that a check tells of the motion, found in one sweep.
 pub(super) struct Motion {
-    /// Least and greatest transmission angle of each dyad, rad.
+    /// Minimum and maximum transmission angle of each dyad, rad.
     pub(super) angles: Vec<[Extreme; 2]>,
-    /// Least and greatest coordinate of each body's joint; none of the frame's.
+    /// Minimum and maximum coordinate of each body's joint; none of the frame's.
     pub(super) joints: Vec<[Extreme; 2]>,
     /// Every point that moves.
     pub(super) points: Vec<PointMotion>,
@@ -15,9 +15,9 @@ pub(super) struct Motion {
 pub(super) struct PointMotion {
     /// Its name, `body.point`.
     pub(super) name: String,
-    /// Least and greatest x, least and greatest y, mm.
+    /// Minimum and maximum x, minimum and maximum y, mm.
     pub(super) sides: [f64; 4],
-    /// Greatest speed, mm per radian of the input.
+    /// Maximum speed, mm per radian of the input.
     pub(super) fastest: f64,
 }
 

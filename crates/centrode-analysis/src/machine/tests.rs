@@ -218,7 +218,7 @@ fn speeds_are_those_of_the_input() {
     );
 }
 
-/// Goals on every form of figure, with those of the closed forms beside them.
+/// Goals on every form of figure, with those of the closed forms next to them.
 const GOALS: &str = r#"
 [goals.ram-stroke]
 figure = "ram.travel"
@@ -324,7 +324,7 @@ fn figures_that_are_not_there_are_told_at_their_goal() {
         ("rocker.travel", "there is no figure"),
         (
             "clearance(crank, rod)",
-            "over is needed as least for a clearance",
+            "over is needed as minimum for a clearance",
         ),
     ] {
         let text =

@@ -120,7 +120,7 @@ fn schedule(shaft: &SpiralShaft, schedule: &Schedule, report: &mut Report) {
                 "misplaced-hole",
                 severity,
                 format!(
-                    "turn {turn} of the cycle picks {:.4} mm beside hole {hole}",
+                    "turn {turn} of the cycle picks {:.4} mm next to hole {hole}",
                     misplacement.abs()
                 ),
             )

@@ -12,7 +12,7 @@ struct Way<'a> {
     at: Box<dyn Fn(f64) -> (MotionJet, f64) + 'a>,
 }
 
-/// Both schemes alone and as designed, beside a plain shaft: the movement of the box while a seedling is picked, its
+/// Both schemes alone and as designed, next to a plain shaft: the movement of the box while a seedling is picked, its
 /// speeds, its acceleration and the force on the slider.
 pub(super) fn schemes(machine: &MovingBox) -> Vec<Table> {
     let shaft = machine.shaft();
@@ -122,7 +122,7 @@ fn eighths(of: impl Fn(f64) -> Vec<f64>) -> Vec<(String, Vec<f64>)> {
     (0..EIGHTHS).map(row).collect()
 }
 
-/// Acceleration and forces over one turn of a stroke by equilibrium, beside equations (14) to (18) of Zhou et al.
+/// Acceleration and forces over one turn of a stroke by equilibrium, next to equations (14) to (18) of Zhou et al.
 /// 2018, which do not hold: see [`Load::published`](centrode_groove::Load::published).
 ///
 /// (16) to (18) are for sines; for another law they are left out.
@@ -156,14 +156,14 @@ pub(super) fn published(shaft: &SpiralShaft) -> Vec<Table> {
     let mut tables = vec![
         table(
             "normal-forces",
-            "Normal force beside the paper's",
+            "Normal force next to the paper's",
             Unit::Newton,
             &["normal", "by (14)", "by (17)"][..columns],
             of(0),
         ),
         table(
             "transverse-forces",
-            "Transverse force beside the paper's",
+            "Transverse force next to the paper's",
             Unit::Newton,
             &["transverse", "by (15)", "by (18)"][..columns],
             of(1),
@@ -176,7 +176,7 @@ pub(super) fn published(shaft: &SpiralShaft) -> Vec<Table> {
         };
         tables.push(table(
             "accelerations",
-            "Acceleration beside the paper's",
+            "Acceleration next to the paper's",
             Unit::MetrePerSecondSquared,
             &["acceleration", "by (16)"],
             eighths(accelerations),

@@ -252,7 +252,7 @@ fn no_speed_acceleration_or_force_of_the_box_is_beyond_the_extremes_stated() {
     for (name, stated, seen, sign) in [
         ("speed", report.values["box_speed_ratio_max"], fast, 1.0),
         (
-            "least speed",
+            "minimum speed",
             report.values["box_speed_ratio_min"],
             slow,
             -1.0,
@@ -265,25 +265,25 @@ fn no_speed_acceleration_or_force_of_the_box_is_beyond_the_extremes_stated() {
         ),
         ("force", report.values["box_normal_force_max"], maximum, 1.0),
         (
-            "least force",
+            "minimum force",
             report.values["box_normal_force_min"],
             minimum,
             -1.0,
         ),
         (
-            "least of the table",
+            "minimum of the table",
             accelerations[0],
             metres * braking,
             -1.0,
         ),
         (
-            "greatest of the table",
+            "maximum of the table",
             accelerations[1],
             metres * speeding,
             1.0,
         ),
-        ("least force of the table", forces[0], minimum, -1.0),
-        ("greatest force of the table", forces[1], maximum, 1.0),
+        ("minimum force of the table", forces[0], minimum, -1.0),
+        ("maximum force of the table", forces[1], maximum, 1.0),
     ] {
         let beyond = sign * (stated - seen) / seen.abs().max(1.0);
         // At a jump of the acceleration even samples miss the limit by their distance from it.

@@ -8,8 +8,8 @@ pub(crate) const FIGURES: &[FigureGroup] = &[
         heading: "Pitch curves of sun and intermediate gears",
         columns: &["sun", "intermediate"],
         rows: &[
-            row("least radius", &["sun_radius_min", "intermediate_radius_min"], Millimetre),
-            row("greatest radius", &["sun_radius_max", "intermediate_radius_max"], Millimetre),
+            row("minimum radius", &["sun_radius_min", "intermediate_radius_min"], Millimetre),
+            row("maximum radius", &["sun_radius_max", "intermediate_radius_max"], Millimetre),
             row("length", &["pitch_length"], Millimetre),
         ],
     },
@@ -42,8 +42,8 @@ pub(crate) const FIGURES: &[FigureGroup] = &[
         heading: "Cam and push rod",
         columns: &[],
         rows: &[
-            row("greatest pressure angle", &["cam_pressure_angle_max"], Angle),
-            row("least radius of the cam", &["cam_radius_min"], Millimetre),
+            row("maximum pressure angle", &["cam_pressure_angle_max"], Angle),
+            row("minimum radius of the cam", &["cam_radius_min"], Millimetre),
             row("stroke of the rod", &["push_rod_stroke"], Millimetre),
         ],
     },

@@ -191,7 +191,7 @@ fn figures(mechanism: &ThreeArm, report: &mut Report) {
     values.insert("planting_speed", tip(mechanism.planting(0)));
 }
 
-/// Reports an arm that bends the seedlings beside the one it picks.
+/// Reports an arm that bends the seedlings next to the one it picks.
 fn crowded(arms: Option<&ArmClearance>, report: &mut Report) {
     let Some(found) = arms.and_then(|found| found.unpicked) else {
         return;

@@ -186,7 +186,7 @@ fn gears(feeder: &Feeder, machine: &mut LinkedMachine) {
         seen,
     );
     if feeder.has_cams() {
-        let beside = "beside the intermittent gear";
+        let beside = "next to the intermittent gear";
         for (name, link, file) in [
             (TITLES[2], entry, "gear-entry-cam"),
             (TITLES[3], exit, "gear-exit-cam"),
@@ -217,7 +217,7 @@ fn data(feeder: &Feeder) -> Vec<Datum> {
             format!("{}, {}", length(pivot.x), length(pivot.y)),
         ),
         ("swing", degrees(six_bar.swing())),
-        ("least transmission angle", degrees(minimum)),
+        ("minimum transmission angle", degrees(minimum)),
         ("crank at rest", degrees(feeder.start())),
         (
             "cycles a minute",

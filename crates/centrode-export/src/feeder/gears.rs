@@ -26,7 +26,7 @@ const CAM: &str = "CAM";
 /// Share of a radius by which arcs fitted to a contour may differ from the circle that it follows.
 const FITTED: f64 = 1e-3;
 
-/// Driver, driven gear and, where there is an entry angle, the cams beside the driver; with arcs within the tolerance.
+/// Driver, driven gear and, where there is an entry angle, the cams next to the driver; with arcs within the tolerance.
 pub(super) fn parts(feeder: &Feeder, gears: &IntermittentPair, tolerance: Tolerance) -> Vec<Plate> {
     let pair = gears.pair();
     let (driver, driven) = (pair.driver(), pair.driven());
@@ -55,7 +55,7 @@ pub(super) fn parts(feeder: &Feeder, gears: &IntermittentPair, tolerance: Tolera
                 }),
         );
         if is_cam {
-            part = part.noted("Fixed beside the intermittent gear, its x axis on that one's.");
+            part = part.noted("Fixed next to the intermittent gear, its x axis on that one's.");
             part.exactness = Some(Exactness::Profile);
         }
         part

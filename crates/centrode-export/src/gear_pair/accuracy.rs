@@ -48,7 +48,7 @@ impl Gauge {
         self.of(slope.hypot(form))
     }
 
-    /// The gear, or the least that the standard knows where it is smaller: its tolerances hardly fall from there.
+    /// The gear, or the minimum that the standard knows where it is smaller: its tolerances hardly fall from there.
     fn at_least_five_teeth(self) -> Self {
         let minimum = (5.0 * self.module).max(5.0);
         Self {
@@ -119,7 +119,7 @@ pub(crate) fn flank_tolerances(pair: &GearPair, member: Member) -> Vec<Datum> {
         data.push(Datum::new(name, "", place));
         if bent < gauge.diameter {
             let words = format!(
-                "bends as d = {}, below that standard's least",
+                "bends as d = {}, below that standard's minimum",
                 number(bent, 2)
             );
             data.push(Datum::new("", "", words));

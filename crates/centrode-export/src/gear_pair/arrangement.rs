@@ -9,8 +9,8 @@ use centrode_kinematics::machine::{Blank, Callout, Datum, Fit, Key, LinkedMachin
 /// Material of keys; their mass is that of the shaft's link, which is the customer's.
 const KEY: &str = "steel";
 
-/// Findings of an analysis of the contact, for the tables of sheets: least and greatest number of pairs of teeth in contact,
-/// least and greatest backlash along the common normal, mm.
+/// Findings of an analysis of the contact, for the tables of sheets: minimum and maximum number of pairs of teeth in contact,
+/// minimum and maximum backlash along the common normal, mm.
 #[must_use]
 pub fn contact_data(contact_ratio: [f64; 2], backlash: [f64; 2]) -> Vec<Datum> {
     vec![
@@ -252,7 +252,7 @@ pub(crate) fn by_thickness(pair: &GearPair, backlash: f64) -> Vec<Datum> {
     data.extend([
         Datum::new("Backlash by thickness, normal", "jn", range(limits, 4)),
         Datum::new(
-            "Centre distance, least by backlash",
+            "Centre distance, minimum by backlash",
             "a",
             number(a - shorter(pair, limits[0]), 4),
         ),

@@ -49,7 +49,7 @@ pub(super) fn columns(
             }),
         ),
     ];
-    for (over, end) in limits.into_iter().flatten().zip(["greatest", "least"]) {
+    for (over, end) in limits.into_iter().flatten().zip(["maximum", "minimum"]) {
         let cell = |value: Option<f64>| value.map_or_else(String::new, |mm| mm.to_string());
         let radial = |pin: &Result<Pin, _>| cell(pin.as_ref().ok().map(|pin| pin.radial));
         let both = |(k, across): (usize, &Option<(usize, f64)>)| {

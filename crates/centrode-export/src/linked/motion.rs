@@ -30,7 +30,7 @@ pub(super) fn steps(machine: &LinkedMachine, tolerance: Tolerance) -> (u32, f64)
     (steps as u32, bend * (period / steps).powi(2) / 8.0)
 }
 
-/// Greatest acceleration by the input of any place on a link that its own joint causes, mm/rad^2: a chord over a step h
+/// Maximum acceleration by the input of any place on a link that its own joint causes, mm/rad^2: a chord over a step h
 /// is off by at most h^2/8 of it.
 fn bend(machine: &LinkedMachine) -> f64 {
     let of = machine.joints.iter().map(|joint| {
@@ -56,7 +56,7 @@ pub(super) fn within(law: &dyn Transmission, machine: &LinkedMachine) -> Vec<f64
         .collect()
 }
 
-/// Greatest distance from a link's origin of what it carries, mm.
+/// Maximum distance from a link's origin of what it carries, mm.
 fn reach(machine: &LinkedMachine, link: usize) -> f64 {
     let norm = |at: &[f64; 3]| at.iter().map(|x| x * x).sum::<f64>().sqrt();
     let far = |outline: &centrode_geometry::Outline| {
@@ -89,7 +89,7 @@ fn reach(machine: &LinkedMachine, link: usize) -> f64 {
 pub(crate) struct Line {
     pub(super) slope: f64,
     offset: f64,
-    /// Greatest distance of the law from it.
+    /// Maximum distance of the law from it.
     off: f64,
 }
 

@@ -63,7 +63,7 @@ pub struct ColumnWords {
 pub struct Interpolation {
     /// `cubic Hermite`: by the values and rates of two rows.
     pub kind: &'static str,
-    /// Greatest way of a link off its own by straight lines between rows instead, mm.
+    /// Maximum way of a link off its own by straight lines between rows instead, mm.
     pub linear_error_max_mm: f64,
 }
 
@@ -97,7 +97,7 @@ pub struct LinearWords {
     pub multiplier: f64,
     /// Offset, rad or m.
     pub offset: f64,
-    /// Greatest distance of the law from it, rad or m.
+    /// Maximum distance of the law from it, rad or m.
     pub error_max: f64,
 }
 

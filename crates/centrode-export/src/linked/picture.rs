@@ -113,7 +113,7 @@ impl Course {
         };
         let minimum = FEWEST.max(period / TAU * PER_TURN);
         let coarse = course(minimum);
-        // A chord is off by a quarter of how far its middle is off the chord over both steps beside it.
+        // A chord is off by a quarter of how far its middle is off the chord over both steps next to it.
         let off = 0.25 * coarse.bend(machine, rims, &sudden) / (BETWEEN * tolerance.mm());
         let steps = (minimum * off.sqrt()).min(MOST.max(minimum));
         if off > 1.0 && steps > minimum {
@@ -147,7 +147,7 @@ impl Course {
         }
     }
 
-    /// Greatest distance of a figure's lines from the middle of where they stand before and after, jumps aside.
+    /// Maximum distance of a figure's lines from the middle of where they stand before and after, jumps aside.
     fn bend(&self, machine: &LinkedMachine, rims: &[Vec<Point>], sudden: &[f64]) -> f64 {
         let smooth = |&i: &usize| {
             sudden
@@ -182,7 +182,7 @@ impl Course {
         Some(Path::way(line.role, &seen, tolerance))
     }
 
-    /// Least x and y, greatest x and y of the material of all figures, and of the traces, over the period.
+    /// Minimum x and y, maximum x and y of the material of all figures, and of the traces, over the period.
     fn extent(&self, machine: &LinkedMachine, rims: &[Vec<Point>]) -> [f64; 4] {
         let mut extent = [
             f64::INFINITY,
@@ -220,7 +220,7 @@ impl Course {
     }
 }
 
-/// Greatest distance from the origin of a figure's axes.
+/// Maximum distance from the origin of a figure's axes.
 fn reach(rim: &[Point]) -> f64 {
     rim.iter().map(|p| p.coords.norm()).fold(0.0, f64::max)
 }

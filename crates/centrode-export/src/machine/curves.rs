@@ -10,14 +10,14 @@ use crate::picture::Curve;
 const SAMPLES: u32 = 720;
 const MOST: u32 = 2880;
 
-/// Angle of every body along the cycle, place and speed of those that slide, pressure angle of every cam, and the least
+/// Angle of every body along the cycle, place and speed of those that slide, pressure angle of every cam, and the minimum
 /// transmission angle of all dyads, where there are any.
 #[must_use]
 pub fn curves(composed: &Machine) -> Vec<Curve> {
     let samples = MOST.min(SAMPLES * composed.design().input.turns);
     let input = |i: u32| composed.period() * f64::from(i) / f64::from(samples);
     let input: Vec<f64> = (0..=samples).map(input).collect();
-    // The picture is made beside them, in ascending order: what laws remember is made once by whoever comes first.
+    // The picture is made next to them, in ascending order: what laws remember is made once by whoever comes first.
     let mut rows: Vec<Vec<f64>> = input.iter().rev().map(|&phi| row(composed, phi)).collect();
     rows.reverse();
     let names = names(composed).into_iter().enumerate();
@@ -42,7 +42,7 @@ fn names(composed: &Machine) -> Vec<(Cow<'static, str>, &'static str)> {
     });
     let cams = composed.cams().iter();
     let cams = cams.map(|cam| (format!("Pressure angle of {}", cam.name), "°"));
-    let dyads = (!composed.dyads().is_empty()).then(|| ("Least transmission angle".into(), "°"));
+    let dyads = (!composed.dyads().is_empty()).then(|| ("Minimum transmission angle".into(), "°"));
     let all = angles.chain(slides).chain(cams).chain(dyads);
     all.map(|(chart, unit)| (chart.into(), unit)).collect()
 }

@@ -31,7 +31,7 @@ pub struct Picture {
     pub marks: Vec<Mark>,
     /// Places at which gears touch, mesh by mesh.
     pub contacts: Vec<Contacts>,
-    /// Least x, least y, greatest x, greatest y of everything over the whole cycle, mm.
+    /// Minimum x, minimum y, maximum x, maximum y of everything over the whole cycle, mm.
     pub extent: [f64; 4],
 }
 

@@ -27,7 +27,7 @@ impl Plate {
         Some((axis, steady(2.0 * self.reach(axis))))
     }
 
-    /// The edge, beside the face: seen from the left it stands on the right in first angle.
+    /// The edge, next to the face: seen from the left it stands on the right in first angle.
     pub(super) fn edge(&self, draft: &mut Draft, k: f64, projection: Projection) {
         let whole = draft.bounds();
         let Bounds { min, max } = self.outline.bounds();

@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 #[derive(Clone, Debug)]
 pub(crate) struct Hole {
     pub(crate) outline: Outline,
-    /// Letter or name beside it on the sheet; may be empty.
+    /// Letter or name next to it on the sheet; may be empty.
     pub(crate) label: String,
     /// Tolerance class of its diameter or width, ISO 286; empty where general tolerances hold.
     pub(crate) fit: String,
@@ -22,7 +22,7 @@ pub(crate) struct Hole {
     pub(crate) is_seat: bool,
     /// Width of its keyway, mm; 0 without one.
     pub(crate) keyed: f64,
-    /// Further lines beside it.
+    /// Further lines next to it.
     pub(crate) notes: Vec<String>,
     /// Screw that it is for, whether through it or into a thread.
     pub(crate) screw: Option<ScrewHole>,

@@ -12,7 +12,7 @@ use super::{Exactness, Hole, HoleKind, Plate, ScrewHole};
 use crate::SheetOptions;
 use crate::{number::fixed, treatment::treatment_note};
 
-/// Most holes with their size and place beside the view; more have a table.
+/// Most holes with their size and place next to the view; more have a table.
 const CALLED_OUT: usize = 6;
 /// Most sides of a contour that a sheet is read for; more are in the cutting file alone.
 const SIDES: usize = 40;
@@ -82,7 +82,7 @@ impl Plate {
             true => {
                 "Places x, y from the crossing of the long centre lines, x to the right.".into()
             }
-            false => "Places x, y from an origin beside the part, x to the right.".into(),
+            false => "Places x, y from an origin next to the part, x to the right.".into(),
         });
         let frames = self.frames();
         if frames
@@ -176,7 +176,7 @@ impl Plate {
         }
     }
 
-    /// Writes the label of every hole beside it.
+    /// Writes the label of every hole next to it.
     fn letter(&self, draft: &mut Draft, k: f64) {
         for (index, hole) in self.holes.iter().enumerate() {
             let (at, reach) = match hole.kind() {

@@ -23,7 +23,7 @@ pub(super) fn annotate(parts: &Parts<'_>, machine: &mut LinkedMachine) -> Result
     stated.drawing = shaft.drawing().clone();
     stated.notes = [
         "Surface of the shaft unrolled, seen from outside, its lower edge at 360°.",
-        "Above it the box in its rows of holes, drawn beside the shaft.",
+        "Above it the box in its rows of holes, drawn next to the shaft.",
         "Slider and box where the cycle begins; thin: edges of the groove,",
         "and of the window in which a seedling is picked.",
     ]

@@ -113,7 +113,7 @@ fn rows(shaft: &SpiralShaft) -> Vec<Line> {
     lines
 }
 
-/// Draws the gears beside the near end of the shaft, seen along it, the driver below; by the joints that turn them.
+/// Draws the gears next to the near end of the shaft, seen along it, the driver below; by the joints that turn them.
 pub(super) fn gears(
     gears: &Gears<'_>,
     shaft: &SpiralShaft,

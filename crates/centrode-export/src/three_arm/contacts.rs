@@ -48,7 +48,7 @@ impl Mesh {
         }
     }
 
-    /// A place beside the axes of the pair, at a carrier turn, in the machine's axes.
+    /// A place next to the axes of the pair, at a carrier turn, in the machine's axes.
     fn place(self, mechanism: &ThreeArm, input: f64, at: Point) -> Point {
         let train = mechanism.train();
         let way = train.carrier_start() + train.direction().sign() * input;

@@ -375,7 +375,7 @@ impl<'a> Parts<'a> {
         let mut plate = cam::plate(cam, part.name(), part.title(), quantity)
             .noted("x points to the fork's pivot at the carrier's start:")
             .noted("timing by the mark on it.");
-        // Half way from the bore to the least radius.
+        // Half way from the bore to the minimum radius.
         let mark = 0.5 * (0.5 * cam.body().bore + cam.radii().0);
         plate.marks.push(Point::new(mark, 0.0));
         plate.noted(&format!(

@@ -276,7 +276,7 @@ impl Drawn<'_> {
         let row = draft.lettering() + 2.0;
         let keyed = if self.keyway.is_some() { 9.0 } else { 0.0 };
         let lowest = 0.5 * k * self.diameter() + keyed + 6.0;
-        // Many of them on both sides: a leader from farther in rises beside no words.
+        // Many of them on both sides: a leader from farther in rises next to no words.
         let left = if notes.len() > LADDER {
             notes.len() / 2
         } else {

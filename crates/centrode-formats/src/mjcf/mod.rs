@@ -54,7 +54,7 @@ pub enum MjcfError {
     },
 }
 
-/// Point at which two links are pinned to each other beside the tree of joints, which closes a loop.
+/// Point at which two links are pinned to each other next to the tree of joints, which closes a loop.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Closure {
     /// Name.
@@ -67,7 +67,7 @@ pub struct Closure {
     pub at: [f64; 3],
 }
 
-/// Writes a model as MJCF: metres, kilograms, radians; meshes to look at by file name beside it, scaled from mm,
+/// Writes a model as MJCF: metres, kilograms, radians; meshes to look at by file name next to it, scaled from mm,
 /// and convex bodies, inline, to touch with.
 ///
 /// # Errors

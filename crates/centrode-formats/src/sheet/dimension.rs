@@ -11,7 +11,7 @@ const BEYOND: f64 = 2.0;
 /// Step by which a leader is moved to run clear of words, mm, and the most steps.
 const CLEARING: f64 = 1.5;
 const TRIES: u32 = 40;
-/// Air beside the words of a dimension, mm, and what they are moved by to keep it whatever the rounding.
+/// Air next to the words of a dimension, mm, and what they are moved by to keep it whatever the rounding.
 const AIR: f64 = 1.0;
 const NUDGE: f64 = 1e-6;
 /// Distance of an extension line from its feature, mm.
@@ -224,7 +224,7 @@ fn clear_middle(length: f64, width: f64, between: bool, usual: f64, lines: &[f64
         };
         (low..=high).contains(middle)
     };
-    // Just beside one of the lines.
+    // Just next to one of the lines.
     let beside = lines.iter().flat_map(|line| [line - half, line + half]);
     let beside = beside.flat_map(|middle| [middle - NUDGE, middle + NUDGE]);
     let mut middles: Vec<f64> = beside.filter(allowed).collect();
@@ -282,7 +282,7 @@ mod tests {
         let found = middle(ends, x, &[58.0, 62.0, 62.0 + 1.5 * half]);
         assert!((found - 58.0 + half).abs() < 1e-5, "{found}");
         assert!((middle(ends, -x, &[-61.0]) - 61.0 + half).abs() < 1e-5);
-        // Words beside their arrows move outwards.
+        // Words next to their arrows move outwards.
         let short = [Point::new(0.0, 0.0), Point::new(2.0, 0.0)];
         let line = middle(short, x, &[]);
         assert!((middle(short, x, &[line]) - line - half).abs() < 1e-5);

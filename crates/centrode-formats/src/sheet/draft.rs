@@ -8,7 +8,7 @@ use centrode_geometry::{Bounds, Outline, Point, Vector};
 /// Length of an arrow head, mm.
 pub(super) const ARROW: f64 = 3.0;
 
-/// Least share of its natural length to which a line of text may be squeezed.
+/// Minimum share of its natural length to which a line of text may be squeezed.
 const SQUEEZE: f64 = 0.7;
 
 /// Piece of a sheet in paper millimetres, its origin wherever is handy until it is placed.

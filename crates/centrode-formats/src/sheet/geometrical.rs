@@ -6,7 +6,7 @@ use crate::drawing::{Anchor, EntityShape};
 use centrode_geometry::{Arc, Bounds, Outline, Point, Vector};
 use std::fmt;
 
-/// Room beside the words of a cell, mm.
+/// Room next to the words of a cell, mm.
 const PAD: f64 = 1.0;
 /// Height of the letters in a frame, mm.
 const LETTERS: f64 = 2.5;
@@ -40,7 +40,7 @@ impl Characteristic {
     }
 }
 
-/// A line of a note beside a feature.
+/// A line of a note next to a feature.
 #[derive(Clone, Debug, PartialEq)]
 pub enum NoteLine {
     /// Words.

@@ -7,7 +7,7 @@ use std::f64::consts::FRAC_PI_4;
 /// Distance of hatching lines, mm.
 const SPACING: f64 = 2.0;
 
-/// Greatest extent of a hatched area on paper, mm: some times that of the largest sheet.
+/// Maximum extent of a hatched area on paper, mm: some times that of the largest sheet.
 const LARGEST: f64 = 1e4;
 
 impl Draft {

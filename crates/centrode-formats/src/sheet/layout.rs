@@ -3,9 +3,9 @@
 use super::{Draft, table::Table};
 use centrode_geometry::{Bounds, Point, Vector};
 
-/// Least distance between pieces, mm.
+/// Minimum distance between pieces, mm.
 const GAP: f64 = 6.0;
-/// Least number of rows for which a part of a table is started.
+/// Minimum number of rows for which a part of a table is started.
 const FEWEST: usize = 10;
 
 /// Corner of the drawing space near which a piece is to be.
@@ -21,7 +21,7 @@ pub enum Corner {
     LowerRight,
 }
 
-/// Page while pieces are placed on it: the greatest empty rectangles, overlapping each other.
+/// Page while pieces are placed on it: the maximum empty rectangles, overlapping each other.
 #[derive(Clone, Debug)]
 pub(crate) struct Page {
     room: Bounds,
@@ -169,7 +169,7 @@ impl Page {
             })
             .copied()?;
         let whole = holds(&best);
-        // Beside views a table is not broken.
+        // Next to views a table is not broken.
         if !whole && self.pieces.iter().any(|(_, _, floats)| *floats) {
             return None;
         }

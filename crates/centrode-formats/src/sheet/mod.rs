@@ -38,7 +38,7 @@ const INSET: f64 = 7.0;
 /// Share of the room of a sheet that the pieces of a view at full scale or larger take at least; a sheet that they leave emptier gives
 /// way to a smaller one with a reduced view.
 const FILLED: f64 = 0.5;
-/// Least length on paper of the longest side of a view that is reduced for a smaller sheet, mm.
+/// Minimum length on paper of the longest side of a view that is reduced for a smaller sheet, mm.
 const READABLE: f64 = 100.0;
 
 /// One page of a drawing, in millimetres on paper from its lower left corner.

@@ -13,7 +13,7 @@ const SURFACE: [f64; 4] = [145.0, 180.0, 36.0, 45.0];
 
 /// Height of the names of the fields, mm.
 const CAPTION: f64 = 1.8;
-/// Width of the field of the titles, and the least height of letters there, mm.
+/// Width of the field of the titles, and the minimum height of letters there, mm.
 const TITLES: f64 = 71.0;
 const SMALL: f64 = 2.5;
 

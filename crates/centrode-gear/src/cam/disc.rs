@@ -147,7 +147,7 @@ pub enum CamError {
     Bore {
         /// Radius reached by bore and keyway, mm.
         reach: f64,
-        /// Least radius of the profile, mm.
+        /// Minimum radius of the profile, mm.
         minimum: f64,
     },
 }
@@ -296,7 +296,7 @@ impl DiscCam {
         self.motion.as_ref()
     }
 
-    /// Greatest position, velocity, acceleration and jerk of the follower.
+    /// Maximum position, velocity, acceleration and jerk of the follower.
     #[must_use]
     pub fn peaks(&self) -> Peaks {
         peaks(self.motion())

@@ -7,21 +7,21 @@ use super::disc::DiscCam;
 /// Pressure angles and radii of curvature of a cam, over a whole turn, to the float limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Limits {
-    /// Greatest size of the pressure angle while the cam lifts the follower, rad.
+    /// Maximum size of the pressure angle while the cam lifts the follower, rad.
     pub rise_pressure_angle: Extreme,
-    /// Greatest size of the pressure angle while the follower comes back, rad.
+    /// Maximum size of the pressure angle while the follower comes back, rad.
     pub return_pressure_angle: Extreme,
-    /// Least radius of curvature of the path of the roller's centre where it is convex, mm: the largest
+    /// Minimum radius of curvature of the path of the roller's centre where it is convex, mm: the largest
     /// roller the path allows without undercut. `None` for a flat face.
     pub largest_roller: Option<Extreme>,
-    /// Least radius of curvature of the profile where it is convex, mm; at most zero where it is undercut.
+    /// Minimum radius of curvature of the profile where it is convex, mm; at most zero where it is undercut.
     pub minimum_radius: Extreme,
-    /// Least radius of curvature of the profile where it is concave, mm: the largest grinding wheel;
+    /// Minimum radius of curvature of the profile where it is concave, mm: the largest grinding wheel;
     /// infinite for a convex cam.
     pub largest_wheel: Extreme,
-    /// Range of the contact along a flat face, from the least to the greatest position, mm.
+    /// Range of the contact along a flat face, from the minimum to the maximum position, mm.
     pub face: Option<(f64, f64)>,
-    /// Least [`regularity`](super::Contact::regularity): the profile is undercut where it is not
+    /// Minimum [`regularity`](super::Contact::regularity): the profile is undercut where it is not
     /// above zero.
     pub regularity: Extreme,
 }
@@ -93,7 +93,7 @@ impl DiscCam {
         }
     }
 
-    /// Least base radius, mm, at which the pressure angle stays below `rise` while the cam lifts and
+    /// Minimum base radius, mm, at which the pressure angle stays below `rise` while the cam lifts and
     /// below `fall` while the follower returns, rad; a right angle leaves a return by a spring free.
     ///
     /// Searched upwards in steps of 2 % from a thousandth of the follower's size, then solved. `None` where no base
@@ -107,14 +107,14 @@ impl DiscCam {
         })
     }
 
-    /// Least base radius, mm, at which no convex part of the profile is sharper than `radius`, mm;
+    /// Minimum base radius, mm, at which no convex part of the profile is sharper than `radius`, mm;
     /// zero asks for no undercut alone. `None` where no base circle will do.
     #[must_use]
     pub fn minimum_regular_base_radius(&self, radius: f64) -> Option<f64> {
         self.minimum_base(|cam| radius - cam.limits().minimum_radius.value)
     }
 
-    /// Least base radius at which `excess` is not above zero.
+    /// Minimum base radius at which `excess` is not above zero.
     fn minimum_base(&self, excess: impl Fn(&Self) -> f64) -> Option<f64> {
         const MOST: u32 = 700;
         let of = |radius: f64| match self.with_base_radius(radius) {
@@ -150,7 +150,7 @@ impl DiscCam {
     }
 }
 
-/// Least value above `low` at which `excess` is not above zero, by bisection; at `high` it is not.
+/// Minimum value above `low` at which `excess` is not above zero, by bisection; at `high` it is not.
 fn halved(excess: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     while high - low > 4.0 * f64::EPSILON * high {
         let middle = 0.5 * (low + high);

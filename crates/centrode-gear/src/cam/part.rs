@@ -7,7 +7,7 @@ use super::disc::{CamError, DiscCam};
 use super::profile::Profile;
 use crate::design::BodySpec;
 
-/// Greatest distance of the contour from the exact envelope, as a share of the base radius.
+/// Maximum distance of the contour from the exact envelope, as a share of the base radius.
 const ACCURACY: f64 = 1e-11;
 
 /// Finished disc cam: the part that is cut and drawn.
@@ -88,7 +88,7 @@ impl Cam {
         &self.profile
     }
 
-    /// Least and greatest distance of the contour from the axis, mm.
+    /// Minimum and maximum distance of the contour from the axis, mm.
     #[must_use]
     pub fn radii(&self) -> (f64, f64) {
         self.profile.radii()

@@ -288,7 +288,7 @@ fn an_eccentric_circle_moves_a_flat_face_harmonically() {
 fn an_eccentric_circle_under_a_roller_is_found_again() {
     let (e, reach) = (5.0_f64, 30.0_f64);
     let slide = FromFn::new(TAU, 0.0, vec![], move |t: f64| {
-        // d = sqrt(reach^2 - e^2 sin^2 t) - e cos t, from its least value reach - e.
+        // d = sqrt(reach^2 - e^2 sin^2 t) - e cos t, from its minimum value reach - e.
         let (sin, cos) = t.sin_cos();
         let root = (reach * reach - e * e * sin * sin).sqrt();
         let (u, u1, u2) = (
@@ -449,7 +449,7 @@ fn the_least_base_circle_is_where_the_limit_is_met() {
     let spec = CamSpec::new(90.0, follower, motion(10.0, false, 60.0));
     let cam = DiscCam::resolve(&spec).expect("sound");
     let radius = cam.minimum_regular_base_radius(2.0).expect("found");
-    // rho = base + s + s''; s'' is least in the drop.
+    // rho = base + s + s''; s'' is smallest in the drop.
     let exact = cam.with_base_radius(radius).expect("sound").limits();
     assert!((exact.minimum_radius.value - 2.0).abs() < 1e-9);
     assert!((radius - 2.0 - (90.0 - cam.limits().minimum_radius.value)).abs() < 1e-9);

@@ -34,7 +34,7 @@ pub struct TeethSpec {
     pub backlash_angle: Option<f64>,
     /// The driver's share of the pitch: its tooth thickness over the circular pitch.
     pub thickness_split: f64,
-    /// Least width of a tooth at its tip, as a multiple of the module, before it is reported.
+    /// Minimum width of a tooth at its tip, as a multiple of the module, before it is reported.
     pub minimum_tip_width_coefficient: f64,
     /// Upper and lower deviation of the thickness of every finished tooth along its pitch curve from the tooth as designed, mm,
     /// each within half a module: limits for the shop. An upper one above zero takes backlash. Default: zero and minus the
@@ -74,7 +74,7 @@ pub enum Addendum {
     Fitted,
 }
 
-/// Number of the teeth that is chosen so that the least contact ratio from one flank to the next becomes greatest.
+/// Number of the teeth that is chosen so that the minimum contact ratio from one flank to the next becomes largest.
 #[derive(Clone, Copy, Debug, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Fit {

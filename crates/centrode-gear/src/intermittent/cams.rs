@@ -18,7 +18,7 @@ fn pin(center: Point, radius: f64) -> Vec<Point> {
     (0..PIN_CORNERS).map(corner).collect()
 }
 
-/// Cam beside the driver's teeth, and the pins by which it holds the driven gear while that starts or stops.
+/// Cam next to the driver's teeth, and the pins by which it holds the driven gear while that starts or stops.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cam {
     /// The cam in the driver's axes: it clears a pin of nominal size along the whole path by what the backlash leaves at rest.

@@ -141,7 +141,7 @@ impl IntermittentDrive {
         if self.entry > 0.0 { 0.0 } else { self.ratio() }
     }
 
-    /// Greatest acceleration of the driven gear, per driver speed squared: 15/8 ratio / entry.
+    /// Maximum acceleration of the driven gear, per driver speed squared: 15/8 ratio / entry.
     #[must_use]
     pub fn maximum_acceleration(&self) -> f64 {
         1.875 * self.ratio() / self.entry

@@ -13,9 +13,9 @@ use centrode_kinematics::transmission::Transmission;
 
 /// Steps of one driver turn while the driven gear passes through the driver's blank: a twentieth of a degree.
 const STEPS: u32 = 7200;
-/// Greatest distance of a written contour from the computed one, in modules.
+/// Maximum distance of a written contour from the computed one, in modules.
 const ACCURACY: f64 = 1e-4;
-/// Least height of a tooth above the locking arc, in modules, for it to count.
+/// Minimum height of a tooth above the locking arc, in modules, for it to count.
 const TOOTH: f64 = 0.2;
 
 /// Intermittent gear pair: the driver has teeth on an arc alone, and holds the driven gear with a locking arc for the
@@ -24,7 +24,7 @@ const TOOTH: f64 = 0.2;
 /// The driven gear keeps the teeth its tool cuts, less a notch for the driver's locking arc at each stop. The driver is
 /// the rest of a complete one after the driven gear has been led through its law: the tips of its first and last teeth
 /// and the ends of its locking arc are cut back by just as much as entry and exit would clash. Pins of the driven gear
-/// on two cams beside the teeth, one for entry and one for exit, bring it to speed and to rest: teeth alone strike it.
+/// on two cams next to the teeth, one for entry and one for exit, bring it to speed and to rest: teeth alone strike it.
 ///
 /// The driver turns clockwise about the origin by the input, the driven gear counter-clockwise about (centre
 /// distance, 0). Contours are polygons within a ten-thousandth of the module.
@@ -265,7 +265,7 @@ impl IntermittentPair {
         &self.driven
     }
 
-    /// Greatest distance of the contours' polygons from the exact curves.
+    /// Maximum distance of the contours' polygons from the exact curves.
     #[must_use]
     pub fn accuracy(&self) -> Tolerance {
         self.accuracy

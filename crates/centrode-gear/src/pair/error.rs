@@ -67,7 +67,7 @@ pub enum GearPairError {
         swings: usize,
         /// Teeth of the driver.
         teeth: u32,
-        /// Least radius of curvature of both pitch curves, mm.
+        /// Minimum radius of curvature of both pitch curves, mm.
         radius: f64,
         /// Module, mm.
         module: f64,
@@ -139,7 +139,7 @@ pub enum GearPairError {
         member: Member,
         /// Radius reached by bore and keyway, mm.
         reach: f64,
-        /// Least radius of the outline, mm.
+        /// Minimum radius of the outline, mm.
         root: f64,
     },
 }

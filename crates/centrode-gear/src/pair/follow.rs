@@ -3,11 +3,11 @@
 use super::GearPairError;
 use crate::Rolling;
 
-/// Greatest product of the swings in a turn and the swings a tooth: every wave of a flank may cross every other of the tooth, so
+/// Maximum product of the swings in a turn and the swings a tooth: every wave of a flank may cross every other of the tooth, so
 /// the work goes with it.
 pub(super) const MAX_WORK: usize = 25_000;
 
-/// Least radius of curvature, modules, of pitch curves that swing as often as the work allows.
+/// Minimum radius of curvature, modules, of pitch curves that swing as often as the work allows.
 const MIN_ARC: f64 = 0.5;
 
 /// Most swings a tooth of sharper ones.
@@ -72,7 +72,7 @@ mod tests {
             panic!("{error}");
         };
         assert_eq!((swings, teeth), (503, 40));
-        // Beside the waves the circle counts for nothing: their curvature is about e n^2/r, and that of the mate the same with the other
+        // Next to the waves the circle counts for nothing: their curvature is about e n^2/r, and that of the mate the same with the other
         // sign. Their slope makes the pitch curve longer by a sixteenth.
         let r = 40.0 * module / (2.0 * 1.06);
         let expected = r / (1.0 + 0.001 * 503.0 * 503.0);

@@ -14,7 +14,7 @@ pub struct Gear {
     outline: Outline,
     roles: Vec<Role>,
     owners: Vec<u32>,
-    /// Least and greatest distance of the outline from the axis, mm.
+    /// Minimum and maximum distance of the outline from the axis, mm.
     radii: (f64, f64),
     pitch_curve: Outline,
     teeth: Vec<Tooth>,
@@ -122,7 +122,7 @@ impl Gear {
         &self.body
     }
 
-    /// Least and greatest distance of the outline from the axis, mm.
+    /// Minimum and maximum distance of the outline from the axis, mm.
     #[must_use]
     pub fn radii(&self) -> (f64, f64) {
         self.radii
@@ -138,7 +138,7 @@ impl Gear {
 /// Steps of a segment among which its distances from the axis are followed.
 const STEPS: usize = 8;
 
-/// Least and greatest distance of an outline from the axis, mm.
+/// Minimum and maximum distance of an outline from the axis, mm.
 fn radii(outline: &Outline) -> (f64, f64) {
     let starts = outline.segments().iter().map(|s| s.start().coords.norm());
     let (mut minimum, mut maximum) = starts.fold((f64::INFINITY, 0.0_f64), |(low, high), r| {
@@ -170,7 +170,7 @@ fn around(segment: &Segment) -> (f64, f64) {
     }
 }
 
-/// The least of a function from its samples at some places, as far as it is below what is known.
+/// The minimum of a function from its samples at some places, as far as it is below what is known.
 fn nearest(
     samples: &[f64; STEPS + 1],
     place: impl Fn(usize) -> f64,

@@ -26,7 +26,7 @@ pub use error::GearPairError;
 use follow::follow;
 pub use gear::Gear;
 
-/// Greatest distance of a stored outline from the exact curve, as a share of the module.
+/// Maximum distance of a stored outline from the exact curve, as a share of the module.
 const OUTLINE_TOLERANCE: f64 = 1e-10;
 
 /// A non-circular gear pair, resolved: exact pitch curves, finished teeth.
@@ -252,7 +252,7 @@ impl GearPair {
         self.module
     }
 
-    /// Greatest distance of the stored outlines from the exact ones, mm: no finer tolerance is meaningful.
+    /// Maximum distance of the stored outlines from the exact ones, mm: no finer tolerance is meaningful.
     #[must_use]
     pub fn accuracy(&self) -> f64 {
         OUTLINE_TOLERANCE * self.module

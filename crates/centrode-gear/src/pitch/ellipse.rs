@@ -38,7 +38,7 @@ pub struct LobedEllipse {
     pub lobes: u32,
     /// Eccentricity `k`: at least 0, less than 1.
     pub eccentricity: f64,
-    /// Mean of the greatest and least radius, `A`, mm; or leave it out and give module and `tooth_count`.
+    /// Mean of the maximum and minimum radius, `A`, mm; or leave it out and give module and `tooth_count`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub semi_major_axis: Option<f64>,
     /// Module, mm, with `tooth_count`: sets the size of the curve.

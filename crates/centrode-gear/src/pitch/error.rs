@@ -34,9 +34,9 @@ pub enum PitchError {
         key: &'static str,
         /// Value given.
         value: u64,
-        /// Least value allowed.
+        /// Minimum value allowed.
         minimum: u64,
-        /// Greatest value allowed.
+        /// Maximum value allowed.
         maximum: u64,
     },
     /// A gear with fewer than three teeth.
@@ -59,9 +59,9 @@ pub enum PitchError {
         key: &'static str,
         /// Length of one turn, mm.
         length: f64,
-        /// Least length allowed, mm.
+        /// Minimum length allowed, mm.
         minimum: f64,
-        /// Greatest length allowed, mm.
+        /// Maximum length allowed, mm.
         maximum: f64,
     },
     /// Nothing sets the size of the curve.

@@ -301,7 +301,7 @@ impl Draft {
     }
 }
 
-/// Least and greatest length of a pitch curve, mm: its moments, up to the fourth power, are normal numbers.
+/// Minimum and maximum length of a pitch curve, mm: its moments, up to the fourth power, are normal numbers.
 const LENGTHS: [f64; 2] = [1e-50, 1e50];
 
 /// Checks that the length of a pitch curve can be computed with.

@@ -22,7 +22,7 @@ pub enum Interpolation {
     Trigonometric,
 }
 
-/// Greatest number of harmonics of a trigonometric polynomial: every evaluation visits them all.
+/// Maximum number of harmonics of a trigonometric polynomial: every evaluation visits them all.
 const MAX_HARMONICS: usize = 500;
 
 /// A function of period one turn.

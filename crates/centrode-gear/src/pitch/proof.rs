@@ -126,9 +126,9 @@ struct Walk<'a> {
     key: &'static str,
     turn: f64,
     halvings: u32,
-    /// Sample of the least radius.
+    /// Sample of the minimum radius.
     nearest: Sample,
-    /// Sample of the least advance of the polar angle.
+    /// Sample of the minimum advance of the polar angle.
     slowest: Sample,
 }
 
@@ -160,7 +160,7 @@ impl Walk<'_> {
         Ok(())
     }
 
-    /// Sample where the figure is least: the known one, or one in the interval.
+    /// Sample where the figure is smallest: the known one, or one in the interval.
     fn minimum(
         &self,
         known: Sample,
@@ -171,7 +171,7 @@ impl Walk<'_> {
         let minimum = interval.into_iter().fold(known, lower);
         let [low, _, high] = interval;
         // Inside, a minimum can hide only where the slope changes from falling to rising, and it matters
-        // only where it may be below the known least.
+        // only where it may be below the known minimum.
         let dips = figure(&low)[1] < 0.0 && figure(&high)[1] > 0.0;
         let reach = 0.25 * (high.t - low.t) * (figure(&high)[1] - figure(&low)[1]);
         if !dips || figure(&low)[0].min(figure(&high)[0]) - reach > figure(&minimum)[0] {

@@ -19,7 +19,7 @@ pub(crate) struct Size {
 pub(crate) enum OwnSize {
     /// The shape has none; the key is the one that could set it.
     Missing(&'static str),
-    /// The key fixes it: a module beside it would contradict.
+    /// The key fixes it: a module next to it would contradict.
     Fixed(&'static str),
     /// Lengths as written, unless module and tooth count scale it.
     Written,

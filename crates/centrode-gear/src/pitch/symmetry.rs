@@ -5,7 +5,7 @@ pub struct Symmetry {
     pub(crate) folds: u32,
     /// Whether `r(-phi) = r(phi)`.
     pub(crate) mirrored: bool,
-    /// Whether the curve that rolls on it one to one is the same curve, its least radius on the other's greatest.
+    /// Whether the curve that rolls on it one to one is the same curve, its minimum radius on the other's maximum.
     pub(crate) mates_itself: bool,
 }
 

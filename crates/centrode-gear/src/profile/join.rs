@@ -113,7 +113,7 @@ impl Cutter<'_> {
     }
 }
 
-/// Least radius of curvature of a segment, mm.
+/// Minimum radius of curvature of a segment, mm.
 fn minimum_radius(poly: &PolySegment) -> f64 {
     const STEPS: usize = 4;
     let radius = |u: f64| {

@@ -72,7 +72,7 @@ pub struct ToothSide {
     pub undercut: f64,
     /// Arc lengths of roll between which flank remains; `None` where nothing does.
     pub active: Option<(f64, f64)>,
-    /// Least radius of curvature of the fillet, mm.
+    /// Minimum radius of curvature of the fillet, mm.
     pub fillet_radius: f64,
 }
 

@@ -27,7 +27,7 @@ pub enum RollingError {
     NotPeriodic {
         /// Turns of driver : turns of driven.
         ratio: (u32, u32),
-        /// Greatest difference found, mm.
+        /// Maximum difference found, mm.
         difference: f64,
     },
     /// A mean ratio with a zero or absurd number in it.

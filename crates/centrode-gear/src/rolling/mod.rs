@@ -99,7 +99,7 @@ pub struct Rolling {
 /// Share of the period within which two parameters are the same but for rounding.
 const SAME: f64 = 1e-12;
 
-/// A pitch radius that is the least or the greatest, and the parameter it is at.
+/// A pitch radius that is the minimum or the maximum, and the parameter it is at.
 #[derive(Clone, Copy, Debug)]
 struct Extreme {
     at: f64,
@@ -107,7 +107,7 @@ struct Extreme {
 }
 
 impl Rolling {
-    /// Greatest number in a mean ratio.
+    /// Maximum number in a mean ratio.
     pub const MAX_TURNS: u32 = 50;
 
     /// Pitch curves whose driver is known to have a symmetry about its own angle zero.
@@ -166,7 +166,7 @@ impl Rolling {
         }
     }
 
-    /// Least and greatest radius of the pitch curve of a member, mm.
+    /// Minimum and maximum radius of the pitch curve of a member, mm.
     #[must_use]
     pub fn radii(&self, member: Member) -> (f64, f64) {
         match member {
@@ -192,13 +192,13 @@ impl Rolling {
         self.swings > 2 * teeth as usize
     }
 
-    /// Least radius of curvature of both pitch curves, mm, among the nodes of the arc length's pieces.
+    /// Minimum radius of curvature of both pitch curves, mm, among the nodes of the arc length's pieces.
     pub(crate) fn sharpest(&self) -> f64 {
         let nodes = self.arc.nodes().flat_map(|(t, _)| self.curvatures(t));
         1.0 / nodes.map(f64::abs).fold(0.0, f64::max)
     }
 
-    /// Arc lengths at the least and the greatest driver radius, the first of each.
+    /// Arc lengths at the minimum and the maximum driver radius, the first of each.
     pub(crate) fn extreme_arcs(&self) -> (f64, f64) {
         (
             self.arc_length(self.minimum.at),

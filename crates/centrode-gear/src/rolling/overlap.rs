@@ -17,7 +17,7 @@ struct Place {
 }
 
 impl Rolling {
-    /// Greatest overlap of the two pitch curves away from the point at which they roll, over all driver angles, rad: how far one
+    /// Maximum overlap of the two pitch curves away from the point at which they roll, over all driver angles, rad: how far one
     /// reaches into the other, mm, towards the driver's shaft; nothing where they only roll.
     ///
     /// With the driver at phi, the point of the driven gear's curve that is to come to the pitch point after a turn beta of that
@@ -87,8 +87,8 @@ impl Rolling {
         radius - point.coords.norm()
     }
 
-    /// Poses and places, by their numbers, at which a place is deeper than those beside it at that pose, and than at the poses
-    /// beside it; each with its depth, by chords.
+    /// Poses and places, by their numbers, at which a place is deeper than those next to it at that pose, and than at the poses
+    /// next to it; each with its depth, by chords.
     fn suspects(&self, places: &[Place]) -> Vec<(f64, [i64; 2])> {
         let count = PLACES as i64;
         let angle_of_turn = self.driven.total();

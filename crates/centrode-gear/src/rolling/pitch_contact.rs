@@ -6,12 +6,12 @@ use centrode_geometry::{Extreme, Vector, maximum_of_each};
 
 use super::Rolling;
 
-/// Least and greatest curvature of a member's pitch curve (1/mm), and the arc lengths they are at.
+/// Minimum and maximum curvature of a member's pitch curve (1/mm), and the arc lengths they are at.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurvatureRange {
-    /// Least curvature; negative for a curve with a concave part.
+    /// Minimum curvature; negative for a curve with a concave part.
     pub minimum: (f64, f64),
-    /// Greatest curvature.
+    /// Maximum curvature.
     pub maximum: (f64, f64),
 }
 

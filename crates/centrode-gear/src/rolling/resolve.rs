@@ -6,10 +6,10 @@ use centrode_geometry::{Antiderivative, Curve, Jet, Point, bracketed_root};
 use super::{Extreme, Rolling, RollingError, SAME};
 use crate::pitch::{Symmetry, gcd};
 
-/// Most pieces on which a pitch curve may not be smooth, as beside a kink.
+/// Most pieces on which a pitch curve may not be smooth, as next to a kink.
 const MAX_UNSETTLED: usize = 64;
 
-/// Share of the greatest radius, a radian, by which the slope of a radius that swings changes at least.
+/// Share of the maximum radius, a radian, by which the slope of a radius that swings changes at least.
 const SWINGS: f64 = 1e-7;
 
 impl Rolling {
@@ -176,7 +176,7 @@ fn axis_crossings(curve: &dyn Curve, period: f64) -> Result<(f64, f64), RollingE
     }
 }
 
-/// Least and greatest radius, sharpened from samples all along the curve.
+/// Minimum and maximum radius, sharpened from samples all along the curve.
 fn extremes(curve: &dyn Curve, samples: &[(f64, Jet)]) -> [Extreme; 2] {
     let slope_of = |jet: &Jet| jet.point.coords.dot(&jet.first);
     let slope = |t: f64| slope_of(&curve.at(t));
@@ -233,7 +233,7 @@ fn turns(values: impl Iterator<Item = f64>, threshold: f64) -> usize {
     rises.iter().zip(again).filter(|(a, b)| a != b).count()
 }
 
-/// Newton's method kept above the greatest radius, where the driven angle falls from infinity to zero.
+/// Newton's method kept above the maximum radius, where the driven angle falls from infinity to zero.
 fn closure(nodes: &[(f64, f64)], maximum: f64, required: f64) -> f64 {
     let turned = |a: f64| -> (f64, f64) {
         let (mut sum, mut slope) = (0.0, 0.0);
@@ -246,7 +246,7 @@ fn closure(nodes: &[(f64, f64)], maximum: f64, required: f64) -> f64 {
     };
     let mut low = maximum;
     let mut high = f64::INFINITY;
-    // A circle of the greatest radius would need this distance; the answer is below it.
+    // A circle of the maximum radius would need this distance; the answer is below it.
     let mut a = maximum * (1.0 + TAU / required);
     for _ in 0..100 {
         let (sum, slope) = turned(a);

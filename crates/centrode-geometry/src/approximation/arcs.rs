@@ -51,7 +51,7 @@ mod tests {
         Tolerance::new(mm).expect("positive")
     }
 
-    /// Greatest distance from dense points of one outline to the segments of another, both walked.
+    /// Maximum distance from dense points of one outline to the segments of another, both walked.
     fn deviation(outline: &Outline, arcs: &Outline) -> f64 {
         let distance = |p: Point, s: &Segment| match s {
             Segment::Arc(arc) => {

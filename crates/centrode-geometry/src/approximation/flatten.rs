@@ -84,7 +84,7 @@ mod tests {
         Tolerance::new(mm).expect("positive")
     }
 
-    /// Greatest distance from dense points of the outline to the polygon, walking both together.
+    /// Maximum distance from dense points of the outline to the polygon, walking both together.
     fn deviation(outline: &Outline, polygon: &[Point]) -> f64 {
         let mut worst: f64 = 0.0;
         let mut edge = 0;

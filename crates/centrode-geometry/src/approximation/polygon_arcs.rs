@@ -212,7 +212,7 @@ mod tests {
         Tolerance::new(mm).expect("positive")
     }
 
-    /// Greatest distance of the corners of a polygon from arcs, both finely flattened.
+    /// Maximum distance of the corners of a polygon from arcs, both finely flattened.
     fn deviation(points: &[Point], arcs: &Outline) -> f64 {
         let fine = arcs.flatten(tolerance(1e-6));
         let edges: Vec<[Point; 2]> = (0..fine.len())

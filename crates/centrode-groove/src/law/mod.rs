@@ -143,7 +143,7 @@ impl ShaftLaw {
         self.at(stop).position - self.at(start).position
     }
 
-    /// Greatest distance between this law and another along the shaft over one turn, each counted from
+    /// Maximum distance between this law and another along the shaft over one turn, each counted from
     /// its own place at `from`; mm.
     #[must_use]
     pub fn deviation(&self, other: &Self, from: f64) -> f64 {
@@ -179,5 +179,5 @@ impl Transmission for ShaftLaw {
     }
 }
 
-/// Greatest number of waves a turn.
+/// Maximum number of waves a turn.
 const MAX_HARMONICS: u32 = 60;

@@ -11,7 +11,7 @@ use crate::{Groove, Wall};
 
 /// Numbers of even lines tried, until every edge is met.
 const LINES: [u32; 4] = [8, 16, 32, MAX_LINES];
-/// Greatest number of even lines.
+/// Maximum number of even lines.
 pub(super) const MAX_LINES: u32 = 64;
 /// Distance within which an edge must be met, mm: below the resolution of CAD kernels.
 const MET: f64 = 1e-7;

@@ -48,7 +48,7 @@ impl ShaftBody {
         })
     }
 
-    /// Sections of a journal beside the thick part of a radius, upwards: the near one, with its keyway, is below.
+    /// Sections of a journal next to the thick part of a radius, upwards: the near one, with its keyway, is below.
     fn journal(&self, radius: f64, near: bool) -> Vec<TurnedSection> {
         let (journal, c) = (0.5 * self.journal_diameter, self.chamfer);
         let cone = |from: f64| TurnedSection {

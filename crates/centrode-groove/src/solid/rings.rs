@@ -212,12 +212,12 @@ impl<'a> Rings<'a> {
         }
     }
 
-    /// Vertices of the round part beside a slot, both its edges included.
+    /// Vertices of the round part next to a slot, both its edges included.
     fn open_count(&self) -> usize {
         self.columns as usize + 1
     }
 
-    /// Angles of a ring, ascending; beside a slot, from its upper edge round to its lower one, then over it.
+    /// Angles of a ring, ascending; next to a slot, from its upper edge round to its lower one, then over it.
     fn angles(&self, keyway: Option<Keyway>, radius: f64) -> Vec<f64> {
         let n = self.columns;
         let Some(Keyway { width, .. }) = keyway else {

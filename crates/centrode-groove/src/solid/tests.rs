@@ -342,7 +342,7 @@ fn off_surface(groove: &Groove, fillet: f64, samples: &[(f64, f64)], [x, y, z]: 
     land.min(bottom).min(wall).min(round)
 }
 
-/// Greatest distance of corners, middles of edges and middles of triangles of the grooved length from its exact surface,
+/// Maximum distance of corners, middles of edges and middles of triangles of the grooved length from its exact surface,
 /// over some 400 triangles.
 fn maximum_deviation(groove: &Groove, body: &ShaftBody, tol: f64) -> f64 {
     let solid = ShaftSolid::new(groove, body).expect("fits");

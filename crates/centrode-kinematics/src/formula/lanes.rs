@@ -1,5 +1,5 @@
 //! Two numbers side by side: every processor works on two at once, and holds the series of a linkage in its registers.
-//! With four it does not, and takes twice the time. A number has the same bits whatever stands beside it.
+//! With four it does not, and takes twice the time. A number has the same bits whatever stands next to it.
 
 use wide::f64x2;
 
@@ -19,10 +19,10 @@ pub(crate) fn groups(inputs: &[f64]) -> impl Iterator<Item = Lanes> + '_ {
     firsts.map(move |first| Lanes::from(std::array::from_fn(|lane| input(first + lane))))
 }
 
-/// Greatest angle whose turns the vector's own functions take off to the last digit.
+/// Maximum angle whose turns the vector's own functions take off to the last digit.
 const FARTHEST: f64 = 100_000.0;
 
-/// The sine and cosine of a number beside which one is far away or none: its bits do not depend on its neighbour.
+/// The sine and cosine of a number next to which one is far away or none: its bits do not depend on its neighbour.
 #[cold]
 #[inline(never)]
 fn sin_cos_alone(x: f64) -> (f64, f64) {

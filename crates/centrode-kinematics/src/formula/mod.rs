@@ -143,7 +143,7 @@ impl Step {
             Self::Add => a + b,
             Self::Subtract => a - b,
             Self::Multiply => a * b,
-            // Of a value in use beside what comes near the greatest float nothing is left.
+            // Of a value in use next to what comes near the maximum float nothing is left.
             Self::Divide if b.0[0].abs() > 1e200 && a.0.iter().all(|c| c.abs() < 1e100) => {
                 Taylor::constant(0.0)
             }

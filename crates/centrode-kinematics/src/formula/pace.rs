@@ -9,7 +9,7 @@ const FEWEST: usize = 512;
 /// Most places: a bump is seen where one of them lies within seven of its widths.
 const MOST: usize = 1 << 18;
 
-/// Greatest rate a radian of which features are found wherever they are without being looked for.
+/// Maximum rate a radian of which features are found wherever they are without being looked for.
 const GENTLE: f64 = 12.0;
 
 /// Length of a part, as a multiple of the width of the narrowest feature.
@@ -35,7 +35,7 @@ pub struct Steep {
 struct Course {
     low: f64,
     high: f64,
-    /// Greatest slope, of its own and from one place to the next.
+    /// Maximum slope, of its own and from one place to the next.
     steepest: f64,
     last: f64,
 }
@@ -70,11 +70,11 @@ impl Course {
 }
 
 impl Formula {
-    /// Ends, inside a turn, of even parts in each of which the formula has no feature that is narrow beside the part; none
+    /// Ends, inside a turn, of even parts in each of which the formula has no feature that is narrow next to the part; none
     /// where the formula has no such features at all.
     ///
-    /// A bump, as of `exp(-700*(1-cos(5*phi)))`, is next to nothing with all its derivatives a few widths beside it. How wide it
-    /// is, is told by the slopes of every function, product and quotient in the formula beside their ranges; where to look for
+    /// A bump, as of `exp(-700*(1-cos(5*phi)))`, is nearly nothing with all its derivatives a few widths away. How wide it
+    /// is, is told by the slopes of every function, product and quotient in the formula next to their ranges; where to look for
     /// these, by how fast what the functions are of changes.
     ///
     /// # Errors
@@ -103,7 +103,7 @@ impl Formula {
         Ok((1..count).map(|k| turn * k as f64 / count as f64).collect())
     }
 
-    /// Greatest rates a radian, at even places of a turn: of what a function is of, and of what follows, as a share of its range.
+    /// Maximum rates a radian, at even places of a turn: of what a function is of, and of what follows, as a share of its range.
     fn rates(&self, turn: f64, count: usize) -> [f64; 2] {
         let step = turn / count as f64;
         let mut courses = vec![Course::NONE; self.program.len()];

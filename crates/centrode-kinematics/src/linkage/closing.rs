@@ -9,7 +9,7 @@ use super::series::{Series, SeriesItem};
 
 /// Samples over a turn of the input in the search for where dyads cease to close.
 const SAMPLES: u32 = 720;
-/// Parts of a gap in which the greatest distance between a dyad's ends is looked for.
+/// Parts of a gap in which the maximum distance between a dyad's ends is looked for.
 const PARTS: u32 = 4;
 /// Squared sine of the transmission angle that is rounding: at an angle below 2e-4 deg both branches of a dyad meet. Ten times
 /// more calls linkages flat that just close; ten times less takes rounding of long chains for gaps.

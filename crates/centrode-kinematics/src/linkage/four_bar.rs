@@ -310,7 +310,7 @@ impl FourBar {
         ((b * b + c * c - squared_diagonal) / (2.0 * b * c)).acos()
     }
 
-    /// The least angle between the lines of coupler and rocker over the turn of the crank, rad; 0 where
+    /// The minimum angle between the lines of coupler and rocker over the turn of the crank, rad; 0 where
     /// the crank cannot turn.
     #[must_use]
     pub fn minimum_transmission_angle(&self) -> f64 {

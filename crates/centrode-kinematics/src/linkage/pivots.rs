@@ -6,11 +6,11 @@ use super::four_bar::FourBar;
 use super::six_bar::SixBar;
 use super::slider_arc::SliderArc;
 
-/// Points between which a curve is measured for each that is asked for, and the least number of them.
+/// Points between which a curve is measured for each that is asked for, and the minimum number of them.
 const MEASURED: (usize, usize) = (4, 256);
-/// Greatest ratio of a step to the mean one at which they count as even.
+/// Maximum ratio of a step to the mean one at which they count as even.
 const EVEN: f64 = 1.002;
-/// Greatest number of passes that move these points to equal lengths; near half a turn, where a ray hardly turns
+/// Maximum number of passes that move these points to equal lengths; near half a turn, where a ray hardly turns
 /// along most of the curve, it takes a dozen.
 const PASSES: usize = 60;
 
@@ -45,7 +45,7 @@ impl SixBar {
             let (sin, cos) = turn.sin_cos();
             arc.seen_at(middle, chord.normalize() * cos + across * sin, swing)
         };
-        // Past half a turn the curve runs from end to end of the chord beside the arc, else all round it.
+        // Past half a turn the curve runs from end to end of the chord next to the arc, else all round it.
         let whole = if swing > PI { PI } else { TAU };
         let knots = even_knots(whole, count, |turn| {
             if swing > PI && turn <= 0.0 {

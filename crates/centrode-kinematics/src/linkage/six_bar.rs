@@ -136,13 +136,13 @@ impl SixBar {
         self.effector_length
     }
 
-    /// Least distance of the slider from the effector's pivot, mm.
+    /// Minimum distance of the slider from the effector's pivot, mm.
     #[must_use]
     pub fn minimum_slider_distance(&self) -> f64 {
         SliderArc::new(&self.four_bar).map_or(0.0, |arc| arc.distance(self.pivot))
     }
 
-    /// Greatest distance of the slider from the effector's pivot, mm.
+    /// Maximum distance of the slider from the effector's pivot, mm.
     #[must_use]
     pub fn maximum_slider_distance(&self) -> f64 {
         SliderArc::new(&self.four_bar).map_or(0.0, |arc| arc.farthest(self.pivot))

@@ -15,7 +15,7 @@ pub struct Arrangement {
     pub drawing: DrawingSpec,
     /// Input at which the machine is drawn, rad.
     pub input: f64,
-    /// Dimensions beside those of shafts and travel.
+    /// Dimensions next to those of shafts and travel.
     pub dimensions: Vec<Dimension>,
     /// Words with a leader to their place.
     pub callouts: Vec<Callout>,

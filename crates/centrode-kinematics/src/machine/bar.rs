@@ -7,7 +7,7 @@ use crate::machine::Keyway;
 const CHAMFER: f64 = 1.0 / 16.0;
 /// Lengths below which steps are none, mm: rounding.
 const ROUNDING: f64 = 1e-9;
-/// Least play along the axis of what lies between two rings, mm.
+/// Minimum play along the axis of what lies between two rings, mm.
 const CLEARANCE: f64 = 0.05;
 /// Steps of deviations of a length between grooves, and the width of its tolerance, mm.
 const DEVIATION: [f64; 2] = [0.05, 0.1];
@@ -170,7 +170,7 @@ impl Bar {
 
     /// Lengths between grooves that leave what the rings hold no play within general tolerances, with deviations that do.
     ///
-    /// A ring gives way to the far wall of its groove. The play is then least where the length and the grooves are shortest and the
+    /// A ring gives way to the far wall of its groove. The play is then smallest where the length and the grooves are shortest and the
     /// parts and rings thickest: l + (m - s) for each ring that is pushed away from the parts, less the thicknesses, each with
     /// its deviation.
     fn held_lengths(&self, general: &str) -> Vec<HeldLength> {

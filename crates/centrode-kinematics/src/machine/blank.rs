@@ -31,9 +31,9 @@ const FINE: f64 = 1e-3;
 const HAIR: f64 = 1e-6;
 
 impl Blank {
-    /// The least rectangle of plate around a contour, or round bar where it is a circle; `None` for a contour of no extent.
+    /// The minimum rectangle of plate around a contour, or round bar where it is a circle; `None` for a contour of no extent.
     ///
-    /// One side of the least rectangle lies along a side of the convex hull: every one is tried, on a polygon within 0.001 mm.
+    /// One side of the minimum rectangle lies along a side of the convex hull: every one is tried, on a polygon within 0.001 mm.
     /// The sides told are those of the contour.
     #[must_use]
     pub fn plate(outline: &Outline, thickness: f64) -> Option<Self> {

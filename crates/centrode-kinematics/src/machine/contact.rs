@@ -1,4 +1,4 @@
-//! Connections of links beside the tree of joints.
+//! Connections of links next to the tree of joints.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::plain;
 use crate::transmission::Transmission;
 
-/// A pin through two links beside the tree of joints.
+/// A pin through two links next to the tree of joints.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Closure {

@@ -6,11 +6,11 @@ use centrode_geometry::{Outline, Point};
 
 use super::{Fit, Screw, TurnedPiece, TurnedPieces};
 
-/// Greatest length of thread that a screw enters, in its diameters: more holds no better.
+/// Maximum length of thread that a screw enters, in its diameters: more holds no better.
 const ENTERED: f64 = 2.0;
 /// Length of thread beyond the end of the screw, in its diameters.
 const BEYOND: f64 = 0.5;
-/// Least distance of the ends of two screws that are screwed in from both sides, in their diameters.
+/// Minimum distance of the ends of two screws that are screwed in from both sides, in their diameters.
 const APART: f64 = 0.25;
 
 /// Screws of one kind through two plates from both sides into the body between them.
@@ -41,7 +41,7 @@ pub enum FasteningError {
         plate: f64,
         /// Distance between the plates, mm.
         between: f64,
-        /// Least length of thread, mm.
+        /// Minimum length of thread, mm.
         minimum: f64,
     },
     /// Too few places that miss everything else.
@@ -119,7 +119,7 @@ impl Fastening {
         Screw::sizes().rev().filter(fitting).collect()
     }
 
-    /// Greatest height of a head that [`Fastening::largest`] may choose, mm; zero for none.
+    /// Maximum height of a head that [`Fastening::largest`] may choose, mm; zero for none.
     #[must_use]
     pub fn highest_head(size: Option<f64>, plate: f64) -> f64 {
         let sizes = Self::sizes(size, plate);

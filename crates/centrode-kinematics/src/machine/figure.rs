@@ -25,7 +25,7 @@ pub enum LineRole {
     Bar,
     /// The centre line of a clamp.
     Clamp,
-    /// Part of a body that lies beside it, in another plane.
+    /// Part of a body that lies next to it, in another plane.
     Adjacent,
     /// A moving link where it does its work.
     Pose,

@@ -220,7 +220,7 @@ impl Fit {
         }
     }
 
-    /// Least and greatest clearance, mm, below zero where the parts press: the hole's limits less the shaft's. None where a class or
+    /// Minimum and maximum clearance, mm, below zero where the parts press: the hole's limits less the shaft's. None where a class or
     /// the size is beyond the tables of [`limits_of_size`].
     #[must_use]
     pub fn clearance(&self) -> Option<[f64; 2]> {

@@ -73,7 +73,7 @@ impl Piecewise {
     pub fn fit<T: Transmission + ?Sized>(law: &T) -> Self {
         let period = law.period();
         let breaks = law.breaks();
-        // A break beside another, or beside an end, by rounding leaves no piece whose derivatives mean anything.
+        // A break next to another, or next to an end, by rounding leaves no piece whose derivatives mean anything.
         let apart = |b: &&f64| **b > SHORTEST * period && **b < (1.0 - SHORTEST) * period;
         let inside: Vec<f64> = breaks.iter().filter(apart).copied().collect();
         let mut cuts = centrode_geometry::piece_ends(0.0, period, 1, &inside);

@@ -6,7 +6,7 @@ use super::Quantity;
 /// Standard acceleration of free fall, mm/s².
 pub const STANDARD_GRAVITY: f64 = 9806.65;
 
-/// A load on a machine beside the weight and inertia of its links.
+/// A load on a machine next to the weight and inertia of its links.
 #[derive(Clone, Debug, Deserialize, JsonSchema, Serialize)]
 #[serde(rename_all = "kebab-case", deny_unknown_fields)]
 pub enum Load {

@@ -84,7 +84,7 @@ pub struct LinkedMachine {
     pub guides: Vec<Guide>,
     /// Acceleration of free fall in the frame of the first link, mm/s².
     pub gravity: [f64; 3],
-    /// Loads beside weight and inertia.
+    /// Loads next to weight and inertia.
     pub loads: Vec<Load>,
     /// Points worth following.
     pub points: Vec<LinkPoint>,

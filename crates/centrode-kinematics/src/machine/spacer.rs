@@ -12,7 +12,7 @@ const SHIMS: [[f64; 2]; 27] = [
 ];
 /// Thicknesses of shims of every diameter, mm; DIN 988.
 const THICKNESSES: [f64; 5] = [1.0, 0.5, 0.3, 0.2, 0.1];
-/// Greatest number of shims in one gap; a sleeve fills a wider one.
+/// Maximum number of shims in one gap; a sleeve fills a wider one.
 const MOST: usize = 3;
 /// Difference of lengths that is rounding, mm.
 const ROUNDING: f64 = 1e-6;
@@ -44,7 +44,7 @@ pub enum SpacerKind {
 impl Spacer {
     /// Tolerance class of the bore of a sleeve, which goes over a shaft of any of the usual classes.
     pub const BORE: &'static str = "D10";
-    /// Least wall of a roller, as a share of its pin's diameter.
+    /// Minimum wall of a roller, as a share of its pin's diameter.
     pub const ROLLER_WALL: f64 = 0.1;
     /// Tolerance class of the rim of a roller.
     pub const RIM: &'static str = "h7";
@@ -89,7 +89,7 @@ impl Spacer {
         }
     }
 
-    /// The ring beside a roller on one pin: no wider than leaves half of the roller's wall free of it.
+    /// The ring next to a roller on one pin: no wider than leaves half of the roller's wall free of it.
     #[must_use]
     pub fn beside(self, roller: Self) -> Self {
         let most = 0.5 * (roller.inner + roller.outer);

@@ -135,7 +135,7 @@ impl TurnedPart {
         self.steps.iter().map(|step| step.length).sum()
     }
 
-    /// Greatest diameter, mm.
+    /// Maximum diameter, mm.
     #[must_use]
     pub fn diameter(&self) -> f64 {
         let diameters = self.steps.iter().map(|step| step.diameter);

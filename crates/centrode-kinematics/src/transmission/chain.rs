@@ -17,7 +17,7 @@ pub struct Chain {
 }
 
 impl Chain {
-    /// Chains two transmissions: the chain repeats after the least number of the driving one's cycles that brings the driven one
+    /// Chains two transmissions: the chain repeats after the minimum number of the driving one's cycles that brings the driven one
     /// through whole cycles, or none.
     ///
     /// # Errors

@@ -210,7 +210,7 @@ pub enum TransmissionError {
         advance: f64,
         /// Period of the driven one.
         period: f64,
-        /// Greatest number tried.
+        /// Maximum number tried.
         most: u32,
     },
     /// A motion that must run one way stops or runs back.

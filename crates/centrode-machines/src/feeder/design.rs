@@ -69,7 +69,7 @@ pub struct LinkageSpec {
     pub effector_length: f64,
 }
 
-/// Least and greatest length of each link, mm; the defaults are those of the 2022 machine, its (18).
+/// Minimum and maximum length of each link, mm; the defaults are those of the 2022 machine, its (18).
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct BoundsSpec {
@@ -94,15 +94,15 @@ pub struct FeederGoals {
     #[serde(rename = "swing_deg", with = "degrees")]
     #[schemars(with = "f64")]
     pub swing: f64,
-    /// Greatest deviation of the swing from the wanted one, rad (degrees in the file).
+    /// Maximum deviation of the swing from the wanted one, rad (degrees in the file).
     #[serde(rename = "swing_tolerance_deg", with = "degrees")]
     #[schemars(with = "f64")]
     pub swing_tolerance: f64,
-    /// Least transmission angle between coupler and rocker, rad (degrees in the file).
+    /// Minimum transmission angle between coupler and rocker, rad (degrees in the file).
     #[serde(rename = "transmission_angle_deg", with = "degrees")]
     #[schemars(with = "f64")]
     pub transmission_angle: f64,
-    /// Least quick return: time of the feed stroke over that of the return.
+    /// Minimum quick return: time of the feed stroke over that of the return.
     pub quick_return: f64,
     /// Cuttings a minute.
     pub feed_rate: f64,

@@ -8,7 +8,7 @@ use super::{Feeder, FeederError, FeederPart, GearsSpec, LinkageSpec, Plate, Plat
 use crate::screw_room::ScrewRoom;
 use centrode_kinematics::machine::{Fastening, FasteningError};
 
-/// Least length of thread in a steel spacer, in diameters.
+/// Minimum length of thread in a steel spacer, in diameters.
 const ENTERED: f64 = 1.0;
 /// Distance of the middle of a screw from the edge of the frame, in diameters.
 const EDGE: f64 = 1.5;

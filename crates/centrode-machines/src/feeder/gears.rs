@@ -104,7 +104,7 @@ impl Default for GearsSpec {
 }
 
 impl GearsSpec {
-    /// Greatest number of pitches round a gear.
+    /// Maximum number of pitches round a gear.
     const MOST: u32 = 1000;
 
     pub(super) fn validate(&self) -> Result<(), SpecError> {

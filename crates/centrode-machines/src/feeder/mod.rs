@@ -44,9 +44,9 @@ pub struct Stroke {
     pub from: f64,
     /// Input at which it ends, rad.
     pub to: f64,
-    /// Input of the greatest speed, rad.
+    /// Input of the maximum speed, rad.
     pub fastest: f64,
-    /// Greatest speed of the effector by the input, without sign.
+    /// Maximum speed of the effector by the input, without sign.
     pub speed: f64,
 }
 

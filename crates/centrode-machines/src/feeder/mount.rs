@@ -10,7 +10,7 @@ use centrode_kinematics::machine::{Form, Joint, Linear, Link, LinkedMachine, Qua
 const DRIVER: &str = "gear-driver";
 /// Name of its mate.
 const DRIVEN: &str = "gear-driven";
-/// Names of the cams beside the intermittent gear.
+/// Names of the cams next to the intermittent gear.
 const CAMS: [&str; 2] = ["gear-entry-cam", "gear-exit-cam"];
 
 /// Accuracy of the bodies in the machine, mm.

@@ -19,7 +19,7 @@ pub struct DimensionSearchSpec {
     #[serde(rename = "pivot_weight_deg", with = "degrees")]
     #[schemars(with = "f64")]
     pub pivot_weight: f64,
-    /// Greatest displacement of a free pivot along x and along y, either way, mm.
+    /// Maximum displacement of a free pivot along x and along y, either way, mm.
     pub pivot_room: f64,
     /// Decimals of the dimensions found, mm: 9 for a swing to a millionth of a degree, 2 for a drawing.
     pub decimals: u32,
@@ -51,7 +51,7 @@ impl DimensionSearchSpec {
     pub(super) fn validate(&self) -> Result<(), SpecError> {
         not_negative("pivot_weight_deg", self.pivot_weight)?;
         if self.free_pivot && self.pivot_weight <= 0.0 {
-            let why = "above zero where the pivot is free: lengths of any size have places of the pivot with the swing wanted, half a turn all along the chord between the slider's dead centres, so that the swing alone says nothing of the lengths";
+            let why = "above zero where the pivot is free: lengths of any size have places of the pivot with the required swing, half a turn all along the chord between the slider's dead centres, so that the swing alone says nothing of the lengths";
             return broken("pivot_weight_deg", Rule::Needed(why));
         }
         positive("pivot_room", self.pivot_room)?;
@@ -61,7 +61,7 @@ impl DimensionSearchSpec {
 }
 
 impl FeederDesign {
-    /// Variables of a search, with their least and greatest value, mm.
+    /// Variables of a search, with their minimum and maximum value, mm.
     #[must_use]
     pub fn free_dimensions(&self) -> Vec<(Dimension, [f64; 2])> {
         let spec = &self.optimise;

@@ -34,7 +34,7 @@ fn the_effector_goes_slowly_and_comes_back_quickly_from_rest_to_rest() {
         let angles = [feed.from, feed.to, back.to].map(|at| feeder.effector(at).position);
         assert!(((angles[1] - angles[0]).abs() - feeder.six_bar().swing()).abs() < 1e-12);
         assert!((angles[2] - angles[0]).abs() < 1e-12);
-        // The derivatives are those of the whole chain, and the sampled speed never exceeds the greatest.
+        // The derivatives are those of the whole chain, and the sampled speed never exceeds the maximum.
         for i in 1..500 {
             let (x, h) = (0.0101 * f64::from(i), 1e-6);
             let jet = feeder.effector(x);
@@ -63,9 +63,9 @@ fn the_pivot_lies_on_the_chord_or_beside_it() {
         let feeder = Feeder::resolve(design).expect("resolves");
         feeder.distance_from_chord()
     };
-    assert!(near(&design).expect("beside the chord") < 0.005);
+    assert!(near(&design).expect("next to the chord") < 0.005);
     design.linkage.pivot[1] -= 20.0;
-    let off = near(&design).expect("beside the chord");
+    let off = near(&design).expect("next to the chord");
     assert!((off - 20.0).abs() < 0.02, "{off}");
     design.linkage.pivot = [300.0, 60.0];
     assert_eq!(near(&design), None);

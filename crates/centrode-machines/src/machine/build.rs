@@ -242,7 +242,7 @@ impl Builder<'_> {
     }
 }
 
-/// Least and greatest value of a law over the cycle.
+/// Minimum and maximum value of a law over the cycle.
 pub(super) fn range(law: &dyn Transmission, linkage: &Linkage) -> [f64; 2] {
     let ends = piece_ends(0.0, linkage.period(), PARTS, linkage.breaks());
     extremes(|input| law.at(input).position, &ends).map(|extreme| extreme.value)

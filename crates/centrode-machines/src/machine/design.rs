@@ -53,7 +53,7 @@ pub struct MachineDesign {
     /// Gears by name, each of a pair and on a body.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub gears: BTreeMap<String, MachineGearSpec>,
-    /// Meshes by name, beside those that hold bodies.
+    /// Meshes by name, next to those that hold bodies.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub meshes: BTreeMap<String, MachineLoopSpec>,
     /// Disc cams by name, each on a body.
@@ -84,7 +84,7 @@ pub struct MachineDesign {
     /// Goals by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub goals: BTreeMap<String, MachineGoalSpec>,
-    /// Numbers that a search may move, by their keys in quotes, each with its least and greatest value.
+    /// Numbers that a search may move, by their keys in quotes, each with its minimum and maximum value.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub vary: BTreeMap<String, [f64; 2]>,
 }
@@ -141,7 +141,7 @@ impl DesignSpec for MachineDesign {
     fn rules(&self) -> Result<(), SpecError> {
         self.validate()?;
         if self.bodies.is_empty() && self.dyads.is_empty() {
-            return broken("bodies", Rule::Needed("beside the frame, at least one"));
+            return broken("bodies", Rule::Needed("next to the frame, at least one"));
         }
         self.check_sizes()
     }

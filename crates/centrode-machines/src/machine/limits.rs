@@ -6,9 +6,9 @@ use super::{Machine, MachineDesign, MachineError};
 use centrode_spec::rule::in_range;
 use centrode_spec::{Design, SpecError, numbers_of};
 
-/// Greatest length and coordinate, mm.
+/// Maximum length and coordinate, mm.
 const FAR: f64 = 1e5;
-/// Greatest number of any other kind.
+/// Maximum number of any other kind.
 const MOST: f64 = 1e9;
 /// Words of keys that hold lengths.
 const LENGTHS: [&str; 19] = [
@@ -66,7 +66,7 @@ impl MachineDesign {
             let table = key.split('.').next().unwrap_or_default();
             if REQUIRED.contains(&table) || key == "input.turns" {
                 return Err(refused(
-                    "says what is wanted: a search moves numbers of the machine alone".into(),
+                    "says what is required: a search moves numbers of the machine alone".into(),
                 ));
             }
             let numbered = Design::numbered(self, key);

@@ -7,11 +7,11 @@ use crate::arm::ArmBody;
 use crate::screw_room::ScrewRoom;
 use centrode_kinematics::machine::{Fastening, FasteningError};
 
-/// Least length of thread in diameters: of a steel spacer, and of a housing of light alloy.
+/// Minimum length of thread in diameters: of a steel spacer, and of a housing of light alloy.
 const ENTERED: [f64; 2] = [1.0, 1.5];
-/// Least distance of the middle of a screw from the edge of the carrier's plates, in diameters.
+/// Minimum distance of the middle of a screw from the edge of the carrier's plates, in diameters.
 const EDGE: f64 = 1.5;
-/// Least distance of the middle of a screw from the edge of a cover, in diameters of its hole; EN 1993-1-8, 3.5, e1 and e2.
+/// Minimum distance of the middle of a screw from the edge of a cover, in diameters of its hole; EN 1993-1-8, 3.5, e1 and e2.
 const COVER_EDGE: f64 = 1.2;
 /// Fewest screws of a plate of the carrier.
 const OF_CARRIER: usize = 3;

@@ -87,7 +87,7 @@ pub(super) fn elevation(direction: f64, sign: f64) -> f64 {
     seen - TAU * ((seen - PI) / TAU).ceil()
 }
 
-/// Greatest distance from the carrier's axis of circles of the gears' largest radii around their axes.
+/// Maximum distance from the carrier's axis of circles of the gears' largest radii around their axes.
 pub(super) fn swept_radius(a: f64, bend: f64, sun: f64, intermediate: f64) -> f64 {
     // The planet's axis is 2 a cos(bend/2) from the sun's.
     let planet = 2.0 * a * (0.5 * bend).cos() + sun;

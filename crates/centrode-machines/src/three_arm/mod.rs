@@ -61,9 +61,9 @@ pub enum ThreeArmError {
     TrayOutOfReach {
         /// Distance as written, mm.
         distance: f64,
-        /// Least reach of the tip, mm.
+        /// Minimum reach of the tip, mm.
         minimum: f64,
-        /// Greatest reach, mm.
+        /// Maximum reach, mm.
         maximum: f64,
     },
 }

@@ -4,12 +4,12 @@ use centrode_geometry::{Extreme, Outline, Point, minimum, piece_ends};
 
 use super::ThreeArm;
 
-/// Least clearance of an arm's clamp from pushing a planted seedling over.
+/// Minimum clearance of an arm's clamp from pushing a planted seedling over.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SeedlingClearance {
-    /// Least clearance, mm; negative by as much as a stem is pushed.
+    /// Minimum clearance, mm; negative by as much as a stem is pushed.
     pub value: f64,
-    /// Carrier turn of the planting arm at which it is least, rad.
+    /// Carrier turn of the planting arm at which it is smallest, rad.
     pub input: f64,
     /// Nearest seedling there: 0 the one just planted, 1 the one before it in the row.
     pub seedling: u32,
@@ -19,7 +19,7 @@ pub struct SeedlingClearance {
 const PARTS: u32 = 15;
 
 impl ThreeArm {
-    /// Least clearance of an arm's clamp from the seedlings it has planted and finds planted, over a whole cycle.
+    /// Minimum clearance of an arm's clamp from the seedlings it has planted and finds planted, over a whole cycle.
     ///
     /// Model: over ground, each arm leaves a vertical stem where its tip is at planting, as wide and as high as the
     /// design says, one every `plant_spacing`. The clamp is the line back from the tip along the pusher's axis. From

@@ -88,7 +88,7 @@ impl<'a> ReachSamples<'a> {
         reach(&self.mechanism.tip(input, 0), &self.direction)
     }
 
-    /// Greatest reach for sign 1, least for sign -1.
+    /// Maximum reach for sign 1, minimum for sign -1.
     fn extreme(&self, sign: f64) -> Extreme {
         let mut best = Extreme {
             input: 0.0,

@@ -46,7 +46,7 @@ impl ThreeArm {
 
     /// Tray in the pose in which the arms meet it: as many rows as it has, the hole that is picked from in the middle.
     ///
-    /// The stems of unpicked rows are square to its surface; those beside the picked one, in its row, do not count.
+    /// The stems of unpicked rows are square to its surface; those next to the picked one, in its row, do not count.
     #[must_use]
     pub fn tray_body(&self) -> TrayBody {
         let spec = &self.design().tray;

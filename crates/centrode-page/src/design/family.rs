@@ -35,7 +35,7 @@ pub(super) fn turned(document: &DocumentMut, word: &str) -> Option<DocumentMut> 
     let required = entries(template, &old);
     let start: DocumentMut = template.parse().ok()?;
     let (kept, lost) = with_as_many(start, &required);
-    // A key that did not fit beside another may fit by now.
+    // A key that did not fit next to another may fit by now.
     Some(with_as_many(kept, &lost).0)
 }
 

@@ -128,7 +128,7 @@ pub(crate) fn tables(text: &str) -> Vec<Table> {
     out
 }
 
-/// Keys allowed in a table beside a tag of the given word, with their defaults, null where there is none;
+/// Keys allowed in a table next to a tag of the given word, with their defaults, null where there is none;
 /// `None` where the table has no such tag.
 pub(crate) fn keys_next_to(text: &str, table: &str, word: &str) -> Option<Map<String, Value>> {
     let written = serde_json::to_value(text.parse::<toml::Table>().ok()?).ok()?;

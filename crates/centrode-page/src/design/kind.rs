@@ -6,7 +6,7 @@ use centrode_spec::DesignError;
 use serde_json::{Map, Value as Json};
 use toml_edit::{DocumentMut, InlineTable, Item, Value};
 
-/// Greatest number of keys of other tables that give way to a new kind.
+/// Maximum number of keys of other tables that give way to a new kind.
 pub(super) const MOST: usize = 3;
 
 /// Changes the kind of the table at a path; none where the table has no kinds, or not this one.

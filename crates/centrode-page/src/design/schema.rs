@@ -78,7 +78,7 @@ fn followed<'a>(root: &'a Value, sub: &'a Value) -> &'a Value {
     here
 }
 
-/// Mark on a part of the schema: beside it, or where it leads, absence aside.
+/// Mark on a part of the schema: next to it, or where it leads, absence aside.
 pub(super) fn marked<'a>(root: &'a Value, sub: &'a Value, mark: &str) -> Option<&'a Value> {
     let options = sub.get("anyOf").and_then(Value::as_array);
     let options = options.into_iter().flatten();

@@ -53,7 +53,7 @@ pub struct Fault {
     line: usize,
     column: usize,
     message: String,
-    /// The message without the key: it stands beside its field.
+    /// The message without the key: it stands next to its field.
     rule: String,
 }
 
@@ -190,7 +190,7 @@ impl Snapshot {
         Ok(head? + &beside?)
     }
 
-    /// The beginning of its JSON, to which that of what is beside the picture belongs.
+    /// The beginning of its JSON, to which that of what is next to the picture belongs.
     fn head(&self) -> serde_json::Result<String> {
         let picture = serde_json::to_string(&self.picture)?;
         let rest = serde_json::to_string(self)?;

@@ -16,7 +16,7 @@ pub struct Ask {
     count: u32,
 }
 
-/// Map of possible axes, row by row from the least y, each row from the least x.
+/// Map of possible axes, row by row from the minimum y, each row from the minimum x.
 #[derive(Debug, Serialize)]
 pub struct Field {
     x: [f64; 2],
@@ -24,9 +24,9 @@ pub struct Field {
     count: [u32; 2],
     /// Factor of 1 within which the ratio is; none where the axis is not possible.
     factor: Vec<Option<f64>>,
-    /// Least and greatest ratio.
+    /// Minimum and maximum ratio.
     ratios: Vec<Option<[f64; 2]>>,
-    /// Least convex radius of the split by powers, mm.
+    /// Minimum convex radius of the split by powers, mm.
     radius: Vec<Option<f64>>,
     /// Number of the reason why an axis is not possible.
     fault: Vec<Option<usize>>,
@@ -105,7 +105,7 @@ fn short(value: f64) -> f64 {
 /// A reason in words that fit any axis.
 fn words(name: &str) -> &'static str {
     match name {
-        "extremes" => "the distance along the path has several greatest and least places",
+        "extremes" => "the distance along the path has several maxima and minima",
         "circle" => "the path is a circle about the axis",
         "on-axis" => "the path passes through the axis",
         "winding" => "the path goes round the axis more than once",

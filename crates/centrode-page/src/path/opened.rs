@@ -49,10 +49,7 @@ fn read(text: &str) -> Result<Opened, String> {
                 "its points are in another file, {file}: open that, or write them at path.points"
             ));
         }
-        let note = format!(
-            "{} points, with all that is wanted",
-            design.path.points.len()
-        );
+        let note = format!("{} points, with all requirements", design.path.points.len());
         return Ok(Opened {
             design,
             whole: true,

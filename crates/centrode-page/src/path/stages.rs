@@ -52,7 +52,7 @@ impl Stage {
         [&self.ratio, driver, driven].map(|of| of[i] + share * (of[j] - of[i]))
     }
 
-    /// Greatest radii of both pitch curves, mm.
+    /// Maximum radii of both pitch curves, mm.
     pub(super) fn reach(&self) -> [f64; 2] {
         let radius =
             |points: &Vec<Point>| points.iter().map(|p| p.coords.norm()).fold(0.0, f64::max);
@@ -100,7 +100,7 @@ mod tests {
             let radius = stage.curves[0][i].coords.norm();
             let other = stage.curves[1][i].coords.norm();
             assert!((radius + other - distance).abs() < 1e-9);
-            // The rolling ellipse has its far focus on the axis where the ratio is least.
+            // The rolling ellipse has its far focus on the axis where the ratio is smallest.
             let required = focal / (1.0 + eccentricity * angle.cos());
             let mirrored = focal / (1.0 - eccentricity * angle.cos());
             let off = (radius - required).abs().min((radius - mirrored).abs());

@@ -115,7 +115,7 @@ impl Found {
                 (Some(_), _) => "as asked",
                 (None, Aim::Module) => "with the bluntest gears found",
                 (None, Aim::Mild) => "the mildest found",
-                (None, Aim::Small) => "with the least reach found",
+                (None, Aim::Small) => "with the minimum reach found",
             }
             .into(),
             chain: eased.chain,

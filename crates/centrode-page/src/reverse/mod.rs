@@ -30,7 +30,7 @@ pub fn sharpest(chain: &TwoBar, split: &Split) -> String {
     match ReversedMachine::new(chain, split, 1, None) {
         Ok(made) => {
             let minimum = Unit::Millimetre.with_unit(made.minimum_radius());
-            format!("possible, least convex radius {minimum}")
+            format!("possible, minimum convex radius {minimum}")
         }
         Err(error) => error.to_string(),
     }

@@ -38,13 +38,13 @@ pub fn bars(chain: &TwoBar) -> [(&'static str, String); 3] {
 
 /// Line on the minimum convex radius of the gears that are written.
 pub fn minimum_radius(made: &ReversedMachine) -> (&'static str, String) {
-    ("least convex radius", mm(made.minimum_radius()))
+    ("minimum convex radius", mm(made.minimum_radius()))
 }
 
-/// Line on the least convex radii of a pair's pitch curves.
+/// Line on the minimum convex radii of a pair's pitch curves.
 pub fn minimum_radii(pair: &str, [driver, driven]: [f64; 2]) -> Labelled {
     let words = format!(
-        "least convex radius {} (driver), {} (driven)",
+        "minimum convex radius {} (driver), {} (driven)",
         mm(driver),
         mm(driven)
     );
@@ -89,7 +89,7 @@ pub fn goal(goal: &Goal) -> Labelled {
         Some(margin) if margin < 0.0 => format!(", missed by {}", show(-margin)),
         _ => String::new(),
     };
-    let words = format!("{} {value}, wanted {required}{missed}", goal.title);
+    let words = format!("{} {value}, required {required}{missed}", goal.title);
     (format!("goal {}", goal.number), words)
 }
 

@@ -200,7 +200,7 @@ export class Field {
     const { fault, faults, ratios, radius } = this.map;
     const at = place.map((one) => one.toFixed(1)).join(", ");
     readout.textContent = fault[n] === null
-      ? `Axis at ${at}: ratio ${ratios[n].map((one) => one.toFixed(3)).join(" to ")}, least radius ${radius[n].toPrecision(3)} mm`
+      ? `Axis at ${at}: ratio ${ratios[n].map((one) => one.toFixed(3)).join(" to ")}, minimum radius ${radius[n].toPrecision(3)} mm`
       : `Axis at ${at}: not possible, ${faults[fault[n]][1]}`;
   }
 }

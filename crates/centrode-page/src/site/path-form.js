@@ -58,10 +58,10 @@ const SPLITS = [
 const AIMS = [
   { word: "module", doc: "The largest full teeth." },
   { word: "mild", doc: "The ratio nearest to 1." },
-  { word: "small", doc: "The least reach of the tip." },
+  { word: "small", doc: "The minimum reach of the tip." },
 ];
 
-const range = (unit, doc) => ({ kind: "numbers", unit, minimum: 0, optional: true, holders: ["least", "greatest"], doc });
+const range = (unit, doc) => ({ kind: "numbers", unit, minimum: 0, optional: true, holders: ["minimum", "maximum"], doc });
 
 /** Fields by their keys: where their value stands, and what is known of them. */
 const FIELDS = {
@@ -69,8 +69,8 @@ const FIELDS = {
   "axis.x": { unit: "mm", doc: "Axis about which the carrier turns. Drag it in the picture, too." },
   "axis.y": { unit: "mm", doc: "Axis about which the carrier turns. Drag it in the picture, too." },
   "axis.sought": { label: "Seek it, too", kind: "switch", unit: "", doc: "The axis is sought on and about the path when the machine is found or made; the one drawn shows one that may be." },
-  "axis.within_x": { ...range("mm", "Least and greatest x of the axis that is sought; left out, those of the map of possible axes."), least: undefined, label: "Within x" },
-  "axis.within_y": { ...range("mm", "Least and greatest y of the axis that is sought; left out, those of the map of possible axes."), least: undefined, label: "Within y" },
+  "axis.within_x": { ...range("mm", "Minimum and maximum x of the axis to search; default: those of the map of possible axes."), least: undefined, label: "Within x" },
+  "axis.within_y": { ...range("mm", "Minimum and maximum y of the axis to search; default: those of the map of possible axes."), least: undefined, label: "Within y" },
   "gears.bend_deg": { unit: "°", minimum: -170, maximum: 170, doc: "Angle from the carrier's first leg, to the intermediate gear, to its second. A greater bend gives greater gears." },
   "gears.arms": { kind: "integer", unit: "", minimum: 1, maximum: 12, doc: "Number of arms." },
   "gears.band": { unit: "mm", minimum: 0, maximum: 1e6, doc: "Distance within which the path may pass its points: it is eased there, for larger teeth, when the machine is made. Zero: through its points." },
@@ -79,14 +79,14 @@ const FIELDS = {
   "gears.aim": { kind: "choice", unit: "", optional: true, choices: AIMS, doc: "What is made the most of where something is free." },
   "path.tolerances": { label: "Tolerances", kind: "switch", unit: "", doc: "Each point has a tolerance of its own, in the place of one band for all." },
   "path.directions": { label: "Directions", kind: "switch", unit: "", doc: "Directions of the clamp wanted at points: drag the small circles beside them, or type them in the table." },
-  "wishes.carrier": range("mm", "Least and greatest length of the carrier."),
-  "wishes.arm": range("mm", "Least and greatest length of the arm."),
-  "wishes.center_distance": { ...range("mm", "Least and greatest centre distance of the gears."), label: "Centre distance" },
-  "wishes.ratio": range("", "Least and greatest ratio of planet to carrier."),
+  "wishes.carrier": range("mm", "Minimum and maximum length of the carrier."),
+  "wishes.arm": range("mm", "Minimum and maximum length of the arm."),
+  "wishes.center_distance": { ...range("mm", "Minimum and maximum centre distance of the gears."), label: "Centre distance" },
+  "wishes.ratio": range("", "Minimum and maximum ratio of planet to carrier."),
   "wishes.clamp_deg": { label: "Clamp", unit: "°", optional: true, doc: "Direction of the clamp less that of the arm; left out, the one that suits the directions best." },
   "wishes.turn.from": { label: "Turn from point", kind: "integer", unit: "", minimum: 1, optional: true, doc: "Turn of the carrier: number of the point from which it is counted." },
   "wishes.turn.to": { label: "Turn to point", kind: "integer", unit: "", minimum: 1, optional: true, doc: "Number of the point up to which it is counted." },
-  "wishes.turn.between_deg": { label: "Turn", kind: "numbers", unit: "°", minimum: 0, maximum: 360, optional: true, holders: ["least", "greatest"], doc: "Least and greatest turn of the carrier from the one point to the other." },
+  "wishes.turn.between_deg": { label: "Turn", kind: "numbers", unit: "°", minimum: 0, maximum: 360, optional: true, holders: ["minimum", "maximum"], doc: "Minimum and maximum turn of the carrier from the one point to the other." },
 };
 
 /** Keys that are one number of the wish. */

@@ -67,7 +67,7 @@ async function remedy(wish, { refused, goals }, before) {
     ...told.wishes(goals, "Wishes", "h3"),
     element("p", {}, "What helps:"),
     element("ul", { class: "remedies" },
-      element("li", {}, "another axis: where the field is bright, coloured by the least radius,"),
+      element("li", {}, "another axis: where the field is bright, coloured by the minimum radius,"),
       element("li", {}, "a greater bend, or another split,"),
       element("li", {}, "a path without sharp places: let it pass beside its points, and have it eased.")),
     element("p", { class: "option" }, element("label", { for: "band" }, "Pass within"), box, element("span", { class: "unit" }, "mm")),

@@ -82,7 +82,7 @@ export function change(shapes, name, key, place, value) {
 export const FIELDS = {
   radius: { unit: "mm", positive: true, doc: "Radius of the circle." },
   below: { unit: "mm", doc: "Height of the ground, which fills all below it: its y." },
-  clearance: { unit: "mm", minimum: 0, doc: "Least distance of the arm's plate from it." },
+  clearance: { unit: "mm", minimum: 0, doc: "Minimum distance of the arm's plate from it." },
   center: { kind: "numbers", unit: "mm", doc: "Centre of the circle: x and y." },
   name: { kind: "text", unit: "", doc: "Its name in the design: letters, digits, - and _." },
 };

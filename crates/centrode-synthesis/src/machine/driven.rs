@@ -16,7 +16,7 @@ use centrode_spec::digits::stated;
 const NEAR_ENOUGH: f64 = 1e-7;
 /// Range of the centre distance, mm.
 const DISTANCES: [f64; 2] = [1e-3, 1e6];
-/// Greatest direction of the shaft either way, degrees.
+/// Maximum direction of the shaft either way, degrees.
 const MAX_DIRECTION: f64 = 360.0;
 
 /// Which crank of a machine a gear pair shall drive, and where its shaft is.
@@ -41,9 +41,9 @@ pub struct GearDrive {
     pub timing: Timing,
     /// Steps of the table in which the law is written.
     pub steps: u32,
-    /// Greatest distance of the output from where it would be with the law itself, mm or rad, and the input there.
+    /// Maximum distance of the output from where it would be with the law itself, mm or rad, and the input there.
     pub miss: Extreme,
-    /// Least radii of curvature where convex, mm: of driver and driven gear.
+    /// Minimum radii of curvature where convex, mm: of driver and driven gear.
     pub minimum_radii: [f64; 2],
     /// Names of the goals that say nothing of the law: of another kind, or without `within_deg`.
     pub left_alone: Vec<String>,
@@ -106,9 +106,9 @@ pub enum GearDriveError {
     Distance {
         /// Given, mm.
         distance: f64,
-        /// Least, mm.
+        /// Minimum, mm.
         minimum: f64,
-        /// Greatest, mm.
+        /// Maximum, mm.
         maximum: f64,
     },
     /// A direction that is none.
@@ -116,7 +116,7 @@ pub enum GearDriveError {
     Direction {
         /// Given, degrees.
         direction: f64,
-        /// Greatest, degrees.
+        /// Maximum, degrees.
         maximum: f64,
     },
     /// No law does what is wanted.

@@ -32,7 +32,7 @@ const PLATE: [f64; 3] = [0.07, 0.16, 0.06];
 const STEPS: [u32; 6] = [90, 180, 360, 720, 1440, 2880];
 /// Fewest and most steps of a table.
 const RANGE: [u32; 2] = [12, 5000];
-/// Distance of the tip from the path that is near enough, as a share of the greatest distance of the path from the axis.
+/// Distance of the tip from the path that is near enough, as a share of the maximum distance of the path from the axis.
 const NEAR_ENOUGH: f64 = 1e-7;
 
 /// A machine whose tip runs along the path wanted, as a design of family machine.
@@ -42,9 +42,9 @@ pub struct ReversedMachine {
     pub design: MachineDesign,
     /// Steps of the tables in which its laws are written.
     pub steps: u32,
-    /// Greatest distance of its tip from the path, mm, and the path's parameter there.
+    /// Maximum distance of its tip from the path, mm, and the path's parameter there.
     pub tip_error: Extreme,
-    /// Least radii of curvature of the pitch curves where convex, mm: driver and driven gear of each pair.
+    /// Minimum radii of curvature of the pitch curves where convex, mm: driver and driven gear of each pair.
     pub minimum_radii: Vec<[f64; 2]>,
     /// Whether the pitch curves are convex all round: driver and driven gear of each pair.
     pub convex: Vec<[bool; 2]>,
@@ -59,7 +59,7 @@ pub enum ReversedMachineError {
     Arms {
         /// Number given.
         arms: u32,
-        /// Greatest.
+        /// Maximum.
         maximum: u32,
     },
     /// A number of steps outside its range.
@@ -85,7 +85,7 @@ impl ReversedMachine {
     /// point `tip` is where the path begins at input zero; as many of these chains as there are arms.
     ///
     /// Laws are written as tables of driven angles with so many steps of a turn; left out, as few of 90, 180 and so on up to
-    /// 2,880 as bring the tip within 1e-7 of the greatest distance from the carrier's axis. The path's derivatives of third order
+    /// 2,880 as bring the tip within 1e-7 of the maximum distance from the carrier's axis. The path's derivatives of third order
     /// jump where its pieces join, so the error falls with the third power of the steps.
     ///
     /// # Errors
@@ -189,7 +189,7 @@ pub(super) fn fewest_steps<T, E>(
     }
 }
 
-/// Least radii of curvature where convex, mm: of driver and driven gear.
+/// Minimum radii of curvature where convex, mm: of driver and driven gear.
 pub(super) fn minimum_convex_radii(rolling: &Rolling) -> [f64; 2] {
     rolling.curvature_ranges().map(minimum_convex_radius)
 }

@@ -12,7 +12,7 @@ pub struct Variable {
     pub name: String,
     /// Key in the design file, `pitch.radius[0]`.
     pub key: String,
-    /// Least and greatest value, rad or mm.
+    /// Minimum and maximum value, rad or mm.
     pub bounds: [f64; 2],
     /// Whether it is an angle, in rad, and in degrees in the file.
     pub is_angle: bool,

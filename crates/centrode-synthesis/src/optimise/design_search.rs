@@ -113,7 +113,7 @@ impl DesignSearch {
         }
     }
 
-    /// Greatest number of evaluations in all.
+    /// Maximum number of evaluations in all.
     #[must_use]
     pub fn allowed(&self) -> u64 {
         self.evaluations

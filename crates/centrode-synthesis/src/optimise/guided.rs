@@ -9,14 +9,14 @@ use super::DesignProblem;
 use centrode_analysis::Goal;
 use centrode_optimise::{Ended, Progress};
 
-/// First step of a parameter, as a share of its bounds, and the least before a goal is left.
+/// First step of a parameter, as a share of its bounds, and the minimum before a goal is left.
 const FIRST_STEP: f64 = 0.04;
 const MIN_STEP: f64 = 1e-4;
 /// Share of the gain of a step's own goal that all other goals together may lose.
 const PRICE: f64 = 0.5;
-/// Least gain of a step, as a share of the goal's scale.
+/// Minimum gain of a step, as a share of the goal's scale.
 const MIN_GAIN: f64 = 1e-9;
-/// Share of the greatest influence above which a parameter is moved together with others.
+/// Share of the maximum influence above which a parameter is moved together with others.
 const TOGETHER: f64 = 0.3;
 
 /// Step of a guided search: its goal, the parameters moved, and the gain.

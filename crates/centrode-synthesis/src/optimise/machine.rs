@@ -11,7 +11,7 @@ use centrode_optimise::{Evaluation, Problem};
 
 /// Decimals of the numbers found, mm or degrees.
 const DECIMALS: u32 = 6;
-/// Violation of a point that gives no machine, beside what a dyad is short of.
+/// Violation of a point that gives no machine, next to what a dyad is short of.
 const NO_MACHINE: f64 = 1e3;
 
 /// A composed machine as a problem: the numbers that its table `vary` lets move, within their bounds, and its goals as

@@ -24,7 +24,7 @@ pub use spec::{EasedPath, EasingSpec};
 const SINGLE: usize = 24;
 /// Such harmonics.
 const HARMONICS: usize = 12;
-/// Greatest amplitude of a harmonic: a share of the band, before it is bent to stay within one.
+/// Maximum amplitude of a harmonic: a share of the band, before it is bent to stay within one.
 const MAXIMUM: f64 = 2.0;
 /// Room of the axis about the one that the search starts from, as a share of the path's size.
 const ROOM: f64 = 0.2;
@@ -32,7 +32,7 @@ const ROOM: f64 = 0.2;
 const EVALUATIONS: u64 = 6000;
 /// Searches, each within half of the bands of the one before, where none finds a better path.
 const HALVINGS: u32 = 6;
-/// Least module of full teeth, as a share of the centre distance, that other wishes leave: gears of less have hardly any teeth.
+/// Minimum module of full teeth, as a share of the centre distance, that other wishes leave: gears of less have hardly any teeth.
 const MIN_MODULE: f64 = 1.0 / 600.0;
 /// Violation of a point of which there is no machine.
 const NONE: f64 = 1e3;
@@ -41,7 +41,7 @@ const NONE: f64 = 1e3;
 /// normal, and the axis, where it is free, about the best known.
 ///
 /// What is sought is the largest module with which full teeth are surely sound on the four pitch curves of the split by powers, by
-/// their greatest curvatures, [`TwoBar::curvatures`]. The eased path is of degree five: its pitch curves' curvatures do not jump.
+/// their maximum curvatures, [`TwoBar::curvatures`]. The eased path is of degree five: its pitch curves' curvatures do not jump.
 #[derive(Clone, Debug)]
 pub struct Easing {
     points: Vec<Point>,
@@ -52,7 +52,7 @@ pub struct Easing {
     bend: f64,
     aim: Aim,
     wishes: Wishes,
-    /// Module wanted, mm: then the moves are sought that reach it and are the least shares of their bands.
+    /// Module wanted, mm: then the moves are sought that reach it and are the smallest shares of their bands.
     required: Option<f64>,
     start: Vec<f64>,
     /// Share of the bands within which points are moved.
@@ -122,7 +122,7 @@ impl Easing {
         Ok(easing)
     }
 
-    /// Searches for the bluntest gears, or, where a module is wanted, mm, for the least shares of the bands with which it is
+    /// Searches for the bluntest gears, or, where a module is wanted, mm, for the smallest shares of the bands with which it is
     /// reached. Where it is out of reach the bluntest are given. `observe` hears of evaluations.
     ///
     /// # Errors

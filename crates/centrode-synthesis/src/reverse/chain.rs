@@ -14,14 +14,14 @@ use centrode_kinematics::transmission::{
 };
 use centrode_machines::three_arm::design::Direction;
 
-/// Least speed of a body, as a share of its mean, at which it still turns.
+/// Minimum speed of a body, as a share of its mean, at which it still turns.
 const MIN_SPEED: f64 = 1e-6;
 /// Difference of angles that is rounding, rad.
 const ROUNDING: f64 = 1e-6;
 
 /// Carrier and arm whose tip runs along a path: both lengths, and both turns as functions of the path's parameter.
 ///
-/// With R and rho the greatest and the least distance of the path from the axis the bars are (R + rho)/2 and (R - rho)/2 long.
+/// With R and rho the maximum and the minimum distance of the path from the axis the bars are (R + rho)/2 and (R - rho)/2 long.
 /// The longer one is the carrier where the axis lies inside the path, the shorter one where it lies outside; the other choice
 /// makes no whole turn. With u the square of the distance, c and s the lengths and beta the angle of the arm against the
 /// carrier, `4 c s sin^2(beta/2) = R^2 - u` and `4 c s cos^2(beta/2) = u - rho^2`: beta runs through one whole turn, against
@@ -53,10 +53,10 @@ impl TwoBar {
     /// The chain with its carrier's axis at a place.
     ///
     /// `direction` is the sense of the carrier as the path is run through: free where the axis lies outside the path; left out,
-    /// the one whose greatest |ln| of the ratio is less.
+    /// the one whose maximum |ln| of the ratio is less.
     ///
     /// # Errors
-    /// [`AxisFault`] with the rule broken and where on the path: the distance from the axis must have one greatest and one least
+    /// [`AxisFault`] with the rule broken and where on the path: the distance from the axis must have one maximum and one minimum
     /// place, and the carrier and the arm against it must turn one way.
     pub fn new(
         path: &RequiredPath,
@@ -228,7 +228,7 @@ impl TwoBar {
         let turned = TAU * turns * self.sense;
         let principal = carrier.0[0];
         let mut since = (self.sense * (principal - self.start)).rem_euclid(TAU);
-        // Rounding beside the ends of the turn.
+        // Rounding next to the ends of the turn.
         let share = (inside - self.distance.far) / self.path.period();
         if since > TAU - ROUNDING && share < 0.25 {
             since -= TAU;
@@ -290,19 +290,19 @@ impl TwoBar {
         self.distance.far
     }
 
-    /// Least distance of the tip from the carrier's axis, mm.
+    /// Minimum distance of the tip from the carrier's axis, mm.
     #[must_use]
     pub fn shaft_distance(&self) -> f64 {
         self.distance.reach[1]
     }
 
-    /// Least and greatest ratio of the total law, and the parameters of the path there.
+    /// Minimum and maximum ratio of the total law, and the parameters of the path there.
     #[must_use]
     pub fn ratios(&self) -> [Extreme; 2] {
         [self.minimum_ratio, self.maximum_ratio]
     }
 
-    /// Greatest |ln| of the ratio: zero for even motion.
+    /// Maximum |ln| of the ratio: zero for even motion.
     #[must_use]
     pub fn unevenness(&self) -> f64 {
         (-self.minimum_ratio.value.ln()).max(self.maximum_ratio.value.ln())

@@ -58,7 +58,7 @@ pub struct PathSpec {
     /// Points in the order in which the tip passes them, mm.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub points: Vec<[f64; 2]>,
-    /// CSV or SVG file that holds them instead, beside the design file.
+    /// CSV or SVG file that holds them instead, next to the design file.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
     /// Whether they are the control points of a closed cubic B-spline, which need not pass them.
@@ -90,7 +90,7 @@ pub enum Aim {
     Module,
     /// The ratio nearest to 1.
     Mild,
-    /// The least distance that the tip goes from the carrier's axis.
+    /// The minimum distance that the tip goes from the carrier's axis.
     Small,
 }
 
@@ -127,7 +127,7 @@ fn one() -> u32 {
 
 impl DesignSpec for PathDesign {
     const FAMILY: &'static str = "path";
-    const ABOUT: &'static str = "A path wanted of a tip, and what is wanted of the machine that centrode reverse makes of it.";
+    const ABOUT: &'static str = "The path of a tip, and the requirements for the machine that centrode reverse makes of it.";
     const TEMPLATE: &'static str = include_str!("../../design/path.toml");
     const TABLES: &'static [&'static str] = &["path", "wishes"];
 

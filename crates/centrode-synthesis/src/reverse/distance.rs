@@ -8,16 +8,16 @@ use centrode_kinematics::formula::Taylor;
 /// Value and first two derivatives, as Taylor coefficients.
 pub(super) type Series = Taylor<3>;
 
-/// Share of the greatest distance's square within which of an extreme differences of squares lose digits.
+/// Share of the maximum distance's square within which of an extreme differences of squares lose digits.
 const NEAR: f64 = 4e-4;
 /// Most breaks between an extreme and a place that is near it: beyond, digits lost are fewer than the path's own.
 const MAX_BREAKS: usize = 8;
-/// Difference of the greatest and least distance, as a share, that is rounding.
+/// Difference of the maximum and minimum distance, as a share, that is rounding.
 const SAME: f64 = 1e-9;
-/// Least distance of the path from the axis, as a share of the greatest.
+/// Minimum distance of the path from the axis, as a share of the maximum.
 const CLEAR: f64 = 1e-9;
 
-/// Distance of a path from an axis, with one greatest and one least value in a turn.
+/// Distance of a path from an axis, with one maximum and one minimum value in a turn.
 ///
 /// With u the square of the distance and R, rho its extremes, `sqrt(R^2 - u)` and `sqrt(u - rho^2)` are smooth once they
 /// change sign where they are zero. There they are `h sqrt(v)` with h the step from the extreme and
@@ -25,11 +25,11 @@ const CLEAR: f64 = 1e-9;
 #[derive(Clone, Debug)]
 pub(super) struct Distance {
     pub(super) axis: Point,
-    /// Parameter of the greatest distance, in `[0, period)`.
+    /// Parameter of the maximum distance, in `[0, period)`.
     pub(super) far: f64,
-    /// Parameter of the least distance, in `(far, far + period)`.
+    /// Parameter of the minimum distance, in `(far, far + period)`.
     pub(super) near: f64,
-    /// Greatest and least distance, mm.
+    /// Maximum and minimum distance, mm.
     pub(super) reach: [f64; 2],
 }
 
@@ -89,7 +89,7 @@ impl Distance {
         })
     }
 
-    /// The extreme beside which a difference of squares would lose digits, and the step from it.
+    /// The extreme next to which a difference of squares would lose digits, and the step from it.
     fn beside(&self, path: &RequiredPath, t: f64, square: f64) -> Option<(Place, f64)> {
         let [far, near] = self.reach.map(|r| r * r);
         let room = NEAR * far;
@@ -108,7 +108,7 @@ impl Distance {
     }
 
     /// `sqrt(R^2 - u)` and `sqrt(u - rho^2)` with their derivatives at a parameter in `[far, far + period]`, the second below
-    /// zero beyond the least distance.
+    /// zero beyond the minimum distance.
     pub(super) fn legs(&self, path: &RequiredPath, t: f64, jet: &Jet) -> [Series; 2] {
         let (p, d1, d2) = (jet.point - self.axis, jet.first, jet.second);
         let u = [
@@ -124,7 +124,7 @@ impl Distance {
             found.map(|(place, h)| self.root(path, place, h, jet))
         };
         let away = at(true).unwrap_or_else(|| {
-            // Rounding may leave a square a little above the greatest.
+            // Rounding may leave a square a little above the maximum.
             Taylor([(far - u[0]).max(0.0), -u[1], -u[2]]).sqrt()
         });
         let close = at(false).unwrap_or_else(|| {
@@ -134,7 +134,7 @@ impl Distance {
         [away, close]
     }
 
-    /// One of the roots beside its extreme, by the limit: `h w` with w = sqrt(v).
+    /// One of the roots next to its extreme, by the limit: `h w` with w = sqrt(v).
     fn root(&self, path: &RequiredPath, place: Place, h: f64, jet: &Jet) -> Series {
         let sense = if place.is_maximum { -1.0 } else { 1.0 };
         let limit = Limit::new(path, self.axis, place.at, h, jet);
@@ -145,7 +145,7 @@ impl Distance {
         let w1 = slope / (2.0 * w);
         let hw2 = bend / (2.0 * w) - h * slope * slope / (4.0 * w * w * w);
         let series = Taylor([h * w, w + h * w1, w1 + 0.5 * hw2]);
-        // Positive after the greatest distance and before the next, and before the least.
+        // Positive after the maximum distance and before the next, and before the minimum.
         let ahead = if place.is_maximum {
             place.at == self.far
         } else {
@@ -194,7 +194,7 @@ pub(super) fn taylor<const N: usize>(all: [f64; 3]) -> Taylor<N> {
     Taylor(std::array::from_fn(|k| all.get(k).copied().unwrap_or(0.0)))
 }
 
-/// Places along a path at which its distance from an axis is greater, or less, than beside them.
+/// Places along a path at which its distance from an axis is greater, or less, than next to them.
 fn extremes(path: &RequiredPath, axis: Point) -> Vec<Place> {
     let slope_of = |jet: &Jet| (jet.point - axis).dot(&jet.first);
     let slope = |t: f64| slope_of(&path.at(t));

@@ -32,15 +32,15 @@ pub enum PathError {
         x: f64,
         /// Its y, mm.
         y: f64,
-        /// Greatest coordinate, mm.
+        /// Maximum coordinate, mm.
         limit: f64,
     },
-    /// A path that is small beside its distance from the origin.
+    /// A path that is small next to its distance from the origin.
     #[error("the path is {} mm across and up to {} mm from the origin of x and y: too few digits are left of it; draw it larger, or nearer to the origin", stated(*size), stated(*far))]
     TooSmall {
         /// Diagonal of the box round it, mm.
         size: f64,
-        /// Greatest coordinate, mm.
+        /// Maximum coordinate, mm.
         far: f64,
     },
     /// Fewer points than make a closed curve.
@@ -78,7 +78,7 @@ pub enum PathError {
     Open {
         /// Distance of the last point from the first, mm.
         gap: f64,
-        /// Greatest distance of two other neighbours, mm.
+        /// Maximum distance of two other neighbours, mm.
         step: f64,
     },
     /// The path crosses itself.
@@ -156,7 +156,7 @@ pub enum AxisFault {
         x: f64,
         /// Its y, mm.
         y: f64,
-        /// Greatest coordinate, mm.
+        /// Maximum coordinate, mm.
         limit: f64,
     },
     /// An axis so far from the path that the tip's position is lost in rounding.
@@ -167,14 +167,14 @@ pub enum AxisFault {
         /// Maximum allowed, mm.
         limit: f64,
     },
-    /// The distance from the axis has several greatest or least places.
+    /// The distance from the axis has several maximum or minimum places.
     #[error(
-        "the distance from the axis has {} greatest places along the path, at {}, and as many least ones; it must have one of each, where the arm is stretched and folded",
+        "the distance from the axis has {} maxima along the path, at {}, and as many minima; it must have one of each, where the arm is stretched and folded",
         maxima.len(),
         places(maxima)
     )]
     Extremes {
-        /// Places on the path where the distance is greater than beside them, mm.
+        /// Places on the path where the distance is greater than next to them, mm.
         maxima: Vec<Point>,
     },
     /// The path is a circle about the axis.
@@ -188,7 +188,7 @@ pub enum AxisFault {
     /// The path passes through the axis.
     #[error("the path passes the axis at {distance:.6} mm: the tip would run into the shaft")]
     OnAxis {
-        /// Least distance, mm.
+        /// Minimum distance, mm.
         distance: f64,
     },
     /// The path winds about the axis more than once.

@@ -14,9 +14,9 @@ const BESIDE: i32 = 2;
 /// Places of a grid at which carrier axes are tried, first and last along x and y included.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AxisRange {
-    /// Least and greatest x, mm.
+    /// Minimum and maximum x, mm.
     pub x: [f64; 2],
-    /// Least and greatest y, mm.
+    /// Minimum and maximum y, mm.
     pub y: [f64; 2],
     /// Number of axes along x and along y.
     pub count: [u32; 2],
@@ -37,11 +37,11 @@ pub struct PossibleAxis {
     pub carrier: f64,
     /// Length of the arm, mm.
     pub arm: f64,
-    /// Least and greatest ratio of the total law.
+    /// Minimum and maximum ratio of the total law.
     pub ratios: [f64; 2],
-    /// Least distance of the tip from the carrier's axis, mm.
+    /// Minimum distance of the tip from the carrier's axis, mm.
     pub shaft_distance: f64,
-    /// Greatest curvature of the four pitch curves of the split by powers, as a multiple of one over the centre distance.
+    /// Maximum curvature of the four pitch curves of the split by powers, as a multiple of one over the centre distance.
     ///
     /// Averaged over a 180th of a turn, as in the gears that are written: mostly within 5 % of theirs, up to 40 % blunter where
     /// the law has a narrow peak. Of a path of more than 64 pieces 64 are sampled, evenly spread.
@@ -49,7 +49,7 @@ pub struct PossibleAxis {
 }
 
 impl PossibleAxis {
-    /// Greatest |ln| of the ratio: zero for even motion.
+    /// Maximum |ln| of the ratio: zero for even motion.
     #[must_use]
     pub fn unevenness(&self) -> f64 {
         self.ratios[1].ln().max(-self.ratios[0].ln())
@@ -144,7 +144,7 @@ impl AxisMap {
         &self.range
     }
 
-    /// Axes row by row from the least y, each row from the least x: figures, or why there is no machine.
+    /// Axes row by row from the minimum y, each row from the minimum x: figures, or why there is no machine.
     pub fn found(&self) -> &[Result<PossibleAxis, AxisFault>] {
         &self.found
     }
@@ -162,7 +162,7 @@ impl AxisMap {
         self.minimum(|axis| -axis.minimum_radius(bend))
     }
 
-    /// The possible axis of the grid with the least value of a measure.
+    /// The possible axis of the grid with the minimum value of a measure.
     fn minimum(&self, measure: impl Fn(&PossibleAxis) -> f64) -> Option<Point> {
         let possible = self.found.iter().enumerate();
         let possible = possible.filter_map(|(n, found)| Some((n, measure(found.as_ref().ok()?))));
@@ -171,7 +171,7 @@ impl AxisMap {
         Some(self.range.axis((n % columns) as u32, (n / columns) as u32))
     }
 
-    /// The mildest axis: that of the smallest greatest |ln| of the ratio, refined from the best of the grid by ever finer
+    /// The mildest axis: that of the smallest maximum |ln| of the ratio, refined from the best of the grid by ever finer
     /// grids about it within its bounds; none where no axis of the grid is possible.
     #[must_use]
     pub fn mildest(&self, path: &RequiredPath) -> Option<TwoBar> {

@@ -12,14 +12,14 @@ use centrode_gear::pitch::closed_spline;
 const FEWEST: usize = 4;
 /// Most points of a path.
 const MOST: usize = 50_000;
-/// Greatest coordinate, mm.
+/// Maximum coordinate, mm.
 pub(super) const FARTHEST: f64 = 1e9;
 /// Maximum distance of the axis from the path as a multiple of the path's size. The laws bring the tip within 1e-7 of its
 /// distance from the axis, here 1e-4 of the path's size; ten times farther, tables of the laws lose all digits.
 pub(super) const FARTHEST_AXIS: f64 = 1e3;
-/// Least size of a path as a share of its distance from the origin: a smaller one has lost the digits that its law needs.
+/// Minimum size of a path as a share of its distance from the origin: a smaller one has lost the digits that its law needs.
 const SMALLEST: f64 = 1e-6;
-/// Greatest distance of the last point from the first, as a multiple of the greatest of two other neighbours.
+/// Maximum distance of the last point from the first, as a multiple of the maximum of two other neighbours.
 const GAP: f64 = 4.0;
 /// Samples of a turn, and fewest between two breaks.
 const SAMPLES: f64 = 384.0;

@@ -20,7 +20,7 @@ impl TwoBar {
         leg(self.carrier(), bend)
     }
 
-    /// Greatest curvature of the four pitch curves of the split by powers, as a multiple of one over the centre distance, and the
+    /// Maximum curvature of the four pitch curves of the split by powers, as a multiple of one over the centre distance, and the
     /// path's parameter there: exact to the float limit, of the law itself. Gears are written from a table of the law, and may be
     /// less sharp: [`ReversedMachine::minimum_radius`](super::ReversedMachine::minimum_radius).
     #[must_use]
@@ -28,7 +28,7 @@ impl TwoBar {
         self.maximum_bend(|[a, b, c, d]| a.max(b).max(c.max(d)))
     }
 
-    /// Greatest convex and greatest concave curvature of the four pitch curves of the split by powers, 1/mm: they bound the
+    /// Maximum convex and maximum concave curvature of the four pitch curves of the split by powers, 1/mm: they bound the
     /// module of full teeth. `bend` is the angle from the carrier's first leg to its second, rad.
     #[must_use]
     pub fn curvatures(&self, bend: f64) -> [f64; 2] {

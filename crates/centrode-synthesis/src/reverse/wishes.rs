@@ -11,7 +11,7 @@ use centrode_spec::rule::{
 };
 use centrode_spec::{SpecError, degrees};
 
-/// Greatest coordinate of a shape, mm.
+/// Maximum coordinate of a shape, mm.
 const FARTHEST: f64 = 1e6;
 /// Most directions that are wanted along a path.
 const MAX_DIRECTIONS: usize = 200;
@@ -51,14 +51,14 @@ pub struct Wishes {
     pub keep_out: BTreeMap<String, KeepOut>,
 }
 
-/// Least and greatest value wanted of a figure.
+/// Minimum and maximum value wanted of a figure.
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct RequiredRange {
-    /// Least; left out, there is none.
+    /// Minimum; left out, there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub minimum: Option<f64>,
-    /// Greatest; left out, there is none.
+    /// Maximum; left out, there is none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub maximum: Option<f64>,
 }
@@ -91,7 +91,7 @@ pub struct RequiredTurn {
     pub from: usize,
     /// Number of the point up to which it is counted.
     pub to: usize,
-    /// Least and greatest turn, rad (degrees in the file).
+    /// Minimum and maximum turn, rad (degrees in the file).
     #[serde(rename = "between_deg", with = "degrees")]
     #[schemars(with = "[f64; 2]")]
     pub between: [f64; 2],
@@ -113,7 +113,7 @@ pub struct KeepOut {
     /// Height of the ground, which fills all below it: its y, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub below: Option<f64>,
-    /// Least distance from it, mm.
+    /// Minimum distance from it, mm.
     #[serde(skip_serializing_if = "is_zero")]
     pub clearance: f64,
 }
@@ -125,7 +125,7 @@ impl RequiredRange {
         *self == Self::default()
     }
 
-    /// Least and greatest value.
+    /// Minimum and maximum value.
     #[must_use]
     pub fn ends(&self) -> [Option<f64>; 2] {
         [self.minimum, self.maximum]

@@ -104,7 +104,7 @@ pub(crate) struct Export {
     /// Kinds of file, separated by commas; left out, all
     #[arg(long, value_enum, value_delimiter = ',', value_name = "KINDS")]
     pub(crate) format: Vec<File>,
-    /// Greatest distance of what is written from the exact curve, mm
+    /// Maximum distance of what is written from the exact curve, mm
     #[arg(long, default_value = TOLERANCE, value_parser = tolerance, allow_negative_numbers = true, value_name = "MM")]
     pub(crate) tolerance: Tolerance,
     /// Flavour of the DXF files
@@ -239,7 +239,7 @@ pub(crate) fn tolerance(word: &str) -> Result<Tolerance, String> {
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example: centrode optimise arms.toml --method de --seed 1 --evaluations 20000 -o better.toml\n\nA table of the design says what may move and how far: [optimise] of a three-arm, [bounds] of a feeder, [vary] of a machine. Ctrl-C ends the search and keeps the best so far; --resume goes on from the search stored beside the output. Where the bounds allow no design that reaches the goals, the search says how near they let it come; --widen then writes the design with the least widening.\n\nExit status: 0 every goal is reached; 1 some are not (the file is written all the same); 2 no search, a bad design file, or the file cannot be written."
+    after_help = "Example: centrode optimise arms.toml --method de --seed 1 --evaluations 20000 -o better.toml\n\nA table of the design says what may move and how far: [optimise] of a three-arm, [bounds] of a feeder, [vary] of a machine. Ctrl-C ends the search and keeps the best so far; --resume goes on from the search stored next to the output. Where the bounds allow no design that reaches the goals, the search says how near they let it come; --widen then writes the design with the minimum widening.\n\nExit status: 0 every goal is reached; 1 some are not (the file is written all the same); 2 no search, a bad design file, or the file cannot be written."
 )]
 pub(crate) struct Optimise {
     /// Design file, or - for standard input
@@ -259,7 +259,7 @@ pub(crate) struct Optimise {
     /// File for the better design: the design's text with the new numbers, comments kept
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
-    /// Go on with the search that is stored beside the output
+    /// Go on with the search that is stored next to the output
     #[arg(long)]
     pub(crate) resume: bool,
     /// Instead of a search, widen the bounds by as little as lets all goals be reached, where the family can

@@ -67,7 +67,7 @@ fn found(made: &GearDrive, out: &mut impl Write) -> std::io::Result<()> {
     line(out, "output", &format!("{minimum} to {maximum}"))?;
     let [low, high] = made.timing.ratios();
     let words = format!(
-        "{}, least at {}, greatest at {} of the input",
+        "{}, minimum at {}, maximum at {} of the input",
         range([low.value, high.value]),
         Unit::Angle.with_unit(low.input),
         Unit::Angle.with_unit(high.input)

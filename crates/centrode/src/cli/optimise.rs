@@ -22,7 +22,7 @@ use stored::Stored;
 /// Interval at which the search is stored while it runs.
 const STORE: Duration = Duration::from_secs(10);
 
-/// Searches for a better design and writes it, with its search beside it.
+/// Searches for a better design and writes it, with its search next to it.
 pub(crate) fn run(command: &Optimise, out: &mut impl Write) -> Result<Status, Failure> {
     let source = Source::open(&command.design)?;
     source.keep_from(&command.output)?;

@@ -48,7 +48,7 @@ pub(crate) fn run(command: &Prove, out: &mut impl Write) -> Result<Status, Failu
     }
 }
 
-/// File beside another, with the name of a pair in its own.
+/// File next to another, with the name of a pair in its own.
 fn of_pair(path: &Path, pair: &str) -> PathBuf {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let end = path

@@ -11,7 +11,7 @@ use crate::cli::input::Source;
 use crate::cli::progress::Progress;
 use crate::cli::{Status, output};
 
-/// Least width of a column, characters.
+/// Minimum width of a column, characters.
 const MIN_WIDTH: usize = 10;
 
 /// Characters of a line that is read at a glance.

@@ -210,7 +210,7 @@ fn gears(made: &ReversedMachine, out: &mut impl Write) -> std::io::Result<()> {
     line(out, name, &words)
 }
 
-/// Prints the least convex radii of a pair's pitch curves.
+/// Prints the minimum convex radii of a pair's pitch curves.
 pub(crate) fn minimum_radii(
     out: &mut impl Write,
     pair: &str,

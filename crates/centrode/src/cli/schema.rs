@@ -9,7 +9,7 @@ use crate::cli::Status;
 use crate::cli::args::Schema;
 use crate::cli::failure::Failure;
 
-/// Words beside the families that have a schema: the figures of a composed machine, and files that are exported.
+/// Words next to the families that have a schema: the figures of a composed machine, and files that are exported.
 pub(crate) const FILES: [&str; 6] = [
     "figures",
     "machine-model",

@@ -51,7 +51,7 @@ fn the_machine_written_meets_the_goals_that_it_missed_before() {
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
     for line in [
         "output                  90.0000 mm to 150.0000 mm",
-        "pair drive              least convex radius 13.8",
+        "pair drive              minimum convex radius 13.8",
         "teeth of drive          33 fitted teeth, module 3.91",
     ] {
         assert!(stated.contains(line), "{line}\n{stated}");

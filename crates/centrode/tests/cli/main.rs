@@ -141,7 +141,7 @@ fn a_new_feeder_is_good_and_the_published_one_is_infeasible() {
     let report: Vec<&str> = report.split_whitespace().collect();
     let report = report.join(" ");
     for line in [
-        "least transmission angle: 8.2243 deg, missed by 31.7757 deg",
+        "minimum transmission angle: 8.2243 deg, missed by 31.7757 deg",
         "no lengths within the bounds reach more than 12.312 deg",
         "widened by 22.443 %",
         "time 3.0093 1.3407 1.0500 s",

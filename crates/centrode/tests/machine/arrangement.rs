@@ -9,7 +9,7 @@ use centrode_kinematics::machine::LinkedMachine;
 
 use super::machines;
 
-/// Words and numbers of a sheet in order, and how many lines of each layer there are beside them.
+/// Words and numbers of a sheet in order, and how many lines of each layer there are next to them.
 fn printed(sheet: &Sheet) -> (Vec<&str>, Vec<(&str, usize)>) {
     let mut words = Vec::new();
     let mut lines: Vec<(&str, usize)> = Vec::new();

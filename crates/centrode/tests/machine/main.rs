@@ -96,7 +96,7 @@ fn in_formats(machine: &LinkedMachine, formats: &[Format], options: &Options) ->
     package.finish().expect("whole")
 }
 
-/// Least clearance of two links, lower bound of it: over the period, of links that mesh at some inputs (the teeth of a whole
+/// Minimum clearance of two links, lower bound of it: over the period, of links that mesh at some inputs (the teeth of a whole
 /// period take minutes).
 fn clearance(
     machine: &LinkedMachine,
@@ -176,7 +176,7 @@ fn links_keep_the_same_clearance_in_the_machine_read_back_from_its_plain_file() 
     );
 }
 
-/// Share of its column's greatest value by which a number of the table may be off once laws are in pieces: positions by
+/// Share of its column's maximum value by which a number of the table may be off once laws are in pieces: positions by
 /// rounding, each derivative by some hundred times more than the one before it.
 fn allowed(column: &str) -> f64 {
     let ends = |ending: &str| column.ends_with(ending);

@@ -114,7 +114,7 @@ pub enum ProofError {
     },
     /// Holding features change too often to be told apart.
     #[error(
-        "what holds the driven gear at the driver angle {phi:.9} rad cannot be told within {SHORTEST} rad"
+        "what holds the driven gear at the driver angle {phi:.9} rad cannot be decided within {SHORTEST} rad"
     )]
     Unresolved {
         /// Driver angle, rad.

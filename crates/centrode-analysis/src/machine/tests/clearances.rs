@@ -222,7 +222,7 @@ fn cams_in_the_height_of_a_plate_and_rollers_without_a_wall_are_found() {
     assert!(check("layer = -1", "5").contains(&"parts-collide"));
     assert!(check("layer = -2", "5").contains(&"parts-collide"));
     assert!(!check("layer = -3", "5").contains(&"parts-collide"));
-    // Beside the lever in its own layer.
+    // Next to the lever in its own layer.
     assert!(check("layer = 1", "5").contains(&"pins-collide"));
     assert_eq!(check("", "1.6"), ["thin-roller"]);
     assert_eq!(check("", "0"), [""; 0]);

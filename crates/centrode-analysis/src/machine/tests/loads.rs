@@ -111,7 +111,7 @@ fn the_mean_torque_times_a_turn_is_the_work_of_the_loads() {
     // 2 kg at 10^(3/2) mm in a field of (1 + 9.81^2)^(1/2) m/s^2.
     let maximum = 2.0 * 1000.0_f64.sqrt() * 9.81_f64.hypot(1.0);
     assert!((high - maximum).abs() < 1e-9 * maximum && (low + maximum).abs() < 1e-9 * maximum);
-    // Beside a force square to the ram's way, which does no work, the torque itself is integrated.
+    // Next to a force square to the ram's way, which does no work, the torque itself is integrated.
     let square = "[loads.side]\non = \"ram.tool\"\nforce = [0, 5]\n";
     let report = check_machine(&with("gravity = [1, -9.81]", heavy, square));
     let mean = report.values["input_torque_mean"];
@@ -292,7 +292,7 @@ torque = {torque}
 figure = "mesh(wheel).force"
 over = "maximum"
 minimum = 0
-[goals.least]
+[goals.minimum]
 figure = "mesh(wheel).force"
 over = "minimum"
 minimum = 0

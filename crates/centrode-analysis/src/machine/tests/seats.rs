@@ -1,4 +1,4 @@
-//! Forces of trains whose gears stand beside their bodies' origins, and of copied loads.
+//! Forces of trains whose gears stand next to their bodies' origins, and of copied loads.
 
 use super::*;
 use crate::forces::{Balance, Forces};
@@ -166,7 +166,7 @@ fn loads_on_a_copied_arm_are_those_of_one_written_out_by_hand() {
             load("later", "arm-2", later)
         ));
         let alone = forces(&format!("{TWO_ARM}{first}"));
-        // Arms beside each other have shafts of other lengths than one and its copy: the loads are what is left.
+        // Arms next to each other have shafts of other lengths than one and its copy: the loads are what is left.
         let bare = [
             forces(&format!("{start}{copies}\n[pairs.stage]{end}\n")),
             forces(TWO_ARM),
@@ -189,7 +189,7 @@ fn loads_on_a_copied_arm_are_those_of_one_written_out_by_hand() {
 
 const TWO_ARM: &str = include_str!("../../../../../tests/designs/two-arm.toml");
 
-/// A slider-crank beside the middle of the frame, with a load on its ram. Layers are written, so that the pins of copies are as long
+/// A slider-crank next to the middle of the frame, with a load on its ram. Layers are written, so that the pins of copies are as long
 /// as its own.
 const BESIDE: &str = r#"family = "machine"
 [input]

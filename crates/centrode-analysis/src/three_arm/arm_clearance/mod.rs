@@ -13,7 +13,7 @@ use crate::side_by_side::both;
 
 /// Clearances of the arms of a planetary transplanting mechanism, proven over a whole cycle.
 ///
-/// The arms run beside the gearbox, not in its plane: an arm turns once round its planet while the
+/// The arms run next to the gearbox, not in its plane: an arm turns once round its planet while the
 /// intermediate gear stays next to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ArmClearance {
@@ -77,7 +77,7 @@ impl ArmClearance {
 }
 
 impl ArmClearance {
-    /// Clearances found, with the names in a report of their least clearance, lower bound (mm) and input (rad).
+    /// Clearances found, with the names in a report of their minimum clearance, lower bound (mm) and input (rad).
     pub(crate) fn named(&self) -> impl Iterator<Item = (Clearance, [&'static str; 3])> + use<> {
         let arms = [
             "arm_clearance",
@@ -110,7 +110,7 @@ impl ArmClearance {
     }
 }
 
-/// Least clearance of two arms over a cycle, to within the tolerance; none for a single arm.
+/// Minimum clearance of two arms over a cycle, to within the tolerance; none for a single arm.
 ///
 /// Each arm does what the one before it did, later by its share of a turn: the first arm against every
 /// other up to the opposite one is enough. Seen from the carrier the arms only turn.
@@ -134,9 +134,9 @@ pub fn between_arms(
 pub struct ArmClearanceCourse {
     /// Middles of the parts of a carrier turn, rad, from zero on.
     pub input: Vec<f64>,
-    /// Least distance of the first arm from another within each part, mm; empty for a single arm.
+    /// Minimum distance of the first arm from another within each part, mm; empty for a single arm.
     pub arms: Vec<f64>,
-    /// Least distance of its housing from the tray within each part, mm; empty for an arm without a housing.
+    /// Minimum distance of its housing from the tray within each part, mm; empty for an arm without a housing.
     pub tray: Vec<f64>,
 }
 

@@ -244,7 +244,7 @@ fn the_arm_bends_the_row_above_by_as_much_as_samples_say() {
     }
 }
 
-/// Least distance over inputs near one, by ever finer samples: no code of the search.
+/// Minimum distance over inputs near one, by ever finer samples: no code of the search.
 fn sharpened(apart: impl Fn(f64) -> f64, middle: f64) -> f64 {
     let (mut middle, mut reach, mut minimum) = (middle, 0.02, f64::INFINITY);
     while reach > 1e-7 {

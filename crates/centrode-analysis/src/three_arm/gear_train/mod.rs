@@ -132,7 +132,7 @@ pub(crate) fn check_gear_train(mechanism: &ThreeArm, teeth: &TrainTeeth, report:
     apart(mechanism, pair, report);
 }
 
-/// Greatest angle by which a mesh is off the pair's own law at any sample, rad, and the carrier turn.
+/// Maximum angle by which a mesh is off the pair's own law at any sample, rad, and the carrier turn.
 fn phase_error(mechanism: &ThreeArm, pair: &GearPair) -> (f64, f64) {
     let mut worst = (0.0, 0.0);
     for mesh in mechanism.meshes() {
@@ -170,7 +170,7 @@ fn apart(mechanism: &ThreeArm, pair: &GearPair, report: &mut Report) {
             ),
         )
         .measured(found.minimum, 0.0, Unit::Millimetre)
-        .remedy("a smaller bend, fewer arms, or a pitch curve of a smaller greatest radius")
+        .remedy("a smaller bend, fewer arms, or a pitch curve of a smaller maximum radius")
         .on("gears")
         .at(found.input),
     );
@@ -186,7 +186,7 @@ pub(crate) struct GearClearance {
     found: Option<Clearance>,
 }
 
-/// Least clearance of gears that are not in mesh, over a whole cycle.
+/// Minimum clearance of gears that are not in mesh, over a whole cycle.
 ///
 /// Seen from the carrier gears only turn. Where the tip circles of two are apart, that is enough.
 fn gear_clearance(

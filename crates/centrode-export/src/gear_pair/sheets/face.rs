@@ -150,7 +150,7 @@ fn notes(part: &SheetGear<'_>, k: f64) -> Vec<(Point, Vec<NoteLine>)> {
     notes
 }
 
-/// Least width on a sheet of what is drawn behind a section, mm.
+/// Minimum width on a sheet of what is drawn behind a section, mm.
 const SEEN: f64 = 0.7;
 
 /// Where a number may stand, mm outwards and along the pitch curve, the best first.

@@ -76,7 +76,7 @@ pub(super) fn likeness(pair: &GearPair) -> Option<Likeness> {
     turns.map(level).max().or(Some(Likeness::Teeth))
 }
 
-/// The points with the greatest and the least radius of a kind.
+/// The points with the maximum and the minimum radius of a kind.
 pub(super) struct Extremes {
     pub(super) maximum: Point,
     pub(super) minimum: Point,
@@ -177,7 +177,7 @@ impl<'a> SheetGear<'a> {
         [nearest(&self.tips), nearest(&self.roots)]
     }
 
-    /// Least and greatest x of the contour below the x axis: what a section along it, seen from above, shows behind the cut.
+    /// Minimum and maximum x of the contour below the x axis: what a section along it, seen from above, shows behind the cut.
     pub(super) fn behind(&self) -> [f64; 2] {
         let corners = self.tips.iter().chain(&self.roots).filter(|p| p.y <= 0.0);
         corners.fold([0.0, 0.0], |[minimum, most], p| {
@@ -303,7 +303,7 @@ mod tests {
         assert_eq!(likeness(&wider), Some(Likeness::Teeth));
         let bored = pair(elliptic(), |driven| driven.keyway = None);
         assert_eq!(likeness(&bored), Some(Likeness::Teeth));
-        // A circle of twenty teeth turned by any of them is itself; the driven one has its first tooth beside its keyway.
+        // A circle of twenty teeth turned by any of them is itself; the driven one has its first tooth next to its keyway.
         let round = pair(circular(), |_| {});
         let step = PI / 20.0;
         assert_eq!(likeness(&round), Some(Likeness::Teeth));

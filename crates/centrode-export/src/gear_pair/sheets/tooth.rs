@@ -16,7 +16,7 @@ const WORDS: f64 = 18.0;
 /// Length on paper of what is shown, mm.
 const SHOWN: f64 = 72.0;
 
-/// The teeth where the pitch curve bends most and least towards the axis; one where it is a circle.
+/// The teeth where the pitch curve is sharpest and straightest towards the axis; one where it is a circle.
 pub(super) fn extremes(part: &SheetGear<'_>) -> Vec<(u32, &'static str)> {
     let teeth = part.gear.teeth();
     let sound: Vec<(u32, f64)> = (0_u32..)
@@ -34,7 +34,7 @@ pub(super) fn extremes(part: &SheetGear<'_>) -> Vec<(u32, &'static str)> {
     let gentlest = if minimum.1 < 0.0 {
         "nearest to where the curve is most concave"
     } else {
-        "nearest to where the curve bends least"
+        "nearest to where the curve is straightest"
     };
     vec![
         (most.0, "nearest to where the curve bends most"),
@@ -88,7 +88,7 @@ pub(super) fn detail(part: &SheetGear<'_>, letter: char, tooth: u32, place: &str
     let thick = (foot[1] - foot[0]).norm() / k;
     let above = p(0.0, heights(&profile, f64::max, high) + 9.0);
     let words = format!("{thick:.3}");
-    // Where the thickness stands beside its arrows the heights keep clear of it.
+    // Where the thickness stands next to its arrows the heights keep clear of it.
     let beyond = foot[0].x.max(foot[1].x) + lettering::width(&words, LETTERS) + 13.0;
     draft.dimension(foot, foot[1] - foot[0], above, &words);
     let right = (reach + 9.0).max(beyond);
@@ -105,7 +105,7 @@ pub(super) fn detail(part: &SheetGear<'_>, letter: char, tooth: u32, place: &str
         let ends = [frame.point, frame.point - frame.normal * depth].map(upright);
         let outwards = turn * frame.tangent;
         let outwards = -outwards * outwards.x.signum();
-        // Beside the neighbouring tooth, as far as the profile is drawn; words below lean towards it as the normal does.
+        // Next to the neighbouring tooth, as far as the profile is drawn; words below lean towards it as the normal does.
         let lean = WORDS * outwards.y.abs();
         let far = (reach + 9.0 + lean + ends[0].x) / outwards.x.abs().max(0.5);
         let at = ends[0] + outwards * far;

@@ -6,7 +6,7 @@ use super::scene::Scene;
 
 /// Distance within which two axes are one, mm.
 const ONE: f64 = 1e-6;
-/// Greatest sine of an axis' lean that still counts as upright to the sheet.
+/// Maximum sine of an axis' lean that still counts as upright to the sheet.
 const UPRIGHT: f64 = 1e-9;
 
 /// An axis about which links turn, upright to the sheet.
@@ -15,7 +15,7 @@ pub(super) struct Axis {
     pub(super) at: Point,
     /// The links that it joins, each by the first of those it is fixed to: the one that carries, and the one carried.
     pub(super) links: [usize; 2],
-    /// The joint of the tree; none for a pin beside it.
+    /// The joint of the tree; none for a pin next to it.
     pub(super) joint: Option<usize>,
     /// Name: that of the mark there, or of the link carried.
     pub(super) name: String,

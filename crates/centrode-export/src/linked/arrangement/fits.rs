@@ -3,7 +3,7 @@ use centrode_formats::drawing::Anchor;
 use centrode_formats::sheet::{Table, broken, number};
 use centrode_kinematics::machine::{Fit, LinkedMachine};
 
-/// The fits of a machine: size with both classes, least and greatest clearance.
+/// The fits of a machine: size with both classes, minimum and maximum clearance.
 pub(super) fn table(machine: &LinkedMachine) -> Table {
     let words = |fit: &Fit| match (&*fit.hole, &*fit.shaft) {
         ("", "") => fit::size(fit),

@@ -7,7 +7,7 @@ use centrode_kinematics::machine::{Axis as Along, LinkedMachine};
 
 /// Pieces of a period, among which each extreme of a way is bracketed.
 const PIECES: u32 = 12;
-/// Least distance worth a dimension, mm.
+/// Minimum distance worth a dimension, mm.
 const MINIMUM: f64 = 1e-6;
 /// Places of a dimension: a micrometre.
 const PLACES: usize = 3;

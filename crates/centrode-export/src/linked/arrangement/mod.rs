@@ -32,7 +32,7 @@ const SMALL: f64 = 420.0;
 const LARGE: SheetSize = SheetSize::A2;
 /// Step of the table of motion, degrees.
 const STEP: u32 = 10;
-/// Most rows of a table of motion beside the view; longer ones go on to further sheets.
+/// Most rows of a table of motion next to the view; longer ones go on to further sheets.
 const BESIDE: usize = 40;
 
 /// The general arrangement of a machine: its figures where they stand at the input that it says, axes, dimensions, parts list

@@ -6,14 +6,14 @@ use centrode_geometry::{Bounds, Outline, Point, Solid, Tolerance, Vector};
 use centrode_kinematics::machine::{Blank, Form, LinkedMachine, Part, Shape, Supply, TurnedPart};
 use nalgebra::{Isometry3, Point3, Vector3};
 
-/// Greatest height of a section on paper, mm.
+/// Maximum height of a section on paper, mm.
 const HIGH: f64 = 90.0;
 /// Largest scale of one.
 const LARGEST: f64 = 5.0;
-/// Half of its width in diameters of the turned part, and the least beyond its rim on paper, mm.
+/// Half of its width in diameters of the turned part, and the minimum beyond its rim on paper, mm.
 const WIDE: f64 = 1.25;
 const BESIDE: f64 = 6.0;
-/// Least share of half the width that a body which lies beside takes.
+/// Minimum share of half the width that a body which lies next to takes.
 const MINIMUM: f64 = 0.1;
 /// Distance within which two axes are one, mm.
 const ONE: f64 = 1e-6;

@@ -15,7 +15,7 @@ const FIRST: f64 = 12.0;
 const NEXT: f64 = 9.0;
 /// Half the length of the lines of a centre mark, mm.
 const CROSS: f64 = 3.0;
-/// Least mean length of a contour's segments on paper that a thick line leaves apart, mm.
+/// Minimum mean length of a contour's segments on paper that a thick line leaves apart, mm.
 const FINE: f64 = 1.0;
 /// Directions in which room for words is looked for, and distances, mm.
 const DIRECTIONS: u32 = 16;
@@ -27,7 +27,7 @@ const ARROW: f64 = 1.2;
 const BESIDE: f64 = 0.9;
 /// Radii of such an arrow in the order tried, mm.
 const RADII: [f64; 10] = [14.0, 11.0, 17.0, 20.0, 8.0, 24.0, 28.0, 6.0, 33.0, 40.0];
-/// Height of the lowest words above a view, mm, and how far their leaders lean: the least, the step and the count of what is
+/// Height of the lowest words above a view, mm, and how far their leaders lean: the minimum, the step and the count of what is
 /// tried for one that runs through no words.
 const ABOVE: f64 = 12.0;
 const LEAN: f64 = 6.0;
@@ -228,7 +228,7 @@ fn note_next_to(draft: &mut Draft, notes: &[Note]) {
     draft.callouts(draft.bounds(), [f64::NEG_INFINITY; 2], notes);
 }
 
-/// Writes words beside a point where they touch nothing; whether there is room.
+/// Writes words next to a point where they touch nothing; whether there is room.
 fn label(draft: &mut Draft, at: Point, words: &str) -> bool {
     let letters = draft.lettering();
     let width = lettering::width(words, letters);

@@ -24,8 +24,8 @@ pub(in crate::shaft) fn data(shaft: &SpiralShaft) -> Table {
         row("Amplitude, mm", "B", number(amplitude, 6));
     }
     let (slow, fast) = shaft.speed_ratio();
-    row("Least speed / mean", "", number(slow, 6));
-    row("Greatest speed / mean", "", number(fast, 6));
+    row("Minimum speed / mean", "", number(slow, 6));
+    row("Maximum speed / mean", "", number(fast, 6));
     let window = number(design.window.to_degrees(), 3);
     row(
         &format!("Moves in {window}°, mm"),
@@ -38,8 +38,8 @@ pub(in crate::shaft) fn data(shaft: &SpiralShaft) -> Table {
             number((speed / groove.radius()).atan().to_degrees(), 4)
         )
     };
-    row("Least lead angle", "", lead(shaft.law().slowest().value));
-    row("Greatest lead angle", "", lead(shaft.law().fastest().value));
+    row("Minimum lead angle", "", lead(shaft.law().slowest().value));
+    row("Maximum lead angle", "", lead(shaft.law().fastest().value));
     let reversal = number(traverse.reversal().to_degrees(), 3);
     row("Reversal", "", format!("{reversal}°"));
     row("Turns out and back", "", traverse.turns().to_string());
@@ -48,7 +48,7 @@ pub(in crate::shaft) fn data(shaft: &SpiralShaft) -> Table {
     let gap = crossings.iter().map(|c| c.gap).fold(0.0, f64::max);
     row("Longest crossing, mm", "", number(gap, 3));
     row(
-        "Least bend of the centre line, mm",
+        "Minimum bend of the centre line, mm",
         "ρ",
         number(1.0 / groove.tightest().value, 3),
     );

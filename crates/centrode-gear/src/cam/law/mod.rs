@@ -1,6 +1,6 @@
 //! Motion laws of a follower from rest at 0 to rest at 1 while its input goes from 0 to 1.
 //!
-//! Names and characteristic values as in VDI 2143 part 1 (1980); the German name is given beside each.
+//! Names and characteristic values as in VDI 2143 part 1 (1980); the German name is given next to each.
 
 use std::fmt;
 use std::sync::Arc;
@@ -35,7 +35,7 @@ use centrode_spec::SpecError;
 pub enum LawSpec {
     /// Straight line: no acceleration inside, a jump of velocity at rest.
     ConstantVelocity,
-    /// Two parabolas: the least peak acceleration there is, with jumps of it.
+    /// Two parabolas: the minimum peak acceleration there is, with jumps of it.
     Parabolic,
     /// Half a cosine wave: acceleration jumps at rest.
     Harmonic,
@@ -142,7 +142,7 @@ impl LawSpec {
     }
 }
 
-/// Keys that may be given beside `kind`; a derived reader would overlook stray keys beside the plain kinds.
+/// Keys that may be given next to `kind`; a derived reader would overlook stray keys next to the plain kinds.
 #[derive(Deserialize)]
 #[serde(
     deny_unknown_fields,

@@ -196,7 +196,7 @@ fn characteristic_values_are_the_closed_forms() {
     printed("modified-trapezoid", [2.0, 4.8881]);
     printed("polynomial-345", [1.875, 5.7735]);
     printed("polynomial-4567", [2.1875, 7.5132]);
-    // Greatest of (1 - cos u) sin u 2 pi is at u = 2 pi / 3.
+    // Maximum of (1 - cos u) sin u 2 pi is at u = 2 pi / 3.
     let torque = law("cycloidal").characteristic_values().torque;
     assert!((torque - 2.0 * PI * 0.75 * 3.0_f64.sqrt()).abs() < 1e-11);
     let torque = law("harmonic").characteristic_values().torque;

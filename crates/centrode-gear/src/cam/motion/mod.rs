@@ -49,16 +49,16 @@ pub struct Join {
     pub jerk_jump: f64,
 }
 
-/// Greatest position, and greatest size of each derivative, of a motion.
+/// Maximum position, and maximum size of each derivative, of a motion.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Peaks {
-    /// Greatest position, mm or rad.
+    /// Maximum position, mm or rad.
     pub lift: Extreme,
-    /// Greatest velocity either way, per radian.
+    /// Maximum velocity either way, per radian.
     pub velocity: Extreme,
-    /// Greatest acceleration either way, per radian squared.
+    /// Maximum acceleration either way, per radian squared.
     pub acceleration: Extreme,
-    /// Greatest jerk either way between jumps of the acceleration, per radian cubed.
+    /// Maximum jerk either way between jumps of the acceleration, per radian cubed.
     pub jerk: Extreme,
 }
 
@@ -205,14 +205,14 @@ impl Motion {
             .collect()
     }
 
-    /// Greatest position and derivatives over the cycle, to the float limit.
+    /// Maximum position and derivatives over the cycle, to the float limit.
     #[must_use]
     pub fn peaks(&self) -> Peaks {
         peaks(self)
     }
 }
 
-/// Greatest position and derivatives of any motion over one period.
+/// Maximum position and derivatives of any motion over one period.
 #[must_use]
 pub(crate) fn peaks(motion: &dyn Transmission) -> Peaks {
     let ends = ends(motion);

@@ -19,7 +19,7 @@ pub enum LoopError {
     #[error("every part of its contour lies in a loop")]
     Everywhere,
     /// The crossings of two segments, or of one with itself, cannot be determined.
-    #[error("where segments {} and {} of its contour cross cannot be told: {cause}", .segments[0], .segments[1])]
+    #[error("where segments {} and {} of its contour cross cannot be decided: {cause}", .segments[0], .segments[1])]
     Unresolved {
         /// The segments, counted from 0.
         segments: [usize; 2],

@@ -20,7 +20,7 @@ const SAME: f64 = 1e-9;
 /// Share of the tolerance by which an edge may be bent between two lines; the rest is for the walls' twist.
 const BENT: f64 = 0.25;
 
-/// Greatest number of halvings of the angle between two lines.
+/// Maximum number of halvings of the angle between two lines.
 const DEEPEST: u32 = 12;
 
 /// Number of lines sampled for edges that meet.

@@ -20,7 +20,7 @@ const LENGTHS: [u16; 33] = [
     6, 8, 10, 12, 14, 16, 18, 20, 22, 25, 28, 32, 36, 40, 45, 50, 56, 63, 70, 80, 90, 100, 110,
     125, 140, 160, 180, 200, 220, 250, 280, 320, 360,
 ];
-/// Least length of a key that is cut from key steel, as a share of its width.
+/// Minimum length of a key that is cut from key steel, as a share of its width.
 const STUBBIEST: f64 = 0.5;
 
 impl Key {

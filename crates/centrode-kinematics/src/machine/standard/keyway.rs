@@ -11,7 +11,7 @@ pub struct Keyway {
     pub depth: f64,
 }
 
-/// Width and height of a parallel key, depth left to the hub beyond that of the shaft, least and greatest length, mm; DIN 6885-1.
+/// Width and height of a parallel key, depth left to the hub beyond that of the shaft, minimum and maximum length, mm; DIN 6885-1.
 const KEYS: [(f64, f64, f64, [f64; 2]); 15] = [
     (2.0, 2.0, 0.2, [6.0, 20.0]),
     (3.0, 3.0, 0.2, [6.0, 36.0]),
@@ -31,7 +31,7 @@ const KEYS: [(f64, f64, f64, [f64; 2]); 15] = [
 ];
 
 impl Keyway {
-    /// Least and greatest length of the standard keys as wide as this keyway, mm; `None` where there are none. Source: DIN 6885-1.
+    /// Minimum and maximum length of the standard keys as wide as this keyway, mm; `None` where there are none. Source: DIN 6885-1.
     #[must_use]
     pub fn key_lengths(self) -> Option<[f64; 2]> {
         self.standard().map(|(.., lengths)| lengths)

@@ -78,7 +78,7 @@ pub struct Circlip {
     pub groove: f64,
     /// Width of the groove, mm.
     pub width: f64,
-    /// Least length of the shaft beyond the groove, mm.
+    /// Minimum length of the shaft beyond the groove, mm.
     pub land: f64,
     /// Radial width of the ring opposite its gap, mm.
     pub radial: f64,

@@ -9,7 +9,7 @@ pub struct Screw {
     pub length: f64,
 }
 
-/// Nominal diameter, diameter of the head, clearance hole, tapping drill, least and greatest length, mm.
+/// Nominal diameter, diameter of the head, clearance hole, tapping drill, minimum and maximum length, mm.
 ///
 /// Source: ISO 4762:2004 (head and lengths), ISO 273:1979, medium series (clearance holes), ISO 2306:1972 (drills for the coarse
 /// threads of ISO 261).

@@ -10,7 +10,7 @@ use crate::machine::MachineError;
 use centrode_spec::SpecError;
 use centrode_spec::rule::{Rule, broken, finite, in_range, not_negative, positive};
 
-/// Greatest bulge of a side: a circle less 2 degrees.
+/// Maximum bulge of a side: a circle less 2 degrees.
 const MAX_SAGITTA: f64 = 100.0;
 
 /// A circle on a body.

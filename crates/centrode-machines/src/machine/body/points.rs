@@ -314,7 +314,7 @@ fn place_corners(
     }
 }
 
-/// Third corner of a triangle: on the way from p to q by the law of cosines, beside it by what is left of the first side.
+/// Third corner of a triangle: on the way from p to q by the law of cosines, next to it by what is left of the first side.
 fn third_corner(key: &str, [p, q]: [Point; 2], corner: &CornerSpec) -> Result<Point, MachineError> {
     let [a, b] = corner.lengths;
     let way: Vector = q - p;

@@ -17,7 +17,7 @@ use centrode_kinematics::transmission::{FromFn, Transmission, sorted};
 const SAMPLES: u32 = 120;
 /// Parts of a turn of the input in each of which a mismatch has few extremes.
 const PARTS: u32 = 24;
-/// Greatest mismatch that is rounding: mm, as a share of a length of 1 mm or of the machine's, and rad.
+/// Maximum mismatch that is rounding: mm, as a share of a length of 1 mm or of the machine's, and rad.
 const ROUNDING: f64 = 1e-8;
 /// Change of a rate, as a share of it, below which a body turns evenly.
 const EVEN: f64 = 1e-12;
@@ -222,7 +222,7 @@ impl Machine {
         Ok(())
     }
 
-    /// Greatest distance and angle by which each of several copies is off at the inputs that are looked at.
+    /// Maximum distance and angle by which each of several copies is off at the inputs that are looked at.
     fn maximum_off(&self, by: CopyTurn, both: &[(usize, usize)]) -> Vec<[f64; 2]> {
         let count = SAMPLES * self.design.input.turns;
         let inputs = (0..count).map(|i| self.period() * f64::from(i) / f64::from(count));

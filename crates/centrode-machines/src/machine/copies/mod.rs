@@ -254,7 +254,7 @@ impl ChainCopy<'_> {
         self.loads(design)
     }
 
-    /// Names of the gears and cams that are copied: those on bodies that are, and, beside the middle of the body about which
+    /// Names of the gears and cams that are copied: those on bodies that are, and, next to the middle of the body about which
     /// they are spaced, those that move such bodies.
     fn beside(&self, design: &MachineDesign) -> Result<BTreeSet<String>, MachineError> {
         let own = self

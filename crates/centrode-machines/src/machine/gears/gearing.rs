@@ -306,7 +306,7 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// Checks the meshes beside those that hold bodies: axes at the centre distance, teeth in spaces, over the cycle.
+    /// Checks the meshes next to those that hold bodies: axes at the centre distance, teeth in spaces, over the cycle.
     pub(in crate::machine) fn check_loops(&self) -> Result<(), MachineError> {
         for (name, spec) in &self.design.meshes {
             let key = format!("meshes.{name}");
@@ -331,7 +331,7 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// Greatest angle by which a driven gear is off its mesh, and the input there.
+    /// Maximum angle by which a driven gear is off its mesh, and the input there.
     fn mismatch(
         &self,
         key: &str,

@@ -52,7 +52,7 @@ pub struct MachineMeshSpec {
     pub direction: f64,
 }
 
-/// Two gears that mesh beside those by which bodies are held: checked.
+/// Two gears that mesh next to those by which bodies are held: checked.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct MachineLoopSpec {
@@ -81,7 +81,7 @@ impl Machine {
         mates.into_iter().map(|mate| &self.gears[mate]).collect()
     }
 
-    /// Indices of the two gears of each mesh, of those that hold bodies and of those beside.
+    /// Indices of the two gears of each mesh, of those that hold bodies and of those next to.
     fn in_mesh(&self) -> impl Iterator<Item = [usize; 2]> {
         let named = |name: &String| self.gears.iter().position(|gear| gear.name == *name);
         let beside = self.design.meshes.values();

@@ -51,7 +51,7 @@ pub const FIGURE_FORMS: [[&str; 3]; 15] = [
     ],
     [
         "clearance(body, body)",
-        "least clearance of two bodies, plates and gears that overlap in height, or of a body and an obstacle, over the cycle",
+        "minimum clearance of two bodies, plates and gears that overlap in height, or of a body and an obstacle, over the cycle",
         "mm",
     ],
     [
@@ -93,7 +93,7 @@ pub enum MachineFigure {
     Transmission(usize),
     /// Distance of two points, mm.
     Distance([BodyPoint; 2]),
-    /// Least clearance of two bodies, or of a body and an obstacle, over the cycle, mm.
+    /// Minimum clearance of two bodies, or of a body and an obstacle, over the cycle, mm.
     Clearance([ClearanceEnd; 2]),
     /// Torque of the input, N mm.
     InputTorque,

@@ -44,13 +44,13 @@ pub struct MachineGoalSpec {
     /// counts from.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub uniform: Option<[f64; 2]>,
-    /// Least figure wanted.
+    /// Minimum figure wanted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub minimum: Option<f64>,
-    /// Greatest figure wanted.
+    /// Maximum figure wanted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub maximum: Option<f64>,
-    /// Least and greatest figure wanted.
+    /// Minimum and maximum figure wanted.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub between: Option<[f64; 2]>,
     /// Miss that is half way to the goal, for a search; left out, the size of what is wanted.
@@ -62,18 +62,18 @@ pub struct MachineGoalSpec {
 #[derive(Clone, Copy, Debug, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Over {
-    /// The least.
+    /// The minimum.
     Minimum,
-    /// The greatest.
+    /// The maximum.
     Maximum,
-    /// The greatest less the least.
+    /// The maximum less the minimum.
     Span,
-    /// The greatest distance from an even course.
+    /// The maximum distance from an even course.
     Deviation,
 }
 
 impl MachineGoalSpec {
-    /// Goal of a least clearance of two bodies, or of a body and an obstacle, mm.
+    /// Goal of a minimum clearance of two bodies, or of a body and an obstacle, mm.
     pub fn clearance([one, other]: [&str; 2], minimum: f64) -> Self {
         Self {
             figure: format!("clearance({one}, {other})"),
@@ -94,15 +94,15 @@ impl MachineGoalSpec {
     pub fn words(&self) -> String {
         let figure = &self.figure;
         match (self.over, self.at) {
-            (Some(Over::Minimum), _) => format!("least {figure}"),
-            (Some(Over::Maximum), _) => format!("greatest {figure}"),
+            (Some(Over::Minimum), _) => format!("minimum {figure}"),
+            (Some(Over::Maximum), _) => format!("maximum {figure}"),
             (Some(Over::Span), _) => format!("span of {figure}"),
             (Some(Over::Deviation), _) => format!("deviation of {figure} from uniform motion"),
             (None, at) => format!("{figure} at {} deg", at.unwrap_or(0.0).to_degrees()),
         }
     }
 
-    /// Least and greatest figure wanted, in the unit shown.
+    /// Minimum and maximum figure wanted, in the unit shown.
     #[must_use]
     pub fn required(&self) -> [Option<f64>; 2] {
         match self.between {

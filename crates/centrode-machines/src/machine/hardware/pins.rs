@@ -54,7 +54,7 @@ impl Axis {
         self.plates.iter().copied().chain(rollers).collect()
     }
 
-    /// A ring on it, no wider than lets it run past the cam beside a roller next to it: a sleeve in the place of a wider shim.
+    /// A ring on it, no wider than lets it run past the cam of a roller next to it: a sleeve in the place of a wider shim.
     fn clear_of_cams(&self, ring: Spacer, low: f64) -> (Spacer, f64) {
         let span = [low, low + ring.length];
         let is_next = |roller: &Spacer, at: f64| {

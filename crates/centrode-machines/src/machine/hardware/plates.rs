@@ -13,7 +13,7 @@ use centrode_spec::SpecError;
 use centrode_spec::digits::thousandths;
 use centrode_spec::rule::{in_range, not_negative, positive, single_line};
 
-/// Greatest diameter of a pin as a share of its plate's width.
+/// Maximum diameter of a pin as a share of its plate's width.
 pub(super) const PIN: f64 = 0.9;
 /// Half length and half height of the block of a body that slides, as shares of a plate's width: higher than the plate.
 pub(super) const BLOCK: [f64; 2] = [1.0, 0.6];

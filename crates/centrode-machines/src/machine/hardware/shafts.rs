@@ -11,7 +11,7 @@ use crate::machine::{BodyPoint, Machine, PinHole};
 use centrode_gear::design::BodySpec;
 use centrode_kinematics::machine::{JointKind, Key, Keyway};
 
-/// Wall of a plate beside the hole of a shaft, as a share of its diameter.
+/// Wall of a plate next to the hole of a shaft, as a share of its diameter.
 const WALL: f64 = 0.14;
 /// Steps of the diameter of a plate about a shaft, mm.
 const STEP: f64 = 0.5;

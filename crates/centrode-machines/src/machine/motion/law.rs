@@ -16,7 +16,7 @@ use centrode_spec::digits::stated;
 use centrode_spec::rule::{Rule, broken, finite, in_range};
 use centrode_spec::{SpecError, degrees};
 
-/// Greatest speed of a body, rad or mm per rad of the input; only at a pole is one faster.
+/// Maximum speed of a body, rad or mm per rad of the input; only at a pole is one faster.
 const FASTEST: f64 = 1e4;
 /// Inputs a turn at which the speed is looked at: within half a step of a pole like that of tan(phi) it is above the limit.
 const SAMPLES: u32 = 720;
@@ -136,7 +136,7 @@ pub enum MachineLawError {
         turns: f64,
         /// Turns of the input.
         period: u32,
-        /// Least turns of the input after which it is back.
+        /// Minimum turns of the input after which it is back.
         minimum: Option<u32>,
         /// Key of the law.
         key: &'static str,
@@ -401,7 +401,7 @@ impl MachineLawSpec {
     }
 }
 
-/// Least number of turns of the input, up to a limit, after which a motion is back, whole turns of its own aside.
+/// Minimum number of turns of the input, up to a limit, after which a motion is back, whole turns of its own aside.
 fn minimum_turns(law: &dyn Transmission) -> Option<u32> {
     const MOST: u32 = 60;
     let whole = |x: f64| (x - x.round()).abs() <= COMPUTED;

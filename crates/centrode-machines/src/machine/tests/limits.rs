@@ -33,7 +33,7 @@ fn numbers_beyond_any_machine_are_refused_by_key() {
     let bare = "family = \"machine\"\n[frame.points]\nO = [0, 0]\n";
     let found = refused(bare);
     assert!(
-        found.contains("bodies: is needed beside the frame"),
+        found.contains("bodies: is needed next to the frame"),
         "{found}"
     );
 }

@@ -34,7 +34,7 @@ impl Random {
     }
 }
 
-/// Greatest and least of a distance over the cycle.
+/// Maximum and minimum of a distance over the cycle.
 fn spread(of: impl Fn(f64) -> f64) -> [f64; 2] {
     let all = (0..120).map(|i| of(TAU * f64::from(i) / 120.0));
     all.fold([f64::INFINITY, 0.0], |[low, high], d| {

@@ -12,7 +12,7 @@ use centrode_spec::{SpecError, degrees};
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct GoalsSpec {
-    /// 1: least clearance between two arms, mm.
+    /// 1: minimum clearance between two arms, mm.
     pub arm_clearance: f64,
     /// 2: range of the clamp's elevation above the horizontal at picking, rad (degrees in the file).
     #[serde(rename = "pick_angle_deg", with = "degrees")]
@@ -26,13 +26,13 @@ pub struct GoalsSpec {
     #[serde(rename = "angle_difference_deg", with = "degrees")]
     #[schemars(with = "[f64; 2]")]
     pub angle_difference: [f64; 2],
-    /// 5: least clearance of the clamp from planted seedlings, mm.
+    /// 5: minimum clearance of the clamp from planted seedlings, mm.
     pub seedling_clearance: f64,
-    /// 6: least clearance of the gearbox above the ground, mm.
+    /// 6: minimum clearance of the gearbox above the ground, mm.
     pub gearbox_clearance: f64,
-    /// 7: least height of the tip's trajectory, mm.
+    /// 7: minimum height of the tip's trajectory, mm.
     pub trajectory_height: f64,
-    /// 8: least module, mm.
+    /// 8: minimum module, mm.
     pub module: f64,
 }
 

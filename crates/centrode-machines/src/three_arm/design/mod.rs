@@ -186,7 +186,7 @@ impl DesignSpec for ThreeArmDesign {
 }
 
 impl ThreeArmDesign {
-    /// Greatest number of arms of one carrier.
+    /// Maximum number of arms of one carrier.
     pub const MAX_ARMS: u32 = 6;
 
     /// Makes a mechanism with the given sun, chain and arm, and every other value at its default.

@@ -19,7 +19,7 @@ pub struct OptimiseSpec {
     /// the working points that are given.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub hold: Vec<Parameter>,
-    /// Least and greatest value of parameters, rad and mm (degrees in the file). The others move either way: radii of
+    /// Minimum and maximum value of parameters, rad and mm (degrees in the file). The others move either way: radii of
     /// control points by 65 % of their mean, their angles by 15 degrees, sizes of the arm by 25 %, other angles by 40
     /// degrees.
     #[serde(with = "bounds", skip_serializing_if = "BTreeMap::is_empty")]
@@ -27,9 +27,9 @@ pub struct OptimiseSpec {
     pub bounds: BTreeMap<Parameter, [f64; 2]>,
     /// Whether gears keep their tooth count; else they have as many teeth as leave the module wanted.
     pub hold_tooth_count: bool,
-    /// Least depth of the tip's loop beyond the point of picking, into the tray, mm.
+    /// Minimum depth of the tip's loop beyond the point of picking, into the tray, mm.
     pub picking_depth: f64,
-    /// Least clearance of the arm's housing from the tray, mm.
+    /// Minimum clearance of the arm's housing from the tray, mm.
     pub tray_clearance: f64,
 }
 
@@ -38,16 +38,16 @@ pub struct OptimiseSpec {
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum Objective {
-    /// Least change of the parameters: root mean square of their moves as shares of their bounds.
+    /// Minimum change of the parameters: root mean square of their moves as shares of their bounds.
     #[default]
     MinimumChange,
-    /// Least speed of the tip at picking.
+    /// Minimum speed of the tip at picking.
     PickingSpeed,
-    /// Greatest margin of the goal reached most narrowly.
+    /// Maximum margin of the goal reached most narrowly.
     Margin,
 }
 
-/// Least radius of a control point a search tries unless bounds say otherwise, as a share of their mean.
+/// Minimum radius of a control point a search tries unless bounds say otherwise, as a share of their mean.
 const MIN_RADIUS: f64 = 0.2;
 
 impl OptimiseSpec {
@@ -74,7 +74,7 @@ impl OptimiseSpec {
 }
 
 impl ThreeArmDesign {
-    /// Variables of a search, with their least and greatest value (rad, mm).
+    /// Variables of a search, with their minimum and maximum value (rad, mm).
     #[must_use]
     pub fn free_parameters(&self) -> Vec<(Parameter, [f64; 2])> {
         let radii: &[f64] = match &self.pitch {

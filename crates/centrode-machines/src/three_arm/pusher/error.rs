@@ -72,7 +72,7 @@ pub enum PusherError {
         "the roller reaches {reach} mm from the planet's axis, but the housing leaves {room} mm"
     )]
     Roller {
-        /// Greatest distance it reaches, mm.
+        /// Maximum distance it reaches, mm.
         reach: f64,
         /// Inner radius of the drum, mm.
         room: f64,

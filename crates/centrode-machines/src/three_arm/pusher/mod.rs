@@ -241,7 +241,7 @@ impl Pusher {
         self.pivot() + Vector::new(cos, sin) * self.spec.arm_length
     }
 
-    /// Greatest distance of the roller from the planet's axis with the rod drawn back, mm.
+    /// Maximum distance of the roller from the planet's axis with the rod drawn back, mm.
     #[must_use]
     pub fn reach(&self) -> f64 {
         self.roller(self.stroke).coords.norm() + self.spec.roller_radius

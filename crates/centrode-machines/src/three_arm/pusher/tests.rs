@@ -221,7 +221,7 @@ fn the_usual_arm_fits_every_tip_and_offset_that_leave_a_clamp_its_room() {
             for side in [-1.0, 1.0] {
                 let offset: f64 = side * share * tip;
                 let along = f64::sqrt(tip * tip - offset * offset);
-                // The clamp leaves the housing beside the pusher's axis, not under the planet's.
+                // The clamp leaves the housing next to the pusher's axis, not under the planet's.
                 if along - 60.0 < 0.2 * offset.abs() {
                     continue;
                 }

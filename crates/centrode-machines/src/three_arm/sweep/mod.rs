@@ -161,7 +161,7 @@ impl Sweep {
         self.stage.length()
     }
 
-    /// Greatest convex and concave curvature (1/mm) of both pitch curves of the last design, sampled 12 times a panel
+    /// Maximum convex and concave curvature (1/mm) of both pitch curves of the last design, sampled 12 times a panel
     /// (slightly low).
     #[must_use]
     pub fn curvatures(&self) -> [f64; 2] {

@@ -227,7 +227,7 @@ impl Path {
         self.near(stage, machine, place, psi).position
     }
 
-    /// Greatest reach of the path in a direction, and its input.
+    /// Maximum reach of the path in a direction, and its input.
     pub(super) fn farthest(
         &self,
         stage: &Stage,
@@ -256,7 +256,7 @@ impl Path {
             if here < around[0] || here < around[1] {
                 continue;
             }
-            // A crest is above the greatest of three points by about an eighth of their second difference.
+            // A crest is above the maximum of three points by about an eighth of their second difference.
             let bend = 2.0 * here - around[0] - around[1];
             if here + 0.5 * bend < best {
                 continue;

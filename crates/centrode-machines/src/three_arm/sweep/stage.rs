@@ -164,7 +164,7 @@ impl Stage {
         }
     }
 
-    /// Finds the least and greatest radius, exactly: inside a panel where the radius is stationary, or at its start.
+    /// Finds the minimum and maximum radius, exactly: inside a panel where the radius is stationary, or at its start.
     fn find_extremes(&mut self) {
         let (mut minimum, mut maximum) = (f64::INFINITY, 0.0_f64);
         for panel in &self.panels {
@@ -256,7 +256,7 @@ impl Stage {
         self.extremes
     }
 
-    /// Greatest convex and greatest concave curvature of both pitch curves at the nodes and ends of the panels:
+    /// Maximum convex and maximum concave curvature of both pitch curves at the nodes and ends of the panels:
     /// at a knot it may jump.
     pub(super) fn curvatures(&self) -> [f64; 2] {
         let a = self.center_distance;

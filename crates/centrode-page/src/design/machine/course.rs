@@ -124,7 +124,7 @@ impl Course {
         self
     }
 
-    /// Greatest distance of the first end from a line through a point of the second end's holder.
+    /// Maximum distance of the first end from a line through a point of the second end's holder.
     pub(super) fn off(&self, through: Point, angle: f64) -> f64 {
         let along = unit(angle);
         let places = self.ends[0].iter().zip(&self.holders[1]);

@@ -14,7 +14,7 @@ const SAMPLES: usize = 6;
 const DIRECTIONS: u32 = 4;
 /// Room of a bar beyond what it must reach, as a share of that.
 const ROOM: f64 = 1.02;
-/// Distance below which two points are one, and that of a point beside another in its place, mm.
+/// Distance below which two points are one, and that of a point next to another in its place, mm.
 const NEAR: f64 = 1e-3;
 const BESIDE: f64 = 20.0;
 /// Sine of the angle of two lines below which they hold badly.

@@ -120,7 +120,7 @@ impl<'a> Crank<'a> {
         table
     }
 
-    /// Greatest distance of the output driven by gears from where the law has it.
+    /// Maximum distance of the output driven by gears from where the law has it.
     pub(super) fn miss(&self, timing: &Timing, rolled: &Rolling) -> Extreme {
         let (output, start) = (timing.output(), timing.at(0.0).position);
         let first = rolled.driven_angle(0.0);

@@ -17,7 +17,7 @@ use centrode_analysis::{Attainable, Goal, feeder_goals};
 use centrode_optimise::{Evaluation, Problem};
 
 /// Feeder as a problem: its free dimensions, the deviation of its swing as objective, and as constraints that the crank
-/// turns, the least transmission angle and the quick return.
+/// turns, the minimum transmission angle and the quick return.
 ///
 /// The displacement of a free pivot is penalised. Motor, gears and dwell have no part in it.
 ///
@@ -28,7 +28,7 @@ pub struct FeederProblem {
     variables: Vec<Variable>,
     dimensions: Vec<Dimension>,
     required: RequiredSwing,
-    /// Least crank angle of the feed stroke, rad.
+    /// Minimum crank angle of the feed stroke, rad.
     feed: f64,
 }
 

@@ -6,14 +6,14 @@ use centrode_analysis::Attainable;
 
 /// Steps of a millimetre to which bounds and lengths are written, as a machinist reads them.
 const STEPS: f64 = 1e3;
-/// Greatest number of steps by which rounded bounds are moved outwards again.
+/// Maximum number of steps by which rounded bounds are moved outwards again.
 const MOST: u32 = 10;
 
-/// Feeder's design with its bounds widened by as little as lets a crank-rocker within them have the least transmission
+/// Feeder's design with its bounds widened by as little as lets a crank-rocker within them have the minimum transmission
 /// angle wanted, its lengths there, and its pivot in the middle of the places that give the swing wanted.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Widened {
-    /// Share by which every least length is made smaller and every greatest one greater, before rounding.
+    /// Share by which every minimum length is made smaller and every maximum one greater, before rounding.
     pub share: f64,
     /// The design, bounds rounded outwards and lengths and pivot rounded to a thousandth of a millimetre.
     pub design: FeederDesign,
@@ -25,16 +25,16 @@ pub struct Widened {
 pub enum NotWidened {
     /// The bounds hold the angle wanted.
     #[error(
-        "the bounds hold lengths with a least transmission angle of {:.4} deg, and {:.4} deg is wanted: they need not be widened", .attainable.to_degrees(), .required.to_degrees()
+        "the bounds hold lengths with a minimum transmission angle of {:.4} deg, and {:.4} deg is required: they need not be widened", .attainable.to_degrees(), .required.to_degrees()
     )]
     Needless {
-        /// Greatest least transmission angle within the bounds, rad.
+        /// Largest minimum transmission angle within the bounds, rad.
         attainable: f64,
         /// Angle wanted, rad.
         required: f64,
     },
     /// No widening below nine tenths helps.
-    #[error("bounds widened by 90 % hold no crank-rocker with a least transmission angle of {:.4} deg", .required.to_degrees())]
+    #[error("bounds widened by 90 % hold no crank-rocker with a minimum transmission angle of {:.4} deg", .required.to_degrees())]
     NoUse {
         /// Angle wanted, rad.
         required: f64,
@@ -114,7 +114,7 @@ fn outwards(bounds: &BoundsSpec, share: f64, more: f64) -> BoundsSpec {
     }
 }
 
-/// The crank-rocker of rounded lengths next to these ones with the greatest least transmission angle, rad.
+/// The crank-rocker of rounded lengths next to these ones with the largest minimum transmission angle, rad.
 fn rounded(
     lengths: [f64; 4],
     bounds: &BoundsSpec,

@@ -46,7 +46,7 @@ pub enum EasingError {
     #[error("wishes.{0}")]
     Wish(#[from] SpecError),
     /// A module that is none.
-    #[error("the module wanted is greater than zero, in mm, not {module:?}")]
+    #[error("the module is greater than zero, in mm, not {module:?}")]
     Module {
         /// Module given, mm.
         module: f64,

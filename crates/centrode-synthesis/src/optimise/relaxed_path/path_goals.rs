@@ -7,7 +7,7 @@ use centrode_geometry::{Outline, Point, SampledPiece, maximum_of_samples, roundi
 
 use centrode_analysis::{Goal, Unit};
 
-/// Looks at the arm in a turn, between which its least distance from a shape is followed.
+/// Looks at the arm in a turn, between which its minimum distance from a shape is followed.
 const SAMPLES: usize = 192;
 /// Size of a miss that leaves half the progress, as a share of the reach of the machine, and of ratios.
 const SCALE: f64 = 0.1;
@@ -182,12 +182,12 @@ fn wrapped(angle: f64) -> f64 {
     (angle + PI).rem_euclid(TAU) - PI
 }
 
-/// Angle from which several are off by the least greatest share of their tolerances, on the side of the first.
+/// Angle from which several are off by the smallest maximum share of their tolerances, on the side of the first.
 fn middle(angles: &[f64], tolerances: &[f64]) -> Option<f64> {
     let first = *angles.first()?;
     let from_first: Vec<f64> = angles.iter().map(|angle| wrapped(angle - first)).collect();
     let all = || from_first.iter().zip(tolerances);
-    // Any two are met with this share of their tolerances, and all with the greatest of them.
+    // Any two are met with this share of their tolerances, and all with the maximum of them.
     let shares = all().flat_map(|(a, s)| all().map(move |(b, t)| (a - b) / (s + t)));
     let share = shares.fold(0.0, f64::max);
     let low = all()
@@ -221,7 +221,7 @@ impl Room {
         }
     }
 
-    /// Least distance of the arm's plate in a turn, mm; negative where the plate stands in the shape.
+    /// Minimum distance of the arm's plate in a turn, mm; negative where the plate stands in the shape.
     fn clearance(&self, chain: &TwoBar, bend: f64) -> f64 {
         let half = 0.5 * ReversedMachine::plate_width(chain.carrier(), bend);
         let nearness = |t: f64| {

@@ -66,7 +66,7 @@ impl<'a> PosedProblem<'a> {
     }
 
     /// Searches for a mechanism that reaches every goal: first the mildest law of every chain at bends all over their range,
-    /// then from the best of them. The best is given where none reaches all. `observe` hears of evaluations and of the least
+    /// then from the best of them. The best is given where none reaches all. `observe` hears of evaluations and of the minimum
     /// violation so far.
     ///
     /// # Errors
@@ -196,7 +196,7 @@ fn quick(design: &mut ThreeArmDesign) -> Option<(Vec<Goal>, f64)> {
     Some((goals, module / largest - 1.0))
 }
 
-/// Greatest convex and concave curvature of both pitch curves, 1/mm.
+/// Maximum convex and concave curvature of both pitch curves, 1/mm.
 fn curvatures(rolling: &Rolling) -> [f64; 2] {
     let ranges = rolling.curvature_ranges();
     let maximum = |of: fn(&CurvatureRange) -> f64| ranges.iter().map(of).fold(0.0, f64::max);

@@ -13,7 +13,7 @@ use centrode_spec::digits::stated;
 /// Fewest and most points through which a curve is laid.
 const FEWEST: usize = 32;
 const MOST: usize = 1024;
-/// Greatest error of a length along the drawing, as a share of the whole, where rounding allows it; roundings allowed for.
+/// Maximum error of a length along the drawing, as a share of the whole, where rounding allows it; roundings allowed for.
 const LENGTH: f64 = 1e-12;
 const ROUNDINGS: f64 = 16.0;
 
@@ -25,13 +25,13 @@ const ROUNDINGS: f64 = 16.0;
 pub struct DrawnPath {
     /// The points, mm: x to the right and y up from the drawing's lower left corner.
     pub points: Vec<Point>,
-    /// Greatest distance of the drawing from the spline through the points, mm, and the place along the drawing, mm.
+    /// Maximum distance of the drawing from the spline through the points, mm, and the place along the drawing, mm.
     pub deviation: Extreme,
 }
 
 impl DrawnPath {
     /// Reads the one path of a drawing whose root tells its size (`width="210mm" viewBox="0 0 210 297"`); `within` is the
-    /// greatest distance allowed between drawing and spline, mm.
+    /// maximum distance allowed between drawing and spline, mm.
     ///
     /// Groups and transforms are followed. Shapes that are no paths (circles, texts), and what is only defined or not shown, are
     /// left aside; drawings within the drawing, uses of other shapes and transforms in styles are refused.
@@ -72,7 +72,7 @@ struct Drawing {
     starts: Vec<f64>,
     /// The unit, mm.
     size: f64,
-    /// Greatest error of a length, in that unit: what is small and far from the origin has fewer digits.
+    /// Maximum error of a length, in that unit: what is small and far from the origin has fewer digits.
     accuracy: f64,
     /// mm.
     length: f64,
@@ -172,7 +172,7 @@ pub enum DrawingError {
     },
     /// A root that does not tell the size of the drawing.
     #[error(
-        "the drawing does not tell its size: {why}; write it at the root as width=\"210mm\" height=\"297mm\" viewBox=\"0 0 210 297\""
+        "the drawing does not state its size: {why}; write it at the root as width=\"210mm\" height=\"297mm\" viewBox=\"0 0 210 297\""
     )]
     Size {
         /// Key at fault, and its value.
@@ -188,7 +188,7 @@ pub enum DrawingError {
     },
     /// No path, or several.
     #[error(
-        "the drawing has {count} paths; leave the wanted one alone in it (circles and other shapes become paths by the drawing program's \"object to path\")"
+        "the drawing has {count} paths; leave only the one to follow in it (circles and other shapes become paths by the drawing program's \"object to path\")"
     )]
     Paths {
         /// Number of paths.
@@ -240,7 +240,7 @@ pub enum DrawingError {
         x: f64,
         /// Its y, mm.
         y: f64,
-        /// Greatest coordinate, mm.
+        /// Maximum coordinate, mm.
         limit: f64,
     },
     /// A path along which no smooth curve runs.

@@ -23,7 +23,7 @@ fn fault(text: &str) -> DrawingError {
     }
 }
 
-/// Greatest distance of the spline through points from the ellipse ((x - 100)/60)^2 + ((y - 30)/40)^2 = 1, to first order.
+/// Maximum distance of the spline through points from the ellipse ((x - 100)/60)^2 + ((y - 30)/40)^2 = 1, to first order.
 fn off_the_ellipse(found: &DrawnPath) -> f64 {
     let path = RequiredPath::through(&found.points).expect("a path");
     let off = |i: u32| {

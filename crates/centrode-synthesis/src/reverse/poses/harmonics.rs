@@ -8,11 +8,11 @@ const ORDERS: usize = 8;
 const TERMS: usize = 2 * ORDERS;
 /// Parts in which the turns wanted grow from those of even motion.
 const GROWTH: usize = 8;
-/// Newton steps of a part, the greatest change of an amplitude in one, and the change at which they end.
+/// Newton steps of a part, the maximum change of an amplitude in one, and the change at which they end.
 const STEPS: usize = 40;
 const MAXIMUM: f64 = 0.1;
 const SETTLED: f64 = 1e-13;
-/// Least ratio of a law, at so many places of a turn.
+/// Minimum ratio of a law, at so many places of a turn.
 const MIN_RATIO: f64 = 0.05;
 const PLACES: u32 = 180;
 

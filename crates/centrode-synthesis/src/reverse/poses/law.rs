@@ -13,9 +13,9 @@ const GROWTH: usize = 8;
 /// Newton steps, and the error at which they end, rad.
 const STEPS: usize = 30;
 const CLOSED: f64 = 1e-13;
-/// Least turn of a body between two poses, rad.
+/// Minimum turn of a body between two poses, rad.
 const MIN_TURN: f64 = 1e-3;
-/// Greatest |ln| of a ratio: that of gears no one makes.
+/// Maximum |ln| of a ratio: that of gears no one makes.
 const UNEVEN: f64 = 3.0;
 
 /// Turns of carrier and planet from pose to pose, both in the carrier's sense.
@@ -86,7 +86,7 @@ impl PoseLaw {
         self.passed() == self.turns.len()
     }
 
-    /// The law of least mean square of ln(ratio) and of its second derivative; none where it does not come out.
+    /// The law of minimum mean square of ln(ratio) and of its second derivative; none where it does not come out.
     pub(super) fn mildest(&self) -> Option<MildLaw> {
         let count = self.turns.len();
         let mut amplitudes = [0.0; TERMS];
@@ -112,7 +112,7 @@ impl PoseLaw {
                     off[i] = required - turn;
                 }
                 is_met = off.amax() < CLOSED * 100.0;
-                // The least amplitudes that meet the turns, as far as these are linear.
+                // The minimum amplitudes that meet the turns, as far as these are linear.
                 let now = DVector::from_iterator(TERMS, amplitudes);
                 let right = &off + &slopes * &now;
                 let scaled = DMatrix::from_fn(TERMS, count, |j, i| slopes[(i, j)] / cost(j));
@@ -160,7 +160,7 @@ impl MildLaw {
         self.law.turns.iter().map(before).collect()
     }
 
-    /// Greatest |ln| of the ratio at 360 places: it ranks laws, no more.
+    /// Maximum |ln| of the ratio at 360 places: it ranks laws, no more.
     pub(super) fn unevenness(&self) -> f64 {
         let at = |i: u32| ratio(&self.amplitudes, &waves(f64::from(i).to_radians()));
         (0..360).map(|i| at(i).ln().abs()).fold(0.0, f64::max)

@@ -25,10 +25,10 @@ const MOST: usize = 7;
 const TOLERANCE: f64 = 0.1;
 /// Places of the arm's axis along each side of a square round the tip, from which circles are sought.
 const GRID: usize = 48;
-/// Half side of the square, and greatest length of a bar, as a multiple of the size of the poses.
+/// Half side of the square, and maximum length of a bar, as a multiple of the size of the poses.
 const REACH: f64 = 2.0;
 const LONGEST: f64 = 4.0;
-/// Least length of a bar, and least difference of both, as a share of the size of the poses.
+/// Minimum length of a bar, and minimum difference of both, as a share of the size of the poses.
 const SHORTEST: f64 = 0.02;
 const MIN_DIFFERENCE: f64 = 0.002;
 /// Distance of the arm's axes in the clamp's frame from which on two chains differ, as a share of the size of the poses.
@@ -68,7 +68,7 @@ pub enum PoseError {
     NoCircle {
         /// Number of poses.
         count: usize,
-        /// Least distance found of a tip from its pose, mm.
+        /// Minimum distance found of a tip from its pose, mm.
         miss: f64,
     },
     /// Circles, on none of which carrier and arm turn one way.
@@ -92,7 +92,7 @@ pub enum PoseError {
 ///
 /// In the arm's frame its axis is a fixed point. The places of this point in the poses must lie on one circle, whose middle is
 /// the carrier's axis: Burmester's circle points, any point for three poses, a curve for four, four points at most for five.
-/// The angles of carrier and arm at the poses then follow. Between them the law is that of least square of the logarithm of the
+/// The angles of carrier and arm at the poses then follow. Between them the law is that of minimum square of the logarithm of the
 /// ratio and of its second derivative.
 #[derive(Clone, Debug)]
 pub struct KeyPoses {
@@ -122,7 +122,7 @@ struct Circle {
 }
 
 impl KeyPoses {
-    /// Finds the chain of least greatest |ln| of the ratio.
+    /// Finds the chain of smallest maximum |ln| of the ratio.
     ///
     /// # Errors
     /// [`PoseError`] for too few or too many poses, ones that are no numbers, and where there is no machine: with how near the
@@ -132,7 +132,7 @@ impl KeyPoses {
         Ok(mildest.remove(0))
     }
 
-    /// Finds at most so many different chains, those of least greatest |ln| of the ratio first: there is at least one.
+    /// Finds at most so many different chains, those of smallest maximum |ln| of the ratio first: there is at least one.
     ///
     /// # Errors
     /// As for [`Self::new`].
@@ -270,7 +270,7 @@ impl KeyPoses {
 }
 
 impl Circle {
-    /// The circle reached by Gauss-Newton steps of least length from a place of the arm's axis.
+    /// The circle reached by Gauss-Newton steps of minimum length from a place of the arm's axis.
     fn near(poses: &[KeyPose], start: Vector, size: f64) -> Option<Self> {
         let places = poses.iter().map(|pose| place(pose, start));
         let mut circle = Self::fitted(&places.collect::<Vec<_>>(), start)?;
@@ -323,7 +323,7 @@ impl Circle {
         })
     }
 
-    /// Greatest distance of a tip from its pose, with the arm in the pose's direction, mm.
+    /// Maximum distance of a tip from its pose, with the arm in the pose's direction, mm.
     fn miss(&self, poses: &[KeyPose]) -> f64 {
         let miss = |pose| ((place(pose, self.arm) - self.axis).norm() - self.carrier).abs();
         poses.iter().map(miss).fold(0.0, f64::max)

@@ -68,7 +68,7 @@ impl Conjugacy {
         Self { rests, ..self }
     }
 
-    /// Newton steps until rounding stops them; the greatest miss at the grid's points, rad.
+    /// Newton steps until rounding stops them; the maximum miss at the grid's points, rad.
     pub(super) fn refine(&mut self, map: impl Fn(f64) -> f64) -> f64 {
         let count = self.rests.len();
         let fourier = Fourier::new(count);

@@ -13,7 +13,7 @@ use centrode_kinematics::transmission::Transmission as _;
 const PLACES: usize = 1024;
 /// Harmonics of the bow.
 const HARMONICS: usize = 8;
-/// Sharpness of the mean of the curvatures, over the greatest of them: at the last it is within one in a hundred of the greatest.
+/// Sharpness of the mean of the curvatures, over the maximum of them: at the last it is within one in a hundred of the maximum.
 const SHARPNESS: [f64; 8] = [8.0, 16.0, 32.0, 64.0, 128.0, 256.0, 512.0, 1024.0];
 /// Steps of a search at each.
 const STEPS: u32 = 60;
@@ -24,7 +24,7 @@ const STEPS: u32 = 60;
 ///
 /// With w the logarithm of a stage's ratio by its driver's angle, `p = 1/(1 + e^-w)` and `q = 1 - p`, the pitch curves of a stage
 /// of centre distance 1 have the curvatures `(1 + q (w'^2 - w''))/(p D)` and `(1 + w'' q^2/p)/(q D)`, `D = (1 + q^2 w'^2)^(3/2)`.
-/// The greatest is approached by a soft one, `ln(mean e^(b kappa))/b` with ever greater b, and this is made small by BFGS steps
+/// The maximum is approached by a soft one, `ln(mean e^(b kappa))/b` with ever greater b, and this is made small by BFGS steps
 /// from powers on.
 pub(super) fn split(chain: &TwoBar, bend: f64) -> Result<Split, SplitError> {
     let law = chain.law()?;
@@ -149,7 +149,7 @@ impl Curves {
         each.fold(0.0, f64::max)
     }
 
-    /// Soft greatest curvature, and its slope by the amplitudes.
+    /// Soft maximum curvature, and its slope by the amplitudes.
     fn soft(&self, bow: &Amplitudes, sharpness: f64) -> (f64, Amplitudes) {
         checkpoint();
         let shares = self.shares(bow);
@@ -188,7 +188,7 @@ impl Curves {
     }
 }
 
-/// Amplitudes at which a smooth function is least near those given: BFGS with halved steps.
+/// Amplitudes at which a smooth function is smallest near those given: BFGS with halved steps.
 fn minimum(f: impl Fn(&Amplitudes) -> (f64, Amplitudes), start: Amplitudes) -> Amplitudes {
     const N: usize = 2 * HARMONICS;
     let dot = |a: &Amplitudes, b: &Amplitudes| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();

@@ -18,7 +18,7 @@ pub(super) use self::powers::SHARE;
 use super::TwoBar;
 use centrode_kinematics::transmission::TransmissionError;
 
-/// Greatest bend, rad: beyond it the gears would be six times as large as the carrier is long.
+/// Maximum bend, rad: beyond it the gears would be six times as large as the carrier is long.
 const MAX_BEND: f64 = 170.0 / 180.0 * PI;
 
 /// Distance from a fraction that is rounding.
@@ -95,7 +95,7 @@ pub enum SplitError {
     Bend {
         /// Bend given, degrees.
         bend: f64,
-        /// Greatest, degrees.
+        /// Maximum, degrees.
         maximum: f64,
     },
     /// The rotation number is at or near a fraction, so that no single pair follows.
@@ -121,7 +121,7 @@ pub enum SplitError {
     Inexact {
         /// Rotation number wanted, turns.
         turns: f64,
-        /// Greatest miss, rad; infinite where the law found turns back.
+        /// Maximum miss, rad; infinite where the law found turns back.
         miss: f64,
         /// Numerator of the nearest fraction.
         numerator: i64,
@@ -190,7 +190,7 @@ impl Split {
         self.idler_offset
     }
 
-    /// Greatest miss of the equation of one pair twice among 2,000 places, rad; zero of two pairs, which solve theirs.
+    /// Maximum miss of the equation of one pair twice among 2,000 places, rad; zero of two pairs, which solve theirs.
     #[must_use]
     pub fn miss(&self) -> f64 {
         self.miss

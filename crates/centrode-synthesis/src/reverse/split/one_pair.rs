@@ -9,10 +9,10 @@ use crate::reverse::TwoBar;
 use centrode_kinematics::machine::Piecewise;
 use centrode_kinematics::transmission::Transmission as _;
 
-/// Greatest denominator of a fraction near which no law is sought, and how near, in turns.
+/// Maximum denominator of a fraction near which no law is sought, and how near, in turns.
 const MAX_DENOMINATOR: i64 = 11;
 const NEAREST: f64 = 1e-3;
-/// Greatest denominator of a fraction at which no law is sought: of such a period harmonics that matter are not determined.
+/// Maximum denominator of a fraction at which no law is sought: of such a period harmonics that matter are not determined.
 const CLOSED: u32 = 314;
 /// Steps of the orbits by which the offset is sought, and of the one that is the first guess of the law.
 const SAMPLES: u32 = 4_000;
@@ -20,7 +20,7 @@ const SAMPLES: u32 = 4_000;
 const GRIDS: [usize; 4] = [1 << 10, 1 << 13, 1 << 15, 1 << 17];
 /// Nodes of an interpolating polynomial.
 const LOCAL: usize = 6;
-/// Places at which the law is checked, its greatest miss, and the one at which no finer grid is tried, rad.
+/// Places at which the law is checked, its maximum miss, and the one at which no finer grid is tried, rad.
 const CHECKS: u32 = 2_000;
 const MAX_MISS: f64 = 1e-7;
 const FINE: f64 = 1e-11;

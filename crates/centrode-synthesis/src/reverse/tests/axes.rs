@@ -97,7 +97,7 @@ fn derivatives_are_those_of_the_angles_everywhere() {
     }
 }
 
-/// Speeds with two derivatives, beside both extremes too, where they are limits.
+/// Speeds with two derivatives, next to both extremes too, where they are limits.
 #[test]
 fn derivatives_of_the_speeds_are_those_of_the_speeds() {
     let (chain, path) = (chain(260.0, 160.0), drawn());
@@ -230,7 +230,7 @@ fn the_map_of_the_drawn_path_has_both_kinds_of_axes() {
     let of_grid = map.found().iter().flatten();
     let of_grid = of_grid.map(|axis| axis.unevenness());
     assert!(mildest.unevenness() < of_grid.fold(f64::INFINITY, f64::min));
-    // No place a little beside it is milder.
+    // No place a little next to it is milder.
     for i in 0..12 {
         let (sin, cos) = (f64::from(i) * PI / 6.0).sin_cos();
         let axis = mildest.axis() + centrode_geometry::Vector::new(cos, sin) * 0.01;
@@ -276,7 +276,7 @@ fn places_that_are_no_axis_are_refused_with_the_reason() {
         AxisFault::NotFinite { .. }
     ));
     let AxisFault::Extremes { maxima } = fault(&ellipse(100.0, 50.0), 0.0, 0.0) else {
-        panic!("two greatest distances");
+        panic!("two maximum distances");
     };
     assert_eq!(maxima.len(), 2);
     assert!(maxima.iter().all(|p| (p.x.abs() - 100.0).abs() < 1e-9));

@@ -55,7 +55,7 @@ fn rest(within: [f64; 2], band: f64) -> Section {
     section("rest", within, Required::Rest(band))
 }
 
-/// Greatest jumps of position, speed and acceleration at breaks.
+/// Maximum jumps of position, speed and acceleration at breaks.
 fn jumps(law: &Timing) -> [f64; 3] {
     let mut jumps = [0.0_f64; 3];
     for input in law.breaks() {

@@ -42,7 +42,7 @@ pub enum Required {
 
 /// Law of a crank by the input with which the output of a machine does what is wanted.
 ///
-/// The output q is known by the angle tau of the crank, with one greatest and one least place in a turn. Where q shall be w(phi),
+/// The output q is known by the angle tau of the crank, with one maximum and one minimum place in a turn. Where q shall be w(phi),
 /// tau solves `q(tau) = w(phi)`. Over a rest the crank runs evenly through the end of the stroke. In between `ln(d tau/d phi)` is
 /// a polynomial that joins both sides with two derivatives and makes the turn whole, so the crank never turns back. What is free,
 /// how far into the band of a rest the crank goes outside its section and where between sections it is faster, is chosen such that
@@ -79,7 +79,7 @@ enum Course {
 #[non_exhaustive]
 pub enum TimingError {
     /// Nothing wanted.
-    #[error("nothing is wanted of the output")]
+    #[error("nothing is required of the output")]
     Nothing,
     /// An output that does not come back.
     #[error("the output moves by {} in a turn of the crank and does not come back", stated(*advance))]
@@ -89,7 +89,7 @@ pub enum TimingError {
     },
     /// An output with more than two turning points, or none.
     #[error(
-        "the output turns back {count} times in a turn of the crank; with one greatest and one least place it does twice"
+        "the output turns back {count} times in a turn of the crank; with one maximum and one minimum it does twice"
     )]
     Swings {
         /// Times.
@@ -107,9 +107,9 @@ pub enum TimingError {
         from: f64,
         /// Last.
         to: f64,
-        /// Least place of the output.
+        /// Minimum place of the output.
         minimum: f64,
-        /// Greatest.
+        /// Maximum.
         maximum: f64,
     },
     /// A course that goes nowhere.
@@ -135,7 +135,7 @@ pub enum TimingError {
         band: f64,
         /// Stroke.
         stroke: f64,
-        /// Least band: below it the gears would stand within rounding.
+        /// Minimum band: below it the gears would stand within rounding.
         minimum: f64,
     },
     /// Sections of the input that touch, overlap or are none.
@@ -156,7 +156,7 @@ pub enum TimingError {
     },
     /// Sections that the output cannot pass in one turn of the crank.
     #[error(
-        "the output cannot pass {names} in this order in one turn of the crank, in which it goes once from its least place to its greatest and once back"
+        "the output cannot pass {names} in this order in one turn of the crank, in which it goes once from its minimum to its maximum and once back"
     )]
     Order {
         /// Names in the order of the input.
@@ -281,7 +281,7 @@ impl Timing {
                 let miss = |angle: f64| self.output.at(angle).position - place;
                 let [before, after] = [first, last].map(miss);
                 let angle = if (before > 0.0) == (after > 0.0) {
-                    // Rounding beside an end.
+                    // Rounding next to an end.
                     if before.abs() < after.abs() {
                         first
                     } else {
@@ -315,13 +315,13 @@ impl Timing {
         &self.output
     }
 
-    /// Least and greatest place of the output, mm or rad.
+    /// Minimum and maximum place of the output, mm or rad.
     #[must_use]
     pub fn places(&self) -> [f64; 2] {
         self.swing.places()
     }
 
-    /// Least and greatest speed of the crank by the input's, and the inputs there.
+    /// Minimum and maximum speed of the crank by the input's, and the inputs there.
     #[must_use]
     pub fn ratios(&self) -> [Extreme; 2] {
         let start = self.stretches[0].within[0];

@@ -10,15 +10,15 @@ use centrode_spec::degrees;
 const SAMPLES: u32 = 720;
 /// Share of the stroke by which a rest stays within its band.
 const SLACK: f64 = 1e-6;
-/// Least band of a rest, as a share of the stroke: the crank turns by the root of it, and a law in a table has digits left.
+/// Minimum band of a rest, as a share of the stroke: the crank turns by the root of it, and a law in a table has digits left.
 const MIN_BAND: f64 = 1e-9;
 
-/// An output with one greatest and one least place in a turn.
+/// An output with one maximum and one minimum place in a turn.
 #[derive(Clone, Debug)]
 pub(super) struct Swing {
-    /// Angles of the crank at the least and at the greatest place, rad.
+    /// Angles of the crank at the minimum and at the maximum place, rad.
     angles: [f64; 2],
-    /// Least and greatest place, mm or rad.
+    /// Minimum and maximum place, mm or rad.
     places: [f64; 2],
 }
 

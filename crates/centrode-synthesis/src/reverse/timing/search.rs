@@ -9,12 +9,12 @@ use centrode_kinematics::transmission::Transmission;
 
 /// Looks at a free stretch.
 const SAMPLES: u32 = 48;
-/// First and last step of the search, and greatest number of rounds.
+/// First and last step of the search, and maximum number of rounds.
 const STEPS: [f64; 2] = [0.25, 1e-3];
 const ROUNDS: u32 = 200;
-/// Greatest share of a rest's half that is left to the stretch beside it.
+/// Maximum share of a rest's half that is left to the stretch next to it.
 const MAX_SHARE: f64 = 0.95;
-/// Greatest skew either way.
+/// Maximum skew either way.
 const MAX_SKEW: f64 = 4.0;
 
 /// Numbers that are free of a section and of the stretch after it.
@@ -96,7 +96,7 @@ pub(super) fn mildest(
     best
 }
 
-/// Greatest convex curvature of both pitch curves; over an even course of the output no shape changes it.
+/// Maximum convex curvature of both pitch curves; over an even course of the output no shape changes it.
 fn sharpest(law: &Timing) -> f64 {
     let speeds = law
         .stretches

@@ -18,10 +18,10 @@ pub(crate) struct Reverse {
     /// Print a commented design file of family path, to start from
     #[arg(long, exclusive = true)]
     pub(crate) template: bool,
-    /// Greatest distance of the machine's path from a drawn one, of an SVG file, mm; left out, 0.01
+    /// Maximum distance of the machine's path from a drawn one, of an SVG file, mm; left out, 0.01
     #[arg(long, allow_negative_numbers = true, value_name = "MM")]
     pub(crate) within: Option<f64>,
-    /// Where something is free, make the most of it: the largest teeth, the ratio nearest to 1, or the least reach of the tip; left
+    /// Where something is free, make the most of it: the largest teeth, the ratio nearest to 1, or the minimum reach of the tip; left
     /// out, the largest teeth where the path is eased or more is wanted of the machine, else the mildest ratio
     #[arg(long, conflicts_with = "poses", value_parser = PossibleValuesParser::new(Aim::NAMES.map(|(name, _)| name)))]
     pub(crate) aim: Option<String>,
@@ -75,7 +75,7 @@ pub(crate) struct Reverse {
     #[arg(long, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=12))]
     pub(crate) arms: Option<u32>,
     /// Steps of the tables in which the laws of the gears are written; left out, as few as bring the tip within 1e-7 of its
-    /// greatest distance from the axis
+    /// maximum distance from the axis
     #[arg(long, allow_negative_numbers = true, value_name = "N")]
     pub(crate) steps: Option<u32>,
     /// Take a path that crosses itself, too

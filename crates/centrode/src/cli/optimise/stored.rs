@@ -5,7 +5,7 @@ use serde::Deserialize;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-/// File of the better design, and its search beside it.
+/// File of the better design, and its search next to it.
 pub(super) struct Stored {
     folder: PathBuf,
     design: String,

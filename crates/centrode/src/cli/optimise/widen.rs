@@ -9,7 +9,7 @@ use crate::cli::args::Optimise;
 use crate::cli::failure::Failure;
 use crate::page::{Edit, edited};
 
-/// Writes a design with the least widening of its bounds.
+/// Writes a design with the minimum widening of its bounds.
 pub(super) fn run(
     command: &Optimise,
     file: &OpenDesign,

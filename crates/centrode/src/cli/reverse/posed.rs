@@ -89,7 +89,7 @@ fn words(goal: &Goal) -> String {
     let met = match goal.met() {
         Some(true) => "met",
         Some(false) => "missed",
-        None => "not looked at",
+        None => "not checked",
     };
     format!(
         "{}{}, {met}",

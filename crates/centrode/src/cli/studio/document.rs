@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Design file of a page, and its autosaves beside it: nothing else is ever written.
+/// Design file of a page, and its autosaves next to it: nothing else is ever written.
 pub(crate) struct Document {
     folder: PathBuf,
     name: String,
@@ -130,7 +130,7 @@ impl Document {
         Ok(())
     }
 
-    /// Writes unsaved work beside the file; removes it once the file holds it.
+    /// Writes unsaved work next to the file; removes it once the file holds it.
     ///
     /// An autosave of earlier work there gets a name of its own first.
     pub(crate) fn keep(&self, text: &str) -> Result<(), SaveError> {

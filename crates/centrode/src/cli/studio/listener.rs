@@ -13,7 +13,7 @@ use super::guard::Known;
 /// Time a client has to send its request.
 const PATIENCE: Duration = Duration::from_secs(5);
 
-/// Greatest number of connections that have not shown the secret yet.
+/// Maximum number of connections that have not shown the secret yet.
 const STRANGERS: usize = 128;
 
 /// Answers connections for ever.

@@ -96,7 +96,7 @@ async fn design(State(state): Shared, request: Request) -> Response {
     if rest.is_empty() {
         return Html(page::INDEX).into_response();
     }
-    // Without what the outer routes have written beside it.
+    // Without what the outer routes have written next to it.
     let (parts, body) = request.into_parts();
     let mut own = Request::new(Body::new(body));
     *own.method_mut() = parts.method;
