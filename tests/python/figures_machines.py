@@ -176,11 +176,6 @@ FEEDER = [
         "keeps it within {<} degrees",
         lambda: 0.05 * sum(map(abs, sensitivity(*middle()))),
     ),
-    Said(
-        "a peak of {} mm/s against {} mm/s",
-        lambda: [values("feeder-2022")[f"tip_speed_{way}_max"] for way in ("return", "feed")],
-    ),
-    Said("but for rounding (below {<} mm/s)", lambda: values("feeder-2022")["tip_speed_ends_max"]),
     Said("once in {} degrees and the entry angle", lambda: 360 * 30 / 40),
     Said("chain of 2.7 give {} cycles a minute, and five slots {} cuttings", rates),
     Said(
@@ -344,14 +339,6 @@ BOX = [
         "| elliptic gears, k = {} | {} | {} | {} | {} to {} | {} |",
         lambda: [eccentricity(2.05), 2.05, *elliptic(eccentricity(2.05))],
     ),
-    Said(
-        "would need k = {} or a window of {} deg",
-        lambda: [
-            eccentricity(2.1),
-            degrees(brentq(lambda window: elliptic_moved(K, window) - 2.1, 1, 2)),
-        ],
-    ),
-    Said("is not what its k gives: {} and {}.", lambda: elliptic(K)[:2]),
     Said("departs by up to {} mm", departure),
     Said(
         "kappa = B moves {} mm in the window",

@@ -3,6 +3,7 @@
 import figures
 import figures_gears
 import figures_machines
+import figures_papers
 import pytest
 from conftest import ROOT
 from figures import FigureError, Said
@@ -10,7 +11,7 @@ from figures_exempt import EVERYWHERE, EXEMPT
 from sample import sampled
 
 PAGES = sorted(str(page.relative_to(ROOT)) for page in [*(ROOT / "docs").rglob("*.md"), ROOT / "README.md"])
-COMPUTED = figures_machines.PAGES | figures_gears.PAGES
+COMPUTED = figures_machines.PAGES | figures_gears.PAGES | figures_papers.PAGES
 
 
 def text(page):
