@@ -19,7 +19,7 @@ EVERYWHERE = {
     "number of a figure of the paper": (r"Figures? \d(?:, \d and \d+)?",),
     "standard or version": (
         r"\bISO \d+(?:-\d)?",
-        r"DIN \d+(?:-\d)?",
+        r"(?:DIN|VDI) \d+(?:-\d)?",
         r"(?:Python|CadQuery|build123d|FreeCAD|MuJoCo) \d+(?:\.\d+)?\b",
     ),
     "status or version": (r"\bstatus (?:at |is )?\d", r"makes it 1\.", r"3\.11 or newer"),

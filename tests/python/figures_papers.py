@@ -91,7 +91,7 @@ def course():
 
 
 def ranges(motion):
-    """Least and greatest x, then y."""
+    """Minimum and maximum x, then y."""
     return [float(one) for column in motion.T for one in (column.min(), column.max())]
 
 
@@ -209,13 +209,13 @@ THREE_ARM = [
 
 
 def range_of(speeds):
-    """Least and greatest speed of the box, mm/s, from those over the mean, and the mean, at 200 r/min."""
+    """Minimum and maximum speed of the box, mm/s, from those over the mean, and the mean, at 200 r/min."""
     mean = 20 * 200 / 60
     return [speeds[0] * mean, speeds[1] * mean, mean]
 
 
 def by_17():
-    """Least and greatest normal force by the (17) of the paper, N."""
+    """Minimum and maximum normal force by the (17) of the paper, N."""
     forces = [tables(theta)[6] for theta in np.arange(0, 360, 0.25)]
     return [min(forces), max(forces)]
 
@@ -278,7 +278,7 @@ def dead():
 
 
 def course_of_tip():
-    """Where the tip's feed begins and ends, mm, times of feed, return and rest, s, and both greatest speeds, mm/s."""
+    """Where the tip's feed begins and ends, mm, times of feed, return and rest, s, and both maximum speeds, mm/s."""
     feeder, names = design("feeder-2022"), ("feed_time", "return_time", "dwell_time")
     begin, end = feeder.tip(0.0), feeder.tip(feeder.strokes[0])
     figures = values("feeder-2022")
