@@ -626,7 +626,7 @@ def test_a_machine_with_wishes_is_that_of_the_command_and_its_search_is_cancelle
     folder = running.folder
     (folder / "wanted.toml").write_text(WANTED)
     page.locator("#path-file").set_input_files(folder / "wanted.toml")
-    expect(page.locator('#notices [data-key="path"]')).to_contain_text("13 points, with all that is wanted")
+    expect(page.locator('#notices [data-key="path"]')).to_contain_text("13 points, with all requirements")
     solved(page)
     expect(field(page, "wishes.carrier-1")).to_have_value("131")
     expect(handle(page, "corner 4 of tray")).to_be_visible()

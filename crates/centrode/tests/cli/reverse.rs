@@ -411,14 +411,14 @@ fn wished(wishes: &str) -> String {
 }
 
 #[test]
-fn wishes_are_told_with_their_figures_and_what_is_out_of_reach_with_the_miss() {
+fn wishes_are_reported_with_their_figures_and_what_is_out_of_reach_with_the_miss() {
     let design =
         wished("carrier = { maximum = 120 }\nturn = { from = 1, to = 5, between_deg = [20, 150] }");
     let run = fed(&["reverse", "-"], design.as_bytes());
     let stated = text(&run.stdout);
     assert_eq!(run.status.code(), Some(0), "{stated}{}", text(&run.stderr));
     assert!(
-        stated.contains("mm, wanted at most 120.0000 mm\n"),
+        stated.contains("mm, required at most 120.0000 mm\n"),
         "{stated}"
     );
     assert!(
@@ -505,7 +505,7 @@ fn directions_stand_in_a_column_of_their_own_and_points_in_a_file_beside_the_des
         assert!(stated.contains(&words), "{stated}");
     }
     assert!(
-        stated.contains("wanted -2.0000 deg to 2.0000 deg"),
+        stated.contains("required -2.0000 deg to 2.0000 deg"),
         "{stated}"
     );
 }

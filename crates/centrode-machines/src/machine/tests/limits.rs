@@ -90,8 +90,8 @@ fn parts_whose_files_would_have_one_name_are_refused() {
 fn a_search_moves_numbers_of_the_machine_alone() {
     let goal = "[goals.low]\nfigure = \"foot.y\"\nover = \"minimum\"\nminimum = -90\n";
     for (key, stated) in [
-        ("goals.low.minimum", "says what is wanted"),
-        ("input.turns", "says what is wanted"),
+        ("goals.low.minimum", "says what is required"),
+        ("input.turns", "says what is required"),
         ("bodies.crank.points.Z[0]", "unknown key"),
     ] {
         let design = read(&format!("{LEG}\n{goal}[vary]\n\"{key}\" = [1, 2]\n"));
