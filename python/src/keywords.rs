@@ -158,6 +158,11 @@ impl<'py> Call<'py> {
         read(keyword, key, &object).map(Some)
     }
 
+    /// The value of a keyword that may also be None.
+    pub(crate) fn optional<F: Field>(&self, keyword: &str, key: &str) -> Answer<Option<F>> {
+        Ok(self.take::<Option<F>>(keyword, key)?.flatten())
+    }
+
     /// An error if a keyword is left.
     pub(crate) fn end(self) -> PyResult<()> {
         let left = self.keywords.iter().flat_map(|left| left.keys()).next();
