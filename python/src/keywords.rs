@@ -189,4 +189,17 @@ macro_rules! fill {
     };
 }
 
-pub(crate) use fill;
+/// A table of fields that are known, and of those from keywords: zero, empty or none where they are left out.
+macro_rules! build {
+    ($of:expr, $keywords:expr, $($table:ident)::+ { $($known:ident),* }, $place:literal: $($field:ident),*) => {{
+        let call = $crate::keywords::Call::new($of, $keywords);
+        let table = $($table)::+ {
+            $($known,)*
+            $($field: call.take(stringify!($field), concat!($place, stringify!($field)))?.unwrap_or_default(),)*
+        };
+        call.end()?;
+        table
+    }};
+}
+
+pub(crate) use {build, fill};
