@@ -1,5 +1,4 @@
 use centrode_gear::design as spec;
-use pyo3::prelude::PyRef;
 
 use crate::table::table;
 
@@ -67,9 +66,4 @@ table! {
         depth: f64,
     }
     usual {}
-}
-
-/// The body as a design has it: the usual one, if none is given.
-pub(crate) fn spec_of(body: Option<PyRef<'_, Body>>) -> spec::BodySpec {
-    body.map_or_else(spec::BodySpec::default, |body| body.0.clone())
 }

@@ -43,8 +43,3 @@ impl Count {
         Err(Raised::rule(key, &rule))
     }
 }
-
-/// The number, if there is one.
-pub(crate) fn optional(key: &str, count: Option<Count>) -> Answer<Option<u32>> {
-    count.map(|c| c.of(key)).transpose()
-}

@@ -4,27 +4,26 @@ use centrode_analysis::{Contact, remedies};
 use centrode_export::gear_pair::Subject;
 use centrode_gear as mechanism;
 use centrode_gear::Member;
-use centrode_gear::design::{GearPairDesign, GearSpec, Phase, TeethSpec, TipShortening};
+use centrode_gear::design::GearPairDesign;
 use centrode_gear::pitch::{Conjugate, PitchSpec};
 use pyo3::prelude::{
     Bound, Py, PyAny, PyClassInitializer, PyRef, PyResult, Python, pyclass, pymethods,
 };
-use pyo3::types::PyTuple;
+use pyo3::types::{PyDict, PyTuple};
 
 use crate::array::{Course, Numbers, Values};
-use crate::body::{Body, spec_of};
-use crate::count::{Count, optional};
+use crate::count::Count;
 use crate::design::Class;
 use crate::drawing::DrawingSpec;
 use crate::error::Answer;
 use crate::gear::Gear;
+use crate::keywords::{Call, fill};
 use crate::made::Made;
 use crate::mechanism::Mechanism;
 use crate::pitch::Pitch;
-use crate::place::{Place, Shortening};
 use crate::record;
 use crate::sheet::sheet;
-use crate::tool::{self, Tool};
+use crate::tool;
 use crate::wait::wait;
 use crate::word::Word;
 
@@ -114,82 +113,22 @@ impl GearPair {
 #[pymethods]
 impl GearPair {
     #[new]
-    #[pyo3(signature = (pitch, *, mean_ratio=[Count::Fits(1), Count::Fits(1)], tooth_count=None, center_distance=None, tool=None, addendum="full", fit=Vec::new(), phase=Place(Phase::Auto), backlash=0.0, backlash_angle=None, thickness_split=0.5, minimum_tip_width_coefficient=0.2, thickness_deviations=None, pin_diameter=None, driver=None, driven=None, driver_shift=None, driven_shift=None, driver_addendum=None, driven_addendum=None, driver_dedendum=None, driven_dedendum=None, driver_tool=None, driven_tool=None, tip_shortening=Shortening(TipShortening::KeepClearance), drawing=None, name="gear-pair", title=""), text_signature = "(pitch, *, mean_ratio=(1, 1), tooth_count=None, center_distance=None, tool=None, addendum='full', fit=(), phase='auto', backlash=0.0, backlash_angle=None, thickness_split=0.5, minimum_tip_width_coefficient=0.2, thickness_deviations=None, pin_diameter=None, driver=None, driven=None, driver_shift=None, driven_shift=None, driver_addendum=None, driven_addendum=None, driver_dedendum=None, driven_dedendum=None, driver_tool=None, driven_tool=None, tip_shortening='keep-clearance', drawing=None, name='gear-pair', title='')")]
-    #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
+    #[pyo3(signature = (pitch, **keywords), text_signature = "(pitch, *, mean_ratio=(1, 1), tooth_count=None, center_distance=None, tool=None, addendum='full', fit=(), phase='auto', backlash=0.0, backlash_angle=None, thickness_split=0.5, minimum_tip_width_coefficient=0.2, thickness_deviations=None, pin_diameter=None, driver=None, driven=None, driver_shift=None, driven_shift=None, driver_addendum=None, driven_addendum=None, driver_dedendum=None, driven_dedendum=None, driver_tool=None, driven_tool=None, tip_shortening='keep-clearance', drawing=None, name='gear-pair', title='')")]
     fn new(
         py: Python<'_>,
         pitch: PyRef<'_, Pitch>,
-        mean_ratio: [Count; 2],
-        tooth_count: Option<Count>,
-        center_distance: Option<f64>,
-        tool: Option<Tool>,
-        addendum: &str,
-        fit: Vec<String>,
-        phase: Place,
-        backlash: f64,
-        backlash_angle: Option<f64>,
-        thickness_split: f64,
-        minimum_tip_width_coefficient: f64,
-        thickness_deviations: Option<[f64; 2]>,
-        pin_diameter: Option<f64>,
-        driver: Option<PyRef<'_, Body>>,
-        driven: Option<PyRef<'_, Body>>,
-        driver_shift: Option<f64>,
-        driven_shift: Option<f64>,
-        driver_addendum: Option<f64>,
-        driven_addendum: Option<f64>,
-        driver_dedendum: Option<f64>,
-        driven_dedendum: Option<f64>,
-        driver_tool: Option<Tool>,
-        driven_tool: Option<Tool>,
-        tip_shortening: Shortening,
-        drawing: Option<PyRef<'_, DrawingSpec>>,
-        name: &str,
-        title: &str,
+        keywords: Option<Bound<'_, PyDict>>,
     ) -> Answer<PyClassInitializer<Self>> {
-        let [driver_turns, driven_turns] = mean_ratio;
-        let design = GearPairDesign {
-            name: name.into(),
-            title: title.into(),
-            mean_ratio: [
-                driver_turns.of("mean_ratio")?,
-                driven_turns.of("mean_ratio")?,
-            ],
-            tooth_count: optional("tooth_count", tooth_count)?,
-            center_distance,
-            pitch: pitch.spec.clone(),
-            tool: tool.map(|tool| tool.0).unwrap_or_default(),
-            teeth: TeethSpec {
-                addendum: Word::of("teeth.addendum", addendum)?,
-                fit: fit
-                    .iter()
-                    .map(|word| Word::of("teeth.fit", word))
-                    .collect::<Answer<_>>()?,
-                tip_shortening: tip_shortening.0,
-                phase: phase.0,
-                backlash,
-                backlash_angle,
-                thickness_split,
-                minimum_tip_width_coefficient,
-                thickness_deviations,
-                pin_diameter,
-            },
-            driver: GearSpec {
-                shift: driver_shift,
-                addendum: driver_addendum,
-                dedendum: driver_dedendum,
-                tool: driver_tool.map(|tool| tool.0),
-                body: spec_of(driver),
-            },
-            driven: GearSpec {
-                shift: driven_shift,
-                addendum: driven_addendum,
-                dedendum: driven_dedendum,
-                tool: driven_tool.map(|tool| tool.0),
-                body: spec_of(driven),
-            },
-            drawing: drawing.map(|d| d.0.clone()).unwrap_or_default(),
-        };
+        let mut design = GearPairDesign::new(pitch.spec.clone());
+        let call = Call::new("GearPair.__new__", keywords);
+        fill!(call, design, "": name, title, mean_ratio, tooth_count, center_distance, tool, drawing);
+        fill!(call, design.teeth, "teeth.": addendum, fit, tip_shortening, phase, backlash, backlash_angle, thickness_split);
+        fill!(call, design.teeth, "teeth.": minimum_tip_width_coefficient, thickness_deviations, pin_diameter);
+        fill!(call, design.driver, "driver.": driver_shift = shift, driver_addendum = addendum);
+        fill!(call, design.driver, "driver.": driver_dedendum = dedendum, driver_tool = tool, driver = body);
+        fill!(call, design.driven, "driven.": driven_shift = shift, driven_addendum = addendum);
+        fill!(call, design.driven, "driven.": driven_dedendum = dedendum, driven_tool = tool, driven = body);
+        call.end()?;
         Self::made(py, design)
     }
 

@@ -4,18 +4,13 @@ use centrode_kinematics::machine::Keyway as KeywaySpec;
 use pyo3::prelude::IntoPyObject;
 
 use crate::body::Keyway;
-use crate::count::Count;
-use crate::error::Answer;
+use crate::keywords::Field;
 use crate::word::Word;
 
 /// A value of a table, as Python gives and sees it.
-pub(crate) trait Value: Sized {
-    /// The value as given.
-    type Given;
+pub(crate) trait Value: Field {
     /// The value as seen.
     type Shown: for<'py> IntoPyObject<'py>;
-
-    fn of(key: &str, given: Self::Given) -> Answer<Self>;
 
     fn shown(&self) -> Self::Shown;
 }
@@ -24,12 +19,7 @@ pub(crate) trait Value: Sized {
 macro_rules! plain {
     ($($value:ty),*) => {
         $(impl Value for $value {
-            type Given = Self;
             type Shown = Self;
-
-            fn of(_key: &str, given: Self) -> Answer<Self> {
-                Ok(given)
-            }
 
             fn shown(&self) -> Self {
                 self.clone()
@@ -38,28 +28,10 @@ macro_rules! plain {
     };
 }
 
-plain!(f64, String);
-
-impl Value for u32 {
-    type Given = Count;
-    type Shown = Self;
-
-    fn of(key: &str, given: Count) -> Answer<Self> {
-        given.of(key)
-    }
-
-    fn shown(&self) -> Self {
-        *self
-    }
-}
+plain!(f64, u32, String);
 
 impl Value for KeywaySpec {
-    type Given = Keyway;
     type Shown = Keyway;
-
-    fn of(_key: &str, given: Keyway) -> Answer<Self> {
-        Ok(given.0)
-    }
 
     fn shown(&self) -> Keyway {
         Keyway(*self)
@@ -67,12 +39,7 @@ impl Value for KeywaySpec {
 }
 
 impl<W: Word> Value for W {
-    type Given = String;
     type Shown = &'static str;
-
-    fn of(key: &str, given: String) -> Answer<Self> {
-        Word::of(key, &given)
-    }
 
     fn shown(&self) -> &'static str {
         self.word()
@@ -80,12 +47,7 @@ impl<W: Word> Value for W {
 }
 
 impl<T: Value> Value for Option<T> {
-    type Given = T::Given;
     type Shown = Option<T::Shown>;
-
-    fn of(key: &str, given: T::Given) -> Answer<Self> {
-        T::of(key, given).map(Some)
-    }
 
     fn shown(&self) -> Self::Shown {
         self.as_ref().map(Value::shown)
@@ -112,14 +74,15 @@ macro_rules! table {
             #[pyo3(signature = (*, $($needed,)* $($given = None),*))]
             #[allow(clippy::too_many_arguments, reason = "the keys of the table")]
             fn new(
-                $($needed: <$needed_type as $crate::table::Value>::Given,)*
-                $($given: Option<<$given_type as $crate::table::Value>::Given>,)*
+                $($needed: pyo3::Bound<'_, pyo3::PyAny>,)*
+                $($given: Option<pyo3::Bound<'_, pyo3::PyAny>>,)*
             ) -> $crate::error::Answer<Self> {
                 let mut table: $spec = $usual;
-                $(table.$needed = $crate::table::Value::of(concat!($place, stringify!($needed)), $needed)?;)*
                 $(if let Some($given) = $given {
-                    table.$given = $crate::table::Value::of(concat!($place, stringify!($given)), $given)?;
+                    table.$given = $crate::keywords::read(stringify!($given), concat!($place, stringify!($given)), &$given)?;
                 })*
+                $(table.$needed =
+                    $crate::keywords::read(stringify!($needed), concat!($place, stringify!($needed)), &$needed)?;)*
                 let rules: fn(&$spec) -> Result<(), centrode_spec::SpecError> = $rules;
                 rules(&table)?;
                 Ok(Self(table))

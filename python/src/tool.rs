@@ -2,8 +2,10 @@ use centrode_gear::design as spec;
 use centrode_spec::SpecError;
 use pyo3::IntoPyObjectExt;
 use pyo3::exceptions::PyTypeError;
-use pyo3::prelude::{Borrowed, FromPyObject, Py, PyAny, PyErr, PyResult, Python};
+use pyo3::prelude::{Bound, Py, PyAny, PyAnyMethods, PyResult, Python};
 
+use crate::error::Answer;
+use crate::keywords::Field;
 use crate::table::table;
 
 table! {
@@ -64,21 +66,17 @@ table! {
     }
 }
 
-/// Either tool, as a design has it.
-#[derive(Debug)]
-pub(crate) struct Tool(pub(crate) spec::ToolSpec);
+impl Field for spec::ToolSpec {
+    fn none() -> Option<Self> {
+        Some(Self::default())
+    }
 
-impl<'a, 'py> FromPyObject<'a, 'py> for Tool {
-    type Error = PyErr;
-
-    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+    fn read(_key: &str, object: &Bound<'_, PyAny>) -> Answer<Self> {
         if let Ok(Rack(rack)) = object.extract() {
-            return Ok(Self(spec::ToolSpec::Rack(rack)));
+            return Ok(Self::Rack(rack));
         }
-        match object.extract() {
-            Ok(Shaper(shaper)) => Ok(Self(spec::ToolSpec::Shaper(shaper))),
-            Err(_) => Err(PyTypeError::new_err("tool must be a Rack or a Shaper")),
-        }
+        let shaper = object.extract().map(|Shaper(shaper)| Self::Shaper(shaper));
+        Ok(shaper.map_err(|_| PyTypeError::new_err("tool must be a Rack or a Shaper"))?)
     }
 }
 

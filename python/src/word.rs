@@ -12,10 +12,16 @@ use centrode_spec::{Projection, SheetSize};
 use centrode_synthesis::optimise::Strategy;
 use centrode_synthesis::reverse::{Aim, SplitKind};
 
+/// What a number makes, where one may stand in place of a word, and the sentence for what is neither.
+pub(crate) type OrNumber<T> = Option<(fn(f64) -> T, &'static str)>;
+
 /// One of a few, each known by a word.
 pub(crate) trait Word: Copy + PartialEq + 'static {
     /// All of them, by their words.
     const WORDS: &'static [(&'static str, Self)];
+
+    /// Whether a number may stand in place of a word.
+    const NUMBER: OrNumber<Self> = None;
 
     /// The one of a word given at a key.
     fn of(key: &str, word: &str) -> Answer<Self> {
@@ -56,6 +62,8 @@ impl Word for Phase {
         ("space", Self::Space),
         ("congruent", Self::Congruent),
     ];
+    const NUMBER: OrNumber<Self> =
+        Some((Self::Pitches, "phase must be a word or a number of pitches"));
 }
 
 impl Word for TipShortening {
@@ -63,6 +71,7 @@ impl Word for TipShortening {
         ("keep-clearance", Self::KeepClearance),
         ("none", Self::None),
     ];
+    const NUMBER: OrNumber<Self> = Some((Self::By, "tip_shortening must be a word or a number"));
 }
 
 impl Word for Plane {

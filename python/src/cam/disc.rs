@@ -4,18 +4,17 @@ use std::sync::Arc;
 use centrode_export::{Options, cam as export};
 use centrode_gear::cam::{Cam, Contact, Extreme, design as spec};
 use pyo3::prelude::{Bound, PyAny, PyRef, PyResult, Python, pyclass, pymethods};
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyDictMethods};
 
 use super::parts::{Follower, Segment};
 use crate::array::{Course, Rows, Values, row};
-use crate::body::Body;
 use crate::error::{Answer, plain_tolerance};
 use crate::files;
+use crate::keywords::{Call, fill};
 use crate::made::{Made, Reduced, native};
 use crate::record::Keywords;
 use crate::solid::Sides;
 use crate::wait::wait;
-use crate::word::Word;
 
 /// An extreme as the pair of cam angle and value.
 type Peak = (f64, f64);
@@ -77,41 +76,31 @@ fn peak(extreme: Extreme) -> Peak {
 #[pymethods]
 impl DiscCam {
     #[new]
-    #[pyo3(signature = (follower, segments, *, base_radius, rotation="counter-clockwise", start=0.0, body=None,
-        name="cam", title=""))]
-    #[expect(clippy::too_many_arguments, reason = "the keywords of the design file")]
+    #[pyo3(signature = (follower, segments, *, base_radius, **keywords), text_signature = "(follower, segments, *, base_radius, rotation='counter-clockwise', start=0.0, body=None, name='cam', title='')")]
     fn make<'py>(
         py: Python<'py>,
         follower: PyRef<'py, Follower>,
         segments: Vec<PyRef<'py, Segment>>,
         base_radius: f64,
-        rotation: &str,
-        start: f64,
-        body: Option<PyRef<'py, Body>>,
-        name: &str,
-        title: &str,
+        keywords: Option<Bound<'py, PyDict>>,
     ) -> Answer<Self> {
-        let again = Keywords::new(py)
+        let again = keywords
+            .as_ref()
+            .map_or_else(|| Ok(PyDict::new(py)), |k| k.copy())?;
+        let again = Keywords(again)
             .with("follower", &follower)?
             .with("segments", &segments)?
-            .with("base_radius", base_radius)?
-            .with("rotation", rotation)?
-            .with("start", start)?
-            .with("body", body.as_ref())?
-            .with("name", name)?
-            .with("title", title)?;
+            .with("base_radius", base_radius)?;
         let made = Made::call(native(py, "DiscCam")?, Vec::new(), again)?;
         let motion = spec::MotionSpec {
-            start,
+            start: 0.0,
             segments: segments.iter().map(|segment| segment.0.clone()).collect(),
         };
         let mut design = spec::CamSpec::new(base_radius, follower.0.clone(), motion);
-        design.rotation = Word::of("rotation", rotation)?;
-        design.name = name.to_owned();
-        design.title = title.to_owned();
-        if let Some(body) = body {
-            design.body = body.0.clone();
-        }
+        let call = Call::new("DiscCam.__new__", keywords);
+        fill!(call, design, "": rotation, body, name, title);
+        fill!(call, design.motion, "": start);
+        call.end()?;
         let cam = wait(py, move || Cam::resolve(&design))??;
         Ok(Self::new(cam, made))
     }

@@ -4,11 +4,13 @@ use centrode_gear::cam::design as spec;
 use centrode_gear::cam::law::LawSpec;
 use pyo3::exceptions::PyTypeError;
 use pyo3::prelude::{
-    Borrowed, FromPyObject, PyAny, PyErr, PyRef, PyResult, Python, pyclass, pyfunction, pymethods,
+    Bound, PyAny, PyAnyMethods, PyErr, PyRef, PyResult, Python, pyclass, pyfunction, pymethods,
 };
+use pyo3::types::PyDict;
 
 use super::laws::{Law, law as named};
 use crate::error::Answer;
+use crate::keywords::{Field, build};
 use crate::made::{Reduced, by};
 use crate::record::Keywords;
 use crate::word::Word;
@@ -24,18 +26,17 @@ pub(crate) struct Segment(pub(crate) spec::SegmentSpec);
 pub(crate) struct Follower(pub(crate) spec::Follower);
 
 /// A law, or the name of one.
-#[derive(Debug)]
-pub(crate) struct AnyLaw(LawSpec);
+impl Field for LawSpec {
+    fn none() -> Option<Self> {
+        Some(Self::default())
+    }
 
-impl<'a, 'py> FromPyObject<'a, 'py> for AnyLaw {
-    type Error = PyErr;
-
-    fn extract(object: Borrowed<'a, 'py, PyAny>) -> PyResult<Self> {
+    fn read(_key: &str, object: &Bound<'_, PyAny>) -> Answer<Self> {
         if let Ok(name) = object.extract::<String>() {
-            return Ok(Self(named(&name)?.spec));
+            return Ok(named(&name)?.spec);
         }
-        let law: PyRef<'_, Law> = object.extract()?;
-        Ok(Self(law.spec.clone()))
+        let law: PyRef<'_, Law> = object.extract().map_err(PyErr::from)?;
+        Ok(law.spec.clone())
     }
 }
 
@@ -151,14 +152,12 @@ fn unpickled(of: &dyn std::fmt::Debug) -> PyErr {
     PyTypeError::new_err(format!("cannot pickle {of:?}"))
 }
 
-fn travel(span: f64, lift: Option<f64>, swing: Option<f64>, law: Option<AnyLaw>) -> spec::Travel {
-    let law = law.map_or_else(LawSpec::default, |law| law.0);
-    spec::Travel {
-        span,
-        lift,
-        swing,
-        law,
-    }
+fn travel(
+    of: &'static str,
+    span: f64,
+    keywords: Option<Bound<'_, PyDict>>,
+) -> Answer<spec::Travel> {
+    Ok(build!(of, keywords, spec::Travel { span }, "": lift, swing, law))
 }
 
 /// A rise over the cam angle `span` by `lift` (mm, a slide) or `swing` (rad, an arm); the law is
@@ -168,14 +167,10 @@ fn travel(span: f64, lift: Option<f64>, swing: Option<f64>, law: Option<AnyLaw>)
 /// >>> ct.cam.rise(span=2, lift=10, law="modified-sine")
 /// Segment(rise, span=2.0, change=10.0)
 #[pyfunction]
-#[pyo3(signature = (*, span, lift=None, swing=None, law=None))]
-pub(crate) fn rise(
-    span: f64,
-    lift: Option<f64>,
-    swing: Option<f64>,
-    law: Option<AnyLaw>,
-) -> Segment {
-    Segment(spec::SegmentSpec::Rise(travel(span, lift, swing, law)))
+#[pyo3(signature = (*, span, **keywords), text_signature = "(*, span, lift=None, swing=None, law=None)")]
+pub(crate) fn rise(span: f64, keywords: Option<Bound<'_, PyDict>>) -> Answer<Segment> {
+    let travel = travel("rise", span, keywords)?;
+    Ok(Segment(spec::SegmentSpec::Rise(travel)))
 }
 
 /// A return over the cam angle `span` by `lift` (mm, a slide) or `swing` (rad, an arm), both positive.
@@ -184,14 +179,10 @@ pub(crate) fn rise(
 /// >>> ct.cam.return_(span=0.5, lift=10, law=ct.cam.law("modified-trapezoid"))
 /// Segment(return, span=0.5, change=-10.0)
 #[pyfunction]
-#[pyo3(signature = (*, span, lift=None, swing=None, law=None))]
-pub(crate) fn return_(
-    span: f64,
-    lift: Option<f64>,
-    swing: Option<f64>,
-    law: Option<AnyLaw>,
-) -> Segment {
-    Segment(spec::SegmentSpec::Return(travel(span, lift, swing, law)))
+#[pyo3(signature = (*, span, **keywords), text_signature = "(*, span, lift=None, swing=None, law=None)")]
+pub(crate) fn return_(span: f64, keywords: Option<Bound<'_, PyDict>>) -> Answer<Segment> {
+    let travel = travel("return_", span, keywords)?;
+    Ok(Segment(spec::SegmentSpec::Return(travel)))
 }
 
 /// No motion over the cam angle `span`.
@@ -203,26 +194,11 @@ pub(crate) fn dwell(span: f64) -> Segment {
 
 /// The fifth-degree polynomial between given velocities and accelerations, per radian of cam angle.
 #[pyfunction]
-#[pyo3(signature = (*, span, lift=None, swing=None, start_velocity=0.0, start_acceleration=0.0,
-    end_velocity=0.0, end_acceleration=0.0))]
-pub(crate) fn transition(
-    span: f64,
-    lift: Option<f64>,
-    swing: Option<f64>,
-    start_velocity: f64,
-    start_acceleration: f64,
-    end_velocity: f64,
-    end_acceleration: f64,
-) -> Segment {
-    Segment(spec::SegmentSpec::Transition(spec::Transition {
-        span,
-        lift,
-        swing,
-        start_velocity,
-        start_acceleration,
-        end_velocity,
-        end_acceleration,
-    }))
+#[pyo3(signature = (*, span, **keywords), text_signature = "(*, span, lift=None, swing=None, start_velocity=0.0, start_acceleration=0.0, end_velocity=0.0, end_acceleration=0.0)")]
+pub(crate) fn transition(span: f64, keywords: Option<Bound<'_, PyDict>>) -> Answer<Segment> {
+    let between = build!("transition", keywords, spec::Transition { span }, "":
+        lift, swing, start_velocity, start_acceleration, end_velocity, end_acceleration);
+    Ok(Segment(spec::SegmentSpec::Transition(between)))
 }
 
 fn follower(follower: spec::Follower) -> Answer<Follower> {

@@ -1,13 +1,14 @@
 //! One function a kind of pitch curve: keywords as in the design file, angles in radians.
 
 use centrode_gear::pitch as spec;
-use pyo3::prelude::{Borrowed, FromPyObject, PyAny, PyErr, PyRef, PyResult, pyfunction};
+use pyo3::prelude::{Borrowed, Bound, FromPyObject, PyAny, PyErr, PyRef, PyResult, pyfunction};
+use pyo3::types::PyDict;
 
 use super::Pitch;
-use crate::array::{Numbers, list};
-use crate::count::{Count, optional};
+use crate::array::Numbers;
+use crate::count::Count;
 use crate::error::Answer;
-use crate::word::Word;
+use crate::keywords::{Call, build, fill};
 
 /// A function of one angle: a formula in `phi`, or values at equal steps of it.
 #[derive(Debug)]
@@ -40,9 +41,18 @@ impl Law {
     }
 }
 
-fn interpolation(word: Option<&str>) -> Answer<Option<spec::Interpolation>> {
-    word.map(|word| Word::of("pitch.interpolation", word))
-        .transpose()
+/// Resolves the curve of a kind from keys that are known and those from keywords; without the former all may be left out.
+macro_rules! curve {
+    ($of:literal, $keywords:expr, $kind:ident { $($known:ident),* }: $($field:ident),*) => {{
+        let curve = build!($of, $keywords, spec::$kind { $($known),* }, "pitch.": $($field),*);
+        Pitch::resolve(spec::PitchSpec::$kind(curve))
+    }};
+    ($of:literal, $keywords:expr, $kind:ident: $($field:ident),*) => {{
+        let (call, mut curve) = (Call::new($of, $keywords), spec::$kind::default());
+        fill!(call, curve, "pitch.": $($field),*);
+        call.end()?;
+        Pitch::resolve(spec::PitchSpec::$kind(curve))
+    }};
 }
 
 /// A circle around the shaft axis: an ordinary gear. Give `radius`, or `module` and `tooth_count`.
@@ -51,19 +61,9 @@ fn interpolation(word: Option<&str>) -> Answer<Option<spec::Interpolation>> {
 /// >>> round(ct.pitch.circle(radius=20, tooth_count=20).module, 12)
 /// 2.0
 #[pyfunction]
-#[pyo3(signature = (*, radius=None, module=None, tooth_count=None, diametral_pitch=None))]
-pub(crate) fn circle(
-    radius: Option<f64>,
-    module: Option<f64>,
-    tooth_count: Option<Count>,
-    diametral_pitch: Option<f64>,
-) -> Answer<Pitch> {
-    Pitch::resolve(spec::PitchSpec::Circle(spec::Circle {
-        radius,
-        module,
-        tooth_count: optional("pitch.tooth_count", tooth_count)?,
-        diametral_pitch,
-    }))
+#[pyo3(signature = (**keywords), text_signature = "(*, radius=None, module=None, tooth_count=None, diametral_pitch=None)")]
+pub(crate) fn circle(keywords: Option<Bound<'_, PyDict>>) -> Answer<Pitch> {
+    curve!("circle", keywords, Circle: radius, module, tooth_count, diametral_pitch)
 }
 
 /// A circle whose shaft axis is off its centre, by `eccentricity` radii.
@@ -72,21 +72,12 @@ pub(crate) fn circle(
 /// >>> ct.pitch.eccentric_circle(eccentricity=0.2, radius=20).points([0.0])
 /// array([[24.,  0.]])
 #[pyfunction]
-#[pyo3(signature = (*, eccentricity, radius=None, module=None, tooth_count=None, diametral_pitch=None))]
+#[pyo3(signature = (*, eccentricity, **keywords), text_signature = "(*, eccentricity, radius=None, module=None, tooth_count=None, diametral_pitch=None)")]
 pub(crate) fn eccentric_circle(
     eccentricity: f64,
-    radius: Option<f64>,
-    module: Option<f64>,
-    tooth_count: Option<Count>,
-    diametral_pitch: Option<f64>,
+    keywords: Option<Bound<'_, PyDict>>,
 ) -> Answer<Pitch> {
-    Pitch::resolve(spec::PitchSpec::EccentricCircle(spec::EccentricCircle {
-        eccentricity,
-        radius,
-        module,
-        tooth_count: optional("pitch.tooth_count", tooth_count)?,
-        diametral_pitch,
-    }))
+    curve!("eccentric_circle", keywords, EccentricCircle { eccentricity }: radius, module, tooth_count, diametral_pitch)
 }
 
 /// An ellipse turning about a focus, its far end at the polar angle zero: r = A (1 - k^2) / (1 - k cos phi).
@@ -97,21 +88,9 @@ pub(crate) fn eccentric_circle(
 /// >>> ct.pitch.ellipse(eccentricity=0.25, semi_major_axis=20).points([0.0])
 /// array([[25.,  0.]])
 #[pyfunction]
-#[pyo3(signature = (*, eccentricity, semi_major_axis=None, module=None, tooth_count=None, diametral_pitch=None))]
-pub(crate) fn ellipse(
-    eccentricity: f64,
-    semi_major_axis: Option<f64>,
-    module: Option<f64>,
-    tooth_count: Option<Count>,
-    diametral_pitch: Option<f64>,
-) -> Answer<Pitch> {
-    Pitch::resolve(spec::PitchSpec::Ellipse(spec::Ellipse {
-        eccentricity,
-        semi_major_axis,
-        module,
-        tooth_count: optional("pitch.tooth_count", tooth_count)?,
-        diametral_pitch,
-    }))
+#[pyo3(signature = (*, eccentricity, **keywords), text_signature = "(*, eccentricity, semi_major_axis=None, module=None, tooth_count=None, diametral_pitch=None)")]
+pub(crate) fn ellipse(eccentricity: f64, keywords: Option<Bound<'_, PyDict>>) -> Answer<Pitch> {
+    curve!("ellipse", keywords, Ellipse { eccentricity }: semi_major_axis, module, tooth_count, diametral_pitch)
 }
 
 /// A focal ellipse drawn together so that it repeats `lobes` times in one turn.
@@ -120,23 +99,15 @@ pub(crate) fn ellipse(
 /// >>> ct.pitch.lobed_ellipse(lobes=2, eccentricity=0.1, module=2, tooth_count=30).tooth_count
 /// 30
 #[pyfunction]
-#[pyo3(signature = (*, lobes, eccentricity, semi_major_axis=None, module=None, tooth_count=None, diametral_pitch=None))]
+#[pyo3(signature = (*, lobes, eccentricity, **keywords), text_signature = "(*, lobes, eccentricity, semi_major_axis=None, module=None, tooth_count=None, diametral_pitch=None)")]
 pub(crate) fn lobed_ellipse(
     lobes: Count,
     eccentricity: f64,
-    semi_major_axis: Option<f64>,
-    module: Option<f64>,
-    tooth_count: Option<Count>,
-    diametral_pitch: Option<f64>,
+    keywords: Option<Bound<'_, PyDict>>,
 ) -> Answer<Pitch> {
-    Pitch::resolve(spec::PitchSpec::LobedEllipse(spec::LobedEllipse {
-        lobes: lobes.of("pitch.lobes")?,
-        eccentricity,
-        semi_major_axis,
-        module,
-        tooth_count: optional("pitch.tooth_count", tooth_count)?,
-        diametral_pitch,
-    }))
+    let lobes = lobes.of("pitch.lobes")?;
+    curve!("lobed_ellipse", keywords, LobedEllipse { lobes, eccentricity }:
+        semi_major_axis, module, tooth_count, diametral_pitch)
 }
 
 /// A closed uniform B-spline, from control points or (`interpolate=True`) through the points.
@@ -149,32 +120,10 @@ pub(crate) fn lobed_ellipse(
 /// >>> square.period
 /// 4.0
 #[pyfunction]
-#[pyo3(signature = (*, radius=None, angle=None, x=None, y=None, degree=Count::Fits(3), plane="polar", interpolate=false, module=None, tooth_count=None, diametral_pitch=None), text_signature = "(*, radius=None, angle=None, x=None, y=None, degree=3, plane='polar', interpolate=False, module=None, tooth_count=None, diametral_pitch=None)")]
-#[expect(clippy::too_many_arguments, reason = "keyword arguments")]
-pub(crate) fn bspline(
-    radius: Option<Numbers>,
-    angle: Option<Numbers>,
-    x: Option<Numbers>,
-    y: Option<Numbers>,
-    degree: Count,
-    plane: &str,
-    interpolate: bool,
-    module: Option<f64>,
-    tooth_count: Option<Count>,
-    diametral_pitch: Option<f64>,
-) -> Answer<Pitch> {
-    Pitch::resolve(spec::PitchSpec::Bspline(spec::Bspline {
-        plane: Word::of("pitch.plane", plane)?,
-        degree: degree.of("pitch.degree")?,
-        interpolate,
-        radius: list(radius),
-        angle: list(angle),
-        x: list(x),
-        y: list(y),
-        module,
-        tooth_count: optional("pitch.tooth_count", tooth_count)?,
-        diametral_pitch,
-    }))
+#[pyo3(signature = (**keywords), text_signature = "(*, radius=None, angle=None, x=None, y=None, degree=3, plane='polar', interpolate=False, module=None, tooth_count=None, diametral_pitch=None)")]
+pub(crate) fn bspline(keywords: Option<Bound<'_, PyDict>>) -> Answer<Pitch> {
+    curve!("bspline", keywords, Bspline:
+        radius, angle, x, y, degree, plane, interpolate, module, tooth_count, diametral_pitch)
 }
 
 /// A closed chain of Bezier arcs: of each arc all control points but the last, which is the next one's first.
@@ -184,30 +133,9 @@ pub(crate) fn bspline(
 /// >>> ct.pitch.bezier(x=x, y=y, plane="cartesian", degree=2).points([0.0])
 /// array([[10., 10.]])
 #[pyfunction]
-#[pyo3(signature = (*, radius=None, angle=None, x=None, y=None, degree=Count::Fits(3), plane="polar", module=None, tooth_count=None, diametral_pitch=None), text_signature = "(*, radius=None, angle=None, x=None, y=None, degree=3, plane='polar', module=None, tooth_count=None, diametral_pitch=None)")]
-#[expect(clippy::too_many_arguments, reason = "keyword arguments")]
-pub(crate) fn bezier(
-    radius: Option<Numbers>,
-    angle: Option<Numbers>,
-    x: Option<Numbers>,
-    y: Option<Numbers>,
-    degree: Count,
-    plane: &str,
-    module: Option<f64>,
-    tooth_count: Option<Count>,
-    diametral_pitch: Option<f64>,
-) -> Answer<Pitch> {
-    Pitch::resolve(spec::PitchSpec::Bezier(spec::Bezier {
-        plane: Word::of("pitch.plane", plane)?,
-        degree: degree.of("pitch.degree")?,
-        radius: list(radius),
-        angle: list(angle),
-        x: list(x),
-        y: list(y),
-        module,
-        tooth_count: optional("pitch.tooth_count", tooth_count)?,
-        diametral_pitch,
-    }))
+#[pyo3(signature = (**keywords), text_signature = "(*, radius=None, angle=None, x=None, y=None, degree=3, plane='polar', module=None, tooth_count=None, diametral_pitch=None)")]
+pub(crate) fn bezier(keywords: Option<Bound<'_, PyDict>>) -> Answer<Pitch> {
+    curve!("bezier", keywords, Bezier: radius, angle, x, y, degree, plane, module, tooth_count, diametral_pitch)
 }
 
 /// A limacon of Pascal: r = b + c cos(N phi), with `mean_radius` b, `amplitude` c and `lobes` N.
@@ -216,23 +144,15 @@ pub(crate) fn bezier(
 /// >>> ct.pitch.limacon(mean_radius=20, amplitude=2).points([0.0])
 /// array([[22.,  0.]])
 #[pyfunction]
-#[pyo3(signature = (*, mean_radius, amplitude, lobes=Count::Fits(1), module=None, tooth_count=None, diametral_pitch=None), text_signature = "(*, mean_radius, amplitude, lobes=1, module=None, tooth_count=None, diametral_pitch=None)")]
+#[pyo3(signature = (*, mean_radius, amplitude, lobes=Count::Fits(1), **keywords), text_signature = "(*, mean_radius, amplitude, lobes=1, module=None, tooth_count=None, diametral_pitch=None)")]
 pub(crate) fn limacon(
     mean_radius: f64,
     amplitude: f64,
     lobes: Count,
-    module: Option<f64>,
-    tooth_count: Option<Count>,
-    diametral_pitch: Option<f64>,
+    keywords: Option<Bound<'_, PyDict>>,
 ) -> Answer<Pitch> {
-    Pitch::resolve(spec::PitchSpec::Limacon(spec::Limacon {
-        mean_radius,
-        amplitude,
-        lobes: lobes.of("pitch.lobes")?,
-        module,
-        tooth_count: optional("pitch.tooth_count", tooth_count)?,
-        diametral_pitch,
-    }))
+    let lobes = lobes.of("pitch.lobes")?;
+    curve!("limacon", keywords, Limacon { mean_radius, amplitude, lobes }: module, tooth_count, diametral_pitch)
 }
 
 /// Radius as a function of the polar angle: a formula in ``phi``, radii, or a Fourier series.
@@ -254,32 +174,11 @@ pub(crate) fn limacon(
 /// >>> ct.pitch.polar(mean=20, cos=[0, 2]).points([0.0])
 /// array([[22.,  0.]])
 #[pyfunction]
-#[pyo3(signature = (radius=None, *, angle=None, interpolation=None, mean=None, cos=None, sin=None, module=None, tooth_count=None, diametral_pitch=None))]
-#[expect(clippy::too_many_arguments, reason = "keyword arguments")]
-pub(crate) fn polar(
-    radius: Option<Law>,
-    angle: Option<Numbers>,
-    interpolation: Option<&str>,
-    mean: Option<f64>,
-    cos: Option<Numbers>,
-    sin: Option<Numbers>,
-    module: Option<f64>,
-    tooth_count: Option<Count>,
-    diametral_pitch: Option<f64>,
-) -> Answer<Pitch> {
+#[pyo3(signature = (radius=None, **keywords), text_signature = "(radius=None, *, angle=None, interpolation=None, mean=None, cos=None, sin=None, module=None, tooth_count=None, diametral_pitch=None)")]
+pub(crate) fn polar(radius: Option<Law>, keywords: Option<Bound<'_, PyDict>>) -> Answer<Pitch> {
     let (expression, radius) = Law::parts(radius);
-    Pitch::resolve(spec::PitchSpec::Polar(spec::Polar {
-        expression,
-        radius,
-        angle: list(angle),
-        interpolation: self::interpolation(interpolation)?,
-        mean,
-        cos: list(cos),
-        sin: list(sin),
-        module,
-        tooth_count: optional("pitch.tooth_count", tooth_count)?,
-        diametral_pitch,
-    }))
+    curve!("polar", keywords, Polar { expression, radius }:
+        angle, interpolation, mean, cos, sin, module, tooth_count, diametral_pitch)
 }
 
 /// The curve that turns the driven gear by a given law: a formula in ``phi``, or samples over one driver turn.
@@ -298,25 +197,14 @@ pub(crate) fn polar(
 /// >>> pitch.implied_ratio
 /// (2, 1)
 #[pyfunction]
-#[pyo3(signature = (driven_angle, *, interpolation=None, center_distance=None, module=None, tooth_count=None, diametral_pitch=None))]
+#[pyo3(signature = (driven_angle, **keywords), text_signature = "(driven_angle, *, interpolation=None, center_distance=None, module=None, tooth_count=None, diametral_pitch=None)")]
 pub(crate) fn from_transmission(
     driven_angle: Law,
-    interpolation: Option<&str>,
-    center_distance: Option<f64>,
-    module: Option<f64>,
-    tooth_count: Option<Count>,
-    diametral_pitch: Option<f64>,
+    keywords: Option<Bound<'_, PyDict>>,
 ) -> Answer<Pitch> {
     let (expression, driven_angle) = Law::parts(Some(driven_angle));
-    Pitch::resolve(spec::PitchSpec::Transmission(spec::Transmission {
-        expression,
-        driven_angle,
-        interpolation: self::interpolation(interpolation)?,
-        center_distance,
-        module,
-        tooth_count: optional("pitch.tooth_count", tooth_count)?,
-        diametral_pitch,
-    }))
+    curve!("from_transmission", keywords, Transmission { expression, driven_angle }:
+        interpolation, center_distance, module, tooth_count, diametral_pitch)
 }
 
 /// The curve with a given ratio d driven / d driver: a formula in ``phi``, or samples over one driver turn.
@@ -328,25 +216,11 @@ pub(crate) fn from_transmission(
 /// >>> pitch.implied_ratio
 /// (1, 1)
 #[pyfunction]
-#[pyo3(signature = (ratio, *, interpolation=None, center_distance=None, module=None, tooth_count=None, diametral_pitch=None))]
-pub(crate) fn from_ratio(
-    ratio: Law,
-    interpolation: Option<&str>,
-    center_distance: Option<f64>,
-    module: Option<f64>,
-    tooth_count: Option<Count>,
-    diametral_pitch: Option<f64>,
-) -> Answer<Pitch> {
+#[pyo3(signature = (ratio, **keywords), text_signature = "(ratio, *, interpolation=None, center_distance=None, module=None, tooth_count=None, diametral_pitch=None)")]
+pub(crate) fn from_ratio(ratio: Law, keywords: Option<Bound<'_, PyDict>>) -> Answer<Pitch> {
     let (expression, ratio) = Law::parts(Some(ratio));
-    Pitch::resolve(spec::PitchSpec::Ratio(spec::Ratio {
-        expression,
-        ratio,
-        interpolation: self::interpolation(interpolation)?,
-        center_distance,
-        module,
-        tooth_count: optional("pitch.tooth_count", tooth_count)?,
-        diametral_pitch,
-    }))
+    curve!("from_ratio", keywords, Ratio { expression, ratio }:
+        interpolation, center_distance, module, tooth_count, diametral_pitch)
 }
 
 /// The curve that rolls on another: the driven curve of one pair as the driver of the next.
@@ -365,23 +239,17 @@ pub(crate) fn from_ratio(
 /// >>> wheel.points([0.0]).round(12)
 /// array([[20.,  0.]])
 #[pyfunction]
-#[pyo3(signature = (of, *, mean_ratio=[Count::Fits(1), Count::Fits(1)], module=None, tooth_count=None, diametral_pitch=None), text_signature = "(of, *, mean_ratio=(1, 1), module=None, tooth_count=None, diametral_pitch=None)")]
+#[pyo3(signature = (of, *, mean_ratio=[Count::Fits(1), Count::Fits(1)], **keywords), text_signature = "(of, *, mean_ratio=(1, 1), module=None, tooth_count=None, diametral_pitch=None)")]
 pub(crate) fn conjugate(
     of: PyRef<'_, Pitch>,
     mean_ratio: [Count; 2],
-    module: Option<f64>,
-    tooth_count: Option<Count>,
-    diametral_pitch: Option<f64>,
+    keywords: Option<Bound<'_, PyDict>>,
 ) -> Answer<Pitch> {
     let [driver, driven] = mean_ratio;
-    Pitch::resolve(spec::PitchSpec::Conjugate(spec::Conjugate {
-        mean_ratio: [
-            driver.of("pitch.mean_ratio")?,
-            driven.of("pitch.mean_ratio")?,
-        ],
-        module,
-        tooth_count: optional("pitch.tooth_count", tooth_count)?,
-        diametral_pitch,
-        of: Box::new(of.spec.clone()),
-    }))
+    let mean_ratio = [
+        driver.of("pitch.mean_ratio")?,
+        driven.of("pitch.mean_ratio")?,
+    ];
+    let of = Box::new(of.spec.clone());
+    curve!("conjugate", keywords, Conjugate { mean_ratio, of }: module, tooth_count, diametral_pitch)
 }

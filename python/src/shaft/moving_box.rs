@@ -3,14 +3,15 @@ use std::sync::Arc;
 use centrode_gear::GearPair as Gears;
 use centrode_groove as mechanism;
 use centrode_groove::{EllipticGears, MovingBoxDesign, Scheme};
-use pyo3::prelude::{Py, PyClassInitializer, PyRef, Python, pyclass, pymethods};
+use pyo3::prelude::{Bound, Py, PyClassInitializer, PyRef, Python, pyclass, pymethods};
+use pyo3::types::PyDict;
 
 use super::{BoxDrive, SpiralShaft};
 use crate::array::{Course, Values};
-use crate::count::Count;
 use crate::design::Class;
 use crate::error::Answer;
 use crate::gear_pair::GearPair;
+use crate::keywords::{Call, fill};
 use crate::wait::wait;
 use crate::word::Word;
 
@@ -66,48 +67,33 @@ impl Class for MovingBox {
 #[pymethods]
 impl MovingBox {
     #[new]
-    #[pyo3(signature = (shaft=None, *, scheme=None, eccentricity=None, speed_ratio=None, moved_distance=None, module=2.25, tooth_count=Count::Fits(23), name="moving-box", title=""), text_signature = "(shaft=None, *, scheme=None, eccentricity=None, speed_ratio=None, moved_distance=None, module=2.25, tooth_count=23, name='moving-box', title='')")]
-    #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
+    #[pyo3(signature = (shaft=None, **keywords), text_signature = "(shaft=None, *, scheme=None, eccentricity=None, speed_ratio=None, moved_distance=None, module=2.25, tooth_count=23, name='moving-box', title='')")]
     fn new(
         py: Python<'_>,
         shaft: Option<PyRef<'_, SpiralShaft>>,
-        scheme: Option<&str>,
-        eccentricity: Option<f64>,
-        speed_ratio: Option<f64>,
-        moved_distance: Option<f64>,
-        module: f64,
-        tooth_count: Count,
-        name: &str,
-        title: &str,
+        keywords: Option<Bound<'_, PyDict>>,
     ) -> Answer<PyClassInitializer<Self>> {
-        let mut design = MovingBoxDesign {
-            name: name.into(),
-            title: title.into(),
-            ..MovingBoxDesign::default()
-        };
+        let call = Call::new("MovingBox.__new__", keywords);
+        let (mut design, mut gears) = (MovingBoxDesign::default(), EllipticGears::default());
+        fill!(call, design, "": name, title);
+        fill!(call, gears, "gears.": eccentricity, speed_ratio, moved_distance, module, tooth_count);
+        let scheme = call.optional("scheme", "scheme")?;
+        call.end()?;
         let mut plain = true;
         if let Some(shaft) = shaft {
             design.shaft = shaft.0.design().clone();
             let (slow, fast) = shaft.0.speed_ratio();
             plain = fast - slow <= 1e-12;
         }
-        let given = [eccentricity, speed_ratio, moved_distance];
+        let given = [gears.eccentricity, gears.speed_ratio, gears.moved_distance];
         let geared = given.iter().any(Option::is_some);
-        design.scheme = match scheme {
-            Some(word) => Word::of("scheme", word)?,
-            None if !geared => Scheme::Shaft,
-            None if plain => Scheme::EllipticGear,
-            None => Scheme::Both,
-        };
+        design.scheme = scheme.unwrap_or(match (geared, plain) {
+            (false, _) => Scheme::Shaft,
+            (true, true) => Scheme::EllipticGear,
+            (true, false) => Scheme::Both,
+        });
         if geared || design.scheme != Scheme::Shaft {
-            design.gears = Some(EllipticGears {
-                eccentricity,
-                speed_ratio,
-                moved_distance,
-                module,
-                tooth_count: tooth_count.of("gears.tooth_count")?,
-                ..EllipticGears::default()
-            });
+            design.gears = Some(gears);
         }
         Self::made(py, design)
     }

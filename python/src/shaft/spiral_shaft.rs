@@ -3,8 +3,7 @@ use std::sync::Arc;
 use centrode_gear::cam::law::LawSpec;
 use centrode_groove as mechanism;
 use centrode_groove::{
-    GrooveSpec, Load, RotatedSine, Sine, SpeedFormula, SpeedLaw, SpeedTable, SpiralShaftDesign,
-    Wall,
+    RotatedSine, Sine, SpeedFormula, SpeedLaw, SpeedTable, SpiralShaftDesign, Wall,
 };
 use pyo3::prelude::{
     Bound, PyAny, PyAnyMethods, PyClassInitializer, PyDictMethods, PyResult, Python, pyclass,
@@ -13,10 +12,10 @@ use pyo3::prelude::{
 use pyo3::types::{PyDict, PyType};
 
 use super::BoxDrive;
-use crate::array::{Course, MeshRows, Numbers, Rows, Values, mesh};
-use crate::count::Count;
+use crate::array::{Course, MeshRows, Rows, Values, mesh};
 use crate::design::Class;
 use crate::error::{Answer, Raised, plain_tolerance};
+use crate::keywords::{Call, fill};
 use crate::wait::wait;
 
 /// A variable-speed spiral shaft: the slider's law, the groove out and back, the forces on the slider.
@@ -80,92 +79,54 @@ impl Class for SpiralShaft {
 #[pymethods]
 impl SpiralShaft {
     #[new]
-    #[pyo3(signature = (*, lead=20.0, holes=Count::Fits(14), radius=15.0, amplitude=0.0, harmonic=Count::Fits(1), phase=0.0, rotated=false, speed=None, expression=None, moved_distance=None, window=std::f64::consts::FRAC_PI_3, pick=0.0, pot_width=18.0, reversal_angle=None, reversal_law="harmonic", return_offset=0.0, groove_width=10.0, groove_depth=4.0, slider_length=None, slider_clearance=None, speed_rpm=200.0, mass=10.0, groove_friction=0.10, rail_friction=0.15, name="spiral-shaft", title=""), text_signature = "(*, lead=20.0, holes=14, radius=15.0, amplitude=0.0, harmonic=1, phase=0.0, rotated=False, speed=None, expression=None, moved_distance=None, window=1.0471975511965976, pick=0.0, pot_width=18.0, reversal_angle=None, reversal_law='harmonic', return_offset=0.0, groove_width=10.0, groove_depth=4.0, slider_length=None, slider_clearance=None, speed_rpm=200.0, mass=10.0, groove_friction=0.1, rail_friction=0.15, name='spiral-shaft', title='')")]
-    #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
+    #[pyo3(signature = (**keywords), text_signature = "(*, lead=20.0, holes=14, radius=15.0, amplitude=0.0, harmonic=1, phase=0.0, rotated=False, speed=None, expression=None, moved_distance=None, window=1.0471975511965976, pick=0.0, pot_width=18.0, reversal_angle=None, reversal_law='harmonic', return_offset=0.0, groove_width=10.0, groove_depth=4.0, slider_length=None, slider_clearance=None, speed_rpm=200.0, mass=10.0, groove_friction=0.1, rail_friction=0.15, name='spiral-shaft', title='')")]
     fn new(
         py: Python<'_>,
-        lead: f64,
-        holes: Count,
-        radius: f64,
-        amplitude: f64,
-        harmonic: Count,
-        phase: f64,
-        rotated: bool,
-        speed: Option<Numbers>,
-        expression: Option<String>,
-        moved_distance: Option<f64>,
-        window: f64,
-        pick: f64,
-        pot_width: f64,
-        reversal_angle: Option<f64>,
-        reversal_law: &str,
-        return_offset: f64,
-        groove_width: f64,
-        groove_depth: f64,
-        slider_length: Option<f64>,
-        slider_clearance: Option<f64>,
-        speed_rpm: f64,
-        mass: f64,
-        groove_friction: f64,
-        rail_friction: f64,
-        name: &str,
-        title: &str,
+        keywords: Option<Bound<'_, PyDict>>,
     ) -> Answer<PyClassInitializer<Self>> {
-        let harmonic = harmonic.of("law.harmonic")?;
-        let law = match (speed, expression) {
-            _ if moved_distance.is_some() => SpeedLaw::Sine(Sine {
+        let call = Call::new("SpiralShaft.__new__", keywords);
+        let mut design = SpiralShaftDesign::default();
+        fill!(call, design, "": name, title, lead, holes, radius, moved_distance, window, pick, pot_width, return_offset);
+        fill!(call, design.groove, "groove.": groove_width = width, groove_depth = depth);
+        fill!(call, design.load, "load.": speed_rpm, mass, groove_friction, rail_friction);
+        let (reversal, slider) = (&mut design.reversal, &mut design.slider);
+        for (keyword, length) in [
+            ("reversal_angle", &mut reversal.angle),
+            ("slider_length", &mut slider.length),
+            ("slider_clearance", &mut slider.clearance),
+        ] {
+            *length = call.optional(keyword, keyword)?.unwrap_or(*length);
+        }
+        if let Some(word) = call.take::<String>("reversal_law", "reversal.law")? {
+            reversal.law = LawSpec::named(&word).ok_or_else(|| {
+                let known = LawSpec::NAMED.map(|(name, _)| name);
+                Raised::word("reversal.law", &word, &known)
+            })?;
+        }
+        let mut sine = Sine::default();
+        fill!(call, sine, "law.": amplitude, harmonic, phase);
+        let rotated = call.take("rotated", "law.kind")?.unwrap_or(false);
+        let speed = call.optional("speed", "law.speed")?;
+        let expression = call.optional("expression", "law.expression")?;
+        call.end()?;
+        design.law = match (speed, expression) {
+            _ if design.moved_distance.is_some() => SpeedLaw::Sine(Sine {
                 amplitude: 0.0,
-                harmonic,
-                phase: pick,
+                phase: design.pick,
+                ..sine
             }),
             (Some(speed), _) => SpeedLaw::Table(SpeedTable {
-                speed: speed.into_vec(),
+                speed,
                 interpolation: None,
             }),
             (None, Some(expression)) => SpeedLaw::Formula(SpeedFormula { expression }),
             (None, None) if rotated => SpeedLaw::RotatedSine(RotatedSine {
-                amplitude,
-                harmonic,
-                phase,
+                amplitude: sine.amplitude,
+                harmonic: sine.harmonic,
+                phase: sine.phase,
             }),
-            (None, None) => SpeedLaw::Sine(Sine {
-                amplitude,
-                harmonic,
-                phase,
-            }),
+            (None, None) => SpeedLaw::Sine(sine),
         };
-        let mut design = SpiralShaftDesign {
-            name: name.into(),
-            title: title.into(),
-            lead,
-            holes: holes.of("holes")?,
-            radius,
-            law,
-            moved_distance,
-            window,
-            pick,
-            pot_width,
-            return_offset,
-            groove: GrooveSpec {
-                width: groove_width,
-                depth: groove_depth,
-            },
-            load: Load {
-                speed_rpm,
-                mass,
-                groove_friction,
-                rail_friction,
-            },
-            ..SpiralShaftDesign::default()
-        };
-        let (reversal, slider) = (&mut design.reversal, &mut design.slider);
-        reversal.angle = reversal_angle.unwrap_or(reversal.angle);
-        reversal.law = LawSpec::named(reversal_law).ok_or_else(|| {
-            let known = LawSpec::NAMED.map(|(name, _)| name);
-            Raised::word("reversal.law", reversal_law, &known)
-        })?;
-        slider.length = slider_length.unwrap_or(slider.length);
-        slider.clearance = slider_clearance.unwrap_or(slider.clearance);
         Self::made(py, design)
     }
 

@@ -3,7 +3,7 @@ use std::sync::Arc;
 
 use centrode_analysis::between_arms;
 use centrode_machines::three_arm::ThreeArmLink;
-use centrode_machines::three_arm::design::{ArmSpec, ThreeArmDesign, WorkSpec};
+use centrode_machines::three_arm::design::{ArmSpec, ThreeArmDesign};
 use pyo3::prelude::{
     Bound, Py, PyAny, PyClassInitializer, PyDictMethods, PyRef, Python, pymethods,
 };
@@ -11,24 +11,21 @@ use pyo3::types::PyDict;
 
 use super::{ThreeArm, variants};
 use crate::array::{Course, Rows, Values};
-use crate::body::{Body, spec_of};
 use crate::cam::{DiscCam, Fork};
-use crate::count::{Count, optional};
 use crate::design::Class;
 use crate::error::{Answer, plain_tolerance};
 use crate::gear_pair::GearPair;
+use crate::keywords::{Call, fill};
 use crate::made::Made;
 use crate::pitch::Pitch;
 use crate::record;
-use crate::tool::Tool;
 use crate::wait::wait;
-use crate::word::Word;
 
 #[pymethods]
 impl ThreeArm {
     #[new]
-    #[pyo3(signature = (pitch, *, carrier_start, bend, arm_mounting_angle, tip_distance, pusher_offset, planet_reference=None, arms=Count::Fits(3), direction="clockwise", tooth_count=None, center_distance=None, picking=None, planting=None, rate_per_minute=180.0, plant_spacing=140.0, planting_depth=10.0, tray_distance=None, tray_inclination=0.0, seedling_height=60.0, seedling_width=4.0, clamp_length=60.0, housing_offset=10.0, tool=None, shift=0.0, addendum="full", backlash=0.0, sun=None, intermediate=None, planet=None, name="three-arm", title=""), text_signature = "(pitch, *, carrier_start, bend, arm_mounting_angle, tip_distance, pusher_offset, planet_reference=None, arms=3, direction='clockwise', tooth_count=None, center_distance=None, picking=None, planting=None, rate_per_minute=180.0, plant_spacing=140.0, planting_depth=10.0, tray_distance=None, tray_inclination=0.0, seedling_height=60.0, seedling_width=4.0, clamp_length=60.0, housing_offset=10.0, tool=None, shift=0.0, addendum='full', backlash=0.0, sun=None, intermediate=None, planet=None, name='three-arm', title='')")]
-    #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
+    #[pyo3(signature = (pitch, *, carrier_start, bend, arm_mounting_angle, tip_distance, pusher_offset, **keywords), text_signature = "(pitch, *, carrier_start, bend, arm_mounting_angle, tip_distance, pusher_offset, planet_reference=None, arms=3, direction='clockwise', tooth_count=None, center_distance=None, picking=None, planting=None, rate_per_minute=180.0, plant_spacing=140.0, planting_depth=10.0, tray_distance=None, tray_inclination=0.0, seedling_height=60.0, seedling_width=4.0, clamp_length=60.0, housing_offset=10.0, tool=None, shift=0.0, addendum='full', backlash=0.0, sun=None, intermediate=None, planet=None, name='three-arm', title='')")]
+    #[expect(clippy::too_many_arguments, reason = "keywords that must be given")]
     fn new(
         py: Python<'_>,
         pitch: PyRef<'_, Pitch>,
@@ -37,61 +34,20 @@ impl ThreeArm {
         arm_mounting_angle: f64,
         tip_distance: f64,
         pusher_offset: f64,
-        planet_reference: Option<f64>,
-        arms: Count,
-        direction: &str,
-        tooth_count: Option<Count>,
-        center_distance: Option<f64>,
-        picking: Option<f64>,
-        planting: Option<f64>,
-        rate_per_minute: f64,
-        plant_spacing: f64,
-        planting_depth: f64,
-        tray_distance: Option<f64>,
-        tray_inclination: f64,
-        seedling_height: f64,
-        seedling_width: f64,
-        clamp_length: f64,
-        housing_offset: f64,
-        tool: Option<Tool>,
-        shift: f64,
-        addendum: &str,
-        backlash: f64,
-        sun: Option<PyRef<'_, Body>>,
-        intermediate: Option<PyRef<'_, Body>>,
-        planet: Option<PyRef<'_, Body>>,
-        name: &str,
-        title: &str,
+        keywords: Option<Bound<'_, PyDict>>,
     ) -> Answer<PyClassInitializer<Self>> {
         let arm = ArmSpec::new(arm_mounting_angle, tip_distance, pusher_offset);
         let mut design = ThreeArmDesign::new(pitch.spec.clone(), carrier_start, bend, arm);
-        design.name = name.into();
-        design.title = title.into();
-        design.arms = arms.of("arms")?;
-        design.direction = Word::of("direction", direction)?;
-        design.planet_reference = planet_reference;
-        design.tooth_count = optional("tooth_count", tooth_count)?;
-        design.center_distance = center_distance;
-        design.arm.clamp_length = clamp_length;
-        design.tool = tool.map(|tool| tool.0).unwrap_or_default();
-        design.shift = shift;
-        design.teeth.addendum = Word::of("teeth.addendum", addendum)?;
-        design.teeth.backlash = backlash;
-        design.gearbox.housing_offset = housing_offset;
-        design.work = WorkSpec {
-            picking,
-            planting,
-            rate_per_minute,
-            plant_spacing,
-            planting_depth,
-        };
-        design.tray.distance = tray_distance;
-        design.tray.inclination = tray_inclination;
-        design.seedling.height = seedling_height;
-        design.seedling.width = seedling_width;
-        design.sun = spec_of(sun);
-        design.intermediate = spec_of(intermediate);
-        design.planet = spec_of(planet);
+        let call = Call::new("ThreeArm.__new__", keywords);
+        fill!(call, design, "": name, title, arms, direction, planet_reference, tooth_count, center_distance);
+        fill!(call, design, "": tool, shift, sun, intermediate, planet);
+        fill!(call, design.arm, "arm.": clamp_length);
+        fill!(call, design.teeth, "teeth.": addendum, backlash);
+        fill!(call, design.gearbox, "gearbox.": housing_offset);
+        fill!(call, design.work, "work.": picking, planting, rate_per_minute, plant_spacing, planting_depth);
+        fill!(call, design.tray, "tray.": tray_distance = distance, tray_inclination = inclination);
+        fill!(call, design.seedling, "seedling.": seedling_height = height, seedling_width = width);
+        call.end()?;
         Self::made(py, design)
     }
 
