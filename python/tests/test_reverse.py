@@ -199,7 +199,7 @@ def test_a_drawing_that_gives_no_path_is_refused_with_its_file(tmp_path):
     square = drawing(tmp_path, "M 20 20 H 120 V 80 H 20 Z")
     with pytest.raises(ct.DesignError, match=r"drawn\.svg: .* turns by 90\.00 deg, at \(.*\) mm; round corners"):
         ct.drawn_path(square)
-    with pytest.raises(ct.DesignError, match=r"drawn\.svg: .* does not tell its size: width is \"200\""):
+    with pytest.raises(ct.DesignError, match=r"drawn\.svg: .* does not state its size: width is \"200\""):
         ct.drawn_path(drawing(tmp_path, "M 0 0 Z", width="200"))
     with pytest.raises(ct.DesignError, match="greater than zero"):
         ct.drawn_path(square, within=-1)
@@ -324,7 +324,7 @@ def test_a_free_return_keeps_the_stroke():
     [
         ({"band": -1}, "band of point 1"),
         ({"band": [1, 2]}, "2 bands for 13 points"),
-        ({"band": 1, "module": 0}, "module wanted is greater than zero"),
+        ({"band": 1, "module": 0}, "module is greater than zero"),
         ({"module": 1}, "by how much with band"),
     ],
 )

@@ -123,12 +123,12 @@ PAGES = {
     "README.md": [
         Said("The 2018 elliptic pair (k = {}, m = 2.25 mm", lambda: K),
         Said("both flanks | {} rad, without backlash and with 0.05 mm of it", error),
-        Said("as published to every digit: {} mm, {} mm", ellipse),
+        Said("as an independent computation: {} mm, {} mm", ellipse),
     ],
     "docs/measured.md": [
         Said("The pair of 2018: k = {}, m = 2.25 mm", lambda: K),
         Said("both flanks | {} rad |", error),
-        Said("every published digit: {} mm, {} mm |", ellipse),
+        Said("every digit of an independent computation: {} mm, {} mm |", ellipse),
         Said("| teeth on {} strong laws |", laws),
     ],
     "docs/proof.md": [

@@ -512,7 +512,7 @@ def test_directions_at_points_are_dragged_typed_and_told(page, running):
     angle = float(column(page, 2)[4])
     assert 40 < angle < 85
     # The one direction there is fixes the clamp: it is met as it is drawn.
-    assert wishes(page) == ["✓ clamp off its direction at point 5 0 deg, wanted -2.0000 deg to 2.0000 deg"]
+    assert wishes(page) == ["✓ clamp off its direction at point 5 0 deg, required -2.0000 deg to 2.0000 deg"]
     handle(page, "direction at point 9").focus()
     page.keyboard.press("ArrowDown")
     expect(field(page, "path.direction_deg-8")).not_to_have_value("")
