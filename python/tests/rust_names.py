@@ -1,7 +1,7 @@
 """Public names of the crates, read from the pages that `cargo doc` has made of them.
 
-Run as a program it writes `api.txt` next to each crate's `Cargo.toml`, unless a name has gone that CHANGELOG.md does not
-tell of; with `--check` it compares and writes nothing.
+Run as a program it writes `api.txt` next to each crate's `Cargo.toml`, unless CHANGELOG.md does not name what has gone;
+with `--check` it compares and writes nothing.
 """
 
 import re

@@ -1,4 +1,4 @@
-"""Forces of composed machines next to Newton's and Euler's equations of all bodies, written out here and solved at once.
+"""Forces of composed machines and the equations of Newton and Euler for all bodies, written and solved here at once.
 
 Poses alone come from the package: accelerations are differences of them.
 """

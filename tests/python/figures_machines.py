@@ -299,7 +299,7 @@ def bend_radius():
 
 
 def bent_bar(length, speed):
-    """Minimum of the maximum distance along the shaft of a bar bent round it, that swivels, from the groove it lies in."""
+    """Minimum of the maximum distance along the shaft of a bar bent round it, that swivels, from its groove."""
     half = length / 2 * cos(atan(speed / RADIUS)) / RADIUS
     turn = np.linspace(0, half, 20_001)
     off = lambda slope: abs(speed * turn - slope * np.sin(turn)).max()  # noqa: E731

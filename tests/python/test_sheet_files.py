@@ -177,7 +177,8 @@ def test_dxf_svg_and_pdf_show_the_same(exported, subject):
         assert 0.01 < pdf.mean() < 0.15
         picture = svg_picture(svg.read_text())
         for a, b in [(pdf, picture), (picture, pdf)]:
-            assert share_near(a, b, 0.5) > 0.995
+            # A hatch line half way between two pixels may be too faint in one of them.
+            assert share_near(a, b, 0.5) > 0.99
         # The reader has another font at hand: letters differ within their line, lines do not.
         picture = dxf_picture(dxf, width, height)
         for a, b in [(pdf, picture), (picture, pdf)]:
