@@ -16,7 +16,7 @@ use crate::word::Word;
 
 /// A field of a spec, as a keyword gives it.
 pub(crate) trait Field: Sized {
-    /// What None stands for, where it may be given.
+    /// Value that None stands for, where it may be given.
     fn none() -> Option<Self> {
         None
     }

@@ -12,7 +12,7 @@ use centrode_spec::{Projection, SheetSize};
 use centrode_synthesis::optimise::Strategy;
 use centrode_synthesis::reverse::{Aim, SplitKind};
 
-/// What a number makes, where one may stand in place of a word, and the sentence for what is neither.
+/// Maker of a value from a number, where one may replace a word, and the sentence for anything else.
 pub(crate) type OrNumber<T> = Option<(fn(f64) -> T, &'static str)>;
 
 /// One of a few, each known by a word.
