@@ -129,7 +129,8 @@ def test_pdf_pages_have_their_exact_size_and_carry_the_font(exported, subject):
 
 
 def shrunk(image):
-    return np.asarray(image.convert("L")) < 160
+    # A line of 0.18 mm half way between two pixels of a quarter of a millimetre covers 36 % of each, which leaves 163 of 255.
+    return np.asarray(image.convert("L")) < 170
 
 
 def dxf_picture(file, width, height):
@@ -177,8 +178,7 @@ def test_dxf_svg_and_pdf_show_the_same(exported, subject):
         assert 0.01 < pdf.mean() < 0.15
         picture = svg_picture(svg.read_text())
         for a, b in [(pdf, picture), (picture, pdf)]:
-            # A hatch line half way between two pixels may be too faint in one of them.
-            assert share_near(a, b, 0.5) > 0.99
+            assert share_near(a, b, 0.5) > 0.995
         # The reader has another font at hand: letters differ within their line, lines do not.
         picture = dxf_picture(dxf, width, height)
         for a, b in [(pdf, picture), (picture, pdf)]:
