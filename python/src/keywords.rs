@@ -189,7 +189,7 @@ macro_rules! fill {
     };
 }
 
-/// A table of fields that are known, and of those from keywords: zero, empty or none where they are left out.
+/// A table of fields that are known, and of those from keywords: zero, empty or none by default.
 macro_rules! build {
     ($of:expr, $keywords:expr, $($table:ident)::+ { $($known:ident),* }, $place:literal: $($field:ident),*) => {{
         let call = $crate::keywords::Call::new($of, $keywords);

@@ -514,7 +514,7 @@ def keyed(diameter, width, over, degrees):
 
 
 def told_holes(texts):
-    """Holes of a gear or cam as its sheet tells them: by a detail of the bore, or by lines next to it."""
+    """Holes of a gear or cam as its sheet gives them: by a detail of the bore, or by lines next to it."""
     found = []
     for index, text in enumerate(texts):
         if not (hole := HOLE.match(text)) or text.startswith("Ø +") or "(" not in text:

@@ -6,7 +6,7 @@ use serde::Serialize;
 use crate::{JsonNumber, Unit, figure};
 use centrode_geometry::COMPUTED;
 
-/// Goal of a mechanism: a figure and the range in which it is wanted.
+/// Goal of a mechanism: a figure and the range required of it.
 ///
 /// Margin and progress say how well: both rise as the figure comes nearer to its range, so an optimiser can follow
 /// them.
@@ -25,7 +25,7 @@ pub struct Goal {
     #[serde(serialize_with = "figure::option")]
     #[schemars(with = "Option<JsonNumber>")]
     pub value: Option<f64>,
-    /// Minimum and maximum figure wanted; none where it is open.
+    /// Minimum and maximum figure required; none where it is open.
     pub required: [Option<f64>; 2],
     /// Unit of the figures.
     pub unit: Unit,

@@ -28,7 +28,7 @@ impl LoadedKey<'_> {
         self.hub.pressure(self.torque.value, self.diameter, long)
     }
 
-    /// Tells of a key that is pressed harder than the weakest material next to it allows.
+    /// Reports a key that is pressed harder than the weakest material next to it allows.
     pub(crate) fn check(&self, report: &mut Report) {
         let allowed = self
             .materials

@@ -121,7 +121,7 @@ impl Problem for BestTransmissionAngle {
     }
 }
 
-/// Problem of the least common widening of all bounds with which they hold a crank-rocker with a wanted minimum
+/// Problem of the smallest common widening of all bounds with which they hold a crank-rocker with a wanted minimum
 /// transmission angle: variables are the widening and each length's place within its widened bounds, from 0 to 1.
 #[derive(Clone, Debug)]
 pub struct MinimumWidening {

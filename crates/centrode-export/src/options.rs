@@ -49,6 +49,6 @@ pub struct SheetOptions {
     pub size: Option<SheetSize>,
     /// How views lie to each other; left out, as the design says.
     pub projection: Option<Projection>,
-    /// Findings of checks, told in tables next to the data of the design.
+    /// Findings of checks, listed in tables next to the data of the design.
     pub found: Vec<Datum>,
 }

@@ -133,7 +133,7 @@ impl GearPair {
         }
     }
 
-    /// The maximum height, up to `limit`, at which no tooth is thinner than asked for.
+    /// The maximum height, up to `limit`, at which no tooth is thinner than required.
     fn widest_height(&self, limit: f64) -> f64 {
         let mut height = limit;
         for member in [Member::Driver, Member::Driven] {

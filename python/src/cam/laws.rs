@@ -50,7 +50,7 @@ pub(crate) fn law(name: &str) -> Answer<Law> {
     Law::resolve(spec.ok_or_else(|| Raised::word("law.kind", name, &known))?)
 }
 
-/// The polynomial of lowest degree from 0 to 1 with the derivatives asked for at both ends: velocity,
+/// The polynomial of lowest degree from 0 to 1 with the required derivatives at both ends: velocity,
 /// acceleration and so on, per unit of the law's own input and lift.
 ///
 /// >>> import centrode as ct

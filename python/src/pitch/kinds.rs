@@ -41,7 +41,7 @@ impl Law {
     }
 }
 
-/// Resolves the curve of a kind from keys that are known and those from keywords; without the former all may be left out.
+/// Resolves the curve of a kind from keys that are known and those from keywords; without the former all may be absent.
 macro_rules! curve {
     ($of:literal, $keywords:expr, $kind:ident { $($known:ident),* }: $($field:ident),*) => {{
         let curve = build!($of, $keywords, spec::$kind { $($known),* }, "pitch.": $($field),*);

@@ -52,7 +52,7 @@ pub(super) enum Given {
 ///     open: Whether the points are the working part alone: the return from the last to the first is sought, too.
 ///     module: Module of full teeth, mm, for which it is eased, and no more.
 ///     aim: What is made the most of where something is free: "module", the largest teeth, "mild", the ratio nearest to 1, or
-///         "small", the minimum reach of the tip; left out, the largest teeth where the path is eased or something is wished, else
+///         "small", the minimum reach of the tip; default: the largest teeth where the path is eased or something is wished, else
 ///         the mildest ratio.
 ///     wishes: What else is wanted, with the keys of the table wishes of a design file of family path: carrier, arm,
 ///         center_distance, ratio, directions, clamp_deg, turn, keep_out. `goals` tells how far they are reached.

@@ -34,7 +34,7 @@ fn flanks(
     places
 }
 
-/// Minimum share of a pair's module that is told as a remedy: below it twenty times the teeth would be needed.
+/// Minimum share of a pair's module that is named as a remedy: below it twenty times the teeth would be needed.
 const USEFUL: f64 = 0.05;
 
 /// Teeth with a fault, and the largest figure of it.

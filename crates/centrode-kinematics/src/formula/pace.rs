@@ -74,7 +74,7 @@ impl Formula {
     /// where the formula has no such features at all.
     ///
     /// A bump, as of `exp(-700*(1-cos(5*phi)))`, is nearly nothing with all its derivatives a few widths away. How wide it
-    /// is, is told by the slopes of every function, product and quotient in the formula next to their ranges; where to look for
+    /// is, follows from the slopes of every function, product and quotient in the formula next to their ranges; where to look for
     /// these, by how fast what the functions are of changes.
     ///
     /// # Errors

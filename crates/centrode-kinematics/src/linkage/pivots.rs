@@ -6,7 +6,7 @@ use super::four_bar::FourBar;
 use super::six_bar::SixBar;
 use super::slider_arc::SliderArc;
 
-/// Points between which a curve is measured for each that is asked for, and the minimum number of them.
+/// Points between which a curve is measured for each that is returned, and the minimum number of them.
 const MEASURED: (usize, usize) = (4, 256);
 /// Maximum ratio of a step to the mean one at which they count as even.
 const EVEN: f64 = 1.002;

@@ -7,7 +7,7 @@ use centrode_families::{FAMILIES, Mechanism};
 use centrode_spec::{DesignError, DesignFault};
 use std::sync::Arc;
 
-/// Maximum number of details that are left out of one design.
+/// Maximum number of details omitted from one design.
 const MOST: usize = 6;
 
 /// Mechanism of a design, without the details of its bodies that cannot be made.

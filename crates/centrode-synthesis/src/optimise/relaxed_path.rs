@@ -52,7 +52,7 @@ pub struct Easing {
     bend: f64,
     aim: Aim,
     wishes: Wishes,
-    /// Module wanted, mm: then the moves are sought that reach it and are the smallest shares of their bands.
+    /// Module wanted, mm: then the search is for the moves that reach it and are the smallest shares of their bands.
     required: Option<f64>,
     start: Vec<f64>,
     /// Share of the bands within which points are moved.

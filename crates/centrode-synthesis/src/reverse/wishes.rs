@@ -55,10 +55,10 @@ pub struct Wishes {
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct RequiredRange {
-    /// Minimum; left out, there is none.
+    /// Minimum; default: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub minimum: Option<f64>,
-    /// Maximum; left out, there is none.
+    /// Maximum; default: none.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub maximum: Option<f64>,
 }

@@ -52,7 +52,7 @@ pub enum LawSpec {
     /// Polynomial of seventh degree with no velocity, acceleration and jerk at both ends.
     #[serde(rename = "polynomial-4567")]
     Polynomial4567,
-    /// Polynomial with the derivatives asked for at both ends.
+    /// Polynomial with the required derivatives at both ends.
     Polynomial(Polynomial),
 }
 

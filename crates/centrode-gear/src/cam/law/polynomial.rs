@@ -9,7 +9,7 @@ use centrode_spec::rule::{finite, in_range};
 /// Derivatives that can be asked for at one end: velocity, acceleration, jerk and the next.
 const MOST: usize = 4;
 
-/// The polynomial of lowest degree with the derivatives asked for at both ends; it goes from 0 to 1.
+/// The polynomial of lowest degree with the required derivatives at both ends; it goes from 0 to 1.
 ///
 /// A derivative not given is free, so the degree is one more than there are given ones. Two zeros at
 /// each end make the 3-4-5 polynomial, three the 4-5-6-7 one.

@@ -222,7 +222,7 @@ impl Machine {
         Ok(())
     }
 
-    /// Maximum distance and angle by which each of several copies is off at the inputs that are looked at.
+    /// Maximum distance and angle by which each of several copies is off at the inputs examined.
     fn maximum_off(&self, by: CopyTurn, both: &[(usize, usize)]) -> Vec<[f64; 2]> {
         let count = SAMPLES * self.design.input.turns;
         let inputs = (0..count).map(|i| self.period() * f64::from(i) / f64::from(count));

@@ -9,10 +9,10 @@ use crate::reverse::TwoBar;
 use centrode_kinematics::machine::Piecewise;
 use centrode_kinematics::transmission::Transmission as _;
 
-/// Maximum denominator of a fraction near which no law is sought, and how near, in turns.
+/// Maximum denominator of a fraction near which no law is searched for, and how near, in turns.
 const MAX_DENOMINATOR: i64 = 11;
 const NEAREST: f64 = 1e-3;
-/// Maximum denominator of a fraction at which no law is sought: of such a period harmonics that matter are not determined.
+/// Maximum denominator of a fraction at which no law is searched for: of such a period harmonics that matter are not determined.
 const CLOSED: u32 = 314;
 /// Steps of the orbits by which the offset is sought, and of the one that is the first guess of the law.
 const SAMPLES: u32 = 4_000;

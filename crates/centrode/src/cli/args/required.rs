@@ -18,7 +18,7 @@ pub(crate) struct Reverse {
     /// Print a commented design file of family path, to start from
     #[arg(long, exclusive = true)]
     pub(crate) template: bool,
-    /// Maximum distance of the machine's path from a drawn one, of an SVG file, mm; left out, 0.01
+    /// Maximum distance of the machine's path from a drawn one, of an SVG file, mm; default: 0.01
     #[arg(long, allow_negative_numbers = true, value_name = "MM")]
     pub(crate) within: Option<f64>,
     /// Where something is free, make the most of it: the largest teeth, the ratio nearest to 1, or the minimum reach of the tip; left
