@@ -122,7 +122,7 @@ fn what_no_crank_can_do_is_refused_by_name() {
         let stated = found.to_string();
         assert!(stated.contains(words), "{stated}");
     };
-    is(error(&[]), "nothing is wanted");
+    is(error(&[]), "nothing is required");
     is(
         error(&[even([0.0, 90.0], [100.0, 150.0])]),
         "it moves from 90 to 150",
