@@ -25,7 +25,6 @@ pub struct SpiralShaftDesign {
     /// Radius of the shaft, mm.
     pub radius: f64,
     /// Distance the box shall move in the window, mm; sets the amplitude of a sine law.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub moved_distance: Option<f64>,
     /// Shaft turn during which a seedling is picked, rad (degrees in the file).
     #[serde(rename = "window_deg", with = "degrees")]

@@ -38,13 +38,10 @@ pub enum Scheme {
 #[serde(default, deny_unknown_fields)]
 pub struct EllipticGears {
     /// Eccentricity of the pitch ellipses.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub eccentricity: Option<f64>,
     /// Maximum speed of the shaft over its minimum.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub speed_ratio: Option<f64>,
     /// Distance a plain shaft shall move the box in the window, mm.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub moved_distance: Option<f64>,
     /// Module, mm.
     pub module: f64,
@@ -146,7 +143,6 @@ pub struct MovingBoxDesign {
     /// Scheme that slows the box down.
     pub scheme: Scheme,
     /// The elliptic gears, for the schemes that have them.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub gears: Option<EllipticGears>,
     /// The shaft.
     pub shaft: SpiralShaftDesign,

@@ -12,7 +12,6 @@ use centrode_spec::rule::{Rule, broken, positive};
 #[serde(default, deny_unknown_fields)]
 pub struct Mill {
     /// Diameter, mm; left out, the groove's width. A thinner one goes once along each wall.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub diameter: Option<f64>,
     /// Depth of one pass, mm.
     pub depth_step: f64,

@@ -30,7 +30,6 @@ pub struct DrawingSpec {
     #[serde(skip_serializing_if = "String::is_empty")]
     pub approved_by: String,
     /// Size of the sheets; left out, the smallest that takes the part.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub sheet: Option<SheetSize>,
     /// Arrangement of the views.
     pub projection: Projection,

@@ -20,13 +20,30 @@ pub fn json_schema<F: AsRef<DesignFamily>>(families: &[F]) -> Value {
             schema.to_value()
         })
         .collect();
-    json!({
+    without_nulls(json!({
         "oneOf": alternatives,
         "description": "A mechanism as written: one of the families, by the key `family`.",
         "title": "Design",
         "$schema": generator.settings().meta_schema,
         "$defs": generator.take_definitions(true),
-    })
+    }))
+}
+
+/// Drops the defaults of keys that are optional: a design file has no word for none.
+fn without_nulls(mut schema: Value) -> Value {
+    match &mut schema {
+        Value::Object(keys) => {
+            keys.retain(|_, value| !value.is_null());
+            keys.values_mut()
+                .for_each(|value| *value = without_nulls(value.take()));
+        }
+        Value::Array(list) => {
+            list.iter_mut()
+                .for_each(|value| *value = without_nulls(value.take()));
+        }
+        _ => {}
+    }
+    schema
 }
 
 impl DesignFamily {
@@ -42,7 +59,7 @@ impl DesignFamily {
             schema.insert("$defs".into(), Value::Object(definitions));
         }
         self.tag(&mut schema);
-        schema.to_value()
+        without_nulls(schema.to_value())
     }
 
     /// Keys of a name in the family's design files, the four nearest to a place in a file: `teeth.backlash`,

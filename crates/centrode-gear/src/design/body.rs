@@ -19,7 +19,6 @@ pub struct BodySpec {
     /// Diameter of the bore, mm; 0 for none.
     pub bore: f64,
     /// Keyway in the bore.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub keyway: Option<Keyway>,
     /// Direction of the keyway from the body's x axis, rad (degrees in the file).
     #[serde(rename = "keyway_angle_deg", with = "degrees")]

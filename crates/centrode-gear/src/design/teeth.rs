@@ -25,11 +25,7 @@ pub struct TeethSpec {
     /// Total backlash of the pair along the normal, mm.
     pub backlash: f64,
     /// Total backlash as a bound on the play of the driven gear, rad (degrees in the file).
-    #[serde(
-        rename = "backlash_angle_deg",
-        with = "degrees",
-        skip_serializing_if = "Option::is_none"
-    )]
+    #[serde(rename = "backlash_angle_deg", with = "degrees")]
     #[schemars(with = "Option<f64>")]
     pub backlash_angle: Option<f64>,
     /// The driver's share of the pitch: its tooth thickness over the circular pitch.
@@ -39,10 +35,8 @@ pub struct TeethSpec {
     /// Upper and lower deviation of the thickness of every finished tooth along its pitch curve from the tooth as designed, mm,
     /// each within half a module: limits for the shop. An upper one above zero takes backlash. Default: zero and minus the
     /// tolerance of DIN 3967 for the accuracy class.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub thickness_deviations: Option<[f64; 2]>,
     /// Diameter of the measuring pins, mm; left out, a pin that touches near the pitch curve.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub pin_diameter: Option<f64>,
 }
 

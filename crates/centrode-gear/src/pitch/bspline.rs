@@ -38,13 +38,10 @@ pub struct Bspline {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub y: Vec<f64>,
     /// Module, mm, with `tooth_count`: scales the curve.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub module: Option<f64>,
     /// Diametral pitch, 1/in, instead of the module: 25.4 mm over the module.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub diametral_pitch: Option<f64>,
     /// Number of teeth; alone, the module follows from the size of the curve.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub tooth_count: Option<u32>,
 }
 

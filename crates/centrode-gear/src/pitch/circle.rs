@@ -11,16 +11,12 @@ use super::{Draft, PitchError, Scaled, Symmetry};
 #[serde(default, deny_unknown_fields)]
 pub struct Circle {
     /// Radius, mm; or leave it out and give module and `tooth_count`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub radius: Option<f64>,
     /// Module, mm, with `tooth_count`: sets the size of the curve.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub module: Option<f64>,
     /// Diametral pitch, 1/in, instead of the module: 25.4 mm over the module.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub diametral_pitch: Option<f64>,
     /// Number of teeth.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub tooth_count: Option<u32>,
 }
 
@@ -33,16 +29,12 @@ pub struct EccentricCircle {
     /// Offset of the centre from the shaft axis over the radius `R`, at least 0 and less than 1.
     pub eccentricity: f64,
     /// Radius `R`, mm; or leave it out and give module and `tooth_count`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius: Option<f64>,
     /// Module, mm, with `tooth_count`: sets the size of the curve.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub module: Option<f64>,
     /// Diametral pitch, 1/in, instead of the module: 25.4 mm over the module.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub diametral_pitch: Option<f64>,
     /// Number of teeth.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tooth_count: Option<u32>,
 }
 

@@ -21,13 +21,10 @@ pub struct Conjugate {
     #[serde(default = "one_to_one")]
     pub mean_ratio: [u32; 2],
     /// Module, mm, with `tooth_count`: scales the curve.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub module: Option<f64>,
     /// Diametral pitch, 1/in, instead of the module: 25.4 mm over the module.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub diametral_pitch: Option<f64>,
     /// Number of teeth; alone, the module follows from the size of the curve.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tooth_count: Option<u32>,
     /// The curve it rolls on.
     pub of: Box<PitchSpec>,

@@ -20,7 +20,6 @@ use centrode_spec::degrees;
 pub struct Polar {
     /// Radius, mm, as a formula in `phi` (rad): `+ - * / ^`, `pi`, sin, cos, tan, asin, acos, atan,
     /// sinh, cosh, tanh, exp, ln, sqrt.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub expression: Option<String>,
     /// Radii, mm; over equal steps from the angle zero if `angle_deg` is left out.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -34,10 +33,8 @@ pub struct Polar {
     #[schemars(with = "Vec<f64>")]
     pub angle: Vec<f64>,
     /// Interpolation between the radii; left out, "quintic" over equal steps, "cubic" with `angle_deg`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub interpolation: Option<Interpolation>,
     /// Mean radius of a Fourier series, mm.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub mean: Option<f64>,
     /// Cosine coefficients from the first harmonic, mm.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -46,13 +43,10 @@ pub struct Polar {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub sin: Vec<f64>,
     /// Module, mm, with `tooth_count`: scales the curve.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub module: Option<f64>,
     /// Diametral pitch, 1/in, instead of the module: 25.4 mm over the module.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub diametral_pitch: Option<f64>,
     /// Number of teeth; alone, the module follows from the size of the curve.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub tooth_count: Option<u32>,
 }
 

@@ -36,7 +36,6 @@ pub struct SpeedTable {
     /// The speeds, in any unit.
     pub speed: Vec<f64>,
     /// Interpolation between the samples; left out, "quintic".
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub interpolation: Option<Interpolation>,
 }
 

@@ -43,7 +43,6 @@ pub struct HousingSpec {
     pub sleeve_bore: f64,
     /// Nominal diameter of the screws of the covers, ISO 4762, mm: 3 for M3, 0 for none; left out, the largest no thicker than a
     /// cover that finds room.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub screw: Option<f64>,
     /// Heat treatment of housing and covers, for the drawing; left empty, none.
     #[serde(skip_serializing_if = "String::is_empty")]

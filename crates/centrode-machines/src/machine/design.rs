@@ -64,7 +64,6 @@ pub struct MachineDesign {
     pub copies: BTreeMap<String, MachineCopiesSpec>,
     /// Plates, pins and shafts: `full` designs them, `none` does not; default `full` if `plates` or a body describes them,
     /// otherwise `none`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hardware: Option<Hardware>,
     /// The bodies as plates.
     #[serde(default)]
@@ -73,7 +72,6 @@ pub struct MachineDesign {
     #[serde(default, skip_serializing_if = "DrawingSpec::is_default")]
     pub drawing: DrawingSpec,
     /// Acceleration of free fall, m/s²: x and y; left out, there is no weight.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub gravity: Option<[f64; 2]>,
     /// Loads by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]

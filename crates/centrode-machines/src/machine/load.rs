@@ -21,25 +21,17 @@ pub struct MachineLoadSpec {
     /// Point of a body on which it acts, `ram.tool`; or the body alone for its origin.
     pub on: String,
     /// Components of the force along x and y, N.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub force: Option<[f64; 2]>,
     /// Axes of the force's components.
     #[serde(default, skip_serializing_if = "LoadAxes::is_world")]
     pub axes: LoadAxes,
     /// Torque, counter-clockwise positive, N mm.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub torque: Option<f64>,
     /// Formula of the input `phi` in rad by which force and torque are multiplied.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub expression: Option<String>,
     /// Arc of the input over which it acts, from the first to the second, past the end of the cycle where the second is less,
     /// rad (degrees in the file); left out, it acts always.
-    #[serde(
-        default,
-        rename = "over_deg",
-        with = "degrees",
-        skip_serializing_if = "Option::is_none"
-    )]
+    #[serde(default, rename = "over_deg", with = "degrees")]
     #[schemars(with = "Option<[f64; 2]>")]
     pub over: Option<[f64; 2]>,
 }

@@ -6,6 +6,7 @@ use centrode_gear::pitch::{
 };
 use centrode_geometry::Antiderivative;
 use centrode_groove::{RotatedSine, Sine, SpeedFormula, SpeedKnots, SpeedLaw, SpeedTable};
+use serde::Serialize;
 use serde_json::{Map, Value};
 use std::f64::consts::TAU;
 
@@ -75,21 +76,23 @@ pub(super) fn starts(kind: &str, about: &Measures) -> Vec<Map<String, Value>> {
     let swings = [0.2 / (1.0 + f64::from(about.repeats).powi(2)), 0.0];
     let pitches = swings
         .into_iter()
-        .filter_map(|swing| Some(serde_json::to_value(pitch(kind, about, swing)?)));
+        .filter_map(|swing| table(pitch(kind, about, swing)?));
     // Before a plain shaft only elliptic gears change the speed.
     let speeds = [0.4, 0.0]
         .into_iter()
-        .filter_map(|swing| Some(serde_json::to_value(speed(kind, about.lead, swing)?)));
-    let others = [
-        tool(kind).map(serde_json::to_value),
-        law(kind).map(serde_json::to_value),
-    ];
-    let all = pitches.chain(speeds).chain(others.into_iter().flatten());
-    let tables = all.filter_map(|table| match table {
+        .filter_map(|swing| table(speed(kind, about.lead, swing)?));
+    let others = [tool(kind).and_then(table), law(kind).and_then(table)];
+    let others = others.into_iter().flatten();
+    pitches.chain(speeds).chain(others).collect()
+}
+
+/// Keys of a table as the file holds them: without those that are not given.
+fn table(written: impl Serialize) -> Option<Map<String, Value>> {
+    let written = toml::Table::try_from(written).ok()?;
+    match serde_json::to_value(written) {
         Ok(Value::Object(table)) => Some(table),
         _ => None,
-    });
-    tables.collect()
+    }
 }
 
 /// Rounds to a thousandth: numbers in the file are to be read.

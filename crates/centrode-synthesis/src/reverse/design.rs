@@ -22,10 +22,8 @@ pub struct PathDesign {
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub title: String,
     /// Axis of the carrier, mm; left out, it is sought.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub axis: Option<[f64; 2]>,
     /// Two corners of the box in which it is sought, mm; left out, the path's box with a quarter of its size round it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub axis_box: Option<[[f64; 2]; 2]>,
     /// Angle from the carrier's first leg, to the intermediate gear, to its second, rad (degrees in the file).
     #[serde(default = "default_bend", rename = "bend_deg", with = "degrees")]
@@ -38,11 +36,9 @@ pub struct PathDesign {
     #[serde(default = "one")]
     pub arms: u32,
     /// Steps of the tables in which the laws are written; left out, as few as do.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub steps: Option<u32>,
     /// Figure that is made the most of where something is free; left out, the largest teeth where the path is eased or something is wished, else the
     /// mildest ratio.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub aim: Option<Aim>,
     /// The path.
     pub path: PathSpec,
@@ -59,13 +55,11 @@ pub struct PathSpec {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub points: Vec<[f64; 2]>,
     /// CSV or SVG file that holds them instead, next to the design file.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
     /// Whether they are the control points of a closed cubic B-spline, which need not pass them.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub control: bool,
     /// Distance within which the path may pass each point, mm: it is eased there.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub band: Option<f64>,
     /// Such a distance for each point, mm.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -77,7 +71,6 @@ pub struct PathSpec {
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub crossing: bool,
     /// Module of full teeth up to which it is eased, and no more, mm.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub module: Option<f64>,
 }
 

@@ -24,13 +24,10 @@ pub struct MachinePointsSpec {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub outline: Vec<MachineCornerSpec>,
     /// Radius of the corners of the contour, mm.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub corner_radius: Option<f64>,
     /// Contour of a round plate.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub circle: Option<MachineCircleSpec>,
     /// Thickness of its plate, mm; that of the other plates by default.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub thickness: Option<f64>,
 }
 

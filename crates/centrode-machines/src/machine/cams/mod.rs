@@ -24,7 +24,6 @@ pub struct MachineCamSpec {
     pub on: String,
     /// Body, or a point of one, at which the axis is where that body is carried: `arm` for a cam about the pin of an arm; left
     /// out, the axis is where `on` says.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub about: Option<String>,
     /// Angle at which it is mounted, of its own axes against the body's, rad (degrees in the file): where its motion begins,
     /// its x axis points along the slide of its follower, or to the follower's pin.
@@ -35,18 +34,14 @@ pub struct MachineCamSpec {
     pub base_radius: f64,
     /// Sense in which it turns, seen from the follower; left out, as its body turns, or counter-clockwise for one that comes
     /// back.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rotation: Option<Turn>,
     /// Follower that rides on it.
     pub follower: MachineFollowerSpec,
     /// Motion of the follower by the turn of the cam against the body that carries the follower.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub motion: Option<MotionSpec>,
     /// Body that moves already, by its own law or by others, to whose motion the cam is cut: in place of `motion`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cut_to: Option<String>,
     /// Place along the shafts, counted in plates from the one next to the frame; left out, cams lie one below the other behind the gears.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub layer: Option<i32>,
     /// Width, bore and material.
     #[serde(default)]
@@ -75,7 +70,6 @@ pub struct MachineSlidingRoller {
     /// Radius of the roller, mm; 0 for a point.
     pub roller_radius: f64,
     /// Distance of the slide from the cam's axis, mm, positive to the left of its direction; left out, as the bodies have it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub offset: Option<f64>,
 }
 
@@ -86,7 +80,6 @@ pub struct MachineSwingingRoller {
     /// Radius of the roller, mm; 0 for a point.
     pub roller_radius: f64,
     /// Distance of the body's pin from the cam's axis, mm; left out, as the bodies have it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub center_distance: Option<f64>,
     /// Distance of the roller's centre from the body's pin, mm.
     pub arm_length: f64,
@@ -100,7 +93,6 @@ pub struct MachineSwingingRoller {
 #[serde(deny_unknown_fields)]
 pub struct MachineSwingingFlat {
     /// Distance of the body's pin from the cam's axis, mm; left out, as the bodies have it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub center_distance: Option<f64>,
     /// Distance of the face before the pin, towards the cam, mm; may be negative.
     #[serde(default)]

@@ -20,15 +20,9 @@ pub struct MachineGoalSpec {
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub title: String,
     /// Extreme over the cycle that counts; left out, the figure counts at an input.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub over: Option<Over>,
     /// Input at which it counts, rad (degrees in the file).
-    #[serde(
-        default,
-        rename = "at_deg",
-        with = "degrees",
-        skip_serializing_if = "Option::is_none"
-    )]
+    #[serde(default, rename = "at_deg", with = "degrees")]
     #[schemars(with = "Option<f64>")]
     pub at: Option<f64>,
     /// Inputs between which the extreme is looked for, rad (degrees in the file); left out, the cycle.
@@ -42,19 +36,14 @@ pub struct MachineGoalSpec {
     pub within: Vec<f64>,
     /// Figure wanted at the first and at the last of these inputs, between which it shall change evenly: what a departure
     /// counts from.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub uniform: Option<[f64; 2]>,
     /// Minimum figure wanted.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub minimum: Option<f64>,
     /// Maximum figure wanted.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub maximum: Option<f64>,
     /// Minimum and maximum figure wanted.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub between: Option<[f64; 2]>,
     /// Miss that is half way to the goal, for a search; left out, the size of what is wanted.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scale: Option<f64>,
 }
 

@@ -22,22 +22,17 @@ const SAMPLES: u32 = 90;
 #[serde(default, deny_unknown_fields)]
 pub struct MachineObstacleSpec {
     /// Body it travels with, or a point of one, `tray.corner`, from which its shape is measured; left out, the frame.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub on: Option<String>,
     /// Corners of its shape in order, in the body's axes, mm.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub outline: Vec<MachineCornerSpec>,
     /// Radius to which its corners are rounded, mm.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub corner_radius: Option<f64>,
     /// Circle that it is.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub circle: Option<MachineCircleSpec>,
     /// Height of the ground, which fills all below it: y in the body's axes, mm.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub below: Option<f64>,
     /// Lower and upper end along the shafts, mm, the plate next to the frame from 0 on; left out, it is in the way of all.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub heights: Option<[f64; 2]>,
 }
 

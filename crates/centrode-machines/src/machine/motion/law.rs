@@ -34,21 +34,14 @@ type Made = Result<Arc<dyn Transmission>, MachineLawError>;
 #[serde(default, deny_unknown_fields)]
 pub struct MachineLawSpec {
     /// Angle at the start of a body that turns, rad (degrees in the file).
-    #[serde(
-        rename = "start_deg",
-        with = "degrees",
-        skip_serializing_if = "Option::is_none"
-    )]
+    #[serde(rename = "start_deg", with = "degrees")]
     #[schemars(with = "Option<f64>")]
     pub start_angle: Option<f64>,
     /// Place at the start of a body that slides, mm.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub start: Option<f64>,
     /// Turns of the body for one of the input: a belt, a chain, round gears; below zero it turns the other way.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub ratio: Option<f64>,
     /// Formula of the input `phi` in rad: of an angle in rad for a body that turns and of a place in mm for one that slides.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub expression: Option<String>,
     /// Angles at equal steps of the period, between which a smooth curve runs, rad (degrees in the file).
     #[serde(
@@ -60,25 +53,19 @@ pub struct MachineLawSpec {
     pub table_angles: Vec<f64>,
     /// Whole turns of the body over `table_deg`: 1 turns on through 360 degrees, 0 swings back, -1 turns clockwise. By default
     /// those that make the last step small, at most twice the largest step of the table.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub turns: Option<i32>,
     /// Places at equal steps of the period, between which a smooth curve runs, mm.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub table: Vec<f64>,
     /// Rises, returns and dwells over one turn of the input, as for a cam.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub cam: Option<MotionSpec>,
     /// Cam that moves the body as its follower.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub follows: Option<String>,
     /// Turning and rest, as of a gear that an intermittent gear drives.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub intermittent: Option<IntermittentSpec>,
     /// Strokes out and back, as of a slider in the groove of a spiral shaft.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub traverse: Option<TraverseSpec>,
     /// Body whose turn on its own pin takes the place of the input.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub by: Option<String>,
 }
 

@@ -27,7 +27,6 @@ pub struct ArmSpec {
     pub clamp_length: f64,
     /// Housing, clamp, push rod and spring; left out, the usual sizes in proportion to `tip_distance`, or smaller
     /// where clamp and pusher's axis leave less room.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub body: Option<ArmBodySpec>,
 }
 
@@ -85,7 +84,6 @@ pub struct GearboxSpec {
     pub bearings: bool,
     /// Nominal diameter of the screws of the plates, ISO 4762, mm: 6 for M6, 0 for none; left out, the largest no thicker than a
     /// plate that finds room.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub screw: Option<f64>,
     /// Heat treatment of its plates, for the drawing; left empty, none.
     #[serde(skip_serializing_if = "String::is_empty")]

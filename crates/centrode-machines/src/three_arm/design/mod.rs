@@ -51,19 +51,12 @@ pub struct ThreeArmDesign {
     pub bend: f64,
     /// Angle of the planet's zero behind the chain's second leg at the start, rad (degrees in the file); left
     /// out, the intermediate's turn over the first |bend| of carrier turn.
-    #[serde(
-        default,
-        rename = "planet_reference_deg",
-        with = "degrees",
-        skip_serializing_if = "Option::is_none"
-    )]
+    #[serde(default, rename = "planet_reference_deg", with = "degrees")]
     #[schemars(with = "Option<f64>", extend("x-symbol" = "phi_30"))]
     pub planet_reference: Option<f64>,
     /// Teeth of every gear; left out, there are no teeth to check.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tooth_count: Option<u32>,
     /// Centre distance of each mesh, mm; left out, it follows from the pitch curve.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-symbol" = "a"))]
     pub center_distance: Option<f64>,
     /// Pitch curve of the sun, which starts in the direction of `carrier_start_deg`; the planets are alike.
@@ -82,10 +75,8 @@ pub struct ThreeArmDesign {
     pub arm: ArmSpec,
     /// The cams on the carrier that move the push rods; left out, the usual one in proportion to
     /// the usual arm.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cam: Option<PusherCamSpec>,
     /// The forks between cams and push rods; left out, the usual one in proportion to the usual arm.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fork: Option<ForkSpec>,
     /// The gearbox around the gears.
     #[serde(default)]
