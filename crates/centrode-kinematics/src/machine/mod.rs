@@ -53,8 +53,8 @@ pub use mount::Fastener;
 pub use part::{Part, Supply};
 pub use spacer::{Spacer, SpacerKind};
 pub use standard::{
-    Bearing, Circlip, Dowel, Key, Keyway, Screw, allowed_pressure, hole_class, screw_size,
-    shaft_class,
+    Bearing, Circlip, Dowel, Key, Keyway, Screw, StandardTable, allowed_pressure, hole_class,
+    screw_size, shaft_class,
 };
 pub use stock::Stock;
 pub use turned::{HeldLength, SeatedKey, TurnedPart, TurnedPiece, TurnedPieces, TurnedStep};
