@@ -76,12 +76,12 @@ impl Bezier {
             let key = lists.key();
             return Err(PitchError::ArcsIncomplete { key, count, degree });
         }
-        let size = Size {
-            module: self.module,
-            diametral_pitch: self.diametral_pitch,
-            tooth_count: self.tooth_count,
-            own: OwnSize::Written,
-        };
+        let size = Size::new(
+            self.module,
+            self.diametral_pitch,
+            self.tooth_count,
+            OwnSize::Written,
+        );
         let definition = format!(
             "closed chain of {} Bezier arcs of degree {degree}",
             count / degree as usize

@@ -103,12 +103,12 @@ impl Bspline {
         } else {
             (points, ["with", "control points"])
         };
-        let size = Size {
-            module: self.module,
-            diametral_pitch: self.diametral_pitch,
-            tooth_count: self.tooth_count,
-            own: OwnSize::Written,
-        };
+        let size = Size::new(
+            self.module,
+            self.diametral_pitch,
+            self.tooth_count,
+            OwnSize::Written,
+        );
         let plane = match self.plane {
             Plane::Polar => "the polar plane (angle, radius)",
             Plane::Cartesian => "x, y",

@@ -40,12 +40,12 @@ pub struct EccentricCircle {
 
 impl Circle {
     pub(crate) fn draft(&self) -> Result<Draft, PitchError> {
-        let size = Size {
-            module: self.module,
-            diametral_pitch: self.diametral_pitch,
-            tooth_count: self.tooth_count,
-            own: OwnSize::of("radius", self.radius)?,
-        };
+        let size = Size::new(
+            self.module,
+            self.diametral_pitch,
+            self.tooth_count,
+            OwnSize::of("radius", self.radius)?,
+        );
         let law = Eccentric {
             radius: self.radius.unwrap_or(1.0),
             eccentricity: 0.0,
@@ -62,12 +62,12 @@ impl EccentricCircle {
             radius: self.radius.unwrap_or(1.0),
             eccentricity: eccentricity(self.eccentricity)?,
         };
-        let size = Size {
-            module: self.module,
-            diametral_pitch: self.diametral_pitch,
-            tooth_count: self.tooth_count,
-            own: OwnSize::of("radius", self.radius)?,
-        };
+        let size = Size::new(
+            self.module,
+            self.diametral_pitch,
+            self.tooth_count,
+            OwnSize::of("radius", self.radius)?,
+        );
         let definition = format!(
             "eccentric circle, r = R (e cos phi + sqrt(1 - e^2 sin^2 phi)), e = {}",
             self.eccentricity

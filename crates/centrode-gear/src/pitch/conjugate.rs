@@ -36,12 +36,12 @@ fn one_to_one() -> [u32; 2] {
 
 impl Conjugate {
     pub(crate) fn draft(&self) -> Result<Draft, PitchError> {
-        let size = Size {
-            module: self.module,
-            diametral_pitch: self.diametral_pitch,
-            tooth_count: self.tooth_count,
-            own: OwnSize::Written,
-        };
+        let size = Size::new(
+            self.module,
+            self.diametral_pitch,
+            self.tooth_count,
+            OwnSize::Written,
+        );
         size.check()?;
         if self.depth() > DEEPEST {
             let (key, rule) = ("of", "is a conjugate of conjugates more than four deep");

@@ -100,12 +100,12 @@ fn draft(
     tooth_count: Option<u32>,
     definition: String,
 ) -> Result<Draft, PitchError> {
-    let size = Size {
+    let size = Size::new(
         module,
         diametral_pitch,
         tooth_count,
-        own: OwnSize::of("semi_major_axis", own)?,
-    };
+        OwnSize::of("semi_major_axis", own)?,
+    );
     let draft = Draft::new("eccentricity", PolarCurve::new(law), size, definition)?;
     Ok(draft.scaled(Scaled::Length("A", own.unwrap_or(1.0))))
 }

@@ -49,12 +49,12 @@ impl Limacon {
             amplitude: finite("amplitude", self.amplitude)?,
             lobes: in_range("lobes", self.lobes, 1, 60)?,
         };
-        let size = Size {
-            module: self.module,
-            diametral_pitch: self.diametral_pitch,
-            tooth_count: self.tooth_count,
-            own: OwnSize::Written,
-        };
+        let size = Size::new(
+            self.module,
+            self.diametral_pitch,
+            self.tooth_count,
+            OwnSize::Written,
+        );
         let definition = format!(
             "limacon, r = b + c cos({} phi), c/b = {}",
             self.lobes,

@@ -95,6 +95,25 @@ pub struct Pitch {
     pub(crate) symmetry: Symmetry,
 }
 
+/// An expression of the spec of whatever kind a curve is.
+macro_rules! of_kind {
+    ($curve:expr, $spec:ident => $expression:expr) => {
+        match $curve {
+            Self::Circle($spec) => $expression,
+            Self::EccentricCircle($spec) => $expression,
+            Self::Ellipse($spec) => $expression,
+            Self::LobedEllipse($spec) => $expression,
+            Self::Limacon($spec) => $expression,
+            Self::Bspline($spec) => $expression,
+            Self::Bezier($spec) => $expression,
+            Self::Polar($spec) => $expression,
+            Self::Transmission($spec) => $expression,
+            Self::Ratio($spec) => $expression,
+            Self::Conjugate($spec) => $expression,
+        }
+    };
+}
+
 impl PitchSpec {
     /// Exact curve, proved to wind once round the shaft axis, in order.
     ///
@@ -107,80 +126,16 @@ impl PitchSpec {
     /// Number of teeth written with the curve.
     #[must_use]
     pub fn tooth_count(&self) -> Option<u32> {
-        match self {
-            Self::Circle(spec) => spec.tooth_count,
-            Self::EccentricCircle(spec) => spec.tooth_count,
-            Self::Ellipse(spec) => spec.tooth_count,
-            Self::LobedEllipse(spec) => spec.tooth_count,
-            Self::Limacon(spec) => spec.tooth_count,
-            Self::Bspline(spec) => spec.tooth_count,
-            Self::Bezier(spec) => spec.tooth_count,
-            Self::Polar(spec) => spec.tooth_count,
-            Self::Transmission(spec) => spec.tooth_count,
-            Self::Ratio(spec) => spec.tooth_count,
-            Self::Conjugate(spec) => spec.tooth_count,
-        }
+        of_kind!(self, spec => spec.tooth_count)
     }
 
     /// Gives it another number of teeth, where it has one: on a curve of the same size, so that the module changes.
     pub(crate) fn set_tooth_count(&mut self, teeth: u32) {
-        let (module, diametral_pitch, count) = match self {
-            Self::Circle(spec) => (
-                &mut spec.module,
-                &mut spec.diametral_pitch,
-                &mut spec.tooth_count,
-            ),
-            Self::EccentricCircle(spec) => (
-                &mut spec.module,
-                &mut spec.diametral_pitch,
-                &mut spec.tooth_count,
-            ),
-            Self::Ellipse(spec) => (
-                &mut spec.module,
-                &mut spec.diametral_pitch,
-                &mut spec.tooth_count,
-            ),
-            Self::LobedEllipse(spec) => (
-                &mut spec.module,
-                &mut spec.diametral_pitch,
-                &mut spec.tooth_count,
-            ),
-            Self::Limacon(spec) => (
-                &mut spec.module,
-                &mut spec.diametral_pitch,
-                &mut spec.tooth_count,
-            ),
-            Self::Bspline(spec) => (
-                &mut spec.module,
-                &mut spec.diametral_pitch,
-                &mut spec.tooth_count,
-            ),
-            Self::Bezier(spec) => (
-                &mut spec.module,
-                &mut spec.diametral_pitch,
-                &mut spec.tooth_count,
-            ),
-            Self::Polar(spec) => (
-                &mut spec.module,
-                &mut spec.diametral_pitch,
-                &mut spec.tooth_count,
-            ),
-            Self::Transmission(spec) => (
-                &mut spec.module,
-                &mut spec.diametral_pitch,
-                &mut spec.tooth_count,
-            ),
-            Self::Ratio(spec) => (
-                &mut spec.module,
-                &mut spec.diametral_pitch,
-                &mut spec.tooth_count,
-            ),
-            Self::Conjugate(spec) => (
-                &mut spec.module,
-                &mut spec.diametral_pitch,
-                &mut spec.tooth_count,
-            ),
-        };
+        let (module, diametral_pitch, count) = of_kind!(self, spec => (
+            &mut spec.module,
+            &mut spec.diametral_pitch,
+            &mut spec.tooth_count,
+        ));
         let Some(count) = count else { return };
         if let Some(module) = module {
             *module *= f64::from(*count) / f64::from(teeth);
@@ -192,19 +147,7 @@ impl PitchSpec {
     }
 
     fn draft(&self) -> Result<Draft, PitchError> {
-        match self {
-            Self::Circle(spec) => spec.draft(),
-            Self::EccentricCircle(spec) => spec.draft(),
-            Self::Ellipse(spec) => spec.draft(),
-            Self::LobedEllipse(spec) => spec.draft(),
-            Self::Limacon(spec) => spec.draft(),
-            Self::Bspline(spec) => spec.draft(),
-            Self::Bezier(spec) => spec.draft(),
-            Self::Polar(spec) => spec.draft(),
-            Self::Transmission(spec) => spec.draft(),
-            Self::Ratio(spec) => spec.draft(),
-            Self::Conjugate(spec) => spec.draft(),
-        }
+        of_kind!(self, spec => spec.draft())
     }
 }
 

@@ -61,12 +61,12 @@ impl Polar {
     }
 
     pub(crate) fn draft(&self) -> Result<Draft, PitchError> {
-        let size = Size {
-            module: self.module,
-            diametral_pitch: self.diametral_pitch,
-            tooth_count: self.tooth_count,
-            own: OwnSize::Written,
-        };
+        let size = Size::new(
+            self.module,
+            self.diametral_pitch,
+            self.tooth_count,
+            OwnSize::Written,
+        );
         if let Some(text) = &self.expression {
             self.nothing_of(&["radius", "mean"])?;
             let law = FormulaLaw::read("expression", text)?;

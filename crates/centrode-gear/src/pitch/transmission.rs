@@ -220,12 +220,12 @@ fn size(
     diametral_pitch: Option<f64>,
     tooth_count: Option<u32>,
 ) -> Result<Size, PitchError> {
-    let size = Size {
+    let size = Size::new(
         module,
         diametral_pitch,
         tooth_count,
-        own: OwnSize::of("center_distance", own)?,
-    };
+        OwnSize::of("center_distance", own)?,
+    );
     size.check().map(|()| size)
 }
 
