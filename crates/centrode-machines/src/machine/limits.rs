@@ -59,10 +59,7 @@ impl MachineDesign {
     /// [`MachineError::Refused`] with the key at fault.
     pub fn check_vary(&self) -> Result<(), MachineError> {
         for key in self.vary.keys() {
-            let refused = |why: String| MachineError::Refused {
-                key: format!("vary.{key}"),
-                why,
-            };
+            let refused = |why: String| MachineError::refused(format!("vary.{key}"), why);
             let table = key.split('.').next().unwrap_or_default();
             if REQUIRED.contains(&table) || key == "input.turns" {
                 return Err(refused(
@@ -100,10 +97,7 @@ impl Machine {
         }
         let mut taken: BTreeMap<String, String> = BTreeMap::new();
         for (key, stem) in &stems {
-            let refused = |why: String| {
-                let key = key.clone();
-                Err(MachineError::Refused { key, why })
-            };
+            let refused = |why: String| Err(MachineError::refused(key, why));
             // File systems may take small and capital letters for one.
             let small = stem.to_ascii_lowercase();
             let is_tabled = !key.starts_with("bodies.");
@@ -124,8 +118,7 @@ impl Machine {
             let small = stem.to_ascii_lowercase();
             let part = without_sheet(&small);
             if let Some(other) = taken.get(part).filter(|_| part != small) {
-                let why = one_name(&key, other);
-                return Err(MachineError::Refused { key, why });
+                return Err(MachineError::refused(&key, one_name(&key, other)));
             }
         }
         Ok(())

@@ -85,10 +85,7 @@ impl MachineLoadSpec {
     /// Share of force and torque that acts, by the input.
     fn factor(&self, key: &str, turns: u32) -> Result<Arc<dyn Transmission>, MachineError> {
         let period = TAU * f64::from(turns);
-        let wrong = |of: &str, why: String| MachineError::Refused {
-            key: format!("{key}.{of}"),
-            why,
-        };
+        let wrong = |of: &str, why: String| MachineError::refused(format!("{key}.{of}"), why);
         let size = self.expression.as_deref().unwrap_or("1");
         let formula = formula_of(size, period);
         let formula =

@@ -90,11 +90,12 @@ impl Reference {
         bodies: &BodyPoints,
     ) -> Result<Point, MachineError> {
         let Some(points) = bodies.get(&self.body) else {
-            return Err(MachineError::NoBody {
-                key: key.into(),
-                body: self.body.clone(),
-                known: bodies.keys().cloned().collect(),
-            });
+            return Err(MachineError::unknown(
+                key,
+                "body",
+                self.body.clone(),
+                bodies.keys().cloned(),
+            ));
         };
         let Some(name) = &self.point else {
             return Ok(Point::origin());
@@ -123,12 +124,12 @@ pub(in crate::machine) fn followed_cam<'a>(
     let key = format!("bodies.{name}.law.follows");
     match design.cams.get(cam) {
         Some(spec) => Ok(Some((key, spec))),
-        None => Err(MachineError::NoGear {
+        None => Err(MachineError::unknown(
             key,
-            what: "cam",
-            name: cam.clone(),
-            known: design.cams.keys().cloned().collect(),
-        }),
+            "cam",
+            cam.clone(),
+            design.cams.keys().cloned(),
+        )),
     }
 }
 

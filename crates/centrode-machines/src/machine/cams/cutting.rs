@@ -54,11 +54,7 @@ impl Builder<'_> {
         let key = format!("cams.{cam}.cut_to");
         let Some(body) = self.body_named(name) else {
             let known = self.bodies.iter().map(|body| body.name.clone());
-            return Err(MachineError::NoBody {
-                body: name.into(),
-                known: known.collect(),
-                key,
-            });
+            return Err(MachineError::unknown(key, "body", name, known));
         };
         let moving = self.bodies[body].mount.clone();
         let Some(mount) = moving.filter(|mount| mount.kind != JointKind::Fixed) else {
@@ -73,10 +69,7 @@ impl Builder<'_> {
             None => FACE,
         };
         let blame = |error: CamError| match error.key().as_str() {
-            "motion" => MachineError::NoFollower {
-                key: key.clone(),
-                why: error.to_string(),
-            },
+            "motion" => MachineError::refused(key.clone(), error.to_string()),
             _ => {
                 let cam = cam.into();
                 MachineError::Cam { cam, error }

@@ -200,8 +200,7 @@ impl Builder<'_> {
 
 /// A cam that cannot be followed.
 pub(in crate::machine) fn wrong<T>(key: &str, why: String) -> Result<T, MachineError> {
-    let key = key.into();
-    Err(MachineError::NoFollower { key, why })
+    Err(MachineError::refused(key, why))
 }
 
 /// An angle less whole turns, from -pi to pi.

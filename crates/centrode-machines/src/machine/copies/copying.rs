@@ -107,25 +107,16 @@ impl Machine {
         key: &str,
         spec: &MachineCopiesSpec,
     ) -> Result<(), MachineError> {
-        let known = || self.bodies.iter().map(|body| body.name.clone()).collect();
         let named = spec.bodies.iter().map(|body| (body, "bodies"));
         for (body, word) in named.chain([(&spec.about, "about")]) {
-            if self.body_named(body).is_none() {
-                return Err(MachineError::NoBody {
-                    key: format!("{key}.{word}"),
-                    body: body.clone(),
-                    known: known(),
-                });
-            }
+            self.body_of(&format!("{key}.{word}"), body)?;
         }
         let times = |body: &String| {
             let all = design.copies.values().flat_map(|copies| &copies.bodies);
             all.filter(|other| *other == body).count()
         };
-        let wrong = |word: &str, why: String| {
-            let key = format!("{key}.{word}");
-            Err(MachineError::NoCopies { key, why })
-        };
+        let wrong =
+            |word: &str, why: String| Err(MachineError::refused(format!("{key}.{word}"), why));
         if let Some(body) = spec.bodies.iter().find(|body| times(body) > 1) {
             return wrong("bodies", format!("body {body} would be copied twice"));
         }
@@ -164,14 +155,14 @@ impl Machine {
         } else {
             high
         };
-        Err(MachineError::NoCopies {
-            key: format!("{key}.about"),
-            why: format!(
+        Err(MachineError::refused(
+            format!("{key}.about"),
+            format!(
                 "body {about} turns to and fro, at an input of {:.4} deg with {:.6} of the input's speed: copies about it need one that stands still or turns one way",
                 back.input.to_degrees(),
                 back.value
             ),
-        })
+        ))
     }
 
     /// Ends of the parts of a cycle between which all motion is smooth.
@@ -213,10 +204,10 @@ impl Machine {
             let off = |input: f64| self.off(CopyTurn { about, spin, turn }, body, copy, input);
             let [length, angle] = [0, 1].map(|i| maximum(|input| off(input)[i], &self.parts()));
             if length.value > ROUNDING * size || angle.value > ROUNDING {
-                return Err(MachineError::NoCopies {
-                    key: key.into(),
-                    why: repeats(name, &copied, &spec.about, turn, [length, angle]),
-                });
+                return Err(MachineError::refused(
+                    key,
+                    repeats(name, &copied, &spec.about, turn, [length, angle]),
+                ));
             }
         }
         Ok(())

@@ -110,8 +110,7 @@ pub(super) fn add(
 
 impl ChainCopy<'_> {
     fn wrong(&self, why: String) -> MachineError {
-        let key = self.key.clone();
-        MachineError::NoCopies { key, why }
+        MachineError::refused(&self.key, why)
     }
 
     /// Name of the copy of something.
@@ -364,8 +363,7 @@ impl ChainCopy<'_> {
                 let about = self.about;
                 let why =
                     format!("body {about} turns unevenly: of {what}, there are no copies about it");
-                let key = key.into();
-                Err(MachineError::NoCopies { key, why })
+                Err(MachineError::refused(key, why))
             }
         }
     }

@@ -143,13 +143,10 @@ impl Machine {
     /// # Errors
     /// [`MachineError`] where there is no such figure.
     pub fn figure(&self, key: &str, words: &str) -> Result<MachineFigure, MachineError> {
-        let none = || MachineError::NoFigure {
-            key: key.into(),
-            words: words.into(),
-            known: FIGURE_FORMS
-                .iter()
-                .map(|[form, ..]| (*form).into())
-                .collect(),
+        let none = || {
+            let forms = FIGURE_FORMS.map(|[form, ..]| form).join(", ");
+            let why = format!("there is no figure {words:?}; its forms are {forms}");
+            MachineError::refused(key, why)
         };
         if let Some(found) = self.figure_of_forces(key, words) {
             return found?.ok_or_else(none);
@@ -162,14 +159,10 @@ impl Machine {
             let names: Vec<&str> = inside.split(',').map(str::trim).collect();
             return match (function.trim(), &names[..]) {
                 ("transmission", [dyad]) => {
-                    let found = self.dyads.iter().position(|d| d.name == *dyad);
-                    found
-                        .map(MachineFigure::Transmission)
-                        .ok_or_else(|| MachineError::NoDyad {
-                            key: key.into(),
-                            dyad: (*dyad).into(),
-                            known: self.dyads.iter().map(|d| d.name.clone()).collect(),
-                        })
+                    let names = || self.dyads.iter().map(|own| own.name.clone());
+                    let found = names().position(|name| name == *dyad);
+                    let unknown = || MachineError::unknown(key, "dyad", *dyad, names());
+                    found.map(MachineFigure::Transmission).ok_or_else(unknown)
                 }
                 ("distance", [one, other]) => Ok(MachineFigure::Distance([
                     self.point_of(key, one)?,
@@ -281,11 +274,14 @@ impl Machine {
     }
 
     /// Index of a body that a key names.
-    pub(super) fn body_of(&self, key: &str, name: &str) -> Result<usize, MachineError> {
-        self.body_named(name).ok_or_else(|| MachineError::NoBody {
-            key: key.into(),
-            body: name.into(),
-            known: self.bodies.iter().map(|body| body.name.clone()).collect(),
+    pub(in crate::machine) fn body_of(&self, key: &str, name: &str) -> Result<usize, MachineError> {
+        self.body_named(name).ok_or_else(|| {
+            MachineError::unknown(
+                key,
+                "body",
+                name,
+                self.bodies.iter().map(|body| body.name.clone()),
+            )
         })
     }
 

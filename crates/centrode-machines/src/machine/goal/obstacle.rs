@@ -110,10 +110,10 @@ impl Machine {
         let obstacle = |(name, spec): (&String, &MachineObstacleSpec)| {
             let key = format!("obstacles.{name}");
             if self.body_named(name).is_some() {
-                return Err(MachineError::Refused {
+                return Err(MachineError::refused(
                     key,
-                    why: format!("a body is named {name}, too: a clearance could be of either"),
-                });
+                    format!("a body is named {name}, too: a clearance could be of either"),
+                ));
             }
             let on = format!("{key}.on");
             let word = spec.on.as_deref().unwrap_or(crate::machine::design::FRAME);
