@@ -47,12 +47,11 @@ impl LoadedKey<'_> {
         let message = format!(
             "{name} in the {part} is pressed by {pressure:.1} N/mm² at {value:.0} N·mm: its hub and shaft bear {allowed:.1} N/mm²"
         );
-        report.findings.push(
-            Finding::new("key-pressure", Severity::Error, message)
-                .measured(pressure, allowed, Unit::NewtonPerSquareMillimetre)
-                .remedy("a thicker hub, or a wider bore with its key")
-                .on(part)
-                .at(input),
-        );
+        Finding::new("key-pressure", Severity::Error, message)
+            .measured(pressure, allowed, Unit::NewtonPerSquareMillimetre)
+            .remedy("a thicker hub, or a wider bore with its key")
+            .on(part)
+            .at(input)
+            .add_to(report);
     }
 }

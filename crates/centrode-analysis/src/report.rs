@@ -124,6 +124,11 @@ impl Finding {
         self
     }
 
+    /// Adds it to a report.
+    pub(crate) fn add_to(self, report: &mut Report) {
+        report.findings.push(self);
+    }
+
     /// At an input, rad.
     #[must_use]
     pub fn at(mut self, input: impl Into<Option<f64>>) -> Self {
@@ -149,6 +154,33 @@ pub struct Table {
     pub rows: Vec<(String, Vec<f64>)>,
 }
 
+impl Table {
+    /// A table without columns or rows.
+    #[must_use]
+    pub fn new(name: &'static str, title: &'static str, unit: Unit) -> Self {
+        Self {
+            name,
+            title,
+            unit,
+            columns: Vec::new(),
+            rows: Vec::new(),
+        }
+    }
+
+    /// With headings of columns.
+    #[must_use]
+    pub fn columns<C: Into<String>>(self, headings: impl IntoIterator<Item = C>) -> Self {
+        let columns = headings.into_iter().map(C::into).collect();
+        Self { columns, ..self }
+    }
+
+    /// With rows, each with its heading.
+    #[must_use]
+    pub fn rows(self, rows: Vec<(String, Vec<f64>)>) -> Self {
+        Self { rows, ..self }
+    }
+}
+
 /// All findings and figures of one mechanism.
 ///
 /// In JSON an infinite figure is a string, as [`JsonNumber`](crate::JsonNumber) says.
@@ -172,6 +204,13 @@ pub struct Report {
 }
 
 impl Report {
+    /// Adds a table, unless it has no rows.
+    pub(crate) fn table(&mut self, table: Table) {
+        if !table.rows.is_empty() {
+            self.tables.push(table);
+        }
+    }
+
     /// Whether no finding is an error.
     #[must_use]
     pub fn ok(&self) -> bool {

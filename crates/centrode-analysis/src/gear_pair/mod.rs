@@ -136,9 +136,7 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
             range.minimum.1,
             range.maximum.1,
         ];
-        for (name, figure) in names(member).into_iter().zip(figures) {
-            values.insert(name, figure);
-        }
+        report.values.extend(names(member).into_iter().zip(figures));
         let concave = -range.minimum.1;
         if let ToolKind::Shaper { radius } = pair.teeth().tool(member).kind
             && concave > 0.0
@@ -149,12 +147,11 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
                 member.name(),
                 1.0 / concave
             );
-            report.findings.push(
-                Finding::new("shaper-radius", Severity::Error, message)
-                    .measured(radius, 1.0 / concave, Unit::Millimetre)
-                    .remedy(remedy("shaper-radius"))
-                    .on(member.name()),
-            );
+            Finding::new("shaper-radius", Severity::Error, message)
+                .measured(radius, 1.0 / concave, Unit::Millimetre)
+                .remedy(remedy("shaper-radius"))
+                .on(member.name())
+                .add_to(report);
         }
     }
     report.findings.extend(pitch_overlap(pair));
@@ -169,16 +166,15 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
             "the force on the driven gear stands up to {:.1} deg off its direction of turning",
             steepest.to_degrees()
         );
-        report.findings.push(
-            Finding::new(
-                "pressure-angle",
-                Severity::of_pressure_angle(steepest),
-                message,
-            )
-            .measured(steepest, PRESSURE_ANGLE, Unit::Angle)
-            .remedy(remedy("pressure-angle"))
-            .at(input),
-        );
+        Finding::new(
+            "pressure-angle",
+            Severity::of_pressure_angle(steepest),
+            message,
+        )
+        .measured(steepest, PRESSURE_ANGLE, Unit::Angle)
+        .remedy(remedy("pressure-angle"))
+        .at(input)
+        .add_to(report);
     }
     report
         .values
@@ -268,15 +264,14 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
         .chain([error, reverse, extremes.backlash[1]])
         .find(|figure| !figure.value.is_finite());
     if let Some(Extreme { input, .. }) = loose {
-        report.findings.push(
-            Finding::new(
-                "disengaged",
-                Severity::Error,
-                "nothing holds the driven gear: no tooth of one gear reaches the other",
-            )
-            .remedy(remedy("disengaged"))
-            .at(input),
-        );
+        Finding::new(
+            "disengaged",
+            Severity::Error,
+            "nothing holds the driven gear: no tooth of one gear reaches the other",
+        )
+        .remedy(remedy("disengaged"))
+        .at(input)
+        .add_to(report);
     }
     let interferes = contact.interferes(pair);
     let mm = |depth: f64| Unit::Millimetre.with_unit(depth);
@@ -343,20 +338,19 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
             },
             Unit::Angle.with_unit(worst.value),
         );
-        report.findings.push(
-            Finding::new(
-                "contact-lost",
-                if share > CARRIED {
-                    Severity::Error
-                } else {
-                    Severity::of_deviation(worst.value * pair.rolling().radii(Member::Driven).1)
-                },
-                message,
-            )
-            .measured(worst.value, allowed, Unit::Angle)
-            .remedy(remedy("contact-lost"))
-            .at(worst.input),
-        );
+        Finding::new(
+            "contact-lost",
+            if share > CARRIED {
+                Severity::Error
+            } else {
+                Severity::of_deviation(worst.value * pair.rolling().radii(Member::Driven).1)
+            },
+            message,
+        )
+        .measured(worst.value, allowed, Unit::Angle)
+        .remedy(remedy("contact-lost"))
+        .at(worst.input)
+        .add_to(report);
     }
     report
         .findings

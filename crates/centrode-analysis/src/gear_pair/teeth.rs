@@ -93,13 +93,12 @@ pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut 
             "short-tooth" => flanks(pair, gear, &|side| side.tip_shortening > small, true),
             _ => Vec::new(),
         };
-        report.findings.push(
-            Finding::new(rule, severity, say(&who, worst))
-                .measured(measured, required, unit)
-                .remedy(remedy_of_teeth(rule, pair.teeth().addendum))
-                .on(part)
-                .teeth(numbers, flanks),
-        );
+        Finding::new(rule, severity, say(&who, worst))
+            .measured(measured, required, unit)
+            .remedy(remedy_of_teeth(rule, pair.teeth().addendum))
+            .on(part)
+            .teeth(numbers, flanks)
+            .add_to(report);
     };
     let cut_through = collect(&|t| t.cut_through.then_some(1.0));
     add(

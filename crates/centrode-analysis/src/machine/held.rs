@@ -87,12 +87,11 @@ pub(super) fn held(composed: &Machine, report: &mut Report) {
                 (Severity::Note, message)
             }
         };
-        report.findings.push(
-            Finding::new("overhung", severity, message)
-                .measured(stress, allowed, Unit::NewtonPerSquareMillimetre)
-                .remedy("a thicker frame, a wider shaft, or a layer nearer to the frame")
-                .on(name),
-        );
+        Finding::new("overhung", severity, message)
+            .measured(stress, allowed, Unit::NewtonPerSquareMillimetre)
+            .remedy("a thicker frame, a wider shaft, or a layer nearer to the frame")
+            .on(name)
+            .add_to(report);
     }
     report
         .values

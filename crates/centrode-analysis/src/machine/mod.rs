@@ -282,24 +282,23 @@ fn dyads(composed: &Machine, motion: &Motion, report: &mut Report) {
                 "the transmission angle of dyad {} {reaches} to {degrees:.2} deg: {limit} deg friction may lock it",
                 dyad.name
             );
-            report.findings.push(
-                Finding::new("transmission-angle", Severity::Warning, message)
-                    .measured(held, HOLDS_BADLY.to_radians(), Unit::Angle)
-                    .remedy("longer bars against the motion that drives them, or other pins")
-                    .on(dyad.name.clone())
-                    .at(end.input),
-            );
+            Finding::new("transmission-angle", Severity::Warning, message)
+                .measured(held, HOLDS_BADLY.to_radians(), Unit::Angle)
+                .remedy("longer bars against the motion that drives them, or other pins")
+                .on(dyad.name.clone())
+                .at(end.input)
+                .add_to(report);
         }
     }
-    if !rows.is_empty() {
-        report.tables.push(Table {
-            name: "transmission-angles",
-            title: "Transmission angle of dyad",
-            unit: Unit::Angle,
-            columns: ["minimum", "at", "maximum", "at"].map(String::from).into(),
-            rows,
-        });
-    }
+    report.table(
+        Table::new(
+            "transmission-angles",
+            "Transmission angle of dyad",
+            Unit::Angle,
+        )
+        .columns(["minimum", "at", "maximum", "at"])
+        .rows(rows),
+    );
 }
 
 /// Reach and speed of every point that moves.
@@ -309,23 +308,14 @@ fn points(composed: &Machine, motion: Motion, report: &mut Report) {
         reach.push((point.name.clone(), point.sides.to_vec()));
         speed.push((point.name, vec![point.fastest * composed.speed()]));
     }
-    if reach.is_empty() {
-        return;
-    }
-    report.tables.push(Table {
-        name: "reach",
-        title: "Reach of point",
-        unit: Unit::Millimetre,
-        columns: ["minimum x", "maximum x", "minimum y", "maximum y"]
-            .map(String::from)
-            .into(),
-        rows: reach,
-    });
-    report.tables.push(Table {
-        name: "speed",
-        title: "Maximum speed of point",
-        unit: Unit::MillimetrePerSecond,
-        columns: vec!["speed".into()],
-        rows: speed,
-    });
+    report.table(
+        Table::new("reach", "Reach of point", Unit::Millimetre)
+            .columns(["minimum x", "maximum x", "minimum y", "maximum y"])
+            .rows(reach),
+    );
+    report.table(
+        Table::new("speed", "Maximum speed of point", Unit::MillimetrePerSecond)
+            .columns(["speed"])
+            .rows(speed),
+    );
 }

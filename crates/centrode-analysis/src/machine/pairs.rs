@@ -48,15 +48,11 @@ pub(super) fn pairs(made: &Made<'_>, report: &mut Report) {
         let value = |key: &str| own.values.get(key).copied().unwrap_or(f64::NAN);
         rows.push((name.to_owned(), carrying.map(value).to_vec()));
     }
-    if !rows.is_empty() {
-        report.tables.push(Table {
-            name: "contact-ratios",
-            title: "Contact ratio of pair",
-            unit: Unit::Number,
-            columns: ["minimum", "mean"].map(String::from).into(),
-            rows,
-        });
-    }
+    report.table(
+        Table::new("contact-ratios", "Contact ratio of pair", Unit::Number)
+            .columns(["minimum", "mean"])
+            .rows(rows),
+    );
 }
 
 #[cfg(test)]

@@ -19,12 +19,11 @@ pub(super) fn crossings(shaft: &SpiralShaft, report: &mut Report) {
             "a slider {length} mm long loses both walls at {open} of {} crossings; it takes more than {longest:.3} mm",
             all.len()
         );
-        report.findings.push(
-            Finding::new("slider-length", Severity::Error, message)
-                .measured(length, longest, Unit::Millimetre)
-                .remedy("a longer slider, a narrower groove, or a return_offset")
-                .on("slider"),
-        );
+        Finding::new("slider-length", Severity::Error, message)
+            .measured(length, longest, Unit::Millimetre)
+            .remedy("a longer slider, a narrower groove, or a return_offset")
+            .on("slider")
+            .add_to(report);
     }
     tilt(shaft, longest, report);
     let design = shaft.design();
@@ -46,13 +45,12 @@ pub(super) fn crossings(shaft: &SpiralShaft, report: &mut Report) {
         first.gap,
         advice(shaft)
     );
-    report.findings.push(
-        Finding::new("crossing-while-picking", Severity::Warning, message)
-            .measured(first.gap, length, Unit::Millimetre)
-            .remedy("a slider longer than the gap, or a return_offset")
-            .on("shaft")
-            .at(first.out),
-    );
+    Finding::new("crossing-while-picking", Severity::Warning, message)
+        .measured(first.gap, length, Unit::Millimetre)
+        .remedy("a slider longer than the gap, or a return_offset")
+        .on("shaft")
+        .at(first.out)
+        .add_to(report);
 }
 
 /// Checks a slider free on its pin, pushed against one wall, where a crossing interrupts that wall over `gap` mm.
@@ -70,12 +68,11 @@ fn tilt(shaft: &SpiralShaft, gap: f64, report: &mut Report) {
         "a crossing takes the wall that pushes the slider away over {gap:.2} mm: {length} mm long and free on its pin, the slider can turn into the other groove there; held by the walls alone it must be {:.2} mm long",
         2.0 * gap
     );
-    report.findings.push(
-        Finding::new("slider-tilts", Severity::Warning, message)
-            .measured(length, 2.0 * gap, Unit::Millimetre)
-            .remedy("a narrower groove, a longer slider, or a pin that does not turn freely")
-            .on("slider"),
-    );
+    Finding::new("slider-tilts", Severity::Warning, message)
+        .measured(length, 2.0 * gap, Unit::Millimetre)
+        .remedy("a narrower groove, a longer slider, or a pin that does not turn freely")
+        .on("slider")
+        .add_to(report);
 }
 
 /// Shift of the return groove that brings the slow places off the crossings, in words.

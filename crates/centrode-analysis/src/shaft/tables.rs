@@ -61,53 +61,47 @@ pub(super) fn schemes(machine: &MovingBox) -> Vec<Table> {
     let both = [shaft.law().pieces(pick), machine.stroke_pieces()].concat();
     let ends = piece_ends(pick, pick + TAU, 1, &both);
     let range = |of: &dyn Fn(f64) -> f64| extremes(of, &ends).map(|extreme| extreme.value).to_vec();
-    let table = |name, title, unit, columns: &[&str], of: &dyn Fn(&Way<'_>) -> Vec<f64>| Table {
-        name,
-        title,
-        unit,
-        columns: columns.iter().map(|c| (*c).to_owned()).collect(),
-        rows: ways.iter().map(|way| (way.name.into(), of(way))).collect(),
+    let acceleration = "Acceleration on a stroke";
+    let rows = |of: &dyn Fn(&Way<'_>) -> Vec<f64>| {
+        let row = |way: &Way<'_>| (way.name.into(), of(way));
+        ways.iter().map(row).collect()
     };
     vec![
-        table(
+        Table::new(
             "schemes",
             "Box while a seedling is picked",
             Unit::Millimetre,
-            &["moves", "may move"],
-            &|way| {
-                let place = |input: f64| (way.at)(input).0.position;
-                vec![
-                    place(pick + half) - place(pick - half),
-                    design.pot_width / 6.0,
-                ]
-            },
-        ),
-        table(
-            "scheme-speeds",
-            "Speed over its mean",
-            Unit::Number,
-            &["minimum", "maximum"],
-            &|way| range(&|input| (way.at)(input).0.velocity / mean),
-        ),
-        table(
+        )
+        .columns(["moves", "may move"])
+        .rows(rows(&|way| {
+            let place = |input: f64| (way.at)(input).0.position;
+            vec![
+                place(pick + half) - place(pick - half),
+                design.pot_width / 6.0,
+            ]
+        })),
+        Table::new("scheme-speeds", "Speed over its mean", Unit::Number)
+            .columns(["minimum", "maximum"])
+            .rows(rows(&|way| {
+                range(&|input| (way.at)(input).0.velocity / mean)
+            })),
+        Table::new(
             "scheme-accelerations",
-            "Acceleration on a stroke",
+            acceleration,
             Unit::MetrePerSecondSquared,
-            &["minimum", "maximum"],
-            &|way| range(&|input| metres * (way.at)(input).0.acceleration),
-        ),
-        table(
-            "scheme-forces",
-            "Normal force on the slider",
-            Unit::Newton,
-            &["minimum", "maximum"],
-            &|way| {
+        )
+        .columns(["minimum", "maximum"])
+        .rows(rows(&|way| {
+            range(&|input| metres * (way.at)(input).0.acceleration)
+        })),
+        Table::new("scheme-forces", "Normal force on the slider", Unit::Newton)
+            .columns(["minimum", "maximum"])
+            .rows(rows(&|way| {
                 range(&|input| {
                     let (motion, lead) = (way.at)(input);
                     load.force(motion, lead, radius).normal
                 })
-            },
-        ),
+            })),
     ]
 }
 
@@ -142,45 +136,37 @@ pub(super) fn published(shaft: &SpiralShaft) -> Vec<Table> {
         });
         std::iter::once([ours.normal, ours.transverse])
             .chain(theirs)
+    let (normal, transverse) = (
+        "Normal force next to the paper's",
+        "Transverse force next to the paper's",
+    );
             .collect()
     };
     let of = |side: usize| eighths(|theta| forces(theta).iter().map(|force| force[side]).collect());
-    let table = |name, title, unit, columns: &[&str], rows: Vec<(String, Vec<f64>)>| Table {
-        name,
-        title,
-        unit,
-        columns: columns.iter().map(|&c| c.to_owned()).collect(),
-        rows,
-    };
     let columns = if sine { 3 } else { 2 };
     let mut tables = vec![
-        table(
-            "normal-forces",
-            "Normal force next to the paper's",
-            Unit::Newton,
-            &["normal", "by (14)", "by (17)"][..columns],
-            of(0),
-        ),
-        table(
-            "transverse-forces",
-            "Transverse force next to the paper's",
-            Unit::Newton,
-            &["transverse", "by (15)", "by (18)"][..columns],
-            of(1),
-        ),
+        Table::new("normal-forces", normal, Unit::Newton)
+            .columns(["normal", "by (14)", "by (17)"].into_iter().take(columns))
+            .rows(of(0)),
+        Table::new("transverse-forces", transverse, Unit::Newton)
+            .columns(
+                ["transverse", "by (15)", "by (18)"]
+                    .into_iter()
+                    .take(columns),
+            )
+            .rows(of(1)),
     ];
     if sine {
         let accelerations = |theta: f64| {
             let ours = shaft.stroke_acceleration(theta, load);
             [Some(ours), printed(theta)].into_iter().flatten().collect()
         };
-        tables.push(table(
-            "accelerations",
-            "Acceleration next to the paper's",
-            Unit::MetrePerSecondSquared,
-            &["acceleration", "by (16)"],
-            eighths(accelerations),
-        ));
+        let title = "Acceleration next to the paper's";
+        tables.push(
+            Table::new("accelerations", title, Unit::MetrePerSecondSquared)
+                .columns(["acceleration", "by (16)"])
+                .rows(eighths(accelerations)),
+        );
     }
     tables
 }

@@ -26,17 +26,14 @@ pub(super) fn check_bearings(mechanism: &ThreeArm, report: &mut Report) {
             ),
             None => format!("no bearing of series 618, 60 and 62 has a bore of {bore} mm"),
         };
-        report.findings.push(
-            Finding::new(
-                "no-bearing",
-                Severity::Warning,
-                format!("the shaft of {bore} mm of the {part} turns in the bare plates: {why}"),
-            )
-            .measured(wall, narrowest, Unit::Millimetre)
-            .remedy(
-                "thicker plates (wall), or a bore of 5 to 10, 12, 15, 17, 20, 25, 30, 35 or 40 mm",
-            )
-            .on(part),
-        );
+        Finding::new(
+            "no-bearing",
+            Severity::Warning,
+            format!("the shaft of {bore} mm of the {part} turns in the bare plates: {why}"),
+        )
+        .measured(wall, narrowest, Unit::Millimetre)
+        .remedy("thicker plates (wall), or a bore of 5 to 10, 12, 15, 17, 20, 25, 30, 35 or 40 mm")
+        .on(part)
+        .add_to(report);
     }
 }
