@@ -229,11 +229,11 @@ impl Reversed {
     fn splits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         let (chain, bend) = (self.chain.clone(), self.bend_deg.to_radians());
         let found = wait(py, move || {
-            SplitKind::NAMES.map(|(name, kind)| {
+            SplitKind::ALL.map(|kind| {
                 let split = Split::new(&chain, kind, bend).map_err(|error| error.to_string());
                 let made = |split| ReversedMachine::new(&chain, &split, 1, None);
                 (
-                    name,
+                    kind.name(),
                     split.and_then(|split| made(split).map_err(|error| error.to_string())),
                 )
             })

@@ -14,17 +14,11 @@ pub enum Way {
     Return,
 }
 
-impl Way {
-    /// Word for the way.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Forward => "forward",
-            Self::Reversing => "reversing",
-            Self::Return => "return",
-        }
-    }
-}
+centrode_spec::words!(Way {
+    Forward = "forward",
+    Reversing = "reversing",
+    Return = "return",
+});
 
 /// One picking.
 #[derive(Clone, Copy, Debug, PartialEq)]

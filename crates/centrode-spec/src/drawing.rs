@@ -1,3 +1,4 @@
+use crate::words;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -120,21 +121,20 @@ impl DrawingSpec {
     }
 }
 
-impl Projection {
-    /// Name, as written in the design.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::FirstAngle => "first-angle",
-            Self::ThirdAngle => "third-angle",
-        }
-    }
-}
+words!(Projection {
+    FirstAngle = "first-angle",
+    ThirdAngle = "third-angle",
+});
+
+words!(SheetSize {
+    A4 = "A4",
+    A3 = "A3",
+    A2 = "A2",
+    A1 = "A1",
+    A0 = "A0",
+});
 
 impl SheetSize {
-    /// All sizes, smallest first.
-    pub const ALL: [Self; 5] = [Self::A4, Self::A3, Self::A2, Self::A1, Self::A0];
-
     /// Width and height of the trimmed sheet, mm.
     #[must_use]
     pub fn size(self) -> [f64; 2] {
@@ -144,18 +144,6 @@ impl SheetSize {
             Self::A2 => [594.0, 420.0],
             Self::A1 => [841.0, 594.0],
             Self::A0 => [1189.0, 841.0],
-        }
-    }
-
-    /// Name: "A4".
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::A4 => "A4",
-            Self::A3 => "A3",
-            Self::A2 => "A2",
-            Self::A1 => "A1",
-            Self::A0 => "A0",
         }
     }
 }

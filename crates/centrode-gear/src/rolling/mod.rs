@@ -26,6 +26,11 @@ pub enum Member {
     Driven,
 }
 
+centrode_spec::words!(Member {
+    Driver = "driver",
+    Driven = "driven",
+});
+
 impl Member {
     /// The other gear of the pair.
     #[must_use]
@@ -33,15 +38,6 @@ impl Member {
         match self {
             Self::Driver => Self::Driven,
             Self::Driven => Self::Driver,
-        }
-    }
-
-    /// The name used in files and reports.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Driver => "driver",
-            Self::Driven => "driven",
         }
     }
 }

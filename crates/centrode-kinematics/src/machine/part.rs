@@ -43,17 +43,13 @@ pub enum Supply {
     Given,
 }
 
-impl Supply {
-    /// Word for it.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Made => "made",
-            Self::Bought => "bought",
-            Self::Given => "given",
-        }
-    }
+centrode_spec::words!(Supply {
+    Made = "made",
+    Bought = "bought",
+    Given = "given",
+});
 
+impl Supply {
     fn is_made(&self) -> bool {
         *self == Self::Made
     }

@@ -220,15 +220,15 @@ fn rested(chain: &TwoBar, split: &Split, design: &PathDesign) -> Result<Vec<Figu
 
 /// Figures of the splits that were not chosen.
 fn others(design: &PathDesign, chain: &TwoBar) -> Vec<Figure> {
-    let kinds = SplitKind::NAMES.into_iter();
-    let kinds = kinds.filter(|(_, kind)| design.split != *kind);
+    let kinds = SplitKind::ALL.into_iter();
+    let kinds = kinds.filter(|kind| design.split != *kind);
     kinds
-        .map(|(name, kind)| {
+        .map(|kind| {
             let words = match Split::new(chain, kind, design.bend) {
                 Ok(split) => sharpest(chain, &split),
                 Err(error) => error.to_string(),
             };
-            figure(&format!("split {name}"), words)
+            figure(&format!("split {}", kind.name()), words)
         })
         .collect()
 }

@@ -87,24 +87,11 @@ pub enum Aim {
     Small,
 }
 
-impl Aim {
-    /// Every aim by its word.
-    pub const NAMES: [(&'static str, Self); 3] = [
-        ("module", Self::Module),
-        ("mild", Self::Mild),
-        ("small", Self::Small),
-    ];
-
-    /// The word for it.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Module => "module",
-            Self::Mild => "mild",
-            Self::Small => "small",
-        }
-    }
-}
+centrode_spec::words!(Aim {
+    Module = "module",
+    Mild = "mild",
+    Small = "small",
+});
 
 fn default_name() -> String {
     "reversed".into()

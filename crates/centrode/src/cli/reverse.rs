@@ -234,7 +234,7 @@ fn possible(map: &AxisMap, out: &mut impl Write) -> std::io::Result<()> {
 
 /// Prints what the splits that were not chosen would be.
 fn others(chain: &TwoBar, kind: SplitKind, bend: f64, out: &mut impl Write) -> std::io::Result<()> {
-    for (name, other) in SplitKind::NAMES {
+    for other in SplitKind::ALL {
         if other == kind {
             continue;
         }
@@ -242,7 +242,7 @@ fn others(chain: &TwoBar, kind: SplitKind, bend: f64, out: &mut impl Write) -> s
             Ok(split) => sharpest(chain, &split),
             Err(error) => error.to_string(),
         };
-        line(out, &format!("split {name}"), &words)?;
+        line(out, &format!("split {}", other.name()), &words)?;
     }
     Ok(())
 }

@@ -31,10 +31,13 @@ pub enum Subject {
     Assembly,
 }
 
-impl Subject {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Driver, Self::Driven, Self::Assembly];
+centrode_spec::words!(Subject {
+    Driver = "driver",
+    Driven = "driven",
+    Assembly = "assembly",
+});
 
+impl Subject {
     /// The gear; none of both in place.
     #[must_use]
     pub fn member(self) -> Option<Member> {
@@ -42,16 +45,6 @@ impl Subject {
             Self::Driver => Some(Member::Driver),
             Self::Driven => Some(Member::Driven),
             Self::Assembly => None,
-        }
-    }
-
-    /// The name its files have.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Driver => "driver",
-            Self::Driven => "driven",
-            Self::Assembly => "assembly",
         }
     }
 }

@@ -37,24 +37,11 @@ pub enum SplitKind {
     OnePair,
 }
 
-impl SplitKind {
-    /// Every kind by its word.
-    pub const NAMES: [(&'static str, Self); 3] = [
-        ("powers", Self::Powers),
-        ("mildest", Self::Mildest),
-        ("one-pair", Self::OnePair),
-    ];
-
-    /// The word for it.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Powers => "powers",
-            Self::Mildest => "mildest",
-            Self::OnePair => "one-pair",
-        }
-    }
-}
+centrode_spec::words!(SplitKind {
+    Powers = "powers",
+    Mildest = "mildest",
+    OnePair = "one-pair",
+});
 
 /// Driven angle of a stage by its driver's polar angle, rad: grows by one turn with each.
 pub(super) type StageLaw = Arc<dyn Fn(f64) -> f64 + Send + Sync>;

@@ -23,7 +23,7 @@ pub(crate) struct Reverse {
     pub(crate) within: Option<f64>,
     /// Where something is free, make the most of it: the largest teeth, the ratio nearest to 1, or the minimum reach of the tip; left
     /// out, the largest teeth where the path is eased or more is wanted of the machine, else the mildest ratio
-    #[arg(long, conflicts_with = "poses", value_parser = PossibleValuesParser::new(Aim::NAMES.map(|(name, _)| name)))]
+    #[arg(long, conflicts_with = "poses", value_parser = PossibleValuesParser::new(Aim::ALL.map(Aim::name)))]
     pub(crate) aim: Option<String>,
     /// Axis of the carrier, mm; left out, it is sought on and about the path: the mildest, or the best by --aim
     #[arg(long, value_parser = place, allow_hyphen_values = true, value_name = "X,Y")]
@@ -66,7 +66,7 @@ pub(crate) struct Reverse {
     #[arg(long, requires_all = ["three_arm", "output"], value_name = "DIR")]
     pub(crate) to: Option<PathBuf>,
     /// How two stages of gears share the motion; left out, powers
-    #[arg(long, value_parser = PossibleValuesParser::new(SplitKind::NAMES.map(|(name, _)| name)))]
+    #[arg(long, value_parser = PossibleValuesParser::new(SplitKind::ALL.map(SplitKind::name)))]
     pub(crate) split: Option<String>,
     /// Angle from the carrier's first leg, to the intermediate gear, to its second, degrees; left out, 60
     #[arg(long, allow_negative_numbers = true, value_name = "DEG")]
