@@ -299,11 +299,7 @@ impl MovingBox {
     pub fn shaft_turn(&self, input: f64) -> MotionJet {
         match &self.drive {
             Some(drive) => drive.at(input),
-            None => MotionJet {
-                position: input,
-                velocity: 1.0,
-                ..MotionJet::default()
-            },
+            None => MotionJet::uniform(input, 1.0),
         }
     }
 

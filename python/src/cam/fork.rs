@@ -229,8 +229,5 @@ impl Fork {
 
 /// Motion of a fixed position.
 fn at_rest(position: f64) -> MotionJet {
-    MotionJet {
-        position,
-        ..MotionJet::default()
-    }
+    MotionJet::at_rest(position)
 }

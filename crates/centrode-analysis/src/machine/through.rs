@@ -161,13 +161,11 @@ fn bars(pieces: &TurnedPieces, piece: &TurnedPiece) -> Vec<Surface> {
 /// A cylinder about the axis of a piece, between heights above its lower end.
 fn round(piece: &TurnedPiece, diameter: f64, span: [f64; 2]) -> Surface {
     let [x, y, low] = piece.at;
-    Surface {
-        name: piece.link.clone(),
-        outline: Outline::circle(Point::new(x, y), 0.5 * diameter),
-        span: [low + span[0] + LEVEL, low + span[1] - LEVEL],
-        teeth: Vec::new(),
-        coarseness: 1.0,
-    }
+    Surface::new(
+        piece.link.clone(),
+        Outline::circle(Point::new(x, y), 0.5 * diameter),
+        [low + span[0] + LEVEL, low + span[1] - LEVEL],
+    )
 }
 
 /// Name, link, surface and solid of every plate, gear and cam.

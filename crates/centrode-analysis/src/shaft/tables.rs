@@ -25,11 +25,7 @@ pub(super) fn schemes(machine: &MovingBox) -> Vec<Table> {
         acceleration: mean * turn.acceleration,
         jerk: mean * turn.jerk,
     };
-    let even = |input: f64| MotionJet {
-        position: input,
-        velocity: 1.0,
-        ..MotionJet::default()
-    };
+    let even = |input: f64| MotionJet::uniform(input, 1.0);
     let ways = [
         Way {
             name: "plain shaft",
@@ -61,11 +57,11 @@ pub(super) fn schemes(machine: &MovingBox) -> Vec<Table> {
     let both = [shaft.law().pieces(pick), machine.stroke_pieces()].concat();
     let ends = piece_ends(pick, pick + TAU, 1, &both);
     let range = |of: &dyn Fn(f64) -> f64| extremes(of, &ends).map(|extreme| extreme.value).to_vec();
-    let acceleration = "Acceleration on a stroke";
     let rows = |of: &dyn Fn(&Way<'_>) -> Vec<f64>| {
         let row = |way: &Way<'_>| (way.name.into(), of(way));
         ways.iter().map(row).collect()
     };
+    let acceleration = "Acceleration on a stroke";
     vec![
         Table::new(
             "schemes",
@@ -136,14 +132,14 @@ pub(super) fn published(shaft: &SpiralShaft) -> Vec<Table> {
         });
         std::iter::once([ours.normal, ours.transverse])
             .chain(theirs)
-    let (normal, transverse) = (
-        "Normal force next to the paper's",
-        "Transverse force next to the paper's",
-    );
             .collect()
     };
     let of = |side: usize| eighths(|theta| forces(theta).iter().map(|force| force[side]).collect());
     let columns = if sine { 3 } else { 2 };
+    let (normal, transverse) = (
+        "Normal force next to the paper's",
+        "Transverse force next to the paper's",
+    );
     let mut tables = vec![
         Table::new("normal-forces", normal, Unit::Newton)
             .columns(["normal", "by (14)", "by (17)"].into_iter().take(columns))

@@ -36,30 +36,19 @@ pub fn drawn(pair: &GearPair) -> LinkedMachine {
         },
         ..LinkedMachine::default()
     };
-    let [base, driver, driven] =
-        ["base", Member::Driver.name(), Member::Driven.name()].map(|name| {
-            machine.link(Link {
-                name: name.into(),
-                ..Link::default()
-            })
-        });
+    let [base, driver, driven] = ["base", Member::Driver.name(), Member::Driven.name()]
+        .map(|name| machine.link(Link::new(name)));
     // At the driver's polar angle phi the driver has turned by -phi, the driven gear by its driven angle.
-    let law = Linear {
-        start: 0.0,
-        slope: -1.0,
-    };
+    let law = Linear::new(0.0, -1.0);
     let driving = machine.joint(Joint::turning(base, driver, Arc::new(law)));
     let law: Arc<dyn Transmission> = Arc::new(pair.rolling().clone());
     let at = [pair.center_distance(), 0.0, 0.0];
     let joint = machine.joint(Joint::turning(base, driven, law).at(at));
-    machine.meshes.push(GearMesh {
-        links: [driver, driven],
+    machine.meshes.push(GearMesh::new(
+        [driver, driven],
         joint,
-        copy: 0,
-        pressure_angle: Some(pair.pressure_angle()),
-        axes: Default::default(),
-        pitch: None,
-    });
+        pair.pressure_angle(),
+    ));
     machine.column(
         "driver_angle_rad",
         "rad",
@@ -118,11 +107,11 @@ pub(crate) fn embody(
     let name = member.name();
     let surface = machine.surface(teeth(gear, name));
     let mass = solid.mass_properties(gear.body().density);
-    let shape = machine.shape(Shape {
-        name: format!("{prefix}{name}-body"),
-        part: format!("{prefix}{name}"),
-        form: Form::Solids(vec![solid]),
-    });
+    let shape = machine.shape(Shape::new(
+        format!("{prefix}{name}-body"),
+        format!("{prefix}{name}"),
+        Form::Solids(vec![solid]),
+    ));
     let link = &mut machine.links[link];
     link.mass = Some(mass);
     link.shape = Some(shape);
@@ -135,15 +124,12 @@ pub(crate) fn teeth(gear: &Gear, name: &str) -> Surface {
     let touches =
         |(role, owner): (&Role, &u32)| matches!(role, Role::Flank | Role::Tip).then_some(*owner);
     Surface {
-        name: name.into(),
-        outline: gear.outline().clone(),
-        span: [0.0, gear.body().width],
         teeth: gear
             .roles()
             .iter()
             .zip(gear.owners())
             .map(touches)
             .collect(),
-        coarseness: 1.0,
+        ..Surface::new(name, gear.outline().clone(), [0.0, gear.body().width])
     }
 }

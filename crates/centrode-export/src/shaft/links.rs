@@ -35,16 +35,16 @@ pub(super) fn machine(parts: &Parts<'_>) -> Result<machine::LinkedMachine, Expor
     let shaft = parts.shaft;
     let mut machine = drawn(parts)?;
     let block = slider_solid(shaft)?;
-    let seen = machine.shape(Shape {
-        name: "shaft-body".into(),
-        part: "shaft".into(),
-        form: Form::Body(Arc::new(Grooved(shaft.clone()))),
-    });
-    let cut = machine.shape(Shape {
-        name: "slider-body".into(),
-        part: "slider".into(),
-        form: Form::Solids(vec![block.clone()]),
-    });
+    let seen = machine.shape(Shape::new(
+        "shaft-body",
+        "shaft",
+        Form::Body(Arc::new(Grooved(shaft.clone()))),
+    ));
+    let cut = machine.shape(Shape::new(
+        "slider-body",
+        "slider",
+        Form::Solids(vec![block.clone()]),
+    ));
     let block = block.mass_properties(shaft.slider().density);
     let carried = carried(shaft.load().mass - block.mass);
     for (name, mass, shape) in [
@@ -91,12 +91,7 @@ pub(super) fn drawn(parts: &Parts<'_>) -> Result<machine::LinkedMachine, ExportE
         ..machine::LinkedMachine::default()
     };
     let links = ["base", "frame", "shaft", BOX, "slider"];
-    let [base, frame, turned, carriage, slid] = links.map(|name| {
-        machine.link(Link {
-            name: name.into(),
-            ..Link::default()
-        })
-    });
+    let [base, frame, turned, carriage, slid] = links.map(|name| machine.link(Link::new(name)));
     // The frame's z, along the shaft, on the world's x; its x, where the slider is, upwards.
     machine.joint(Joint::fixed(base, frame).turned([PI, -FRAC_PI_2, 0.0]));
     let (turn, stroke) = (turn(parts), parts.stroke.clone());
@@ -151,10 +146,7 @@ impl SolidBody for Grooved {
 fn turn(parts: &Parts<'_>) -> Arc<dyn Transmission> {
     match &parts.gears {
         Some(gears) => Arc::new(*gears.drive),
-        None => Arc::new(Linear {
-            start: 0.0,
-            slope: 1.0,
-        }),
+        None => Arc::new(Linear::new(0.0, 1.0)),
     }
 }
 
@@ -162,9 +154,8 @@ fn turn(parts: &Parts<'_>) -> Arc<dyn Transmission> {
 fn swivel(turn: &Arc<dyn Transmission>, stroke: &Arc<dyn Transmission>, radius: f64) -> Piecewise {
     let (turn, stroke) = (turn.clone(), stroke.clone());
     let (period, breaks) = (stroke.period(), stroke.breaks());
-    Piecewise::fit(&FromFn::new(period, 0.0, breaks, move |input| MotionJet {
-        position: (stroke.at(input).velocity / turn.at(input).velocity / radius).atan(),
-        ..MotionJet::default()
+    Piecewise::fit(&FromFn::new(period, 0.0, breaks, move |input| {
+        MotionJet::at_rest((stroke.at(input).velocity / turn.at(input).velocity / radius).atan())
     }))
 }
 
@@ -178,9 +169,8 @@ fn loads(machine: &mut machine::LinkedMachine, shaft: &SpiralShaft, joint: usize
     });
     let stroke = machine.joints[joint].law.clone();
     let (period, breaks) = (stroke.period(), stroke.breaks());
-    let law = FromFn::new(period, 0.0, breaks, move |input| MotionJet {
-        position: load.rail_force(&stroke.at(input)),
-        ..MotionJet::default()
+    let law = FromFn::new(period, 0.0, breaks, move |input| {
+        MotionJet::at_rest(load.rail_force(&stroke.at(input)))
     });
     let effort = Quantity::Law(Arc::new(law));
     machine.loads.push(Load::Joint { joint, effort });
@@ -271,9 +261,8 @@ fn columns(
     let (period, breaks) = (parts.shaft.cycle(), machine.joints[carriage].law.breaks());
     let mut add = |name: &str, unit: &str, meaning: &str, of: fn(&GuideForce, f64) -> f64| {
         let (turn, force) = (turn.clone(), force.clone());
-        let law = FromFn::new(period, 0.0, breaks.clone(), move |input| MotionJet {
-            position: of(&force(turn.as_ref(), input), turn.at(input).velocity),
-            ..MotionJet::default()
+        let law = FromFn::new(period, 0.0, breaks.clone(), move |input| {
+            MotionJet::at_rest(of(&force(turn.as_ref(), input), turn.at(input).velocity))
         });
         machine.column(name, unit, meaning, Quantity::Law(Arc::new(law)))
     };
@@ -321,29 +310,16 @@ fn hang(
     turning: usize,
     machine: &mut machine::LinkedMachine,
 ) -> usize {
-    let links = MEMBERS.map(|member| {
-        machine.link(Link {
-            name: member.name().into(),
-            ..Link::default()
-        })
-    });
-    let law = Linear {
-        start: -gears.drive.phase - gears.slowest(),
-        slope: 1.0,
-    };
+    let links = MEMBERS.map(|member| machine.link(Link::new(member.name())));
+    let law = Linear::new(-gears.drive.phase - gears.slowest(), 1.0);
     let at = [-gears.pair.center_distance(), 0.0, end];
     let joint = machine.joint(Joint::turning(frame, links[0], Arc::new(law)).at(at));
     let meaning = "turn of the gear that drives, from its zero";
     machine.column("driver_angle_rad", "rad", meaning, Quantity::joint(joint));
     let fixed = Joint::fixed(shaft, links[1]).at([0.0, 0.0, end]);
     machine.joint(fixed.turned([0.0, 0.0, gears.rest()]));
-    machine.meshes.push(GearMesh {
-        links,
-        joint: turning,
-        copy: 0,
-        pressure_angle: Some(gears.pair.pressure_angle()),
-        axes: Default::default(),
-        pitch: None,
-    });
+    machine
+        .meshes
+        .push(GearMesh::new(links, turning, gears.pair.pressure_angle()));
     joint
 }

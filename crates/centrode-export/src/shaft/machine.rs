@@ -63,11 +63,7 @@ impl<'a> Parts<'a> {
     pub(super) fn turn(&self, input: f64) -> MotionJet {
         match &self.gears {
             Some(gears) => gears.drive.at(input),
-            None => MotionJet {
-                position: input,
-                velocity: 1.0,
-                ..MotionJet::default()
-            },
+            None => MotionJet::uniform(input, 1.0),
         }
     }
 
@@ -90,11 +86,10 @@ impl<'a> Parts<'a> {
             self.shaft.traverse().at(turn.position),
         );
         let slope = motion.velocity / radius;
-        let by_turn = MotionJet {
-            position: slope.atan(),
-            velocity: motion.acceleration / radius / (1.0 + slope * slope),
-            ..MotionJet::default()
-        };
+        let by_turn = MotionJet::uniform(
+            slope.atan(),
+            motion.acceleration / radius / (1.0 + slope * slope),
+        );
         by_turn.after(&turn)
     }
 

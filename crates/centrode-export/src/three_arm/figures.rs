@@ -97,11 +97,7 @@ fn planted(mechanism: &ThreeArm, machine: &mut LinkedMachine) {
         let place = move |input: f64| {
             let steps = (input - release) / apart;
             let since = steps - (steps + WRITTEN).floor() + f64::from(before);
-            MotionJet {
-                position: foot.x + velocity * since * apart,
-                velocity,
-                ..MotionJet::default()
-            }
+            MotionJet::uniform(foot.x + velocity * since * apart, velocity)
         };
         let breaks = vec![release.rem_euclid(apart)];
         let x = Quantity::Law(Arc::new(FromFn::new(apart, 0.0, breaks, place)));

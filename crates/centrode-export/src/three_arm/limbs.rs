@@ -78,11 +78,12 @@ fn touching(parts: &Parts<'_>, builder: &mut Builder<'_>) -> Vec<usize> {
             }
         }
         Some(Surface {
-            name: format!("arm_{}", name.replace('-', "_")),
-            outline: part.outline.clone(),
-            span: [bottom, top],
-            teeth: Vec::new(),
             coarseness: COARSE,
+            ..Surface::new(
+                format!("arm_{}", name.replace('-', "_")),
+                part.outline.clone(),
+                [bottom, top],
+            )
         })
     });
     let surfaces = surfaces.into_iter().flatten();

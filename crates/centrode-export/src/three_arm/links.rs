@@ -182,11 +182,9 @@ impl Builder<'_> {
             solids.push(plate.placed(*span).map_err(named())?);
             masses.push(plate.mass(*span).map_err(named())?);
         }
-        let shape = self.machine.shape(Shape {
-            name: name.into(),
-            part: String::new(),
-            form: Form::Solids(solids),
-        });
+        let shape = self
+            .machine
+            .shape(Shape::new(name, "", Form::Solids(solids)));
         Ok((shape, MassProperties::combined(&masses)))
     }
 
@@ -195,11 +193,10 @@ impl Builder<'_> {
         let (mut shapes, mut heavy) = ([None; 2], None);
         if let Some(parts) = self.parts {
             let mut seen = |name: &str, mesh| {
-                Some(self.machine.shape(Shape {
-                    name: name.into(),
-                    part: String::new(),
-                    form: Form::Mesh(mesh, 0.0),
-                }))
+                Some(
+                    self.machine
+                        .shape(Shape::new(name, "", Form::Mesh(mesh, 0.0))),
+                )
             };
             shapes = [
                 seen("tray", surroundings::tray_body(mechanism)),
@@ -214,10 +211,10 @@ impl Builder<'_> {
         let tray = self.link("tray", None, tray, Vec::new());
         self.machine.joint(Joint::fixed(base, tray));
         let ground = self.link("ground", heavy, ground, Vec::new());
-        let law = Linear {
-            start: 0.0,
-            slope: mechanism.train().direction().sign() * mechanism.advance(),
-        };
+        let law = Linear::new(
+            0.0,
+            mechanism.train().direction().sign() * mechanism.advance(),
+        );
         let travel = TAU * mechanism.advance();
         let (axis, range) = ([1.0, 0.0, 0.0], [-travel, travel]);
         let slide = Joint::sliding(base, ground, axis, range, Arc::new(law));
@@ -241,10 +238,7 @@ impl Builder<'_> {
             }
         }
         let train = self.mechanism.train();
-        let law = Linear {
-            start: train.carrier_start(),
-            slope: train.direction().sign(),
-        };
+        let law = Linear::new(train.carrier_start(), train.direction().sign());
         let joint = Joint::turning(base, carrier, Arc::new(law));
         let joint = self.machine.joint(joint);
         let meaning = "direction of the first intermediate gear's axis from the x axis";
@@ -275,11 +269,11 @@ impl Builder<'_> {
         };
         let surface = self.machine.surface(gear_pair::teeth(gear, prefix));
         let mass = solid.mass_properties(gear.body().density);
-        let shape = self.machine.shape(Shape {
-            name: format!("{}-body", part.name()),
-            part: part.name().into(),
-            form: Form::Solids(vec![solid]),
-        });
+        let shape = self.machine.shape(Shape::new(
+            format!("{}-body", part.name()),
+            part.name(),
+            Form::Solids(vec![solid]),
+        ));
         Ok(self.link(name, Some(mass), Some(shape), vec![surface]))
     }
 
@@ -306,14 +300,10 @@ impl Builder<'_> {
             ([intermediate, planet], second),
         ] {
             let copy = k as usize;
-            let pressure_angle = Some(mechanism.design().tool.pressure_angle());
+            let pressure_angle = mechanism.design().tool.pressure_angle();
             self.machine.meshes.push(GearMesh {
-                links,
-                joint,
                 copy,
-                pressure_angle,
-                axes: Default::default(),
-                pitch: None,
+                ..GearMesh::new(links, joint, pressure_angle)
             });
         }
         let level = mechanism.arm_level();
@@ -346,11 +336,10 @@ impl Builder<'_> {
         let mechanism = self.mechanism;
         let turn = move |laws: &Laws, input: f64| {
             let train = laws.mechanism.train();
-            let carrier = MotionJet {
-                position: train.carrier_start() + train.direction().sign() * input,
-                velocity: train.direction().sign(),
-                ..MotionJet::default()
-            };
+            let carrier = MotionJet::uniform(
+                train.carrier_start() + train.direction().sign() * input,
+                train.direction().sign(),
+            );
             let motion = laws.links(chain, input)[number];
             motion.angle.plus(-1.0, &carrier)
         };

@@ -17,11 +17,11 @@ impl Builder<'_> {
     ) -> Result<Pieces, ExportError> {
         let solid = plate.solid().map_err(ExportError::no_solid(&plate.name))?;
         let own = solid.mass_properties(plate.density);
-        let shape = self.machine.shape(Shape {
-            name: format!("{}-body", plate.name),
-            part: plate.name.clone(),
-            form: Form::Solids(vec![solid]),
-        });
+        let shape = self.machine.shape(Shape::new(
+            format!("{}-body", plate.name),
+            plate.name.clone(),
+            Form::Solids(vec![solid]),
+        ));
         let mounted = |at: &[f64; 3]| Mounted {
             shape,
             at: *at,

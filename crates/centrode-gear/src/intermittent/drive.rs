@@ -175,20 +175,13 @@ impl IntermittentDrive {
     fn within(&self, input: f64) -> MotionJet {
         let (motion, entry, ratio) = (self.motion_angle(), self.entry, self.ratio());
         if input >= motion {
-            return MotionJet {
-                position: self.driven_angle(),
-                ..MotionJet::default()
-            };
+            return MotionJet::at_rest(self.driven_angle());
         }
         if input < entry {
             return self.ramp(input);
         }
         if input < motion - entry {
-            return MotionJet {
-                position: ratio * (input - 0.5 * entry),
-                velocity: ratio,
-                ..MotionJet::default()
-            };
+            return MotionJet::uniform(ratio * (input - 0.5 * entry), ratio);
         }
         // The exit is the entry run backwards.
         let mirrored = self.ramp(motion - input);

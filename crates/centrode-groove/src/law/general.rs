@@ -75,11 +75,7 @@ impl Speed {
                 let span = if count == 1 { TAU } else { span };
                 let x = (theta - angle[i]).rem_euclid(TAU) / span;
                 let jet = law.at(x);
-                let inner = MotionJet {
-                    position: x,
-                    velocity: 1.0 / span,
-                    ..MotionJet::default()
-                };
+                let inner = MotionJet::uniform(x, 1.0 / span);
                 let rise = Taylor::constant(speed[j] - speed[i]);
                 Taylor::constant(speed[i]) + rise * jet.after(&inner).series()
             }

@@ -218,6 +218,16 @@ pub enum Quantity {
 }
 
 impl Shape {
+    /// A body by the name of its file, and by that of its own part, which may be empty.
+    #[must_use]
+    pub fn new(name: impl Into<String>, part: impl Into<String>, form: Form) -> Self {
+        Self {
+            name: name.into(),
+            part: part.into(),
+            form,
+        }
+    }
+
     /// Name without its folder.
     #[must_use]
     pub fn short_name(&self) -> &str {
@@ -226,6 +236,15 @@ impl Shape {
 }
 
 impl Link {
+    /// A link without a body.
+    #[must_use]
+    pub fn new(name: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            ..Self::default()
+        }
+    }
+
     /// Every body it is seen with, by the index of its shape, and the body's place in the link's frame.
     pub fn bodies(&self) -> impl Iterator<Item = (usize, Isometry3<f64>)> {
         let own = self.shape.map(|shape| (shape, Isometry3::identity()));
@@ -318,6 +337,27 @@ pub struct Surface {
     pub teeth: Vec<Option<u32>>,
     /// How many times the tolerance its bodies may stand off the contour.
     pub coarseness: f64,
+}
+
+impl Surface {
+    /// A plate's surface: the contour between two heights, mm, whose bodies keep to the tolerance.
+    #[must_use]
+    pub fn new(name: impl Into<String>, outline: Outline, span: [f64; 2]) -> Self {
+        Self {
+            name: name.into(),
+            outline,
+            span,
+            teeth: Vec::new(),
+            coarseness: 1.0,
+        }
+    }
+
+    /// The surface round an extrusion.
+    #[must_use]
+    pub fn of_solid(name: impl Into<String>, solid: &Solid) -> Self {
+        let span = [solid.bottom(), solid.top()];
+        Self::new(name, solid.outline().clone(), span)
+    }
 }
 
 impl LinkedMachine {

@@ -32,6 +32,22 @@ pub struct MotionJet {
 }
 
 impl MotionJet {
+    /// Jet of a position that does not change.
+    #[must_use]
+    pub fn at_rest(position: f64) -> Self {
+        Self::uniform(position, 0.0)
+    }
+
+    /// Jet of a position that changes at a constant velocity.
+    #[must_use]
+    pub fn uniform(position: f64, velocity: f64) -> Self {
+        Self {
+            position,
+            velocity,
+            ..Self::default()
+        }
+    }
+
     /// Jet of this motion's output by the variable of which its input is a function.
     ///
     /// `self` is f at g(t), `inner` is g at t: the result is f(g(t)), by the chain rule to third order.

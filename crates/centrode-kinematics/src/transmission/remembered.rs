@@ -81,11 +81,7 @@ mod tests {
         let counted = Arc::clone(&calls);
         let sine = FromFn::new(1.0, 0.5, vec![0.25], move |t: f64| {
             counted.fetch_add(1, Ordering::Relaxed);
-            MotionJet {
-                position: t.sin(),
-                velocity: t.cos(),
-                ..MotionJet::default()
-            }
+            MotionJet::uniform(t.sin(), t.cos())
         });
         let law = Remembered::new(sine);
         let inputs: Vec<f64> = (0..500).map(|i| 0.01 * f64::from(i)).collect();

@@ -256,20 +256,12 @@ impl Machine {
     /// Adds a body with its plate, gears and cams: shape, mass, surfaces to touch with.
     fn add_link(&self, machine: &mut LinkedMachine, body: usize, pieces: &Pieces<'_>) {
         let name = &self.bodies[body].name;
-        let mut link = Link {
-            name: name.clone(),
-            ..Link::default()
-        };
+        let mut link = Link::new(name.clone());
         let plates = pieces.plate.iter().map(|plate| (name.as_str(), plate));
         let top = pieces.top.iter().map(|top| (Self::FRAME_TOP, top));
         for (name, solid) in plates.chain(top) {
-            link.surfaces.push(machine.surface(Surface {
-                name: name.into(),
-                outline: solid.outline().clone(),
-                span: [solid.bottom(), solid.top()],
-                teeth: Vec::new(),
-                coarseness: 1.0,
-            }));
+            link.surfaces
+                .push(machine.surface(Surface::of_solid(name, solid)));
         }
         for piece in &pieces.gears {
             let surface = piece.of.surface(&piece.solid);
@@ -281,11 +273,11 @@ impl Machine {
         }
         let solids = pieces.solids();
         if !solids.is_empty() {
-            link.shape = Some(machine.shape(Shape {
-                name: format!("links/{name}"),
-                part: String::new(),
-                form: Form::Solids(solids),
-            }));
+            link.shape = Some(machine.shape(Shape::new(
+                format!("links/{name}"),
+                "",
+                Form::Solids(solids),
+            )));
         }
         machine.link(link);
     }

@@ -115,16 +115,8 @@ impl Train {
     /// Angles of the links at a carrier turn; any real input.
     #[must_use]
     pub fn at(&self, input: f64) -> TrainJet {
-        let carrier = MotionJet {
-            position: self.carrier_start + self.sign * input,
-            velocity: self.sign,
-            ..MotionJet::default()
-        };
-        let psi = MotionJet {
-            position: self.sign * input,
-            velocity: self.sign,
-            ..MotionJet::default()
-        };
+        let carrier = MotionJet::uniform(self.carrier_start + self.sign * input, self.sign);
+        let psi = MotionJet::uniform(self.sign * input, self.sign);
         let turned = self.rolling.driven_jet(psi.position).after(&psi);
         let met = moved(turned, -self.bend - PI);
         let chi = self.rolling.driver_jet(met.position).after(&met);

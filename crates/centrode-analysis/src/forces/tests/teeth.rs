@@ -42,14 +42,7 @@ fn teeth_of_an_elliptic_pair_push_square_to_its_pitch_curves() {
     });
     pair.joint(Joint::turning(0, 2, driven).at([2.0 * a, 0.0, 0.0]));
     let alpha = 20_f64.to_radians();
-    pair.meshes.push(GearMesh {
-        links: [1, 2],
-        joint: 1,
-        copy: 0,
-        pressure_angle: Some(alpha),
-        axes: Default::default(),
-        pitch: None,
-    });
+    pair.meshes.push(GearMesh::new([1, 2], 1, alpha));
     pair.loads.push(torque(2, -500.0));
     let balance = Balance::new(pair).expect("a machine");
     for i in 1..30 {

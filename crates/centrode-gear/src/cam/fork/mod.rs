@@ -177,10 +177,8 @@ impl Fork {
         } else {
             Turn::CounterClockwise
         };
-        let since = FromFn::new(TAU, way * TAU, Vec::new(), move |turn: f64| MotionJet {
-            position: start + way * turn,
-            velocity: way,
-            ..MotionJet::default()
+        let since = FromFn::new(TAU, way * TAU, Vec::new(), move |turn: f64| {
+            MotionJet::uniform(start + way * turn, way)
         });
         let input = Chain::cycle_for_cycle(Arc::new(Inverse::new(arm_angle)?), Arc::new(since))?;
         let retraction = Chain::cycle_for_cycle(retraction, Arc::new(input))?;

@@ -84,13 +84,7 @@ impl MachineCam {
 
     /// Its contour to touch with.
     pub(in crate::machine) fn surface(&self, solid: &Solid) -> Surface {
-        Surface {
-            name: self.surface_name(),
-            outline: solid.outline().clone(),
-            span: [solid.bottom(), solid.top()],
-            teeth: Vec::new(),
-            coarseness: 1.0,
-        }
+        Surface::of_solid(self.surface_name(), solid)
     }
 
     /// Contour, bore and path of the roller's centre in its body's axes.

@@ -51,10 +51,7 @@ impl Machine {
                     let pushed = own.pushed(&own.cams[index], [curve, follower], input);
                     (near(pushed.0), pushed.1)
                 });
-                MotionJet {
-                    position: of(line),
-                    ..MotionJet::default()
-                }
+                MotionJet::at_rest(of(line))
             };
             Arc::new(FromFn::new(self.period(), 0.0, mount.law.breaks(), at))
         };

@@ -82,11 +82,8 @@ impl MachineGear {
         };
         let segments = self.gear().roles().iter().zip(self.gear().owners());
         Surface {
-            name: self.surface_name(),
-            outline: solid.outline().clone(),
-            span: [solid.bottom(), solid.top()],
             teeth: segments.map(touches).collect(),
-            coarseness: 1.0,
+            ..Surface::of_solid(self.surface_name(), solid)
         }
     }
 

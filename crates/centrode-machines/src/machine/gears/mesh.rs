@@ -41,10 +41,7 @@ impl Angle {
 
     /// Angle by the input.
     pub(in crate::machine) fn at(&self, input: f64) -> MotionJet {
-        let start = MotionJet {
-            position: self.start,
-            ..MotionJet::default()
-        };
+        let start = MotionJet::at_rest(self.start);
         let sum = |sum: MotionJet, law: &Arc<dyn Transmission>| sum.plus(1.0, &law.at(input));
         self.terms.iter().fold(start, sum)
     }

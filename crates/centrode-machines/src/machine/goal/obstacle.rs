@@ -86,13 +86,7 @@ impl MachineObstacle {
     /// Surface with which it is in the way.
     #[must_use]
     pub fn surface(&self) -> Surface {
-        Surface {
-            name: self.name.clone(),
-            outline: self.outline.clone(),
-            span: self.span,
-            teeth: Vec::new(),
-            coarseness: 1.0,
-        }
+        Surface::new(self.name.clone(), self.outline.clone(), self.span)
     }
 }
 

@@ -373,7 +373,7 @@ impl MachineLawSpec {
             groove.resolve().map_err(drive("traverse"))?
         } else {
             let slope = self.ratio.unwrap_or(0.0);
-            return Ok(Arc::new(Linear { start, slope }));
+            return Ok(Arc::new(Linear::new(start, slope)));
         };
         if start == 0.0 {
             return Ok(moved);

@@ -163,10 +163,8 @@ fn what_no_crank_can_do_is_refused_by_name() {
         error(&[even([0.0, 359.9], [100.0, 100.1])]),
         "leave more room",
     );
-    let twice = FromFn::new(TAU, 0.0, Vec::new(), |t: f64| MotionJet {
-        position: (2.0 * t).sin(),
-        velocity: 2.0 * (2.0 * t).cos(),
-        ..MotionJet::default()
+    let twice = FromFn::new(TAU, 0.0, Vec::new(), |t: f64| {
+        MotionJet::uniform((2.0 * t).sin(), 2.0 * (2.0 * t).cos())
     });
     is(
         Timing::new(Arc::new(twice), &[rest([0.0, 9.0], 0.1)]).expect_err("no law"),

@@ -290,20 +290,12 @@ impl Timing {
                 } else {
                     bracketed_root(miss, first, last, before, after)
                 };
-                let even = MotionJet {
-                    position: place,
-                    velocity: rate,
-                    ..MotionJet::default()
-                };
+                let even = MotionJet::uniform(place, rate);
                 self.output.at(angle).inverse(angle).after(&even)
             }
             Course::Turn => {
                 let rate = (last - first) / (to - from);
-                MotionJet {
-                    position: first + rate * (input - from),
-                    velocity: rate,
-                    ..MotionJet::default()
-                }
+                MotionJet::uniform(first + rate * (input - from), rate)
             }
             Course::Free(free) => free.at(first, input),
         }
