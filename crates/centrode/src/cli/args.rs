@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use crate::family::{FAMILIES, PartName};
 use crate::geometry::Tolerance;
+use centrode_spec::SheetSize;
 use centrode_synthesis::optimise::Strategy;
 use clap::builder::{
     NonEmptyStringValueParser, PossibleValue, PossibleValuesParser, TypedValueParser,
@@ -114,8 +115,8 @@ pub(crate) struct Export {
     #[arg(long, value_parser = PartWord, value_delimiter = ',', value_name = "PARTS")]
     pub(crate) part: Vec<String>,
     /// Size of the drawing sheets; left out, the design's, or the smallest that takes the part
-    #[arg(long, value_enum, ignore_case = true, value_name = "SIZE")]
-    pub(crate) sheet: Option<Size>,
+    #[arg(long, value_parser = sheet_size(), ignore_case = true, value_name = "SIZE")]
+    pub(crate) sheet: Option<SheetSize>,
     /// How views lie to each other on the drawing sheets; left out, as the design says
     #[arg(long, value_enum, value_name = "METHOD")]
     pub(crate) projection: Option<Method>,
@@ -186,24 +187,14 @@ impl TypedValueParser for PartWord {
     }
 }
 
-/// A size of sheet, ISO 5457.
-#[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
-pub(crate) enum Size {
-    /// 210 x 297 mm
-    #[value(name = "A4")]
-    A4,
-    /// 420 x 297 mm
-    #[value(name = "A3")]
-    A3,
-    /// 594 x 420 mm
-    #[value(name = "A2")]
-    A2,
-    /// 841 x 594 mm
-    #[value(name = "A1")]
-    A1,
-    /// 1189 x 841 mm
-    #[value(name = "A0")]
-    A0,
+/// The sizes of sheets, ISO 5457, by their names.
+fn sheet_size() -> impl TypedValueParser<Value = SheetSize> {
+    let named = SheetSize::ALL.map(|size| {
+        let [across, up] = size.size();
+        PossibleValue::new(size.name()).help(format!("{across} x {up} mm"))
+    });
+    let size = |word: String| SheetSize::named(&word.to_uppercase());
+    PossibleValuesParser::new(named).try_map(move |word| size(word).ok_or("no size of sheet"))
 }
 
 /// A method of projection, ISO 5456-2.

@@ -1,5 +1,5 @@
 use crate::analysis::Report;
-use crate::cli::args::{Dxf, Export, File, Method, Size, TOLERANCE, tolerance};
+use crate::cli::args::{Dxf, Export, File, Method, TOLERANCE, tolerance};
 use crate::cli::failure::Failure;
 use crate::cli::input::Source;
 use crate::cli::progress::Progress;
@@ -8,7 +8,7 @@ use crate::export::{ExportError, Options, SheetOptions};
 use crate::family::{Family, Mechanism, PartName};
 use crate::formats::{Bundle, Format, dxf};
 use crate::page::words::summary;
-use centrode_spec::{Projection, SheetSize};
+use centrode_spec::Projection;
 use std::io::Write;
 
 /// Resolves a design, checks it and writes its files.
@@ -179,13 +179,7 @@ fn options(command: &Export, found: &Report) -> Options {
         options.parts = Some(command.part.clone());
     }
     options.sheet = SheetOptions {
-        size: command.sheet.map(|size| match size {
-            Size::A4 => SheetSize::A4,
-            Size::A3 => SheetSize::A3,
-            Size::A2 => SheetSize::A2,
-            Size::A1 => SheetSize::A1,
-            Size::A0 => SheetSize::A0,
-        }),
+        size: command.sheet,
         projection: command.projection.map(|method| match method {
             Method::FirstAngle => Projection::FirstAngle,
             Method::ThirdAngle => Projection::ThirdAngle,
