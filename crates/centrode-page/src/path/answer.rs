@@ -1,8 +1,8 @@
 use super::cache::Cached;
 use super::drawing::{self, Drawing, mark};
 use super::wish::{Wish, points};
+use crate::reverse::words;
 use crate::reverse::words::Labelled;
-use crate::reverse::{sharpest, words};
 use centrode_analysis::{Goal, Unit};
 use centrode_export::picture::{Curve, Mark, Picture};
 use centrode_gear::Limits;
@@ -98,7 +98,9 @@ impl Answer {
         let count = passed.len() - usize::from(passed.first() == passed.last());
         answer.goals = goals(&reached(&design.wishes, &chain, design.bend, count));
         if ask.others {
-            answer.figures.extend(others(&design, &chain));
+            let others = words::other_splits(&chain, design.split, design.bend).into_iter();
+            let others = others.map(|(name, words)| figure(&name, words));
+            answer.figures.extend(others);
         }
         answer
     }
@@ -216,21 +218,6 @@ fn rested(chain: &TwoBar, split: &Split, design: &PathDesign) -> Result<Vec<Figu
         ));
     }
     Ok(found)
-}
-
-/// Figures of the splits that were not chosen.
-fn others(design: &PathDesign, chain: &TwoBar) -> Vec<Figure> {
-    let kinds = SplitKind::ALL.into_iter();
-    let kinds = kinds.filter(|kind| design.split != *kind);
-    kinds
-        .map(|kind| {
-            let words = match Split::new(chain, kind, design.bend) {
-                Ok(split) => sharpest(chain, &split),
-                Err(error) => error.to_string(),
-            };
-            figure(&format!("split {}", kind.name()), words)
-        })
-        .collect()
 }
 
 fn figure(name: &str, words: String) -> Figure {

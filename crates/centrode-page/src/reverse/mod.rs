@@ -4,8 +4,7 @@ mod found;
 mod made;
 pub mod words;
 
-use centrode_analysis::Unit;
-use centrode_synthesis::reverse::{DrawnPath, PathError, ReversedMachine, Split, TwoBar};
+use centrode_synthesis::reverse::{DrawnPath, PathError};
 
 pub use found::{Found, NotFound};
 pub use made::{Toothed, rolled};
@@ -23,15 +22,4 @@ pub fn drawn(bytes: &[u8], within: f64) -> Result<Option<DrawnPath>, PathError> 
     is_drawing
         .then(|| DrawnPath::from_svg(bytes, within))
         .transpose()
-}
-
-/// The sharpest pitch curve of a split that was not chosen.
-pub fn sharpest(chain: &TwoBar, split: &Split) -> String {
-    match ReversedMachine::new(chain, split, 1, None) {
-        Ok(made) => {
-            let minimum = Unit::Millimetre.with_unit(made.minimum_radius());
-            format!("possible, minimum convex radius {minimum}")
-        }
-        Err(error) => error.to_string(),
-    }
 }

@@ -8,7 +8,7 @@ use centrode_spec::Design as _;
 use centrode_synthesis::optimise::three_arm::PosedProblem;
 use centrode_synthesis::reverse::{KeyPose, KeyPoses};
 
-use super::{line, words};
+use super::{line, lines, words};
 use crate::cli::args::{Arguments, Command, Reverse};
 use crate::cli::failure::Failure;
 use crate::cli::progress::Progress;
@@ -34,9 +34,7 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
     let mm = |x: f64| Unit::Millimetre.with_unit(x);
     let (found, design) = (&posed.poses, &posed.design);
     let chain = &found.chain;
-    for (name, words) in words::poses(found.clamp, &posed.misses) {
-        line(out, &name, &words)?;
-    }
+    lines(words::poses(found.clamp, &posed.misses), out)?;
     let axis = chain.axis();
     line(
         out,
