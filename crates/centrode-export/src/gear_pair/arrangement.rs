@@ -165,11 +165,8 @@ fn data(pair: &GearPair) -> Vec<Datum> {
     data.extend(of_both(pair, None));
     let radius = number(pair.rolling().radius(0.0), 6);
     data.push(Datum::new("Pitch point at φ = 0, from driver", "r", radius));
-    data.push(Datum::new(
-        "Ratio at φ = 0",
-        "i",
-        number(pair.ratio(0.0), 6),
-    ));
+    let ratio = number(pair.ratio(0.0).recip(), 6);
+    data.push(Datum::new("Ratio at φ = 0", "i", ratio));
     data
 }
 
@@ -178,36 +175,20 @@ pub(crate) fn of_both(pair: &GearPair, of: Option<Member>) -> Vec<Datum> {
     let (driver, driven) = pair.mean_ratio();
     let a = pair.center_distance();
     let (minimum, maximum) = pair.rolling().radii(Member::Driver);
-    let ratios = [minimum / (a - minimum), maximum / (a - maximum)];
-    // In a machine of several meshes either gear may move the other.
-    let (mean, ratio, turns, ratios) = match of {
-        None => (
-            "driver : driven",
-            "driven : driver",
-            [driver, driven],
-            ratios,
-        ),
-        Some(Member::Driver) => (
-            "this gear : mate",
-            "mate : this gear",
-            [driver, driven],
-            ratios,
-        ),
+    let [low, high] = [a / maximum - 1.0, a / minimum - 1.0];
+    // In a machine of several meshes either gear may drive the other.
+    let (gears, turns, ratios) = match of {
+        None => ("driver : driven", [driver, driven], [low, high]),
+        Some(Member::Driver) => ("this gear : mate", [driver, driven], [low, high]),
         Some(Member::Driven) => {
-            let [minimum, maximum] = ratios.map(f64::recip);
-            let turns = [driven, driver];
-            (
-                "this gear : mate",
-                "mate : this gear",
-                turns,
-                [maximum, minimum],
-            )
+            let inverse = [high.recip(), low.recip()];
+            ("this gear : mate", [driven, driver], inverse)
         }
     };
     let turns = format!("{}:{}", turns[0], turns[1]);
     let mut data = vec![
-        Datum::new(&format!("Mean ratio, turns {mean}"), "", turns),
-        Datum::new(&format!("Ratio, {ratio} speed"), "i", range(ratios, 6)),
+        Datum::new(&format!("Mean ratio, turns {gears}"), "", turns),
+        Datum::new(&format!("Ratio, {gears} speed"), "i", range(ratios, 6)),
         Datum::new("Centre distance", "a", number(a, 6)),
         Datum::new(
             "Backlash, as designed, normal",
