@@ -135,7 +135,7 @@ PAGES = {
         *(Said(f"| `{name}`... s | {{}} MB | {{}} | {{}} |", lambda name=name: proof(name)[0]) for name in PROVED),
         Said("at most {<} rad in the shipped pairs", lambda: max(proof(name)[1] for name in PROVED)),
         Said("Of the {} laws", laws),
-        Said("five deep lobes cannot be told at {} rad", lambda: lost("limit_five_lobe_deep")),
+        Said("the holding features cannot be followed at {} rad", lambda: lost("limit_five_lobe_deep")),
     ],
     "docs/strong-laws.md": [
         Said("cos 2 phi: fitted teeth with {}, full ones at none of the counts; with {}, where", remedy),
