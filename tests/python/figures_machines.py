@@ -179,7 +179,7 @@ FEEDER = [
     Said("once in {} degrees and the entry angle", lambda: 360 * 30 / 40),
     Said("chain of 2.7 give {} cycles a minute, and five slots {} cuttings", rates),
     Said(
-        "at most {} rad either way while it moves and {} rad while it rests",
+        "at most {} rad in either direction while it moves and {} rad while it rests",
         lambda: [values("feeder-2022")[f"gear_play_{when}_max"] for when in ("moving", "resting")],
     ),
     Said("the backlash of 0.1 mm alone is {} rad", lambda: 0.1 / 2 / (105 * 30 / 70 * cos(radians(20)))),
