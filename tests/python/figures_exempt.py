@@ -72,7 +72,7 @@ EXEMPT = {
             r"backlash of 0\.1 mm",
         ),
         FORMULA: (r"2 T / \(d t l\)",),
-        LIMIT: (r"2000 random six-bars", r"more than\s240 inputs", r"within 2 % of\sthe contact"),
+        LIMIT: (r"2000 random six-bars", r"more than\s240 inputs", r"within 2 % of the\scontact"),
         SIMULATED: (r"effector is off the closed form by[^(]*\([^)]*\)",),
         PEERS: (r"^\| .*(?:ns|evaluations|ms) \|.*",),
     },
