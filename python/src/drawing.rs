@@ -5,7 +5,7 @@ use crate::table::table;
 table! {
     /// Words of the title block of drawing sheets, and their layout.
     ///
-    /// Keywords left out stay empty on the sheet.
+    /// Keywords omitted stay empty on the sheet.
     ///
     /// Args:
     ///     number: Drawing number; the part's name is added to it.
@@ -14,7 +14,7 @@ table! {
     ///     owner: Legal owner.
     ///     drawn_by: Who has drawn it.
     ///     approved_by: Who has approved it.
-    ///     sheet: "A4" to "A0"; the smallest that takes the part if left out.
+    ///     sheet: "A4" to "A0"; the smallest that takes the part by default.
     ///     projection: "first-angle" or "third-angle".
     ///     general_tolerance: General tolerances.
     ///     edges: State of the edges.

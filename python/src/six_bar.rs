@@ -24,7 +24,7 @@ use crate::word::Word;
 ///     frame: Length AD, mm.
 ///     pivot: The effector's pivot F, mm.
 ///     effector_length: Length FE, mm.
-///     branch: "upper" with C left of the way from B to D, or "lower".
+///     branch: "upper" with C left of the line from B to D, or "lower".
 ///
 /// Raises:
 ///     LinkageError: The four-bar is no crank-rocker, or the pivot lies on the slider's path.

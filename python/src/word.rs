@@ -1,4 +1,4 @@
-//! Words of design files and calls, and what each stands for.
+//! Words of design files and calls, and what each represents.
 
 use crate::error::{Answer, Raised};
 use centrode_formats::dxf::{Curves, Version};
@@ -20,7 +20,7 @@ pub(crate) trait Word: Copy + PartialEq + 'static {
     /// All of them, by their words.
     const WORDS: &'static [(&'static str, Self)];
 
-    /// Whether a number may stand in place of a word.
+    /// Whether a number may replace a word.
     const NUMBER: OrNumber<Self> = None;
 
     /// The one of a word given at a key.

@@ -5,7 +5,7 @@ use centrode_gear::cam::Limits;
 use crate::rounding::exceeds;
 use crate::{Finding, Report, Severity, Unit};
 
-/// A cam of a machine and the words in which its findings are told.
+/// A cam of a machine and the words in which its findings are reported.
 pub(crate) struct CheckedCam<'a> {
     /// Name of the part.
     pub(crate) part: &'a str,

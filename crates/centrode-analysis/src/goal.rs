@@ -36,7 +36,7 @@ pub struct Goal {
     #[schemars(with = "Option<JsonNumber>")]
     pub margin: Option<f64>,
     /// 1 where the goal is reached, falling smoothly to 0 as the figure goes away from it:
-    /// 1/(1 + (miss/scale)^2), the scale being the size of what is wanted.
+    /// 1/(1 + (miss/scale)^2), the scale being the size of what is required.
     pub progress: Option<f64>,
 }
 
@@ -63,7 +63,7 @@ impl Goal {
         }
     }
 
-    /// Goal with a minimum, of which `scale` is the size: positive, in the unit. A miss by it is half way.
+    /// Goal with a minimum, of which `scale` is the size: positive, in the unit. A miss by it is halfway.
     #[must_use]
     pub fn minimum(self, minimum: f64, scale: f64) -> Self {
         self.range([Some(minimum), None], scale)

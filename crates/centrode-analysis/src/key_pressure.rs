@@ -13,7 +13,7 @@ pub(crate) struct LoadedKey<'a> {
     pub(crate) face: f64,
     /// Diameter of the shaft, mm.
     pub(crate) diameter: f64,
-    /// Materials of shaft and hub; one of which the design says nothing is left out.
+    /// Materials of shaft and hub; one of which the design says nothing is omitted.
     pub(crate) materials: &'a [&'a str],
     /// Maximum torque, N mm, and the input at which it comes.
     pub(crate) torque: Extreme,

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::{FigureGroup, Goal, JsonNumber, Severity, Unit, figure, severity};
 
-/// Place in the mechanism and its cycle at which a finding was made.
+/// Position in the mechanism and its cycle at which a finding was made.
 #[derive(Clone, Debug, Default, JsonSchema, PartialEq, Serialize)]
 pub struct Place {
     /// Link or part, as named in the design.
@@ -64,12 +64,12 @@ pub struct Finding {
     /// Usual remedy.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub remedy: Option<&'static str>,
-    /// Place at which it was found.
+    /// Position at which it was found.
     pub place: Place,
 }
 
 impl Finding {
-    /// A finding of a rule, in one sentence for a person; figures, remedy and place follow where there are any.
+    /// A finding of a rule, in one sentence for a person; figures, remedy and position follow if there are any.
     #[must_use]
     pub fn new(rule: &'static str, severity: Severity, message: impl Into<String>) -> Self {
         Self {
@@ -199,7 +199,7 @@ impl Report {
         severity::worst_first(&mut self.findings);
     }
 
-    /// A finding for each goal that is missed: the mechanism does not do what it is asked to. `about` has the place, the
+    /// A finding for each goal that is missed: the mechanism does not do what is required. `about` has the position, the
     /// remedy and what else there is to say of a goal.
     pub(crate) fn blame_goals(&mut self, about: impl Fn(&Goal) -> Missed) {
         let missed = self.goals.iter().filter(|goal| goal.met() == Some(false));

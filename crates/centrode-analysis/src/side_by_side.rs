@@ -16,8 +16,8 @@ pub fn prepare_threads() {
     }
 }
 
-/// Results of two jobs that run side by side where a core is free, both under the token of the calling thread; what either tells of
-/// its progress is told as there.
+/// Results of two jobs that run side by side where a core is free, both under the token of the calling thread; what either
+/// shows of its progress is reported as there.
 pub(crate) fn both<A: Send, B: Send>(
     one: impl FnOnce() -> A + Send,
     other: impl FnOnce() -> B + Send,
@@ -44,7 +44,7 @@ fn filled<T>(part: Option<Part>, job: impl FnOnce() -> T) -> T {
 }
 
 /// Results for each of several things, in their order, on two cores where the caller is no worker of a pool itself: what is
-/// made may ask the pool, whose workers must not wait for it.
+/// made may use the pool, whose workers must not wait for it.
 pub(crate) fn each<T: Sync, R: Send + Sync>(things: &[T], make: impl Fn(&T) -> R + Sync) -> Vec<R> {
     match rayon::current_thread_index() {
         Some(_) => things.iter().map(make).collect(),

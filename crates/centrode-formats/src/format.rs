@@ -5,7 +5,7 @@ use thiserror::Error;
 #[derive(Clone, Copy, Debug, Eq, Hash, Ord, PartialEq, PartialOrd)]
 #[non_exhaustive]
 pub enum Format {
-    /// Cutting files: each part, and all in place.
+    /// Cutting files: each part, and the assembly.
     Dxf,
     /// Pictures of the cutting files.
     Svg,

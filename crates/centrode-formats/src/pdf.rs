@@ -63,7 +63,7 @@ pub fn book(
         ..SerializeSettings::default()
     });
     let metadata = Metadata::new().title(title.to_owned());
-    // The archive format asks for a date.
+    // The archive format requires a date.
     let dated = metadata.creation_date(DateTime::new(1970).month(1).day(1));
     document.set_metadata(dated.language("en".into()));
     if parts.len() > 1 {

@@ -59,7 +59,7 @@ const FREE: [Free; 3] = [
 /// Choices by the layout of which gears are cut.
 const CUT: usize = 12;
 
-/// Halvings of the first steps, and how many of them are left out where gears are cut.
+/// Halvings of the first steps, and how many of them are omitted where gears are cut.
 const HALVINGS: u32 = 5;
 const LEFT_OUT: u32 = 2;
 

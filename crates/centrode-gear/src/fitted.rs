@@ -15,7 +15,7 @@ use super::{
     tooth_passage::{Candidate, Poses, Reaches, ToothPassage},
 };
 
-/// Minimum share of a straight rack's flank speed kept at the end of a trimmed flank: below it the
+/// Minimum share of a straight rack's flank speed at the end of a trimmed flank: below it the
 /// flank ends in a knife edge of no radius of curvature.
 const MIN_SPEED: f64 = 0.05;
 
@@ -226,7 +226,7 @@ impl Fitting<'_> {
     /// there are any.
     ///
     /// Where that depth would cut into the flank that the lower side works on, the root has a step; the tip goes to and fro above it,
-    /// and is clear of it wherever it stands if its higher side would be clear of the lower root.
+    /// and is clear of it at any position if its higher side would be clear of the lower root.
     fn level(
         &self,
         member: Member,

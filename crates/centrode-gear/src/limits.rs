@@ -25,7 +25,7 @@ pub struct Limits {
     /// the flank ends, along the line of action (from the equation of Euler and Savary).
     pub largest_module_of_fillets: f64,
     /// Largest addendum, mm, with every flank regular wherever the teeth fall, and every tooth as cut
-    /// no thinner at its tip than asked for.
+    /// no thinner at its tip than requested.
     pub largest_addendum: f64,
     /// Range of curvature of the driver's and of the driven gear's pitch curve.
     pub ranges: [CurvatureRange; 2],

@@ -112,7 +112,7 @@ impl Gear {
     /// A pin of this diameter (mm) laid into every space, solved on the finished outline to the float
     /// limit: its center lies half a diameter from both flanks.
     ///
-    /// A space that cannot be measured says why in its place; a diameter that is not a positive number
+    /// A space that cannot be measured has the reason instead; a diameter that is not a positive number
     /// fits no space.
     #[must_use]
     pub fn over_pins(&self, diameter: f64) -> OverPins {

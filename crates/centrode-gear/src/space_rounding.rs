@@ -25,7 +25,8 @@ const PLACES: [u32; 2] = [8, 32];
 /// Nearness of a tip to the corner that so many places may miss, as a share of the depth times the square of their number.
 const BETWEEN: f64 = 1e-2;
 
-/// Place of a tip on that way: the arc length rolled, and how far the tip is ahead and above the point at which the pitch curves touch.
+/// Position of a tip on that way: the arc length rolled, and how far the tip is ahead and above the point at which the pitch
+/// curves touch.
 type Place = (f64, [f64; 2]);
 
 impl Fitting<'_> {
@@ -150,7 +151,7 @@ fn tip_path(flank: &Flank<'_>, rolled: f64, places: u32) -> Vec<Place> {
     };
     let arc = |share: f64| mate.crossing - mate.side.sign() * rolled * share;
     let tip = mate.point(mate.rolling.parameter(arc(1.0)));
-    // The tip is deepest about where it stands above the pitch curve.
+    // The tip is deepest about where it is above the pitch curve.
     let shares = (1..=places).map(|i| 1.0 - cos * cos * f64::from(i) / f64::from(places));
     shares
         .map(|share| {

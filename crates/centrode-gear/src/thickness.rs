@@ -71,7 +71,7 @@ const TOLERANCES: [(f64, [f64; 10]); 11] = [
 /// First of these series.
 const FIRST: u32 = 21;
 /// Series less the accuracy class: series 26 for class 8. A tolerance is then at least twice what the thickness of the teeth of
-/// one gear of the class varies by, as DIN 3967 asks.
+/// one gear of the class varies by, as DIN 3967 requires.
 const ABOVE_CLASS: u32 = 18;
 /// Minimum module of the standard, mm.
 const MIN_MODULE: f64 = 1.0;

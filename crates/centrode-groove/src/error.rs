@@ -42,7 +42,7 @@ pub enum ShaftError {
         "moved_distance must lie between {minimum:.6} mm, where the slider stands still, and {maximum:.6} mm, where its speed is constant, not {required}"
     )]
     MovedDistance {
-        /// Distance asked for, mm.
+        /// Required distance, mm.
         required: f64,
         /// Lower bound, mm.
         minimum: f64,

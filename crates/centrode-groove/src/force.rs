@@ -57,7 +57,7 @@ impl Load {
     }
 
     /// Forces on the slider for a motion (mm and rad of what turns at the load's speed) on a groove of this lead angle
-    /// (rad) and radius (mm): those of a [`GuideForce`] for the push `m (x'' + g mu)` along the way of the box.
+    /// (rad) and radius (mm): those of a [`GuideForce`] for the push `m (x'' + g mu)` along the path of the box.
     ///
     /// Replaces equations (14) and (15) of Zhou et al. 2018.
     #[must_use]

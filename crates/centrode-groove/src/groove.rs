@@ -150,13 +150,13 @@ impl Groove {
         Point::new(self.radius * theta, self.traverse.at(theta).position)
     }
 
-    /// Lead angle, rad: `atan(s' / R)`, negative on the way back.
+    /// Lead angle, rad: `atan(s' / R)`, negative on the return stroke.
     #[must_use]
     pub fn lead_angle(&self, theta: f64) -> f64 {
         (self.traverse.at(theta).velocity / self.radius).atan()
     }
 
-    /// Angle between the wall's normal and the slider's way along the shaft, rad: the lead angle without
+    /// Angle between the wall's normal and the slider's path along the shaft, rad: the lead angle without
     /// its sign.
     #[must_use]
     pub fn pressure_angle(&self, theta: f64) -> f64 {
@@ -240,7 +240,7 @@ impl Groove {
     }
 
     /// Maximum distance, mm, between a radial wall and the wall an end mill of the groove's width cuts:
-    /// both pass the surface alike, at the foot the mill leaves the groove this much wider on each side.
+    /// both pass the surface equally, at the foot the mill leaves the groove this much wider on each side.
     #[must_use]
     pub fn wall_deviation(&self) -> f64 {
         let apart = |theta: f64| {

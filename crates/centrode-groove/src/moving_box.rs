@@ -43,7 +43,7 @@ pub struct EllipticGears {
     /// Maximum speed of the shaft over its minimum.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub speed_ratio: Option<f64>,
-    /// Distance a plain shaft shall move the box in the window, mm.
+    /// Distance a plain shaft must move the box in the window, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub moved_distance: Option<f64>,
     /// Module, mm.
@@ -200,7 +200,7 @@ impl MovingBoxDesign {
         self.shaft.validate().map_err(|e| e.inside("shaft"))
     }
 
-    /// The gear pair of the scheme, the driver's far apex on the line of centres at the slow place.
+    /// The gear pair of the scheme, the driver's far apex on the line of centres at the slow point.
     ///
     /// The driven gear sits on the shaft's near journal: unless its body has a bore, both have the journal's, and the
     /// hub's keyway for the journal's key. The driven gear's lies where that key is when the shaft turns slowest at

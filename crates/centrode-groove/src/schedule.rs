@@ -3,7 +3,7 @@ use std::f64::consts::TAU;
 use super::Traverse;
 use centrode_kinematics::transmission::Transmission;
 
-/// Way of the box while a hole is picked.
+/// Path of the box while a hole is picked.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Way {
     /// Forward stroke.
@@ -33,7 +33,7 @@ pub struct Pick {
     pub turn: u32,
     /// Angle of the shaft, or of the drive's input, at the middle of the window, rad.
     pub theta: f64,
-    /// Way of the box.
+    /// Path of the box.
     pub way: Way,
     /// Position of the box, mm.
     pub position: f64,
@@ -58,7 +58,7 @@ impl Schedule {
     /// Schedule of picks at `pick + 2 pi k`, each in a window (rad) around that angle.
     ///
     /// The holes lie a lead apart, the first where the box is at the first pick; with a return offset
-    /// they are half of it nearer, so that both ways miss them alike.
+    /// they are half of it nearer, so that both strokes miss them equally.
     #[must_use]
     pub fn new(traverse: &Traverse, pick: f64, window: f64) -> Self {
         Self::driven(traverse, pick, window, |input| input)

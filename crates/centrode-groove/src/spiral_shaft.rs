@@ -146,7 +146,7 @@ impl SpiralShaft {
         Ok(ShaftSolid::new(&self.groove, self.body())?.mass_properties())
     }
 
-    /// The shaft's boundary on exact surfaces; the fillet along the groove's floor is left out.
+    /// The shaft's boundary on exact surfaces; the fillet along the groove's floor is omitted.
     ///
     /// # Errors
     /// [`ShaftError`] where body and groove do not go together, or the law is too wild for smooth surfaces.

@@ -45,7 +45,7 @@ impl Traverse {
     /// Makes the cycle over `holes` places a lead apart, its forward stroke from the shaft angle `start` (rad).
     ///
     /// A shaft that picks at `start` and at every turn from there picks the first and the last hole where the
-    /// strokes begin and end, and with a reversal of whole turns the same holes on the way back.
+    /// strokes begin and end, and with a reversal of whole turns the same holes on the return stroke.
     ///
     /// # Errors
     /// [`ShaftError`] naming the violated rule and its numbers.

@@ -29,7 +29,7 @@ pub struct DrawingSpec {
     /// Who has approved it.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub approved_by: String,
-    /// Size of the sheets; left out, the smallest that takes the part.
+    /// Size of the sheets; default: the smallest that takes the part.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sheet: Option<SheetSize>,
     /// Arrangement of the views.

@@ -21,7 +21,7 @@ struct Entry {
     inner: Vec<Option<usize>>,
 }
 
-/// Visits every value of a table by its key, with where its key stands, entries of lists by their number.
+/// Visits every value of a table by its key, with the position of its key, entries of lists by their number.
 ///
 /// The parser refuses deep nesting, so this recursion is shallow.
 fn visit<'t>(
@@ -82,7 +82,7 @@ fn is_on(message: &str, value: &DeValue<'_>) -> bool {
     given.is_some_and(|(given, _)| given == unexpected(value))
 }
 
-/// The key of a value on which serde has a message, and where it stands, where serde tells but the table or list around it.
+/// The key of a value on which serde has a message, and its position, if serde names only the table or list around it.
 ///
 /// Serde gathers a table whose `kind` decides its other keys before it looks at them, and loses their places on the way.
 pub(super) fn inside(
@@ -124,7 +124,7 @@ pub(super) fn inside(
         return None;
     }
     let Some(name) = name else {
-        // Of equal values one may be as it should: only entries of one list are told by the first.
+        // Of equal values one may be as it should: only entries of one list are reported by the first.
         let list = |path: &str| path[..path.rfind('[').unwrap_or(path.len())].to_owned();
         let first = list(&found.first()?.0);
         let is_one = found.iter().all(|(path, _)| list(path) == first);

@@ -86,7 +86,7 @@ pub enum Rule {
     NoClass {
         /// Word given.
         word: String,
-        /// Side of the fit it stands for.
+        /// Side of the fit it represents.
         of: &'static str,
         /// A class of that side.
         like: &'static str,

@@ -45,10 +45,10 @@ impl DesignFamily {
         schema.to_value()
     }
 
-    /// Keys of a name in the family's design files, the four nearest to a place in a file: `teeth.backlash`,
+    /// Keys of a name in the family's design files, the four nearest to a position in a file: `teeth.backlash`,
     /// `cams.NAME.motion`.
     ///
-    /// Without those at the place of `key` itself, which other kinds of its table may have.
+    /// Without those at the position of `key` itself, which other kinds of its table may have.
     pub(super) fn keys_named(&self, name: &str, key: &str) -> Vec<String> {
         let mut found = self.keys(&|found| found == name);
         found.retain(|path| !is_at(path, key));
@@ -78,7 +78,7 @@ impl DesignFamily {
         found.iter().map(name).collect()
     }
 
-    /// All keys of the family's design files whose name is wanted.
+    /// All keys of the family's design files whose name is required.
     fn keys(&self, is_required: &dyn Fn(&str) -> bool) -> Vec<String> {
         let schema = self.json_schema();
         let mut found = Vec::new();
@@ -127,7 +127,7 @@ fn is_at(path: &str, key: &str) -> bool {
     depth == parts(key).len() && common(path, key) == depth
 }
 
-/// Gathers the keys of wanted names at and below a schema, but not below itself.
+/// Gathers the keys of required names at and below a schema, but not below itself.
 fn named_in<'s>(
     root: &'s Value,
     here: &'s Value,

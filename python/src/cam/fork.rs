@@ -148,7 +148,7 @@ impl Fork {
         })
     }
 
-    /// The cam that draws the rod back and lets it go as wanted.
+    /// The cam that draws the rod back and lets it go as required.
     ///
     /// Args:
     ///     segments: What the rod does while the arm makes one turn about the cam, lifts in mm.

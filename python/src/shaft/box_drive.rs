@@ -104,7 +104,7 @@ impl BoxDrive {
         self.0.moved_in_window()
     }
 
-    /// Place of the box, mm, over the whole way out and back.
+    /// Position of the box, mm, over the whole way out and back.
     ///
     /// >>> import centrode as ct, numpy as np
     /// >>> shaft = ct.SpiralShaft(amplitude=1.28)
@@ -139,7 +139,7 @@ impl BoxDrive {
         Ok(self.0.moved(finite("start", start)?, finite("stop", stop)?))
     }
 
-    /// Forces on the slider at the input angles `phi`; the input's speed, mass and frictions stand in for the
+    /// Forces on the slider at the input angles `phi`; the input's speed, mass and frictions replace the
     /// design's. The torque is the shaft's.
     ///
     /// >>> import centrode as ct

@@ -129,7 +129,7 @@ pub enum ForcesError {
         /// Speed of the input, rad/s.
         speed: f64,
     },
-    /// Forces grow beyond bounds: a dead position, or teeth that stand still on both links.
+    /// Forces grow beyond bounds: a dead position, or teeth that are fixed on both links.
     #[error("at the input {input} rad no force on {links} balances the load: a dead position")]
     Dead {
         /// The input, rad.

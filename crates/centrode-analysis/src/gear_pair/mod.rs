@@ -226,7 +226,7 @@ const CARRIED: f64 = 0.5;
 /// Pressure angle above which friction is commonly considered a danger, rad.
 const PRESSURE_ANGLE: f64 = 50.0 * PI / 180.0;
 
-/// Transmission error that play brings, rad, at most what gears are made to: it thins the flanks, and edges meet their mates
+/// Transmission error due to backlash, rad, at most what gears are made to: it thins the flanks, and edges meet their mates
 /// where they would without it only to the first order of it.
 pub(crate) fn thinned(pair: &GearPair) -> f64 {
     let a = pair.center_distance();
@@ -321,7 +321,7 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
         reverse
     };
     let share = extremes.lost;
-    // Where flanks carry everywhere, edges are early by no more than the play thins the teeth.
+    // Where flanks carry everywhere, edges are early by no more than the backlash thins the teeth.
     let allowed = if share == 0.0 {
         LOST.max(thinned(pair))
     } else {

@@ -64,7 +64,7 @@ pub(super) fn cams(composed: &Machine, report: &mut Report) {
     });
 }
 
-/// Tells of a roller whose wall is too thin for the pins of the design: it has no part and no pin.
+/// Reports a roller whose wall is too thin for the pins of the design: it has no part and no pin.
 fn thin_roller(composed: &Machine, cam: &MachineCam, report: &mut Report) {
     let pin = composed.plates().pin_diameter;
     let radius = cam.disc().follower().roller_radius().unwrap_or(0.0);

@@ -91,7 +91,7 @@ pub(super) fn tables(composed: &Machine, report: &mut Report) {
     }
 }
 
-/// Input at which a motion stands in an extreme: where its speed is zero, and in the first turn of several alike.
+/// Input of an extreme of a motion: where its speed is zero, in the first of several equal turns.
 fn dead_centre(law: &dyn Transmission, found: &Extreme, stroke: f64, period: f64) -> f64 {
     let alike = |input: &f64| {
         let off = law.at(*input).position - found.value;

@@ -65,7 +65,7 @@ pub fn check_machine(composed: &Machine) -> Report {
 }
 
 /// Checks the motion of a composed machine alone: all of [`check_machine`] but teeth, cams, forces and collisions,
-/// which only goals that name them ask for.
+/// which only goals that name them require.
 #[must_use]
 pub fn check_machine_motion(composed: &Machine) -> Report {
     let motion = Motion::new(composed, &ends(composed));
@@ -179,7 +179,7 @@ pub fn machine_goals(composed: &Machine) -> Vec<Goal> {
     found.map(|found| found.goal).collect()
 }
 
-/// A composed machine with what its checks share, each made when it is first asked for.
+/// A composed machine with what its checks share, each made when it is first requested.
 struct Made<'a> {
     composed: &'a Machine,
     outlined: OnceLock<Option<LinkedMachine>>,

@@ -27,7 +27,7 @@ pub(super) fn checked(composed: &Machine) -> Vec<Arc<Report>> {
         .collect()
 }
 
-/// Findings of the pairs, each told with its pair, and how many of their teeth carry.
+/// Findings of the pairs, each with its pair, and how many of their teeth are in contact.
 pub(super) fn pairs(made: &Made<'_>, report: &mut Report) {
     let mut rows = Vec::new();
     for (pair, own) in made.composed.pairs().into_iter().zip(made.pairs()) {

@@ -119,7 +119,7 @@ fn full(design: &GearPairDesign, pair: &GearPair, borne: f64) -> Option<u32> {
         return None;
     }
     let mut count = (borne.ceil() as u32).max(3);
-    // Flanks may miss the sharpest places of the pitch curves.
+    // Flanks may miss the sharpest points of the pitch curves.
     while count > 3 && is_sound(count - 1) {
         checkpoint();
         count -= 1;

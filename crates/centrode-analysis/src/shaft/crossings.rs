@@ -78,7 +78,7 @@ fn tilt(shaft: &SpiralShaft, gap: f64, report: &mut Report) {
     );
 }
 
-/// Shift of the return groove that brings the slow places off the crossings, in words.
+/// Shift of the return groove that brings the slow points off the crossings, in words.
 fn advice(shaft: &SpiralShaft) -> String {
     let law = shaft.law();
     let steepest = 2.0 * (law.mean_speed() / shaft.groove().radius()).atan();

@@ -125,7 +125,7 @@ fn eighths(of: impl Fn(f64) -> Vec<f64>) -> Vec<(String, Vec<f64>)> {
 /// Acceleration and forces over one turn of a stroke by equilibrium, next to equations (14) to (18) of Zhou et al.
 /// 2018, which do not hold: see [`Load::published`](centrode_groove::Load::published).
 ///
-/// (16) to (18) are for sines; for another law they are left out.
+/// (16) to (18) are for sines; for another law they are omitted.
 pub(super) fn published(shaft: &SpiralShaft) -> Vec<Table> {
     let (load, radius) = (shaft.load(), shaft.groove().radius());
     let printed = |theta: f64| shaft.published_acceleration(theta, load);

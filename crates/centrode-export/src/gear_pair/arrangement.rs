@@ -19,7 +19,7 @@ pub fn contact_data(contact_ratio: [f64; 2], backlash: [f64; 2]) -> Vec<Datum> {
     ]
 }
 
-/// Lists the gears and tells the pair's arrangement.
+/// Lists the gears and fills the pair's arrangement.
 pub(super) fn annotate(pair: &GearPair, machine: &mut LinkedMachine) {
     list_pair(pair, "", &[Member::Driver, Member::Driven], machine);
     let stated = &mut machine.arrangement;

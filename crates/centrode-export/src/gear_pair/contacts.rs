@@ -85,7 +85,7 @@ pub(crate) fn paths(pair: &GearPair, flanks: Flanks) -> Vec<Vec<(f64, Point)>> {
         Flanks::Leading => -sin,
         Flanks::Trailing => sin,
     };
-    // The driven flank about the same place of the pitch curves, as the gears roll on.
+    // The driven flank about the same point of the pitch curves, as the gears roll on.
     let mate = |crossing: f64| {
         let along = crossing.rem_euclid(lengths[1]);
         let off = |side: &ToothSide| {

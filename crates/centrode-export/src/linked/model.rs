@@ -6,7 +6,7 @@ use centrode_kinematics::machine::{Form, JointKind, Link, LinkedMachine, Shape};
 use super::motion::Line;
 use super::{bodies, motion};
 
-/// A machine as simulators want it.
+/// A machine as simulators require it.
 pub(crate) struct Simulated {
     pub(crate) model: Model,
     /// Loops that the tree of joints leaves open.

@@ -63,7 +63,7 @@ pub struct ColumnWords {
 pub struct Interpolation {
     /// `cubic Hermite`: by the values and rates of two rows.
     pub kind: &'static str,
-    /// Maximum way of a link off its own by straight lines between rows instead, mm.
+    /// Maximum path of a link off its own by straight lines between rows instead, mm.
     pub linear_error_max_mm: f64,
 }
 
@@ -108,9 +108,9 @@ pub struct PointWords {
     pub name: String,
     /// The link it is fixed to.
     pub link: String,
-    /// Place in the link's frame, mm.
+    /// Position in the link's frame, mm.
     pub at_mm: [f64; 3],
-    /// Columns of its place in the frame of the first link, x and y or x, y and z.
+    /// Columns of its position in the frame of the first link, x and y or x, y and z.
     pub columns: Vec<String>,
 }
 
@@ -130,7 +130,7 @@ pub struct MeshWords {
 pub struct ClosureWords {
     /// The two links that are pinned to each other.
     pub links: [String; 2],
-    /// Place of the pin in the first one's frame, mm.
+    /// Position of the pin in the first one's frame, mm.
     pub at_mm: [f64; 3],
     /// The joints that it moves.
     pub joints: Vec<String>,

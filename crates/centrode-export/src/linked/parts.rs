@@ -4,7 +4,7 @@ use centrode_formats::drawing::Anchor;
 use centrode_formats::sheet::Table;
 use centrode_kinematics::machine::{LinkedMachine, Part, Supply};
 
-/// The parts list of a machine, numbered from one; columns that say nothing of any part are left out.
+/// The parts list of a machine, numbered from one; columns that say nothing of any part are omitted.
 #[must_use]
 pub fn parts_list(machine: &LinkedMachine) -> Table {
     let row = |(index, part): (usize, &Part)| {

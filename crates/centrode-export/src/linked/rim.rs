@@ -1,7 +1,7 @@
 use centrode_geometry::{Point, Segment, convex_hull};
 use centrode_kinematics::machine::{LinePath, LineRole, Sketch};
 
-/// Most places of a rim: what lies beyond the straight lines between them is seen by no eye.
+/// Most points of a rim: what lies beyond the straight lines between them is seen by no eye.
 const MOST: usize = 64;
 
 /// Places on the convex hull of what is material in a sketch, counter-clockwise.

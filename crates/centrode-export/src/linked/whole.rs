@@ -24,7 +24,7 @@ const MOUNTED: [u8; 3] = [0x5a, 0x60, 0x68];
 /// Places of a body in the machine: those of its pieces, each with the name of its link.
 type Places = Vec<(String, Isometry3<f64>)>;
 
-/// A shape of the machine as it stands there.
+/// A shape of the machine in its position there.
 struct Placed<'a> {
     shape: &'a Shape,
     color: [u8; 3],

@@ -10,7 +10,7 @@ use crate::picture::Curve;
 const SAMPLES: u32 = 720;
 const MOST: u32 = 2880;
 
-/// Angle of every body along the cycle, place and speed of those that slide, pressure angle of every cam, and the minimum
+/// Angle of every body along the cycle, position and speed of those that slide, pressure angle of every cam, and the minimum
 /// transmission angle of all dyads, where there are any.
 #[must_use]
 pub fn curves(composed: &Machine) -> Vec<Curve> {

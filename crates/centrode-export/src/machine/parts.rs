@@ -114,7 +114,7 @@ fn holes(composed: &Machine, body: usize, solid: &Solid, pins: Vec<PinHole>) -> 
     let hole = |(outline, pin): (&Outline, PinHole)| {
         let mut bored = Hole::bore(outline.clone(), &pin.hub);
         if !bored.notes.is_empty() {
-            // Its contour is no circle, whose place the sheet would tell.
+            // Its contour is no circle, whose position the sheet would give.
             let [x, y] = [pin.at.x, pin.at.y].map(|mm| number(mm, 4));
             bored.notes.insert(1, format!("at {x}, {y}"));
         }

@@ -22,7 +22,7 @@ impl Plate {
             Some((index, (at - origin).norm()))
         });
         let others: Vec<(usize, f64)> = fitted.filter(|(index, _)| *index != first).collect();
-        // Holes of screws, which have play, are datums only of each other.
+        // Holes of screws, which have clearance, are datums only of each other.
         let of_screws = self.holes[first].screw.is_some();
         let seats = others.iter();
         let seats = seats.filter(|(index, _)| of_screws || self.holes[*index].screw.is_none());
@@ -46,7 +46,7 @@ impl Plate {
             let position = distance.and_then(|mm| grade::position_of_slot(mm, &datums));
             frames[index].extend(position);
         }
-        // A letter that nothing lies to is not told.
+        // A letter that nothing lies to is not stated.
         let is_used = (0..frames.len())
             .any(|index| index != first && Some(index) != second && !frames[index].is_empty());
         if let Some(second) = second.filter(|_| is_used) {

@@ -13,10 +13,10 @@ pub(crate) struct Hole {
     pub(crate) label: String,
     /// Tolerance class of its diameter or width, ISO 286; empty where general tolerances hold.
     pub(crate) fit: String,
-    /// How far its place may be off either way, mm; 0 where general tolerances hold.
+    /// How far its position may be off in either direction, mm; 0 where general tolerances hold.
     pub(crate) off: f64,
-    /// How far its distance from another hole of the plate may be off either way, mm: that of two gears in mesh. None where
-    /// nothing asks for it.
+    /// How far its distance from another hole of the plate may be off in either direction, mm: that of two gears in mesh. None
+    /// where nothing requires it.
     pub(crate) apart: Option<f64>,
     /// Whether it is the seat of a shaft.
     pub(crate) is_seat: bool,
@@ -38,8 +38,8 @@ pub(crate) enum ScrewHole {
 }
 
 impl ScrewHole {
-    /// How far its place may be off either way, mm: screws that are fixed in a thread find their holes where hole and thread
-    /// share the play, each with a cylinder of half of it.
+    /// How far its position may be off in either direction, mm: screws that are fixed in a thread find their holes where hole
+    /// and thread share the clearance, each with a cylinder of half of it.
     fn off(self) -> f64 {
         let (Self::Clearance(screw) | Self::Thread(screw, _)) = self;
         0.25 * (screw.clearance_hole() - screw.diameter)
@@ -99,7 +99,7 @@ impl Hole {
     }
 }
 
-/// Holds holes that are the centre distance of gears in mesh apart, mm, to how far it may be off either way.
+/// Holds holes that are the centre distance of gears in mesh apart, mm, to how far it may be off in either direction.
 pub(crate) fn hold_apart(holes: &mut [Hole], distance: f64, off: f64) {
     const NEAR: f64 = 1e-6;
     let axes: Vec<Option<Point>> = holes.iter().map(Hole::axis).collect();

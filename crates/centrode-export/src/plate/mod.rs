@@ -39,7 +39,7 @@ pub(crate) struct Plate {
     pub(crate) material: String,
     /// kg/m^3.
     pub(crate) density: f64,
-    /// Heat treatment, empty for none; `None` where a table of the sheet tells it.
+    /// Heat treatment, empty for none; `None` where a table of the sheet shows it.
     pub(crate) heat_treatment: Option<String>,
     /// Further notes of its sheet.
     pub(crate) notes: Vec<String>,

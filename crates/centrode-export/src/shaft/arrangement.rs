@@ -9,7 +9,7 @@ use centrode_groove::ShaftSolid;
 use centrode_kinematics::machine::{Axis, Blank, Datum, Dimension, LinkedMachine, Part, Supply};
 use std::f64::consts::TAU;
 
-/// Lists shaft, slider, box and gears with their masses, and tells the arrangement: the groove unrolled, the slider in it.
+/// Lists shaft, slider, box and gears with their masses, and fills the arrangement: the groove unrolled, the slider in it.
 pub(super) fn annotate(parts: &Parts<'_>, machine: &mut LinkedMachine) -> Result<(), ExportError> {
     list(parts, machine)?;
     let shaft = parts.shaft;

@@ -15,7 +15,7 @@ use super::machine::{Gears, Parts};
 use super::{arrangement, figures, slider_solid};
 use crate::{ExportError, gear_pair};
 
-/// How far beyond the slider's way the box's joint lets it slide, mm.
+/// How far beyond the slider's path the box's joint lets it slide, mm.
 const ROOM: f64 = 1.0;
 /// Edge of the cube whose inertia the box has, mm.
 const CUBE: f64 = 100.0;
@@ -30,7 +30,7 @@ pub(super) const BOX: &str = "box";
 pub(super) const GEARS: &str = "gears-";
 
 /// The shaft lying along x of the world, the slider on top of it; the box slides, the slider swivels on its pin, and
-/// elliptic gears, if any, stand at the near end.
+/// elliptic gears, if any, are at the near end.
 pub(super) fn machine(parts: &Parts<'_>) -> Result<machine::LinkedMachine, ExportError> {
     let shaft = parts.shaft;
     let mut machine = drawn(parts)?;

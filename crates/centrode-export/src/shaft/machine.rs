@@ -13,7 +13,7 @@ pub(super) struct Parts<'a> {
     pub(super) shaft: &'a SpiralShaft,
     pub(super) gears: Option<Gears<'a>>,
     pub(super) schedule: Schedule,
-    /// Way of the box by the input, mm.
+    /// Path of the box by the input, mm.
     pub(super) stroke: Arc<dyn Transmission>,
 }
 
@@ -117,8 +117,8 @@ impl Gears<'_> {
         }
     }
 
-    /// Turn of the driven gear on the shaft, rad: it has turned by its own angle at the slow place when the shaft, by
-    /// `-pick`, stands there.
+    /// Turn of the driven gear on the shaft, rad: it has turned by its own angle at the slow point when the shaft, by
+    /// `-pick`, is there.
     pub(super) fn rest(&self) -> f64 {
         self.pair.driven_angle(self.slowest()) + self.drive.phase
     }

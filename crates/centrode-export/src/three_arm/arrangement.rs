@@ -8,7 +8,7 @@ use centrode_geometry::Point;
 use centrode_kinematics::machine::{self, Axis, Blank, Callout, Datum, Dimension, Fit, Supply};
 use centrode_machines::three_arm::ThreeArm;
 
-/// Lists the parts and tells the arrangement: the mechanism as its first arm picks.
+/// Lists the parts and fills the arrangement: the mechanism as its first arm picks.
 pub(super) fn annotate(parts: &Parts<'_>, machine: &mut machine::LinkedMachine) {
     let mechanism = parts.mechanism;
     for part in ThreeArmPart::ALL {
@@ -176,7 +176,7 @@ pub(super) fn links(part: ThreeArmPart, arms: u32, machine: &machine::LinkedMach
     }
 }
 
-/// Lists a part; its number stands at a piece on an arm that leaves the others room.
+/// Lists a part; its number is at a piece on an arm that leaves the others room.
 fn list(parts: &Parts<'_>, part: ThreeArmPart, machine: &mut machine::LinkedMachine) {
     let arms = parts.mechanism.arms();
     let links = links(part, arms, machine);

@@ -48,7 +48,7 @@ impl Mesh {
         }
     }
 
-    /// A place next to the axes of the pair, at a carrier turn, in the machine's axes.
+    /// A position relative to the axes of the pair, at a carrier turn, in the machine's axes.
     fn place(self, mechanism: &ThreeArm, input: f64, at: Point) -> Point {
         let train = mechanism.train();
         let way = train.carrier_start() + train.direction().sign() * input;
@@ -140,7 +140,7 @@ mod tests {
     use centrode_machines::three_arm::design::{Direction, ThreeArmDesign};
     use centrode_spec::DesignSpec as _;
 
-    /// Distance of a place of the machine's axes from the outline of a gear.
+    /// Distance of a position of the machine's axes from the outline of a gear.
     fn off(
         mechanism: &ThreeArm,
         polygon: &[Point],

@@ -41,7 +41,7 @@ pub fn curves(mechanism: &ThreeArm) -> Vec<Curve> {
     ]
 }
 
-/// Place and velocity of every arm's tip along a carrier turn, by components, at the design's rate.
+/// Position and velocity of every arm's tip along a carrier turn, by components, at the design's rate.
 #[must_use]
 pub fn arm_curves(mechanism: &ThreeArm) -> Vec<Curve> {
     let inputs = inputs();

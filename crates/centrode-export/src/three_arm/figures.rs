@@ -13,7 +13,7 @@ use crate::gear_pair;
 
 /// Planted seedlings that are shown.
 const SEEDLINGS: u32 = 4;
-/// Corners of each curve drawn in place of teeth.
+/// Corners of each curve drawn instead of teeth.
 const CORNERS: u32 = 240;
 /// Draws gears, carrier, arms, the path of the tip, tray and seedlings; the gears by their pitch curves without a pair, carrier and
 /// arms as bars without parts.

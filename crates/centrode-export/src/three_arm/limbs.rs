@@ -8,7 +8,7 @@ use super::machine::{Parts, no_fork};
 use super::pieces::Pieces;
 use crate::ExportError;
 
-/// Times the tolerance by which the bodies of an arm may stand off it: arms touch nothing as closely as teeth do.
+/// Times the tolerance by which the bodies of an arm may exceed it: arms touch nothing as closely as teeth do.
 const COARSE: f64 = 20.0;
 
 /// The parts every chain has.

@@ -88,12 +88,12 @@ type Solved = (f64, [LinkMotion; 3]);
 pub(super) struct Laws {
     pub(super) mechanism: ThreeArm,
     pub(super) pusher: Option<Pusher>,
-    /// Of each chain what was asked for last.
+    /// Of each chain what was requested last.
     last: Vec<Mutex<Option<Solved>>>,
 }
 
 impl Laws {
-    /// Intermediate gear, planet and arm of a chain: the train is solved once where its joints ask in turn.
+    /// Intermediate gear, planet and arm of a chain: the train is solved once for all its joints.
     fn links(&self, chain: u32, input: f64) -> [LinkMotion; 3] {
         let last = &self.last[chain as usize];
         let known = *last.lock().unwrap_or_else(PoisonError::into_inner);

@@ -30,7 +30,7 @@ pub enum ThreeArmPart {
     Clamp,
     /// The push rod with its pusher, one an arm.
     PushRod,
-    /// Everything in place.
+    /// The assembly.
     Assembly,
 }
 

@@ -103,7 +103,7 @@ fn slotted(radius: f64, key: Keyway, k: f64) -> Option<Outline> {
 /// Height of the letters of a cutting plane, and the distance of their middle from the tip of the arrow, mm.
 const LETTER: f64 = 3.5;
 const BEFORE: f64 = 3.2;
-/// From the outer end of the plane to the tip of its arrow, and how far it stands out, mm.
+/// From the outer end of the plane to the tip of its arrow, and how far it projects, mm.
 const ARROW: f64 = 7.0;
 const OUT: f64 = 6.0;
 

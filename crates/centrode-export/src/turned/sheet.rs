@@ -184,8 +184,8 @@ impl Drawn<'_> {
         cutting_plane(draft, [k * from, k * to], height, SECTION);
     }
 
-    /// Lengths that are dimensioned, with their words: of every step but grooves and the last one, and over all. Where deviations hold for
-    /// several steps between two grooves, their sum has them in the place of the last of these.
+    /// Lengths that are dimensioned, with their words: of every step but grooves and the last one, and over all. Where
+    /// deviations hold for several steps between two grooves, their sum has them instead of the last of these.
     fn dimensioned(&self) -> Vec<([f64; 2], String)> {
         let last = self.steps.len() - 1;
         let inside = |held: &&HeldLength, [from, to]: [f64; 2]| {

@@ -8,7 +8,7 @@ pub fn number(x: f64, places: usize) -> String {
     if text == "-0" { "0" } else { text }.to_owned()
 }
 
-/// A length on paper, mm, without its rounding errors: the order of things must not hang on them.
+/// A length on paper, mm, without its rounding errors: the order of things must not depend on them.
 pub fn steady(length: f64) -> f64 {
     const PARTS: f64 = 1e6;
     (length * PARTS).round() / PARTS

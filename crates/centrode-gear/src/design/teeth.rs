@@ -10,10 +10,10 @@ use centrode_spec::rule::{Rule, SpecError, broken, finite, in_range, not_negativ
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct TeethSpec {
-    /// Height of the teeth: "full", as high as the tool asks, or "fitted", each as high as works.
+    /// Height of the teeth: "full", the height of the tool, or "fitted", each of the largest height that works.
     pub addendum: Addendum,
-    /// Numbers chosen so that fitted teeth work deepest, in the place of those written: the driver's share of the pitch, the tool's
-    /// pressure angle, the phase; "addendum" stands for fitted teeth, which they are with any of these.
+    /// Parameters to optimise for the contact ratio, instead of those written: the driver's share of the pitch, the tool's
+    /// pressure angle, the phase; "addendum" is fitted teeth; any of the others implies it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub fit: Vec<Fit>,
     /// Change of every addendum: "keep-clearance", as much as keeps the clearance of the tool at the centre distance of shifted
@@ -24,7 +24,7 @@ pub struct TeethSpec {
     pub phase: Phase,
     /// Total backlash of the pair along the normal, mm.
     pub backlash: f64,
-    /// Total backlash as a bound on the play of the driven gear, rad (degrees in the file).
+    /// Total backlash as a bound on the free angle of the driven gear, rad (degrees in the file).
     #[serde(
         rename = "backlash_angle_deg",
         with = "degrees",
@@ -41,7 +41,7 @@ pub struct TeethSpec {
     /// tolerance of DIN 3967 for the accuracy class.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub thickness_deviations: Option<[f64; 2]>,
-    /// Diameter of the measuring pins, mm; left out, a pin that touches near the pitch curve.
+    /// Diameter of the measuring pins, mm; default: a pin that touches near the pitch curve.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pin_diameter: Option<f64>,
 }
@@ -67,7 +67,7 @@ impl Default for TeethSpec {
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Addendum {
-    /// Full height, as the tool's data asks.
+    /// Full height, by the tool's data.
     #[default]
     Full,
     /// Trimmed tooth by tooth to what works, at most to the dedendum.

@@ -42,7 +42,7 @@ pub enum PitchError {
     /// A gear with fewer than three teeth.
     #[error("tooth_count must be at least 3, not {0}")]
     ToothCount(u32),
-    /// Module without tooth count, or the other way round for a shape without a size.
+    /// Module without tooth count, or vice versa for a shape without a size.
     #[error("{given} is given without {missing}: the two together set the size of the curve")]
     SizeIncomplete {
         /// The key that is there.
@@ -240,7 +240,7 @@ pub enum PitchError {
         /// Polar angle, degrees.
         angle: f64,
     },
-    /// The curve whose conjugate is wanted does not exist.
+    /// The curve whose conjugate is required does not exist.
     #[error("of: {0}")]
     Of(Box<PitchError>),
     /// No closed curve rolls on the one given.

@@ -6,7 +6,7 @@ use super::plane::{Derivatives, Direction, PolarCurve, RadiusLaw};
 use super::size::{OwnSize, Size};
 use super::{Draft, PitchError, Scaled, Symmetry};
 
-/// A limacon of Pascal, if wanted with several lobes: `r(phi) = b + c cos(N phi)`.
+/// A limacon of Pascal, if with several lobes: `r(phi) = b + c cos(N phi)`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Limacon {

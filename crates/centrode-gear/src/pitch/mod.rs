@@ -60,7 +60,7 @@ pub enum PitchSpec {
     Ellipse(Ellipse),
     /// Focal ellipse drawn together so that it repeats several times in one turn.
     LobedEllipse(LobedEllipse),
-    /// Limacon of Pascal, if wanted with several lobes.
+    /// Limacon of Pascal, if with several lobes.
     Limacon(Limacon),
     /// Closed uniform B-spline.
     Bspline(Bspline),
@@ -88,7 +88,7 @@ pub struct Pitch {
     pub module: Option<f64>,
     /// Definition of the curve in one line, for reports and drawings.
     pub definition: String,
-    /// Turns of driver and driven gear that the description asks for, in lowest terms.
+    /// Turns of driver and driven gear that the description requires, in lowest terms.
     pub implied_ratio: Option<(u32, u32)>,
     /// Corners of the law that samples follow; the curve through them rounds these.
     pub corners: Vec<SampledCorner>,
@@ -208,7 +208,7 @@ impl PitchSpec {
     }
 }
 
-/// How a definition in words tells the scale of its curve.
+/// How a definition in words states the scale of its curve.
 #[derive(Debug)]
 enum Scaled {
     /// It holds at every scale.
@@ -252,7 +252,7 @@ impl Draft {
         })
     }
 
-    /// Its definition tells how it is scaled.
+    /// Its definition states how it is scaled.
     fn scaled(self, scaled: Scaled) -> Self {
         Self { scaled, ..self }
     }

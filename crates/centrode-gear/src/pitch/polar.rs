@@ -22,7 +22,7 @@ pub struct Polar {
     /// sinh, cosh, tanh, exp, ln, sqrt.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub expression: Option<String>,
-    /// Radii, mm; over equal steps from the angle zero if `angle_deg` is left out.
+    /// Radii, mm; over equal steps from the angle zero if `angle_deg` is omitted.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub radius: Vec<f64>,
     /// Polar angles of the radii, rad (degrees in the file), increasing within one turn.
@@ -33,7 +33,7 @@ pub struct Polar {
     )]
     #[schemars(with = "Vec<f64>")]
     pub angle: Vec<f64>,
-    /// Interpolation between the radii; left out, "quintic" over equal steps, "cubic" with `angle_deg`.
+    /// Interpolation between the radii; default: "quintic" over equal steps, "cubic" with `angle_deg`.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interpolation: Option<Interpolation>,
     /// Mean radius of a Fourier series, mm.

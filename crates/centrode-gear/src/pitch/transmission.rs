@@ -35,7 +35,7 @@ pub struct Transmission {
     )]
     #[schemars(with = "Vec<f64>")]
     pub driven_angle: Vec<f64>,
-    /// Interpolation between the samples; left out, "quintic".
+    /// Interpolation between the samples; default: "quintic".
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interpolation: Option<Interpolation>,
     /// Centre distance `a`, mm; or leave it out and give module and `tooth_count`.
@@ -64,7 +64,7 @@ pub struct Ratio {
     /// Ratios over equal steps of one driver turn, without the repeated end.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub ratio: Vec<f64>,
-    /// Interpolation between the samples; left out, "quintic".
+    /// Interpolation between the samples; default: "quintic".
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interpolation: Option<Interpolation>,
     /// Centre distance `a`, mm; or leave it out and give module and `tooth_count`.

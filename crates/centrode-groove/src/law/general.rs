@@ -14,7 +14,7 @@ use centrode_spec::rule::{Rule, SpecError, positive};
 
 /// Speeds at chosen shaft angles, each joined to the next by a motion law; only their ratios count.
 ///
-/// Two neighbouring equal speeds are a stretch of constant speed: the slow one is the place for the
+/// Two neighbouring equal speeds are a stretch of constant speed: the slow one is the position for the
 /// picking window. The whole is scaled so that one turn advances by the lead.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
@@ -35,7 +35,7 @@ pub struct SpeedKnots {
 pub struct SpeedTable {
     /// The speeds, in any unit.
     pub speed: Vec<f64>,
-    /// Interpolation between the samples; left out, "quintic".
+    /// Interpolation between the samples; default: "quintic".
     #[serde(skip_serializing_if = "Option::is_none")]
     pub interpolation: Option<Interpolation>,
 }

@@ -21,7 +21,7 @@ pub struct RotatedSine {
     pub amplitude: f64,
     /// Slow places a turn, `n`.
     pub harmonic: u32,
-    /// Shaft angle `theta_0` of a slow place, rad (degrees in the file).
+    /// Shaft angle `theta_0` of a slow point, rad (degrees in the file).
     #[serde(rename = "phase_deg", with = "degrees")]
     #[schemars(with = "f64")]
     pub phase: f64,

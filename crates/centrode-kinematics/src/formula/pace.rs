@@ -3,13 +3,13 @@
 use super::{Formula, Taylor};
 use centrode_geometry::WRITTEN;
 
-/// Places of a turn at which any formula is looked at.
+/// Places of a turn at which any formula is sampled.
 const FEWEST: usize = 512;
 
 /// Most places: a bump is seen where one of them lies within seven of its widths.
 const MOST: usize = 1 << 18;
 
-/// Maximum rate a radian of which features are found wherever they are without being looked for.
+/// Maximum rate a radian of which features are found wherever they are without being searched.
 const GENTLE: f64 = 12.0;
 
 /// Length of a part, as a multiple of the width of the narrowest feature.
@@ -35,7 +35,7 @@ pub struct Steep {
 struct Course {
     low: f64,
     high: f64,
-    /// Maximum slope, of its own and from one place to the next.
+    /// Maximum slope, of its own and from one position to the next.
     steepest: f64,
     last: f64,
 }

@@ -9,7 +9,7 @@ use crate::formula::{Number, Taylor};
 )]
 #[serde(rename_all = "lowercase")]
 pub enum Branch {
-    /// Upper branch. Two bars: their common joint lies to the left of the way from the first outer joint to the
+    /// Upper branch. Two bars: their common joint lies to the left of the line from the first outer joint to the
     /// second. A bar and a slider: the slider lies forward along its line.
     #[default]
     Upper,
@@ -46,7 +46,7 @@ pub(crate) struct Closed<const N: usize, T = f64> {
     pub(crate) room: T,
 }
 
-/// Length that is a plain number, or a series where its own influence is asked for.
+/// Length that is a plain number, or a series where its own influence is requested.
 pub(crate) trait Length<const N: usize, T>: Copy {
     fn value(self) -> T;
 

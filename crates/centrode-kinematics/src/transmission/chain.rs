@@ -12,7 +12,7 @@ pub struct Chain {
     outer: Arc<dyn Transmission>,
     /// Cycles of the driving motion in one of the chain, and of the driven one, below zero where it runs backwards.
     cycles: (f64, f64),
-    /// Inputs at which a derivative may jump, once they have been asked for.
+    /// Inputs at which a derivative may jump, once they have been requested.
     breaks: OnceLock<Vec<f64>>,
 }
 
@@ -48,7 +48,7 @@ impl Chain {
         })
     }
 
-    /// Chains two transmissions of which one runs through a cycle, either way, as the other does.
+    /// Chains two transmissions of which one runs through a cycle, in either direction, as the other does.
     ///
     /// # Errors
     /// [`TransmissionError::Periods`] where it does not.

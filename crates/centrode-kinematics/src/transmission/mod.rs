@@ -89,7 +89,7 @@ impl MotionJet {
         }
     }
 
-    /// Taylor coefficients of this jet, as many as are asked for; those above the third are not known and left zero.
+    /// Taylor coefficients of this jet, as many as are requested; those above the third are not known and left zero.
     pub(crate) fn coefficients<const N: usize>(&self) -> Taylor<N> {
         let known = self.series().0;
         Taylor(std::array::from_fn(|k| {
@@ -213,7 +213,7 @@ pub enum TransmissionError {
         /// Maximum number tried.
         most: u32,
     },
-    /// A motion that must run one way stops or runs back.
+    /// A motion that must run in one direction stops or runs back.
     #[error("the motion must run one way, but at the input {input} rad its velocity is {velocity}")]
     StandsStill {
         /// Input there.

@@ -46,8 +46,8 @@ pub struct MachineDyadSpec {
     /// Lengths of the bars, mm: two of RRR, one of RRP.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub lengths: Vec<f64>,
-    /// Assembly: left or right for RRR, the joint's side of the way from `from` to `to`; forward or backward for RRP, the
-    /// slider's place along its line, and for RPR, the direction of the guide from its pin towards the block.
+    /// Assembly: left or right for RRR, the joint's side of the line from `from` to `to`; forward or backward for RRP, the
+    /// slider's position along its line, and for RPR, the direction of the guide from its pin towards the block.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub side: Option<Side>,
     /// Point through which the line of the slide passes: `frame.O`; of RRP, PRP and RPP.

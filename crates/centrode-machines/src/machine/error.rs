@@ -82,7 +82,7 @@ pub enum MachineError {
         /// The body.
         body: String,
     },
-    /// A body that would have to be in place before itself.
+    /// A body that would have to be placed before itself.
     #[error("{}", ring(.names))]
     Ring {
         /// Key at which the ring is entered.

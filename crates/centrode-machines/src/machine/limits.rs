@@ -36,9 +36,9 @@ const LENGTHS: [&str; 19] = [
 const OWN_FILES: [&str; 2] = ["assembly", "sheets"];
 /// Tables of the whole machine: gears and cams have tables, too.
 const OWN_TABLES: [&str; 2] = ["motion", "parts"];
-/// Names that Windows keeps for devices.
+/// Names that Windows reserves for devices.
 const DEVICES: [&str; 4] = ["aux", "con", "nul", "prn"];
-/// Tables whose numbers say what is wanted, not what the machine is.
+/// Tables whose numbers say what is required, not what the machine is.
 const REQUIRED: [&str; 2] = ["goals", "vary"];
 
 impl MachineDesign {

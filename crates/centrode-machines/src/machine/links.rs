@@ -37,7 +37,7 @@ impl Machine {
         Ok(machine)
     }
 
-    /// The machine as links and joints as far as pictures and clearances ask: without masses, pins and a list of parts.
+    /// The machine as links and joints for pictures and clearances: without masses, pins and a list of parts.
     ///
     /// # Errors
     /// [`SolidError`] where a plate is no solid.
@@ -190,7 +190,7 @@ impl Machine {
         }
     }
 
-    /// Tells the fit of the pins in the plates, where there are any.
+    /// States the fit of the pins in the plates, if there are any.
     fn list_fits(&self, machine: &mut LinkedMachine) {
         let spec = &self.design.plates;
         for shaft in self.shafts() {
@@ -333,7 +333,7 @@ impl Machine {
         }
     }
 
-    /// Draws every body, and the ways of the points on which nothing is held.
+    /// Draws every body, and the paths of the points on which nothing is held.
     fn draw(&self, machine: &mut LinkedMachine, pieces: &[Pieces<'_>]) {
         let followed = self.followed();
         let traced: Vec<usize> = (0..machine.points.len())

@@ -33,7 +33,7 @@ pub struct MachineLoadSpec {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub expression: Option<String>,
     /// Arc of the input over which it acts, from the first to the second, past the end of the cycle where the second is less,
-    /// rad (degrees in the file); left out, it acts always.
+    /// rad (degrees in the file); by default it acts always.
     #[serde(
         default,
         rename = "over_deg",

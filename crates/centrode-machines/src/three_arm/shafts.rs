@@ -31,7 +31,7 @@ impl ThreeArm {
         all
     }
 
-    /// A piece on a link of every chain, at a place in it.
+    /// A piece on a link of every chain, at a position in it.
     fn on_chains(&self, link: &str, at: [f64; 3]) -> Vec<TurnedPiece> {
         let piece = |k| TurnedPiece::upright(&format!("{link}_{k}"), at);
         (0..self.arms()).map(piece).collect()
@@ -65,7 +65,7 @@ impl ThreeArm {
         all.into_iter().flatten().collect()
     }
 
-    /// Shaft of the sun, which stands still and about which the carrier turns; none without a gearbox, or a bore of the sun.
+    /// Shaft of the sun, which is fixed and about which the carrier turns; none without a gearbox, or a bore of the sun.
     #[must_use]
     pub fn carrier_shaft(&self) -> Option<TurnedPieces> {
         let (design, [rear, front]) = (self.design(), self.gearbox()?.spans);

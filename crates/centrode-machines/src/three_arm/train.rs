@@ -42,7 +42,7 @@ pub struct TrainJet {
     pub arm: MotionJet,
 }
 
-/// Adds a number to a jet: the position is moved, the derivatives are kept.
+/// Adds a number to a jet: the position is moved, the derivatives do not change.
 pub(super) fn moved(jet: MotionJet, by: f64) -> MotionJet {
     MotionJet {
         position: jet.position + by,

@@ -17,7 +17,7 @@ pub(crate) struct Table {
     /// Path of the table, `driver.keyway`; empty for the keys before the first table.
     pub(crate) key: String,
     doc: String,
-    /// Whether it may be left out as a whole.
+    /// Whether it is optional as a whole.
     optional: bool,
     /// Whether the table is in the file and may be taken out of it.
     #[serde(skip)]
@@ -46,7 +46,7 @@ pub(crate) struct Field {
     pub(crate) value: Value,
     /// Whether the key is written in the file.
     written: bool,
-    /// Whether the key may be left out.
+    /// Whether the key is optional.
     optional: bool,
     /// Whether it says what bodies look like, and moves nothing.
     #[serde(skip)]
@@ -58,7 +58,7 @@ pub(crate) struct Field {
 }
 
 impl Field {
-    /// Whether the key is in the file and may be left out.
+    /// Whether the key is in the file and is optional.
     pub(crate) fn may_go(&self) -> bool {
         self.written && self.optional
     }

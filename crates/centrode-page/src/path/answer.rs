@@ -94,7 +94,7 @@ impl Answer {
             answer.figures = figures(&chain, None);
             answer
         });
-        // The machine as it is drawn; what is sought may reach more.
+        // The machine as it is drawn; a search may reach more.
         let count = passed.len() - usize::from(passed.first() == passed.last());
         answer.goals = goals(&reached(&design.wishes, &chain, design.bend, count));
         if ask.others {
@@ -103,7 +103,7 @@ impl Answer {
         answer
     }
 
-    /// The machine that is sought.
+    /// The machine that is searched.
     ///
     /// # Errors
     /// The reason in words if there is no machine.

@@ -46,7 +46,7 @@ fn still(points: &[Point], role: LineRole, [x, y]: [[f64; 2]; 2], marks: Vec<Mar
     }
 }
 
-/// A place on the path with a name.
+/// A point on the path with a name.
 pub(super) fn mark(name: &str, at: Point) -> Mark {
     Mark {
         name: name.into(),

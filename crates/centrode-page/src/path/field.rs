@@ -121,11 +121,11 @@ fn words(name: &str) -> &'static str {
 pub struct Best {
     points: Vec<[f64; 2]>,
     bend_deg: f64,
-    /// Whether the bluntest gears are wanted, not the mildest ratio.
+    /// Whether the bluntest gears are required, not the gentlest ratio.
     bluntest: bool,
 }
 
-/// The mildest axis, or that of the bluntest gears.
+/// The gentlest axis, or that of the bluntest gears.
 ///
 /// # Errors
 /// The reason in words if the points make no path, or no axis is possible.

@@ -17,13 +17,13 @@ pub struct Found {
     pub why: String,
     /// Axes tried for a path that is followed as it is.
     pub map: Option<AxisMap>,
-    /// Further lines to tell: names and words.
+    /// Further lines to print: names and words.
     pub stated: Vec<Labelled>,
     /// Further wishes, and how far they are reached.
     pub goals: Vec<Goal>,
     /// Findings on what was found.
     pub findings: Vec<Finding>,
-    /// Whether what was wanted is reached.
+    /// Whether all requirements are met.
     pub is_reached: bool,
 }
 
@@ -127,7 +127,7 @@ impl Found {
         })
     }
 
-    /// The machine of a path as it is wanted.
+    /// The machine of a path as it is required.
     fn as_given(design: &PathDesign, path: &RequiredPath) -> Result<Self, NotFound> {
         let Some(at) = design.axis else {
             return Self::mildest(design, path);

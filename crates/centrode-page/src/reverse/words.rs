@@ -75,7 +75,7 @@ pub fn poses(angle: f64, misses: &[[f64; 2]]) -> Vec<Labelled> {
     std::iter::once(clamp(angle)).chain(poses).collect()
 }
 
-/// Line on a goal: its figure, what was wanted, and by how much it is missed.
+/// Line on a goal: its figure, what was required, and by how much it is missed.
 pub fn goal(goal: &Goal) -> Labelled {
     let show = |x: f64| goal.unit.with_unit(x);
     let value = goal.value.map_or_else(String::new, show);

@@ -1,4 +1,4 @@
-// Several designs side by side: pictures that stand at one place of their cycles, and goals in columns.
+// Several designs side by side: pictures at one position of their cycles, and goals in columns.
 
 import * as dialogs from "./dialogs.js";
 import { byId, element } from "./elements.js";

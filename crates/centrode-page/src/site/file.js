@@ -1,4 +1,4 @@
-// The design file on disk: kept beside, saved, loaded, exported from, and compared with what others make of it.
+// The design file on disk: autosaved, saved, loaded, exported from, and compared with what others make of it.
 
 import * as dialogs from "./dialogs.js";
 import * as link from "./link.js";

@@ -103,7 +103,7 @@ export class Form {
     input.checked = old.checked;
     input.value = old.value;
     if (this.changed.has(old)) this.changed.set(input, this.changed.get(old));
-    // The browser tells of a change only what was typed into this very element.
+    // The browser reports a change only of what was typed into this very element.
     input.addEventListener("blur", () => {
       if (input.value !== input.dataset.value) input.dispatchEvent(new Event("change"));
     }, { once: true });
@@ -214,7 +214,7 @@ export class Form {
     box.addEventListener("focus", measure);
     box.addEventListener("change", () => {
       const value = worked(box.value, field.unit);
-      // The result takes the place of what it was worked out from.
+      // The result replaces the formula it was computed from.
       if (typeof value === "number" && typed(box.value) !== value) box.value = String(value);
       measure();
       if (value === "" && field.optional && key === field.key) give(null);

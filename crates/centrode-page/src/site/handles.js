@@ -1,4 +1,4 @@
-// Points of the drawing that stand for numbers of the design: to be dragged, or moved by arrow keys.
+// Points of the drawing that represent numbers of the design: to be dragged, or moved by arrow keys.
 
 import { byId, drawn } from "./elements.js";
 
@@ -215,7 +215,7 @@ export class Handles {
   move(name, place, final) {
     const handle = this.named(name);
     if (!handle) {
-      // This design has no such point: it stays as it is, and so does what was asked for last.
+      // This design has no such point: it stays as it is, and so does what was requested last.
       if (final) this.edit([], true);
       return;
     }

@@ -34,11 +34,11 @@ export function touching(painter, input) {
     const pitch = place(pitches, input, cycle);
     if (!pitch) return [];
     const points = paths.map((path) => place(path, input, cycle)).filter(Boolean);
-    // All contacts lie on one line through the pitch point: the farthest tells it best.
+    // All contacts lie on one line through the pitch point: the farthest shows it best.
     const far = points.reduce((best, point) => (apart(pitch, point) > apart(pitch, best) ? point : best), pitch);
     const [middle, end] = [pitch, far].map((at) => painter.toBox(...at));
     const length = apart(middle, end);
-    // Of several meshes each has its own line beside it; that of one goes through the picture.
+    // Of several meshes each has its own line next to it; that of one goes through the picture.
     const reach = contacts.length > 1 ? Math.max(24, 2 * length) : painter.width + painter.height;
     const way = [0, 1].map((k) => (reach * (end[k] - middle[k])) / length);
     const line = length > 0 ? [-1, 1].map((side) => [0, 1].map((k) => middle[k] + side * way[k])) : null;
@@ -135,7 +135,7 @@ export class MeshView {
 
   /** Width of the view, mm. */
   width() {
-    // Beside the pitch point, which may be carried about.
+    // Next to the pitch point, which may be carried about.
     const lengths = this.contacts.flatMap(({ pitch_point: pitches, paths }) => paths.map(({ input, at }) => {
       const ends = [0, at.length - 1].map((i) => apart(at[i], place(pitches, input[i], this.cycle)));
       return ends[0] + ends[1];

@@ -1,4 +1,4 @@
-// Where every link stands at an input: read between the samples of the snapshot.
+// Poses of every link at an input: read between the samples of the snapshot.
 
 export class Motion {
   constructor({ input, poses }) {

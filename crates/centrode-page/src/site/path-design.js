@@ -20,7 +20,7 @@ function wishesOf(wish) {
   const directions = direction_deg.flatMap((angle, i) => (angle === null ? [] : [{ point: i + 1, direction_deg: angle, tolerance_deg: direction_tolerance_deg[i] ?? USUAL }]));
   if (wish.directed && directions.length) found.directions = directions;
   const { turn } = wish;
-  // One that is half given is told by its field.
+  // One that is half given is reported by its field.
   if (turn && turn.from !== null && turn.to !== null) found.turn = { from: turn.from, to: turn.to, between_deg: [turn.between[0] ?? 0, turn.between[1] ?? 360] };
   if (wish.keep_out.length) found.keep_out = shapes.written(wish.keep_out);
   return found;

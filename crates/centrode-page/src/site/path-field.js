@@ -1,4 +1,4 @@
-// The map of possible axes: a coloured field below the machine, its legend, and what it says of a place.
+// The map of possible axes: a coloured field below the machine, its legend, and what it says of a position.
 
 import { byId, element } from "./elements.js";
 import { rowsOf } from "./path-form.js";
@@ -97,7 +97,7 @@ export class Field {
 
   mark(stale) {
     this.stale = stale;
-    // What was asked for is no longer what is wanted.
+    // The request is out of date.
     if (stale) this.key = "";
     byId("field").classList.toggle("stale", stale);
   }

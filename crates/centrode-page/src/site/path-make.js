@@ -1,4 +1,4 @@
-// From the page of a path to a design: teeth are sought, a file is asked for, and its page is opened.
+// From the page of a path to a design: teeth are searched, a file is requested, and its page is opened.
 
 import * as dialogs from "./dialogs.js";
 import { element } from "./elements.js";

@@ -1,4 +1,4 @@
-// Shapes that the machine keeps out of: in the form, as handles and as lines.
+// Shapes that the machine must not enter: in the form, as handles and as lines.
 
 /** New shapes are so large, a share of the path's size, and so far beside it. */
 const LARGE = 0.1;

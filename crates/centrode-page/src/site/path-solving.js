@@ -40,7 +40,7 @@ export class Solving {
       this.pending = null;
       const answer = await this.answer(wish, "stop", {});
       if (answer) this.show(answer, true);
-      // Of a path or an axis that is not possible no more is to be told; of a split, what the others would be.
+      // Of a path or an axis that is not possible no more is to be reported; of a split, what the others would be.
       if (!final || !answer || this.pending || ["path", "axis"].includes(answer.fault?.of)) continue;
       for (const others of [false, true]) {
         const whole = await this.answer(wish, "resting", { rest: true, others });

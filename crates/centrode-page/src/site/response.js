@@ -87,7 +87,7 @@ export async function ask(snapshot, text, take, first) {
     try {
       const name = key.value;
       const answers = await server.response({ text, key: name, from: number(from), to: number(to) }, signal);
-      // Another has been asked for since.
+      // Another has been requested since.
       if (signal.aborted) return;
       const gaps = answers.charts.some((chart) => chart.figures.includes(null));
       words.textContent = answers.charts.length === 0

@@ -150,7 +150,7 @@ export class Search {
 
   /** The numbers of the design cannot be changed while the best so far is shown in their place. */
   hold(on) {
-    // Told from any other, so that who follows one that is over finds out.
+    // A name that differs from any other, so that a follower of one that is over notices it.
     this.showing = on ? Symbol("search") : null;
     document.body.classList.toggle("searching", on);
     byId("form").inert = on;

@@ -1,4 +1,4 @@
-// What the page asks of the program behind it.
+// Requests of the page to the program behind it.
 
 /** An answer that is none: the reason, in the program's words. */
 export class Refused extends Error {

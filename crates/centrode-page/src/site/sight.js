@@ -1,4 +1,4 @@
-// What is out of sight is drawn last: once it comes into sight, or once nothing else has been asked for.
+// What is out of sight is drawn last: once it comes into sight, or once nothing else has been requested.
 
 /** How long nothing is asked for before what is out of sight has its turn, ms. */
 const REST = 500;

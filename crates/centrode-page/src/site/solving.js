@@ -181,7 +181,7 @@ async function follow(stop) {
     const share = await server.progress();
     if (share > 0 && share < 1 && state.checking === stop) progress(`${Math.floor(100 * share)} % done`);
   } catch {
-    // Who waits for the checks is told why there are none.
+    // Those who wait for the checks get the reason why there are none.
   }
 }
 

@@ -88,7 +88,7 @@ export class View {
     });
     this.measure();
     const keeps = ({ userData: { places } }, first) => places.every((value, i) => i % 7 < first || Math.abs(value - places[i % 7]) < 1e-6);
-    // What stands still, and ground that slides below the machine.
+    // What is fixed, and ground that slides below the machine.
     const still = (body) => keeps(body, 0) || (keeps(body, 3) && body.geometry.boundingSphere.radius > LARGE * this.radius);
     this.still = this.bodies.filter(still);
     // Where nothing moves there is nothing behind it.

@@ -1,4 +1,4 @@
-// The 3D view over the drawing: asked for by its button, worked by mouse, touch and keys.
+// The 3D view over the drawing: requested by its button, worked by mouse, touch and keys.
 
 import { byId, element } from "./elements.js";
 import { parse, View } from "./space-view.js";
@@ -57,7 +57,7 @@ export class Space {
       const three = await import(new URL("three.module.min.js", location.href).href);
       if (this.box !== box) return;
       try {
-        // Asked before three.js, which would write its own complaint.
+        // Checked before three.js, which would write its own complaint.
         if (!document.createElement("canvas").getContext("webgl2")) throw new Error(MISSING);
         this.view = new View(three, canvas);
       } catch {

@@ -70,7 +70,7 @@ export class Stage extends Painter {
 
   resize(density) {
     this.measureBy(this.box, density);
-    // On paper the drawing keeps the shape it has on the screen.
+    // On paper the drawing has the same shape as on the screen.
     if (!matchMedia("print").matches) this.box.style.setProperty("--aspect", this.width > 0 && this.height > 0 ? this.width / this.height : 1);
     if (this.fitted) this.fit();
     else this.draw();

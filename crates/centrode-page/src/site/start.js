@@ -187,7 +187,7 @@ moving.addEventListener("click", () => {
   moving.setAttribute("aria-pressed", String(moving.getAttribute("aria-pressed") !== "true"));
   for (const thumbnail of thumbnails.values()) thumbnail.go();
 });
-// Who asks for less motion gets none.
+// With reduced motion nothing moves.
 const calm = () => {
   moving.hidden = still.matches;
 };

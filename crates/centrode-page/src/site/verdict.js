@@ -49,7 +49,7 @@ export function show(snapshot, pinned, go) {
       title(line ? "No mechanism" : "Not solved", "error"),
       element("ul", { class: "findings no-mechanism" }, element("li", { class: "error" },
         element("p", {}, element("b", {}, `${SIGN.error} error `), key ? `${path(key)}: ${words}` : words),
-        // What is no design at all has no form: its place is one in the text.
+        // What is no design at all has no form: its position is one in the text.
         line && !key ? element("p", { class: "detail" }, `line ${line}, column ${column}`) : null)),
       ...(snapshot.picture ? [element("p", { class: "detail" }, "Picture and curves are those of the last good design.")] : []),
     );

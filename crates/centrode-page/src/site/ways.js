@@ -62,7 +62,7 @@ export class Ways extends Painter {
     }
     const longest = lines.reduce((best, line) => (line.vertices.length > (best?.vertices.length ?? 0) ? line : best), null);
     if (!longest || !name) return;
-    // Each name at another place of its way, so that they do not lie on each other.
+    // Each name at another point of its path, so that they do not lie on each other.
     const count = longest.vertices.length / 3;
     const at = Math.floor(((index * 0.17) % 1) * count);
     const [u, v] = [longest.vertices[3 * at], longest.vertices[3 * at + 1]];

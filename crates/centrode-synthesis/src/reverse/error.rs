@@ -84,9 +84,9 @@ pub enum PathError {
     /// The path crosses itself.
     #[error("the path crosses itself at ({x:.4}, {y:.4}) mm: are its points in order?")]
     Crossing {
-        /// Place, mm.
+        /// Position, mm.
         x: f64,
-        /// Place, mm.
+        /// Position, mm.
         y: f64,
     },
     /// A file that is too large.
@@ -145,11 +145,11 @@ pub enum PathError {
     },
 }
 
-/// Reason why no machine with its carrier's axis at a place has a tip that runs along the path.
+/// Reason why no machine with its carrier's axis at a position has a tip that runs along the path.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum AxisFault {
-    /// The place is no point.
+    /// The position is no point.
     #[error("the axis ({}, {}) must be two finite numbers within {limit:e} mm", stated(*x), stated(*y))]
     NotFinite {
         /// Its x, mm.
@@ -216,17 +216,17 @@ pub enum AxisFault {
     CarrierTurnsBack {
         /// Length of the carrier, mm.
         carrier: f64,
-        /// Place on the path, mm.
+        /// Position on the path, mm.
         at: Point,
     },
-    /// The arm would stand still on the carrier.
+    /// The arm would not move on the carrier.
     #[error(
         "the arm would stand still on the carrier at ({:.4}, {:.4}) mm of the path, where the path lies on a circle about the axis",
         at.x,
         at.y
     )]
     ArmStops {
-        /// Place on the path, mm.
+        /// Position on the path, mm.
         at: Point,
     },
 }

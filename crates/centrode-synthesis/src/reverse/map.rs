@@ -171,7 +171,7 @@ impl AxisMap {
         Some(self.range.axis((n % columns) as u32, (n / columns) as u32))
     }
 
-    /// The mildest axis: that of the smallest maximum |ln| of the ratio, refined from the best of the grid by ever finer
+    /// The gentlest axis: that of the smallest maximum |ln| of the ratio, refined from the best of the grid by ever finer
     /// grids about it within its bounds; none where no axis of the grid is possible.
     #[must_use]
     pub fn mildest(&self, path: &RequiredPath) -> Option<TwoBar> {

@@ -52,13 +52,13 @@ pub(crate) fn zip(text: &str, command: Option<&Export>, page: bool) -> Result<Ve
     Ok(files.zip()?)
 }
 
-/// Parts of a design whose files can be asked for alone: the name of each, and what it is.
+/// Parts of a design whose files can be requested alone: the name of each, and what it is.
 pub(crate) fn parts(mechanism: &dyn Mechanism, family: &Family) -> Vec<[String; 2]> {
     let Ok(tolerance) = tolerance(TOLERANCE) else {
         return Vec::new();
     };
     let mut options = Options::new(tolerance);
-    // Asked for a part of no name, the exporter makes nothing and tells those that it knows.
+    // For an unknown part the exporter makes nothing and lists those that it knows.
     options.parts = Some(vec![String::new()]);
     let Err(ExportError::UnknownPart { known, .. }) = mechanism.files(&Format::ALL, &options)
     else {
@@ -81,7 +81,7 @@ fn bundle(
 ) -> Result<Bundle, Failure> {
     let known: Vec<&str> = family.parts.iter().map(|part| part.name).collect();
     let mut requested = command.part.iter();
-    // Parts that the design names are told when it is drawn.
+    // Parts that the design names are reported when it is drawn.
     if !known.is_empty()
         && let Some(lost) = requested.find(|part| !known.contains(&part.as_str()))
     {
@@ -139,7 +139,7 @@ fn formats(command: &Export) -> Vec<Format> {
     required.map(|(_, format)| format).collect()
 }
 
-/// Refuses options that have no effect on any of the files asked for.
+/// Refuses options that have no effect on any of the files requested.
 fn refuse_useless(command: &Export) -> Result<(), Failure> {
     let sheets = command.wants(File::Sheet) || command.wants(File::Pdf);
     let refused = |option: &str, files: &str| {

@@ -35,7 +35,7 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
         return posed::run(command, out);
     }
     let progress = Progress::new(4);
-    // Kept to the end, so that a second Ctrl-C ends what comes after the search.
+    // Held to the end, so that a second Ctrl-C ends the steps after the search.
     let (requested, found, _interrupt) = match command.poses {
         true => {
             let source = source(command)?;
@@ -86,7 +86,7 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
     let (Some(output), Some(toothed)) = (&command.output, toothed) else {
         return Ok(Status::new(found.is_reached));
     };
-    // What was found is told even where there are no teeth.
+    // The result is reported even if there are no teeth.
     out.flush()?;
     let toothed = toothed.map_err(|error| Failure::Files(Box::new(error)))?;
     teeth(&toothed.teeth, out)?;
@@ -106,7 +106,7 @@ pub(crate) fn line(out: &mut impl Write, name: &str, words: &str) -> std::io::Re
     writeln!(out, "{name:NAME$}{words}")
 }
 
-/// Searches the machine of a path; shows progress, and Ctrl-C ends the search with the best so far.
+/// Searches the machine of a path; shows progress, and Ctrl-C ends the search with the best found.
 fn search(
     command: &Reverse,
     requested: &Request,

@@ -279,7 +279,7 @@ fn a_read_only_folder_is_left_alone() {
     fs::create_dir(&locked).expect("made");
     let mode = |bits| fs::set_permissions(&locked, fs::Permissions::from_mode(bits));
     mode(0o555).expect("locked");
-    // The superuser may write anywhere: the kernel's own read-only folder takes its place.
+    // The superuser may write anywhere: the kernel's own read-only folder serves instead.
     let powerful = fs::write(locked.join("probe"), "").is_ok();
     let target = if powerful {
         Path::new("/proc/self")

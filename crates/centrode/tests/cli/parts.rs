@@ -1,4 +1,4 @@
-//! Parts of a machine asked for by name.
+//! Parts of a machine requested by name.
 
 use std::fs;
 use std::path::Path;

@@ -7,7 +7,7 @@ use crate::{centrode, fed, text};
 
 const DRAWN: &str = "x,y\n0,0\n60,70\n150,150\n230,215\n262,262\n235,300\n170,330\n100,330\n40,300\n-5,250\n-30,190\n-38,130\n-30,60\n";
 
-/// Path of a machine that is nearly even: a circle of 60 mm about a place off the axis, a little bent.
+/// Path of a machine that is nearly even: a circle of 60 mm about a position off the axis, a little bent.
 fn mild() -> String {
     let point = |i: u32| {
         let t = f64::from(i) * std::f64::consts::TAU / 40.0;
@@ -312,7 +312,7 @@ fn a_column_of_tolerances_bounds_each_point_and_a_module_is_asked_for() {
         stated.contains("surely sound up to module 0.5000 mm, 0.1127 mm before"),
         "{stated}"
     );
-    // What is out of reach is told, and the exit status is that of a finding.
+    // What is out of reach is reported, and the exit status is that of a finding.
     let requested = [&axis[..], &["--module", "20"]].concat();
     let run = fed(&requested, csv.as_bytes());
     assert_eq!(run.status.code(), Some(1), "{}", text(&run.stderr));
@@ -593,7 +593,7 @@ fn an_axis_at_the_border_of_its_box_is_told_with_the_side() {
     let wide = text(&wide.stdout);
     let unevenness = |stated: &str| figure(stated, "ratio", "factor of ");
     assert!(unevenness(&wide) < unevenness(&stated), "{wide}");
-    // The search that eases a path tells it, too.
+    // The search that eases a path shows it, too.
     let design = wished("").replace(
         "[path]",
         "aim = \"mild\"\naxis_box = [[200, 100], [240, 150]]\n[path]",

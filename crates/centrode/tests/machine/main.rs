@@ -37,7 +37,7 @@ fn machines() -> Vec<(String, LinkedMachine)> {
     found
 }
 
-/// Whether every place of a way is within a distance of another way.
+/// Whether every position of a way is within a distance of another way.
 fn along(one: &page::Path, other: &page::Path, within: f64) -> bool {
     let places = |path: &page::Path| -> Vec<Point3<f64>> {
         path.vertices
@@ -157,7 +157,7 @@ fn links_keep_the_same_clearance_in_the_machine_read_back_from_its_plain_file() 
                     off < 1e-10 * (1.0 + minimum.abs()),
                     "{name}: {links}: {a:?} {b:?}"
                 );
-                // Where the search stops hangs on rounding.
+                // Where the search stops depends on rounding.
                 let off = (bound - bound_again).abs();
                 assert!(off < 1e-3 * tolerance.mm(), "{name}: {links}: {a:?} {b:?}");
                 assert!(

@@ -83,7 +83,7 @@ fn teeth_of_an_elliptic_pair_push_square_to_its_pitch_curves() {
 
 #[test]
 fn teeth_of_gears_that_rest_hold_their_load_along_the_normal_of_their_pitch_curves() {
-    // An ellipse on its mate about a focus of each, turned in and out by a law that stands still at zero.
+    // An ellipse on its mate about a focus of each, turned in and out by a law that is fixed at zero.
     let (k, a) = (0.3_f64, 50.0);
     let driven = move |t: f64| {
         let below = 1.0 + k * k - 2.0 * k * t.cos();

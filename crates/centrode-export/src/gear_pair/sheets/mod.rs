@@ -27,7 +27,7 @@ pub enum Subject {
     Driver,
     /// The driven gear.
     Driven,
-    /// Both in place.
+    /// Both assembled.
     Assembly,
 }
 
@@ -35,7 +35,7 @@ impl Subject {
     /// All of them.
     pub const ALL: [Self; 3] = [Self::Driver, Self::Driven, Self::Assembly];
 
-    /// The gear; none of both in place.
+    /// The gear; `None` for both assembled.
     #[must_use]
     pub fn member(self) -> Option<Member> {
         match self {
@@ -82,10 +82,10 @@ pub(crate) struct Label<'a> {
     pub(crate) quantity: usize,
 }
 
-/// The sheets of one gear, or of both in place: views, dimensions, data, tables.
+/// The sheets of one gear, or of both assembled: views, dimensions, data, tables.
 ///
 /// # Errors
-/// [`ExportError::Sheet`] if the size asked for is too small.
+/// [`ExportError::Sheet`] if the requested size is too small.
 pub fn sheets(
     pair: &GearPair,
     subject: Subject,

@@ -8,7 +8,7 @@ use centrode_spec::DrawingSpec;
 use nalgebra::Rotation2;
 use std::f64::consts::TAU;
 
-/// A gear with what its sheets ask of it, millimetres of the part.
+/// A gear with the input of its sheets, millimetres of the part.
 pub(super) struct SheetGear<'a> {
     pub(super) pair: &'a GearPair,
     pub(super) gear: &'a Gear,

@@ -38,7 +38,7 @@ impl Measured {
     }
 }
 
-/// Distances of the axes that stand still, travel of the points followed, and what the machine itself wants told.
+/// Distances of the axes that are fixed, travel of the points followed, and further dimensions of the machine.
 pub(super) fn dimensions(scene: &Scene<'_>, axes: &[Axis]) -> Vec<Measured> {
     let mut all: Vec<Measured> = Vec::new();
     let mut add = |ends: [Point; 2], along: Along| {
@@ -73,7 +73,7 @@ pub(super) fn dimensions(scene: &Scene<'_>, axes: &[Axis]) -> Vec<Measured> {
     all
 }
 
-/// Places of a point's way that are farthest left, right, down and up.
+/// Places of a point's path that are farthest left, right, down and up.
 fn travel(machine: &LinkedMachine, point: usize) -> [Point; 4] {
     let laws = machine.joints.iter().map(|joint| joint.law.as_ref());
     let breaks: Vec<f64> = laws.flat_map(|law| within(law, machine)).collect();

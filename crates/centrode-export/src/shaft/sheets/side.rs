@@ -45,7 +45,7 @@ impl<'a> Views<'a> {
         let mut draft = self.side(scale, letters);
         let below = self.development(scale, letters);
         let (own, other) = (draft.bounds(), below.bounds());
-        // The unrolled surface is no view: it stands below, whatever the projection.
+        // The unrolled surface is no view: it is below in either projection.
         draft.add(&below, Vector::new(0.0, own.min.y - APART - other.max.y));
         draft
     }

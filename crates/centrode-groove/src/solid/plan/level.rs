@@ -47,7 +47,7 @@ pub(in crate::solid) fn columns(radius: f64, limit: f64) -> u32 {
 pub(super) fn rises(groove: &Groove) -> Vec<Option<f64>> {
     let traverse = groove.traverse();
     let (stroke, reversal) = (traverse.stroke(), traverse.reversal());
-    // A wall belongs to a place of the centre line that lies this much farther round at most.
+    // A wall belongs to a position of the centre line that lies this much farther round at most.
     let aside = 0.5 * groove.width() / groove.radius();
     let back = stroke + reversal;
     let rise = |turn: u32| {

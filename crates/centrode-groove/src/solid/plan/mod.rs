@@ -335,7 +335,7 @@ impl<'a> Plan<'a> {
     }
 
     /// Height of an edge, if the groove were `half` wide to each side, at an angle round the shaft, and the shaft
-    /// angle of the groove it belongs to, sought from a near one.
+    /// angle of the groove it belongs to, searched from a near one.
     fn found(&self, edge: usize, half: f64, phi: f64, near: Option<f64>) -> (f64, f64) {
         checkpoint();
         let Edge { turn, wall, .. } = self.edge(edge);

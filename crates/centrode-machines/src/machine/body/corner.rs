@@ -42,7 +42,7 @@ pub struct CornerSpec {
     pub from: [String; 2],
     /// Distances from them, mm.
     pub lengths: [f64; 2],
-    /// Side of the way from the first to the second on which it lies, left or right.
+    /// Side of the line from the first to the second on which it lies, left or right.
     pub side: Side,
 }
 
@@ -50,7 +50,7 @@ pub struct CornerSpec {
 #[derive(Clone, Copy, Debug, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Side {
-    /// To the left of the way from the first point to the second.
+    /// To the left of the line from the first point to the second.
     Left,
     /// To the right of it.
     Right,

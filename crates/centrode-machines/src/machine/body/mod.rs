@@ -27,7 +27,7 @@ pub struct MachineBodySpec {
     /// Point of another body on which it turns, or from which it slides: `frame.O`; with a mesh, the body that carries it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub on: Option<String>,
-    /// Direction in which it slides, in the axes of the body that carries it, rad (degrees in the file); left out, it turns.
+    /// Direction in which it slides, in the axes of the body that carries it, rad (degrees in the file); by default it turns.
     #[serde(
         rename = "slides_deg",
         with = "degrees",
@@ -46,14 +46,14 @@ pub struct MachineBodySpec {
     )]
     #[schemars(with = "Option<f64>")]
     pub turned: Option<f64>,
-    /// Place of its plate along the shafts, counted from the one next to the frame, which is in layer -1: below it are the gears; left out, plates
-    /// stack in order.
+    /// Position of its plate along the shafts, counted from the one next to the frame, which is in layer -1: below it are the
+    /// gears; default: plates stack in order.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub layer: Option<i32>,
-    /// Whether it is drawn as a plate; left out, it is.
+    /// Whether it is drawn as a plate; by default it is.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub plate: Option<bool>,
-    /// Corners of its plate in order, in the body's axes, mm; left out, the plate is drawn round its points.
+    /// Corners of its plate in order, in the body's axes, mm; default: the plate is drawn round its points.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub outline: Vec<MachineCornerSpec>,
     /// Radius to which the corners of its outline are rounded, mm.
@@ -62,19 +62,19 @@ pub struct MachineBodySpec {
     /// Circle that its plate is.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub circle: Option<MachineCircleSpec>,
-    /// Width of its plate round its points, mm; left out, that of all plates.
+    /// Width of its plate round its points, mm; default: that of all plates.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub width: Option<f64>,
-    /// Thickness of its plate, mm; left out, that of all plates.
+    /// Thickness of its plate, mm; default: that of all plates.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub thickness: Option<f64>,
-    /// Mass without its gears, kg; left out, that of its plate.
+    /// Mass without its gears, kg; default: that of its plate.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub mass_kg: Option<f64>,
-    /// Centre of mass of a given mass: x and y in the body's axes, mm; left out, that of its plate, or the origin.
+    /// Centre of mass of a given mass: x and y in the body's axes, mm; default: that of its plate, or the origin.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub center: Option<[f64; 2]>,
-    /// Moment of inertia of a given mass about its centre, kg mm²; left out, that of the plate at the given mass.
+    /// Moment of inertia of a given mass about its centre, kg mm²; default: that of the plate at the given mass.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub inertia_kg_mm2: Option<f64>,
     /// Motion of a body that turns or slides.

@@ -25,7 +25,7 @@ pub(in crate::machine) type BodyPoints = BTreeMap<String, BTreeMap<String, Local
 /// A point of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::machine) struct LocalPoint {
-    /// Place in the body's axes, mm.
+    /// Position in the body's axes, mm.
     pub(in crate::machine) at: Point,
     /// Whether it has its name from this body, not from the one it is pinned to.
     pub(in crate::machine) own: bool,
@@ -36,7 +36,7 @@ pub(in crate::machine) struct LocalPoint {
 pub struct BodyPoint {
     /// Index of the body.
     pub body: usize,
-    /// Place in the body's axes, mm.
+    /// Position in the body's axes, mm.
     pub at: Point,
 }
 
@@ -83,7 +83,7 @@ impl Reference {
         }
     }
 
-    /// Finds the place in the body's axes.
+    /// Finds the position in the body's axes.
     pub(in crate::machine) fn find(
         &self,
         key: &str,

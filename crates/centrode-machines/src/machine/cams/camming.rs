@@ -27,7 +27,7 @@ pub struct MachineCam {
     pub(in crate::machine) body_name: String,
     /// The finished cam.
     pub part: Arc<Cam>,
-    /// Place of its axis in the body's axes, mm.
+    /// Position of its axis in the body's axes, mm.
     pub at: Point,
     /// Angle of its own axes against the body's, rad.
     pub mount: f64,
@@ -65,7 +65,7 @@ impl MachineCam {
         format!("{}-profile", self.name)
     }
 
-    /// Place of the cam's axes in those of its body.
+    /// Position of the cam's axes in those of its body.
     fn place(&self) -> Isometry2<f64> {
         Isometry2::new(self.at.coords, self.mount)
     }
@@ -135,7 +135,7 @@ impl Machine {
 impl Builder<'_> {
     /// Motion of a body that follows a cam.
     ///
-    /// With gamma the angle of the cam, delta that of the slide or of the way from the cam's axis to the body's pin, both
+    /// With gamma the angle of the cam, delta that of the slide or of the line from the cam's axis to the body's pin, both
     /// against the carrier, and s the cam's sense of rotation, the cam has turned by s (gamma - delta).
     pub(in crate::machine) fn following(
         &mut self,
@@ -195,7 +195,7 @@ impl Builder<'_> {
         made.followers.push(follower.into());
     }
 
-    /// The cam for a follower: that of those before it, whose follower must be held alike.
+    /// The cam for a follower: that of those before it, whose follower must be held in the same manner.
     fn cut(
         &self,
         name: &str,

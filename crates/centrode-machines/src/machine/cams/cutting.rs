@@ -31,7 +31,7 @@ struct Moved<'a> {
     sense: f64,
     /// Where the body is on the base circle.
     low: Extreme,
-    /// Distance or angle from there to the highest place.
+    /// Distance or angle from there to the highest point.
     stroke: f64,
     /// Inputs of a period at which a derivative may jump.
     breaks: Vec<f64>,
@@ -183,7 +183,7 @@ impl Builder<'_> {
 }
 
 impl Moved<'_> {
-    /// The lift by the turn of the cam, which must run one way and bring the body back with every turn.
+    /// The lift by the turn of the cam, which must run in one direction and bring the body back with every turn.
     fn by_turn(
         &self,
         key: &str,
@@ -246,7 +246,7 @@ impl Moved<'_> {
     }
 }
 
-/// Place, in the axes of a body, of its roller's centre, or of the place of its face that touches the base circle when the
+/// Position, in the axes of a body, of its roller's centre, or of the position of its face that touches the base circle when the
 /// cam has turned by an angle and the body is at its lowest.
 fn touching(disc: &DiscCam, seat: &Seat, mount: &Mount, moved: &Moved<'_>, turned: f64) -> Point {
     let place = match disc.roller_center(turned) {

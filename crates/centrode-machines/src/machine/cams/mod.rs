@@ -33,7 +33,7 @@ pub struct MachineCamSpec {
     pub mount: f64,
     /// Radius of the base circle, mm.
     pub base_radius: f64,
-    /// Sense in which it turns, seen from the follower; left out, as its body turns, or counter-clockwise for one that comes
+    /// Sense in which it turns, seen from the follower; default: as its body turns, or counter-clockwise for one that comes
     /// back.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rotation: Option<Turn>,
@@ -42,10 +42,11 @@ pub struct MachineCamSpec {
     /// Motion of the follower by the turn of the cam against the body that carries the follower.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub motion: Option<MotionSpec>,
-    /// Body that moves already, by its own law or by others, to whose motion the cam is cut: in place of `motion`.
+    /// Body that moves already, by its own law or by others, to whose motion the cam is cut: instead of `motion`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cut_to: Option<String>,
-    /// Place along the shafts, counted in plates from the one next to the frame; left out, cams lie one below the other behind the gears.
+    /// Position along the shafts, counted in plates from the one next to the frame; default: cams lie one below the other
+    /// behind the gears.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub layer: Option<i32>,
     /// Width, bore and material.
@@ -74,7 +75,7 @@ pub enum MachineFollowerSpec {
 pub struct MachineSlidingRoller {
     /// Radius of the roller, mm; 0 for a point.
     pub roller_radius: f64,
-    /// Distance of the slide from the cam's axis, mm, positive to the left of its direction; left out, as the bodies have it.
+    /// Distance of the slide from the cam's axis, mm, positive to the left of its direction; default: as the bodies have it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub offset: Option<f64>,
 }
@@ -85,7 +86,7 @@ pub struct MachineSlidingRoller {
 pub struct MachineSwingingRoller {
     /// Radius of the roller, mm; 0 for a point.
     pub roller_radius: f64,
-    /// Distance of the body's pin from the cam's axis, mm; left out, as the bodies have it.
+    /// Distance of the body's pin from the cam's axis, mm; default: as the bodies have it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub center_distance: Option<f64>,
     /// Distance of the roller's centre from the body's pin, mm.
@@ -99,7 +100,7 @@ pub struct MachineSwingingRoller {
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct MachineSwingingFlat {
-    /// Distance of the body's pin from the cam's axis, mm; left out, as the bodies have it.
+    /// Distance of the body's pin from the cam's axis, mm; default: as the bodies have it.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub center_distance: Option<f64>,
     /// Distance of the face before the pin, towards the cam, mm; may be negative.

@@ -22,7 +22,7 @@ const ROUNDING: f64 = 1e-8;
 /// Change of a rate, as a share of it, below which a body turns evenly.
 const EVEN: f64 = 1e-12;
 
-/// How a copy stands against its original.
+/// Pose of a copy relative to its original.
 #[derive(Clone, Copy)]
 struct CopyTurn {
     /// Index of the body in the middle.
@@ -63,7 +63,7 @@ impl Machine {
         };
         let none = Expansion::default();
         let mut first = Builder::assembled(&bare, &none, None)?;
-        // Loads of copies may stand on the followers of cams that are cut.
+        // Loads of copies may act on the followers of cams that are cut.
         let cut_before = !design.loads.is_empty();
         if cut_before {
             first.cut_cams()?;
@@ -180,7 +180,7 @@ impl Machine {
         piece_ends(0.0, self.period(), parts, self.linkage.breaks())
     }
 
-    /// Checks that each copy stands as its original does where the body in the middle has turned on.
+    /// Checks that each copy has the pose of its original when the body in the middle has turned on.
     fn check_copies(&self, key: &str, spec: &MachineCopiesSpec) -> Result<(), MachineError> {
         let about = self.body_named(&spec.about).unwrap_or(0);
         let spin = self.spin(key, &spec.about)?;
@@ -253,7 +253,7 @@ impl Machine {
         maximum
     }
 
-    /// Distance and angle by which a copy is off where its original stands when the body in the middle has turned on.
+    /// Distance and angle by which a copy is off its original when the body in the middle has turned on.
     fn off(&self, by: CopyTurn, body: usize, copy: usize, input: f64) -> [f64; 2] {
         let pose = |body: usize, input: f64| Pose {
             at: self.place(body, Point::origin(), input),
@@ -263,7 +263,7 @@ impl Machine {
         self.apart(by, input, from, pose(copy, input))
     }
 
-    /// Distance and angle between where an original is to stand and where its copy stands.
+    /// Distance and angle between the required pose of an original and that of its copy.
     fn apart(&self, by: CopyTurn, input: f64, mut from: Pose, found: Pose) -> [f64; 2] {
         if by.spin == Spin::Still {
             let middle = self.place(by.about, Point::origin(), input);
@@ -289,7 +289,7 @@ impl Machine {
     }
 }
 
-/// An error of the design written out, told of what is copied.
+/// An error of the design with its copies written out, by the names of the originals.
 fn of_copy(error: MachineError, expansion: &Expansion) -> MachineError {
     match expansion.written(&error.key()) {
         key if key == error.key() => error,

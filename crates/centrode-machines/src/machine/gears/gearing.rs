@@ -32,7 +32,7 @@ pub struct MachineGear {
     pub pair: Arc<GearPair>,
     /// Which of the pair it is.
     pub member: Member,
-    /// Place of its axis in the body's axes, mm.
+    /// Position of its axis in the body's axes, mm.
     pub at: Point,
     /// Angle of its own axes against the body's, rad.
     pub mount: f64,
@@ -57,7 +57,7 @@ impl MachineGear {
         format!("{}-teeth", self.name)
     }
 
-    /// Place of the gear's axes in those of its body.
+    /// Position of the gear's axes in those of its body.
     fn place(&self) -> Isometry2<f64> {
         Isometry2::new(self.at.coords, self.mount)
     }

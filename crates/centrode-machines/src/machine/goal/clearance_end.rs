@@ -15,7 +15,7 @@ impl Machine {
     /// Bodies or obstacles that a key names, for their clearance.
     ///
     /// # Errors
-    /// [`MachineError`] for a name that is neither's, and for two that stand on one body.
+    /// [`MachineError`] for a name that is neither's, and for two on one body.
     pub fn clearance_ends(
         &self,
         key: &str,

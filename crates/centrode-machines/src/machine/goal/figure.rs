@@ -114,7 +114,7 @@ pub enum MachineFigure {
 }
 
 impl MachineFigure {
-    /// Whether it is of forces, which the motion alone does not tell.
+    /// Whether it is of forces, which do not follow from the motion alone.
     #[must_use]
     pub fn is_of_forces(&self) -> bool {
         matches!(
@@ -138,7 +138,7 @@ pub enum PointPart {
 }
 
 impl Machine {
-    /// Finds a figure by its words, as [`FIGURE_FORMS`] tells; `key` is that of the design which names it.
+    /// Finds a figure by its words, as [`FIGURE_FORMS`] shows; `key` is that of the design which names it.
     ///
     /// # Errors
     /// [`MachineError`] where there is no such figure.
@@ -289,7 +289,7 @@ impl Machine {
         })
     }
 
-    /// Body and place of a point that a key names.
+    /// Body and position of a point that a key names.
     fn point_of(&self, key: &str, word: &str) -> Result<BodyPoint, MachineError> {
         if let Some(found) = self.point_named(word) {
             return Ok(found);

@@ -17,11 +17,11 @@ const WIDE: f64 = 4.0;
 /// Places at which the width of the ground in the picture is measured.
 const SAMPLES: u32 = 90;
 
-/// Scenery that stands on the frame or travels with a body: ground, a tray, a wall.
+/// Scenery that is fixed to the frame or moves with a body: ground, a tray, a wall.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct MachineObstacleSpec {
-    /// Body it travels with, or a point of one, `tray.corner`, from which its shape is measured; left out, the frame.
+    /// Body it moves with, or a point of one, `tray.corner`, from which its shape is measured; default: the frame.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub on: Option<String>,
     /// Corners of its shape in order, in the body's axes, mm.
@@ -36,7 +36,7 @@ pub struct MachineObstacleSpec {
     /// Height of the ground, which fills all below it: y in the body's axes, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub below: Option<f64>,
-    /// Lower and upper end along the shafts, mm, the plate next to the frame from 0 on; left out, it is in the way of all.
+    /// Lower and upper end along the shafts, mm, the plate next to the frame from 0 on; default: all heights.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub heights: Option<[f64; 2]>,
 }
@@ -46,7 +46,7 @@ pub struct MachineObstacleSpec {
 pub struct MachineObstacle {
     /// Name.
     pub name: String,
-    /// Index of the body it travels with.
+    /// Index of the body it moves with.
     pub body: usize,
     /// Its shape in the body's axes, as far as the machine can reach.
     pub outline: Outline,

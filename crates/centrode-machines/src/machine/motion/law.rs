@@ -18,10 +18,10 @@ use centrode_spec::{SpecError, degrees};
 
 /// Maximum speed of a body, rad or mm per rad of the input; only at a pole is one faster.
 const FASTEST: f64 = 1e4;
-/// Inputs a turn at which the speed is looked at: within half a step of a pole like that of tan(phi) it is above the limit.
+/// Inputs a turn at which the speed is sampled: within half a step of a pole like that of tan(phi) it is above the limit.
 const SAMPLES: u32 = 720;
 
-/// Laws that are kept: a machine has some.
+/// Maximum number of cached laws: a machine has some.
 const CACHED: usize = 32;
 
 /// A law, or why there is none.
@@ -41,13 +41,13 @@ pub struct MachineLawSpec {
     )]
     #[schemars(with = "Option<f64>")]
     pub start_angle: Option<f64>,
-    /// Place at the start of a body that slides, mm.
+    /// Position at the start of a body that slides, mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub start: Option<f64>,
-    /// Turns of the body for one of the input: a belt, a chain, round gears; below zero it turns the other way.
+    /// Turns of the body for one of the input: a belt, a chain, round gears; below zero it turns in the opposite direction.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub ratio: Option<f64>,
-    /// Formula of the input `phi` in rad: of an angle in rad for a body that turns and of a place in mm for one that slides.
+    /// Formula of the input `phi` in rad: of an angle in rad for a body that turns and of a position in mm for one that slides.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub expression: Option<String>,
     /// Angles at equal steps of the period, between which a smooth curve runs, rad (degrees in the file).
@@ -77,7 +77,7 @@ pub struct MachineLawSpec {
     /// Strokes out and back, as of a slider in the groove of a spiral shaft.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub traverse: Option<TraverseSpec>,
-    /// Body whose turn on its own pin takes the place of the input.
+    /// Body whose turn on its own pin replaces the input.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub by: Option<String>,
 }
@@ -123,7 +123,7 @@ pub enum MachineLawError {
     /// A motion that never comes back as the body it follows does.
     #[error(transparent)]
     By(#[from] TransmissionError),
-    /// A turning body that is not back in place after a period.
+    /// A turning body that is not back at its first position after a period.
     #[error(
         "turns the body by {turns} turns in the period of {period} turns of the input, and is not back: {}",
         match minimum {
@@ -150,7 +150,7 @@ pub enum MachineLawError {
         key: &'static str,
         /// The speed.
         speed: f64,
-        /// Unit of the body's place.
+        /// Unit of the body's position.
         unit: &'static str,
         /// Input, deg.
         degrees: f64,
@@ -297,9 +297,9 @@ impl MachineLawSpec {
 
     /// The law over a period of so many turns of the input, of a body that slides or turns and follows no
     /// cam; `by` is the turn of the body that
-    /// takes the place of the input.
+    /// replaces the input.
     ///
-    /// A law of the input alone is kept, so that what is kept of the trains it moves is found by it.
+    /// A law of the input alone is cached, so that the cached trains that it moves are found by it.
     ///
     /// # Errors
     /// [`MachineLawError`] where it cannot be read, or does not come back.

@@ -98,7 +98,7 @@ fn offset() -> f64 {
     9.660_254_037_844_386 * 30.0_f64.to_radians().cos() - 9.0 * 0.5
 }
 
-/// Place of a body.
+/// Position of a body.
 fn frame(machine: &Machine, body: usize, input: f64) -> Isometry2<f64> {
     let at = machine.place(body, Point::origin(), input);
     Isometry2::new(at.coords, machine.angle(body, input).position)

@@ -22,7 +22,7 @@ fn copied(count: u32) -> String {
     )
 }
 
-/// Place of a point and angle of its body.
+/// Position of a point and angle of its body.
 fn pose(machine: &Machine, name: &str, at: Point, input: f64) -> (Point, f64) {
     let body = machine.body_named(name).expect(name);
     let angle = machine.angle(body, input).position;
@@ -225,7 +225,7 @@ fn a_train_that_does_not_repeat_is_refused_with_the_mismatch() {
         found.contains(stated) && found.contains("120.000000 deg (at"),
         "{found}"
     );
-    // A rod to a point of the frame repeats, wherever it is: all that turns about it stands still. One to a point of a hub that
+    // A rod to a point of the frame repeats, wherever it is: all that turns about it is fixed. One to a point of a hub that
     // turns is off by a chord of 120 degrees about the hub's axis, 2 mm away.
     let rod = copied(3).replace(
         "\"arm-1\"]\ncount",

@@ -30,7 +30,8 @@ const FOLLOWERS: [(&str, &str); 5] = [
     ),
 ];
 
-/// Cams that turn twice, that turn unevenly either way, and that stand still while the carrier turns: bodies, cam, carrier.
+/// Cams that turn twice, that turn unevenly in either direction, and that are fixed while the carrier turns: bodies, cam,
+/// carrier.
 const DRIVES: [[&str; 3]; 3] = [
     [
         "[bodies.shaft]\non = \"frame.O\"\nlaw = { ratio = -2, start_deg = 11 }",

@@ -59,14 +59,14 @@ pub struct ThreeArmDesign {
     )]
     #[schemars(with = "Option<f64>", extend("x-symbol" = "phi_30"))]
     pub planet_reference: Option<f64>,
-    /// Teeth of every gear; left out, there are no teeth to check.
+    /// Teeth of every gear; default: there are no teeth to check.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tooth_count: Option<u32>,
-    /// Centre distance of each mesh, mm; left out, it follows from the pitch curve.
+    /// Centre distance of each mesh, mm; by default it follows from the pitch curve.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-symbol" = "a"))]
     pub center_distance: Option<f64>,
-    /// Pitch curve of the sun, which starts in the direction of `carrier_start_deg`; the planets are alike.
+    /// Pitch curve of the sun, which starts in the direction of `carrier_start_deg`; the planets are equal.
     pub pitch: PitchSpec,
     /// The tool that cuts every gear.
     #[serde(default)]
@@ -80,11 +80,11 @@ pub struct ThreeArmDesign {
     pub teeth: TeethSpec,
     /// The arms.
     pub arm: ArmSpec,
-    /// The cams on the carrier that move the push rods; left out, the usual one in proportion to
+    /// The cams on the carrier that move the push rods; default: the usual one in proportion to
     /// the usual arm.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cam: Option<PusherCamSpec>,
-    /// The forks between cams and push rods; left out, the usual one in proportion to the usual arm.
+    /// The forks between cams and push rods; default: the usual one in proportion to the usual arm.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fork: Option<ForkSpec>,
     /// The gearbox around the gears.
@@ -311,7 +311,7 @@ impl ThreeArmDesign {
     }
 }
 
-/// Checks an angle within a turn either way.
+/// Checks an angle within a turn in either direction.
 fn angle(key: &str, radians: f64) -> Result<(), SpecError> {
     finite(key, radians)?;
     in_range(key, degrees::rounded(radians), [-360.0, 360.0], " deg")

@@ -9,7 +9,7 @@ use centrode_spec::{SpecError, degrees};
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct WorkSpec {
-    /// Carrier turn at which the first arm picks, rad (degrees in the file); left out, where its tip enters the tray,
+    /// Carrier turn at which the first arm picks, rad (degrees in the file); default: where its tip enters the tray,
     /// or without a tray's distance where it reaches farthest towards it.
     #[serde(
         rename = "picking_deg",
@@ -18,7 +18,7 @@ pub struct WorkSpec {
     )]
     #[schemars(with = "Option<f64>")]
     pub picking: Option<f64>,
-    /// Carrier turn at which the first arm plants, rad (degrees in the file); left out, where its tip is lowest.
+    /// Carrier turn at which the first arm plants, rad (degrees in the file); default: where its tip is lowest.
     #[serde(
         rename = "planting_deg",
         with = "degrees",
@@ -28,7 +28,7 @@ pub struct WorkSpec {
     pub planting: Option<f64>,
     /// Seedlings planted in a minute.
     pub rate_per_minute: f64,
-    /// Distance of the plants along the row, mm; the machine travels towards the tray's side, by this much from plant
+    /// Distance of the plants along the row, mm; the machine moves towards the tray's side, by this much from plant
     /// to plant.
     pub plant_spacing: f64,
     /// Depth below the ground that the tip reaches at its lowest, mm.

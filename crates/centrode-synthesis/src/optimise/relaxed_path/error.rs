@@ -51,10 +51,10 @@ pub enum EasingError {
         /// Module given, mm.
         module: f64,
     },
-    /// The axis given makes no machine for the wanted path.
+    /// The axis given makes no machine for the required path.
     #[error(transparent)]
     Axis(#[from] AxisFault),
-    /// No axis tried makes a machine for the wanted path.
+    /// No axis tried makes a machine for the required path.
     #[error(
         "no machine of this kind has a tip that runs along the path: of {tried} axes tried on and about it none is possible"
     )]

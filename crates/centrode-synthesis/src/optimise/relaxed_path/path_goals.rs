@@ -1,4 +1,4 @@
-//! How far a machine made from its path is what else is wanted of it.
+//! How far a machine made from its path is what else is required of it.
 
 use std::f64::consts::{PI, TAU};
 
@@ -24,8 +24,8 @@ pub fn reached(wishes: &Wishes, chain: &TwoBar, bend: f64, points: usize) -> Vec
     goals(wishes, chain, bend, points).0
 }
 
-/// Goals of a machine with its points along the path at equal steps of the parameter; and the direction of its clamp less that of
-/// its arm, rad, where directions are wanted.
+/// Goals of a machine with its points along the path at equal steps of the parameter; and the direction of its clamp less that
+/// of its arm, rad, where directions are required.
 pub(super) fn goals(
     wishes: &Wishes,
     chain: &TwoBar,
@@ -177,7 +177,7 @@ pub(super) fn violations(goals: &[Goal]) -> Vec<f64> {
     goals.iter().map(violation).collect()
 }
 
-/// An angle within half a turn either way.
+/// An angle within half a turn in either direction.
 fn wrapped(angle: f64) -> f64 {
     (angle + PI).rem_euclid(TAU) - PI
 }
@@ -221,7 +221,7 @@ impl Room {
         }
     }
 
-    /// Minimum distance of the arm's plate in a turn, mm; negative where the plate stands in the shape.
+    /// Minimum distance of the arm's plate in a turn, mm; negative where the plate penetrates the shape.
     fn clearance(&self, chain: &TwoBar, bend: f64) -> f64 {
         let half = 0.5 * ReversedMachine::plate_width(chain.carrier(), bend);
         let nearness = |t: f64| {
@@ -239,7 +239,7 @@ impl Room {
         -maximum_of_samples(&samples, nearness, rounding, &[piece]).value
     }
 
-    /// Distance of a bar, mm; where it stands in the shape, less how long a part of it does, or how deep.
+    /// Distance of a bar, mm; inside the shape, less the length of its part there, or its depth.
     fn distance(&self, [p, q]: [Point; 2]) -> f64 {
         match self {
             Self::Below(below) => p.y.min(q.y) - below,

@@ -213,7 +213,7 @@ impl DesignProblem for ThreeArmProblem {
         let quick = self.quick(point)?;
         let mut goals = evaluation::exact(&ThreeArm::resolve(&quick.design).ok()?)?;
         for goal in &mut goals {
-            // A count of flanks has no slope; the module that every place of the curves bears has.
+            // A count of flanks has no slope; the module that every point of the curves bears has.
             if goal.name == "sound-teeth" && goal.met() == Some(false) {
                 let title = "module over what the curves bear";
                 *goal = Goal::new(goal.number, goal.name.clone(), title, Unit::Count)

@@ -6,7 +6,7 @@ use nalgebra::{DMatrix, DVector};
 /// Harmonics of the law.
 const ORDERS: usize = 8;
 const TERMS: usize = 2 * ORDERS;
-/// Parts in which the turns wanted grow from those of even motion.
+/// Parts in which the turns required grow from those of even motion.
 const GROWTH: usize = 8;
 /// Newton steps of a part, the maximum change of an amplitude in one, and the change at which they end.
 const STEPS: usize = 40;

@@ -8,7 +8,7 @@ use super::{Circle, KeyPose};
 /// Harmonics of the logarithm of the ratio.
 const HARMONICS: usize = 12;
 const TERMS: usize = 2 * HARMONICS + 1;
-/// Parts in which the turns wanted grow from those of even motion.
+/// Parts in which the turns required grow from those of even motion.
 const GROWTH: usize = 8;
 /// Newton steps, and the error at which they end, rad.
 const STEPS: usize = 30;
@@ -61,7 +61,7 @@ impl PoseLaw {
         let turns = angles.iter().zip(next).map(|(one, other)| {
             let carrier = sense * (other[0] - one[0]);
             let arm = sense * (other[1] - one[1]);
-            // The planet turns as the arm does against the carrier, the other way.
+            // The planet turns as the arm does against the carrier, in the opposite direction.
             [carrier.rem_euclid(TAU), (carrier - arm).rem_euclid(TAU)]
         });
         Self {

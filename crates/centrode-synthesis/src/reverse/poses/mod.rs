@@ -23,7 +23,7 @@ const FEWEST: usize = 3;
 const MOST: usize = 7;
 /// Distance of the tip from a pose, with the arm in the pose's direction, at which the pose is met, mm.
 const TOLERANCE: f64 = 0.1;
-/// Places of the arm's axis along each side of a square round the tip, from which circles are sought.
+/// Places of the arm's axis along each side of a square round the tip, from which circles are searched.
 const GRID: usize = 48;
 /// Half side of the square, and maximum length of a bar, as a multiple of the size of the poses.
 const REACH: f64 = 2.0;
@@ -38,10 +38,10 @@ const STEPS: usize = 40;
 /// Places of the carrier in a turn through which the path is laid.
 const PLACES: usize = 720;
 
-/// Place of the tip and direction of the arm's clamp there.
+/// Position of the tip and direction of the arm's clamp there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KeyPose {
-    /// Place of the tip, mm.
+    /// Position of the tip, mm.
     pub point: Point,
     /// Direction of the clamp, rad.
     pub direction: f64,
@@ -60,7 +60,7 @@ pub enum PoseError {
         /// Number of poses.
         count: usize,
     },
-    /// Poses at one place.
+    /// Poses at one position.
     #[error("all key poses are at one place: two of them must differ")]
     OnePlace,
     /// No point of the arm whose places lie on a circle.
@@ -71,7 +71,7 @@ pub enum PoseError {
         /// Minimum distance found of a tip from its pose, mm.
         miss: f64,
     },
-    /// Circles, on none of which carrier and arm turn one way.
+    /// Circles, on none of which carrier and arm turn in one direction.
     #[error(
         "{circles} places of the arm's axis were tried; at each carrier or arm would turn back between key poses, or turn more than once: the best passes {passed} of {count} poses in order"
     )]
@@ -88,12 +88,12 @@ pub enum PoseError {
     Chain(#[from] AxisFault),
 }
 
-/// Carrier and arm that meet key poses, the path between as mild as found.
+/// Carrier and arm that meet key poses, the path between as gentle as found.
 ///
 /// In the arm's frame its axis is a fixed point. The places of this point in the poses must lie on one circle, whose middle is
 /// the carrier's axis: Burmester's circle points, any point for three poses, a curve for four, four points at most for five.
-/// The angles of carrier and arm at the poses then follow. Between them the law is that of minimum square of the logarithm of the
-/// ratio and of its second derivative.
+/// The angles of carrier and arm at the poses then follow. Between them the law is that of minimum square of the logarithm of
+/// the ratio and of its second derivative.
 #[derive(Clone, Debug)]
 pub struct KeyPoses {
     /// Carrier and arm, with the path of the tip.
@@ -115,7 +115,7 @@ pub struct KeyPoses {
 /// Circle on which the arm's axis passes the poses.
 #[derive(Clone, Copy, Debug)]
 struct Circle {
-    /// Place of the arm's axis from the tip, in the clamp's frame.
+    /// Position of the arm's axis from the tip, in the clamp's frame.
     arm: Vector,
     axis: Point,
     carrier: f64,
@@ -270,7 +270,7 @@ impl KeyPoses {
 }
 
 impl Circle {
-    /// The circle reached by Gauss-Newton steps of minimum length from a place of the arm's axis.
+    /// The circle reached by Gauss-Newton steps of minimum length from a position of the arm's axis.
     fn near(poses: &[KeyPose], start: Vector, size: f64) -> Option<Self> {
         let places = poses.iter().map(|pose| place(pose, start));
         let mut circle = Self::fitted(&places.collect::<Vec<_>>(), start)?;
@@ -341,7 +341,7 @@ impl Circle {
     }
 }
 
-/// Place of the arm's axis in a pose.
+/// Position of the arm's axis in a pose.
 fn place(pose: &KeyPose, arm: Vector) -> Point {
     pose.point + turned(arm, pose.direction)
 }

@@ -31,7 +31,7 @@ pub enum SplitKind {
     /// Two different pairs, each of which takes half of the logarithm of the ratio; the intermediate carries two gears.
     #[default]
     Powers,
-    /// Two different pairs that share the ratio so that the sharpest of their four pitch curves is as mild as it can be.
+    /// Two different pairs that share the ratio so that the sharpest of their four pitch curves is as gentle as it can be.
     Mildest,
     /// One pair twice: sun and planet are one part, and a single intermediate gear meets both.
     OnePair,
@@ -104,7 +104,7 @@ pub enum SplitError {
         if *miss < EXACT { String::new() } else { format!("{miss:.1e} from ") }
     )]
     Resonance {
-        /// Rotation number wanted, turns.
+        /// Rotation number required, turns.
         turns: f64,
         /// Numerator of the fraction.
         numerator: i64,
@@ -119,7 +119,7 @@ pub enum SplitError {
         if miss.is_finite() { format!("the law found misses its equation by {miss:.1e} rad") } else { "no law that always advances was found".to_owned() }
     )]
     Inexact {
-        /// Rotation number wanted, turns.
+        /// Rotation number required, turns.
         turns: f64,
         /// Maximum miss, rad; infinite where the law found turns back.
         miss: f64,
@@ -128,7 +128,7 @@ pub enum SplitError {
         /// Its denominator.
         denominator: i64,
     },
-    /// Carrier or arm stand still within rounding.
+    /// Carrier or arm do not move within rounding.
     #[error(transparent)]
     Law(#[from] TransmissionError),
 }

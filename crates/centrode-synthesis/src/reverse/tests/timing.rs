@@ -14,7 +14,7 @@ use centrode_spec::DesignSpec as _;
 const CRANK: f64 = 30.0;
 const ROD: f64 = 120.0;
 
-/// Place of the ram of a slider-crank by the crank's angle, in closed form with three derivatives.
+/// Position of the ram of a slider-crank by the crank's angle, in closed form with three derivatives.
 fn ram() -> Arc<dyn Transmission> {
     Arc::new(FromFn::new(TAU, 0.0, Vec::new(), |t: f64| {
         let (s, c) = t.sin_cos();

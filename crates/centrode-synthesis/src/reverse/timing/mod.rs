@@ -1,4 +1,4 @@
-//! When the crank of a machine has to be where, so that its output does what is wanted.
+//! When the crank of a machine has to be where, so that its output does what is required.
 
 mod free;
 mod order;
@@ -20,33 +20,33 @@ use centrode_spec::digits::stated;
 /// Even parts of a turn, in each of which the ratio has few extremes.
 const PARTS: u32 = 32;
 
-/// Part of a turn over which something is wanted of an output.
+/// Part of a turn over which something is required of an output.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Section {
     /// Name, for messages.
     pub name: String,
     /// First and last input, rad.
     pub within: [f64; 2],
-    /// Motion wanted there.
+    /// Motion required there.
     pub required: Required,
 }
 
 /// Motion of an output over a section.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Required {
-    /// It goes evenly from one place to another, mm or rad.
+    /// It goes evenly from one position to another, mm or rad.
     Even([f64; 2]),
     /// It stays within a band of an end of its stroke, mm or rad: as near as gears, whose ratio is never zero, come to a rest.
     Rest(f64),
 }
 
-/// Law of a crank by the input with which the output of a machine does what is wanted.
+/// Law of a crank by the input with which the output of a machine does what is required.
 ///
-/// The output q is known by the angle tau of the crank, with one maximum and one minimum place in a turn. Where q shall be w(phi),
-/// tau solves `q(tau) = w(phi)`. Over a rest the crank runs evenly through the end of the stroke. In between `ln(d tau/d phi)` is
-/// a polynomial that joins both sides with two derivatives and makes the turn whole, so the crank never turns back. What is free,
-/// how far into the band of a rest the crank goes outside its section and where between sections it is faster, is chosen such that
-/// the sharpest convex place of both pitch curves is as blunt as it can be.
+/// The output q is known by the angle tau of the crank, with one maximum and one minimum in a turn. Where q must be
+/// w(phi), tau solves `q(tau) = w(phi)`. Over a rest the crank runs evenly through the end of the stroke. In between
+/// `ln(d tau/d phi)` is a polynomial that joins both sides with two derivatives and makes the turn whole, so the crank never
+/// turns back. What is free, how far into the band of a rest the crank goes outside its section and where between sections it
+/// is faster, is chosen such that the sharpest convex point of both pitch curves is as blunt as it can be.
 #[derive(Clone, Debug)]
 pub struct Timing {
     output: Arc<dyn Transmission>,
@@ -67,18 +67,18 @@ struct Stretch {
 
 #[derive(Clone, Debug)]
 enum Course {
-    /// The output goes evenly from one place to another.
+    /// The output goes evenly from one position to another.
     Even([f64; 2]),
     /// The crank turns evenly.
     Turn,
     Free(Free),
 }
 
-/// Reason why no law of the crank does what is wanted.
+/// Reason why no law of the crank does what is required.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum TimingError {
-    /// Nothing wanted.
+    /// Nothing required.
     #[error("nothing is required of the output")]
     Nothing,
     /// An output that does not come back.
@@ -103,11 +103,11 @@ pub enum TimingError {
     Beyond {
         /// Section.
         name: String,
-        /// First place wanted.
+        /// First required position.
         from: f64,
         /// Last.
         to: f64,
-        /// Minimum place of the output.
+        /// Minimum position of the output.
         minimum: f64,
         /// Maximum.
         maximum: f64,
@@ -120,7 +120,7 @@ pub enum TimingError {
     Stationary {
         /// Section.
         name: String,
-        /// The place.
+        /// The position.
         place: f64,
     },
     /// A band that is no part of the stroke.
@@ -135,7 +135,7 @@ pub enum TimingError {
         band: f64,
         /// Stroke.
         stroke: f64,
-        /// Minimum band: below it the gears would stand within rounding.
+        /// Minimum band: below it the gears would be fixed within rounding.
         minimum: f64,
     },
     /// Sections of the input that touch, overlap or are none.
@@ -207,7 +207,7 @@ impl TimingError {
 }
 
 impl Timing {
-    /// Finds the law of the crank; `output` is the output's place by the crank's angle, over one turn.
+    /// Finds the law of the crank; `output` is the output's position by the crank's angle, over one turn.
     ///
     /// # Errors
     /// [`TimingError`] with the section and the numbers: an output that turns back more than twice, places beyond its stroke,
@@ -315,7 +315,7 @@ impl Timing {
         &self.output
     }
 
-    /// Minimum and maximum place of the output, mm or rad.
+    /// Minimum and maximum position of the output, mm or rad.
     #[must_use]
     pub fn places(&self) -> [f64; 2] {
         self.swing.places()

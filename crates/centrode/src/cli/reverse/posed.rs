@@ -14,7 +14,7 @@ use crate::cli::failure::Failure;
 use crate::cli::progress::Progress;
 use crate::cli::{Status, export, output};
 
-/// Makes a three-arm mechanism from key poses, prints what was found, and writes its design and, where asked, its files.
+/// Makes a three-arm mechanism from key poses, prints what was found, and writes its design and, if requested, its files.
 pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Failure> {
     let source = super::source(command)?;
     if let Some(output) = &command.output {

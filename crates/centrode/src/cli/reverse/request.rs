@@ -8,7 +8,7 @@ use centrode_spec::{DesignFamily, DesignFile, MechanismError, SpecError};
 use centrode_synthesis::reverse::{Aim, PathDesign, RequiredPath, RequiredPoints, SplitKind};
 use std::path::Path;
 
-/// A path and what is wanted of its machine, on the command line and in files.
+/// A path and what is required of its machine, on the command line and in files.
 pub(super) struct Request {
     /// The wishes; their points are those below.
     pub(super) design: PathDesign,
@@ -49,7 +49,7 @@ impl Request {
                 requested.source = Source::open_up_to(&path, RequiredPath::LARGEST)?;
                 let wishes = requested.design.wishes.clone();
                 requested.take_points(command)?;
-                // A number of a point stands in the design, and not in the file that holds too few of them.
+                // A number of a point is in the design, and not in the file that holds too few of them.
                 let count = requested.points.len();
                 let is_closed = count > 1 && requested.points.first() == requested.points.last();
                 let checked = wishes.validate(count - usize::from(is_closed));

@@ -7,7 +7,7 @@ use axum::http::{HeaderMap, HeaderName, HeaderValue, Method, StatusCode, header}
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
-/// Guard that lets only this page ask, by its secret address, through this computer's own name.
+/// Guard that admits only requests of this page, by its secret address, through this computer's own name.
 #[derive(Clone)]
 pub(crate) struct Guard {
     port: u16,
