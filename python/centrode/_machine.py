@@ -73,7 +73,7 @@ def body(of: Gear | DiscCam | Mechanism, name: str | Part | None, tolerance: flo
             pass
     files = (file.removesuffix(".step") for file in of.files(formats=["step"]))
     known = ", ".join(file for file in files if file != WHOLE)
-    what = "left out" if wanted is None else repr(wanted)
+    what = "omitted" if wanted is None else repr(wanted)
     raise DesignError(f"name must be a part with a solid, one of {known}, not {what}", "name")
 
 

@@ -45,7 +45,7 @@ impl LoadedKey<'_> {
         let (name, part) = (self.key.name(), self.part);
         let Extreme { input, value } = self.torque;
         let message = format!(
-            "{name} in the {part} is pressed by {pressure:.1} N/mm² at {value:.0} N·mm: its hub and shaft bear {allowed:.1} N/mm²"
+            "{name} in the {part} is pressed by {pressure:.1} N/mm² at {value:.0} N·mm: its hub and shaft allow {allowed:.1} N/mm²"
         );
         report.findings.push(
             Finding::new("key-pressure", Severity::Error, message)

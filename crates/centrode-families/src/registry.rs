@@ -53,7 +53,7 @@ pub struct PartName {
 
 impl PartName {
     /// The whole machine, as drawings show it.
-    pub const ASSEMBLY: Self = Self::new("assembly", "Everything in place");
+    pub const ASSEMBLY: Self = Self::new("assembly", "The assembly");
 
     /// Makes a part by its name, and in words.
     #[must_use]

@@ -35,10 +35,10 @@ pub enum PinFault {
     #[error("the pin is too small for this space: it rests on the fillet or the root")]
     TooSmall,
     /// The pin is too large: it rests on the tips, or above them on nothing.
-    #[error("the pin is too large for this space: it stands on the tips of the teeth")]
+    #[error("the pin is too large for this space: it rests on the tips of the teeth")]
     TooLarge,
     /// The gear is in the way before the pin touches both flanks.
-    #[error("the pin does not get to the flanks of this space: another tooth is in its way")]
+    #[error("the pin does not get to the flanks of this space: another tooth blocks it")]
     Blocked,
     /// There is no space: a tooth next to it has been cut off or has no flank.
     #[error("a tooth next to this space has no flank")]

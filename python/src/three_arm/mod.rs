@@ -15,7 +15,7 @@ use crate::mechanism::Mechanism;
 
 /// A three-arm transplanting mechanism: fixed sun, turning carrier, arms on the planets of bent chains.
 ///
-/// The carrier's axis is the origin; theta is the carrier's turn from its start, positive whichever way it turns. Every
+/// The carrier's axis is the origin; theta is the carrier's turn from its start, positive in the direction in which it turns. Every
 /// arm does what the first does, later by its share of a turn; arms are counted from 0.
 ///
 /// Args:

@@ -166,7 +166,7 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
     report.values.insert("pressure_angle_max", steepest);
     if exceeds(steepest, PRESSURE_ANGLE) {
         let message = format!(
-            "the force on the driven gear stands up to {:.1} deg off its direction of turning",
+            "the pressure angle reaches {:.1} deg",
             steepest.to_degrees()
         );
         report.findings.push(
@@ -391,7 +391,7 @@ fn oscillations(pair: &GearPair, contact: &Contact) -> Option<Finding> {
         return None;
     }
     let message = format!(
-        "the pitch curves swing {swings} times for {teeth} teeth: the figures of the mesh are the maximum and minimum at {} places, and others between them may go beyond",
+        "the pitch curves swing {swings} times for {teeth} teeth: the figures of the mesh are the maximum and minimum at {} samples, and values between them may exceed these",
         contact.input.len()
     );
     Some(

@@ -33,7 +33,7 @@ pub(super) fn cams(composed: &Machine, report: &mut Report) {
             ),
             pushes: [
                 format!("while cam {} lifts its follower it pushes up to", cam.name),
-                "off the way of what it lifts".into(),
+                "off the path of its follower".into(),
             ],
             remedies: [
                 "a longer span_deg, a larger base_radius, or a smaller roller",

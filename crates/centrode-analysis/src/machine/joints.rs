@@ -57,7 +57,13 @@ pub(super) fn joints(composed: &Machine, motion: &Motion, report: &mut Report) {
         span,
         swings,
     );
-    add("strokes", "Place of slide", Unit::Millimetre, span, strokes);
+    add(
+        "strokes",
+        "Position of slide",
+        Unit::Millimetre,
+        span,
+        strokes,
+    );
     let inputs = ["minimum", "maximum", ""];
     add(
         "dead-centres",

@@ -44,7 +44,7 @@ pub enum NoSoundTeeth {
     },
     /// The flanks carry the motion with no tooth count tried.
     #[error(
-        "pair {pair}: full teeth are undercut above a module of {full_module:.4} mm, and fitted ones carry the motion by their flanks alone with no count up to {MAX_TEETH}: take another axis, bend or split, or ease the path; of a drive, leave more room between what its goals want"
+        "pair {pair}: full teeth are undercut above a module of {full_module:.4} mm, and fitted ones carry the motion by their flanks alone with no count up to {MAX_TEETH}: take another axis, bend or split, or ease the path; of a drive, leave more room between its goals"
     )]
     None {
         /// Name of the pair.

@@ -85,10 +85,10 @@ fn advice(shaft: &SpiralShaft) -> String {
     let required = 1.25 * shaft.groove().width() / steepest.sin();
     match offered(shaft, required) {
         Ok(clear) if clear.return_offset == 0.0 => {
-            "no shift of the return groove makes that shorter; meeting the same hole at the same angle both ways always crosses there".to_owned()
+            "no shift of the return groove makes that shorter; a hole met at the same angle on both strokes always gives a crossing there".to_owned()
         }
         Ok(clear) => format!(
-            "return_offset = {:.4} lets {:.2} mm of slider bridge those of the strokes and misses each hole by {:.4} mm; meeting the same hole at the same angle both ways always crosses there",
+            "return_offset = {:.4} lets {:.2} mm of slider bridge those of the strokes and misses each hole by {:.4} mm; a hole met at the same angle on both strokes always gives a crossing there",
             clear.return_offset, clear.slider_length, clear.misplacement
         ),
         Err(error) => format!("no shifted return groove: {error}"),

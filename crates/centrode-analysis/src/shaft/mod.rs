@@ -137,7 +137,7 @@ fn schedule(shaft: &SpiralShaft, schedule: &Schedule, report: &mut Report) {
         .collect();
     if let Some(first) = uneven.first() {
         let message = format!(
-            "{} of {} holes, hole {first} the first of them, are not picked exactly once each way",
+            "{} of {} holes, hole {first} the first of them, are not picked exactly once on each stroke",
             uneven.len(),
             schedule.visits.len()
         );
@@ -171,7 +171,7 @@ fn groove(shaft: &SpiralShaft, report: &mut Report) {
                 "pressure-angle",
                 Severity::Warning,
                 format!(
-                    "the wall pushes the slider up to {:.2} deg off its way",
+                    "the wall pushes the slider up to {:.2} deg off its path",
                     steepest.value.to_degrees()
                 ),
             )

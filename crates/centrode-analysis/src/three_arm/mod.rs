@@ -223,7 +223,7 @@ fn gearbox_in_tray(mechanism: &ThreeArm, report: &mut Report) {
             "the gearbox reaches behind the tray's surface",
         )
         .measured(clearance, 0.0, Unit::Millimetre)
-        .remedy("a smaller bend_deg either way, or a tray farther away")
+        .remedy("a smaller bend_deg of either sign, or a tray farther away")
         .on("tray"),
     );
 }

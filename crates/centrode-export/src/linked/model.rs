@@ -211,7 +211,7 @@ fn note(
     }
     if let Some(excess) = of(false) {
         note += &format!(
-            " Other bodies that touch are convex and stand off by at most {excess:.1e} mm."
+            " Other bodies that touch are convex and exceed the parts by at most {excess:.1e} mm."
         );
     }
     if let Some(off) = seen.iter().map(|seen| seen.off).reduce(f64::max) {

@@ -36,7 +36,7 @@ fn names(composed: &Machine) -> Vec<(Cow<'static, str>, &'static str)> {
     let angles = moving.map(|body| (format!("Angle of {}", body.name), "°"));
     let slides = sliding(composed).flat_map(|(MachineBody { name, .. }, _)| {
         [
-            (format!("Place of {name}"), "mm"),
+            (format!("Position of {name}"), "mm"),
             (format!("Speed of {name}"), "mm/s"),
         ]
     });

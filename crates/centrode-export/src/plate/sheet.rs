@@ -80,9 +80,9 @@ impl Plate {
         });
         lines.push(match self.shows_axes() {
             true => {
-                "Places x, y from the crossing of the long centre lines, x to the right.".into()
+                "Positions x, y from the crossing of the long centre lines, x to the right.".into()
             }
-            false => "Places x, y from an origin next to the part, x to the right.".into(),
+            false => "Positions x, y from an origin next to the part, x to the right.".into(),
         });
         let frames = self.frames();
         if frames
@@ -90,7 +90,7 @@ impl Plate {
             .flatten()
             .any(|frame| frame.characteristic == Characteristic::Position)
         {
-            lines.push("Places of holes with a position tolerance are exact.".into());
+            lines.push("Positions of holes with a position tolerance are exact (TED).".into());
         }
         lines.extend(self.notes.iter().cloned());
         lines.extend(self.heat_treatment.as_deref().map(treatment_note));

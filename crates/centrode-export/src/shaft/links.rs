@@ -225,7 +225,7 @@ fn columns(
         (
             "position_mm",
             "mm",
-            "place of the box along the shaft",
+            "position of the box along the shaft",
             joint(carriage, 0, 1.0),
         ),
         (

@@ -59,7 +59,7 @@ pub(super) fn machine(
     builder.machine.column(
         "carrier_turn_rad",
         "rad",
-        "turn of the carrier from its start, positive whichever way it turns",
+        "turn of the carrier from its start, positive in the direction in which it turns",
         Quantity::Input(1.0),
     );
     let base = builder.link("base", None, None, Vec::new());

@@ -39,7 +39,7 @@ pub enum MjcfError {
         link: String,
     },
     /// The joints do not hang every link from the first one, once.
-    #[error("link {link:?} hangs from the first link by {ways} chains of joints, not by one")]
+    #[error("link {link:?} is joined to the first link by {ways} chains of joints, not by one")]
     Tree {
         /// The link.
         link: String,

@@ -86,7 +86,7 @@ pub enum CamError {
     },
     /// An arm that swings through the line from its pivot to the axis, or beyond the opposite direction.
     #[error(
-        "at {degrees} deg the arm stands at {arm_degrees} deg to the line of centres: it must stay between 0 and 180"
+        "at {degrees} deg the arm is at {arm_degrees} deg to the line of centres: it must stay between 0 and 180"
     )]
     ArmTurnsOver {
         /// Cam angle.

@@ -112,7 +112,7 @@ pub enum IntermittentPairError {
     },
     /// Several stops in a turn of a driven gear that is not round.
     #[error(
-        "{kept} teeth stop the driven gear {} times in a turn: only round gears come to each stop alike", .driven / .kept
+        "{kept} teeth stop the driven gear {} times in a turn: only round gears come to each stop in the same pose", .driven / .kept
     )]
     StopsNeedCircles {
         /// Pitches driven in one turn of the driver.

@@ -146,7 +146,7 @@ pub enum PitchError {
     },
     /// The polar angle turns back.
     #[error(
-        "the curve turns back or crosses itself near {angle:.3} deg, radius {radius:.6} mm: its polar angle must increase all the way round the shaft axis"
+        "the curve turns back or crosses itself near {angle:.3} deg, radius {radius:.6} mm: its polar angle must increase over the whole turn about the shaft axis"
     )]
     SelfCrossing {
         /// Key of the shape.

@@ -214,7 +214,9 @@ pub enum TransmissionError {
         most: u32,
     },
     /// A motion that must run in one direction stops or runs back.
-    #[error("the motion must run one way, but at the input {input} rad its velocity is {velocity}")]
+    #[error(
+        "the motion must run in one direction, but at the input {input} rad its velocity is {velocity}"
+    )]
     StandsStill {
         /// Input there.
         input: f64,

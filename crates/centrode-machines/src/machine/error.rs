@@ -55,9 +55,7 @@ pub enum MachineError {
         point: String,
     },
     /// A body that cannot drive another by its turn.
-    #[error(
-        "body {body:?} does not turn on a pin: only a body that does can take the place of the input"
-    )]
+    #[error("body {body:?} does not turn on a pin: only a body that does can replace the input")]
     NoTurn {
         /// Key that names it.
         key: String,
@@ -297,7 +295,7 @@ fn ring(names: &[String]) -> String {
     match names {
         [one] => format!("{one} is held by itself"),
         _ => format!(
-            "{} wait for each other: each needs another one to be in place",
+            "{} wait for each other: each needs another one to be placed",
             names.join(", ")
         ),
     }

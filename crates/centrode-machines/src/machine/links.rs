@@ -310,7 +310,7 @@ impl Machine {
         let (unit, meaning) = match mount.kind {
             JointKind::Fixed => return,
             JointKind::Turning => ("rad", format!("angle of {name} against {carrier}")),
-            JointKind::Sliding(_) => ("mm", format!("place of {name} along {carrier}")),
+            JointKind::Sliding(_) => ("mm", format!("position of {name} along {carrier}")),
         };
         let column = format!("{}_joint_{unit}", name.replace('-', "_"));
         machine.column(&column, unit, &meaning, Quantity::joint(joint));

@@ -175,7 +175,7 @@ fn places(fault: &AxisFault) -> Vec<Mark> {
             far.collect()
         }
         AxisFault::CarrierTurnsBack { at, .. } => vec![mark("carrier turns back", *at)],
-        AxisFault::ArmStops { at } => vec![mark("arm stands still", *at)],
+        AxisFault::ArmStops { at } => vec![mark("arm stops", *at)],
         _ => Vec::new(),
     }
 }
@@ -192,7 +192,7 @@ fn figures(chain: &TwoBar, bend: Option<f64>) -> Vec<Figure> {
     ));
     if let Some(bend) = bend {
         let module = Limits::largest_full_module(chain.curvatures(bend));
-        let full = format!("surely sound up to module {} by powers", mm(module));
+        let full = format!("guaranteed up to module {} by powers", mm(module));
         found.push(figure("full teeth", full));
     }
     found

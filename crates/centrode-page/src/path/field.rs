@@ -110,9 +110,9 @@ fn words(name: &str) -> &'static str {
         "on-axis" => "the path passes through the axis",
         "winding" => "the path goes round the axis more than once",
         "carrier-turns-back" => "the carrier would turn back",
-        "arm-stops" => "the arm would stand still on the carrier",
+        "arm-stops" => "the arm would stop on the carrier",
         "too-far" => "the axis is more than 1000 times the size of the path away from it",
-        _ => "the axis is no place for this path",
+        _ => "the axis is not possible for this path",
     }
 }
 

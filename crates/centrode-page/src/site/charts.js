@@ -36,7 +36,7 @@ function brief(value, count) {
 }
 
 export class Charts {
-  /** `go(input)` is called when a place in a chart is picked; `name()` is that of the design, `speed()` that of its input, rad/s. */
+  /** `go(input)` is called when a position in a chart is picked; `name()` is that of the design, `speed()` that of its input, rad/s. */
   constructor(go, name, speed) {
     Object.assign(this, { go, name, speed, unit: "degrees" });
     /** Stretch of the input that is shown, degrees; all of it where there is none. */

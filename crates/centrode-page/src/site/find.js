@@ -26,7 +26,7 @@ export class Find {
     return written || (!optional && value !== null);
   }
 
-  /** Hides what is not looked for. */
+  /** Hides fields outside the search. */
   show() {
     const asked = this.box.value.toLowerCase().split(/\s+/).filter(Boolean);
     const all = [...this.form.controls.values()].filter(({ field }) => field);

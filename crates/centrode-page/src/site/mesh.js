@@ -3,12 +3,12 @@
 import { byId } from "./elements.js";
 import { color } from "./theme.js";
 
-/** Width of the view, in lengths of the longest path of contact beside the pitch point. */
+/** Width of the view, in lengths of the longest path of contact next to the pitch point. */
 const WIDTHS = 4;
 /** Width of the view where no path is known, as a share of the picture. */
 const SHARE = 0.15;
 
-/** Place of a track at an input, which may be one of the cycle before or after; null where it has none. */
+/** Position of a track at an input, which may be one of the cycle before or after; null where it has none. */
 function place({ input, at }, now, cycle) {
   const first = input[0];
   const last = input[input.length - 1];
@@ -83,7 +83,7 @@ export class MeshView {
     this.stage = stage;
     this.button = byId("mesh");
     this.contacts = [];
-    /** Number of the mesh that is looked at; none. */
+    /** Number of the mesh in view; none. */
     this.index = null;
     this.button.addEventListener("click", () => this.turn());
   }
@@ -109,7 +109,7 @@ export class MeshView {
     this.tell();
   }
 
-  /** Names the mesh that is looked at, where there are several. */
+  /** Names the mesh in view, where there are several. */
   tell() {
     const { length } = this.contacts;
     const words = length > 1 && this.on ? `Mesh ${this.index + 1}/${length}` : "Mesh";

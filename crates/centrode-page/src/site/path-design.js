@@ -26,7 +26,7 @@ function wishesOf(wish) {
   return found;
 }
 
-/** The design; where the axis is free it is left out, unless it is `placed` all the same. */
+/** The design; where the axis is free it is omitted, unless it is `placed` all the same. */
 export function designOf(wish, { placed = false, band = wish.band } = {}) {
   const { given, rest, axis, bend, arms, split, aim, module } = wish;
   const design = { ...rest.design, bend_deg: bend, arms, split };
@@ -49,13 +49,13 @@ export function designOf(wish, { placed = false, band = wish.band } = {}) {
   return design;
 }
 
-/** Whether more is wanted than the path as it is drawn, so that a machine is sought and not merely made. */
+/** Whether more is required than the path as it is drawn, so that a machine is searched and not merely made. */
 export const isSought = (wish) => wish.given !== "path" || wish.free || wish.each || wish.band > 0 || Boolean(wish.aim) || hasKeys(wishesOf(wish));
 
 /** Whether there are wishes besides the path. */
 export const isWished = (wish) => wish.given !== "poses" && hasKeys(wishesOf(wish));
 
-/** Columns of points with directions wanted at some of them, and tolerances where they have such. */
+/** Columns of points with directions required at some of them, and tolerances where they have such. */
 export function columnsOf({ points, tolerance = [] }, directions = []) {
   const column = (of) => points.map((_, i) => of(i) ?? null);
   const at = (i) => directions.find(({ point }) => point === i + 1);

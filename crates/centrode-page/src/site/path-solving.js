@@ -5,7 +5,7 @@ import * as server from "./server.js";
 import { work } from "./work.js";
 
 export class Solving {
-  /** `show(answer, more)` takes an answer and whether more figures are to come, `complain(error)` an error; `rested()` is told when nothing is left to do. */
+  /** `show(answer, more)` takes an answer and whether more figures are to come, `complain(error)` an error; `rested()` is called when nothing is left to do. */
   constructor({ show, complain, rested }) {
     Object.assign(this, { show, complain, rested });
     this.pending = null;
@@ -27,7 +27,7 @@ export class Solving {
     });
   }
 
-  /** Ends what is under way: another machine is shown than the one asked for. */
+  /** Ends the running request: another machine is shown than the requested one. */
   end() {
     this.pending = null;
     this.stop?.abort();

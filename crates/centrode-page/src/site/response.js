@@ -99,7 +99,7 @@ export async function ask(snapshot, text, take, first) {
       if (!signal.aborted) words.replaceChildren(element("span", { class: "error" }, error.message));
     }
   };
-  /** Ways of the points at some of the values, and a list of these to take one from. */
+  /** Paths of the points at some of the values, and a list of these to take one from. */
   const overlay = async (name, { values, charts }, signal) => {
     const ways = new Ways();
     const list = element("ul", { class: "ways-list" });

@@ -12,9 +12,9 @@ const ROOM = 1.12;
 const TURN = -60 * DEG;
 const TILT = 35 * DEG;
 
-/** How much of what stands still is seen where it is to be looked through. */
+/** How much of what is fixed is seen where it is to be looked through. */
 const THIN = 0.22;
-/** Size of a body beside the machine from which on it hides the rest. */
+/** Size of a body next to the machine from which on it hides the rest. */
 const LARGE = 0.6;
 
 /** Reads what the program answers: head, places and STL files. */
@@ -98,7 +98,7 @@ export class View {
     this.at(this.now);
   }
 
-  /** How what stands still is drawn: "solid", "thin", to be looked through, or "hidden". */
+  /** How what is fixed is drawn: "solid", "thin", to be looked through, or "hidden". */
   stand(how) {
     this.standing = how;
     for (const body of this.still ?? []) {
@@ -227,7 +227,7 @@ export class View {
     this.draw();
   }
 
-  /** Draws in the next frame, once however often it is asked for. */
+  /** Draws in the next frame, once however often it is requested. */
   draw() {
     this.frame ||= requestAnimationFrame(() => this.render());
   }

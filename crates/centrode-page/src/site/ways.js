@@ -20,12 +20,12 @@ function told(picture) {
 /** Draws the ways of one design after the other; the first is the design as it is. */
 export class Ways extends Painter {
   constructor() {
-    super(element("canvas", { role: "img", "aria-label": "Ways of the points at these values" }));
+    super(element("canvas", { role: "img", "aria-label": "Paths of the points at these values" }));
     this.box = element("div", { class: "ways" }, this.canvas);
     this.drawn = [];
   }
 
-  /** Adds a design's ways, with a name to be written beside them. */
+  /** Adds a design's ways, with a name to be written next to them. */
   add(picture, name) {
     const [left, bottom, right, top] = picture.extent;
     const before = this.scene?.picture.extent ?? picture.extent;

@@ -68,7 +68,7 @@ pub enum GearDriveError {
     },
     /// Another body moves by the input.
     #[error(
-        "bodies.{body}.law moves {body} by the input, too: the crank alone may do so, or the output hangs on both"
+        "bodies.{body}.law moves {body} by the input, too: the crank alone may do so, or the output depends on both"
     )]
     Another {
         /// The other body.
@@ -76,7 +76,7 @@ pub enum GearDriveError {
     },
     /// No goal says what is required.
     #[error(
-        "no goal says what the output shall do: give one over = \"deviation\" with uniform, or one over = \"span\" with maximum for a rest, both with within_deg"
+        "no goal defines the output: give one over = \"deviation\" with uniform, or one over = \"span\" with maximum for a rest, both with within_deg"
     )]
     Nothing,
     /// Goals of several figures, or one that is no position or angle.

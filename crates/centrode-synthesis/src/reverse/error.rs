@@ -73,7 +73,7 @@ pub enum PathError {
     },
     /// The last point is far from the first.
     #[error(
-        "the path is open: its last point is {gap:.4} mm from the first, and no other two neighbours are more than {step:.4} mm apart; add points on the way back"
+        "the path is open: its last point is {gap:.4} mm from the first, and no other two neighbours are more than {step:.4} mm apart; add points of the return"
     )]
     Open {
         /// Distance of the last point from the first, mm.
@@ -209,7 +209,7 @@ pub enum AxisFault {
     },
     /// The carrier would turn back.
     #[error(
-        "the carrier, {carrier:.4} mm long, would turn back near ({:.4}, {:.4}) mm of the path: its turn must run one way",
+        "the carrier, {carrier:.4} mm long, would turn back near ({:.4}, {:.4}) mm of the path: its turn must run in one direction",
         at.x,
         at.y
     )]
@@ -221,7 +221,7 @@ pub enum AxisFault {
     },
     /// The arm would not move on the carrier.
     #[error(
-        "the arm would stand still on the carrier at ({:.4}, {:.4}) mm of the path, where the path lies on a circle about the axis",
+        "the arm would stop on the carrier at ({:.4}, {:.4}) mm of the path, where the path lies on a circle about the axis",
         at.x,
         at.y
     )]

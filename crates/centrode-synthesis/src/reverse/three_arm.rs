@@ -15,7 +15,7 @@ use centrode_spec::degrees;
 pub enum NotPosed {
     /// A clamp that points back at the planet's axis.
     #[error(
-        "the clamp stands {clamp:.2} deg from the arm; in a three-arm mechanism it must be less than 90 deg either way: give other poses"
+        "the clamp is {clamp:.2} deg from the arm; in a three-arm mechanism it must be less than 90 deg in either direction: give other poses"
     )]
     Clamp {
         /// Angle found, degrees.

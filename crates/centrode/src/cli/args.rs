@@ -239,7 +239,7 @@ pub(crate) fn tolerance(word: &str) -> Result<Tolerance, String> {
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example: centrode optimise arms.toml --method de --seed 1 --evaluations 20000 -o better.toml\n\nA table of the design says what may move and how far: [optimise] of a three-arm, [bounds] of a feeder, [vary] of a machine. Ctrl-C ends the search and keeps the best so far; --resume goes on from the search stored next to the output. Where the bounds allow no design that reaches the goals, the search says how near they let it come; --widen then writes the design with the minimum widening.\n\nExit status: 0 every goal is reached; 1 some are not (the file is written all the same); 2 no search, a bad design file, or the file cannot be written."
+    after_help = "Example: centrode optimise arms.toml --method de --seed 1 --evaluations 20000 -o better.toml\n\nA table of the design says what may move and how far: [optimise] of a three-arm, [bounds] of a feeder, [vary] of a machine. Ctrl-C ends the search and saves the best design found; --resume goes on from the search stored next to the output. If the bounds allow no design that reaches the goals, the search prints the nearest figures; --widen then writes the design with the minimum widening.\n\nExit status: 0 every goal is reached; 1 some are not (the file is written all the same); 2 no search, a bad design file, or the file cannot be written."
 )]
 pub(crate) struct Optimise {
     /// Design file, or - for standard input

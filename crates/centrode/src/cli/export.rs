@@ -100,7 +100,7 @@ fn bundle(
             parts => format!(" of {}", parts.join(", ")),
         };
         let message =
-            format!("nothing to write: there are no files{parts} in the formats asked for");
+            format!("nothing to write: there are no files{parts} in the requested formats");
         return Err(Failure::Usage(message));
     }
     Ok(bundle)
@@ -159,7 +159,7 @@ fn refuse_useless(command: &Export) -> Result<(), Failure> {
         return Ok(());
     }
     if command.part == [PartName::ASSEMBLY.name] && !command.wants(File::ThreeMf) {
-        let files = "drawings and the whole in place: dxf, svg, sheet, pdf and 3mf";
+        let files = "drawings and the assembly: dxf, svg, sheet, pdf and 3mf";
         return refused("--part assembly", files);
     }
     if !any(&solid) {

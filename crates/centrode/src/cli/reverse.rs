@@ -39,7 +39,7 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
     let (requested, found, _interrupt) = match command.poses {
         true => {
             let source = source(command)?;
-            progress.step("trying places of the arm's axis");
+            progress.step("trying positions of the arm's axis");
             let poses =
                 KeyPose::from_csv(source.bytes()).map_err(|error| source.refused(&error))?;
             let found = Found::by_poses(&poses).map_err(|error| source.refused(&error))?;

@@ -122,7 +122,7 @@ fn what_cannot_be_driven_is_refused_with_the_reason_and_nothing_is_written() {
     for (design, words) in [
         (
             SLIDER.replace("[110, 140]", "[110, 150]"),
-            "goals.steady: the output shall go evenly from 110 to 150",
+            "goals.steady: the output must go evenly from 110 to 150",
         ),
         (
             SLIDER.replace("[170, 210]", "[110, 210]"),

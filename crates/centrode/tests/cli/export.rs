@@ -213,7 +213,7 @@ fn an_export_without_any_file_says_so_and_makes_no_folder() {
     assert_eq!(run.status.code(), Some(2));
     let stated = text(&run.stderr);
     assert!(
-        stated.contains("no files of gears in the formats asked for"),
+        stated.contains("no files of gears in the requested formats"),
         "{stated}"
     );
     assert!(!to.exists());

@@ -34,7 +34,7 @@ fn what_was_chosen_is_printed() {
     let stated = text(&run.stdout);
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
     for line in [
-        "axis of the carrier     260.0000, 160.0000 mm, as asked",
+        "axis of the carrier     260.0000, 160.0000 mm, as given",
         "carrier                 125.6121 mm, turns counter-clockwise",
         "arm                     186.5937 mm",
         "ratio                   0.5155 to 2.1793",
@@ -83,7 +83,7 @@ fn key_poses_are_met_and_bad_ones_refused() {
             "2 key poses are given; a machine is found for 3 to 7",
         ),
         ("0,0,0\n10,0\n20,5,1\n", "line 2 has 2 values"),
-        ("1,1,0\n1,1,5\n1,1,9\n", "all key poses are at one place"),
+        ("1,1,0\n1,1,5\n1,1,9\n", "all key poses are at one position"),
     ] {
         let run = fed(&["reverse", "-", "--poses"], csv.as_bytes());
         assert_eq!(run.status.code(), Some(2), "{csv}");
@@ -309,7 +309,7 @@ fn a_column_of_tolerances_bounds_each_point_and_a_module_is_asked_for() {
     let stated = text(&run.stdout);
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
     assert!(
-        stated.contains("surely sound up to module 0.5000 mm, 0.1127 mm before"),
+        stated.contains("guaranteed up to module 0.5000 mm, 0.1127 mm before"),
         "{stated}"
     );
     // What is out of reach is reported, and the exit status is that of a finding.
@@ -433,7 +433,7 @@ fn wishes_are_reported_with_their_figures_and_what_is_out_of_reach_with_the_miss
     let stated = text(&run.stdout);
     assert_eq!(run.status.code(), Some(1), "{stated}{}", text(&run.stderr));
     assert!(
-        stated.contains("2 arms") && stated.contains("260.0000, 160.0000 mm, as asked"),
+        stated.contains("2 arms") && stated.contains("260.0000, 160.0000 mm, as given"),
         "{stated}"
     );
     let figure = |name: &str, before: &str| figure(&stated, name, before);

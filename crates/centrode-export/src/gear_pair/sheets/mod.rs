@@ -193,7 +193,7 @@ fn notes(part: &SheetGear<'_>) -> Vec<String> {
         ),
     ];
     lines.push(format!("Teeth and spaces are numbered {},", part.sense()));
-    lines.push("tooth k before space k; numbers stand at the spaces.".to_owned());
+    lines.push("tooth k before space k; numbers are at the spaces.".to_owned());
     lines.push("Dimensions of the teeth are auxiliary: the profile holds.".to_owned());
     let body = part.gear.body();
     if let Some(key) = body.keyway {

@@ -29,7 +29,7 @@ pub(super) fn extremes(part: &SheetGear<'_>) -> Vec<(u32, &'static str)> {
         return Vec::new();
     };
     if most.1 - minimum.1 < 1e-9 / part.pair.module() {
-        return vec![(0, "every tooth alike")];
+        return vec![(0, "every tooth equal")];
     }
     let gentlest = if minimum.1 < 0.0 {
         "nearest to where the curve is most concave"

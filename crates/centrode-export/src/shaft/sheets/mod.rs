@@ -99,7 +99,7 @@ fn notes(shaft: &SpiralShaft) -> Vec<String> {
         "Groove angle θ = 0 where the slider is at the first hole;".to_owned(),
         "it faces the viewer in the side view.".to_owned(),
         "Outline of the side view cut in the plane of the paper.".to_owned(),
-        "Walls stand on the surface's offset and point to the axis.".to_owned(),
+        "Walls begin at the surface's offset and point to the axis.".to_owned(),
         "Exact groove: groove.dxf, tool-path.csv, program groove.ngc.".to_owned(),
     ];
     if let Some(centre) = centre(shaft.body().journal_diameter) {

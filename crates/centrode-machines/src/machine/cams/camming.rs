@@ -211,7 +211,7 @@ impl Builder<'_> {
             if off || disc.rotation() != rotation {
                 let why = match off {
                     true => format!("is held {own} mm from the axis of cam {cam}"),
-                    false => format!("sees cam {cam} turn the other way"),
+                    false => format!("sees cam {cam} turn in the opposite direction"),
                 };
                 let first = &made.followers[0];
                 let but = if off {

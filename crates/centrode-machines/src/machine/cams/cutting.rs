@@ -143,7 +143,7 @@ impl Builder<'_> {
         let [low, high] = extremes(|input| sense * law.at(input).position, &ends);
         let stroke = high.value - low.value;
         if stroke <= COMPUTED {
-            let why = format!("body {body} stands still: there is no cam to cut");
+            let why = format!("body {body} is fixed: there is no cam to cut");
             return wrong(key, why);
         }
         let rate = maximum(|input| law.at(input).velocity.abs(), &ends).value;
@@ -205,7 +205,7 @@ impl Moved<'_> {
             Ok(inverse) => inverse,
             Err(TransmissionError::StandsStill { input, velocity }) => {
                 let why = format!(
-                    "cam {cam} must turn one way against body {carrier}, on which {body} follows it, but at an input of {:.4} deg it turns with {velocity:.6} of the input's speed",
+                    "cam {cam} must turn in one direction against body {carrier}, on which {body} follows it, but at an input of {:.4} deg it turns with {velocity:.6} of the input's speed",
                     input.to_degrees()
                 );
                 return wrong(key, why);
@@ -233,7 +233,7 @@ impl Moved<'_> {
                 let at = |angle: f64| inverse.at(angle).position.rem_euclid(self.period);
                 let [first, then] = [off.input, off.input + later].map(at);
                 let why = format!(
-                    "the motion of body {body} does not repeat with every turn of cam {cam} against body {carrier}, of which there are {turns} in a period: at inputs of {:.4} and {:.4} deg the cam is in one place, but the body is {:.9} (mm or rad) elsewhere",
+                    "the motion of body {body} does not repeat with every turn of cam {cam} against body {carrier}({turns} turns in a period): at inputs of {:.4} and {:.4} deg the cam is in the same position, but the body is {:.9} (mm or rad) off",
                     first.to_degrees(),
                     then.to_degrees(),
                     off.value

@@ -186,7 +186,7 @@ impl Builder<'_> {
             (None, _) => Turn::CounterClockwise,
             (Some(rotation), turns) if turns * rotation.sign() < 0.0 => {
                 let why = format!(
-                    "cam {cam} makes {turns} turns (counter-clockwise positive) against body {carrier}, on which {name} follows it: it turns the other way"
+                    "cam {cam} makes {turns} turns (counter-clockwise positive) against body {carrier}, on which {name} follows it: it turns in the opposite direction"
                 );
                 return wrong(&format!("cams.{cam}.rotation"), why);
             }

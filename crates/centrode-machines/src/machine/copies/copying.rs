@@ -134,7 +134,7 @@ impl Machine {
             .iter()
             .find(|body| *body == crate::machine::design::FRAME)
         {
-            return wrong("bodies", format!("the {body} stands still: there is one"));
+            return wrong("bodies", format!("the {body} is fixed: there is one"));
         }
         match times(&spec.about) {
             0 => Ok(()),
@@ -167,7 +167,7 @@ impl Machine {
         Err(MachineError::NoCopies {
             key: format!("{key}.about"),
             why: format!(
-                "body {about} turns to and fro, at an input of {:.4} deg with {:.6} of the input's speed: copies about it need one that stands still or turns one way",
+                "body {about} turns to and fro, at an input of {:.4} deg with {:.6} of the input's speed: copies about it need one that is fixed or turns in one direction",
                 back.input.to_degrees(),
                 back.value
             ),
@@ -305,11 +305,11 @@ fn repeats(name: &str, copy: &str, about: &str, turn: f64, off: [Extreme; 2]) ->
     let [length, angle] = off;
     let degrees = turn.to_degrees();
     let what = match about {
-        crate::machine::design::FRAME => format!("as {name} does, turned by {degrees:.4} deg"),
-        _ => format!("where {name} does when {about} has turned {degrees:.4} deg further"),
+        crate::machine::design::FRAME => format!("as {name}, turned by {degrees:.4} deg"),
+        _ => format!("where {name} is when {about} has turned {degrees:.4} deg further"),
     };
     format!(
-        "the train does not repeat: {copy} does not stand {what}, but is up to {:.6} mm off (at an input of {:.4} deg) and {:.6} deg (at {:.4} deg)",
+        "the train does not repeat: {copy} is not {what}, but up to {:.6} mm off (at an input of {:.4} deg) and {:.6} deg (at {:.4} deg)",
         length.value,
         length.input.to_degrees(),
         angle.value.to_degrees(),

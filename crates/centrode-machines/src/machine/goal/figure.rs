@@ -40,7 +40,7 @@ pub const FIGURE_FORMS: [[&str; 3]; 15] = [
     ],
     [
         "body.travel",
-        "place of a body along the one that carries it, on a slide",
+        "position of a body along the one that carries it, on a slide",
         "mm",
     ],
     ["transmission(dyad)", "transmission angle of a dyad", "deg"],

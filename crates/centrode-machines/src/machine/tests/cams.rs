@@ -292,7 +292,7 @@ fn bad_cams_are_told_by_their_key_with_both_numbers() {
             &sliding,
             "base_radius = 25".into(),
             "base_radius = 25\nrotation = \"counter-clockwise\"".into(),
-            "cams.push.rotation: cam push makes -2 turns (counter-clockwise positive) against body frame, on which lever follows it: it turns the other way",
+            "cams.push.rotation: cam push makes -2 turns (counter-clockwise positive) against body frame, on which lever follows it: it turns in the opposite direction",
         ),
         (
             &swinging,

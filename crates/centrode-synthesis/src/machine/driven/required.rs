@@ -31,7 +31,7 @@ pub(super) fn required(composed: &Machine) -> Result<Output, GearDriveError> {
         match found {
             Some((other, words)) if other != *figure => {
                 return Err(refused(format!(
-                    "another goal is of {words}, and all that say what the output shall do must be of one figure"
+                    "another goal is of {words}, and all goals of the output must be of one figure"
                 )));
             }
             _ => found = Some((*figure, &goal.figure)),

@@ -61,10 +61,10 @@ pub enum PoseError {
         count: usize,
     },
     /// Poses at one position.
-    #[error("all key poses are at one place: two of them must differ")]
+    #[error("all key poses are at one position: two of them must differ")]
     OnePlace,
     /// No point of the arm whose places lie on a circle.
-    #[error("no point of the arm has its places in all {count} key poses on one circle: the nearest misses a pose by {} mm, {TOLERANCE} mm is allowed; move the poses, or give fewer", stated(*miss))]
+    #[error("no point of the arm has its positions in all {count} key poses on one circle: the nearest misses a pose by {} mm, {TOLERANCE} mm is allowed; move the poses, or give fewer", stated(*miss))]
     NoCircle {
         /// Number of poses.
         count: usize,
@@ -73,7 +73,7 @@ pub enum PoseError {
     },
     /// Circles, on none of which carrier and arm turn in one direction.
     #[error(
-        "{circles} places of the arm's axis were tried; at each carrier or arm would turn back between key poses, or turn more than once: the best passes {passed} of {count} poses in order"
+        "{circles} positions of the arm's axis were tried; at each carrier or arm would turn back between key poses, or turn more than once: the best passes {passed} of {count} poses in order"
     )]
     Order {
         /// Number of poses.

@@ -91,7 +91,7 @@ impl fmt::Debug for Split {
 #[non_exhaustive]
 pub enum SplitError {
     /// A bend that leaves no room for the gears.
-    #[error("the bend must be at most {maximum:.4} deg either way, not {bend:.4} deg")]
+    #[error("the bend must be at most {maximum:.4} deg in either direction, not {bend:.4} deg")]
     Bend {
         /// Bend given, degrees.
         bend: f64,

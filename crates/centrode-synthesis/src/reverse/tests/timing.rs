@@ -129,7 +129,7 @@ fn what_no_crank_can_do_is_refused_by_name() {
     );
     is(
         error(&[even([0.0, 90.0], [100.0, 100.0])]),
-        "never stand still",
+        "never stop",
     );
     is(error(&[rest([0.0, 90.0], 0.0)]), "a rest within 0");
     is(

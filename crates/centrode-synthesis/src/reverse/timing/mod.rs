@@ -97,7 +97,7 @@ pub enum TimingError {
     },
     /// A course that reaches an end of the stroke or goes beyond.
     #[error(
-        "{name}: the output shall go evenly from {} to {}, but it moves from {} to {}, and at both ends it stands: stay between them",
+        "{name}: the output must go evenly from {} to {}, but it moves from {} to {}, and at both ends it stops: stay between them",
         stated(*from), stated(*to), stated(*minimum), stated(*maximum)
     )]
     Beyond {
@@ -114,7 +114,7 @@ pub enum TimingError {
     },
     /// A course that goes nowhere.
     #[error(
-        "{name}: the output shall stay at {}: gears never stand still; ask for a rest at an end of the stroke instead",
+        "{name}: the output must stay at {}: gears never stop; give a rest at an end of the stroke instead",
         stated(*place)
     )]
     Stationary {

@@ -9,7 +9,7 @@ use centrode_synthesis::reverse::{Aim, SplitKind};
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example: centrode reverse path.csv --axis 260,160 --bend 40 --arms 3 -o arms.toml\n\nThe path is closed: a point a line, x and y in mm, in the order in which the tip passes them. A design file of family path holds it with what else is wanted: bounds on the bars, directions, shapes to keep out of (centrode reverse --template prints one). With --poses: centrode reverse poses.csv --poses -o arms.toml\n\nExit status: 0 good; 1 something wanted is out of reach; 2 no machine, a bad path, or the file cannot be written."
+    after_help = "Example: centrode reverse path.csv --axis 260,160 --bend 40 --arms 3 -o arms.toml\n\nThe path is closed: a point a line, x and y in mm, in the order in which the tip passes them. A design file of family path holds it with all other requirements: bounds on the bars, directions, shapes not to enter (centrode reverse --template prints one). With --poses: centrode reverse poses.csv --poses -o arms.toml\n\nExit status: 0 good; 1 a requirement is out of reach; 2 no machine, a bad path, or the file cannot be written."
 )]
 pub(crate) struct Reverse {
     /// File of the path: CSV (x, y in mm), SVG (its one path) or a design file of family path; or - for standard input

@@ -21,7 +21,7 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
         source.keep(output, "the poses")?;
     }
     let progress = Progress::new(2);
-    progress.step("trying places of the arm's axis");
+    progress.step("trying positions of the arm's axis");
     let required = KeyPose::from_csv(source.bytes()).map_err(|error| source.refused(&error))?;
     let chains = KeyPoses::mildest(&required, PosedProblem::CHAINS)
         .map_err(|error| source.refused(&error))?;

@@ -77,7 +77,7 @@ impl Guard {
             origin.is_some_and(|origin| names.iter().any(|name| name == origin))
         };
         match headers.get(header::ORIGIN) {
-            Some(origin) if !own(origin) => return Some("another site must not ask"),
+            Some(origin) if !own(origin) => return Some("requests of another site are refused"),
             // Browsers name the origin of every request that is not a plain read.
             None if *method != Method::GET => return Some("the origin is missing"),
             _ => {}

@@ -48,7 +48,7 @@ pub(crate) enum Depth {
 /// Reason why a design has no answer.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Unsolved {
-    #[error("a later change has taken the place of this one")]
+    #[error("a later change has replaced this one")]
     Overtaken,
     #[error("solving this design has failed: {0}")]
     Fault(String),
