@@ -32,7 +32,7 @@ EXEMPT = {
         TIME: (r"^\| (?:generate; prove|whole command|next to ncgears).*",),
     },
     "docs/adapters.md": {
-        LIMIT: (r"1e-6 mm, are closed up: a kernel takes points 1e-7 mm",),
+        LIMIT: (r"1e-6 mm, are closed up: a kernel merges points 1e-7 mm",),
         "largest seen by the test or campaign of its row": (
             r"of 17 designs",
             r"^\| (?:volume of|links of|joints in).*",

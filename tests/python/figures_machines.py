@@ -173,7 +173,7 @@ FEEDER = [
     Said("can miss by {} degrees, to first order", lambda: rounded()[0]),
     Said("it is {} and {}. A tolerance", lambda: rounded()[1:]),
     Said(
-        "keeps it within {<} degrees",
+        "holds it within {<} degrees",
         lambda: 0.05 * sum(map(abs, sensitivity(*middle()))),
     ),
     Said("once in {} degrees and the entry angle", lambda: 360 * 30 / 40),

@@ -31,7 +31,7 @@ pub(crate) struct Reverse {
     /// Box in which the axis is searched, by two corners, mm; default: the path's box with a quarter of its size round it
     #[arg(long, value_parser = corners, allow_hyphen_values = true, value_name = "X,Y,X,Y", conflicts_with_all = ["axis", "poses"])]
     pub(crate) axis_box: Option<[[f64; 2]; 2]>,
-    /// Let the path pass within so far of its points, and ease it there until its gears are as blunt as can be; a column headed
+    /// Let the path pass within this distance of its points, mm, and ease it there until its gears are as blunt as can be; a column headed
     /// `tolerance` in the file gives each point its own
     #[arg(
         long,
