@@ -22,7 +22,7 @@ const SLOWEST: f64 = 0.01;
 /// Places of a tip on its way from the flank to the root at which it is held against the corner: at first, and where it is near.
 const PLACES: [u32; 2] = [8, 32];
 
-/// Nearness of a tip to the corner that so many places may miss, as a share of the depth times the square of their number.
+/// Clearance that n samples may miss, relative to depth / n²: smaller values miss contacts, larger ones trim too much.
 const BETWEEN: f64 = 1e-2;
 
 /// Position of a tip on that way: the arc length rolled, and how far the tip is ahead and above the point at which the pitch

@@ -14,7 +14,7 @@ pub(super) struct Tie {
     pub(super) held: Vec<usize>,
     /// Joints that carry the second link alone (1) or the first alone (-1).
     pub(super) between: Vec<(usize, f64)>,
-    /// Joint about whose axis its plane turns; none for the plane of the first link.
+    /// Joint that carries the plane of the force; `None` for the frame.
     normal: Option<usize>,
 }
 

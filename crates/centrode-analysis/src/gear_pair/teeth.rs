@@ -63,7 +63,7 @@ pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut 
     let largest = if module < USEFUL * pair.module() {
         let sharpest = limits.convex_curvature.max(limits.concave_curvature);
         format!(
-            "the pitch curves bend to a radius of {:.4} mm, too sharp for any module of use",
+            "the pitch curves bend to a radius of {:.4} mm, too sharp for any practical module",
             1.0 / sharpest
         )
     } else {

@@ -67,7 +67,7 @@ fn tilt(shaft: &SpiralShaft, gap: f64, report: &mut Report) {
         return;
     }
     let message = format!(
-        "a crossing takes the wall that pushes the slider away over {gap:.2} mm: {length} mm long and free on its pin, the slider can turn into the other groove there; held by the walls alone it must be {:.2} mm long",
+        "at crossings the driving wall is missing for {gap:.2} mm: a slider {length} mm long and free on its pin can swing into the other groove; make it {:.2} mm long or fix it",
         2.0 * gap
     );
     report.findings.push(

@@ -282,19 +282,19 @@ fn unmet(mechanism: &ThreeArm, arms: Option<&ArmClearance>, report: &mut Report)
         PickingRule::Given => {}
         PickingRule::EntersTray => note(
             "picking",
-            "arms pick where the tip enters the tray",
+            "picking angle not given: the arms pick where the tip enters the tray",
             path.picking,
         ),
         PickingRule::Farthest => note(
             "picking",
-            "arms pick where the tip reaches farthest towards the tray; work.picking_deg or tray.distance says otherwise",
+            "picking angle not given: the arms pick where the tip is farthest towards the tray. Set work.picking_deg or tray.distance to change it",
             path.picking,
         ),
     }
     if path.planting_rule == PlantingRule::Lowest {
         note(
             "planting",
-            "arms plant where the tip is lowest; work.planting_deg says otherwise",
+            "planting angle not given: the arms plant where the tip is lowest. Set work.planting_deg to change it",
             path.planting,
         );
     }

@@ -32,10 +32,13 @@ pub fn curves(mechanism: &ThreeArm) -> Vec<Curve> {
         curve("Acceleration of the tip", "", "m/s²", &|chain| {
             1e-3 * tip(chain).acceleration.norm()
         }),
-        curve("Turn a carrier turn", "intermediate gear", "", &|chain| {
-            chain.train().intermediate.velocity
-        }),
-        curve("Turn a carrier turn", "planet", "", &|chain| {
+        curve(
+            "Turns per carrier turn",
+            "intermediate gear",
+            "",
+            &|chain| chain.train().intermediate.velocity,
+        ),
+        curve("Turns per carrier turn", "planet", "", &|chain| {
             chain.train().planet.velocity
         }),
     ]

@@ -27,7 +27,7 @@ pub(super) fn cam_on_carrier(machine: &Parts<'_>, chain: u32) -> Isometry2<f64> 
 }
 
 /// Sun and tray fixed to the base, ground sliding on it, the carrier on the base, gears and cams on the carrier, arms on
-/// planets, forks and rods on arms; without parts what moves alone, and neither cams nor forks nor rods. The gears are drawn
+/// planets, forks and rods on arms. Without parts only moving links: no cams, forks or rods. The gears are drawn
 /// with the teeth of a pair, or by their pitch curves.
 pub(super) fn machine(
     mechanism: &ThreeArm,

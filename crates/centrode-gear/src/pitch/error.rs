@@ -65,7 +65,7 @@ pub enum PitchError {
         maximum: f64,
     },
     /// Nothing sets the size of the curve.
-    #[error("nothing sets the size of the curve: give module and tooth_count, or {0}")]
+    #[error("the size of the curve is not given: give module and tooth_count, or {0}")]
     NoSize(&'static str),
     /// The size is set twice.
     #[error("{0} and {1} both set the size of the curve: give one of them")]

@@ -15,7 +15,7 @@ const GENTLE: f64 = 12.0;
 /// Length of a part, as a multiple of the width of the narrowest feature.
 const PART: f64 = 24.0;
 
-/// Parts of a turn go by so many, so that they repeat with the formula.
+/// The number of intervals is a multiple of this, so that the partition repeats with the formula.
 const PARTS: usize = 60;
 
 /// Most parts of a turn.

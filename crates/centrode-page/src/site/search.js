@@ -186,7 +186,7 @@ export class Search {
     this.missed.hidden = list.length === 0;
     const cell = (value, unit) => element("td", {}, `${value}${unit && ` ${unit}`}`);
     this.missed.replaceChildren(
-      element("caption", {}, "Counted as missed"),
+      element("caption", {}, "Not yet met"),
       element("thead", {}, element("tr", {}, ...["", "start", "now", "required"].map((words) => element("th", { scope: "col" }, words)))),
       element("tbody", {}, ...list.map(({ title, unit, start, best, required, met }) => element("tr", { class: met ? "met" : "unmet" },
         element("th", { scope: "row" }, title), cell(start, unit), cell(`${met ? "✓ " : ""}${best}`, unit), cell(required, unit)))));

@@ -60,7 +60,7 @@ export function show(snapshot, pinned, go) {
     // What is known of the design before says nothing of this one.
     if (!place.querySelector(".findings:not(.no-mechanism)")) place.replaceChildren(title("Checking …", "open"));
     const left = [told ? null : byId("goals").firstChild && "goals", place.querySelector("li") && "findings", byId("figures").firstChild && "figures"].filter(Boolean);
-    place.firstChild.replaceWith(title("Checking …", "open", left.length ? `still of the design before: ${left.join(", ")}` : ""));
+    place.firstChild.replaceWith(title("Checking …", "open", left.length ? `figures are from the previous design: ${left.join(", ")}` : ""));
     return;
   }
   place.replaceChildren(

@@ -319,7 +319,7 @@ pub(crate) struct Schema {
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Prints the address of the page. Nothing but the design file and its autosaves is written (from the start page, those of the files opened or made there), and the page answers only who knows its address."
+    after_help = "Prints the address of the page. Nothing but the design file and its autosaves is written (from the start page, those of the files opened or made there), and the page opens only with its secret address."
 )]
 pub(crate) struct Studio {
     /// Design file; default: a start page with every shipped design, templates, and the files of this folder
@@ -346,7 +346,7 @@ pub(crate) struct Report {
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Examples: centrode prove pair.toml -o pair.proof\n          centrode prove machine.toml --pair drive -o drive.proof\n\nA machine with several pairs gets one file a pair, each with the pair's name in its own. A certificate claims; python tools/proof_checker.py pair.proof proves or refuses it, from contours and law alone.\n\nExit status: 0 written; 2 no mechanism, no certificate of this mesh, or the file cannot be written."
+    after_help = "Examples: centrode prove pair.toml -o pair.proof\n          centrode prove machine.toml --pair drive -o drive.proof\n\nA machine with several pairs gets one file a pair, each with the pair's name in its own. A certificate claims; python tools/proof_checker.py pair.proof proves or refuses it, from contours and law alone.\n\nExit status: 0 written; 2 invalid design, no certificate of this mesh, or the file cannot be written."
 )]
 pub(crate) struct Prove {
     /// Design file, or - for standard input

@@ -117,7 +117,7 @@ fn summarise(found: &crate::analysis::Report, files: usize, command: &Export) {
     } else {
         writeln!(
             err,
-            "{files} files written, but the mechanism does not do its job: {summary}; see centrode check {design}"
+            "{files} files written; the check found {summary}; see centrode check {design}"
         )
     };
 }

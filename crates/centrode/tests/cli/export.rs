@@ -233,7 +233,7 @@ fn a_bad_pair_is_written_and_ends_with_one() {
     );
     let message = text(&done.stderr);
     assert_eq!(done.status.code(), Some(1), "{message}");
-    assert!(message.contains("4 files written, but"), "{message}");
+    assert!(message.contains("4 files written;"), "{message}");
     let report: serde_json::Value =
         serde_json::from_slice(&files(folder.path())["report.json"]).expect("JSON");
     assert_eq!(report["ok"], false);

@@ -40,7 +40,7 @@ fn what_was_chosen_is_printed() {
         "ratio                   0.5155 to 2.1793",
         "tip passes the shaft at 60.9816 mm",
         "split                   powers, bend 40 deg, 1 arm",
-        "split one-pair          with one pair twice the planet must lag by 0.611111 turns, 11/18,",
+        "split one-pair          the same pair twice does not work for this path: the planet must lag by 0.611111 turns, 11/18,",
     ] {
         assert!(stated.contains(line), "{line}\n{stated}");
     }

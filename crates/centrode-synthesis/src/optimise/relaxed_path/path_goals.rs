@@ -7,12 +7,13 @@ use centrode_geometry::{Outline, Point, SampledPiece, maximum_of_samples, roundi
 
 use centrode_analysis::{Goal, Unit};
 
-/// Looks at the arm in a turn, between which its minimum distance from a shape is followed.
+/// Poses of the arm per turn, between which its minimum distance from a shape is followed.
 const SAMPLES: usize = 192;
 /// Size of a miss that leaves half the progress, as a share of the reach of the machine, and of ratios.
 const SCALE: f64 = 0.1;
-/// Names of goals that are distances from shapes, and what is spared of these, mm.
+/// Names of goals that are distances from shapes.
 const KEEP_OUT: &str = "keep-out-";
+/// Margin of distances from shapes, mm: ten times smaller, the check of the bodies may still find a collision.
 const SPARE: f64 = 5e-3;
 /// That of a turn, rad.
 const TURN: f64 = 0.2;
@@ -167,7 +168,7 @@ pub(super) fn goals(
     )
 }
 
-/// Violations of goals, each by its own scale; of a distance a little is spared for what a check of the bodies loses.
+/// Violations of goals, each by its own scale. Distances get a margin, because the check of the bodies is less exact.
 pub(super) fn violations(goals: &[Goal]) -> Vec<f64> {
     let violation = |goal: &Goal| {
         let is_distance = goal.name.starts_with(KEEP_OUT);

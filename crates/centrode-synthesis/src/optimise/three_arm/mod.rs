@@ -215,7 +215,7 @@ impl DesignProblem for ThreeArmProblem {
         for goal in &mut goals {
             // A count of flanks has no slope; the module that every point of the curves bears has.
             if goal.name == "sound-teeth" && goal.met() == Some(false) {
-                let title = "module over what the curves bear";
+                let title = "module exceeds the largest module without undercut";
                 *goal = Goal::new(goal.number, goal.name.clone(), title, Unit::Count)
                     .maximum(1.0, 1.0)
                     .with(1.0 + quick.overload.max(1e-3));

@@ -100,7 +100,7 @@ pub enum SplitError {
     },
     /// The rotation number is at or near a fraction, so that no single pair follows.
     #[error(
-        "with one pair twice the planet must lag by {turns:.6} turns, {}{numerator}/{denominator}, where no single pair follows from the path: take another bend, or split by powers",
+        "the same pair twice does not work for this path: the planet must lag by {turns:.6} turns, {}{numerator}/{denominator}, where no single pair follows from the path: take another bend, or split by powers",
         if *miss < EXACT { String::new() } else { format!("{miss:.1e} from ") }
     )]
     Resonance {
@@ -115,7 +115,7 @@ pub enum SplitError {
     },
     /// The law of one pair does not come out within its limit.
     #[error(
-        "with one pair twice the planet must lag by {turns:.6} turns, near {numerator}/{denominator}, and {}: take another bend, or split by powers",
+        "the same pair twice does not work for this path: the planet must lag by {turns:.6} turns, near {numerator}/{denominator}, and {}: take another bend, or split by powers",
         if miss.is_finite() { format!("the law found misses its equation by {miss:.1e} rad") } else { "no law that always advances was found".to_owned() }
     )]
     Inexact {

@@ -127,10 +127,7 @@ fn what_no_crank_can_do_is_refused_by_name() {
         error(&[even([0.0, 90.0], [100.0, 150.0])]),
         "it moves from 90 to 150",
     );
-    is(
-        error(&[even([0.0, 90.0], [100.0, 100.0])]),
-        "never stop",
-    );
+    is(error(&[even([0.0, 90.0], [100.0, 100.0])]), "never stop");
     is(error(&[rest([0.0, 90.0], 0.0)]), "a rest within 0");
     is(
         error(&[rest([0.0, 90.0], 1e-12)]),
