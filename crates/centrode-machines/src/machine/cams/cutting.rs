@@ -233,7 +233,7 @@ impl Moved<'_> {
                 let at = |angle: f64| inverse.at(angle).position.rem_euclid(self.period);
                 let [first, then] = [off.input, off.input + later].map(at);
                 let why = format!(
-                    "the motion of body {body} does not repeat with every turn of cam {cam} against body {carrier}({turns} turns in a period): at inputs of {:.4} and {:.4} deg the cam is in the same position, but the body is {:.9} (mm or rad) off",
+                    "the motion of body {body} does not repeat with every turn of cam {cam} against body {carrier} ({turns} turns in a period): at inputs of {:.4} and {:.4} deg the cam is in the same position, but the body is {:.9} (mm or rad) off",
                     first.to_degrees(),
                     then.to_degrees(),
                     off.value

@@ -207,7 +207,7 @@ fn cams_that_cannot_be_cut_are_told_with_their_numbers() {
             &sliding,
             "cos(2*phi - 0.4)",
             "cos(phi)",
-            "cams.push.cut_to: the motion of body lever does not repeat with every turn of cam push against body frame(2 turns in a period): at inputs of ",
+            "cams.push.cut_to: the motion of body lever does not repeat with every turn of cam push against body frame (2 turns in a period): at inputs of ",
         ),
         (
             &sliding,
