@@ -38,7 +38,7 @@ pub(crate) const LARGEST: usize = RequiredPath::LARGEST + 1;
 
 /// A machine made from the path required of its tip, by `reverse`, or from key poses, by `reverse_poses`.
 ///
-/// A carrier turns about `axis` and bears an arm; a train of gears whose sun is fixed turns the arm once against it while
+/// A carrier turns about `axis` and supports an arm; a train of gears whose sun is fixed turns the arm once against it while
 /// it turns once.
 #[pyclass(frozen, module = "centrode")]
 #[derive(Debug)]
@@ -136,7 +136,7 @@ impl Reversed {
         self.chain.shaft_distance()
     }
 
-    /// Way in which two stages of gears share the motion.
+    /// Method by which two stages of gears share the motion.
     #[getter]
     fn split(&self) -> &'static str {
         self.split.kind().name()

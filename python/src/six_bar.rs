@@ -194,7 +194,7 @@ impl SixBar {
         ])
     }
 
-    /// Places of the effector's pivot that all give this swing (rad) with these four lengths, in order along a curve:
+    /// Positions of the effector's pivot that all give this swing (rad) with these four lengths, in order along a curve:
     /// an array (N, 2). Half a turn is seen from the chord between the slider's dead centres, and from nowhere else; more
     /// than half a turn and half the rocker's swing from nowhere.
     ///

@@ -36,7 +36,7 @@ pub struct FlankPlace {
     pub radius: Option<f64>,
 }
 
-/// A way in which a mechanism is worse than it should be: measured, required, where.
+/// A respect in which a mechanism is worse than it should be: measured, required, where.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Finding {
     /// Short stable name of the rule, such as `undercut`.

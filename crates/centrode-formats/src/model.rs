@@ -120,7 +120,7 @@ pub enum JointKind {
     Fixed,
     /// Turns without end.
     Continuous,
-    /// Slides between two places, mm.
+    /// Slides between two positions, mm.
     Sliding([f64; 2]),
 }
 

@@ -260,7 +260,7 @@ impl Writer {
     }
 }
 
-/// Boxes in the places of letters that the font has not, from the start of a text.
+/// Boxes instead of letters that the font has not, from the start of a text.
 fn boxes(text: &Text) -> impl Iterator<Item = Path> {
     let em = lettering::em(text.height) * POINT;
     let mut x = 0.0;

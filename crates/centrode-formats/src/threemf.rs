@@ -1,4 +1,4 @@
-//! 3MF packages: closed meshes with their unit, names, colours and places.
+//! 3MF packages: closed meshes with their unit, names, colours and positions.
 
 use centrode_geometry::{Mesh, checkpoint};
 use nalgebra::Isometry3;
@@ -78,7 +78,7 @@ pub struct Object<'a> {
     pub items: Vec<(String, Isometry3<f64>)>,
 }
 
-/// Writes bodies in their places as one 3MF package in millimetres, as [`write()`] does one.
+/// Writes bodies in their positions as one 3MF package in millimetres, as [`write()`] does one.
 ///
 /// # Errors
 /// [`PackageError`] if the package would be larger than the format holds.

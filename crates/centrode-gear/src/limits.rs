@@ -80,7 +80,8 @@ impl GearPair {
         }
     }
 
-    /// Maximum pressure angle over the cycle, whichever way the driver pushes, and the driver angle at which it is, rad.
+    /// Maximum pressure angle over the cycle, with the driver pushing in either direction, and the driver angle at which it is,
+    /// rad.
     #[must_use]
     pub fn maximum_pressure_angle(&self) -> Extreme {
         let rolling = self.rolling();

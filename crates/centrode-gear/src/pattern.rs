@@ -19,7 +19,7 @@ const SAME: f64 = 1e-12;
 /// Share of an arc length that is its rounding.
 const ROUNDING: f64 = 1e-15;
 
-/// Places of one gear, its teeth or the spaces after them, that are images of others.
+/// Positions of one gear, its teeth or the spaces after them, that are images of others.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pattern {
     count: u32,
@@ -27,7 +27,7 @@ pub(crate) struct Pattern {
     period: u32,
     /// Position `k` is mirrored to position `mirror - k`.
     mirror: Option<i64>,
-    /// Sense in which places follow each other: 1 counter-clockwise.
+    /// Sense in which positions follow each other: 1 counter-clockwise.
     sense: f64,
 }
 
@@ -79,7 +79,7 @@ impl Pattern {
         &mut teeth[..self.period as usize]
     }
 
-    /// Turn, counter-clockwise, that makes one of the first places the position.
+    /// Turn, counter-clockwise, that makes one of the first positions the position.
     pub(crate) fn turn(&self, place: usize) -> UnitComplex<f64> {
         let pitches = (place - place % self.period as usize) as f64;
         UnitComplex::new(self.sense * TAU * pitches / f64::from(self.count))

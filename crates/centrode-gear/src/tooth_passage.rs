@@ -17,7 +17,7 @@ const POSES: u32 = 20;
 /// Pitches, half of them on either side of the middle of a passage, within which teeth are held against each other: on pitch curves that
 /// are concave in turn they still meet some pitches before they mesh.
 const PITCHES: u32 = 16;
-/// Maximum way of a corner in its mate's axes, pitches, from one pose to the next where teeth are trimmed.
+/// Maximum path of a corner in its mate's axes, pitches, from one pose to the next where teeth are trimmed.
 const WAY: f64 = 0.02;
 /// Penetration that may be the approximation's own, as a share of the pitch.
 const PENETRATION: f64 = 3e-5;

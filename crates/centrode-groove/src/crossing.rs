@@ -14,11 +14,11 @@ pub struct Crossing {
     pub back: f64,
     /// Position along the shaft, mm.
     pub position: f64,
-    /// Angle between both ways, rad: the sum of their lead angles.
+    /// Angle between both strokes, rad: the sum of their lead angles.
     pub angle: f64,
     /// Length without walls, mm: a slider guided through must be longer. `w / sin(angle)`.
     pub gap: f64,
-    /// Whether both ways are strokes here, not reversals.
+    /// Whether both are strokes here, not reversals.
     pub of_strokes: bool,
 }
 
@@ -51,7 +51,7 @@ impl Groove {
             .map(|turns| {
                 let later = TAU * f64::from(turns);
                 let apart = |out: f64| place(out + later) - place(out);
-                // Both on their own ways: falls from end to end.
+                // Both on their own strokes: falls from end to end.
                 let low = (near - period).max(far - later);
                 let high = far.min(near - later);
                 let out = bracketed_root(apart, low, high, apart(low), apart(high));
@@ -86,8 +86,8 @@ impl Groove {
     /// Minimum shift of the return stroke with which a slider of this length (mm) bridges every crossing
     /// of the two strokes, or the best there is if none is enough.
     ///
-    /// Picking the same hole at the same angle of the shaft on both ways puts a crossing there, whatever
-    /// the law: only by missing the hole a little, half of the offset each way, does the slow point come
+    /// Picking the same hole at the same angle of the shaft on both strokes puts a crossing there, whatever
+    /// the law: only by missing the hole a little, half of the offset on each stroke, does the slow point come
     /// off it. The crossings next to the reversals cannot be moved so.
     ///
     /// # Errors

@@ -13,7 +13,7 @@ pub enum ShaftError {
     /// A table or formula of the speed cannot be read.
     #[error(transparent)]
     Speed(#[from] PitchError),
-    /// The slider would stop or run back on the way.
+    /// The slider would stop or run back on a stroke.
     #[error(
         "amplitude is {amplitude} mm, but with the harmonic {harmonic} and a lead of {lead} mm the slider moves in one direction only below {limit:.6} mm"
     )]
@@ -64,7 +64,7 @@ pub enum ShaftError {
         "the reversal must take a whole number of half turns, or the groove does not close on the shaft; it is {0}"
     )]
     ReversalAngle(f64),
-    /// A law that does not bring the speed smoothly and evenly from one way to the other.
+    /// A law that does not bring the speed smoothly and evenly from one direction to the other.
     #[error(
         "the law {law} does not reverse the slider: its acceleration must vanish at both ends and its halves be equal"
     )]

@@ -7,7 +7,7 @@ use centrode_spec::rule::positive;
 /// Wall of the groove, by its side.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Wall {
-    /// Left of the way the slider goes, seen on the development.
+    /// Left of the direction of the slider, seen on the development.
     Left,
     /// Right of it.
     Right,
@@ -114,7 +114,7 @@ impl Groove {
         self.depth
     }
 
-    /// Places between which the motion is smooth and short: its breaks, tips and quarter turns.
+    /// Positions between which the motion is smooth and short: its breaks, tips and quarter turns.
     #[must_use]
     pub(crate) fn ends(&self) -> Vec<f64> {
         let period = self.traverse.period();

@@ -15,7 +15,7 @@ pub enum Way {
 }
 
 impl Way {
-    /// Word for the way.
+    /// Word for the direction.
     #[must_use]
     pub fn name(self) -> &'static str {
         match self {
@@ -45,7 +45,7 @@ pub struct Pick {
     pub swept: f64,
 }
 
-/// Holes picked at each turn over a whole way out and back, one pick a turn.
+/// Holes picked at each turn over a whole cycle out and back, one pick a turn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Schedule {
     /// The picks in order.

@@ -75,7 +75,7 @@ impl SpiralShaft {
         self.traverse().law()
     }
 
-    /// The slider's motion over the whole way out and back.
+    /// The slider's motion over the whole cycle out and back.
     #[must_use]
     pub fn traverse(&self) -> &Traverse {
         self.groove.traverse()

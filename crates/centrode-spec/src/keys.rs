@@ -6,7 +6,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::path::{Path, at};
 
-/// Places of all keys of a file.
+/// Positions of all keys of a file.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Keys(Vec<Entry>);
 
@@ -84,7 +84,7 @@ fn is_on(message: &str, value: &DeValue<'_>) -> bool {
 
 /// The key of a value on which serde has a message, and its position, if serde names only the table or list around it.
 ///
-/// Serde gathers a table whose `kind` decides its other keys before it looks at them, and loses their places on the way.
+/// Serde gathers a table whose `kind` decides its other keys before it looks at them, and loses their positions.
 pub(super) fn inside(
     text: &str,
     around: &str,

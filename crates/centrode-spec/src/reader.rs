@@ -26,7 +26,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The places of the keys.
+    /// The positions of the keys.
     pub(super) fn into_keys(self) -> Keys {
         self.keys
     }

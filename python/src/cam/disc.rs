@@ -25,7 +25,7 @@ type Peak = (f64, f64);
 ///     follower: What rides on it.
 ///     segments: What the follower does in one turn; the spans add up to a whole turn.
 ///     base_radius: Radius of the base circle, mm.
-///     rotation: Which way the cam turns, "counter-clockwise" or "clockwise".
+///     rotation: Sense in which the cam turns, "counter-clockwise" or "clockwise".
 ///     start: Cam angle at which the first segment begins, rad.
 ///     body: Width, bore and material.
 ///     name: Used for file names.

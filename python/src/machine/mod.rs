@@ -51,7 +51,7 @@ fn checked(order: Count) -> Answer<usize> {
 }
 
 impl Machine {
-    /// Places of points at inputs, worked out side by side.
+    /// Positions of points at inputs, worked out side by side.
     fn at_each(&self, phi: Values, tail: &[usize], points: Vec<BodyPoint>) -> Course {
         let made = Arc::clone(&self.0);
         Course::by_blocks(phi, tail, move |phi, places| {

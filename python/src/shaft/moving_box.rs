@@ -18,7 +18,7 @@ use crate::word::Word;
 /// A seedling box that slows down while a seedling is picked: by its shaft's groove, by elliptic gears, or by both.
 ///
 /// `phi` is the angle of the machine's input: the shaft's where nothing drives it, else that of the driving
-/// gear. A whole way out and back takes `cycle` radians of either.
+/// gear. A whole cycle out and back takes `cycle` radians of either.
 ///
 /// Args:
 ///     shaft: The shaft; the one of the design's defaults, which is plain, by default.

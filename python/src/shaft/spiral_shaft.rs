@@ -20,7 +20,7 @@ use crate::wait::wait;
 
 /// A variable-speed spiral shaft: the slider's law, the groove out and back, the forces on the slider.
 ///
-/// The input is the shaft's angle: 0 where the slider leaves the first hole. A whole way out and back takes
+/// The input is the shaft's angle: 0 where the slider leaves the first hole. A whole cycle out and back takes
 /// `cycle` radians.
 ///
 /// Args:
@@ -28,7 +28,7 @@ use crate::wait::wait;
 ///     holes: Holes across the box.
 ///     radius: Radius of the shaft, mm.
 ///     amplitude: Amplitude of the sine, mm; 0 for a plain shaft.
-///     harmonic: Slow places a turn.
+///     harmonic: Slow points per turn.
 ///     phase: Shaft angle of a slow point, rad.
 ///     rotated: Whether the sine is turned onto the helix, equations (3) to (5) of the paper of 2018, instead of
 ///         being the integral of the speed.

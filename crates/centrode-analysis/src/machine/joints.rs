@@ -9,7 +9,7 @@ use centrode_machines::machine::{DyadKind, Machine};
 use super::motion::Motion;
 use crate::{Report, Table, Unit};
 
-/// Distance, as a share of a turn, within which a dead centre lies of the extreme that is found by places alone.
+/// Distance, as a share of a turn, within which a dead centre lies of the extreme that is found by positions alone.
 const NEAR: f64 = 1e-5;
 /// Swings and strokes of joints that come back, and the inputs of their dead centres.
 pub(super) fn joints(composed: &Machine, motion: &Motion, report: &mut Report) {

@@ -106,7 +106,7 @@ fn sound(
     Ok(teeth(Addendum::Fitted, count))
 }
 
-/// The minimum count of full teeth that are sound and carry, from the count on at which the pitch curves bear them anyway.
+/// The minimum count of full teeth that are sound and carry, from the count on at which the pitch curves allow them anyway.
 fn full(design: &GearPairDesign, pair: &GearPair, borne: f64) -> Option<u32> {
     let mut full = design.clone();
     full.teeth.addendum = Addendum::Full;

@@ -278,7 +278,7 @@ fn forces(shaft: &SpiralShaft, report: &mut Report) {
     }
 }
 
-/// Pressure on the key of the near journal at a torque, and whether the shaft bears it.
+/// Pressure on the key of the near journal at a torque, and whether the shaft can support it.
 fn key(shaft: &SpiralShaft, torque: Extreme, report: &mut Report) {
     let body = shaft.body();
     let hub = body.keyway.map(Keyway::of_hub);

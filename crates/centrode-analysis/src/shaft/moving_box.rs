@@ -60,7 +60,7 @@ pub fn check_moving_box(machine: &MovingBox) -> Report {
 }
 
 /// Pressure on the keys of both gears at the maximum torques that the box requires, instead of that of the shaft turned
-/// evenly, and those that are pressed harder than their materials bear.
+/// evenly, and those that are pressed harder than their materials allow.
 fn keys(machine: &MovingBox, drive: &EllipticDrive, report: &mut Report) {
     let Some(design) = machine.design().gear_pair(drive) else {
         return;

@@ -34,7 +34,7 @@ pub use variants::{Variants, VariantsError};
 /// Tolerance of the arms' clearances, as a share of the tip's distance from the planet's axis.
 const ARM_TOLERANCE: f64 = 1e-4;
 
-/// Checks a three-arm mechanism: its goals, its working points, and the teeth its curves can bear.
+/// Checks a three-arm mechanism: its goals, its working points, and the teeth its curves allow.
 #[must_use]
 pub fn check_three_arm(mechanism: &ThreeArm) -> Report {
     let teeth = filling([0.0, 0.7], || TrainTeeth::analyse(mechanism));

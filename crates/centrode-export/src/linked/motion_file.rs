@@ -22,7 +22,7 @@ pub struct MotionFile {
     pub interpolation: Interpolation,
     /// Joints of the models that move.
     pub joints: Vec<JointWords>,
-    /// Points whose places are in the table.
+    /// Points whose positions are in the table.
     pub points: Vec<PointWords>,
     /// Links that touch by their teeth.
     pub meshes: Vec<MeshWords>,

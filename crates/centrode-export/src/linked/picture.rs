@@ -32,7 +32,7 @@ const FINEST: f64 = 1e-7;
 const ANGLE: f64 = 1e-6;
 const INPUT: f64 = 1e-7;
 
-/// The machine as a picture that moves; lines are within the tolerance of the exact ones, and so are places at steps of the
+/// The machine as a picture that moves; lines are within the tolerance of the exact ones, and so are positions at steps of the
 /// input, between them within ten times as much. A tolerance below 1e-7 of how far the largest figure reaches is that.
 #[must_use]
 pub fn picture(machine: &LinkedMachine, tolerance: Tolerance) -> Picture {

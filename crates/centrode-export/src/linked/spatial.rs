@@ -12,7 +12,7 @@ struct Head<'a> {
     shapes: Vec<StlFile>,
     /// Bodies of the links.
     links: Vec<Placed<'a>>,
-    /// Inputs at which their places are given, rad.
+    /// Inputs at which their positions are given, rad.
     input: &'a [f64],
 }
 

@@ -29,7 +29,7 @@ pub struct Picture {
     pub handles: Vec<Handle>,
     /// Named positions.
     pub marks: Vec<Mark>,
-    /// Places at which gears touch, mesh by mesh.
+    /// Positions at which gears touch, mesh by mesh.
     pub contacts: Vec<Contacts>,
     /// Minimum x, minimum y, maximum x, maximum y of everything over the whole cycle, mm.
     pub extent: [f64; 4],
@@ -55,7 +55,7 @@ pub struct Mark {
     pub at: [f64; 2],
 }
 
-/// Places at which the flanks of two gears touch, in the axes of the picture.
+/// Positions at which the flanks of two gears touch, in the axes of the picture.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Contacts {
     /// The gears, in words.
@@ -76,7 +76,7 @@ pub struct Track {
 }
 
 impl Track {
-    /// A track of inputs and places.
+    /// A track of inputs and positions.
     #[must_use]
     pub fn from_samples(samples: impl IntoIterator<Item = (f64, [f64; 2])>) -> Self {
         let (input, at) = samples.into_iter().unzip();

@@ -48,7 +48,7 @@ impl Path {
         }
     }
 
-    /// The path of a point, within the tolerance of the straight lines between the places given; closed where it ends as it
+    /// The path of a point, within the tolerance of the straight lines between the given points; closed where it ends as it
     /// begins.
     pub(crate) fn way(role: LineRole, places: &[Point], tolerance: Tolerance) -> Self {
         let unit = unit(tolerance);
@@ -77,8 +77,8 @@ impl Path {
     }
 }
 
-/// Places, by their numbers, between which straight lines leave none of the others farther away than a distance: each line reaches as
-/// far as it can.
+/// Positions, by their numbers, between which straight lines leave none of the others farther away than a distance: each line
+/// reaches as far as it can.
 fn fewest(places: &[Point], off: f64) -> Vec<usize> {
     let last = places.len().saturating_sub(1);
     let mut kept: Vec<usize> = (0..places.len().min(1)).collect();

@@ -10,7 +10,7 @@ use crate::fit;
 
 /// Words of the runout of both faces.
 const FACES: &str = "both faces";
-/// Places of lengths.
+/// Decimals of lengths.
 const PLACES: usize = 3;
 
 impl Plate {

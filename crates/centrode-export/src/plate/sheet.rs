@@ -20,7 +20,7 @@ const SIDES: usize = 40;
 const MARK: f64 = 0.6;
 /// How much farther from a hole than next to it its label may be, mm.
 const FARTHER: [f64; 4] = [0.0, 2.0, 5.0, 9.0];
-/// Places of lengths.
+/// Decimals of lengths.
 const PLACES: usize = 3;
 
 impl Plate {
@@ -97,7 +97,7 @@ impl Plate {
         lines
     }
 
-    /// Whether the axes of all places cross on the part.
+    /// Whether the axes of all positions cross on the part.
     fn shows_axes(&self) -> bool {
         let Bounds { min, max } = self.outline.bounds();
         min.x < 0.0 && max.x > 0.0 && min.y < 0.0 && max.y > 0.0

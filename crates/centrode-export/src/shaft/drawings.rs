@@ -26,7 +26,7 @@ fn rectangle(low: Point, high: Point) -> EntityShape {
 /// The developed surface of the shaft, to be laid round it: along x the arc `R phi`, along y the axis.
 ///
 /// Layers: BLANK the edge, WALL the upper edges of the existing walls, CENTER the centre line,
-/// PICK the places of the slider while a seedling is picked, TEXT. Polylines are within the tolerance.
+/// PICK the positions of the slider while a seedling is picked, TEXT. Polylines are within the tolerance.
 ///
 /// # Errors
 /// [`ShaftError`] where body and groove do not go together.
@@ -83,7 +83,7 @@ pub fn developed(shaft: &SpiralShaft, tolerance: Tolerance) -> Result<Drawing, S
     Ok(drawing)
 }
 
-/// A way on the unrolled development cut into pieces of one turn each.
+/// A path on the unrolled development cut into pieces of one turn each.
 fn wrapped(way: &[Point], around: f64) -> Vec<Vec<Point>> {
     let mut pieces: Vec<Vec<Point>> = Vec::new();
     for pair in way.windows(2) {

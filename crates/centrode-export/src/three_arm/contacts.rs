@@ -73,7 +73,7 @@ impl Mesh {
     }
 }
 
-/// Places at which the flanks of sun, intermediate gears and planets touch, while the carrier drives by the sun that is
+/// Positions at which the flanks of sun, intermediate gears and planets touch, while the carrier drives by the sun that is
 /// held; without teeth the pitch points alone.
 #[must_use]
 pub fn contacts(mechanism: &ThreeArm, teeth: Option<&GearPair>) -> Vec<Contacts> {
@@ -113,7 +113,7 @@ pub fn contacts(mechanism: &ThreeArm, teeth: Option<&GearPair>) -> Vec<Contacts>
     .collect()
 }
 
-/// Paths of contact of a mesh of the first chain: inputs, ascending, and places in the machine's axes.
+/// Paths of contact of a mesh of the first chain: inputs, ascending, and positions in the machine's axes.
 fn touching(mechanism: &ThreeArm, teeth: Option<&GearPair>, mesh: Mesh) -> Vec<Vec<(f64, Point)>> {
     let Some(pair) = teeth else {
         return Vec::new();

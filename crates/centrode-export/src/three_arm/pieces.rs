@@ -9,7 +9,7 @@ use crate::plate::Plate;
 pub(super) type Pieces = Vec<(Mounted, MassProperties)>;
 
 impl Builder<'_> {
-    /// A plate as a body to be mounted at places, mm.
+    /// A plate as a body to be mounted at positions, mm.
     pub(super) fn pieces(
         &mut self,
         plate: &Plate,

@@ -107,7 +107,7 @@ const BEFORE: f64 = 3.2;
 const ARROW: f64 = 7.0;
 const OUT: f64 = 6.0;
 
-/// Places of a section along its keyway, as shares of its length, in the order in which they are tried.
+/// Positions of a section along its keyway, as shares of its length, in the order in which they are tried.
 const PLANES: [f64; 7] = [0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8];
 
 /// The ends of the plane of a section across a shaft, seen towards the left end: in the middle of a keyway or near it, where its

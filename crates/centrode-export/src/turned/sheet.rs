@@ -16,7 +16,7 @@ use crate::{fit, grade, number::mass, treatment::treatment_note};
 const SECTION: char = 'C';
 /// Tolerance class of the width of a ring's groove, ISO 286.
 const GROOVE: &str = "H13";
-/// Places of lengths.
+/// Decimals of lengths.
 const PLACES: usize = 3;
 /// Distance of heights that are one, mm: rounding.
 const ROUNDING: f64 = 1e-6;

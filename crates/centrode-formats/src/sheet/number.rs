@@ -1,4 +1,4 @@
-/// Number to so many places, without trailing zeros.
+/// Number to so many decimals, without trailing zeros.
 pub fn number(x: f64, places: usize) -> String {
     let text = format!("{x:.places$}");
     let text = match text.contains('.') {

@@ -1,4 +1,4 @@
-//! Products in their places: one file with every body once, coloured, and each piece by its name.
+//! Products in their positions: one file with every body once, coloured, and each piece by its name.
 
 use centrode_geometry::{Shell, Solid};
 use nalgebra::Isometry3;
@@ -30,7 +30,7 @@ pub struct Component<'a> {
     pub items: Vec<(String, Isometry3<f64>)>,
 }
 
-/// Writes products in their places as one STEP AP214 file in millimetres, called `name`, the assembly `title`.
+/// Writes products in their positions as one STEP AP214 file in millimetres, called `name`, the assembly `title`.
 ///
 /// Each body is as exact as [`super::write`] has it, and is in the file once, for any number of pieces.
 ///

@@ -229,7 +229,7 @@ impl<'a> ExtrusionWriter<'a> {
         self.data.add(format_args!("{kind}('',{ring},.T.)"))
     }
 
-    /// A boundary of a face from edges all walked the same way.
+    /// A boundary of a face from edges all walked in the same direction.
     fn bound(&mut self, kind: &str, edges: &[Id], forward: bool) -> Id {
         let edges: Vec<Id> = edges
             .iter()

@@ -243,7 +243,7 @@ impl JsonSchema for Phase {
 }
 
 impl TeethSpec {
-    /// Checks the ranges, and that backlash is given in one way only.
+    /// Checks the ranges, and that backlash is given only once.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.

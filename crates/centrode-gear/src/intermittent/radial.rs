@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 use centrode_geometry::{Point, Tolerance, Vector};
 use nalgebra::Isometry2;
 
-/// Distance of places from a chord, as a share of the tolerance, within which they are as far off: rounding.
+/// Distance of points from a chord, as a share of the tolerance, within which they are as far off: rounding.
 const ALIKE: f64 = 1e-6;
 /// Directions in which a contour's radius is stored.
 const DIRECTIONS: usize = 32_768;

@@ -143,7 +143,7 @@ impl Polar {
         Ok((table, Interpolation::Cubic.name()))
     }
 
-    /// Refuses keys of another way to give the radius than the one in use.
+    /// Refuses keys of another definition of the radius than the one in use.
     fn nothing_of(&self, ways: &[&str]) -> Result<(), PitchError> {
         let given = [
             ("radius", "radius", !self.radius.is_empty()),

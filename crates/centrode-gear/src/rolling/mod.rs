@@ -186,7 +186,7 @@ impl Rolling {
     }
 
     /// Whether the pitch curves swing more than twice a tooth of a driver with `teeth`: every wave has its peak, and their
-    /// teeth are sampled at few places.
+    /// teeth are sampled at few inputs.
     #[must_use]
     pub fn oscillates_per_tooth(&self, teeth: u32) -> bool {
         self.swings > 2 * teeth as usize

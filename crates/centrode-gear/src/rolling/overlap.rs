@@ -6,7 +6,7 @@ use centrode_geometry::{COMPUTED, Extreme, Point, bracketed_minimum, checkpoint}
 
 use super::Rolling;
 
-/// Places on a turn of the driver among which an overlap is searched.
+/// Positions on a turn of the driver among which an overlap is searched.
 const PLACES: usize = 360;
 
 /// A point of the driver's pitch curve, with that of the driven gear's curve there.
@@ -87,7 +87,7 @@ impl Rolling {
         radius - point.coords.norm()
     }
 
-    /// Poses and places, by their numbers, at which a position is deeper than those next to it at that pose, and than at the
+    /// Poses and positions, by their numbers, at which a position is deeper than those next to it at that pose, and than at the
     /// poses next to it; each with its depth, by chords.
     fn suspects(&self, places: &[Place]) -> Vec<(f64, [i64; 2])> {
         let count = PLACES as i64;

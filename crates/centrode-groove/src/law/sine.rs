@@ -18,7 +18,7 @@ use centrode_spec::rule::{count_in_range, finite, positive};
 pub struct Sine {
     /// Amplitude `B`, mm; 0 for a plain shaft.
     pub amplitude: f64,
-    /// Slow places a turn, `n`.
+    /// Slow points per turn, `n`.
     pub harmonic: u32,
     /// Shaft angle `theta_0` of a slow point, rad (degrees in the file).
     #[serde(rename = "phase_deg", with = "degrees")]
@@ -45,7 +45,7 @@ pub struct AmplitudeFor {
     pub window: f64,
     /// Lead, mm a turn.
     pub lead: f64,
-    /// Slow places a turn.
+    /// Slow points per turn.
     pub harmonic: u32,
 }
 

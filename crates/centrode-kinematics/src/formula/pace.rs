@@ -3,13 +3,13 @@
 use super::{Formula, Taylor};
 use centrode_geometry::WRITTEN;
 
-/// Places of a turn at which any formula is sampled.
+/// Samples per turn of any formula.
 const FEWEST: usize = 512;
 
-/// Most places: a bump is seen where one of them lies within seven of its widths.
+/// Maximum number of samples: a bump is found where one of them lies within seven of its widths.
 const MOST: usize = 1 << 18;
 
-/// Maximum rate a radian of which features are found wherever they are without being searched.
+/// Features slower than this rate, 1/rad, are resolved by the default partition.
 const GENTLE: f64 = 12.0;
 
 /// Length of a part, as a multiple of the width of the narrowest feature.
@@ -103,7 +103,8 @@ impl Formula {
         Ok((1..count).map(|k| turn * k as f64 / count as f64).collect())
     }
 
-    /// Maximum rates a radian, at even places of a turn: of what a function is of, and of what follows, as a share of its range.
+    /// Maximum rates a radian, at even samples of a turn: of what a function is of, and of what follows, as a share of its
+    /// range.
     fn rates(&self, turn: f64, count: usize) -> [f64; 2] {
         let step = turn / count as f64;
         let mut courses = vec![Course::NONE; self.program.len()];

@@ -100,7 +100,7 @@ impl<const N: usize> Length<N, f64> for Taylor<N> {
 
 /// The common joint of two bars from `p` and `q`, `first` and `second` long.
 ///
-/// With d the way from p to q and s = d², the joint is p + a d + h d⊥, where
+/// With d the vector from p to q and s = d², the joint is p + a d + h d⊥, where
 /// a = 1/2 + (first² - second²) / (2 s) and, after Heron,
 /// h = sqrt(((first + second)² - s) (s - (first - second)²)) / (2 s).
 /// That it stays so far from p and from q gives its derivatives one after the other: each is the solution of the two

@@ -77,7 +77,7 @@ impl Needed {
 }
 
 impl Linkage {
-    /// Places of points of links, given in their axes in mm, at each of many inputs, mm: all points at the first input, then
+    /// Positions of points of links, given in their axes in mm, at each of many inputs, mm: all points at the first input, then
     /// at the second and so on; equal to [`place`](Self::place) but for a few units in the last digit, computed side by side,
     /// and of the links on which these depend alone.
     ///

@@ -334,7 +334,7 @@ impl Machine {
         self.linkage.place(self.bodies[body].link, at, input)
     }
 
-    /// Places of points of bodies at each of many inputs, mm, input by input; see [`Linkage::places_each`].
+    /// Positions of points of bodies at each of many inputs, mm, input by input; see [`Linkage::places_each`].
     ///
     /// # Panics
     /// Never for indices of bodies.

@@ -130,7 +130,7 @@ impl ThreeArm {
     }
 }
 
-/// Places of the fork that are sampled.
+/// Positions of the fork that are sampled.
 const SWINGS: u32 = 24;
 
 /// Distance of the farthest corner or rounding of a contour from a position, mm.

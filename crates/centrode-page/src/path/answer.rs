@@ -167,7 +167,7 @@ impl Answer {
     }
 }
 
-/// Places on the path where an axis is not possible.
+/// Positions on the path where an axis is not possible.
 fn places(fault: &AxisFault) -> Vec<Mark> {
     match fault {
         AxisFault::Extremes { maxima } => {

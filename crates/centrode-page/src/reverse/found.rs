@@ -190,7 +190,7 @@ fn check_crossing(design: &PathDesign, path: &RequiredPath) -> Result<(), NotFou
     }
 }
 
-/// Lines on how far a path was eased, and what full teeth it bears.
+/// Lines on how far a path was eased, and which full teeth it allows.
 fn eased_words(eased: &EasedPath, module: Option<f64>, is_moved: bool) -> Vec<Labelled> {
     let mm = |x: f64| Unit::Millimetre.with_unit(x);
     let moved = eased.moved.iter().enumerate();

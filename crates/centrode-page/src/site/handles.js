@@ -236,7 +236,7 @@ export class Handles {
     const bounds = this.stage.box.getBoundingClientRect();
     const place = [event.clientX - bounds.left, event.clientY - bounds.top];
     const plane = this.within(own[0], this.pointed(event));
-    // Between the places of poses, or of a stroke, no curve is known.
+    // Between the positions of poses, or of a stroke, no curve is known.
     const i = points.smooth ? this.spanAt(own, place) : points.halfway ? null : this.sectorAt(own, place, plane);
     if (i === null) return;
     event.stopPropagation();

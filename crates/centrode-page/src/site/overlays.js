@@ -1,4 +1,4 @@
-// What can be laid over the picture: the machine at other places of its cycle, and dimensions.
+// What can be laid over the picture: the machine at other positions of its cycle, and dimensions.
 
 import { bore, reach } from "./reach.js";
 import { color } from "./theme.js";

@@ -1,4 +1,4 @@
-// How goals and ways of points answer one number of the design.
+// How goals and paths of points respond to one number of the design.
 
 import uPlot from "./uplot.js";
 import { axes, line } from "./axes.js";

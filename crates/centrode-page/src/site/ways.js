@@ -1,4 +1,4 @@
-// Ways of a machine's points at several values of one number, over each other.
+// Paths of a machine's points at several values of one number, over each other.
 
 import { element } from "./elements.js";
 import { Painter, Scene } from "./painter.js";

@@ -116,7 +116,7 @@ impl ReversedMachine {
         fewest_steps(of_steps, |made| made.tip_error.value <= enough)
     }
 
-    /// The machine with obstacles in the places that it must keep out of, and as goals the clearances of its bodies from them.
+    /// The machine with obstacles where it must not be, and as goals the clearances of its bodies from them.
     #[must_use]
     pub fn with_obstacles(mut self, keep_out: &BTreeMap<String, KeepOut>) -> Self {
         for (name, shape) in keep_out {

@@ -194,7 +194,7 @@ pub(super) fn taylor<const N: usize>(all: [f64; 3]) -> Taylor<N> {
     Taylor(std::array::from_fn(|k| all.get(k).copied().unwrap_or(0.0)))
 }
 
-/// Places along a path at which its distance from an axis is greater, or less, than next to them.
+/// Positions along a path at which its distance from an axis is greater, or less, than next to them.
 fn extremes(path: &RequiredPath, axis: Point) -> Vec<Place> {
     let slope_of = |jet: &Jet| (jet.point - axis).dot(&jet.first);
     let slope = |t: f64| slope_of(&path.at(t));

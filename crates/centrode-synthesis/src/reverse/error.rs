@@ -167,14 +167,14 @@ pub enum AxisFault {
         /// Maximum allowed, mm.
         limit: f64,
     },
-    /// The distance from the axis has several maximum or minimum places.
+    /// The distance from the axis has several maximum or minimum points.
     #[error(
         "the distance from the axis has {} maxima along the path, at {}, and as many minima; it must have one of each, where the arm is stretched and folded",
         maxima.len(),
         places(maxima)
     )]
     Extremes {
-        /// Places on the path where the distance is greater than next to them, mm.
+        /// Positions on the path where the distance is greater than next to them, mm.
         maxima: Vec<Point>,
     },
     /// The path is a circle about the axis.

@@ -57,7 +57,7 @@ impl Limit {
         found
     }
 
-    /// A'' and V'' at a step: very near the extreme by the line through two places farther from it on the same side.
+    /// A'' and V'' at a step: very near the extreme by the line through two points farther from it on the same side.
     pub(super) fn second(
         &self,
         path: &RequiredPath,

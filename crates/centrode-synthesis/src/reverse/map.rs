@@ -11,7 +11,7 @@ const GRID: u32 = 33;
 const HALVINGS: u32 = 24;
 const BESIDE: i32 = 2;
 
-/// Places of a grid at which carrier axes are tried, first and last along x and y included.
+/// Positions of a grid at which carrier axes are tried, first and last along x and y included.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AxisRange {
     /// Minimum and maximum x, mm.

@@ -1,6 +1,6 @@
 //! Synthesis of a machine from the path required of its tip.
 //!
-//! A carrier turns about a fixed axis and bears an arm, whose tip runs along the path. The carrier turns once for one run
+//! A carrier turns about a fixed axis and supports an arm, whose tip runs along the path. The carrier turns once for one run
 //! of the path, and the arm turns once against it in the opposite direction, as the planet of a train does whose sun is fixed
 //! and whose mean ratio is 1. Stretched once and folded once, the two bars follow from the path and the axis alone.
 //!

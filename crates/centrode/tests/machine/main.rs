@@ -455,7 +455,7 @@ fn the_torque_of_every_machine_is_that_of_virtual_work_and_feeds_its_energy() {
         heavy += usize::from(size > 1e-3);
         let worst = looks.iter().map(|(off, _)| *off).fold(0.0, f64::max);
         assert!(worst <= 1e-10 * size, "{name}: {worst} of {size}");
-        // Where an acceleration jumps the slope is none; that is at few places.
+        // Where an acceleration jumps the slope is none; that is at few samples.
         let far = looks.iter().filter(|(_, off)| *off > 1e-6 * size).count();
         assert!(far <= 6, "{name}: {far} of 60 inputs, {size}");
     }

@@ -9,7 +9,7 @@ use super::super::picture::{placed, pose};
 
 /// Parts of a period in which the path of a point is drawn.
 const STEPS: u32 = 720;
-/// Distance within which a way runs along itself, as a share of its size.
+/// Distance within which a path runs along itself, as a share of its size.
 const ALONG: f64 = 2e-4;
 
 /// Air round the ends of dimensions, as a share of the machine's size.
@@ -94,7 +94,7 @@ impl<'a> Scene<'a> {
                         once(&way).into_iter().map(Drawn::Open).collect()
                     }
                 };
-                // Only ways are dash-dotted: of short edges dashes would leave nothing.
+                // Only paths are dash-dotted: of short edges dashes would leave nothing.
                 let pen = match line.path {
                     LinePath::Chain(_) if pen == Pen::Axis => Pen::Thin,
                     _ => pen,
@@ -151,7 +151,7 @@ impl<'a> Scene<'a> {
         figures.any(|figure| matches!(figure.seat, Seat::Link(own) if own == link))
     }
 
-    /// Indices of the points whose ways are drawn.
+    /// Indices of the points whose paths are drawn.
     pub(super) fn followed(&self) -> Vec<usize> {
         let drawn = |point: &usize| {
             self.machine.figures.iter().any(|figure| {
@@ -206,7 +206,7 @@ fn way(machine: &LinkedMachine, figure: &Figure, point: &LinkPoint) -> Vec<Point
     (0..=STEPS).map(at).collect()
 }
 
-/// A way with the stretches along which it goes back omitted: dashes drawn twice fill each other's gaps.
+/// A path with the stretches along which it goes back omitted: dashes drawn twice fill each other's gaps.
 fn once(way: &[Point]) -> Vec<Vec<Point>> {
     let near = ALONG * way.iter().copied().collect::<Bounds>().diagonal();
     let mut runs: Vec<Vec<Point>> = Vec::new();

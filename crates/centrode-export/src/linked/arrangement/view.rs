@@ -46,7 +46,7 @@ pub(super) struct View<'a> {
     pub(super) scene: Scene<'a>,
     pub(super) axes: Vec<Axis>,
     pub(super) dimensions: Vec<Measured>,
-    /// Numbers of the parts list by their places.
+    /// Numbers of the parts list by their positions.
     pub(super) balloons: Vec<(Place, String)>,
 }
 

@@ -193,7 +193,7 @@ impl Motion {
         })
     }
 
-    /// The places where segments meet, in order from the start of the cycle.
+    /// The angles at which segments meet, in order from the start of the cycle.
     #[must_use]
     pub fn joins(&self) -> Vec<Join> {
         self.meetings()

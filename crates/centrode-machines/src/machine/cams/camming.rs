@@ -1,4 +1,4 @@
-//! Cams in their places, and the motions of what follows them.
+//! Cams in their positions, and the motions of what follows them.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;

@@ -1,4 +1,4 @@
-//! Cams and followers in their places against each other.
+//! Cams and followers in their positions against each other.
 
 use std::f64::consts::{PI, TAU};
 

@@ -14,7 +14,7 @@ use centrode_spec::rule::{Rule, broken, finite};
 
 /// Size of a half plane against that of the machine.
 const WIDE: f64 = 4.0;
-/// Places at which the width of the ground in the picture is measured.
+/// Positions at which the width of the ground in the picture is measured.
 const SAMPLES: u32 = 90;
 
 /// Scenery that is fixed to the frame or moves with a body: ground, a tray, a wall.

@@ -62,7 +62,7 @@ pub struct MachineLawSpec {
     /// those that make the last step small, at most twice the largest step of the table.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub turns: Option<i32>,
-    /// Places at equal steps of the period, between which a smooth curve runs, mm.
+    /// Positions at equal steps of the period, between which a smooth curve runs, mm.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub table: Vec<f64>,
     /// Rises, returns and dwells over one turn of the input, as for a cam.

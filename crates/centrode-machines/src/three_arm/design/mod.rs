@@ -90,7 +90,7 @@ pub struct ThreeArmDesign {
     /// The gearbox around the gears.
     #[serde(default)]
     pub gearbox: GearboxSpec,
-    /// Picking, planting and travel.
+    /// Picking, planting and feed.
     #[serde(default)]
     pub work: WorkSpec,
     /// The tray the seedlings are picked from.

@@ -5,7 +5,7 @@ use super::angle;
 use centrode_spec::rule::{count_in_range, finite, in_range, not_negative, positive};
 use centrode_spec::{SpecError, degrees};
 
-/// Picking, planting and travel.
+/// Picking, planting and feed.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct WorkSpec {

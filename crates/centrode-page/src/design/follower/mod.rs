@@ -33,7 +33,7 @@ const PIN: f64 = 3.0;
 /// kind.
 ///
 /// What both kinds know stays. Where a slide becomes an arm or vice versa, strokes become turns of the arm by the same length,
-/// and bodies that follow the cam slide or turn in their places.
+/// and bodies that follow the cam slide or turn in their positions.
 pub(super) fn refollowed(
     document: &DocumentMut,
     steps: &[Step],

@@ -178,7 +178,7 @@ impl PosedProblem<'_> {
     }
 }
 
-/// Quick goals of a design, which gets its teeth, and the share by which its module exceeds what the pitch curves bear.
+/// Quick goals of a design, which gets its teeth, and the share by which its module exceeds what the pitch curves allow.
 fn quick(design: &mut ThreeArmDesign) -> Option<(Vec<Goal>, f64)> {
     let mechanism = ThreeArm::resolve(design).ok()?;
     let rolling = mechanism.train().rolling();

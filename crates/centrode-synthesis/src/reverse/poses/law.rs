@@ -160,13 +160,13 @@ impl MildLaw {
         self.law.turns.iter().map(before).collect()
     }
 
-    /// Maximum |ln| of the ratio at 360 places: it ranks laws, no more.
+    /// Maximum |ln| of the ratio at 360 samples: it ranks laws, no more.
     pub(super) fn unevenness(&self) -> f64 {
         let at = |i: u32| ratio(&self.amplitudes, &waves(f64::from(i).to_radians()));
         (0..360).map(|i| at(i).ln().abs()).fold(0.0, f64::max)
     }
 
-    /// Directions of carrier and arm at even places of the carrier from the first pose on, rad.
+    /// Directions of carrier and arm at even samples of the carrier from the first pose on, rad.
     pub(super) fn places(&self, count: usize) -> Vec<[f64; 2]> {
         let [carrier, arm] = self.law.start;
         let step = TAU / count as f64;

@@ -9,7 +9,7 @@ use crate::reverse::sharpness::AVERAGED;
 use crate::reverse::{ReversedMachine, TwoBar};
 use centrode_kinematics::transmission::Transmission as _;
 
-/// Places of a turn at which the curvatures are sampled.
+/// Samples per turn of the curvatures.
 const PLACES: usize = 1024;
 /// Harmonics of the bow.
 const HARMONICS: usize = 8;

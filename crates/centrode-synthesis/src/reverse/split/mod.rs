@@ -24,7 +24,7 @@ const MAX_BEND: f64 = 170.0 / 180.0 * PI;
 /// Distance from a fraction that is rounding.
 const EXACT: f64 = 1e-12;
 
-/// Way in which the total law is split into two stages.
+/// Method by which the total law is split into two stages.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, Hash, JsonSchema, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SplitKind {
@@ -154,7 +154,7 @@ impl Split {
         }
     }
 
-    /// Way in which it was split.
+    /// Method by which it was split.
     #[must_use]
     pub fn kind(&self) -> SplitKind {
         self.kind
@@ -190,7 +190,7 @@ impl Split {
         self.idler_offset
     }
 
-    /// Maximum miss of the equation of one pair twice among 2,000 places, rad; zero of two pairs, which solve theirs.
+    /// Maximum miss of the equation of one pair twice among 2,000 samples, rad; zero of two pairs, which solve theirs.
     #[must_use]
     pub fn miss(&self) -> f64 {
         self.miss

@@ -20,7 +20,7 @@ const SAMPLES: u32 = 4_000;
 const GRIDS: [usize; 4] = [1 << 10, 1 << 13, 1 << 15, 1 << 17];
 /// Nodes of an interpolating polynomial.
 const LOCAL: usize = 6;
-/// Places at which the law is checked, its maximum miss, and the one at which no finer grid is tried, rad.
+/// Positions at which the law is checked, its maximum miss, and the one at which no finer grid is tried, rad.
 const CHECKS: u32 = 2_000;
 const MAX_MISS: f64 = 1e-7;
 const FINE: f64 = 1e-11;
@@ -188,9 +188,9 @@ impl CircleMap {
     }
 }
 
-/// Law at places of the turn.
+/// Law at samples of the turn.
 struct Nodes {
-    /// Places, with some repeated a turn before and after.
+    /// Positions, with some repeated a turn before and after.
     places: Vec<f64>,
     /// Law less its argument there.
     rests: Vec<f64>,

@@ -243,7 +243,7 @@ fn the_map_of_the_drawn_path_has_both_kinds_of_axes() {
     }
 }
 
-/// Both bars turn in one direction at many places, and put the tip on the path.
+/// Both bars turn in one direction at many samples, and put the tip on the path.
 fn turns_one_way(path: &RequiredPath, axis: Point) {
     let chain = TwoBar::new(path, axis, None).expect("a chain");
     let sense = chain.direction().sign();

@@ -210,7 +210,7 @@ impl Timing {
     /// Finds the law of the crank; `output` is the output's position by the crank's angle, over one turn.
     ///
     /// # Errors
-    /// [`TimingError`] with the section and the numbers: an output that turns back more than twice, places beyond its stroke,
+    /// [`TimingError`] with the section and the numbers: an output that turns back more than twice, positions beyond its stroke,
     /// sections that overlap or that it cannot pass in their order.
     pub fn new(output: Arc<dyn Transmission>, sections: &[Section]) -> Result<Self, TimingError> {
         if sections.is_empty() {
