@@ -695,7 +695,7 @@ def test_a_value_at_fault_is_not_passed_over(page, running):
     solved(page)
     expect(make).to_be_enabled()
     expect(page.locator("#amiss")).to_be_hidden()
-    assert make.get_attribute("title") == "Sound teeth are sought, and the design opened"
+    assert make.get_attribute("title") == "Sound teeth are searched, and the design is opened"
 
 
 def test_a_turn_goes_with_its_point_and_needs_both(page, running):
