@@ -21,7 +21,7 @@ pub struct Goal {
     pub name: Cow<'static, str>,
     /// The goal in a few words.
     pub title: Cow<'static, str>,
-    /// Figure, in `unit`; none where it was not checked.
+    /// Figure, in `unit`; `None` if it was not checked.
     #[serde(serialize_with = "figure::option")]
     #[schemars(with = "Option<JsonNumber>")]
     pub value: Option<f64>,
@@ -121,7 +121,7 @@ impl Goal {
         }
     }
 
-    /// Whether it is reached; none where it was not checked.
+    /// Whether it is reached; `None` if it was not checked.
     #[must_use]
     pub fn met(&self) -> Option<bool> {
         self.margin.map(|margin| margin >= 0.0)

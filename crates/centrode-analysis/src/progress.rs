@@ -58,7 +58,7 @@ impl Progress {
 }
 
 impl Part {
-    /// The part that the calling thread fills; none where nobody waits.
+    /// The part that the calling thread fills; `None` if nobody waits.
     pub(crate) fn current() -> Option<Self> {
         CURRENT.with_borrow(Clone::clone)
     }

@@ -178,7 +178,7 @@ impl Report {
         self.findings.iter().all(|f| f.severity < Severity::Error)
     }
 
-    /// Unit of a figure of `values`; none for a key that is in no group.
+    /// Unit of a figure of `values`; `None` for a key that is in no group.
     #[must_use]
     pub fn unit(&self, key: &str) -> Option<Unit> {
         let mut rows = self.groups.iter().flat_map(|group| group.rows);

@@ -94,7 +94,7 @@ pub trait Mechanism: Any + Debug + Send + Sync {
         false
     }
 
-    /// Picture with details that take longer to make; none where nothing is omitted at first, or nothing can be made.
+    /// Picture with details that take longer to make; `None` if nothing is omitted at first, or nothing can be made.
     fn detailed(&self) -> Option<Picture> {
         None
     }
@@ -137,7 +137,7 @@ impl dyn Mechanism {
         }
     }
 
-    /// Casts to the mechanism of a family; none for another family.
+    /// Casts to the mechanism of a family; `None` for another family.
     #[must_use]
     pub fn downcast<M: Mechanism>(self: Arc<Self>) -> Option<Arc<M>> {
         let any: Arc<dyn Any + Send + Sync> = self;

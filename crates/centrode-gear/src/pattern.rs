@@ -49,7 +49,7 @@ impl Pattern {
         self.count / self.period
     }
 
-    /// Image that a position is; none for a position that others are images of.
+    /// Image that a position is; `None` for a position that others are images of.
     pub(crate) fn image(&self, place: u32) -> Option<Image> {
         let period = i64::from(self.period);
         let first = i64::from(place) % period;

@@ -31,7 +31,7 @@ const BETWEEN: f64 = 1e-2;
 type Place = (f64, [f64; 2]);
 
 impl Fitting<'_> {
-    /// The corner of a space of some depth next to a flank that a tip works on; none where it would cut into that flank.
+    /// The corner of a space of some depth next to a flank that a tip works on; `None` if it would cut into that flank.
     pub(super) fn corner_below(
         &self,
         member: Member,

@@ -59,7 +59,7 @@ impl SpiralShaft {
         &self.law
     }
 
-    /// Amplitude of a sine, mm; none for other laws.
+    /// Amplitude of a sine, mm; `None` for other laws.
     #[must_use]
     pub fn amplitude(&self) -> Option<f64> {
         match &self.law {

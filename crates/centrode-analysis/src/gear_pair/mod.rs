@@ -205,7 +205,7 @@ fn sampled_corners(pair: &GearPair) -> impl Iterator<Item = Finding> {
     })
 }
 
-/// The overlap of the pitch curves away from the point at which they roll, as a finding; none where they only roll.
+/// The overlap of the pitch curves away from the point at which they roll, as a finding; `None` if they only roll.
 #[must_use]
 pub fn pitch_overlap(pair: &GearPair) -> Option<Finding> {
     let Extreme { input, value } = pair.rolling().overlap()?;

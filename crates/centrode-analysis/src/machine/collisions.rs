@@ -28,7 +28,7 @@ pub(super) struct PartSurfaces<'a> {
 }
 
 impl<'a> PartSurfaces<'a> {
-    /// The part; none where it has no surface.
+    /// The part; `None` if it has no surface.
     pub(super) fn new(
         name: &'a str,
         link: usize,

@@ -35,7 +35,7 @@ impl Loaded {
         })
     }
 
-    /// Forces at an input; none where they are not determined.
+    /// Forces at an input; `None` if they are not determined.
     pub(super) fn at(&self, input: f64) -> Option<Forces> {
         let speed = self.balance.machine().input.speed;
         match self.balance.at(input, speed) {
@@ -79,7 +79,7 @@ impl Loaded {
     }
 }
 
-/// A figure of the forces of a state, N or N mm; none where it is none of theirs or not determined. Forces in joints and pins are
+/// A figure of the forces of a state, N or N mm; `None` if it is none of theirs or not determined. Forces in joints and pins are
 /// sizes; that of a mesh has the sign of [`crate::forces::ToothForce`].
 pub(super) fn part(forces: &Forces, figure: &MachineFigure) -> Option<f64> {
     match *figure {

@@ -199,13 +199,13 @@ impl<'a> Made<'a> {
         }
     }
 
-    /// Its bodies as links; none where a plate is no solid.
+    /// Its bodies as links; `None` if a plate is no solid.
     fn machine(&self) -> Option<&LinkedMachine> {
         let made = || self.composed.machine().ok();
         self.machine.get_or_init(made).as_ref()
     }
 
-    /// Its links with their contours, with whatever else is known of them; none where a plate is no solid.
+    /// Its links with their contours, with whatever else is known of them; `None` if a plate is no solid.
     fn outlined(&self) -> Option<&LinkedMachine> {
         match self.machine.get() {
             Some(made) => made.as_ref(),

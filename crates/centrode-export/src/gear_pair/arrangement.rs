@@ -200,7 +200,7 @@ pub(crate) fn of_both(pair: &GearPair, of: Option<Member>) -> Vec<Datum> {
     data
 }
 
-/// Half of what a pair with a normal backlash, mm, lets its centre distance be shorter, mm; none without backlash.
+/// Half of what a pair with a normal backlash, mm, lets its centre distance be shorter, mm; `None` without backlash.
 pub(crate) fn half_backlash(pair: &GearPair, backlash: f64) -> Option<f64> {
     let [minimum, _] = pair.backlash_limits(backlash);
     (minimum > 0.0).then(|| 0.5 * shorter(pair, minimum))

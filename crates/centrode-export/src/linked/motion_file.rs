@@ -78,7 +78,7 @@ pub struct JointWords {
     pub factor: f64,
     /// Offset: the joint is zero where the cycle begins.
     pub offset: f64,
-    /// Column of its rate; none for a joint that moves evenly.
+    /// Column of its rate; `None` for a joint that moves evenly.
     pub rate: Option<String>,
     /// Factor from that column to the joint's rate by the input, rad/rad or m/rad.
     pub rate_factor: f64,

@@ -61,7 +61,7 @@ impl<'a> Still<'a> {
         }
     }
 
-    /// A line as a path; none for the path of a point.
+    /// A line as a path; `None` for the path of a point.
     pub(super) fn path(&self, line: &Line) -> Option<Path> {
         let role = line.role;
         match &line.path {

@@ -56,7 +56,7 @@ pub(super) fn add(
     Ok(())
 }
 
-/// A body as a plate; none for one without a contour.
+/// A body as a plate; `None` for one without a contour.
 fn plate(
     composed: &Machine,
     machine: &LinkedMachine,

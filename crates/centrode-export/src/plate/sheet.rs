@@ -286,7 +286,7 @@ impl Plate {
             })
     }
 
-    /// The contour's corners and roundings; none for one with more than a sheet would be read for.
+    /// The contour's corners and roundings; `None` for one with more than a sheet would be read for.
     fn contour_table(&self) -> Option<Table> {
         if !self.is_stated() {
             return None;

@@ -225,7 +225,7 @@ impl Linkage {
     }
 }
 
-/// Sine of the angle of a dyad's two guides, with its sign; none for another dyad.
+/// Sine of the angle of a dyad's two guides, with its sign; `None` for another dyad.
 fn slant(step: &Step, series: &Series<1>) -> Option<f64> {
     match step {
         Step::Prp {

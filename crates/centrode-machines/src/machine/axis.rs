@@ -28,7 +28,7 @@ impl Builder<'_> {
         angle
     }
 
-    /// Position, in the axes of a body that carries it, of a point of another that is fixed there; none where it moves by
+    /// Position, in the axes of a body that carries it, of a point of another that is fixed there; `None` if it moves by
     /// more than a length.
     pub(super) fn axis_on(&self, carrier: usize, mut point: BodyPoint, size: f64) -> Option<Point> {
         loop {

@@ -108,7 +108,7 @@ pub struct MachineBody {
     pub name: String,
     /// Link of the linkage.
     pub link: LinkId,
-    /// Joint that carries it; none for the frame.
+    /// Joint that carries it; `None` for the frame.
     pub mount: Option<Mount>,
 }
 

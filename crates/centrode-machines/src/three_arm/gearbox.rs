@@ -72,7 +72,7 @@ impl ThreeArm {
         })
     }
 
-    /// Bearing in the carrier's plates on a shaft of a diameter, mm; none where the design has none, or where none is as narrow
+    /// Bearing in the carrier's plates on a shaft of a diameter, mm; `None` if the design has none, or where none is as narrow
     /// as the plates are thick.
     #[must_use]
     pub fn bearing(&self, bore: f64) -> Option<Bearing> {

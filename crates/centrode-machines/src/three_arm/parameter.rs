@@ -119,7 +119,7 @@ impl Parameter {
         )
     }
 
-    /// Value in a design, rad or mm; none where the design does not write it.
+    /// Value in a design, rad or mm; `None` if the design does not write it.
     #[must_use]
     pub fn of(self, design: &ThreeArmDesign) -> Option<f64> {
         let spline = || match &design.pitch {

@@ -65,7 +65,7 @@ impl ThreeArm {
         all.into_iter().flatten().collect()
     }
 
-    /// Shaft of the sun, which is fixed and about which the carrier turns; none without a gearbox, or a bore of the sun.
+    /// Shaft of the sun, which is fixed and about which the carrier turns; `None` without a gearbox, or a bore of the sun.
     #[must_use]
     pub fn carrier_shaft(&self) -> Option<TurnedPieces> {
         let (design, [rear, front]) = (self.design(), self.gearbox()?.spans);

@@ -22,7 +22,8 @@ const WISHES: [&str; 3] = ["goals", "bounds", "optimise"];
 /// A key of a design, and its value.
 type Entry = (String, Json);
 
-/// Design of another family with those keys of this one that make a mechanism there; none where it is of this family, or there is no such family.
+/// Design of another family with those keys of this one that make a mechanism there; `None` if it is of this family, or there is
+/// no such family.
 ///
 /// It starts from the template of the family. A key is copied to the same path, else to one with the same ending (`lead`,
 /// `shaft.lead`), and a few that mean the same everywhere by their names alone.

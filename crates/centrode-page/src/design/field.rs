@@ -171,7 +171,7 @@ pub(crate) fn required(text: &str, table: &str) -> Vec<(String, Value)> {
         .collect()
 }
 
-/// Effective list of a key; none for any other key.
+/// Effective list of a key; `None` for any other key.
 pub(crate) fn list(text: &str, key: &str) -> Option<Value> {
     let mut fields = tables(text).into_iter().flat_map(|table| table.fields);
     let field = fields.find(|field| field.key == key)?;

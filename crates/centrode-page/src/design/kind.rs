@@ -9,7 +9,7 @@ use toml_edit::{DocumentMut, InlineTable, Item, Value};
 /// Maximum number of keys of other tables that give way to a new kind.
 pub(super) const MOST: usize = 3;
 
-/// Changes the kind of the table at a path; none where the table has no kinds, or not this one.
+/// Changes the kind of the table at a path; `None` if the table has no kinds, or not this one.
 ///
 /// Keys that the new kind has too stay, others go, and its required keys get a value, so that the design is a
 /// mechanism: copied keys are dropped for that, then optional keys outside the table.

@@ -39,7 +39,7 @@ impl Wish {
         PathDesign::from_toml(&text).map_err(|error| error.message())
     }
 
-    /// Key poses; none where a path is given.
+    /// Key poses; `None` if a path is given.
     pub(super) fn poses(&self) -> Option<Vec<KeyPose>> {
         let pose = |[x, y, direction]: &[f64; 3]| KeyPose {
             point: Point::new(*x, *y),

@@ -43,7 +43,7 @@ const DIRECTION_TOLERANCE: usize = 4;
 pub struct RequiredPoints {
     /// The points in order, mm.
     pub points: Vec<Point>,
-    /// Distance within which the path may pass each point, mm; none where the file has no such column.
+    /// Distance within which the path may pass each point, mm; `None` if the file has no such column.
     pub tolerances: Option<Vec<f64>>,
     /// Directions of the clamp required at some of them.
     pub directions: Vec<RequiredDirection>,

@@ -211,7 +211,7 @@ impl PathDesign {
         }
     }
 
-    /// Distances within which the path may pass its points, mm, one for all or one for each; none where it is to be followed as
+    /// Distances within which the path may pass its points, mm, one for all or one for each; `None` if it is to be followed as
     /// it is, and nothing else is required.
     #[must_use]
     pub fn bands(&self) -> Option<Vec<f64>> {

@@ -172,7 +172,7 @@ impl AxisMap {
     }
 
     /// The gentlest axis: that of the smallest maximum |ln| of the ratio, refined from the best of the grid by ever finer
-    /// grids about it within its bounds; none where no axis of the grid is possible.
+    /// grids about it within its bounds; `None` if no axis of the grid is possible.
     #[must_use]
     pub fn mildest(&self, path: &RequiredPath) -> Option<TwoBar> {
         let axis = self.minimum(PossibleAxis::unevenness)?;

@@ -36,7 +36,7 @@ pub(super) enum Likeness {
     All,
 }
 
-/// How far the two gears of a pair are one part; none where their teeth differ.
+/// How far the two gears of a pair are one part; `None` if their teeth differ.
 pub(super) fn likeness(pair: &GearPair) -> Option<Likeness> {
     if !pair.congruent() {
         return None;

@@ -15,7 +15,7 @@ pub(super) struct Axis {
     pub(super) at: Point,
     /// The links that it joins, each by the first of those it is fixed to: the one that carries, and the one carried.
     pub(super) links: [usize; 2],
-    /// The joint of the tree; none for a pin next to it.
+    /// The joint of the tree; `None` for a pin next to it.
     pub(super) joint: Option<usize>,
     /// Name: that of the mark there, or of the link carried.
     pub(super) name: String,

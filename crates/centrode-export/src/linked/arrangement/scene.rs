@@ -35,7 +35,7 @@ pub(super) struct Scene<'a> {
     pub(super) whole: Bounds,
 }
 
-/// How a line looks on a sheet, ISO 128-2; none for one that helps in designing and is no part of the machine.
+/// How a line looks on a sheet, ISO 128-2; `None` for one that helps in designing and is no part of the machine.
 fn pen(role: LineRole, seen_through: bool) -> Option<Pen> {
     match role {
         LineRole::Body | LineRole::Hole if seen_through => Some(Pen::Adjacent),

@@ -121,7 +121,7 @@ impl SegmentSpec {
         }
     }
 
-    /// Lift and swing as written; none for a dwell.
+    /// Lift and swing as written; `None` for a dwell.
     fn strokes(&self) -> Option<(Option<f64>, Option<f64>)> {
         match self {
             Self::Rise(travel) | Self::Return(travel) => Some((travel.lift, travel.swing)),

@@ -52,7 +52,7 @@ impl BodyPoint {
 pub(in crate::machine) struct Reference {
     /// The body.
     pub(in crate::machine) body: String,
-    /// The point; none for the origin.
+    /// The point; `None` for the origin.
     pub(in crate::machine) point: Option<String>,
 }
 

@@ -122,7 +122,7 @@ impl Machine {
         self.gears_bottom() - depth.sum::<f64>()
     }
 
-    /// Roller of a body that follows a cam, in the body's axes; none for a flat face or a point.
+    /// Roller of a body that follows a cam, in the body's axes; `None` for a flat face or a point.
     pub(in crate::machine) fn roller(&self, body: &str) -> Option<Outline> {
         let follows = |cam: &&MachineCam| cam.followers.iter().any(|name| name == body);
         let disc = self.cams.iter().find(follows)?.disc();

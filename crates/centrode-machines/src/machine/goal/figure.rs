@@ -302,7 +302,7 @@ impl Machine {
         })
     }
 
-    /// Value of a figure at an input, in mm, rad, mm/s, m/s² or rad/s; none for a clearance, which is of the whole cycle, for a
+    /// Value of a figure at an input, in mm, rad, mm/s, m/s² or rad/s; `None` for a clearance, which is of the whole cycle, for a
     /// force, nor for a figure of a pair.
     #[must_use]
     pub fn value(&self, figure: &MachineFigure, input: f64) -> Option<f64> {

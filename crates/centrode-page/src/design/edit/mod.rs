@@ -93,7 +93,7 @@ impl Step {
         Self::Name(name.into())
     }
 
-    /// Name of the key; none for the index in a list.
+    /// Name of the key; `None` for the index in a list.
     pub(super) fn name(&self) -> Option<&str> {
         match self {
             Self::Name(name) => Some(name),
@@ -301,7 +301,7 @@ fn append(list: &mut Array, mut value: Value) {
     }
 }
 
-/// Value as it is written in a design file; none for a table and for numbers that are not finite.
+/// Value as it is written in a design file; `None` for a table and for numbers that are not finite.
 pub(super) fn written(value: &Json) -> Option<Value> {
     Some(match value {
         Json::Bool(b) => (*b).into(),

@@ -29,7 +29,7 @@ const APART: i64 = 30;
 /// Position of a new pin, as a share of the base radius.
 const PIN: f64 = 3.0;
 
-/// Changes the kind of the follower at a path; none for anything but the follower of a cam on a body, or where it is of this
+/// Changes the kind of the follower at a path; `None` for anything but the follower of a cam on a body, or where it is of this
 /// kind.
 ///
 /// What both kinds know stays. Where a slide becomes an arm or vice versa, strokes become turns of the arm by the same length,

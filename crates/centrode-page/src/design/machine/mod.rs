@@ -20,7 +20,7 @@ use toml_edit::DocumentMut;
 /// Most designs that are tried.
 const TRIES: usize = 64;
 
-/// Changes the type of the dyad at a path; none where there is no such dyad, or it is of this type.
+/// Changes the type of the dyad at a path; `None` if there is no such dyad, or it is of this type.
 ///
 /// Its bodies, and what they are held by, stay. Where there is such a machine, all is unmoved at some input; points that the old type gave
 /// its bodies, and others are held by, are written out.

@@ -86,7 +86,7 @@ impl PoseLaw {
         self.passed() == self.turns.len()
     }
 
-    /// The law of minimum mean square of ln(ratio) and of its second derivative; none where it does not come out.
+    /// The law of minimum mean square of ln(ratio) and of its second derivative; `None` if it does not come out.
     pub(super) fn mildest(&self) -> Option<MildLaw> {
         let count = self.turns.len();
         let mut amplitudes = [0.0; TERMS];

@@ -197,7 +197,7 @@ struct Nodes {
 }
 
 impl Nodes {
-    /// From the inverse of the law less its argument at equal steps of a turn; none where it turns back.
+    /// From the inverse of the law less its argument at equal steps of a turn; `None` if it turns back.
     fn new(inverse: &[f64]) -> Option<Self> {
         let count = inverse.len();
         let theta = |i: usize| TAU * i as f64 / count as f64;

@@ -88,7 +88,7 @@ struct Wait {
 }
 
 impl Wait {
-    /// Replaces the request being solved for the page; none for one that comes after a later one.
+    /// Replaces the request being solved for the page; `None` for one that comes after a later one.
     fn begin(solver: &Arc<Solver>, page: &str, turn: u64) -> Option<Self> {
         let (cancel, progress) = (Cancel::default(), Progress::default());
         let mut under_way = held(&solver.under_way);
