@@ -270,7 +270,7 @@ fn bad_copies_are_told_by_their_key() {
         (
             "\"idler-1\", \"planet-1\"",
             "\"planet-1\"",
-            "copies.arms: the train does not repeat: planet-1-2 does not stand",
+            "copies.arms: the train does not repeat: planet-1-2 is not",
         ),
     ] {
         let text = good.replacen(from, to, 1);

@@ -306,7 +306,7 @@ fn machines_that_cannot_be_driven_so_are_refused_with_the_reason() {
             },
             "crank",
         ),
-        "no goal says",
+        "no goal defines the output",
     );
     is(
         error(&|t| t.replacen("ram.travel", "rod.angle", 1), "crank"),
