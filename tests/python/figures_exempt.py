@@ -238,7 +238,9 @@ EXEMPT = {
             r"Of 1,000 defects",
             r"in 10 to 106 s of",
         ),
-        "polygons of the outlines in shapely, by hand": (r"^Polygons of the outlines show the same(?:.*\n)*?.*0\.0005 rad",),
+        "polygons of the outlines in shapely, by hand": (
+            r"^Polygons of the outlines show the same(?:.*\n)*?.*0\.0005 rad",
+        ),
     },
     "docs/reverse.md": {
         LIMIT: (
@@ -331,7 +333,11 @@ EXEMPT = {
             r"margin of 1 mm",
             r"carrier at 2 rad/s",
         ),
-        SIMULATED: (r"of 0\.01 mm \| stays within 0\.03 deg(?:.*\n)*?.*within 0\.40 deg", r"at 245 deg.*", r"back at 256 deg"),
+        SIMULATED: (
+            r"of 0\.01 mm \| stays within 0\.03 deg(?:.*\n)*?.*within 0\.40 deg",
+            r"at 245 deg.*",
+            r"back at 256 deg",
+        ),
         RUST: (
             r"<!-- readings -->\n(?:.*\n)*?<!-- end of readings -->",
             r"<!-- all goals -->\n(?:.*\n)*?<!-- end of all goals -->",

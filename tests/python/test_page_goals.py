@@ -110,7 +110,9 @@ def test_goals_of_another_state_are_told_to_be_that(browser, tmp_path):
             tip.fill("146")
             tip.press("Enter")
             expect(page.locator("#goals")).to_have_attribute("aria-busy", "true")
-            expect(page.locator("#findings .title")).to_contain_text("from the previous design: goals, findings, figures")
+            expect(page.locator("#findings .title")).to_contain_text(
+                "from the previous design: goals, findings, figures"
+            )
             expect(page.locator("#goals")).to_have_css("opacity", "0.55")
         known(page)
         settled(page)
