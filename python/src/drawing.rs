@@ -18,7 +18,7 @@ table! {
     ///     projection: "first-angle" or "third-angle".
     ///     general_tolerance: General tolerances.
     ///     edges: State of the edges.
-    ///     surface: Texture of the surfaces that nothing else is said of, ISO 21920.
+    ///     surface: Texture of the surfaces without a texture of their own, ISO 21920.
     ///     fitted_surface: Texture of the surfaces with a tolerance class up to grade 8, and of flanks and profiles.
     ///
     /// >>> import centrode as ct
@@ -47,7 +47,7 @@ table! {
         general_tolerance: String,
         /// State of the edges.
         edges: String,
-        /// Texture of the surfaces that nothing else is said of.
+        /// Texture of the surfaces without a texture of their own.
         surface: String,
         /// Texture of the surfaces with a tolerance class up to grade 8, and of flanks and profiles.
         fitted_surface: String,

@@ -16,7 +16,7 @@ const METRE: f64 = 1e-3;
 #[non_exhaustive]
 pub enum UrdfError {
     /// A joint names a link that is not there.
-    #[error("joint {joint:?} names link {link:?}, which the model has not")]
+    #[error("joint {joint:?} names link {link:?}, which is not in the model")]
     Link {
         /// The joint.
         joint: String,

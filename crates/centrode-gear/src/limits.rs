@@ -44,10 +44,10 @@ pub struct PitchPoint {
     pub driver_curvature: f64,
     /// Curvature of the driven gear's pitch curve, 1/mm.
     pub driven_curvature: f64,
-    /// Angle between the common normal and the driven gear's motion while the driver pushes it on, rad:
+    /// Angle between the common normal and the driven gear's motion while the driver pushes that gear on, rad:
     /// |alpha - mu|, with mu the inclination of the pitch curve, tan mu = r'/r.
     pub pressure_angle: f64,
-    /// Pressure angle while the driver pushes it back, rad: |alpha + mu|.
+    /// Pressure angle while the driver pushes the driven gear back, rad: |alpha + mu|.
     pub reverse_pressure_angle: f64,
 }
 
@@ -139,7 +139,7 @@ impl GearPair {
         let mut height = limit;
         for member in [Member::Driver, Member::Driven] {
             let (pattern, tool) = (self.patterns.of(member), self.operating_tool(member));
-            // Teeth that are images of others are as wide as they.
+            // A tooth that is the image of another has the same width.
             let teeth = (0..).zip(self.gear(member).teeth());
             for (_, tooth) in teeth.filter(|(k, _)| pattern.image(*k).is_none()) {
                 checkpoint();

@@ -72,7 +72,7 @@ pub enum TeethError {
         maximum: f64,
     },
     /// The tool comes to a point before it is as deep as it must cut.
-    #[error("the tool comes to a point {short:.6} mm above its tip: a space {space:.6} mm wide on the {} is to be cut {depth:.6} mm deep", .member.name())]
+    #[error("the tool comes to a point {short:.6} mm before it reaches the required depth: a space {space:.6} mm wide on the {} is to be cut {depth:.6} mm deep", .member.name())]
     NoTip {
         /// Gear of the space.
         member: Member,

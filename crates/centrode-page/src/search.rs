@@ -156,7 +156,7 @@ impl Searching {
         Ok(())
     }
 
-    /// Progress of the last search; none before the first.
+    /// Progress of the last search; `None` before the first.
     pub fn state(&self) -> Option<State> {
         self.run().as_ref().map(|run| run.state().clone())
     }
@@ -170,7 +170,7 @@ impl Searching {
         }
     }
 
-    /// Stops and forgets at once, best and all.
+    /// Stops at once and discards everything, the best design included.
     pub fn forget(&self) {
         self.stop();
         *self.run() = None;

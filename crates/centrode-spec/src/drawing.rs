@@ -38,7 +38,7 @@ pub struct DrawingSpec {
     pub general_tolerance: String,
     /// State of the edges.
     pub edges: String,
-    /// Texture of the surfaces that nothing else is said of, ISO 21920.
+    /// Texture of the surfaces without a texture of their own, ISO 21920.
     pub surface: String,
     /// Texture of the surfaces with a tolerance class up to grade 8, and of flanks and profiles, ISO 21920; empty, that of the others.
     pub fitted_surface: String,

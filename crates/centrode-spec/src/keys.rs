@@ -55,7 +55,7 @@ fn visit_value<'t>(
     }
 }
 
-/// Serde's word for a value that it did not expect.
+/// Description of an unexpected value, as in the messages of serde.
 fn unexpected(value: &DeValue<'_>) -> String {
     match value {
         DeValue::String(word) => format!("string {word:?}"),

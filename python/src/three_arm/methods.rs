@@ -75,7 +75,7 @@ impl ThreeArm {
         self.0.module()
     }
 
-    /// The planet's zero behind the chain's second leg at the start, rad.
+    /// Planet reference angle `phi_30`: from the planet's zero to the chain's second leg at the start, rad.
     #[getter]
     fn planet_reference(&self) -> f64 {
         self.0.train().planet_reference()

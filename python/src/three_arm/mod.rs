@@ -25,7 +25,7 @@ use crate::mechanism::Mechanism;
 ///     arm_mounting_angle: Direction of the tip from the planet's zero, rad.
 ///     tip_distance: Of the tip from the planet's axis, mm.
 ///     pusher_offset: Distance of the pusher's axis, which ends at the tip, from the planet's axis, mm.
-///     planet_reference: The planet's zero behind the second leg at the start, rad; default: the intermediate's turn
+///     planet_reference: Angle from the planet's zero to the second leg at the start, rad; default: the intermediate's turn
 ///         over the first abs(bend) of carrier turn.
 ///     arms: 1 to 6.
 ///     direction: "clockwise" or "counter-clockwise".

@@ -42,7 +42,7 @@ pub enum BodyError {
     Empty,
     /// A point of an outline is no number, or one whose square is not finite.
     #[error(
-        "outline {outline} has a point that is not finite, or farther away than can be squared"
+        "outline {outline} has a point that is not finite, or with coordinates too large to be squared"
     )]
     NotFinite {
         /// Index of the outline.

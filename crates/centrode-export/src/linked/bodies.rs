@@ -100,7 +100,8 @@ struct Sections {
 }
 
 impl Sections {
-    /// Takes a contour apart whose points begin a part of a tooth, by number, or of a space.
+    /// Splits a contour into teeth and spaces. `owners` has, for each point, the number of the tooth whose part begins there; `None`
+    /// if a space begins.
     fn new(contour: &[Point], owners: &[Option<u32>], tolerance: Tolerance) -> Self {
         let n = contour.len();
         // Begin with a whole space, not in the middle of one.

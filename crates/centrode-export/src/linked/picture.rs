@@ -23,12 +23,12 @@ const MOST: f64 = 2e4;
 /// Time before a jump at which the picture has the position before, and after it at which it has the one after, rad.
 const BEFORE: f64 = 1e-6;
 const AFTER: f64 = 1e-9;
-/// Change over [`BEFORE`], as a share of the law's speed, above which a law jumps.
+/// Change of a law over [`BEFORE`], relative to one plus its speed, above which it counts as a jump.
 const SUDDEN: f64 = 1e-3;
-/// Finest tolerance, as a share of how far the material of a figure reaches: what is finer is seen by no eye, and a figure out of all
-/// proportion to the others would take without end.
+/// Minimum tolerance, as a share of the reach of the largest figure: nobody sees a finer one, and a figure much larger than the
+/// others would need too many points.
 const FINEST: f64 = 1e-7;
-/// Angles and inputs are rounded by, rad.
+/// Steps to which angles and inputs are rounded, rad.
 const ANGLE: f64 = 1e-6;
 const INPUT: f64 = 1e-7;
 

@@ -66,7 +66,7 @@ impl Plate {
         frames
     }
 
-    /// Runout of the faces of a body that turns on its shaft, by the circle about it.
+    /// Runout tolerance of the faces of a body seated on a shaft; it depends on the diameter of the circle around the body.
     pub(super) fn face_runout(&self) -> Option<Frame> {
         let (first, origin) = self.first_datum()?;
         if !self.holes[first].is_seat {

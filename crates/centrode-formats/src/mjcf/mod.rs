@@ -31,7 +31,7 @@ const OPTIONS: &str = r#"  <compiler angle="radian" autolimits="true"/>
 #[non_exhaustive]
 pub enum MjcfError {
     /// A joint names a link that is not there.
-    #[error("joint {joint:?} names link {link:?}, which the model has not")]
+    #[error("joint {joint:?} names link {link:?}, which is not in the model")]
     Link {
         /// The joint.
         joint: String,

@@ -67,7 +67,7 @@ pub enum SheetError {
         room: [f64; 2],
     },
     /// A table is wider than the sheet.
-    #[error("the table {title:?} is {width:.0} mm wide: {} leaves it {room:.0} mm", size.name())]
+    #[error("the table {title:?} is {width:.0} mm wide; {} has room for {room:.0} mm", size.name())]
     Table {
         /// The requested sheet.
         size: SheetSize,

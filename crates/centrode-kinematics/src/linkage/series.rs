@@ -151,7 +151,7 @@ impl Linkage {
         )
     }
 
-    /// Distance between the ends of a dyad that does not close, mm.
+    /// Distance that is missing for a dyad to close, mm; infinite for parallel guides.
     pub(super) fn missing(&self, dyad: usize, input: f64) -> f64 {
         let series = self.series::<1>(input);
         let between =

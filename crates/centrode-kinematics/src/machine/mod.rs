@@ -202,7 +202,7 @@ pub enum Quantity {
         /// 0, 1, 2: x, y, z.
         axis: usize,
     },
-    /// Size of a point's velocity by the input, times a factor.
+    /// Magnitude of the derivative of a point's position by the input, times a factor.
     PointSpeed {
         /// Index of the point.
         point: usize,

@@ -13,9 +13,9 @@ const ENTERED: [f64; 2] = [1.0, 1.5];
 const EDGE: f64 = 1.5;
 /// Minimum distance of the middle of a screw from the edge of a cover, in diameters of its hole; EN 1993-1-8, 3.5, e1 and e2.
 const COVER_EDGE: f64 = 1.2;
-/// Fewest screws of a plate of the carrier.
+/// Minimum number of screws per plate of the carrier.
 const OF_CARRIER: usize = 3;
-/// Screws of a cover.
+/// Number of screws per cover.
 const OF_COVER: usize = 4;
 
 /// A fixed position, with a radius around it, mm.

@@ -33,7 +33,7 @@ pub enum Parameter {
     TipDistance,
     /// Distance of the pusher's axis from the planet's axis, H1.
     PusherOffset,
-    /// The planet's zero behind the second leg at the start, `phi_30`.
+    /// Angle from the planet's zero to the second leg at the start, `phi_30`.
     PlanetReference,
     /// Carrier turn at which the first arm picks.
     Picking,

@@ -67,7 +67,7 @@ impl Train {
         }
     }
 
-    /// Sun and intermediate gear as a rolling pair; intermediate and planet are the same pair turned round.
+    /// Sun and intermediate gear as a rolling pair. Planet and intermediate gear are the same pair, with the planet as its driver.
     #[must_use]
     pub fn rolling(&self) -> &Arc<Rolling> {
         &self.rolling

@@ -22,7 +22,7 @@ pub(crate) struct Table {
     /// Whether the table is in the file and may be taken out of it.
     #[serde(skip)]
     pub(crate) may_go: bool,
-    /// Whether it says what bodies look like, and moves nothing.
+    /// Whether the key changes only the shape of bodies, not the motion.
     #[serde(skip)]
     pub(crate) detail: bool,
     pub(crate) fields: Vec<Field>,
@@ -48,7 +48,7 @@ pub(crate) struct Field {
     written: bool,
     /// Whether the key is optional.
     optional: bool,
-    /// Whether it says what bodies look like, and moves nothing.
+    /// Whether the key changes only the shape of bodies, not the motion.
     #[serde(skip)]
     pub(crate) detail: bool,
     #[serde(skip_serializing_if = "Option::is_none")]

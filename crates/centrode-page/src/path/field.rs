@@ -139,7 +139,9 @@ pub fn best(ask: &Best) -> Result<[f64; 2], String> {
     };
     let tried = map.found().len();
     let axis = axis.ok_or_else(|| {
-        format!("of {tried} axes tried on and about the path none is possible: change the path")
+        format!(
+            "none of the {tried} axes tried on and around the path is possible: change the path"
+        )
     })?;
     // As many digits as the page shows.
     Ok([axis.x, axis.y].map(|x| (x * 1e4).round() / 1e4))

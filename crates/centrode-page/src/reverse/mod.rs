@@ -1,4 +1,4 @@
-//! A machine made from a path or of key poses, in words: for the page and the command.
+//! Text about a machine made from a path or from key poses, for the page and the command.
 
 mod found;
 mod made;
@@ -10,10 +10,10 @@ use centrode_synthesis::reverse::{DrawnPath, PathError, ReversedMachine, Split, 
 pub use found::{Found, NotFound};
 pub use made::{Toothed, rolled};
 
-/// Distance within which a path lies of a drawing where none is given, mm.
+/// Default of the maximum distance between a path and its drawing, mm.
 pub const WITHIN: f64 = 0.01;
 
-/// Points along the path of an SVG file; none where the file is another.
+/// Points along the path of an SVG file; `None` if the file is not one.
 ///
 /// # Errors
 /// [`PathError`] if the drawing has no single path.

@@ -270,7 +270,7 @@ impl TwoBar {
         self.arm
     }
 
-    /// Sense in which the carrier turns as the path is run through.
+    /// Sense of rotation of the carrier while the tip moves along the path.
     #[must_use]
     pub fn direction(&self) -> Direction {
         if self.sense > 0.0 {

@@ -36,7 +36,7 @@ pub enum PathError {
         limit: f64,
     },
     /// A path that is small next to its distance from the origin.
-    #[error("the path is {} mm across and up to {} mm from the origin of x and y: too few digits are left of it; draw it larger, or nearer to the origin", stated(*size), stated(*far))]
+    #[error("the path is {} mm across and up to {} mm from the origin of x and y: too few digits are left for its shape; draw it larger, or nearer to the origin", stated(*size), stated(*far))]
     TooSmall {
         /// Diagonal of the box round it, mm.
         size: f64,

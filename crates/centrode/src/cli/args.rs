@@ -346,7 +346,7 @@ pub(crate) struct Report {
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Examples: centrode prove pair.toml -o pair.proof\n          centrode prove machine.toml --pair drive -o drive.proof\n\nA machine with several pairs gets one file a pair, each with the pair's name in its own. A certificate claims; python tools/proof_checker.py pair.proof proves or refuses it, from contours and law alone.\n\nExit status: 0 written; 2 invalid design, no certificate of this mesh, or the file cannot be written."
+    after_help = "Examples: centrode prove pair.toml -o pair.proof\n          centrode prove machine.toml --pair drive -o drive.proof\n\nA machine with several pairs gets one file a pair, each with the pair's name in its own. A certificate claims; python tools/proof_checker.py pair.proof proves or refuses it, from contours and law alone.\n\nExit status: 0 written; 2 invalid design, this mesh cannot be certified, or the file cannot be written."
 )]
 pub(crate) struct Prove {
     /// Design file, or - for standard input

@@ -82,7 +82,7 @@ pub(crate) fn check_gear_train(mechanism: &ThreeArm, teeth: &TrainTeeth, report:
             Finding::new(
                 "tooth-phase",
                 Severity::Error,
-                "the teeth of a mesh do not meet those of its mate",
+                "the teeth of a gear do not meet the tooth spaces of its mating gear",
             )
             .measured(off, PHASE, Unit::Angle)
             .at(input),

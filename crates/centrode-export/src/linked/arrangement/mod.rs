@@ -32,11 +32,11 @@ const SMALL: f64 = 420.0;
 const LARGE: SheetSize = SheetSize::A2;
 /// Step of the table of motion, degrees.
 const STEP: u32 = 10;
-/// Most rows of a table of motion next to the view; longer ones go on to further sheets.
+/// Maximum number of rows of a table of motion next to the view; longer ones continue on further sheets.
 const BESIDE: usize = 40;
 
-/// The general arrangement of a machine: its figures at their positions at the input that it says, axes, dimensions, parts list
-/// and data.
+/// The general arrangement of a machine: its figures in their positions at the input of the arrangement, axes, dimensions, parts
+/// list and data.
 ///
 /// Dimensions are the distances of shafts that are fixed, the travel of the points followed, and those of
 /// [`LinkedMachine::arrangement`]; a table has the distances between the axes of each link.

@@ -143,7 +143,7 @@ impl Stack {
         (stack.items.len() > 1).then_some(stack)
     }
 
-    /// Draws it, with a heading and the numbers of the parts list.
+    /// Draws the section, with a heading and the item numbers of the parts list.
     pub(super) fn draft(&self, tolerance: Tolerance) -> Draft {
         let cuts = self.cuts.iter().map(|cut| cut.bounds);
         let whole = cuts.fold(Bounds::EMPTY, Bounds::union);

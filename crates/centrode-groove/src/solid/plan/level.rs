@@ -21,7 +21,7 @@ impl Level {
     }
 }
 
-/// Foot of the wall, and the fillet down to the floor within `limit`, mm.
+/// Levels from the foot of the wall along the fillet down to the floor; chords between them are within `limit` (mm) of the fillet.
 pub(super) fn levels(groove: &Groove, fillet: f64, limit: f64) -> Vec<Level> {
     let (half, floor) = (0.5 * groove.width(), groove.radius() - groove.depth());
     if fillet == 0.0 {

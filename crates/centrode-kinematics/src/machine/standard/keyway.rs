@@ -52,8 +52,8 @@ impl Keyway {
         2.0 * torque / (diameter * (self.depth - room) * length)
     }
 
-    /// The keyway of a hub on a shaft of a diameter (mm), as ISO/R 773 and DIN 6885-1 ask for parallel keys; `None` below 6 mm,
-    /// and beyond 110 mm.
+    /// The keyway of a hub on a shaft of a diameter (mm), for parallel keys to ISO/R 773 and DIN 6885-1; `None` up to 6 mm and
+    /// beyond 110 mm.
     #[must_use]
     pub fn of_bore(diameter: f64) -> Option<Self> {
         // Diameters over which and up to which, width of the key, depth in the hub.
@@ -87,8 +87,8 @@ impl Keyway {
         Some(if width <= 6.0 { 0.1 } else { 0.2 })
     }
 
-    /// The keyway of a hub whose parallel key lies in this one of a shaft: as wide, and as deep as DIN 6885-1 asks for
-    /// keys of its widths; for others, a square key with room above it.
+    /// The keyway of a hub whose parallel key lies in this one of a shaft: as wide, and as deep as DIN 6885-1 requires
+    /// for keys of its widths; for others, a square key with room above it.
     #[must_use]
     pub fn of_hub(self) -> Self {
         self.mate()

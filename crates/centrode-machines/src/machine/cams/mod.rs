@@ -75,7 +75,7 @@ pub enum MachineFollowerSpec {
 pub struct MachineSlidingRoller {
     /// Radius of the roller, mm; 0 for a point.
     pub roller_radius: f64,
-    /// Distance of the slide from the cam's axis, mm, positive to the left of its direction; default: as the bodies have it.
+    /// Distance of the slide from the cam's axis, mm, positive to the left of its direction; default: taken from the positions of the bodies.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub offset: Option<f64>,
 }
@@ -86,7 +86,7 @@ pub struct MachineSlidingRoller {
 pub struct MachineSwingingRoller {
     /// Radius of the roller, mm; 0 for a point.
     pub roller_radius: f64,
-    /// Distance of the body's pin from the cam's axis, mm; default: as the bodies have it.
+    /// Distance of the body's pin from the cam's axis, mm; default: taken from the positions of the bodies.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub center_distance: Option<f64>,
     /// Distance of the roller's centre from the body's pin, mm.
@@ -100,7 +100,7 @@ pub struct MachineSwingingRoller {
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct MachineSwingingFlat {
-    /// Distance of the body's pin from the cam's axis, mm; default: as the bodies have it.
+    /// Distance of the body's pin from the cam's axis, mm; default: taken from the positions of the bodies.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub center_distance: Option<f64>,
     /// Distance of the face before the pin, towards the cam, mm; may be negative.

@@ -19,7 +19,7 @@ const ON_AXIS: [&str; 5] = ["height, mm", "part", "size", "how", "supply"];
 /// Headings of the table of the frame.
 const IN_FRAME: [&str; 5] = ["for", "x, mm", "y, mm", "size", "remark"];
 
-/// A part on an axis: lower and upper face, and its cells but the first.
+/// A part on an axis: heights of its lower and upper face, mm, and the cells of its table row except the first.
 type Row = ([f64; 2], [String; 4]);
 
 impl Machine {
@@ -87,7 +87,7 @@ impl Machine {
         self.list_drives(machine);
         let mut held = self.bores();
         for index in 1..self.bodies.len() {
-            // A copy is a further piece of what its original has.
+            // The guide of a copy is a further piece of its original's guide.
             let name = self.original(&self.bodies[index].name);
             let original = self.body_named(name).unwrap_or(index);
             let guided = self

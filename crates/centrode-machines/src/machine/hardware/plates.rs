@@ -37,16 +37,16 @@ const CHECKED: f64 = 1e-6;
 #[serde(default, deny_unknown_fields)]
 #[schemars(extend("x-detail" = true))]
 pub struct MachinePlatesSpec {
-    /// Thickness of a plate, mm; default 5, or less by the shortest distance of two holes.
+    /// Thickness of a plate, mm; default 5, or less in proportion if two holes are closer than 8 mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub thickness: Option<f64>,
-    /// Distance of neighbouring plates, mm; default 1, or less by the shortest distance of two holes.
+    /// Distance of neighbouring plates, mm; default 1, or less in proportion if two holes are closer than 8 mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gap: Option<f64>,
-    /// Width of a plate, mm: it ends in half circles about its points; default 8, or less by the shortest distance of two holes.
+    /// Width of a plate, mm: it ends in half circles about its points; default 8, or less in proportion if two holes are closer than 8 mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub width: Option<f64>,
-    /// Diameter of the pins, mm; default 3, or less by the shortest distance of two holes.
+    /// Diameter of the pins, mm; default 3, or less in proportion if two holes are closer than 8 mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pin_diameter: Option<f64>,
     /// Tolerance class of the holes, ISO 286, for the drawing.

@@ -50,7 +50,7 @@ pub struct MachineLawSpec {
     /// Formula of the input `phi` in rad: of an angle in rad for a body that turns and of a position in mm for one that slides.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub expression: Option<String>,
-    /// Angles at equal steps of the period, between which a smooth curve runs, rad (degrees in the file).
+    /// Angles at equal steps of the period, interpolated by a smooth curve, rad (degrees in the file).
     #[serde(
         rename = "table_deg",
         with = "degrees",
@@ -62,7 +62,7 @@ pub struct MachineLawSpec {
     /// those that make the last step small, at most twice the largest step of the table.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub turns: Option<i32>,
-    /// Positions at equal steps of the period, between which a smooth curve runs, mm.
+    /// Positions at equal steps of the period, interpolated by a smooth curve, mm.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub table: Vec<f64>,
     /// Rises, returns and dwells over one turn of the input, as for a cam.
@@ -136,7 +136,7 @@ pub enum MachineLawError {
         turns: f64,
         /// Turns of the input.
         period: u32,
-        /// Minimum turns of the input after which it is back.
+        /// Minimum turns of the input after which the body is back at its first position.
         minimum: Option<u32>,
         /// Key of the law.
         key: &'static str,

@@ -49,8 +49,8 @@ pub struct ThreeArmDesign {
     #[serde(rename = "bend_deg", with = "degrees")]
     #[schemars(with = "f64", extend("x-symbol" = "gamma_0"))]
     pub bend: f64,
-    /// Angle of the planet's zero behind the chain's second leg at the start, rad (degrees in the file); left
-    /// out, the intermediate's turn over the first |bend| of carrier turn.
+    /// Angle from the planet's zero to the chain's second leg at the start, rad (degrees in the file); default:
+    /// the intermediate's turn over the first |bend| of carrier turn.
     #[serde(
         default,
         rename = "planet_reference_deg",
@@ -228,7 +228,7 @@ impl ThreeArmDesign {
         self.tooth_count.or(self.pitch.tooth_count())
     }
 
-    /// The gear pair of sun and intermediate, alone; intermediate and planet are the same pair turned round.
+    /// The gear pair of sun and intermediate gear. Planet and intermediate gear are the same pair, with the planet as its driver.
     #[must_use]
     pub fn pair(&self) -> GearPairDesign {
         GearPairDesign {

@@ -26,9 +26,9 @@ pub(super) fn ends(spec: &Json) -> Option<[String; 2]> {
 pub(super) struct Course {
     /// The ends, in the axes of the frame, at every input.
     pub(super) ends: [Vec<Point>; 2],
-    /// The bodies that hold them.
+    /// Poses of the bodies that hold the ends, at every input.
     pub(super) holders: [Vec<Frame>; 2],
-    /// The joint, where it has one.
+    /// Position of the dyad's joint at every input, if it has one.
     pub(super) joint: Option<Vec<Point>>,
     /// The points that the type gives its two bodies, with their names.
     pub(super) given: [Vec<(String, Vec<Point>)>; 2],

@@ -19,7 +19,7 @@ const ARC: f64 = 1e-10;
 /// Share of the drawing within which the scales by height and width may differ, and a path is closed.
 const LOOSE: f64 = 1e-3;
 const CLOSED: f64 = 1e-6;
-/// Characters of data that are reported.
+/// Maximum number of characters of data that a message quotes.
 const TOLD: usize = 40;
 
 /// Pieces of the path, mm, y up from the lower edge.

@@ -122,16 +122,16 @@ fn what_no_crank_can_do_is_refused_by_name() {
         let stated = found.to_string();
         assert!(stated.contains(words), "{stated}");
     };
-    is(error(&[]), "nothing is wanted");
+    is(error(&[]), "nothing is required");
     is(
         error(&[even([0.0, 90.0], [100.0, 150.0])]),
-        "it moves from 90 to 150",
+        "its stroke is from 90 to 150",
     );
     is(error(&[even([0.0, 90.0], [100.0, 100.0])]), "never stop");
-    is(error(&[rest([0.0, 90.0], 0.0)]), "a rest within 0");
+    is(error(&[rest([0.0, 90.0], 0.0)]), "a band of 0 in");
     is(
         error(&[rest([0.0, 90.0], 1e-12)]),
-        "a rest within 1e-12 of a stroke of 60: take a band above 6e-8",
+        "a band of 1e-12 in a stroke of 60; the band must be above 6e-8",
     );
     is(
         error(&[rest([0.0, 90.0], 31.0)]),

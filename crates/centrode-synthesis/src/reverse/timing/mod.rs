@@ -95,9 +95,9 @@ pub enum TimingError {
         /// Times.
         count: usize,
     },
-    /// A course that reaches an end of the stroke or goes beyond.
+    /// A section of uniform motion that reaches an end of the stroke or goes beyond.
     #[error(
-        "{name}: the output must go evenly from {} to {}, but it moves from {} to {}, and at both ends it stops: stay between them",
+        "{name}: the output must move evenly from {} to {}, but its stroke is from {} to {}, and it stops at both ends: require positions between them",
         stated(*from), stated(*to), stated(*minimum), stated(*maximum)
     )]
     Beyond {
@@ -112,9 +112,9 @@ pub enum TimingError {
         /// Maximum.
         maximum: f64,
     },
-    /// A course that goes nowhere.
+    /// A rest that is not at an end of the stroke.
     #[error(
-        "{name}: the output must stay at {}: gears never stop; give a rest at an end of the stroke instead",
+        "{name}: the output is required to rest at {}, but the gears never stop; require a rest at an end of the stroke instead",
         stated(*place)
     )]
     Stationary {
@@ -123,9 +123,9 @@ pub enum TimingError {
         /// The position.
         place: f64,
     },
-    /// A band that is no part of the stroke.
+    /// A rest whose band is too small, or half of the stroke or more.
     #[error(
-        "{name}: a rest within {} of a stroke of {}: take a band above {} and below half of the stroke",
+        "{name}: the rest has a band of {} in a stroke of {}; the band must be above {} and below half of the stroke",
         stated(*band), stated(*stroke), stated(*minimum)
     )]
     Band {
