@@ -4,7 +4,7 @@ use crate::number::range;
 use centrode_formats::sheet::number;
 use centrode_gear::design::BodySpec;
 use centrode_gear::{Gear, GearPair, Member};
-use centrode_kinematics::machine::{Blank, Callout, Datum, Fit, Key, LinkedMachine, Part, Supply};
+use centrode_kinematics::machine::{Blank, Callout, Datum, Key, LinkedMachine, Part, Supply};
 
 /// Material of keys; their mass is that of the shaft's link, which is the customer's.
 const KEY: &str = "steel";
@@ -124,7 +124,7 @@ pub(crate) fn list_keys(machine: &mut LinkedMachine, body: &BodySpec, links: Vec
 fn list_shafts(machine: &mut LinkedMachine, gear: &Gear, name: &str, links: Vec<usize>) {
     if gear.body().bore > 0.0 && !links.is_empty() {
         let body = gear.body();
-        let fit = Fit::new(name, body.bore, [&body.bore_fit, &body.shaft_fit]);
+        let fit = body.seat(name);
         machine.part(Part {
             name: name.into(),
             links: links.clone(),

@@ -45,10 +45,7 @@ pub(super) fn annotate(parts: &Parts<'_>, machine: &mut machine::LinkedMachine) 
 /// Lists what holds sun, cams and arms fast and is the customer's: the remark says what it must fit.
 fn given(parts: &Parts<'_>, machine: &mut machine::LinkedMachine) {
     let design = parts.mechanism.design();
-    let on_shaft = |body: &BodySpec| {
-        let fit = Fit::new("", body.bore, [&body.bore_fit, &body.shaft_fit]);
-        (body.bore > 0.0).then(|| fit::shaft(&fit))
-    };
+    let on_shaft = |body: &BodySpec| (body.bore > 0.0).then(|| fit::shaft(&body.seat("")));
     let cam = parts.pusher.cam().body();
     // Heights above the outer face of the carrier's front plate.
     let [[rear, _], [_, front]] = parts.gearbox.spans;

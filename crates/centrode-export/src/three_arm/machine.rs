@@ -166,8 +166,7 @@ impl<'a> Parts<'a> {
         ];
         let seats = seats.into_iter().filter_map(|(part, name)| {
             let (pair, member) = self.gear(part)?;
-            let body = pair.gear(member).body();
-            Some(Fit::new(name, body.bore, [&body.bore_fit, &body.shaft_fit]))
+            Some(pair.gear(member).body().seat(name))
         });
         let in_carrier = match self.mechanism.bearing(body.bore) {
             Some(bearing) => {

@@ -3,7 +3,7 @@ use std::f64::consts::TAU;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use centrode_kinematics::machine::{Keyway, Stock, hole_class, shaft_class};
+use centrode_kinematics::machine::{Fit, Keyway, Stock, hole_class, shaft_class};
 use centrode_spec::degrees;
 use centrode_spec::rule::{
     Rule, SpecError, broken, in_range, is_zero, not_negative, positive, single_line,
@@ -68,6 +68,12 @@ impl Default for BodySpec {
 }
 
 impl BodySpec {
+    /// Fit of its bore on its shaft, under a name.
+    #[must_use]
+    pub fn seat(&self, name: &str) -> Fit {
+        Fit::new(name, self.bore, [&self.bore_fit, &self.shaft_fit])
+    }
+
     /// Material of the shaft in its bore.
     #[must_use]
     pub fn shaft_stock(&self) -> Stock<'_> {

@@ -14,7 +14,7 @@ use centrode_formats::sheet::{
 };
 use centrode_gear::{GearPair, Member, OverPins};
 use centrode_geometry::Tolerance;
-use centrode_kinematics::machine::{Fit, Keyway};
+use centrode_kinematics::machine::Keyway;
 use centrode_spec::{DrawingSpec, SheetSize};
 pub(super) use part::middle;
 use part::{Likeness, SheetGear, likeness};
@@ -202,7 +202,7 @@ fn notes(part: &SheetGear<'_>) -> Vec<String> {
     }
     if part.label.is_none() && body.bore > 0.0 {
         // Of a pair alone the shaft belongs to the machine around it: its sheet is not here.
-        let shaft = Fit::new("", body.bore, [&body.bore_fit, &body.shaft_fit]);
+        let shaft = body.seat("");
         let seat = format!("To sit on a shaft {}", fit::shaft(&shaft));
         if let Some(key) = body.keyway.map(Keyway::of_shaft) {
             let width = fit::keyway(key.width, fit::SHAFT_KEYWAY);
