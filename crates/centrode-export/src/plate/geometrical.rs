@@ -135,7 +135,7 @@ mod tests {
     use centrode_gear::design::BodySpec;
     use centrode_geometry::Outline;
     use centrode_kinematics::machine::Keyway;
-    use centrode_machines::machine::PinHole;
+    use centrode_machines::PinHole;
 
     use super::*;
 

@@ -3,6 +3,7 @@ use centrode_formats::sheet::number;
 use centrode_gear::design::BodySpec;
 use centrode_geometry::{COMPUTED, Outline, Point, Segment};
 use centrode_kinematics::machine::{Fastening, Screw};
+use centrode_machines::PinHole;
 use std::f64::consts::TAU;
 
 /// A contour cut out of a plate.
@@ -96,6 +97,19 @@ impl Hole {
             ];
         }
         bore
+    }
+
+    /// The hole of a plate for a pin or shaft, named as its point is.
+    pub(crate) fn of_pin(outline: Outline, pin: &PinHole) -> Self {
+        let mut bored = Self::bore(outline, &pin.hub);
+        bored.is_seat = !bored.notes.is_empty();
+        if bored.is_seat {
+            // Its contour is no circle, whose position the sheet would state.
+            let [x, y] = [pin.at.x, pin.at.y].map(|mm| number(mm, 4));
+            bored.notes.insert(1, format!("at {x}, {y}"));
+        }
+        bored.label.clone_from(&pin.name);
+        bored
     }
 }
 

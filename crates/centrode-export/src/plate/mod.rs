@@ -66,6 +66,33 @@ pub(crate) enum Exactness {
 }
 
 impl Plate {
+    /// One plate of a contour and thickness, mm, without holes, and without heat treatment if that of its stock is empty.
+    pub(crate) fn new(
+        name: &str,
+        title: &str,
+        outline: Outline,
+        thickness: f64,
+        stock: Stock<'_>,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            title: title.into(),
+            quantity: 1,
+            outline,
+            holes: Vec::new(),
+            opening: None,
+            thickness,
+            material: stock.material.into(),
+            density: stock.density,
+            heat_treatment: Some(stock.heat_treatment.into()),
+            notes: Vec::new(),
+            tables: Vec::new(),
+            exactness: None,
+            marks: Vec::new(),
+            classes: Default::default(),
+        }
+    }
+
     /// A body with its bore, as gears and cams have it, of files of a name and with a title.
     pub(crate) fn of_body(
         name: &str,
@@ -74,25 +101,11 @@ impl Plate {
         bore: Option<Outline>,
         body: &BodySpec,
     ) -> Self {
+        let stock = Stock::new(&body.material, body.density).treated(&body.heat_treatment);
+        let bore = bore.map(|bore| Hole::bore(bore, body));
         Self {
-            name: name.into(),
-            title: title.into(),
-            quantity: 1,
-            outline,
-            holes: bore
-                .map(|bore| Hole::bore(bore, body))
-                .into_iter()
-                .collect(),
-            opening: None,
-            thickness: body.width,
-            material: body.material.clone(),
-            density: body.density,
-            heat_treatment: Some(body.heat_treatment.clone()),
-            notes: Vec::new(),
-            tables: Vec::new(),
-            exactness: None,
-            marks: Vec::new(),
-            classes: [String::new(), String::new()],
+            holes: bore.into_iter().collect(),
+            ..Self::new(name, title, outline, body.width, stock)
         }
     }
 
@@ -107,23 +120,13 @@ impl Plate {
             at: vec![Point::origin()],
             ..screws.clone()
         };
+        let outline = Outline::circle(Point::origin(), screws.screw.diameter);
         Self {
-            name: "spacer".into(),
-            title: title.into(),
             quantity,
-            outline: Outline::circle(Point::origin(), screws.screw.diameter),
             holes: Hole::threads(&one),
-            opening: None,
-            thickness: screws.between(),
-            material: stock.material.into(),
-            density: stock.density,
-            heat_treatment: Some(stock.heat_treatment.into()),
-            notes: vec!["Those of one machine are of one length within 0.02 mm.".into()],
-            tables: Vec::new(),
-            exactness: None,
-            marks: Vec::new(),
-            classes: [String::new(), String::new()],
+            ..Self::new("spacer", title, outline, screws.between(), stock)
         }
+        .noted("Those of one machine are of one length within 0.02 mm.")
     }
 
     /// The plate with its origin elsewhere.

@@ -54,7 +54,7 @@ pub use goal::{MachineGoalSpec, Over};
 pub use hardware::Hardware;
 pub use hardware::frame::Overhang;
 pub use hardware::layers::LayerOrders;
-pub use hardware::plates::{MachinePlatesSpec, PinHole};
+pub use hardware::plates::MachinePlatesSpec;
 pub use hardware::shafts::{Hold, MachineShaft, ShaftPart};
 pub use hardware::sizes::Plates;
 pub use hardware::slots::Slot;

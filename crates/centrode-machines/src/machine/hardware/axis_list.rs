@@ -196,7 +196,7 @@ impl Machine {
         let holes = self.pin_holes(0).into_iter().flatten();
         let bottom = self.bottom(0);
         let heights = [bottom, bottom + self.thickness(0)].map(thousandths);
-        let row = |hole: crate::machine::PinHole| {
+        let row = |hole: crate::PinHole| {
             let [x, y] = [hole.at.x, hole.at.y].map(thousandths);
             let size = format!("Ø{} {}", thousandths(hole.hub.bore), hole.hub.bore_fit);
             let remark = format!("taken as from {} to {}", heights[0], heights[1]);

@@ -2,13 +2,12 @@
 
 use centrode_geometry::{Bounds, Outline, Point, Solid, SolidError, Vector};
 
+use crate::PinHole;
 use crate::machine::design::FRAME;
 use crate::machine::hardware::pins::SPARE;
 use crate::machine::hardware::plates::ONE;
 use crate::machine::hardware::spacing::Passing;
-use crate::machine::{
-    BodyPoint, Hardware, Hold, Machine, MachineError, MachineShaft, PinHole, ShaftPart,
-};
+use crate::machine::{BodyPoint, Hardware, Hold, Machine, MachineError, MachineShaft, ShaftPart};
 use centrode_gear::design::BodySpec;
 use centrode_kinematics::machine::{Bar, Circlip, Fastening, Fit, JointKind, Stock, TurnedPieces};
 use centrode_spec::digits::thousandths;
