@@ -8,7 +8,7 @@ use centrode_kinematics::machine::{
 use centrode_machines::feeder::{Feeder, FeederPart, GearBody, Plate};
 
 use super::gears::TITLES;
-use super::plates::spacer;
+use super::plates::{made, spacer};
 use crate::turned;
 
 /// Corners of a path.
@@ -70,23 +70,13 @@ fn paths(feeder: &Feeder, machine: &mut LinkedMachine) {
 }
 
 fn list(feeder: &Feeder, plate: &Plate, machine: &mut LinkedMachine) {
-    let spec = &feeder.design().plates;
     let (part, name) = (plate.part, plate.part.name());
-    let Some(link) = machine.link_named(name) else {
-        return;
-    };
-    let cut: f64 = plate.cut_outs().iter().map(|hole| hole.area().abs()).sum();
-    let volume = (plate.outline.area() - cut) * plate.thickness;
+    let links = vec![part.link(); part.quantity() as usize];
     machine.part(machine::Part {
         name: name.into(),
-        links: vec![link; part.quantity() as usize],
-        material: spec.material.clone(),
-        blank: Blank::plate(&plate.outline, plate.thickness),
-        mass: Some(volume * spec.density * 1e-9),
-        file: name.into(),
         remark: format!("z = {}", number(plate.bottom, PLACES)),
         place: machine.place_on_edge(name, &plate.outline),
-        ..machine::Part::default()
+        ..made(feeder, plate).listed(links)
     });
 }
 
@@ -97,16 +87,10 @@ fn screws(feeder: &Feeder, machine: &mut LinkedMachine) {
         return;
     };
     let frame = FeederPart::Frame;
-    let mass = spacer.mass([0.0, spacer.thickness]).ok();
     machine.part(machine::Part {
         name: "spacer of the frame".into(),
-        links: vec![frame.link(); screws.at.len()],
-        blank: Blank::plate(&spacer.outline, spacer.thickness),
-        mass: mass.map(|mass| mass.mass),
         remark: format!("{} long", number(spacer.thickness, PLACES)),
-        material: spacer.material,
-        file: spacer.name,
-        ..machine::Part::default()
+        ..spacer.listed(vec![frame.link(); screws.at.len()])
     });
     let role = "of the frame's plates";
     turned::list(&[screws.screws(&[frame.name().into()], role)], machine);

@@ -3,8 +3,7 @@ use std::sync::Arc;
 use centrode_gear::{Gear, GearPair, Member, Role};
 use centrode_geometry::Outline;
 use centrode_kinematics::machine::{
-    Form, GearMesh, Input, Joint, Line, LineRole, Linear, Link, LinkedMachine, Quantity, Shape,
-    Surface,
+    GearMesh, Input, Joint, Line, LineRole, Linear, Link, LinkedMachine, Quantity, Surface,
 };
 use centrode_kinematics::transmission::Transmission;
 
@@ -118,11 +117,8 @@ pub(crate) fn embody(
     let name = member.name();
     let surface = machine.surface(teeth(gear, name));
     let mass = solid.mass_properties(gear.body().density);
-    let shape = machine.shape(Shape {
-        name: format!("{prefix}{name}-body"),
-        part: format!("{prefix}{name}"),
-        form: Form::Solids(vec![solid]),
-    });
+    let part = format!("{prefix}{name}");
+    let shape = machine.solids(&format!("{part}-body"), &part, vec![solid]);
     let link = &mut machine.links[link];
     link.mass = Some(mass);
     link.shape = Some(shape);

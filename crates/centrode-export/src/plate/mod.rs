@@ -15,11 +15,14 @@ use centrode_gear::design::BodySpec;
 use centrode_geometry::{
     MassProperties, Opening, Outline, Point, Solid, SolidError, Tolerance, Vector,
 };
-use centrode_kinematics::machine::{Fastening, Stock};
+use centrode_kinematics::machine::{Blank, Fastening, LinkedMachine, Mounted, Part, Stock};
 use centrode_spec::DrawingSpec;
 pub(crate) use hole::{Hole, hold_apart};
 use hole::{HoleKind, ScrewHole};
 use nalgebra::Isometry2;
+
+/// Bodies to be mounted, each with its mass.
+pub(crate) type Pieces = Vec<(Mounted, MassProperties)>;
 
 /// A part of one thickness.
 #[derive(Clone, Debug)]
@@ -167,8 +170,38 @@ impl Plate {
         })
     }
 
-    pub(crate) fn mass(&self, span: [f64; 2]) -> Result<MassProperties, SolidError> {
-        Ok(self.placed(span)?.mass_properties(self.density))
+    /// Its line in the parts list of a machine, on the links that carry its pieces.
+    pub(crate) fn listed(&self, links: Vec<usize>) -> Part {
+        let solid = self.solid().ok();
+        Part {
+            name: self.title.clone(),
+            links,
+            material: self.material.clone(),
+            blank: Blank::plate(&self.outline, self.thickness),
+            mass: solid.map(|solid| solid.mass_properties(self.density).mass),
+            file: self.name.clone(),
+            ..Part::default()
+        }
+    }
+
+    /// Pieces of it to be mounted on a link, their lower faces at places in its frame, mm: names of their shape and of its part.
+    ///
+    /// # Errors
+    /// [`ExportError`] where it is no solid.
+    pub(crate) fn pieces(
+        &self,
+        machine: &mut LinkedMachine,
+        [name, part]: [&str; 2],
+        places: &[[f64; 3]],
+    ) -> Result<Pieces, ExportError> {
+        let solid = self.solid().map_err(ExportError::no_solid(&self.name))?;
+        let own = solid.mass_properties(self.density);
+        let shape = machine.solids(name, part, vec![solid]);
+        let mounted = |&at: &[f64; 3]| {
+            let turn = [0.0; 3];
+            (Mounted { shape, at, turn }, own)
+        };
+        Ok(places.iter().map(mounted).collect())
     }
 
     /// Mass of one, in words.

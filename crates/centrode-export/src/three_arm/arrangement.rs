@@ -5,7 +5,7 @@ use centrode_formats::sheet::number;
 use centrode_gear::Member;
 use centrode_gear::design::BodySpec;
 use centrode_geometry::Point;
-use centrode_kinematics::machine::{self, Axis, Blank, Callout, Datum, Dimension, Fit, Supply};
+use centrode_kinematics::machine::{self, Axis, Callout, Datum, Dimension, Fit, Supply};
 use centrode_machines::three_arm::ThreeArm;
 
 /// Lists the parts and tells the arrangement: the mechanism as its first arm picks.
@@ -211,17 +211,10 @@ fn list(parts: &Parts<'_>, part: ThreeArmPart, machine: &mut machine::LinkedMach
         ThreeArmPart::PushRod => edge(machine, arm("push rod", 0)),
         _ => None,
     };
-    let mass = plate.mass([0.0, plate.thickness]).ok();
     machine.part(machine::Part {
-        name: part.title().into(),
-        links,
-        material: plate.material,
-        blank: Blank::plate(&plate.outline, plate.thickness),
-        mass: mass.map(|mass| mass.mass),
-        file: part.name().into(),
         remark: format!("{} thick", number(plate.thickness, 3)),
         place,
-        ..machine::Part::default()
+        ..plate.listed(links)
     });
 }
 

@@ -5,8 +5,8 @@ use nalgebra::Isometry2;
 use super::ThreeArmPart;
 use super::links::{Builder, Seen};
 use super::machine::{Parts, no_fork};
-use super::pieces::Pieces;
 use crate::ExportError;
+use crate::plate::Pieces;
 
 /// Times the tolerance by which the bodies of an arm may stand off it: arms touch nothing as closely as teeth do.
 const COARSE: f64 = 20.0;

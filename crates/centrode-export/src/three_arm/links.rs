@@ -178,15 +178,12 @@ impl Builder<'_> {
     ) -> Result<Seen, ExportError> {
         let (mut solids, mut masses): (Vec<Solid>, Vec<_>) = (Vec::new(), Vec::new());
         for (plate, span) in plates {
-            let named = || ExportError::no_solid(&plate.name);
-            solids.push(plate.placed(*span).map_err(named())?);
-            masses.push(plate.mass(*span).map_err(named())?);
+            let solid = plate.placed(*span);
+            let solid = solid.map_err(ExportError::no_solid(&plate.name))?;
+            masses.push(solid.mass_properties(plate.density));
+            solids.push(solid);
         }
-        let shape = self.machine.shape(Shape {
-            name: name.into(),
-            part: String::new(),
-            form: Form::Solids(solids),
-        });
+        let shape = self.machine.solids(name, "", solids);
         Ok((shape, MassProperties::combined(&masses)))
     }
 
@@ -275,11 +272,8 @@ impl Builder<'_> {
         };
         let surface = self.machine.surface(gear_pair::teeth(gear, prefix));
         let mass = solid.mass_properties(gear.body().density);
-        let shape = self.machine.shape(Shape {
-            name: format!("{}-body", part.name()),
-            part: part.name().into(),
-            form: Form::Solids(vec![solid]),
-        });
+        let name_of_body = format!("{}-body", part.name());
+        let shape = self.machine.solids(&name_of_body, part.name(), vec![solid]);
         Ok(self.link(name, Some(mass), Some(shape), vec![surface]))
     }
 

@@ -342,6 +342,15 @@ impl LinkedMachine {
         })
     }
 
+    /// Adds solids as one shape, or finds the one of that name; its index. A part's name if they are the body of its files, or empty.
+    pub fn solids(&mut self, name: &str, part: &str, solids: Vec<Solid>) -> usize {
+        self.shape(Shape {
+            name: name.into(),
+            part: part.into(),
+            form: Form::Solids(solids),
+        })
+    }
+
     /// Adds a surface, or finds the one of that name.
     pub fn surface(&mut self, surface: Surface) -> usize {
         let known = self.surfaces.iter().position(|s| s.name == surface.name);

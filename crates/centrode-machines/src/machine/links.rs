@@ -4,8 +4,8 @@ use super::hardware::pieces::Pieces;
 use super::load::MachineLoad;
 use super::{BodyPoint, Hardware, Hold, Machine, MachineBody};
 use centrode_kinematics::machine::{
-    Blank, Closure, Fit, Form, GearMesh, Input, Joint, JointKind, Line, LineRole, Link, LinkPoint,
-    LinkedMachine, Mark, Part, PitchCurves, Quantity, Shape, Surface,
+    Blank, Closure, Fit, GearMesh, Input, Joint, JointKind, Line, LineRole, Link, LinkPoint,
+    LinkedMachine, Mark, Part, PitchCurves, Quantity, Surface,
 };
 
 impl Machine {
@@ -281,11 +281,7 @@ impl Machine {
         }
         let solids = pieces.solids();
         if !solids.is_empty() {
-            link.shape = Some(machine.shape(Shape {
-                name: format!("links/{name}"),
-                part: String::new(),
-                form: Form::Solids(solids),
-            }));
+            link.shape = Some(machine.solids(&format!("links/{name}"), "", solids));
         }
         machine.link(link);
     }
