@@ -109,74 +109,54 @@ fn pins(feeder: &Feeder, machine: &mut LinkedMachine) {
     ));
 }
 
-/// The intermittent gears with their cams and pins, which are not cut for this.
+/// The intermittent gears with their cams.
 fn gears(feeder: &Feeder, machine: &mut LinkedMachine) {
     let spec = &feeder.design().gears;
-    let crank = machine.link_named(FeederPart::Crank.name()).unwrap_or(0);
-    let made = spec.body();
-    let rim = |pitches: u32| [0.0, 0.5 * spec.module * f64::from(pitches) + spec.module];
-    let bored = |pitches: u32| format!("{pitches} pitches, bore Ø{}", number(spec.bore, PLACES));
-    let [own, mate, entry, exit] = GearBody::NAMES.map(|name| machine.link_named(name));
-    // Arcs are laid a micrometre to either side of the teeth: a gear's blank is that of the teeth themselves.
-    let cut = own.and_then(|_| feeder.gears().ok());
-    let toothed = |file: &str| {
-        let pair = cut.as_ref()?;
-        let contour = match file == GearBody::NAMES[0] {
-            true => pair.driver(),
-            false => pair.driven(),
+    let toothed = [
+        ("driver", spec.driver_pitches, 0),
+        ("driven gear", spec.driven_pitches, FeederPart::Crank.link()),
+    ];
+    let links = GearBody::NAMES.map(|name| machine.link_named(name));
+    let cut = links[0].and_then(|_| feeder.gears().ok());
+    let count = if feeder.has_cams() { 4 } else { 2 };
+    for (index, (name, file)) in TITLES
+        .into_iter()
+        .zip(GearBody::NAMES)
+        .enumerate()
+        .take(count)
+    {
+        let seen = toothed.get(index);
+        let own = links[index].map(|link| &machine.links[link]);
+        let solid = own.and_then(|link| match &machine.shapes[link.shape?].form {
+            Form::Solids(solids) => solids.first(),
+            _ => None,
+        });
+        // Arcs are laid a micrometre to either side of the teeth: a gear's blank is that of the teeth themselves.
+        let teeth = cut.as_ref().map(|pair| [pair.driver(), pair.driven()]);
+        let blank = match seen {
+            Some(_) => teeth.and_then(|teeth| Blank::round(teeth[index], spec.width)),
+            None => solid.and_then(|solid| Blank::plate(solid.outline(), spec.width)),
         };
-        Blank::round(contour, spec.width)
-    };
-    let mut add =
-        |name: &str, links: Vec<usize>, file: &str, remark: String, seen: Option<(&str, u32)>| {
-            let weighed = links.first().map(|&link| &machine.links[link]);
-            let body = weighed.and_then(|link| match &machine.shapes[link.shape?].form {
-                Form::Solids(solids) if link.name == file => solids.first(),
-                _ => None,
-            });
-            let blank = body.and_then(|body| match seen {
-                Some(_) => toothed(file),
-                None => Blank::plate(body.outline(), spec.width),
-            });
-            machine.part(machine::Part {
-                name: name.into(),
-                blank,
-                mass: weighed
-                    .filter(|link| link.name == file)
-                    .and_then(|link| Some(link.mass?.mass)),
-                links,
-                material: made.material.clone(),
-                file: file.into(),
-                remark,
-                place: seen.and_then(|(figure, pitches)| machine.place_on(figure, rim(pitches))),
-                ..machine::Part::default()
-            });
+        let remark = match seen {
+            Some((_, pitches, _)) => {
+                format!("{pitches} pitches, bore Ø{}", number(spec.bore, PLACES))
+            }
+            None => "next to the intermittent gear".into(),
         };
-    let (driver, driven) = (spec.driver_pitches, spec.driven_pitches);
-    let seen = Some(("driver", driver));
-    add(
-        TITLES[0],
-        vec![own.unwrap_or(0)],
-        "gear-driver",
-        bored(driver),
-        seen,
-    );
-    let seen = Some(("driven gear", driven));
-    add(
-        TITLES[1],
-        vec![mate.unwrap_or(crank)],
-        "gear-driven",
-        bored(driven),
-        seen,
-    );
-    if feeder.has_cams() {
-        let beside = "next to the intermittent gear";
-        for (name, link, file) in [
-            (TITLES[2], entry, "gear-entry-cam"),
-            (TITLES[3], exit, "gear-exit-cam"),
-        ] {
-            add(name, vec![link.unwrap_or(0)], file, beside.into(), None);
-        }
+        machine.part(machine::Part {
+            name: name.into(),
+            links: vec![links[index].or(seen.map(|seen| seen.2)).unwrap_or(0)],
+            material: spec.body().material,
+            blank,
+            mass: own.and_then(|link| Some(link.mass?.mass)),
+            file: file.into(),
+            remark,
+            place: seen.and_then(|(figure, pitches, _)| {
+                let rim = 0.5 * spec.module * f64::from(*pitches) + spec.module;
+                machine.place_on(figure, [0.0, rim])
+            }),
+            ..machine::Part::default()
+        });
     }
 }
 

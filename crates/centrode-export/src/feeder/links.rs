@@ -16,9 +16,7 @@ pub(super) fn drawn(
     let mut machine = feeder.links(feeder.design().drive.carried_mass);
     let meaning =
         "angle the intermittent gear has turned by since the effector left its place of rest";
-    machine.column("input_angle_rad", "rad", meaning, Quantity::Input(1.0));
-    let time = Quantity::Input(1.0 / feeder.speed());
-    machine.column("time_s", "s", "time at the design's speed", time);
+    machine.input_columns(meaning);
     for part in FeederPart::ALL
         .into_iter()
         .filter(|part| part.carrier().is_some())

@@ -4,7 +4,7 @@ use crate::number::range;
 use centrode_formats::sheet::number;
 use centrode_gear::design::BodySpec;
 use centrode_gear::{Gear, GearPair, Member};
-use centrode_kinematics::machine::{Blank, Callout, Datum, Key, LinkedMachine, Part, Supply};
+use centrode_kinematics::machine::{Blank, Callout, Datum, Key, LinkedMachine, Part};
 
 /// Material of keys; their mass is that of the shaft's link, which is the customer's.
 const KEY: &str = "steel";
@@ -125,13 +125,7 @@ fn list_shafts(machine: &mut LinkedMachine, gear: &Gear, name: &str, links: Vec<
     if gear.body().bore > 0.0 && !links.is_empty() {
         let body = gear.body();
         let fit = body.seat(name);
-        machine.part(Part {
-            name: name.into(),
-            links: links.clone(),
-            supply: Supply::Given,
-            remark: fit::shaft(&fit),
-            ..Part::default()
-        });
+        machine.part(Part::given(name, links.clone(), fit::shaft(&fit)));
         machine.fit(fit);
         list_keys(machine, body, links);
     }

@@ -3,7 +3,7 @@ use std::sync::Arc;
 use centrode_gear::{Gear, GearPair, Member, Role};
 use centrode_geometry::Outline;
 use centrode_kinematics::machine::{
-    GearMesh, Input, Joint, Line, LineRole, Linear, Link, LinkedMachine, Quantity, Surface,
+    GearMesh, Input, Joint, Line, LineRole, Linear, LinkedMachine, Quantity, Surface,
 };
 use centrode_kinematics::transmission::Transmission;
 
@@ -36,12 +36,7 @@ pub fn drawn(pair: &GearPair) -> LinkedMachine {
         ..LinkedMachine::default()
     };
     let [base, driver, driven] =
-        ["base", Member::Driver.name(), Member::Driven.name()].map(|name| {
-            machine.link(Link {
-                name: name.into(),
-                ..Link::default()
-            })
-        });
+        ["base", Member::Driver.name(), Member::Driven.name()].map(|name| machine.bare_link(name));
     // At the driver's polar angle phi the driver has turned by -phi, the driven gear by its driven angle.
     let law = Linear {
         start: 0.0,

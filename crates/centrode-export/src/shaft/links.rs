@@ -5,7 +5,7 @@ use centrode_gear::Member;
 use centrode_geometry::{MassProperties, Mesh, Shell, SolidError, Tolerance};
 use centrode_groove::{GRAVITY, ShaftSolid, SpiralShaft};
 use centrode_kinematics::machine::{
-    self, Form, GearMesh, Guide, GuideForce, Input, Joint, Linear, Link, Load, Piecewise, Quantity,
+    self, Form, GearMesh, Guide, GuideForce, Input, Joint, Linear, Load, Piecewise, Quantity,
     Shape, SolidBody,
 };
 use centrode_kinematics::transmission::{FromFn, MotionJet, Transmission};
@@ -40,11 +40,7 @@ pub(super) fn machine(parts: &Parts<'_>) -> Result<machine::LinkedMachine, Expor
         part: "shaft".into(),
         form: Form::Body(Arc::new(Grooved(shaft.clone()))),
     });
-    let cut = machine.shape(Shape {
-        name: "slider-body".into(),
-        part: "slider".into(),
-        form: Form::Solids(vec![block.clone()]),
-    });
+    let cut = machine.solids("slider-body", "slider", vec![block.clone()]);
     let block = block.mass_properties(shaft.slider().density);
     let carried = carried(shaft.load().mass - block.mass);
     for (name, mass, shape) in [
@@ -91,12 +87,7 @@ pub(super) fn drawn(parts: &Parts<'_>) -> Result<machine::LinkedMachine, ExportE
         ..machine::LinkedMachine::default()
     };
     let links = ["base", "frame", "shaft", BOX, "slider"];
-    let [base, frame, turned, carriage, slid] = links.map(|name| {
-        machine.link(Link {
-            name: name.into(),
-            ..Link::default()
-        })
-    });
+    let [base, frame, turned, carriage, slid] = links.map(|name| machine.bare_link(name));
     // The frame's z, along the shaft, on the world's x; its x, where the slider is, upwards.
     machine.joint(Joint::fixed(base, frame).turned([PI, -FRAC_PI_2, 0.0]));
     let (turn, stroke) = (turn(parts), parts.stroke.clone());
@@ -197,19 +188,8 @@ fn columns(
     let joint = |joint, order: u8, sign: f64| {
         Quantity::rate(joint, order, sign * omega.powi(i32::from(order)))
     };
+    machine.input_columns("angle of the input");
     let places = [
-        (
-            "input_angle_rad",
-            "rad",
-            "angle of the input",
-            Quantity::Input(1.0),
-        ),
-        (
-            "time_s",
-            "s",
-            "time at the design's speed",
-            Quantity::Input(1.0 / omega),
-        ),
         (
             "shaft_angle_rad",
             "rad",
@@ -321,12 +301,7 @@ fn hang(
     turning: usize,
     machine: &mut machine::LinkedMachine,
 ) -> usize {
-    let links = MEMBERS.map(|member| {
-        machine.link(Link {
-            name: member.name().into(),
-            ..Link::default()
-        })
-    });
+    let links = MEMBERS.map(|member| machine.bare_link(member.name()));
     let law = Linear {
         start: -gears.drive.phase - gears.slowest(),
         slope: 1.0,

@@ -5,7 +5,7 @@ use centrode_formats::sheet::number;
 use centrode_gear::Member;
 use centrode_gear::design::BodySpec;
 use centrode_geometry::Point;
-use centrode_kinematics::machine::{self, Axis, Callout, Datum, Dimension, Fit, Supply};
+use centrode_kinematics::machine::{self, Axis, Callout, Datum, Dimension, Fit};
 use centrode_machines::three_arm::ThreeArm;
 
 /// Lists the parts and tells the arrangement: the mechanism as its first arm picks.
@@ -99,13 +99,7 @@ fn given(parts: &Parts<'_>, machine: &mut machine::LinkedMachine) {
     ];
     for (name, links, remark) in all {
         if let Some(remark) = remark {
-            machine.part(machine::Part {
-                name: name.into(),
-                links,
-                supply: Supply::Given,
-                remark,
-                ..machine::Part::default()
-            });
+            machine.part(machine::Part::given(name, links, remark));
         }
     }
 }

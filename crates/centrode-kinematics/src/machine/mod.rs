@@ -327,6 +327,14 @@ impl LinkedMachine {
         self.links.len() - 1
     }
 
+    /// Adds a link of a name without a body yet; its index.
+    pub fn bare_link(&mut self, name: &str) -> usize {
+        self.link(Link {
+            name: name.into(),
+            ..Link::default()
+        })
+    }
+
     /// Adds a joint.
     pub fn joint(&mut self, joint: Joint) -> usize {
         self.joints.push(joint);
@@ -369,6 +377,13 @@ impl LinkedMachine {
             quantity,
         });
         self.columns.len() - 1
+    }
+
+    /// Adds the columns of the input, an angle of a meaning, and of the time.
+    pub fn input_columns(&mut self, meaning: &str) {
+        self.column("input_angle_rad", "rad", meaning, Quantity::Input(1.0));
+        let time = Quantity::Input(1.0 / self.input.speed);
+        self.column("time_s", "s", "time at the design's speed", time);
     }
 
     /// Name of a joint: that of the link it carries.

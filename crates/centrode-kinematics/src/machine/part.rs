@@ -71,6 +71,18 @@ impl Part {
         }
     }
 
+    /// A part that is the customer's, with its pieces: the remark says what it must fit.
+    #[must_use]
+    pub fn given(name: &str, links: Vec<usize>, remark: String) -> Self {
+        Self {
+            name: name.into(),
+            links,
+            supply: Supply::Given,
+            remark,
+            ..Self::default()
+        }
+    }
+
     /// Number of pieces in a machine.
     #[must_use]
     pub fn quantity(&self) -> usize {

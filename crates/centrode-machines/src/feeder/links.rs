@@ -6,7 +6,7 @@ use nalgebra::Isometry2;
 
 use super::{Feeder, FeederPart, Plate};
 use centrode_kinematics::machine::{
-    Closure, Input, Joint, Link, LinkPoint, LinkedMachine, Load, STANDARD_GRAVITY,
+    Closure, Input, Joint, LinkPoint, LinkedMachine, Load, STANDARD_GRAVITY,
 };
 use centrode_kinematics::transmission::{FromFn, MotionJet, Transmission};
 
@@ -57,10 +57,7 @@ impl Feeder {
         };
         let rest = |part: FeederPart| self.place(part, self.start()).translation.vector;
         for part in FeederPart::ALL {
-            let link = machine.link(Link {
-                name: part.name().into(),
-                ..Link::default()
-            });
+            let link = machine.bare_link(part.name());
             let Some(carrier) = part.carrier() else {
                 continue;
             };

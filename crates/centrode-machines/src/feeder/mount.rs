@@ -4,7 +4,7 @@ use centrode_geometry::{Outline, Recent, Solid, SolidError, Tolerance};
 
 use super::{Feeder, FeederPart, GearsSpec};
 use centrode_gear::IntermittentPair;
-use centrode_kinematics::machine::{Joint, Linear, Link, LinkedMachine, Quantity};
+use centrode_kinematics::machine::{Joint, Linear, LinkedMachine, Quantity};
 
 /// Name of the intermittent gear: of its files and its link.
 const DRIVER: &str = "gear-driver";
@@ -113,10 +113,7 @@ impl Feeder {
         let density = spec.body().density;
         let mut driver = frame;
         for body in bodies.iter() {
-            let link = machine.link(Link {
-                name: body.name.into(),
-                ..Link::default()
-            });
+            let link = machine.bare_link(body.name);
             let (joint, bottom) = match body.name {
                 DRIVER => {
                     driver = link;

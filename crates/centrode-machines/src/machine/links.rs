@@ -67,10 +67,7 @@ impl Machine {
             loads: self.loads.iter().flat_map(MachineLoad::parts).collect(),
             ..LinkedMachine::default()
         };
-        let meaning = "angle the driving shaft has turned by";
-        machine.column("input_angle_rad", "rad", meaning, Quantity::Input(1.0));
-        let time = Quantity::Input(1.0 / self.speed());
-        machine.column("time_s", "s", "time at the design's speed", time);
+        machine.input_columns("angle the driving shaft has turned by");
         for (index, body) in self.bodies.iter().enumerate() {
             self.add_link(&mut machine, index, &pieces[index]);
             if let Some(mount) = &body.mount {

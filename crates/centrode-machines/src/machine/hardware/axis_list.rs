@@ -43,12 +43,8 @@ impl Machine {
                 .filter_map(|piece| machine.link_named(&piece.link))
                 .collect();
             machine.part(Part {
-                name: pieces.part.title.clone(),
-                links: links.clone(),
                 material: pieces.part.material.clone(),
-                supply: Supply::Given,
-                remark: size.clone(),
-                ..Part::default()
+                ..Part::given(&pieces.part.title, links.clone(), size.clone())
             });
             for fastener in pieces.fasteners() {
                 let bought = Part::bought(fastener.name, links.clone());
@@ -101,17 +97,12 @@ impl Machine {
             let angle = rounded(mount.angle.to_degrees(), 3);
             let size = format!("{size} {}", Self::GUIDE_FIT[0]);
             let along = format!("along {angle}°, {travel} mm of travel");
-            machine.part(Part {
-                name: format!("Guide of {name}"),
-                links: self.bodies[index]
-                    .mount
-                    .iter()
-                    .map(|own| own.carrier)
-                    .collect(),
-                supply: Supply::Given,
-                remark: format!("{size} on {carrier}, {along}"),
-                ..Part::default()
-            });
+            let own = self.bodies[index].mount.iter();
+            machine.part(Part::given(
+                &format!("Guide of {name}"),
+                own.map(|own| own.carrier).collect(),
+                format!("{size} on {carrier}, {along}"),
+            ));
             if mount.carrier == 0 && index == original {
                 let [x, y] = [mount.at.x, mount.at.y].map(thousandths);
                 held.push([format!("guide of {name}"), x, y, size, along]);
@@ -120,32 +111,20 @@ impl Machine {
         for cam in &self.cams {
             for follower in &cam.followers {
                 let name = self.original(follower);
-                machine.part(Part {
-                    name: format!("Spring of {name}"),
-                    links: self.body_named(follower).into_iter().collect(),
-                    supply: Supply::Given,
-                    remark: format!("or a groove: holds {name} on {}", self.original(&cam.name)),
-                    ..Part::default()
-                });
+                machine.part(Part::given(
+                    &format!("Spring of {name}"),
+                    self.body_named(follower).into_iter().collect(),
+                    format!("or a groove: holds {name} on {}", self.original(&cam.name)),
+                ));
             }
         }
         if let Some(screws) = self.frame_screws() {
-            machine.part(Part {
-                name: "Foot".into(),
-                links: vec![0; screws.at.len()],
-                supply: Supply::Given,
-                remark: "under the lower plate of the frame, at the posts".into(),
-                ..Part::default()
-            });
+            let remark = "under the lower plate of the frame, at the posts";
+            machine.part(Part::given("Foot", vec![0; screws.at.len()], remark.into()));
         }
         if !self.has_plate(0) && !held.is_empty() {
-            machine.part(Part {
-                name: FRAME.into(),
-                links: vec![0],
-                supply: Supply::Given,
-                remark: "holds what the table Frame lists".into(),
-                ..Part::default()
-            });
+            let remark = "holds what the table Frame lists";
+            machine.part(Part::given(FRAME, vec![0], remark.into()));
             machine.arrangement.tables.push(ArrangementTable {
                 title: "Frame (given): what it holds".into(),
                 headings: IN_FRAME.map(String::from).into(),

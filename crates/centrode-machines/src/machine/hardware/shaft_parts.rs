@@ -3,7 +3,7 @@
 use crate::machine::{BodyPoint, Hardware, Hold, Machine, MachineShaft, ShaftPart};
 use centrode_geometry::COMPUTED;
 use centrode_kinematics::machine::{
-    Bar, JointKind, Keyway, LinkedMachine, Part, Supply, TurnedPiece, TurnedPieces,
+    Bar, JointKind, Keyway, LinkedMachine, Part, TurnedPiece, TurnedPieces,
 };
 use centrode_spec::digits::thousandths;
 
@@ -145,13 +145,11 @@ impl Machine {
                 false if is_fixed => ("Joint", format!("fixes it to {carrier}")),
                 false => continue,
             };
-            machine.part(Part {
-                name: format!("{what} of {name}"),
-                links: vec![index],
-                supply: Supply::Given,
+            machine.part(Part::given(
+                &format!("{what} of {name}"),
+                vec![index],
                 remark,
-                ..Part::default()
-            });
+            ));
         }
     }
 
@@ -194,17 +192,11 @@ impl Machine {
                 }
                 None => "kept from turning".into(),
             };
-            machine.part(Part {
-                name,
-                links: link.into_iter().collect(),
-                supply: Supply::Given,
-                remark: format!(
-                    "holds it on {}: Ø{bore} {} in its bore, clear of Ø{inside} inside, {kept}",
-                    self.original(body),
-                    hub.shaft_fit
-                ),
-                ..Part::default()
-            });
+            let (on, class) = (self.original(body), &hub.shaft_fit);
+            let remark = format!(
+                "holds it on {on}: Ø{bore} {class} in its bore, clear of Ø{inside} inside, {kept}"
+            );
+            machine.part(Part::given(&name, link.into_iter().collect(), remark));
         }
     }
 
