@@ -15,17 +15,16 @@ const POINTS: u32 = 360;
 /// A plate of the six-bar as a shop makes it: the distances of its holes are as exact as the swing needs them.
 pub(super) fn made(feeder: &Feeder, plate: &Plate) -> plate::Plate {
     let (spec, making) = (&feeder.design().plates, &feeder.design().making);
-    let joints = plate.joints.iter().filter(|joint| joint.hub.bore > 0.0);
-    let pins = plate.holes.iter().zip(joints).map(|(outline, joint)| Hole {
+    let pins = plate.holes().map(|joint| Hole {
         // Only the effector's pivot lies off the line through the others.
         off: match joint.at {
             at if at == Point::origin() => 0.0,
             at if at.y == 0.0 => making.length_tolerance,
             _ => making.pivot_tolerance,
         },
-        ..Hole::of_pin(outline.clone(), joint)
+        ..Hole::of_pin(joint.outline(), joint)
     });
-    let slot = plate.slot.iter().map(|(_, outline)| Hole {
+    let slot = plate.slot.iter().map(|outline| Hole {
         fit: spec.slot_fit.clone(),
         ..Hole::from(outline.clone())
     });

@@ -76,12 +76,10 @@ pub struct Plate {
     pub part: FeederPart,
     /// Contour.
     pub outline: Outline,
-    /// Holes of the joints that have one, in their order.
-    pub holes: Vec<Outline>,
     /// Holes of the screws that hold the frame's plates apart.
     pub screws: Vec<Outline>,
-    /// Ends of the slot along x, mm, round ends included, and its contour.
-    pub slot: Option<([f64; 2], Outline)>,
+    /// Slot for the slider.
+    pub slot: Option<Outline>,
     /// Joints by their letters, A to G; the tip has no bore.
     pub joints: Vec<PinHole>,
     /// Height of the lower face along the shafts, mm.
@@ -91,20 +89,16 @@ pub struct Plate {
 }
 
 impl Plate {
+    /// Joints with a hole.
+    pub fn holes(&self) -> impl Iterator<Item = &PinHole> {
+        self.joints.iter().filter(|joint| joint.hub.bore > 0.0)
+    }
+
     /// Contours of all cut-outs: holes, slot, holes of screws.
     #[must_use]
     pub fn cut_outs(&self) -> Vec<Outline> {
-        let slot = self.slot.iter().map(|(_, contour)| contour.clone());
-        let holes = self.holes.iter().cloned().chain(slot);
-        holes.chain(self.screws.iter().cloned()).collect()
-    }
-
-    /// The plate lying on z = 0.
-    ///
-    /// # Errors
-    /// [`SolidError`] where a number is not finite.
-    pub fn solid(&self) -> Result<Solid, SolidError> {
-        self.solid_at(&Isometry2::identity(), 0.0)
+        let others = self.slot.iter().chain(&self.screws).cloned();
+        self.holes().map(PinHole::outline).chain(others).collect()
     }
 
     /// The plate moved in its plane, its lower face at a height.
@@ -189,9 +183,22 @@ impl Feeder {
             _ => {}
         }
         let no_plate = || FeederError::NoPlate(part.name());
-        let holes: Vec<&PinHole> = joints.iter().filter(|joint| joint.hub.bore > 0.0).collect();
-        for (index, hole) in holes.iter().enumerate() {
-            for other in &holes[..index] {
+        let contour = |[start, end]: [f64; 2]| {
+            let radius = 0.5 * spec.slot_width;
+            let ends = [start + radius, end - radius].map(|x| (Point::new(x, 0.0), radius));
+            Outline::hull(&ends).ok_or_else(no_plate)
+        };
+        let plate = Plate {
+            part,
+            outline: Outline::hull(&circles).ok_or_else(no_plate)?,
+            screws: Vec::new(),
+            slot: slot.map(contour).transpose()?,
+            joints,
+            bottom: part.layer() * (spec.thickness + spec.gap),
+            thickness: spec.thickness,
+        };
+        for (index, hole) in plate.holes().enumerate() {
+            for other in plate.holes().take(index) {
                 let distance = (hole.at - other.at).norm();
                 let reach = hole.hub.bore_reach() + other.hub.bore_reach();
                 if distance <= reach {
@@ -204,26 +211,7 @@ impl Feeder {
                 }
             }
         }
-        let holes = holes.into_iter().map(PinHole::outline).collect();
-        let contour = |[start, end]: [f64; 2]| {
-            let radius = 0.5 * spec.slot_width;
-            let ends = [start + radius, end - radius].map(|x| (Point::new(x, 0.0), radius));
-            Some(([start, end], Outline::hull(&ends)?))
-        };
-        let slot = match slot {
-            Some(ends) => Some(contour(ends).ok_or_else(no_plate)?),
-            None => None,
-        };
-        Ok(Plate {
-            part,
-            outline: Outline::hull(&circles).ok_or_else(no_plate)?,
-            holes,
-            screws: Vec::new(),
-            slot,
-            joints,
-            bottom: part.layer() * (spec.thickness + spec.gap),
-            thickness: spec.thickness,
-        })
+        Ok(plate)
     }
 
     /// Ends of the effector's slot, distances from its pivot, mm.
