@@ -17,7 +17,7 @@ use crate::ExportError;
 pub fn machine(pair: &GearPair) -> Result<LinkedMachine, ExportError> {
     let mut machine = drawn(pair);
     for (link, member) in [(1, Member::Driver), (2, Member::Driven)] {
-        embody(&mut machine, link, pair, member, "")?;
+        embody(&mut machine, link, pair, member, [member.name(); 2])?;
     }
     Ok(machine)
 }
@@ -99,21 +99,19 @@ pub(crate) fn lines_within(outline: &Outline, gear: &Gear) -> Vec<Line> {
     lines
 }
 
-/// Gives a link the body of a gear, whose files' names begin with the prefix.
+/// Gives a link the body of a gear, by the name of its files and that of its teeth.
 pub(crate) fn embody(
     machine: &mut LinkedMachine,
     link: usize,
     pair: &GearPair,
     member: Member,
-    prefix: &str,
+    [file, name]: [&str; 2],
 ) -> Result<(), ExportError> {
     let solid = solid(pair, member)?;
     let gear = pair.gear(member);
-    let name = member.name();
     let surface = machine.surface(teeth(gear, name));
     let mass = solid.mass_properties(gear.body().density);
-    let part = format!("{prefix}{name}");
-    let shape = machine.solids(&format!("{part}-body"), &part, vec![solid]);
+    let shape = machine.solids(&format!("{file}-body"), file, vec![solid]);
     let link = &mut machine.links[link];
     link.mass = Some(mass);
     link.shape = Some(shape);
@@ -122,7 +120,7 @@ pub(crate) fn embody(
 }
 
 /// The teeth of a gear: flanks and tips touch, fillets do not.
-pub(crate) fn teeth(gear: &Gear, name: &str) -> Surface {
+fn teeth(gear: &Gear, name: &str) -> Surface {
     let touches =
         |(role, owner): (&Role, &u32)| matches!(role, Role::Flank | Role::Tip).then_some(*owner);
     Surface {

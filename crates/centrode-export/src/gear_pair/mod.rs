@@ -23,7 +23,7 @@ pub(crate) use contacts::{Flanks, PITCH_SAMPLES, ROUNDING, paths, track};
 pub use curves::curves;
 use drawn::Drawn;
 pub use links::{drawn, machine};
-pub(crate) use links::{embody, lines, lines_within, teeth};
+pub(crate) use links::{embody, lines, lines_within};
 pub(crate) use sheets::{Label, measured, over_pins};
 pub use sheets::{Subject, sheets};
 pub use solid::{mesh, solid};

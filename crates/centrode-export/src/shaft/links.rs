@@ -56,7 +56,8 @@ pub(super) fn machine(parts: &Parts<'_>) -> Result<machine::LinkedMachine, Expor
     if let Some(gears) = &parts.gears {
         for member in MEMBERS {
             let link = machine.link_named(member.name()).unwrap_or(0);
-            gear_pair::embody(&mut machine, link, &gears.pair, member, GEARS)?;
+            let names = [&*format!("{GEARS}{}", member.name()), member.name()];
+            gear_pair::embody(&mut machine, link, &gears.pair, member, names)?;
         }
     }
     arrangement::annotate(parts, &mut machine)?;

@@ -62,7 +62,7 @@ pub(super) fn machine(
         "turn of the carrier from its start, positive whichever way it turns",
         Quantity::Input(1.0),
     );
-    let base = builder.link("base", None, None, Vec::new());
+    let base = builder.machine.bare_link("base");
     builder.surroundings(base);
     let carrier = builder.carrier(base)?;
     let sun = builder.sun(base)?;
@@ -118,18 +118,11 @@ pub(super) struct Builder<'a> {
 }
 
 impl Builder<'_> {
-    fn link(
-        &mut self,
-        name: &str,
-        mass: Option<MassProperties>,
-        shape: Option<usize>,
-        surfaces: Vec<usize>,
-    ) -> usize {
+    fn link(&mut self, name: &str, mass: Option<MassProperties>, shape: Option<usize>) -> usize {
         self.machine.link(machine::Link {
             name: name.into(),
             mass,
             shape,
-            surfaces,
             ..machine::Link::default()
         })
     }
@@ -137,7 +130,7 @@ impl Builder<'_> {
     /// Adds a link of a shape and mass alone.
     pub(super) fn bodied(&mut self, name: &str, seen: Option<Seen>) -> usize {
         let (shape, mass) = seen.map_or((None, None), |(shape, mass)| (Some(shape), mass));
-        self.link(name, mass, shape, Vec::new())
+        self.link(name, mass, shape)
     }
 
     /// The law of a joint by the carrier's turn.
@@ -208,9 +201,9 @@ impl Builder<'_> {
             heavy = solid.map(|solid| solid.mass_properties(2000.0)).ok();
         }
         let [tray, ground] = shapes;
-        let tray = self.link("tray", None, tray, Vec::new());
+        let tray = self.link("tray", None, tray);
         self.machine.joint(Joint::fixed(base, tray));
-        let ground = self.link("ground", heavy, ground, Vec::new());
+        let ground = self.link("ground", heavy, ground);
         let law = Linear {
             start: 0.0,
             slope: mechanism.train().direction().sign() * mechanism.advance(),
@@ -263,18 +256,14 @@ impl Builder<'_> {
             return Ok(self.bodied(name, None));
         };
         let (pair, member) = parts.gear(part).ok_or_else(no_gearbox)?;
-        let solid = gear_pair::solid(pair, member)?;
-        let gear = pair.gear(member);
         // A planet has the teeth of the sun.
-        let prefix = match member {
+        let teeth = match member {
             Member::Driver if same_width(parts) => ThreeArmPart::Sun.name(),
             _ => part.name(),
         };
-        let surface = self.machine.surface(gear_pair::teeth(gear, prefix));
-        let mass = solid.mass_properties(gear.body().density);
-        let name_of_body = format!("{}-body", part.name());
-        let shape = self.machine.solids(&name_of_body, part.name(), vec![solid]);
-        Ok(self.link(name, Some(mass), Some(shape), vec![surface]))
+        let link = self.bodied(name, None);
+        gear_pair::embody(&mut self.machine, link, pair, member, [part.name(), teeth])?;
+        Ok(link)
     }
 
     /// Intermediate gear, planet, cam, arm, fork and rod of a chain.
