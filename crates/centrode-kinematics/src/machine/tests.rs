@@ -343,3 +343,31 @@ fn parts_and_arrangement_name_only_what_is_there() {
         "the arrangement names column 1, of which there are 0"
     );
 }
+
+#[test]
+fn keys_are_in_the_middle_of_hubs_and_dowels_are_flush_with_the_upper_end() {
+    let hub = Keyway {
+        width: 5.0,
+        depth: 2.3,
+    };
+    let stock = Stock::new("steel", 7850.0);
+    let bar = Bar::new(Fit::new("", 16.0, ["H7", "h6"]), [-3.0, 40.0]).ring(-3.0, false, 9.0);
+    let bar = bar.key(Key::fitting(hub, 15.0), [2.0, 17.0]);
+    let made = bar.turned("shaft", "Shaft", stock, "");
+    let middle = |seated: &SeatedKey| bar.bottom() + seated.at + 0.5 * seated.key.length;
+    assert!(bar.bottom() < -3.0, "a land beyond the ring");
+    assert!(
+        made.keys
+            .iter()
+            .all(|key| (middle(key) - 9.5).abs() < 1e-12)
+    );
+    assert_eq!((made.keys.len(), made.standard), (1, None));
+    let pin = |short: f64| {
+        let bar = Bar::dowel(Fit::new("", 8.0, ["H7", "m6"]), [1.0, 34.0], short);
+        let made = bar.turned("pin", "Pin", stock, "").bought_as("pressed in");
+        (bar.bottom(), made.standard, made.role)
+    };
+    let bought = Some("Pin ISO 8734 - 8 x 32 - A".to_owned());
+    assert_eq!(pin(f64::INFINITY), (2.0, bought, "pressed in".into()));
+    assert_eq!(pin(0.5), (1.0, None, String::new()));
+}
