@@ -17,7 +17,7 @@ mod test_shapes;
 pub use approximation::Sample;
 pub use curve::{
     Arc, BezierFit, Bounds, CrossingError, Curve, FittedSpan, Jet, PolySegment, Segment,
-    SegmentJet, SegmentRange, crossings, self_crossings,
+    SegmentJet, SegmentRange, Span, SpanBounds,
 };
 pub use numeric::{
     Antiderivative, BadTolerance, CHEBYSHEV_TERMS, COMPUTED, Cancel, Cancelled, Extreme, Recent,

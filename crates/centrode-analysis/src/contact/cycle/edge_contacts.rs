@@ -74,10 +74,15 @@ fn flank_ends(body: &GearOutline<'_>, sign: f64) -> Vec<FlankEnd> {
     for (k, after) in body.parts.iter().enumerate() {
         let before = &body.parts[(k + count - 1) % count];
         let is_end = after.corner.is_some() || before.role != after.role;
-        let point = after.ends[0];
+        let point = after.span.ends[0];
         if is_end {
-            found.extend(flank_end(before, point, before.bounds.tangents[1], -1.0));
-            found.extend(flank_end(after, point, after.bounds.tangents[0], 1.0));
+            found.extend(flank_end(
+                before,
+                point,
+                before.span.bounds.tangents[1],
+                -1.0,
+            ));
+            found.extend(flank_end(after, point, after.span.bounds.tangents[0], 1.0));
         }
     }
     found.retain(drives);
@@ -156,7 +161,7 @@ impl Meshing<'_> {
         };
         let mate = self.mate_tooth(contact, |part, point| {
             let at_end = |end: &Point| (end - point).norm() < off;
-            foot(part, point).is_some_and(faces) || part.ends.iter().any(at_end)
+            foot(part, point).is_some_and(faces) || part.span.ends.iter().any(at_end)
         })?;
         Some(match contact.member {
             Member::Driver => (contact.edge.tooth, mate),
@@ -227,7 +232,7 @@ impl Meshing<'_> {
         mate.tree.any(&is_near, &mut |part| {
             let part = &mate.parts[part];
             let is_mate = part.role == Role::Flank
-                && part.min_distance(&point) < near
+                && part.span.min_distance(&point) < near
                 && touches(part, &point);
             if is_mate {
                 found = Some(part.tooth);
