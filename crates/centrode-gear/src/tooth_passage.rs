@@ -4,12 +4,12 @@ use std::cell::{OnceCell, RefCell};
 use std::collections::VecDeque;
 use std::rc::Rc;
 
-use centrode_geometry::{Point, checkpoint, parallel_map};
+use centrode_geometry::{Disc, Point, checkpoint, parallel_map};
 
 use super::{
     rolling::{Frame, Member, Rolling},
     tool::Tool,
-    tooth_chords::{Circle, ToothChords},
+    tooth_chords::ToothChords,
 };
 
 /// Poses a pitch at which two teeth are held against each other.
@@ -167,7 +167,7 @@ impl<'a> ToothPassage<'a> {
         tools: &'a [Tool; 2],
         middle: f64,
         pitch: f64,
-        [one, two]: [&Circle; 2],
+        [one, two]: [&Disc; 2],
     ) -> Option<Self> {
         let rolling = poses.rolling;
         let poses = poses.about(middle);

@@ -27,8 +27,8 @@ pub use numeric::{
     piece_ends, rounding, run_both, stay_on_one_thread,
 };
 pub use region::{
-    AreaMoments, ConvexPieces, Crossing, LoopError, OpenOutline, Outline, ShortSide, convex_hull,
-    convex_pieces, without_loops,
+    AreaMoments, BoundTree, ConvexPieces, Crossing, Disc, LoopError, OpenOutline, Outline, Run,
+    ShortSide, convex_hull, convex_pieces, without_loops,
 };
 pub use solid::{
     MassProperties, Mesh, Opening, Shell, ShellBuilder, ShellCurve, ShellEdge, ShellFace,

@@ -8,7 +8,7 @@ use crate::{
     Point,
     curve::{Bounds, SegmentRange},
     numeric::{Tolerance, bracketed_root},
-    region::{Outline, Position},
+    region::{BoundTree, Outline, Position},
 };
 
 /// Maximum number of passes, each of which divides the chords that cross. With too few, crossings remain near cusps; more only cost
@@ -177,93 +177,52 @@ fn small_loops(points: &[Point], crossed: &[(usize, usize)], size: f64) -> HashS
     both.flat_map(|(from, to)| between(from, to)).collect()
 }
 
-/// Chords of a closed polygon in a binary tree of boxes.
+/// Chords of a closed polygon in a tree of boxes.
 struct Chords<'a> {
     points: &'a [Point],
-    /// Box of node `k`; its halves are the nodes `2 k` and `2 k + 1`.
-    boxes: Vec<Bounds>,
-}
-
-/// A run of chords, one node of the tree.
-#[derive(Clone, Copy, PartialEq)]
-struct ChordRun {
-    node: usize,
-    /// Index of the first chord.
-    first: usize,
-    /// Index after the last chord.
-    end: usize,
-}
-
-impl ChordRun {
-    fn len(self) -> usize {
-        self.end - self.first
-    }
-
-    fn halves(self) -> [Self; 2] {
-        let middle = self.first.midpoint(self.end);
-        [(0, self.first, middle), (1, middle, self.end)].map(|(half, first, end)| Self {
-            node: 2 * self.node + half,
-            first,
-            end,
-        })
-    }
+    tree: BoundTree<Bounds>,
 }
 
 impl<'a> Chords<'a> {
     fn new(points: &'a [Point]) -> Self {
-        let mut tree = Self {
-            points,
-            boxes: vec![Bounds::EMPTY; 2 * points.len().next_power_of_two()],
-        };
-        tree.fill(tree.root());
-        tree
+        let next = points.iter().cycle().skip(1);
+        let chords: Vec<[Point; 2]> = points.iter().zip(next).map(|(p, q)| [*p, *q]).collect();
+        let tree = BoundTree::new(&chords, |run| run.iter().flatten().copied().collect());
+        Self { points, tree }
     }
 
     fn chord(&self, k: usize) -> [Point; 2] {
         [self.points[k], self.points[(k + 1) % self.points.len()]]
     }
 
-    fn root(&self) -> ChordRun {
-        ChordRun {
-            node: 1,
-            first: 0,
-            end: self.points.len(),
-        }
-    }
-
-    fn fill(&mut self, run: ChordRun) -> Bounds {
-        let bounds = if run.len() == 1 {
-            self.chord(run.first).into_iter().collect()
-        } else {
-            let [low, high] = run.halves();
-            self.fill(low).union(self.fill(high))
-        };
-        self.boxes[run.node] = bounds;
-        bounds
-    }
-
     /// Pairs of chords that meet although their curves, within the tolerance, need not. Chords below rounding do not count.
     fn crossed(&self, tolerance: f64, rounding: f64) -> Vec<(usize, usize)> {
         let mut found = Vec::new();
-        let whole = self.root();
-        let mut pending = vec![(whole, whole)];
+        let mut pending: Vec<_> = self
+            .tree
+            .root()
+            .map(|whole| (whole, whole))
+            .into_iter()
+            .collect();
         while let Some((a, b)) = pending.pop() {
             crate::checkpoint();
-            if a == b {
-                if a.len() > 1 {
-                    let [low, high] = a.halves();
-                    pending.extend([(low, low), (high, high), (low, high)]);
-                }
-            } else if self.boxes[a.node].meets(&self.boxes[b.node]) {
-                if a.len() == 1 && b.len() == 1 {
-                    if self.cross(a.first, b.first, tolerance, rounding) {
-                        found.push((a.first, b.first));
+            match (a.single(), b.single()) {
+                _ if a.index() == b.index() => {
+                    if a.count() > 1 {
+                        let [low, high] = self.tree.halves(&a);
+                        pending.extend([(low, low), (high, high), (low, high)]);
                     }
-                } else if a.len() >= b.len() {
-                    pending.extend(a.halves().map(|half| (half, b)));
-                } else {
-                    pending.extend(b.halves().map(|half| (a, half)));
                 }
+                _ if !a.bound.meets(&b.bound) => {}
+                (Some(i), Some(j)) => {
+                    if self.cross(i, j, tolerance, rounding) {
+                        found.push((i, j));
+                    }
+                }
+                _ if a.count() >= b.count() => {
+                    pending.extend(self.tree.halves(&a).map(|half| (half, b)));
+                }
+                _ => pending.extend(self.tree.halves(&b).map(|half| (a, half))),
             }
         }
         found

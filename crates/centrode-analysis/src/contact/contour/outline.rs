@@ -1,9 +1,9 @@
 use std::cell::OnceCell;
 
 use centrode_gear::{Gear, Role};
-use centrode_geometry::{Outline, Point, Segment, SegmentJet, Span, SpanBounds, Vector};
-
-use super::circle_tree::{CircleTree, PartGroup};
+use centrode_geometry::{
+    BoundTree, Disc, Outline, Point, Run, Segment, SegmentJet, Span, SpanBounds, Vector,
+};
 
 /// Change of direction at a joint above which it is a corner, rad. The rounding of a fitted joint is far below it, a tip edge far
 /// above.
@@ -76,6 +76,15 @@ pub(in crate::contact) struct OutlinePart<'a> {
     pub(in crate::contact) normals: NormalCone,
 }
 
+impl OutlinePart<'_> {
+    fn disc(&self) -> Disc {
+        Disc {
+            center: self.center,
+            radius: self.radius,
+        }
+    }
+}
+
 /// Number of crossings of a part of a segment with the ray from a point towards +x; only its parity is correct.
 ///
 /// The curve and its chord form a loop. A point farther from the chord than the curve's sagitta lies outside the loop: the ray
@@ -115,7 +124,7 @@ pub(super) struct Halves {
 pub(in crate::contact) struct GearOutline<'a> {
     pub(in crate::contact) parts: Vec<OutlinePart<'a>>,
     /// Circles around groups of parts.
-    pub(in crate::contact) tree: CircleTree,
+    pub(in crate::contact) tree: BoundTree<Disc>,
     /// Bounds of the parts' curvatures, computed when first needed.
     curvatures: Vec<OnceCell<(f64, f64)>>,
     /// Halves of the parts, computed when first needed.
@@ -156,8 +165,8 @@ impl<'a> GearOutline<'a> {
     }
 
     /// Number of crossings of a group of parts with the ray from a point to the right; only its parity is correct.
-    fn crossings(&self, group: &PartGroup, point: Point) -> usize {
-        let (center, radius) = (group.center, group.radius);
+    fn crossings(&self, group: &Run<Disc>, point: Point) -> usize {
+        let Disc { center, radius } = group.bound;
         if (center.y - point.y).abs() > radius || center.x + radius < point.x {
             0
         } else if center.x - radius > point.x {
@@ -185,11 +194,9 @@ impl<'a> GearOutline<'a> {
             curvatures: vec![OnceCell::new(); parts.len()],
             halves: vec![OnceCell::new(); parts.len()],
             inner_point: vec![OnceCell::new(); parts.len()],
-            tree: CircleTree::new(
-                &parts
-                    .iter()
-                    .map(|p| (p.center, p.radius))
-                    .collect::<Vec<_>>(),
+            tree: BoundTree::new(
+                &parts.iter().map(OutlinePart::disc).collect::<Vec<_>>(),
+                Disc::around_discs,
             ),
             core: parts
                 .iter()

@@ -1,12 +1,12 @@
 //! Driver angles at which a contact reaches the end of a flank.
 
 use centrode_gear::{Member, PitchContact, Role};
-use centrode_geometry::{Point, Vector};
+use centrode_geometry::{Disc, Point, Run, Vector};
 
 use super::{
     backlash_position::BacklashPosition, cycle_samples::period, pose_sampling::PoseSampling,
 };
-use crate::contact::contour::{GearOutline, OutlinePart, PartGroup, Pose};
+use crate::contact::contour::{GearOutline, OutlinePart, Pose};
 use crate::contact::seat::{Foot, Meshing, ProximityKind, foot};
 
 /// Distance of a point from a flank's bounds within which the flank is a candidate for contact, modules.
@@ -225,8 +225,8 @@ impl Meshing<'_> {
             Member::Driven => (&self.driver, pose.point_to_driver(&contact_point)),
         };
         let near = MATE_DISTANCE * self.module;
-        let is_near = |group: &PartGroup| {
-            (group.center - point).norm_squared() < (group.radius + near).powi(2)
+        let is_near = |group: &Run<Disc>| {
+            (group.bound.center - point).norm_squared() < (group.bound.radius + near).powi(2)
         };
         let mut found = None;
         mate.tree.any(&is_near, &mut |part| {

@@ -272,7 +272,10 @@ impl EdgeApproach<'_> {
             let reach = |p: &EdgePosition| (p.point - middle).norm() + p.reach;
             let reach = positions.iter().map(reach).fold(0.0, f64::max);
             self.fillets.alone.tree.each(
-                &|group| (group.center - middle).norm_squared() < (group.radius + reach).powi(2),
+                &|group| {
+                    (group.bound.center - middle).norm_squared()
+                        < (group.bound.radius + reach).powi(2)
+                },
                 |k| {
                     let part = self.fillets.parts[k];
                     let fillet = self.fillets.first[part];
