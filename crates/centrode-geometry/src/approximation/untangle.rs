@@ -7,7 +7,7 @@ use std::collections::HashSet;
 use crate::{
     Point,
     curve::{Bounds, SegmentRange},
-    numeric::{Tolerance, bracketed_root},
+    numeric::{COMPUTED, POSITION, Tolerance, bracketed_root},
     region::{BoundTree, Outline, Position},
 };
 
@@ -18,14 +18,6 @@ const MAX_PASSES: u32 = 48;
 /// Fraction of a chord's parameter range at each end in which no position is added. Much smaller, chords become as short as
 /// rounding; much larger, crossings near the ends remain.
 const END: f64 = 1e-6;
-
-/// Fraction of the size of the outline below which a loop of chords is dropped. Ten times larger drops real loops; ten times
-/// smaller approaches rounding.
-const SMALL_LOOP: f64 = 1e-10;
-
-/// Fraction of the size of the outline below which a chord is rounding and has no direction. Ten times larger ignores real
-/// crossings; ten times smaller follows rounding.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 impl Outline {
     /// Adds positions until no chords cross, except where the outline crosses itself or two parts differ only by rounding.
@@ -43,11 +35,11 @@ impl Outline {
                 .map(|&position| self.point(position))
                 .collect();
             let size = points.iter().copied().collect::<Bounds>().diagonal();
-            let crossed = Chords::new(&points).crossed(tolerance.mm(), ROUNDING * size);
+            let crossed = Chords::new(&points).crossed(tolerance.mm(), POSITION * size);
             if crossed.is_empty() {
                 break;
             }
-            let dropped = small_loops(&points, &crossed, SMALL_LOOP * size);
+            let dropped = small_loops(&points, &crossed, COMPUTED * size);
             if !dropped.is_empty() {
                 let mut number = 0..;
                 positions.retain(|_| number.next().is_some_and(|k| !dropped.contains(&k)));

@@ -7,7 +7,7 @@ mod cusp;
 use crate::{
     Point, Vector,
     curve::{Bounds, Span, SpanBounds},
-    numeric::Tolerance,
+    numeric::{ITERATED, Tolerance, WRITTEN, rounding},
 };
 
 /// Maximum number of pairs of parts compared for one pair of segments.
@@ -72,7 +72,7 @@ impl<'a> Part<'a> {
 
     /// Whether the part is shorter than a length, or so short that it has no midpoint.
     fn is_shorter(&self, length: f64) -> bool {
-        self.size < length || self.span.u[1] - self.span.u[0] <= 4.0 * f64::EPSILON
+        self.size < length || self.span.u[1] - self.span.u[0] <= rounding(1.0)
     }
 
     /// Whether an axis or the normal of a chord separates the two parts by more than `gap`, mm.
@@ -309,6 +309,10 @@ fn search(
     Err(CrossingError::Overlap { near })
 }
 
+/// Difference of the parameter of a segment within which two crossings in one direction are the same. Ten times smaller, the
+/// rounding at a flat crossing makes two of it; ten times larger joins crossings of small loops.
+const NEAR: f64 = 1e-7;
+
 /// Whether two crossings, found from neighbouring parts, are the same.
 ///
 /// Strands that cross twice cross in opposite directions. So two crossings in one direction with no length between them are
@@ -326,7 +330,7 @@ fn is_same(
         let (from, to, middle) = (at(x), at(y), at(0.5 * (x + y)));
         let apart = (middle - from).norm() + (to - middle).norm();
         let speed = part.segment.at(x).first.norm();
-        (x - y).abs() < 1e-7 || apart < shortest + 2.0 * point_error(part, speed)
+        (x - y).abs() < NEAR || apart < shortest + 2.0 * point_error(part, speed)
     };
     let rises = |(u, v): (f64, f64)| a.segment.at(u).first.perp(&b.segment.at(v).first) > 0.0;
     near(a, known.0, found.0) && near(b, known.1, found.1) && rises(known) == rises(found)
@@ -334,7 +338,7 @@ fn is_same(
 
 /// Distance, mm, that rounding may leave between the points of a crossing on its two strands.
 fn point_error(part: &Span<'_>, speed: f64) -> f64 {
-    1e-11 * (speed + part.ends[0].coords.amax())
+    ITERATED * (speed + part.ends[0].coords.amax())
 }
 
 /// Newton's method on both parameters; `None` if it ends outside the parts by more than rounding.
@@ -357,14 +361,14 @@ fn refine(a: &Span<'_>, b: &Span<'_>) -> Option<(f64, f64)> {
         let before = (u, v);
         u = near(a, u + du);
         v = near(b, v + dv);
-        if (u, v) == before || (du.abs() < 1e-15 && dv.abs() < 1e-15) {
+        if (u, v) == before || (du.abs().max(dv.abs()) < rounding(1.0)) {
             break;
         }
     }
     let gap = (b.segment.at(v).point - a.segment.at(u).point).norm();
     let speed = a.segment.at(u).first.norm();
     let size = speed.max(b.segment.at(v).first.norm());
-    let inside = |x: f64, part: &Span<'_>| x >= part.u[0] - 1e-12 && x <= part.u[1] + 1e-12;
+    let inside = |x: f64, part: &Span<'_>| x >= part.u[0] - WRITTEN && x <= part.u[1] + WRITTEN;
     let hit = gap <= point_error(a, size) && inside(u, a) && inside(v, b);
     hit.then(|| (u.clamp(-1.0, 1.0), v.clamp(-1.0, 1.0)))
 }

@@ -1,4 +1,4 @@
-use crate::{Point, curve::Span};
+use crate::{Point, curve::Span, numeric::WRITTEN};
 
 /// Number of upward minus number of downward crossings of a part with the ray from `point` towards +x.
 ///
@@ -15,7 +15,7 @@ pub(crate) fn winding(whole: &Span<'_>, point: Point) -> i32 {
         }
         // For a part entirely to the right of the point, the ends determine the count.
         // The box of a part below rounding no longer shrinks with it.
-        let below_rounding = depth >= 20 && (end - start).amax() <= 1e-12 * start.coords.amax();
+        let below_rounding = depth >= 20 && (end - start).amax() <= WRITTEN * start.coords.amax();
         if box_.min.x > point.x || depth >= 50 || below_rounding {
             count += side(end) - side(start);
             continue;

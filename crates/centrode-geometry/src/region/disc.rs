@@ -1,4 +1,4 @@
-use crate::{Point, curve::Bounds};
+use crate::{Point, curve::Bounds, numeric::rounding};
 
 /// A circle with its inside.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,7 +26,7 @@ impl Disc {
         }
         let center = discs.iter().map(|d| d.center).collect::<Bounds>().center();
         let reach = discs.iter().map(|d| (d.center - center).norm() + d.radius);
-        let radius = reach.fold(0.0, f64::max) * (1.0 + 4.0 * f64::EPSILON);
+        let radius = reach.fold(0.0, f64::max) * (1.0 + rounding(1.0));
         Self { center, radius }
     }
 }

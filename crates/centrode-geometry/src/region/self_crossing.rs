@@ -1,7 +1,7 @@
 use crate::{
     Point,
     curve::{Bounds, Resolution, Segment, Span},
-    numeric::{COMPUTED, Tolerance, WRITTEN},
+    numeric::{COMPUTED, POSITION, Tolerance, WRITTEN},
     region::{Outline, loops::Chain},
 };
 
@@ -13,10 +13,6 @@ pub struct Crossing {
     /// The two segments that meet, the lower index first.
     pub segments: [usize; 2],
 }
-
-/// Fraction of the size of the outline that is rounding. Ten times smaller, rounding reports crossings at cusps; ten times
-/// larger misses crossings near them.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 impl Outline {
     /// Point where the contour crosses or touches itself, or `None` if it is simple.
@@ -41,7 +37,7 @@ impl Outline {
         let tolerance = Tolerance::new(WRITTEN * size).ok()?;
         let resolution = Resolution {
             size: tolerance.mm(),
-            gap: ROUNDING * size,
+            gap: POSITION * size,
             cusp: Some(band),
         };
         let (owners, parts) = self.parts();

@@ -9,13 +9,9 @@ use crate::{
         Bounds, CrossingError, Meetings, Resolution, Segment, SegmentRange, Span, meetings,
         self_meetings, winding,
     },
-    numeric::Tolerance,
+    numeric::{COMPUTED, ITERATED, Tolerance},
     region::Position,
 };
-
-/// Difference of the parameter of a segment below which two crossings are the same, or a crossing is at the end. Ten times
-/// smaller, rounding makes two crossings of one; ten times larger joins crossings of very small loops.
-const SAME: f64 = 1e-11;
 
 /// Number of stretches between crossings, the longest ones, whose winding number is also counted directly. More only cost
 /// time; with too few, a missed crossing may go unnoticed.
@@ -36,7 +32,7 @@ pub(crate) struct Passage {
 }
 
 fn are_same(u: f64, v: f64) -> bool {
-    (u - v).abs() <= SAME
+    (u - v).abs() <= ITERATED
 }
 
 /// For each passage the other passage of its crossing.
@@ -287,13 +283,13 @@ impl<'a> Chain<'a> {
 
     /// A position with a parameter below 1: the end of a segment is the start of the next.
     fn position(&self, segment: usize, u: f64) -> Position {
-        if u >= 1.0 - SAME {
+        if u >= 1.0 - ITERATED {
             Position {
                 segment: (segment + 1) % self.segments.len(),
                 u: -1.0,
             }
         } else {
-            let u = if u <= -1.0 + SAME { -1.0 } else { u };
+            let u = if u <= -1.0 + ITERATED { -1.0 } else { u };
             Position { segment, u }
         }
     }
@@ -392,7 +388,7 @@ impl<'a> Chain<'a> {
     /// Distance from the chain, mm, at which its winding number is counted: far above rounding and the tolerance.
     fn side_step(&self) -> f64 {
         let whole = self.boxes.iter().fold(Bounds::EMPTY, |b, o| b.union(*o));
-        (10.0 * self.tolerance.mm()).max(1e-9 * whole.diagonal())
+        (10.0 * self.tolerance.mm()).max(COMPUTED * whole.diagonal())
     }
 
     /// Approximate area, mm², inside parts that form a closed chain.
