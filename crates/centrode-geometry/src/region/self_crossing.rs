@@ -50,7 +50,7 @@ impl Outline {
         })
     }
 
-    /// The segments that have a length, at least four, with the index of the segment of each.
+    /// The segments that have a length, three or more if there are any, with the index of the segment of each.
     fn parts(&self) -> (Vec<usize>, Vec<Segment>) {
         let segments = self.segments().iter().enumerate();
         let whole: Vec<_> = segments.filter(|(_, segment)| !segment.is_null()).collect();
