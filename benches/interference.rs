@@ -18,7 +18,7 @@ fn tolerance(mm: f64) -> Tolerance {
     Tolerance::new(mm).expect("positive")
 }
 
-/// A bent arm with a thin clamp 145 mm from its axis, as a polygon of as many corners as asked for.
+/// A bent arm with a thin clamp 145 mm from its axis, as a polygon of as many corners as required.
 fn arm(corners: u32) -> Body {
     let shape = [
         [-34.0, 0.0],

@@ -15,7 +15,7 @@ def main() -> int:
 
     It is for a process of its own: standard output and Ctrl-C are the program's from here on.
     """
-    # A stream that was closed at the start: else the next file opened would stand in for it.
+    # A stream that was closed at the start: else the next file opened would replace it.
     for stream in (sys.__stdin__, sys.__stdout__, sys.__stderr__):
         if stream is None:
             os.open(os.devnull, os.O_RDWR)

@@ -16,7 +16,7 @@ class Contact:
     input: NDArray[float64]
     """Driver angle, rad."""
     law: NDArray[float64]
-    """Driven angle the pitch curves ask for, rad."""
+    """Driven angle the pitch curves require, rad."""
     driven_angle: NDArray[float64]
     """Driven angle when the driver pushes it on, rad; infinite where nothing does."""
     reverse_driven_angle: NDArray[float64]

@@ -33,4 +33,4 @@ class Forces:
     guides: dict[str, SliderForce]
     """Forces of a groove on what it moves, by that joint."""
     undetermined: tuple[str, ...]
-    """Joints and meshes that a force passes of which only the work is known."""
+    """Joints and meshes that pass a force with only its work known."""

@@ -3,7 +3,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Goal:
-    """What a mechanism is to reach: a figure and the range it is wanted in."""
+    """What a mechanism is to reach: a figure and its required range."""
 
     __module__ = "centrode"
 
@@ -16,7 +16,7 @@ class Goal:
     title: str
     """The goal in a few words."""
     value: float | None
-    """The figure, in `unit`; None where it was not looked at."""
+    """The figure, in `unit`; None if it was not evaluated."""
     required: tuple[float | None, float | None]
     """Minimum and maximum of the figure; None where it is open."""
     unit: str
@@ -28,7 +28,7 @@ class Goal:
     progress: float | None
     """1 where the goal is reached, falling smoothly to 0 as the figure goes away from it."""
     met: bool | None
-    """Whether it is reached; None where it was not looked at."""
+    """Whether it is reached; None if it was not evaluated."""
 
     def __str__(self) -> str:
         """Number, title, figure and whether it is reached."""

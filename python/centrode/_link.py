@@ -20,7 +20,7 @@ class Joint:
     parent: str
     """Link that carries."""
     origin: tuple[float, float, float]
-    """Place of the carried link's origin in the frame of the one that carries, where the coordinate is zero, mm."""
+    """Position of the carried link's origin in the frame of the one that carries, where the coordinate is zero, mm."""
     turn: tuple[float, float, float]
     """Turn of the carried link's frame there about x, then y, then z of the one that carries, rad."""
     axis: tuple[float, float, float]
@@ -54,7 +54,7 @@ class Link:
     name: str
     """Name, as `Mechanism.frames` has it."""
     joint: Joint | None
-    """The joint that carries it; None for a link that stands still."""
+    """The joint that carries it; None for a fixed link."""
     part: str
     """Part whose body it has, by the name of its files; empty where no single part is it."""
     solids: tuple[Solid, ...]

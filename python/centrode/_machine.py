@@ -69,11 +69,11 @@ def body(of: Gear | DiscCam | Mechanism, name: str | Part | None, tolerance: flo
             for file, contents in of.files(formats=["step"], parts=[wanted]).items():
                 return file.removesuffix(".step"), contents
         except Error:
-            # Its own message would not tell which parts have a solid.
+            # Its own message would not name the parts with a solid.
             pass
     files = (file.removesuffix(".step") for file in of.files(formats=["step"]))
     known = ", ".join(file for file in files if file != WHOLE)
-    what = "left out" if wanted is None else repr(wanted)
+    what = "omitted" if wanted is None else repr(wanted)
     raise DesignError(f"name must be a part with a solid, one of {known}, not {what}", "name")
 
 

@@ -123,7 +123,7 @@ def compound(shapes: Sequence[Any]) -> Any:
 
 
 def location(frame: ArrayLike) -> Any:
-    """Make the place of a frame, a (4, 4) matrix, mm."""
+    """Make the location of a frame, a (4, 4) matrix, mm."""
     rows = np.asarray(frame, dtype=float)[:3].ravel().tolist()
     transform = gp_Trsf()
     transform.SetValues(*rows)

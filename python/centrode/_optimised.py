@@ -19,11 +19,11 @@ class Optimised(Generic[M]):
     mechanism: M
     """The best found."""
     goals: tuple[Goal, ...]
-    """Its goals, and with number 0 whatever else was kept."""
+    """Its goals, and with number 0 the other limits."""
     steps: tuple[str, ...]
     """What a guided search moved, for which goal, and why; empty for another."""
     evaluations: int
-    """Points looked at."""
+    """Points evaluated."""
     ended: str
     """"target", "evaluations", "stopped" or "stuck"."""
     history: tuple[tuple[int, float, float], ...]

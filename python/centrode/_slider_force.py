@@ -17,4 +17,4 @@ class SliderForce:
     torque: float | NDArray[np.float64]
     """Torque on the shaft, N mm; positive where the shaft drives."""
     push: float | NDArray[np.float64]
-    """Push the groove gives the box along its way, N; negative where it holds the box back."""
+    """Push the groove gives the box along its path, N; negative where it holds the box back."""

@@ -15,7 +15,7 @@ Pool: TypeAlias = Executor | Callable[[], Executor] | None
 Ask = TypeVar("Ask")
 Answer = TypeVar("Answer")
 
-# Handed over at once, unless asked otherwise: some seconds' checks, some tens of milliseconds' variants.
+# Handed over at once, by default: some seconds' checks, some tens of milliseconds' variants.
 _DESIGNS = 32
 _VARIANTS = 4096
 
@@ -118,7 +118,7 @@ def _variants(
     attempts: int,
 ) -> Columns:
     arms = ThreeArm.from_toml(design) if isinstance(design, str) else design
-    # What is wrong is told here rather than by a worker.
+    # Errors are reported here rather than by a worker.
     given = {name: np.asarray(values, dtype=float) for name, values in over.items()}
     arms.sweep({name: values.flat[:1] for name, values in given.items()}, inputs=inputs)
     count = max((len(values) for values in given.values() if values.ndim == 1), default=1)

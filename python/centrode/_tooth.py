@@ -12,7 +12,7 @@ class ToothSide:
     tip_height: float
     """Height of the tip corner above the pitch curve."""
     tip_shortening: float
-    """How much lower the tip corner is than asked for: pitch curve or tool allow no more flank."""
+    """How much lower the tip corner is than requested: pitch curve or tool allow no more flank."""
     form_depth: float
     """Depth below the pitch curve that the tool's straight flank reaches."""
     active_depth: float

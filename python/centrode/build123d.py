@@ -105,7 +105,7 @@ def _put(whole: Any, machine: Mechanism, links: tuple[Link, ...], phi: float) ->
             carrier.connect_to(carried, position=at)
         else:
             carrier.connect_to(carried)
-    # The compound holds its children where they stood when they were put in.
+    # The compound holds its children in the positions they had when they were put in.
     whole.wrapped = _kernel().compound([child.wrapped for child in whole.children])
 
 

@@ -70,7 +70,7 @@ class Control:
     speed: float
     """Speed of the input, rad/s."""
     period: float
-    """Travel of the input after which every law repeats, up to its advance, rad."""
+    """Input after which every law repeats, up to its advance, rad."""
     _places: NDArray[float64]
     _rates: NDArray[float64]
     _advances: NDArray[float64]

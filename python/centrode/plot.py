@@ -240,8 +240,8 @@ def goals(of: Mechanism | Sequence[Goal], ax: Axes | None = None) -> Axes:
     colors = [_MET if goal.met else _MISSED for goal in found]
     ax.barh(rows, [0.0 if goal.progress is None else goal.progress for goal in found], color=colors, height=0.6)
     for row, goal in enumerate(found):
-        figure = "not looked at" if goal.value is None else f"{_shown(goal, goal.value):.4g} {_unit(goal)}".rstrip()
-        ax.text(1.02, row, f"{figure}, wanted {_range(goal)}", va="center")
+        figure = "not evaluated" if goal.value is None else f"{_shown(goal, goal.value):.4g} {_unit(goal)}".rstrip()
+        ax.text(1.02, row, f"{figure}, required {_range(goal)}", va="center")
     ax.set_yticks(rows, [f"{goal.number}  {goal.title}" for goal in found])
     ax.invert_yaxis()
     ax.set(xlim=(0.0, 1.0), xlabel="progress")
@@ -325,7 +325,7 @@ def feeder(of: Feeder, axes: NDArray[Any] | None = None) -> NDArray[Any]:
     path.set(aspect="equal", xlabel="x, mm", ylabel="y, mm", title="path of the tip")
     for column, name, color in ((0, "x", _DRIVER), (1, "y", _DRIVEN)):
         place.plot(time, tip[:, column], color=color, label=name)
-    place.set(xlabel="time, s", ylabel="mm", title="place of the tip")
+    place.set(xlabel="time, s", ylabel="mm", title="position of the tip")
     place.legend(loc="best")
     speed.plot(time, of.tip_speed(phi), color=_DRIVER)
     speed.set(xlabel="time, s", ylabel="mm/s", title="speed of the tip")
@@ -375,7 +375,7 @@ def history(*searches: Optimised[Mechanism] | str | PathLike[str], ax: Axes | No
             label = f"{name}: " + ("goals missed by" if line == ":" else "objective")
             if kept.any():
                 ax.step(count[kept], values[kept], line, where="post", color=color, label=label)
-    ax.set(yscale="log", xlabel="evaluations", ylabel="best so far")
+    ax.set(yscale="log", xlabel="evaluations", ylabel="best")
     ax.legend(loc="best")
     return ax
 

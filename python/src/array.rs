@@ -281,7 +281,7 @@ fn in_blocks<'py>(
     Ok(array.into_any())
 }
 
-/// Writes the numbers of each thing to their place among the answers.
+/// Writes the numbers of each item to their position among the answers.
 pub(crate) fn put<T, const COUNT: usize>(
     things: &[T],
     answers: &mut [f64],

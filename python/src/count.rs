@@ -3,7 +3,7 @@ use pyo3::prelude::{Borrowed, FromPyObject, PyAny, PyAnyMethods, PyErr, PyResult
 
 use crate::error::{Answer, Raised};
 
-/// A whole number as given, to be looked at once its key is known.
+/// A whole number as given, to be checked once its key is known.
 #[derive(Debug)]
 pub(crate) enum Count {
     /// One that fits.

@@ -5,7 +5,7 @@ use crate::table::table;
 table! {
     /// Words of the title block of drawing sheets, and their layout.
     ///
-    /// Keywords left out stay empty on the sheet.
+    /// Keywords omitted stay empty on the sheet.
     ///
     /// Args:
     ///     number: Drawing number; the part's name is added to it.
@@ -14,11 +14,11 @@ table! {
     ///     owner: Legal owner.
     ///     drawn_by: Who has drawn it.
     ///     approved_by: Who has approved it.
-    ///     sheet: "A4" to "A0"; the smallest that takes the part if left out.
+    ///     sheet: "A4" to "A0"; the smallest that takes the part by default.
     ///     projection: "first-angle" or "third-angle".
     ///     general_tolerance: General tolerances.
     ///     edges: State of the edges.
-    ///     surface: Texture of the surfaces that nothing else is said of, ISO 21920.
+    ///     surface: Texture of the surfaces without a texture of their own, ISO 21920.
     ///     fitted_surface: Texture of the surfaces with a tolerance class up to grade 8, and of flanks and profiles.
     ///
     /// >>> import centrode as ct
@@ -47,7 +47,7 @@ table! {
         general_tolerance: String,
         /// State of the edges.
         edges: String,
-        /// Texture of the surfaces that nothing else is said of.
+        /// Texture of the surfaces without a texture of their own.
         surface: String,
         /// Texture of the surfaces with a tolerance class up to grade 8, and of flanks and profiles.
         fitted_surface: String,

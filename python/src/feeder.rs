@@ -170,7 +170,7 @@ impl Feeder {
     /// pivot in the middle of the places that give its swing; and the share by which they were widened.
     ///
     /// Raises:
-    ///     MechanismError: The bounds hold what is wanted, or no widening helps.
+    ///     MechanismError: The bounds need no widening, or no widening helps.
     fn widened(&self, py: Python<'_>) -> Answer<(Py<Self>, f64)> {
         let feeder = Arc::clone(&self.0);
         let Widened { design, share } = wait(py, move || Widened::search(feeder.design()))??;

@@ -1,4 +1,4 @@
-//! Files in the formats asked for, in memory or on disk.
+//! Files in the requested formats, in memory or on disk.
 
 use std::path::PathBuf;
 

@@ -43,7 +43,7 @@ impl Gear {
         within(tolerance, self.pair.accuracy())
     }
 
-    /// Asks the gear something that may take long.
+    /// Runs a long computation on the gear.
     fn ask<T: Send + 'static>(
         &self,
         py: Python<'_>,
@@ -141,7 +141,7 @@ impl Gear {
         record::teeth(py, self.inner().teeth())
     }
 
-    /// A measuring pin laid into every space; the diameter (mm) is the design's, or chosen, if left out.
+    /// A measuring pin laid into every space; the diameter (mm) is the design's, or chosen, by default.
     ///
     /// >>> import centrode as ct
     /// >>> pair = ct.GearPair(ct.pitch.circle(module=2, tooth_count=24))
@@ -258,7 +258,7 @@ impl Gear {
 
     /// The gear as a closed triangle mesh, from z = 0 to its width: vertices (V, 3), mm, and faces (F, 3).
     ///
-    /// Faces list their vertices counter-clockwise seen from outside. `width` stands in for the body's.
+    /// Faces list their vertices counter-clockwise seen from outside. `width` replaces the body's.
     ///
     /// >>> import centrode as ct
     /// >>> gear = ct.GearPair(ct.pitch.circle(module=2, tooth_count=20)).driver
@@ -328,8 +328,8 @@ impl Gear {
     /// The drawing sheets of the gear: views, dimensions, gear data, measures over pins, profile.
     ///
     /// Args:
-    ///     size: "A4" to "A0"; left out, the design's, or the smallest that takes the gear.
-    ///     projection: "first-angle" or "third-angle"; left out, the design's.
+    ///     size: "A4" to "A0"; default: the design's, or the smallest that takes the gear.
+    ///     projection: "first-angle" or "third-angle"; default: the design's.
     ///     tolerance: Maximum distance of a drawn line from the exact one on the part, mm.
     ///
     /// Raises:

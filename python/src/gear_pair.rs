@@ -44,20 +44,20 @@ const FARTHEST: f64 = 1e6;
 ///     tooth_count: Teeth of the driver, for a pitch curve with a size of its own: the module follows.
 ///     center_distance: mm; it follows from pitch curve, mean ratio and shifts, and is checked if given. Circular gears with one
 ///         shift given get the other shift from it.
-///     tool: What cuts both gears; the rack of ISO 53, profile A, if left out.
-///     addendum: "full": every tooth as high as the tool asks. "fitted": each as high as works.
-///     fit: What is chosen so that fitted teeth work deepest, in the place of what is given here: "thickness_split",
-///         "pressure_angle" of the tool, "phase"; "addendum" stands for fitted teeth, which all of them have.
+///     tool: What cuts both gears; the rack of ISO 53, profile A, by default.
+///     addendum: "full": every tooth has the height of the tool. "fitted": each has the largest height that works.
+///     fit: Parameters to optimise for the contact ratio, instead of those given here: "thickness_split",
+///         "pressure_angle" of the tool, "phase"; "addendum" is fitted teeth; any of the others implies it.
 ///     phase: Where the teeth sit on the driver: "tooth" or "space" at the polar angle zero, "congruent" so that
 ///         both gears come out the same part, "auto", or the pitches from the polar angle zero to a tooth.
-///     backlash: Play of the pair along the normal, mm.
-///     backlash_angle: Play of the driven gear at most, rad, instead of `backlash`.
+///     backlash: Backlash of the pair along the normal, mm.
+///     backlash_angle: Maximum backlash of the driven gear, rad, instead of `backlash`.
 ///     thickness_split: The driver's share of the pitch.
 ///     minimum_tip_width_coefficient: Minimum width of a tooth at its tip, in modules, before it is reported.
 ///     thickness_deviations: Upper and lower deviation of the finished teeth's thickness from the design, mm, each within
 ///         half a module: limits of the measures over pins. Default: zero and minus the tolerance of DIN 3967 for the
 ///         accuracy class.
-///     pin_diameter: Diameter of the measuring pins, mm; chosen if left out.
+///     pin_diameter: Diameter of the measuring pins, mm; chosen by default.
 ///     driver: Body of the driver.
 ///     driven: Body of the driven gear.
 ///     driver_shift: Profile shift coefficient of the driver, in modules; the opposite of that of the driven gear if not given.
@@ -217,7 +217,7 @@ impl GearPair {
         DrawingSpec(self.0.drawing().clone())
     }
 
-    /// Play along the common normal, mm.
+    /// Backlash along the common normal, mm.
     #[getter]
     fn backlash(&self) -> f64 {
         self.0.backlash()
@@ -319,7 +319,7 @@ impl GearPair {
     ///
     /// Args:
     ///     per_pitch: Inputs a pitch, spaced evenly along the pitch curve and never in step with the teeth.
-    ///     inputs: Driver angles, rad, instead of these; at most 1e6 either way.
+    ///     inputs: Driver angles, rad, instead of these; at most 1e6 in either direction.
     ///
     /// >>> import centrode as ct
     /// >>> pair = ct.GearPair(ct.pitch.ellipse(eccentricity=0.2, module=2, tooth_count=23))
@@ -345,8 +345,8 @@ impl GearPair {
     }
 
     /// From how many teeth on full teeth, fitted ones, and fitted ones of chosen thickness, pressure angle and phase carry the
-    /// motion by their flanks alone, each with the pair so changed. A kind that does not up to 600 teeth is left out; a choice is
-    /// looked for only where as many fitted teeth as there are do not. Takes seconds.
+    /// motion by their flanks alone, each with the pair so changed. A kind that does not up to 600 teeth is omitted; a choice is
+    /// searched only where as many fitted teeth as there are do not. Takes seconds.
     ///
     /// >>> import centrode as ct
     /// >>> pitch = ct.pitch.from_ratio("1 + 0.4*cos(phi)", module=2, tooth_count=8)
@@ -363,7 +363,7 @@ impl GearPair {
         Ok(PyTuple::new(py, made.collect::<Answer<Vec<_>>>()?)?)
     }
 
-    /// The drawing sheets of both gears in place: centre distance, data, motion; as `Gear.sheet`.
+    /// The drawing sheets of both gears assembled: centre distance, data, motion; as `Gear.sheet`.
     #[pyo3(signature = (size=None, *, projection=None, tolerance=1e-3))]
     fn sheet<'py>(
         &self,

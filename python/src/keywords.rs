@@ -16,7 +16,7 @@ use crate::word::Word;
 
 /// A field of a spec, as a keyword gives it.
 pub(crate) trait Field: Sized {
-    /// Value that None stands for, where it may be given.
+    /// Value that None represents, where it may be given.
     fn none() -> Option<Self> {
         None
     }
@@ -38,7 +38,7 @@ macro_rules! plain {
 
 plain!(f64, bool, String, [f64; 2]);
 
-/// Fields that a class of the module holds, with what None stands for.
+/// Fields that a class of the module holds, with what None represents.
 macro_rules! held {
     ($($field:ty: $class:ty, $none:expr;)*) => {
         $(impl Field for $field {
@@ -174,7 +174,7 @@ impl<'py> Call<'py> {
     }
 }
 
-/// Sets fields of a table, at a place in its design, from keywords of their names or `keyword = field`.
+/// Sets fields of a table, at a position in its design, from keywords of their names or `keyword = field`.
 macro_rules! fill {
     ($call:expr, $table:expr, $place:literal: $($keyword:ident $(= $field:ident)?),*) => {
         $($crate::keywords::fill!(@ $call, $table, $place, $keyword $($field)?);)*

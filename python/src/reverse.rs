@@ -36,9 +36,9 @@ pub(crate) use given::{reverse, reverse_poses};
 /// Bytes read of a path's file: one more than it may have.
 pub(crate) const LARGEST: usize = RequiredPath::LARGEST + 1;
 
-/// A machine made from the path wanted of its tip, by `reverse`, or from key poses, by `reverse_poses`.
+/// A machine made from the path required of its tip, by `reverse`, or from key poses, by `reverse_poses`.
 ///
-/// A carrier turns about `axis` and bears an arm; a train of gears whose sun stands still turns the arm once against it while
+/// A carrier turns about `axis` and supports an arm; a train of gears whose sun is fixed turns the arm once against it while
 /// it turns once.
 #[pyclass(frozen, module = "centrode")]
 #[derive(Debug)]
@@ -136,7 +136,7 @@ impl Reversed {
         self.chain.shaft_distance()
     }
 
-    /// Way in which two stages of gears share the motion.
+    /// Method by which two stages of gears share the motion.
     #[getter]
     fn split(&self) -> &'static str {
         self.split.kind().name()
@@ -161,8 +161,8 @@ impl Reversed {
         record::goals(py, self.eased_path().map_or(&[], |eased| &eased.goals))
     }
 
-    /// Findings on the machine: that the axis found stands at the border of its box, `axis-at-border`, and of several
-    /// arms whose plates or gears collide, `plates-collide` and `gears-collide`, as the check of `machine()` tells it, the deepest
+    /// Findings on the machine: that the axis found is at the border of its box, `axis-at-border`, and of several
+    /// arms whose plates or gears collide, `plates-collide` and `gears-collide`, as the check of `machine()` reports it, the deepest
     /// first. Several arms cost the teeth of `machine()`.
     #[getter]
     fn findings<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
@@ -229,11 +229,11 @@ impl Reversed {
     fn splits<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyTuple>> {
         let (chain, bend) = (self.chain.clone(), self.bend_deg.to_radians());
         let found = wait(py, move || {
-            SplitKind::NAMES.map(|(name, kind)| {
+            SplitKind::ALL.map(|kind| {
                 let split = Split::new(&chain, kind, bend).map_err(|error| error.to_string());
                 let made = |split| ReversedMachine::new(&chain, &split, 1, None);
                 (
-                    name,
+                    kind.name(),
                     split.and_then(|split| made(split).map_err(|error| error.to_string())),
                 )
             })
@@ -292,8 +292,8 @@ impl Reversed {
 
     /// The three-arm transplanting mechanism that takes the key poses, picks in the first and plants in the last.
     ///
-    /// Bend and law of its gears are sought so that it reaches its goals with sound full teeth; of `split` and `bend_deg` nothing
-    /// is taken. Where none is found that reaches all, the nearest is given: ask it for its goals.
+    /// Bend and law of its gears are searched so that it reaches its goals with sound full teeth; of `split` and `bend_deg` nothing
+    /// is taken. Where none is found that reaches all, the nearest is given: its goals show the misses.
     ///
     /// Raises:
     ///     MechanismError: A path was given, the clamp points back at the arm's axis, or no law brings the arm through the poses.

@@ -45,7 +45,7 @@ pub(crate) fn optimised<'py>(
 }
 
 /// Searches until the end, Ctrl-C, or a callback that returns False or raises. After the end, and where the callback
-/// returns False, the best so far is the answer.
+/// returns False, the best found is the answer.
 fn search(
     py: Python<'_>,
     family: Family,
@@ -63,7 +63,7 @@ fn search(
             strategy,
             settings,
             &mut |progress| {
-                // Whoever asked may have gone.
+                // The receiver may be gone.
                 let gone = stated.send(*progress).is_err();
                 if gone || stopped.load(Ordering::Relaxed) {
                     ControlFlow::Break(())

@@ -24,7 +24,7 @@ use crate::word::Word;
 ///     frame: Length AD, mm.
 ///     pivot: The effector's pivot F, mm.
 ///     effector_length: Length FE, mm.
-///     branch: "upper" with C left of the way from B to D, or "lower".
+///     branch: "upper" with C left of the line from B to D, or "lower".
 ///
 /// Raises:
 ///     LinkageError: The four-bar is no crank-rocker, or the pivot lies on the slider's path.
@@ -194,7 +194,7 @@ impl SixBar {
         ])
     }
 
-    /// Places of the effector's pivot that all give this swing (rad) with these four lengths, in order along a curve:
+    /// Positions of the effector's pivot that all give this swing (rad) with these four lengths, in order along a curve:
     /// an array (N, 2). Half a turn is seen from the chord between the slider's dead centres, and from nowhere else; more
     /// than half a turn and half the rocker's swing from nowhere.
     ///

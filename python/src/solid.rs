@@ -78,7 +78,7 @@ fn edge<'py>(py: Python<'py>, side: &Segment) -> PyResult<Bound<'py, PyAny>> {
     )
 }
 
-/// Extrusions that a bundle keeps, by name.
+/// Extrusions of a bundle, by name.
 pub(crate) fn solids<'py>(
     py: Python<'py>,
     bundle: Bundle,
@@ -169,7 +169,7 @@ fn link<'py>(
     Ok(made?)
 }
 
-/// A shaft or pin as its STEP file, a ring or key as its extrusion, with its place.
+/// A shaft or pin as its STEP file, a ring or key as its extrusion, with its position.
 fn mounted<'py>(
     py: Python<'py>,
     body: &Mounted,

@@ -55,7 +55,7 @@ impl<T: Value> Value for Option<T> {
 }
 
 /// A class whose keywords and attributes are the keys of a table: those that must be given, and those that are as usual
-/// where they are left out.
+/// where they are omitted.
 macro_rules! table {
     (
         $(#[$($about:tt)*])*

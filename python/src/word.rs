@@ -1,4 +1,4 @@
-//! Words of design files and calls, and what each stands for.
+//! Words of design files and calls, and what each represents.
 
 use crate::error::{Answer, Raised};
 use centrode_formats::dxf::{Curves, Version};
@@ -20,7 +20,7 @@ pub(crate) trait Word: Copy + PartialEq + 'static {
     /// All of them, by their words.
     const WORDS: &'static [(&'static str, Self)];
 
-    /// Whether a number may stand in place of a word.
+    /// Whether a number may replace a word.
     const NUMBER: OrNumber<Self> = None;
 
     /// The one of a word given at a key.
@@ -114,22 +114,16 @@ impl Word for Scheme {
     ];
 }
 
-impl Word for SheetSize {
-    const WORDS: &'static [(&'static str, Self)] = &[
-        ("A4", Self::A4),
-        ("A3", Self::A3),
-        ("A2", Self::A2),
-        ("A1", Self::A1),
-        ("A0", Self::A0),
-    ];
+/// Types that know their own words.
+macro_rules! own_words {
+    ($($kind:ty),*) => {
+        $(impl Word for $kind {
+            const WORDS: &'static [(&'static str, Self)] = &Self::NAMES;
+        })*
+    };
 }
 
-impl Word for Projection {
-    const WORDS: &'static [(&'static str, Self)] = &[
-        ("first-angle", Self::FirstAngle),
-        ("third-angle", Self::ThirdAngle),
-    ];
-}
+own_words!(Aim, Projection, SheetSize, SplitKind, Strategy);
 
 impl Word for Version {
     const WORDS: &'static [(&'static str, Self)] = &[("R2010", Self::R2010), ("R12", Self::R12)];
@@ -138,16 +132,4 @@ impl Word for Version {
 impl Word for Curves {
     const WORDS: &'static [(&'static str, Self)] =
         &[("arcs", Self::Arcs), ("splines", Self::Splines)];
-}
-
-impl Word for Aim {
-    const WORDS: &'static [(&'static str, Self)] = &Self::NAMES;
-}
-
-impl Word for SplitKind {
-    const WORDS: &'static [(&'static str, Self)] = &Self::NAMES;
-}
-
-impl Word for Strategy {
-    const WORDS: &'static [(&'static str, Self)] = &Self::NAMES;
 }

@@ -58,5 +58,5 @@ def test_what_is_asked_wrongly_is_refused(drive):
         ct.gear_drive(machine, "rod", center_distance=130)
     with pytest.raises(ct.MechanismError, match=r"goals\.rest"):
         ct.gear_drive(ct.Machine.from_toml(SLIDER.replace("maximum = 1.5", "maximum = 40")), center_distance=130)
-    with pytest.raises(ct.MechanismError, match="no goal says"):
+    with pytest.raises(ct.MechanismError, match="no goal defines the output"):
         ct.gear_drive(ct.Machine.from_toml(SLIDER.split("goals.steady")[0]), center_distance=130)

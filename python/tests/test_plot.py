@@ -92,8 +92,8 @@ def test_goals_are_bars_as_long_as_their_progress():
     lengths = [bar.get_width() for bar in ax.patches]
     assert lengths == [goal.progress or 0 for goal in arms.goals()]
     words = [text.get_text() for text in ax.texts]
-    assert words[1].startswith("0.6161 deg, wanted -5 to 15")
-    assert words[6].startswith("370.8 mm, wanted at least 260")
+    assert words[1].startswith("0.6161 deg, required -5 to 15")
+    assert words[6].startswith("370.8 mm, required at least 260")
     assert ct.plot.goals(arms.goals(), ax=ax) is ax
 
 

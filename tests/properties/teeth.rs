@@ -189,7 +189,7 @@ proptest! {
             prop_assert!(
                 matches!(
                     error,
-                    GearPairError::Pitch(_) | GearPairError::Profile(ProfileError::Looped { .. } | ProfileError::Gap { .. } | ProfileError::Touches { .. })
+                    GearPairError::Pitch(_) | GearPairError::Profile(ProfileError::Looped { .. } | ProfileError::Gap { .. })
                         | GearPairError::Profile(ProfileError::Unresolved { cause: LoopError::Unresolved { cause: CrossingError::Overlap { .. }, .. }, .. })
                 ),
                 "{error}"

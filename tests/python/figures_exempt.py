@@ -32,7 +32,7 @@ EXEMPT = {
         TIME: (r"^\| (?:generate; prove|whole command|next to ncgears).*",),
     },
     "docs/adapters.md": {
-        LIMIT: (r"1e-6 mm, are closed up: a kernel takes points 1e-7 mm",),
+        LIMIT: (r"1e-6 mm, are closed up: a kernel merges points 1e-7 mm",),
         "largest seen by the test or campaign of its row": (
             r"of 17 designs",
             r"^\| (?:volume of|links of|joints in).*",
@@ -53,7 +53,7 @@ EXEMPT = {
         ),
         INPUT: (r"Firefox \(153 ESR",),
         "time, measured by benches/browser/edits.py": (r"^\| `[\w-]+`.* \| \d+ \| \d+ \| \d+ \|",),
-        "memory, measured by benches/browser/edits.py": (r"Over 2,000 edits .* a caret blinks",),
+        "memory, measured by benches/browser/edits.py": (r"over 2,000 edits(?:.*\n)*?.* a caret blinks",),
     },
     "docs/drive.md": {
         INPUT: (r"\(or -1\)", r"\(180 degrees\)"),
@@ -72,7 +72,7 @@ EXEMPT = {
             r"backlash of 0\.1 mm",
         ),
         FORMULA: (r"2 T / \(d t l\)",),
-        LIMIT: (r"2000 random six-bars", r"more than 240 inputs", r"within 2 % of the contact"),
+        LIMIT: (r"2000 random six-bars", r"more than\s240 inputs", r"within 2 % of the\scontact"),
         SIMULATED: (r"effector is off the closed form by[^(]*\([^)]*\)",),
         PEERS: (r"^\| .*(?:ns|evaluations|ms) \|.*",),
     },
@@ -80,7 +80,7 @@ EXEMPT = {
         "status": (r"0 good, 1 a finding is an error, 2 no machine",),
         "release of the format": (r"release 2010",),
         "edition of the standard": (r"ISO 1328-1:2013",),
-        LIMIT: (r"part is 100 mm long", r"less than 0\.05 mm of play"),
+        LIMIT: (r"part is 100 mm long", r"less than 0\.05 mm of clearance"),
     },
     "docs/findings.md": {
         "status": (r"\| 0 \| 1 \| 2 \|", r"^Status 101 "),
@@ -89,8 +89,8 @@ EXEMPT = {
     "docs/how-to/shop.md": {
         INPUT: (r"release 12", r"than 0\.01", r"of 1/"),
         FORMULA: (r"a - j / \(2 sin .\)", r"E cos . / 2", r"j - 2 E", r"j / \(2 cos .\)"),
-        LIMIT: (r"contact ratio of 1\.1",),
-        RUST: (r"18 \+ the accuracy class: 26h for class 8",),
+        LIMIT: (r"contact ratio of\s1\.1",),
+        RUST: (r"18 \+ the accuracy class:\s26h for class 8",),
     },
     "docs/how-to/simulation.md": {
         "a size of PyBullet": (r"margin of 1 mm",),
@@ -102,7 +102,7 @@ EXEMPT = {
         LIMIT: (r"and 48 where", r"from 1e-7 mm", r"up to 400 bodies", r"up to 1000 attributes"),
     },
     "docs/machine-file.md": {
-        RUST: (r"to 1e-9\.",),
+        RUST: (r"to 1e-9: \[the feeder",),
         INPUT: (
             r"at 30 degrees, at 5 mm",
             r"1 turns on through 360 degrees, 0 swings",
@@ -111,11 +111,11 @@ EXEMPT = {
             r"each 0 by default",
         ),
         FORMULA: (
-            r"from 0 to 1 over an input from 0 to 1",
+            r"from 0 to 1 over an input from 0\sto 1",
             r"0 to 180 deg",
             r"from 0 to 90 deg",
             r"above 90 deg",
-            r"short of\s180 deg",
+            r"difference from 180 deg",
         ),
         LIMIT: (
             r"at least 6 values",
@@ -139,10 +139,10 @@ EXEMPT = {
         ),
     },
     "docs/machine.md": {
-        LIMIT: (r"poses to 1e-12", r"forces to 1e-6"),
+        LIMIT: (r"poses to\s1e-12", r"forces to 1e-6"),
     },
     "docs/measured.md": {
-        TIME: (r"^\| (?:generate; prove|whole command|next to ncgears).*", r"which costs 7 %"),
+        TIME: (r"^\| (?:generate; prove|whole command|next to ncgears).*",),
         CAMPAIGN: (
             r"^## Many teeth\n(?:.*\n)*?(?=## Seats)",
             r"^## Seats\n(?:.*\n)*?(?=## B-splines)",
@@ -164,14 +164,14 @@ EXEMPT = {
             r"\)\^2\)",
         ),
         INPUT: (
-            r"slider 10 mm wide",
+            r"slider 10 mm\swide",
             r"(?:one|slider|bar of) 42 mm",
             r"w = 10 mm, R = 15 mm",
             r"at 12 deg",
             r"^\| (?:\d+ \| 1|\d+ \| [234])",
             r"^\| \d+(?= \|)",
             r"groove 2\.5 mm",
-            r"for R = 15 mm and\na reach h of 3\.5 mm",
+            r"for R = 15\smm and a reach h of 3\.5 mm",
             r"at 180 deg less",
             r"at 200 r/min",
         ),
@@ -229,17 +229,18 @@ EXEMPT = {
     },
     "docs/proof.md": {
         INPUT: (r"at 17 points per piece",),
-        LIMIT: (r"Within 4e-10 rad", r"a flank that touches 1 um out[^:]*1e-9 rad", r"fillet that is 1 um out"),
+        LIMIT: (r"Within 4e-10 rad", r"an axis moved by 1 um[^:]*1e-9 rad", r"fillet that is 1 um out"),
         PROOF: (
             r"some 1e-9 mm",
             r"\| [\d.]+ s(?= \|)",
             r"^\| (?:`two-stage`|`three-arm-all-goals`|`three-arm-from-poses`|the press of).*",
             r"\| \d+ \| [\d.]+ s \|$",
-            r"the press took 236 s where it took 284 s",
             r"Of 1,000 defects",
             r"in 10 to 106 s of",
         ),
-        "polygons of the outlines in shapely, by hand": (r"^Polygons of the outlines say the same.*",),
+        "polygons of the outlines in shapely, by hand": (
+            r"^Polygons of the outlines show the same(?:.*\n)*?.*0\.0005 rad",
+        ),
     },
     "docs/reverse.md": {
         LIMIT: (
@@ -248,22 +249,22 @@ EXEMPT = {
             r"above 4 MiB",
             r"within 1e-7 of",
             r"below 12,",
-            r"below 315,",
+            r"below 315\.",
             r"to 1e-10 rad",
             r"within 0\.1 mm",
             r"band of its own: 0 where",
             r"Of more than 24 points",
             r"up to 200 points",
             r"up to 1000 times the size",
-            r"\(2 where it is left out\)",
+            r"\(default 2\)",
         ),
-        RUST: (r"near 1e-9 rad for q = 400", r"of a module of 0\.11 mm"),
+        RUST: (r"near 1e-9 rad for\sq = 400", r"of a module of 0\.11 mm"),
         TIME: (r"^## What it costs\n(?:.*\n)*",),
-        INPUT: (r"at \(260, 160\)", r"1 for round gears", r"nearer it stays to 1", r"ratio is nearest to 1"),
+        INPUT: (r"at \(260, 160\)", r"1 for round gears", r"nearer it stays to 1", r"ratio nearest to 1"),
         FORMULA: (r"\(R \+ rho\)/2 and \(R - rho\)/2", r"\(carrier/2\)/cos\(bend/2\)", r"bend [-+] 180"),
     },
     "docs/strong-laws.md": {
-        LIMIT: (r"most 1e-9 rad", r"up to 2e-5 rad", r"up to 600"),
+        LIMIT: (r"most 1e-9 rad", r"Up to 2e-5 rad", r"up to 600"),
         INPUT: (
             r"from 24 teeth on",
             r"1 \+ 0\.\d+ cos \d phi",
@@ -274,11 +275,11 @@ EXEMPT = {
     },
     "docs/theory/contact.md": {
         FORMULA: (r"rate 1 \+",),
-        LIMIT: (r"and 48 where", r"at 25 angles or more", r"It is 0 where"),
+        LIMIT: (r"\| 48 per pitch", r"at 25 angles or more", r"It is 0 where"),
     },
     "docs/theory/feeder.md": {
         FORMULA: (r"</sub>, 0\)", r"from 0 to"),
-        INPUT: (r"below 40 degrees", r"asks for 40", r"has 40 pitches and drives 30"),
+        INPUT: (r"below 40 degrees", r"requires 40", r"has 40 pitches and drives 30"),
     },
     "docs/theory/index.md": {
         FORMULA: (r"\(a, 0\)",),
@@ -328,23 +329,27 @@ EXEMPT = {
             r"cam\. 30 deg",
             r"above 45 deg",
             r"S = 145 mm and H = 65 mm",
-            r"above\n2\.5 mm",
+            r"above 2\.5 mm",
             r"margin of 1 mm",
             r"carrier at 2 rad/s",
         ),
-        SIMULATED: (r"stays within 0\.03 deg(?:.*\n)*?.*within 0\.40 deg", r"at 245 deg.*", r"back at 256 deg"),
+        SIMULATED: (
+            r"of 0\.01 mm \| stays within 0\.03 deg(?:.*\n)*?.*within 0\.40 deg",
+            r"at 245 deg.*",
+            r"back at 256 deg",
+        ),
         RUST: (
             r"<!-- readings -->\n(?:.*\n)*?<!-- end of readings -->",
             r"<!-- all goals -->\n(?:.*\n)*?<!-- end of all goals -->",
-            r"the sun's 66 .*",
+            r"12 to 15 of the sun's 66\sflanks are undercut in the x, y reading of degree 3",
         ),
         "counted by the search named next to it": (
             r"after 4320 evaluations",
-            r"after 3000 evaluations the module is still 85 %",
+            r"After 3000 evaluations the module is still 85 %",
         ),
         LIMIT: (
             r"1\.2 diameters of its hole",
-            r"grid of 0\.001 mm\nand 0\.001 degrees",
+            r"grid of 0\.001 mm and 0\.001 degrees",
             r"goals 2 to 4 and 6 to 8",
             r"1e-9 for",
             r"to 1e-7 where.*",
@@ -356,7 +361,7 @@ EXEMPT = {
             r", 720 samples",
             r"720 poses",
         ),
-        PEERS: (r"^2 to 4 and 6 to 8 of a machine.*",),
+        PEERS: (r"Goals 2 to 4 and 6 to 8 of a machine.*\n.*",),
     },
     "docs/tutorial/1-laser.md": {
         INPUT: (r"sheet of 10 mm", r"than 0\.005 mm", r"\(1 [+-] k\)/\(1 - k\)"),

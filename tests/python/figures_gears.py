@@ -135,7 +135,7 @@ PAGES = {
         *(Said(f"| `{name}`... s | {{}} MB | {{}} | {{}} |", lambda name=name: proof(name)[0]) for name in PROVED),
         Said("at most {<} rad in the shipped pairs", lambda: max(proof(name)[1] for name in PROVED)),
         Said("Of the {} laws", laws),
-        Said("five deep lobes cannot be told at {} rad", lambda: lost("limit_five_lobe_deep")),
+        Said("the holding features cannot be followed at {} rad", lambda: lost("limit_five_lobe_deep")),
     ],
     "docs/strong-laws.md": [
         Said("cos 2 phi: fitted teeth with {}, full ones at none of the counts; with {}, where", remedy),
@@ -166,12 +166,12 @@ PAGES = {
     "docs/tutorial/1-laser.md": [Said("turns {} to {} times as fast", template_ratio)],
     "docs/tutorial/3-transplanter.md": [
         Said(
-            "asks for, {} flanks cannot",
+            "requires, {} flanks cannot",
             lambda: next(goal.value for goal in design("three-arm-2021").check().goals if goal.name == "sound-teeth"),
         ),
     ],
     "docs/tutorial/4-compose.md": [
         Said("at {} and {} degrees of the input", lambda: press()[:2]),
-        Said("one way in {} degrees and the other way in {}: a quick return of {} to 1", lambda: press()[2:]),
+        Said("one stroke takes {} degrees and the return {}: a quick return of {} to 1", lambda: press()[2:]),
     ],
 }

@@ -173,13 +173,13 @@ FEEDER = [
     Said("can miss by {} degrees, to first order", lambda: rounded()[0]),
     Said("it is {} and {}. A tolerance", lambda: rounded()[1:]),
     Said(
-        "keeps it within {<} degrees",
+        "holds it within {<} degrees",
         lambda: 0.05 * sum(map(abs, sensitivity(*middle()))),
     ),
     Said("once in {} degrees and the entry angle", lambda: 360 * 30 / 40),
     Said("chain of 2.7 give {} cycles a minute, and five slots {} cuttings", rates),
     Said(
-        "at most {} rad either way while it moves and {} rad while it rests",
+        "at most {} rad in either direction while it moves and {} rad while it rests",
         lambda: [values("feeder-2022")[f"gear_play_{when}_max"] for when in ("moving", "resting")],
     ),
     Said("the backlash of 0.1 mm alone is {} rad", lambda: 0.1 / 2 / (105 * 30 / 70 * cos(radians(20)))),
@@ -320,7 +320,7 @@ def round_shaft(length, speed=SLOW):
 
 BOX = [
     Said(
-        "Lead {} mm, picking window {} deg, pot {} mm wide (so at most {} mm), m = {} kg, friction {} in the groove and"
+        "Lead {} mm, picking window {} deg, pot {} mm wide (so at most {} mm), m = {} kg. Friction {} in the groove and"
         " {} on the rails, g = {} m/s^2, R = {} mm, {} r/min",
         lambda: [LEAD, degrees(WINDOW), 18, 18 / 6, MASS, tan(GROOVE), RAILS, GRAVITY, RADIUS, OMEGA * 60 / TAU],
     ),
@@ -339,9 +339,9 @@ BOX = [
         "| elliptic gears, k = {} | {} | {} | {} | {} to {} | {} |",
         lambda: [eccentricity(2.05), 2.05, *elliptic(eccentricity(2.05))],
     ),
-    Said("departs by up to {} mm", departure),
+    Said("deviates by up to {} mm", departure),
     Said(
-        "kappa = B moves {} mm in the window",
+        "With kappa = B it moves {} mm in the window",
         lambda: 2 * rotated(B, WINDOW / 2),
     ),
     Said("the reversal takes {} deg, the cycle {} turns", lambda: [360, 2 * (14 - 1) + 2]),
@@ -371,11 +371,11 @@ BOX = [
     Said("less than the {} mm without walls", lambda: gap(SLOW)),
     Said("lead angles from {} to {} deg out", lambda: [degrees(atan(s / RADIUS)) for s in (SLOW, FAST)]),
     Said(
-        "a bar of 42 mm is off by {} mm at the slow places and {} mm at the fast ones",
+        "a bar of 42 mm is off by {} mm at the slow points and {} mm at the fast ones",
         lambda: [bent_bar(42, SLOW), bent_bar(42, FAST)],
     ),
     Said("While the pin passes the {} mm over which", lambda: gap(SLOW)),
-    Said("so it must be {} mm long, {} deg round the shaft", lambda: [2 * gap(SLOW), round_shaft(2 * gap(SLOW))]),
+    Said("So it must be {} mm long, {} deg round the shaft", lambda: [2 * gap(SLOW), round_shaft(2 * gap(SLOW))]),
     Said("at 200 r/min the gap lasts {} ms", lambda: 1000 * radians(round_shaft(gap(SLOW))) / OMEGA),
     Said("over the slow speed of {} mm a radian", lambda: SLOW),
     Said(
@@ -383,18 +383,18 @@ BOX = [
         lambda: [2 * gap(SLOW, 2.5), round_shaft(2 * gap(SLOW, 2.5))],
     ),
     Said(
-        "bent, it is off by {} mm at the slow places and {} mm at the fast ones",
+        "Bent, it is off by {} mm at the slow points and {} mm at the fast ones",
         lambda: [bent_bar(2 * gap(SLOW, 2.5), s) for s in (SLOW, FAST)],
     ),
     Said(
-        "for the shaft above {} mm at the slow places, {} mm at mean speed, {} mm at the fast ones",
+        "for the shaft above {} mm at the slow points, {} mm at mean speed, {} mm at the fast ones",
         lambda: [wall_deviation(speed) for speed in (SLOW, MEAN, FAST)],
     ),
     Said(
         "2 sqrt(R^2 - (R - h)^2), {} mm for R = 15 mm",
         lambda: 2 * sqrt(RADIUS**2 - (RADIUS - 3.5) ** 2),
     ),
-    Said("to bridge a crossing of {} mm it must", lambda: gap(SLOW)),
+    Said("So to bridge a crossing of {} mm it must", lambda: gap(SLOW)),
 ]
 
 # The three-arm mechanism: the tables of its page are held by tests/published, as Rust writes them

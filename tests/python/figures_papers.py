@@ -198,7 +198,7 @@ THREE_ARM = [
     Said("x from {} to {} mm/s, y from {} to {} mm/s", lambda: ranges(course()[1])),
     Said("the carrier turns at {} r/min", lambda: design("three-arm-2021").carrier_speed * 60 / TAU),
     Said("{} % slower: {} mm/s, not {} mm/s", slower),
-    Said("picks {} mm before the farthest reach and plants {} mm above the lowest place", short),
+    Said("picks {} mm before the farthest reach and plants {} mm above the lowest point", short),
     Said("are missed: {}, {} and {} deg", lambda: goals(free(), 2, 3, 4)),
     Said("from the carrier's axis gives a picking turn of {} deg", lambda: tray_of(243.62)),
     Said("it gives about {} deg, and", as_printed),

@@ -77,7 +77,7 @@ def test_goals_move_with_a_point_that_is_held(browser, tmp_path, design, name):
             seen.append(exact(page))
             # The rest is told to be unknown.
             expect(page.locator("#findings h2")).to_have_text("○ Checking …")
-            expect(page.locator("#findings .title")).to_contain_text("of the design before: findings, figures")
+            expect(page.locator("#findings .title")).to_contain_text("from the previous design: findings, figures")
         page.mouse.up()
         expect(page.locator("#file")).to_contain_text("not saved")
         page.keyboard.press("Control+s")
@@ -110,7 +110,9 @@ def test_goals_of_another_state_are_told_to_be_that(browser, tmp_path):
             tip.fill("146")
             tip.press("Enter")
             expect(page.locator("#goals")).to_have_attribute("aria-busy", "true")
-            expect(page.locator("#findings .title")).to_contain_text("of the design before: goals, findings, figures")
+            expect(page.locator("#findings .title")).to_contain_text(
+                "from the previous design: goals, findings, figures"
+            )
             expect(page.locator("#goals")).to_have_css("opacity", "0.55")
         known(page)
         settled(page)

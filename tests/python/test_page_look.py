@@ -36,7 +36,7 @@ def place(page, name):
 @pytest.mark.parametrize("name", sampled(["sun", "planet 2"], of=["sun"]))
 def test_a_gear_is_looked_at_and_followed(browser, tmp_path, name):
     with opened(browser, tmp_path, ARMS) as (page, _):
-        look = page.get_by_role("combobox", name="What is looked at")
+        look = page.get_by_role("combobox", name="Gears in view")
         gears = ["sun", *(f"{kind} {arm}" for kind in ("intermediate gear", "planet") for arm in (1, 2, 3))]
         assert look.locator("option").all_inner_texts() == ["All", *gears]
         whole = drawing(page)

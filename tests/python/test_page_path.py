@@ -123,7 +123,7 @@ def test_figures_are_those_of_the_command_line(page, running):
     # The other splits come last.
     expect(page.locator('#figures tr:not(.stale) td[data-key="split one-pair"]')).to_be_visible()
     own = figures(page)
-    assert own["axis of the carrier"] == lines["axis of the carrier"].removesuffix(", as asked")
+    assert own["axis of the carrier"] == lines["axis of the carrier"].removesuffix(", as given")
     same = [name for name in own if name in lines and name != "axis of the carrier"]
     assert len(same) == 10
     assert {name: own[name] for name in same} == {name: lines[name] for name in same}
@@ -426,7 +426,7 @@ def test_the_search_for_teeth_is_cancelled_and_where_none_will_do_the_path_eased
 def test_key_poses_are_dragged_by_place_and_direction_and_a_machine_found(page, running):
     field(page, "wanted.given").select_option("poses")
     counted(page, 4)
-    expect(page.locator("#possible h2")).to_contain_text("Not sought yet")
+    expect(page.locator("#possible h2")).to_contain_text("Not searched yet")
     expect(page.locator("#field")).to_be_hidden()
     expect(page.locator("#make")).to_be_disabled()
     drag(page, handle(page, "direction of pose 2"), 0, -12)
@@ -490,7 +490,7 @@ def test_the_return_of_a_stroke_is_found(page, running):
     # What was found is that of other points no longer.
     page.get_by_role("button", name="Delete point 3", exact=True).click()
     counted(page, 4)
-    expect(page.locator("#possible h2")).to_contain_text("Not sought yet")
+    expect(page.locator("#possible h2")).to_contain_text("Not searched yet")
 
 
 def saved(page, folder, button="Save the path"):
@@ -668,7 +668,7 @@ def test_what_is_out_of_reach_is_told_with_the_miss(page, running):
     solved(page)
     expect(page.locator("#wished h2")).to_have_text("Wishes as drawn: 1 of 1 missed")
     (drawn,) = wishes(page)
-    assert re.search("^✕ length of the carrier .* mm, wanted at most 20.0000 mm, missed by ", drawn)
+    assert re.search("^✕ length of the carrier .* mm, required at most 20.0000 mm, missed by ", drawn)
     page.get_by_role("button", name="Make the machine").click()
     dialog = page.locator("#dialog")
     expect(dialog).to_contain_text("Wishes: 1 of 1 missed", timeout=60_000)
@@ -695,7 +695,7 @@ def test_a_value_at_fault_is_not_passed_over(page, running):
     solved(page)
     expect(make).to_be_enabled()
     expect(page.locator("#amiss")).to_be_hidden()
-    assert make.get_attribute("title") == "Sound teeth are sought, and the design opened"
+    assert make.get_attribute("title") == "Sound teeth are searched, and the design is opened"
 
 
 def test_a_turn_goes_with_its_point_and_needs_both(page, running):

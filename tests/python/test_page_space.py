@@ -129,7 +129,7 @@ def test_the_view_is_worked_by_keys_and_mouse(drawer, tmp_path):
         page.get_by_label("Section plane").select_option("section x")
         cut = frame(page)
         assert cut != start
-        page.get_by_label("Place of the section").press("ArrowRight")
+        page.get_by_label("Position of the section").press("ArrowRight")
         assert frame(page) != cut
         page.get_by_label("Section plane").select_option("no section")
         assert frame(page) == start
@@ -226,7 +226,7 @@ def test_what_stands_still_does_not_hide_what_moves(drawer, tmp_path, design):
         space(page)
         shares = {}
         for how in ("thin", "solid", "hidden"):
-            page.get_by_role("combobox", name="What stands still").select_option(how)
+            page.get_by_role("combobox", name="Fixed parts").select_option(how)
             shares[how] = turned(page)
         # The plates, or ground and tray, lie before the machine.
         assert shares["thin"] > 1.3 * shares["solid"]
@@ -236,7 +236,7 @@ def test_what_stands_still_does_not_hide_what_moves(drawer, tmp_path, design):
 def test_the_machine_fills_the_view(drawer, tmp_path):
     with opened(drawer, tmp_path, CIRCLE) as (page, _):
         space(page)
-        expect(page.get_by_role("combobox", name="What stands still")).to_be_hidden()
+        expect(page.get_by_role("combobox", name="Fixed parts")).to_be_hidden()
         box = page.locator(".space-scene").bounding_box()
         image = Image.open(io.BytesIO(page.screenshot(clip=box))).convert("RGB")
         sheet = image.getpixel((image.width // 2, image.height - 60))

@@ -1,4 +1,6 @@
-//! Summary lines of doc comments stand alone in an index: they begin with a noun or a verb.
+//! Words of sources, docs and help texts. Summary lines of doc comments begin with a noun or a verb: an index shows them alone.
+
+mod prose;
 
 use std::{
     fs, io,
@@ -8,16 +10,16 @@ use std::{
 /// First words that say nothing without the item, or the neighbour, they refer to.
 const VAGUE: [&str; 3] = ["What ", "The same", "As "];
 
-/// Rust files below a folder, sorted.
-fn rust_files(folder: &Path, out: &mut Vec<PathBuf>) -> io::Result<()> {
+/// Files below a folder with an ending, sorted.
+fn files(folder: &Path, ending: &str, out: &mut Vec<PathBuf>) -> io::Result<()> {
     let mut entries = fs::read_dir(folder)?
         .map(|entry| entry.map(|entry| entry.path()))
         .collect::<io::Result<Vec<_>>>()?;
     entries.sort();
     for path in entries {
         if path.is_dir() {
-            rust_files(&path, out)?;
-        } else if path.extension().is_some_and(|ending| ending == "rs") {
+            files(&path, ending, out)?;
+        } else if path.extension().is_some_and(|found| found == ending) {
             out.push(path);
         }
     }
@@ -36,20 +38,25 @@ fn summaries(text: &str) -> impl Iterator<Item = (usize, &str)> {
     })
 }
 
-/// Name and text of every Rust source of the crates and of the Python module.
-fn sources() -> io::Result<Vec<(String, String)>> {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
-    let mut files = Vec::new();
-    for folder in ["crates", "python/src"] {
-        rust_files(&root.join(folder), &mut files)?;
-    }
-    assert!(files.len() > 100, "only {} files found", files.len());
-    let read = |path: PathBuf| {
-        let name = path.strip_prefix(&root).unwrap_or(&path).display();
+/// Name and text of files, the name from the repository on.
+fn read(paths: Vec<PathBuf>, root: &Path) -> io::Result<Vec<(String, String)>> {
+    let one = |path: PathBuf| {
+        let name = path.strip_prefix(root).unwrap_or(&path).display();
         let name = name.to_string().replace('\\', "/");
         Ok((name, fs::read_to_string(&path)?))
     };
-    files.into_iter().map(read).collect()
+    paths.into_iter().map(one).collect()
+}
+
+/// Name and text of every Rust source of the crates and of the Python module.
+fn sources() -> io::Result<Vec<(String, String)>> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let mut paths = Vec::new();
+    for folder in ["crates", "python/src"] {
+        files(&root.join(folder), "rs", &mut paths)?;
+    }
+    assert!(paths.len() > 100, "only {} files found", paths.len());
+    read(paths, &root)
 }
 
 #[test]

@@ -5,7 +5,7 @@ use centrode_gear::cam::Limits;
 use crate::rounding::exceeds;
 use crate::{Finding, Report, Severity, Unit};
 
-/// A cam of a machine and the words in which its findings are told.
+/// A cam of a machine and the words in which its findings are reported.
 pub(crate) struct CheckedCam<'a> {
     /// Name of the part.
     pub(crate) part: &'a str,
@@ -26,28 +26,26 @@ impl CheckedCam<'_> {
     pub(crate) fn report(self, limits: &Limits, report: &mut Report) {
         let pressure = limits.rise_pressure_angle;
         if limits.regularity.value <= 0.0 {
-            report.findings.push(
-                Finding::new("cam-undercut", Severity::Error, self.undercut)
-                    .measured(limits.minimum_radius.value, 0.0, Unit::Millimetre)
-                    .remedy(self.remedies[0])
-                    .on(self.part)
-                    .at((self.input)(limits.regularity.input)),
-            );
+            Finding::new("cam-undercut", Severity::Error, self.undercut)
+                .measured(limits.minimum_radius.value, 0.0, Unit::Millimetre)
+                .remedy(self.remedies[0])
+                .on(self.part)
+                .at((self.input)(limits.regularity.input))
+                .add_to(report);
         }
         if exceeds(pressure.value, self.pressure_angle) {
             let [before, behind] = self.pushes;
             let degrees = pressure.value.to_degrees();
-            report.findings.push(
-                Finding::new(
-                    "cam-pressure-angle",
-                    Severity::of_pressure_angle(pressure.value),
-                    format!("{before} {degrees:.1} deg {behind}"),
-                )
-                .measured(pressure.value, self.pressure_angle, Unit::Angle)
-                .remedy(self.remedies[1])
-                .on(self.part)
-                .at((self.input)(pressure.input)),
-            );
+            Finding::new(
+                "cam-pressure-angle",
+                Severity::of_pressure_angle(pressure.value),
+                format!("{before} {degrees:.1} deg {behind}"),
+            )
+            .measured(pressure.value, self.pressure_angle, Unit::Angle)
+            .remedy(self.remedies[1])
+            .on(self.part)
+            .at((self.input)(pressure.input))
+            .add_to(report);
         }
     }
 }

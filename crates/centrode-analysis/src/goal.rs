@@ -21,7 +21,7 @@ pub struct Goal {
     pub name: Cow<'static, str>,
     /// The goal in a few words.
     pub title: Cow<'static, str>,
-    /// Figure, in `unit`; none where it was not checked.
+    /// Figure, in `unit`; `None` if it was not checked.
     #[serde(serialize_with = "figure::option")]
     #[schemars(with = "Option<JsonNumber>")]
     pub value: Option<f64>,
@@ -36,7 +36,7 @@ pub struct Goal {
     #[schemars(with = "Option<JsonNumber>")]
     pub margin: Option<f64>,
     /// 1 where the goal is reached, falling smoothly to 0 as the figure goes away from it:
-    /// 1/(1 + (miss/scale)^2), the scale being the size of what is wanted.
+    /// 1/(1 + (miss/scale)^2), the scale being the size of what is required.
     pub progress: Option<f64>,
 }
 
@@ -63,7 +63,7 @@ impl Goal {
         }
     }
 
-    /// Goal with a minimum, of which `scale` is the size: positive, in the unit. A miss by it is half way.
+    /// Goal with a minimum, of which `scale` is the size: positive, in the unit. A miss by it is halfway.
     #[must_use]
     pub fn minimum(self, minimum: f64, scale: f64) -> Self {
         self.range([Some(minimum), None], scale)
@@ -121,7 +121,7 @@ impl Goal {
         }
     }
 
-    /// Whether it is reached; none where it was not checked.
+    /// Whether it is reached; `None` if it was not checked.
     #[must_use]
     pub fn met(&self) -> Option<bool> {
         self.margin.map(|margin| margin >= 0.0)

@@ -17,7 +17,7 @@ const PIN_CORNERS: u32 = 240;
 /// Steps in which the path of a pin along its cam is sampled, per step of the free angle: a distance is quick to compute.
 const PIN_STEPS: usize = 6;
 
-/// Contact analysis of a finished intermittent gear pair: the free angle of the driven gear either way at each input.
+/// Contact analysis of a finished intermittent gear pair: the free angle of the driven gear in either direction at each input.
 ///
 /// Works on the finished contours alone: every corner of either gear is turned about the driven gear's axis until it
 /// meets an edge of the other.
@@ -33,8 +33,8 @@ pub struct IntermittentContact {
     pub back: Vec<f64>,
     /// Deepest penetration along the driven gear's turning, mm.
     pub penetration: Vec<f64>,
-    /// Maximum free angle either way while the driven gear moves and while it rests, rad, each with its input: local maxima of
-    /// the columns are followed between the samples, and at the start and end of the motion both sides count.
+    /// Maximum free angle in either direction while the driven gear moves and while it rests, rad, each with its input: local
+    /// maxima of the columns are followed between the samples, and at the start and end of the motion both sides count.
     pub free: [Extreme; 2],
     /// Minimum distance between a cam and a pin of nominal size, mm, with its input; `None` without cams.
     pub pin_clearance: Option<Extreme>,
@@ -150,8 +150,8 @@ fn parts(pair: &IntermittentPair, count: usize) -> Vec<SampledPiece> {
     ends.windows(2).map(piece).collect()
 }
 
-/// Maximum of a function whose samples are known, those of each piece after those of the piece before. Its local maxima are followed
-/// between the samples as far as they can exceed the maximum so far by more than `exact`.
+/// Maximum of a function whose samples are known, those of each piece after those of the piece before. Its local maxima are
+/// followed between the samples as far as they can exceed the maximum found by more than `exact`.
 fn maximum(samples: &[f64], f: impl Fn(f64) -> f64, exact: f64, parts: &[SampledPiece]) -> Extreme {
     let inputs = parts
         .iter()

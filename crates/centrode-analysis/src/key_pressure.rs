@@ -13,7 +13,7 @@ pub(crate) struct LoadedKey<'a> {
     pub(crate) face: f64,
     /// Diameter of the shaft, mm.
     pub(crate) diameter: f64,
-    /// Materials of shaft and hub; one of which the design says nothing is left out.
+    /// Materials of shaft and hub; one of which the design says nothing is omitted.
     pub(crate) materials: &'a [&'a str],
     /// Maximum torque, N mm, and the input at which it comes.
     pub(crate) torque: Extreme,
@@ -45,14 +45,13 @@ impl LoadedKey<'_> {
         let (name, part) = (self.key.name(), self.part);
         let Extreme { input, value } = self.torque;
         let message = format!(
-            "{name} in the {part} is pressed by {pressure:.1} N/mm² at {value:.0} N·mm: its hub and shaft bear {allowed:.1} N/mm²"
+            "{name} in the {part} is pressed by {pressure:.1} N/mm² at {value:.0} N·mm: its hub and shaft allow {allowed:.1} N/mm²"
         );
-        report.findings.push(
-            Finding::new("key-pressure", Severity::Error, message)
-                .measured(pressure, allowed, Unit::NewtonPerSquareMillimetre)
-                .remedy("a thicker hub, or a wider bore with its key")
-                .on(part)
-                .at(input),
-        );
+        Finding::new("key-pressure", Severity::Error, message)
+            .measured(pressure, allowed, Unit::NewtonPerSquareMillimetre)
+            .remedy("a thicker hub, or a wider bore with its key")
+            .on(part)
+            .at(input)
+            .add_to(report);
     }
 }

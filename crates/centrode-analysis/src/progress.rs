@@ -6,12 +6,12 @@ thread_local! {
     static CURRENT: RefCell<Option<Part>> = const { RefCell::new(None) };
 }
 
-/// Parts of the whole in which a share is told.
+/// Parts of the whole in which a share is reported.
 const WHOLE: f64 = 1e6;
 
-/// Share of a check that is done, told by what checks to whoever waits. Cloned, it is that of the same check.
+/// Share of a check that is done, reported by the check to its listener. A clone belongs to the same check.
 ///
-/// Contact analyses, which take longest, tell each of their inputs; other steps count for what they take in most designs.
+/// Contact analyses, which take longest, report each of their inputs; other steps count for what they take in most designs.
 ///
 /// ```
 /// use centrode_analysis::Progress;
@@ -38,7 +38,7 @@ pub(crate) struct Part {
 struct Filling(Option<Part>);
 
 impl Progress {
-    /// Result of a check whose share is told here.
+    /// Result of a check whose share is reported here.
     pub fn during<T>(&self, check: impl FnOnce() -> T) -> T {
         let whole = Part {
             progress: self.clone(),
@@ -58,7 +58,7 @@ impl Progress {
 }
 
 impl Part {
-    /// The part that the calling thread fills; none where nobody waits.
+    /// The part that the calling thread fills; `None` if nobody waits.
     pub(crate) fn current() -> Option<Self> {
         CURRENT.with_borrow(Clone::clone)
     }
@@ -116,7 +116,7 @@ impl Steps {
         }
     }
 
-    /// Tells that one more is done.
+    /// Reports that one more is done.
     pub(crate) fn step(&self) {
         let Some(part) = &self.part else { return };
         let done = 1 + self.done.fetch_add(1, Ordering::Relaxed);
@@ -145,13 +145,13 @@ mod tests {
                 seen.push(progress.share());
             });
             seen.push(progress.share());
-            // What is told late does not take back what was told before.
+            // A late report does not lower the share.
             filling([0.0, 0.1], || Steps::new(1).step());
             seen.push(progress.share());
         });
         seen.push(progress.share());
         assert_eq!(seen, [0.125, 0.25, 0.3, 0.5, 0.5, 1.0]);
-        // Nobody waits: nothing is told.
+        // Without a listener nothing is reported.
         Steps::new(1).step();
         assert_eq!(filling([0.2, 0.3], || 7), 7);
     }

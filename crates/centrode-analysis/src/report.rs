@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use crate::{FigureGroup, Goal, JsonNumber, Severity, Unit, figure, severity};
 
-/// Place in the mechanism and its cycle at which a finding was made.
+/// Position in the mechanism and its cycle at which a finding was made.
 #[derive(Clone, Debug, Default, JsonSchema, PartialEq, Serialize)]
 pub struct Place {
     /// Link or part, as named in the design.
@@ -36,7 +36,7 @@ pub struct FlankPlace {
     pub radius: Option<f64>,
 }
 
-/// A way in which a mechanism is worse than it should be: measured, required, where.
+/// A respect in which a mechanism is worse than it should be: measured, required, where.
 #[derive(Clone, Debug, JsonSchema, PartialEq, Serialize)]
 pub struct Finding {
     /// Short stable name of the rule, such as `undercut`.
@@ -64,12 +64,12 @@ pub struct Finding {
     /// Usual remedy.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub remedy: Option<&'static str>,
-    /// Place at which it was found.
+    /// Position at which it was found.
     pub place: Place,
 }
 
 impl Finding {
-    /// A finding of a rule, in one sentence for a person; figures, remedy and place follow where there are any.
+    /// A finding of a rule, in one sentence for a person; figures, remedy and position follow if there are any.
     #[must_use]
     pub fn new(rule: &'static str, severity: Severity, message: impl Into<String>) -> Self {
         Self {
@@ -124,6 +124,11 @@ impl Finding {
         self
     }
 
+    /// Adds it to a report.
+    pub(crate) fn add_to(self, report: &mut Report) {
+        report.findings.push(self);
+    }
+
     /// At an input, rad.
     #[must_use]
     pub fn at(mut self, input: impl Into<Option<f64>>) -> Self {
@@ -149,6 +154,33 @@ pub struct Table {
     pub rows: Vec<(String, Vec<f64>)>,
 }
 
+impl Table {
+    /// A table without columns or rows.
+    #[must_use]
+    pub fn new(name: &'static str, title: &'static str, unit: Unit) -> Self {
+        Self {
+            name,
+            title,
+            unit,
+            columns: Vec::new(),
+            rows: Vec::new(),
+        }
+    }
+
+    /// With headings of columns.
+    #[must_use]
+    pub fn columns<C: Into<String>>(self, headings: impl IntoIterator<Item = C>) -> Self {
+        let columns = headings.into_iter().map(C::into).collect();
+        Self { columns, ..self }
+    }
+
+    /// With rows, each with its heading.
+    #[must_use]
+    pub fn rows(self, rows: Vec<(String, Vec<f64>)>) -> Self {
+        Self { rows, ..self }
+    }
+}
+
 /// All findings and figures of one mechanism.
 ///
 /// In JSON an infinite figure is a string, as [`JsonNumber`](crate::JsonNumber) says.
@@ -172,13 +204,20 @@ pub struct Report {
 }
 
 impl Report {
+    /// Adds a table, unless it has no rows.
+    pub(crate) fn table(&mut self, table: Table) {
+        if !table.rows.is_empty() {
+            self.tables.push(table);
+        }
+    }
+
     /// Whether no finding is an error.
     #[must_use]
     pub fn ok(&self) -> bool {
         self.findings.iter().all(|f| f.severity < Severity::Error)
     }
 
-    /// Unit of a figure of `values`; none for a key that is in no group.
+    /// Unit of a figure of `values`; `None` for a key that is in no group.
     #[must_use]
     pub fn unit(&self, key: &str) -> Option<Unit> {
         let mut rows = self.groups.iter().flat_map(|group| group.rows);
@@ -199,7 +238,7 @@ impl Report {
         severity::worst_first(&mut self.findings);
     }
 
-    /// A finding for each goal that is missed: the mechanism does not do what it is asked to. `about` has the place, the
+    /// A finding for each goal that is missed: the mechanism does not do what is required. `about` has the position, the
     /// remedy and what else there is to say of a goal.
     pub(crate) fn blame_goals(&mut self, about: impl Fn(&Goal) -> Missed) {
         let missed = self.goals.iter().filter(|goal| goal.met() == Some(false));

@@ -37,7 +37,7 @@ impl Response {
     ///
     /// # Errors
     /// [`DesignError`] where the key is no number of the design. A value that gives no mechanism is no error: it has its
-    /// reason in the place of a report.
+    /// reason instead of a report.
     pub fn evaluate(
         design: &dyn Design,
         key: &str,

@@ -16,8 +16,8 @@ pub fn prepare_threads() {
     }
 }
 
-/// Results of two jobs that run side by side where a core is free, both under the token of the calling thread; what either tells of
-/// its progress is told as there.
+/// Results of two jobs that run side by side where a core is free, both under the token of the calling thread; what either
+/// shows of its progress is reported as there.
 pub(crate) fn both<A: Send, B: Send>(
     one: impl FnOnce() -> A + Send,
     other: impl FnOnce() -> B + Send,
@@ -43,8 +43,8 @@ fn filled<T>(part: Option<Part>, job: impl FnOnce() -> T) -> T {
     }
 }
 
-/// Results for each of several things, in their order, on two cores where the caller is no worker of a pool itself: what is
-/// made may ask the pool, whose workers must not wait for it.
+/// Results for several things, in their order, computed by two threads, or by the caller alone if it is a worker of a thread
+/// pool: `make` may use the pool, and its workers must not wait for `make`.
 pub(crate) fn each<T: Sync, R: Send + Sync>(things: &[T], make: impl Fn(&T) -> R + Sync) -> Vec<R> {
     match rayon::current_thread_index() {
         Some(_) => things.iter().map(make).collect(),

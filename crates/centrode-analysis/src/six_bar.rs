@@ -33,7 +33,7 @@ fn not_crank_rocker(point: &[f64]) -> f64 {
     (crank + longest - others) / frame + 1e-9
 }
 
-/// Problem of lengths that swing the effector by a wanted angle about a fixed pivot, with a wanted minimum
+/// Problem of lengths that swing the effector by a required angle about a fixed pivot, with a required minimum
 /// transmission angle: variables are crank, coupler, rocker and frame, mm.
 #[derive(Clone, Debug)]
 pub struct RequiredSwing {
@@ -44,9 +44,9 @@ pub struct RequiredSwing {
     pub pivot: Point,
     /// Assembly branch of the four-bar.
     pub branch: Branch,
-    /// Wanted swing, rad.
+    /// Required swing, rad.
     pub swing: f64,
-    /// Wanted minimum transmission angle, rad; none leaves constraint (16) out.
+    /// Required minimum transmission angle, rad; none leaves constraint (16) out.
     pub minimum_transmission_angle: Option<f64>,
 }
 
@@ -81,7 +81,7 @@ impl Problem for RequiredSwing {
         self.bounds.to_vec()
     }
 
-    /// Evaluates a point: the objective is the swing's distance from the wanted one, rad.
+    /// Evaluates a point: the objective is the swing's distance from the required one, rad.
     fn evaluate(&self, point: &[f64]) -> Evaluation {
         self.evaluated(point, self.pivot).0
     }
@@ -121,13 +121,13 @@ impl Problem for BestTransmissionAngle {
     }
 }
 
-/// Problem of the smallest common widening of all bounds with which they hold a crank-rocker with a wanted minimum
-/// transmission angle: variables are the widening and each length's place within its widened bounds, from 0 to 1.
+/// Problem of the smallest common widening of all bounds with which they hold a crank-rocker with a required minimum
+/// transmission angle: variables are the widening and each length's position within its widened bounds, from 0 to 1.
 #[derive(Clone, Debug)]
 pub struct MinimumWidening {
     /// Bounds to be widened, mm.
     pub bounds: Lengths,
-    /// Wanted minimum transmission angle, rad.
+    /// Required minimum transmission angle, rad.
     pub minimum_transmission_angle: f64,
 }
 

@@ -10,7 +10,7 @@ const ROUNDING: f64 = 1e-9;
 
 /// Unit of a figure, which settles how the figure is shown.
 ///
-/// Figures are kept in mm, rad, s and N; [`Unit::symbol`] names that unit, and JSON has it. A person reads angles in
+/// Figures are stored in mm, rad, s and N; [`Unit::symbol`] names that unit, and JSON has it. A person reads angles in
 /// degrees: [`Unit::shown`] and [`Unit::show`].
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 #[non_exhaustive]
@@ -23,9 +23,9 @@ pub enum Unit {
     Millimetre,
     /// Curvature, 1/mm.
     PerMillimetre,
-    /// Angle, kept in rad and shown in degrees.
+    /// Angle, stored in rad and shown in degrees.
     Angle,
-    /// Angle kept and shown in rad: errors too small for degrees.
+    /// Angle stored and shown in rad: errors too small for degrees.
     Radian,
     /// Angular speed, rad/s.
     RadianPerSecond,
@@ -52,7 +52,7 @@ pub enum Unit {
 }
 
 impl Unit {
-    /// Symbol of the unit that figures are kept in; empty for a plain number.
+    /// Symbol of the unit that figures are stored in; empty for a plain number.
     #[must_use]
     pub fn symbol(self) -> &'static str {
         match self {
@@ -83,7 +83,7 @@ impl Unit {
         }
     }
 
-    /// Factor from the unit kept to the unit shown.
+    /// Factor from the stored unit to the shown one.
     #[must_use]
     pub fn factor(self) -> f64 {
         match self {

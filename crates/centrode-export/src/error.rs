@@ -43,7 +43,7 @@ pub enum ExportError {
         /// Why, as the mechanism says it.
         source: Box<dyn Error + Send + Sync>,
     },
-    /// No part of the machine has the name asked for.
+    /// No part of the machine has the requested name.
     #[error("{machine} has no part named {part}; there are {}", known.join(", "))]
     UnknownPart {
         /// Kind of machine, with its article.
@@ -107,7 +107,7 @@ pub enum ExportError {
 }
 
 impl ExportError {
-    /// A part that the machine lacks, for a reason that tells where in the design.
+    /// A part that the machine lacks, for a reason that names the key of the design.
     pub(crate) fn missing(source: impl Into<Box<dyn Error + Send + Sync>>) -> Self {
         let source = source.into();
         Self::Missing { key: None, source }

@@ -13,7 +13,7 @@ pub(crate) fn grade(size: f64, class: &str) -> Option<f64> {
 }
 
 /// Position of an axis at a distance from its datum: within the eighth grade of that distance, or twice what it may be off
-/// either way. None beyond the grades of ISO 286-1.
+/// in either direction. None beyond the grades of ISO 286-1.
 pub(crate) fn position(distance: f64, off: f64, apart: Option<f64>, datums: &str) -> Option<Frame> {
     let width = match off > 0.0 {
         true => 2.0 * off,

@@ -2,7 +2,7 @@
 
 use centrode_formats::sheet::number;
 
-/// Number to so many places, zeros and all, without a sign to a zero.
+/// Number to so many decimals, zeros and all, without a sign to a zero.
 pub(crate) fn fixed(x: f64, places: usize) -> String {
     let text = format!("{x:.places$}");
     let bare = text.trim_start_matches('-');
@@ -12,7 +12,7 @@ pub(crate) fn fixed(x: f64, places: usize) -> String {
     }
 }
 
-/// Minimum and maximum number to so many places; one where both are the same.
+/// Minimum and maximum number to so many decimals; one where both are the same.
 pub(crate) fn range([low, high]: [f64; 2], places: usize) -> String {
     let [low, high] = [low, high].map(|x| number(x, places));
     if low == high {

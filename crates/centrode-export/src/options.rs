@@ -14,10 +14,10 @@ pub struct Options {
     pub dxf_curves: dxf::Curves,
     /// How the drawing sheets are laid out.
     pub sheet: SheetOptions,
-    /// Parts that drawings, sheets, solids and tables are of, by the names of their files; left out, all.
+    /// Parts that drawings, sheets, solids and tables are of, by the names of their files; default: all.
     /// Models and motion are of the whole machine.
     pub parts: Option<Vec<String>>,
-    /// Whether straight extrusions stay in the bundle as they are, in the place of their STEP files.
+    /// Whether straight extrusions stay in the bundle as they are, instead of their STEP files.
     pub keep_solids: bool,
 }
 
@@ -45,9 +45,9 @@ impl Options {
 /// How sheets are laid out where it is not to be as the design says.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SheetOptions {
-    /// Size; left out, the design's, and without one there the smallest that takes the part.
+    /// Size; default: the design's, and without one there the smallest that takes the part.
     pub size: Option<SheetSize>,
-    /// How views lie to each other; left out, as the design says.
+    /// How views lie to each other; default: as in the design.
     pub projection: Option<Projection>,
     /// Findings of checks, listed in tables next to the data of the design.
     pub found: Vec<Datum>,

@@ -29,7 +29,7 @@ pub(crate) fn title_or_name<'a>(title: &'a str, name: &'a str) -> &'a str {
 }
 
 /// Everything one export writes: a family offers drawings, sheets, solids, tables and models by name, each as a
-/// function that is called only where a format and a part asked for need it.
+/// function that is called only where a format and a requested part need it.
 #[derive(Debug)]
 pub struct Package<'a> {
     /// Kind of machine, with its article.
@@ -87,7 +87,7 @@ impl<'a> Package<'a> {
         self.options.tolerance
     }
 
-    /// Whether any of these formats is asked for.
+    /// Whether any of these formats is requested.
     pub(crate) fn wants(&self, formats: &[Format]) -> bool {
         formats.iter().any(|format| self.formats.contains(format))
     }
@@ -102,7 +102,7 @@ impl<'a> Package<'a> {
         format!("{}: {part}", self.design)
     }
 
-    /// Whether a part is asked for, and in one of these formats.
+    /// Whether a part is requested, and in one of these formats.
     fn takes(&mut self, part: &str, formats: &[Format]) -> bool {
         let part = self.name_of(part);
         let required = self.options.wants(&part) && self.wants(formats);
@@ -344,7 +344,7 @@ impl<'a> Package<'a> {
     /// The files, not yet on disk.
     ///
     /// # Errors
-    /// [`ExportError::UnknownPart`] where a part asked for was never offered; [`ExportError::Pdf`] where the sheets of all
+    /// [`ExportError::UnknownPart`] where a requested part was never offered; [`ExportError::Pdf`] where the sheets of all
     /// parts make no file.
     pub fn finish(mut self) -> Result<Bundle, ExportError> {
         self.bind()?;

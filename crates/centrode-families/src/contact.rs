@@ -3,48 +3,31 @@ use centrode_export::picture::Curve;
 
 /// Findings of running finished gears together, along the cycle.
 pub(super) fn contact_curves(contact: &Contact) -> Vec<Curve> {
-    let curve = |chart, name, unit, value| Curve::new([chart, name, unit], &contact.input, value);
-    let degrees = |list: &[f64]| list.iter().map(|v| v.to_degrees()).collect::<Vec<_>>();
+    let curve = |chart, name, unit, value: &[f64]| {
+        Curve::new([chart, name, unit], &contact.input, value.to_vec())
+    };
+    let degrees = contact.backlash.iter().map(|angle| angle.to_degrees());
+    let degrees: Vec<f64> = degrees.collect();
+    let count: Vec<f64> = contact.contacts.iter().map(|&n| f64::from(n)).collect();
+    let (forward, reverse) = (
+        &contact.transmission_error,
+        &contact.reverse_transmission_error,
+    );
     vec![
         Curve {
             count: true,
-            ..curve(
-                "Contacts at once",
-                "",
-                "",
-                contact.contacts.iter().map(|&n| f64::from(n)).collect(),
-            )
+            ..curve("Contacts at once", "", "", &count)
         },
-        curve(
-            "Backlash of the driven gear",
-            "",
-            "°",
-            degrees(&contact.backlash),
-        ),
-        curve("Clearance", "tip to root", "mm", contact.clearance.clone()),
+        curve("Backlash of the driven gear", "", "°", &degrees),
+        curve("Clearance", "tip to root", "mm", &contact.clearance),
         curve(
             "Clearance",
             "tip to fillet",
             "mm",
-            contact.fillet_clearance.clone(),
+            &contact.fillet_clearance,
         ),
-        curve(
-            "Transmission error",
-            "forward",
-            "rad",
-            contact.transmission_error.clone(),
-        ),
-        curve(
-            "Transmission error",
-            "reverse",
-            "rad",
-            contact.reverse_transmission_error.clone(),
-        ),
-        curve(
-            "Sliding a rad of the driver",
-            "",
-            "mm",
-            contact.sliding.clone(),
-        ),
+        curve("Transmission error", "forward", "rad", forward),
+        curve("Transmission error", "reverse", "rad", reverse),
+        curve("Sliding a rad of the driver", "", "mm", &contact.sliding),
     ]
 }

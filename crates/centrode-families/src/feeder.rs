@@ -178,59 +178,34 @@ fn drawn(machine: &Feeder, gears: Option<&IntermittentPair>) -> Picture {
 /// Handle on each part, a point that sets one of the linkage's numbers.
 fn joints(machine: &Feeder) -> [(FeederPart, Handle); 6] {
     let spec = &machine.design().linkage;
-    let handle = |name: &str, plane, keys: [&str; 2], values, scale| Handle {
-        name: name.into(),
-        link: 0,
-        plane,
-        keys: keys.map(|key| match key {
+    // A length reaches along its own link, at whatever angle that is. Coupler and rocker end in one joint: each is held in its middle.
+    // The pivot is on top: a coupler that passes over it must not keep it from being reached.
+    use FeederPart::{Coupler, Crank, Effector, Frame, Rocker};
+    use HandlePlane::{Cartesian, Polar};
+    #[rustfmt::skip]
+    let rows = [
+        (Frame, "axis of the rocker", Cartesian, ["frame", ""], [spec.frame, 0.0], 1.0),
+        (Crank, "end of the crank", Polar, ["crank", ""], [spec.crank, 0.0], 1.0),
+        (Coupler, "middle of the coupler", Polar, ["coupler", ""], [spec.coupler, 0.0], 0.5),
+        (Rocker, "middle of the rocker", Polar, ["rocker", ""], [spec.rocker, 0.0], 0.5),
+        (Effector, "tip of the effector", Polar, ["effector_length", ""], [spec.effector_length, 0.0], 1.0),
+        (Frame, "pivot of the effector", Cartesian, ["pivot[0]", "pivot[1]"], spec.pivot, 1.0),
+    ];
+    rows.map(|(part, name, plane, keys, values, scale)| {
+        let keys = keys.map(|key| match key {
             "" => String::new(),
             key => format!("linkage.{key}"),
-        }),
-        values,
-        scale,
-        origin: [0.0; 2],
-        chained: false,
-    };
-    // A length reaches along its own link, at whatever angle that is.
-    let reach = |name, key, length, scale| {
-        handle(name, HandlePlane::Polar, [key, ""], [length, 0.0], scale)
-    };
-    let place = |name, keys, values| handle(name, HandlePlane::Cartesian, keys, values, 1.0);
-    [
-        (
-            FeederPart::Frame,
-            place("axis of the rocker", ["frame", ""], [spec.frame, 0.0]),
-        ),
-        (
-            FeederPart::Crank,
-            reach("end of the crank", "crank", spec.crank, 1.0),
-        ),
-        // Both end in one joint: each is held in its middle.
-        (
-            FeederPart::Coupler,
-            reach("middle of the coupler", "coupler", spec.coupler, 0.5),
-        ),
-        (
-            FeederPart::Rocker,
-            reach("middle of the rocker", "rocker", spec.rocker, 0.5),
-        ),
-        (
-            FeederPart::Effector,
-            reach(
-                "tip of the effector",
-                "effector_length",
-                spec.effector_length,
-                1.0,
-            ),
-        ),
-        // On top: a coupler that passes over it must not keep it from being reached.
-        (
-            FeederPart::Frame,
-            place(
-                "pivot of the effector",
-                ["pivot[0]", "pivot[1]"],
-                spec.pivot,
-            ),
-        ),
-    ]
+        });
+        let handle = Handle {
+            name: name.into(),
+            link: 0,
+            plane,
+            keys,
+            values,
+            scale,
+            origin: [0.0; 2],
+            chained: false,
+        };
+        (part, handle)
+    })
 }

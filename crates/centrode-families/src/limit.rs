@@ -8,14 +8,14 @@ use serde::Serialize;
 pub struct Limit {
     /// Chart whose figure it is.
     pub chart: Cow<'static, str>,
-    /// Minimum or maximum figure wanted.
+    /// Minimum or maximum required figure.
     pub value: f64,
     /// Whether the figure is to be no less.
     pub minimum: bool,
 }
 
 impl Limit {
-    /// Ends of the range in which a goal of the report wants a figure; none without that goal.
+    /// Ends of the range in which a goal of the report requires a figure; `None` without that goal.
     #[must_use]
     pub fn of_goal(
         report: &Report,

@@ -35,7 +35,7 @@ pub trait Mechanism: Any + Debug + Send + Sync {
         self.check_motion()
     }
 
-    /// Whether it has goals that [`Mechanism::check_goals`] tells much sooner than [`Mechanism::check`].
+    /// Whether it has goals that [`Mechanism::check_goals`] shows much sooner than [`Mechanism::check`].
     fn goals_come_first(&self) -> bool {
         false
     }
@@ -50,7 +50,7 @@ pub trait Mechanism: Any + Debug + Send + Sync {
         Vec::new()
     }
 
-    /// Changed designs that mend what the check finds, worked out, each with what it does in words; empty where none is known.
+    /// Changed designs that fix the findings of the check, each with its effect in words; empty if none is known.
     fn remedies(&self) -> Vec<(String, Box<dyn Design>)> {
         Vec::new()
     }
@@ -68,7 +68,7 @@ pub trait Mechanism: Any + Debug + Send + Sync {
         Ok(Vec::new())
     }
 
-    /// Machine with its crank driven by gears, so that its output does what its goals ask for; `None` in a family without.
+    /// Machine with its crank driven by gears, so that its output does what its goals require; `None` in a family without.
     fn gear_drive(&self, _spec: &GearDriveSpec) -> Option<Result<GearDrive, GearDriveError>> {
         None
     }
@@ -94,7 +94,7 @@ pub trait Mechanism: Any + Debug + Send + Sync {
         false
     }
 
-    /// Picture with details that take longer to make; none where nothing is left out at first, or nothing can be made.
+    /// Picture with details that take longer to make; `None` if nothing is omitted at first, or nothing can be made.
     fn detailed(&self) -> Option<Picture> {
         None
     }
@@ -110,7 +110,7 @@ pub trait Mechanism: Any + Debug + Send + Sync {
         FINEST
     }
 
-    /// The files in the formats asked for, not yet on disk.
+    /// The files in the requested formats, not yet on disk.
     ///
     /// # Errors
     /// [`ExportError`], for instance where the tolerance is too coarse.
@@ -137,7 +137,7 @@ impl dyn Mechanism {
         }
     }
 
-    /// Casts to the mechanism of a family; none for another family.
+    /// Casts to the mechanism of a family; `None` for another family.
     #[must_use]
     pub fn downcast<M: Mechanism>(self: Arc<Self>) -> Option<Arc<M>> {
         let any: Arc<dyn Any + Send + Sync> = self;

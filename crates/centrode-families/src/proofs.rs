@@ -18,12 +18,12 @@ pub enum NotProved {
     /// It has no pair of that name.
     #[error("there is no pair {name:?}; there are {}", .known.join(", "))]
     Unknown {
-        /// The name asked for.
+        /// The requested name.
         name: String,
         /// Names of its pairs.
         known: Vec<String>,
     },
-    /// It has several pairs where one is asked for.
+    /// It has several pairs where one is requested.
     #[error("there are several pairs: name one of {}", .known.join(", "))]
     Several {
         /// Names of its pairs.

@@ -16,7 +16,7 @@ pub trait Resolved: Mechanism + Sized {
     /// One machine of the family in a sentence, `a gear pair`.
     const NOUN: &'static str;
 
-    /// Parts whose files can be asked for by name.
+    /// Parts whose files can be requested by name.
     const PARTS: &'static [PartName] = &[];
 
     /// Resolves a design.
@@ -42,7 +42,7 @@ pub trait Resolved: Mechanism + Sized {
     }
 }
 
-/// A part of a machine, or all in place, by its name.
+/// A part of a machine, or the assembly, by its name.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub struct PartName {
     /// Name, which its files have too.
@@ -53,7 +53,7 @@ pub struct PartName {
 
 impl PartName {
     /// The whole machine, as drawings show it.
-    pub const ASSEMBLY: Self = Self::new("assembly", "Everything in place");
+    pub const ASSEMBLY: Self = Self::new("assembly", "The assembly");
 
     /// Makes a part by its name, and in words.
     #[must_use]
@@ -72,7 +72,7 @@ pub struct Family {
     pub design: DesignFamily,
     /// One machine of the family in a sentence, `a gear pair`.
     pub noun: &'static str,
-    /// Parts whose files can be asked for by name; none where the design names them.
+    /// Parts whose files can be requested by name; none where the design names them.
     pub parts: &'static [PartName],
     resolve: Resolve,
     problem: SetProblem,

@@ -37,11 +37,7 @@ impl Mechanism for SpiralShaft {
     /// The developed groove with its slider.
     fn picture(&self) -> Picture {
         let mut picture = drawn(self, shaft::drawn(self));
-        let even = |input: f64| MotionJet {
-            position: input,
-            velocity: 1.0,
-            ..MotionJet::default()
-        };
+        let even = |input: f64| MotionJet::uniform(input, 1.0);
         picture.handles = window(self, "", even);
         picture
     }

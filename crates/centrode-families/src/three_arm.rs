@@ -61,7 +61,7 @@ impl Mechanism for ThreeArm {
         (found, checked_curves(self, teeth.ok().flatten().as_ref()))
     }
 
-    /// Sun and intermediate gear stand for every mesh: a planet is the sun's part again.
+    /// Sun and intermediate gear represent every mesh: a planet is the sun's part again.
     fn pairs(&self) -> Result<Vec<(String, Arc<GearPair>)>, GearPairError> {
         if self.design().gear_tooth_count().is_none() {
             return Ok(Vec::new());

@@ -26,7 +26,7 @@ pub struct Bundle {
 #[non_exhaustive]
 pub enum BundleError {
     /// A file name that could lead out of the directory.
-    #[error("{name:?} is not a plain file name, alone or after those of folders")]
+    #[error("{name:?} is not a plain file name or a relative path of plain names")]
     Name {
         /// The name.
         name: String,

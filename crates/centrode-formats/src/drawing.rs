@@ -29,7 +29,7 @@ pub struct Layer {
     pub line_width: f64,
 }
 
-/// One of the colors every drawing program numbers alike.
+/// One of the colors with the same number in every drawing program.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Color {
     /// Black on paper, white on a dark screen.

@@ -5,7 +5,7 @@ use thiserror::Error;
 #[derive(Clone, Copy, Debug, Eq, Hash, Ord, PartialEq, PartialOrd)]
 #[non_exhaustive]
 pub enum Format {
-    /// Cutting files: each part, and all in place.
+    /// Cutting files: each part, and the assembly.
     Dxf,
     /// Pictures of the cutting files.
     Svg,
@@ -27,38 +27,18 @@ pub enum Format {
     Mjcf,
 }
 
-impl Format {
-    /// Every format, in the order files are written.
-    pub const ALL: [Self; 10] = [
-        Self::Dxf,
-        Self::Svg,
-        Self::Sheet,
-        Self::Pdf,
-        Self::Step,
-        Self::Stl,
-        Self::ThreeMf,
-        Self::Csv,
-        Self::Urdf,
-        Self::Mjcf,
-    ];
-
-    /// The name a user writes.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Dxf => "dxf",
-            Self::Svg => "svg",
-            Self::Sheet => "sheet",
-            Self::Pdf => "pdf",
-            Self::Stl => "stl",
-            Self::Step => "step",
-            Self::ThreeMf => "3mf",
-            Self::Csv => "csv",
-            Self::Urdf => "urdf",
-            Self::Mjcf => "mjcf",
-        }
-    }
-}
+centrode_spec::words!(Format {
+    Dxf = "dxf",
+    Svg = "svg",
+    Sheet = "sheet",
+    Pdf = "pdf",
+    Step = "step",
+    Stl = "stl",
+    ThreeMf = "3mf",
+    Csv = "csv",
+    Urdf = "urdf",
+    Mjcf = "mjcf",
+});
 
 impl fmt::Display for Format {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
@@ -77,9 +57,6 @@ impl FromStr for Format {
     type Err = UnknownFormat;
 
     fn from_str(word: &str) -> Result<Self, UnknownFormat> {
-        Self::ALL
-            .into_iter()
-            .find(|format| format.name() == word)
-            .ok_or_else(|| UnknownFormat(word.to_owned()))
+        Self::named(word).ok_or_else(|| UnknownFormat(word.to_owned()))
     }
 }

@@ -6,7 +6,7 @@ use nalgebra::{Rotation3, Unit, Vector3};
 /// Most triangles of a mesh that a model shows. `MuJoCo` reads no STL file of more than 200 000.
 pub const MAX_FACES: usize = 100_000;
 
-/// Rigid links joined by joints, as simulators want them; lengths in mm here, whatever a format uses.
+/// Rigid links joined by joints, as simulators require them; lengths in mm here, whatever a format uses.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Model {
     /// Name of the machine.
@@ -86,7 +86,7 @@ pub struct ModelJoint {
 }
 
 impl ModelJoint {
-    /// The joint with its zero where it stood at a value, rad or mm; what it carries stands there at rest.
+    /// The joint with its zero at a former value, rad or mm; its link is there at rest.
     #[must_use]
     pub fn starting_at(mut self, value: f64) -> Self {
         let [x, y, z] = self.turn;
@@ -120,7 +120,7 @@ pub enum JointKind {
     Fixed,
     /// Turns without end.
     Continuous,
-    /// Slides between two places, mm.
+    /// Slides between two positions, mm.
     Sliding([f64; 2]),
 }
 

@@ -63,7 +63,7 @@ pub fn book(
         ..SerializeSettings::default()
     });
     let metadata = Metadata::new().title(title.to_owned());
-    // The archive format asks for a date.
+    // The archive format requires a date.
     let dated = metadata.creation_date(DateTime::new(1970).month(1).day(1));
     document.set_metadata(dated.language("en".into()));
     if parts.len() > 1 {
@@ -260,7 +260,7 @@ impl Writer {
     }
 }
 
-/// Boxes in the places of letters that the font has not, from the start of a text.
+/// Boxes instead of letters that the font has not, from the start of a text.
 fn boxes(text: &Text) -> impl Iterator<Item = Path> {
     let em = lettering::em(text.height) * POINT;
     let mut x = 0.0;

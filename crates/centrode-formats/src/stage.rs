@@ -87,7 +87,7 @@ pub(crate) fn destination(target: &Path) -> io::Result<PathBuf> {
     }
 }
 
-/// Writes and flushes a new file that is to take the place of another, with its permissions.
+/// Writes and flushes a new file that is to replace another, with its permissions.
 pub(crate) fn put(bytes: &[u8], place: &Path, target: &Path) -> io::Result<()> {
     let mut file = File::create_new(place)?;
     if let Ok(before) = fs::metadata(target) {

@@ -1,4 +1,4 @@
-//! 3MF packages: closed meshes with their unit, names, colours and places.
+//! 3MF packages: closed meshes with their unit, names, colours and positions.
 
 use centrode_geometry::{Mesh, checkpoint};
 use nalgebra::Isometry3;
@@ -63,7 +63,7 @@ pub fn write(mesh: &Mesh, name: &str, title: &str) -> Result<Vec<u8>, PackageErr
     )
 }
 
-/// A body of an assembly, and every place where it stands.
+/// A body of an assembly, and each of its positions.
 #[derive(Clone, Debug)]
 pub struct Object<'a> {
     /// Name.
@@ -72,13 +72,13 @@ pub struct Object<'a> {
     pub mesh: &'a Mesh,
     /// Red, green and blue.
     pub color: Option<[u8; 3]>,
-    /// Material, told where it has a colour; may be empty.
+    /// Material, stated where it has a colour; may be empty.
     pub material: String,
-    /// Name and place of each piece; a name may be empty.
+    /// Name and position of each piece; a name may be empty.
     pub items: Vec<(String, Isometry3<f64>)>,
 }
 
-/// Writes bodies in their places as one 3MF package in millimetres, as [`write()`] does one.
+/// Writes bodies in their positions as one 3MF package in millimetres, as [`write()`] does one.
 ///
 /// # Errors
 /// [`PackageError`] if the package would be larger than the format holds.
@@ -167,7 +167,7 @@ fn body(xml: &mut String, mesh: &Mesh) {
     xml.push_str("</triangles>\n</mesh>\n");
 }
 
-/// A piece in its place: the images of the axes, then of the origin.
+/// A piece in its position: the images of the axes, then of the origin.
 fn item(object: usize, name: &str, place: &Isometry3<f64>) -> String {
     let mut words = format!("<item objectid=\"{object}\"");
     if *place != Isometry3::identity() {

@@ -16,7 +16,7 @@ const METRE: f64 = 1e-3;
 #[non_exhaustive]
 pub enum UrdfError {
     /// A joint names a link that is not there.
-    #[error("joint {joint:?} names link {link:?}, which the model has not")]
+    #[error("joint {joint:?} names link {link:?}, which is not in the model")]
     Link {
         /// The joint.
         joint: String,
@@ -130,7 +130,7 @@ fn link(link: &ModelLink) -> urdf_rs::Link {
             .collision
             .iter()
             .map(|body| Collision {
-                // Several links may have one body, but a reader wants a name once.
+                // Several links may have one body, but a reader requires unique names.
                 name: Some(format!("{}/{}", link.name, body.name)),
                 geometry: geometry(collision_file(&body.name)),
                 ..Collision::default()
@@ -160,7 +160,7 @@ fn joint(joint: &crate::model::ModelJoint) -> Joint {
         axis: Axis {
             xyz: Vec3(joint.axis),
         },
-        // An endless joint has no limits; these say so to readers that want numbers.
+        // An endless joint has no limits; these state it for readers that require numbers.
         limit: JointLimit {
             effort: 1000.0,
             velocity: 1000.0,

@@ -1,10 +1,10 @@
 //! Phase, thickness and pressure angle at which fitted teeth work deepest.
 //!
-//! Along the pitch curve a flank works from its mate's tip to its own, by the sum of both tips' rolls. Where one flank ends the next
-//! has begun if what is left of the one and what there is of the other are more than a pitch together; over the pitch that is the
-//! contact ratio there. Where the minimum of them is above one, the flanks alone carry the motion. What is free is chosen for the
-//! largest minimum: from a grid of places on, by ever smaller steps along each number, first by the layout alone, then by the teeth
-//! that are cut, whose flanks may end before.
+//! Along the pitch curve a flank works from its mate's tip to its own, by the sum of both tips' rolls. Where one flank ends the
+//! next has begun if what is left of the one and what there is of the other are more than a pitch together; over the pitch that
+//! is the contact ratio there. Where the minimum of them is above one, the flanks alone carry the motion. What is free is
+//! chosen for the largest minimum: from a grid of points on, by ever smaller steps along each number, first by the layout
+//! alone, then by the teeth that are cut, whose flanks may end before.
 
 use centrode_geometry::checkpoint;
 
@@ -59,7 +59,7 @@ const FREE: [Free; 3] = [
 /// Choices by the layout of which gears are cut.
 const CUT: usize = 12;
 
-/// Halvings of the first steps, and how many of them are left out where gears are cut.
+/// Halvings of the first steps, and how many of them are omitted where gears are cut.
 const HALVINGS: u32 = 5;
 const LEFT_OUT: u32 = 2;
 

@@ -2,7 +2,7 @@
 
 use std::collections::HashSet;
 
-use centrode_geometry::{bracketed_root, checkpoint, parallel_map};
+use centrode_geometry::{Disc, bracketed_root, checkpoint, parallel_map};
 
 use super::{
     flank::{Flank, Side},
@@ -11,11 +11,11 @@ use super::{
     profile::{FlankPlan, ToothPlan, Top},
     rolling::{Member, Rolling},
     tool::Tool,
-    tooth_chords::{Circle, circle},
+    tooth_chords::circle,
     tooth_passage::{Candidate, Poses, Reaches, ToothPassage},
 };
 
-/// Minimum share of a straight rack's flank speed kept at the end of a trimmed flank: below it the
+/// Minimum share of a straight rack's flank speed at the end of a trimmed flank: below it the
 /// flank ends in a knife edge of no radius of curvature.
 const MIN_SPEED: f64 = 0.05;
 
@@ -102,9 +102,9 @@ impl Fitting<'_> {
             let count = counts[member as usize] as isize;
             let circles = &circles[member as usize];
             let place = tooth.rem_euclid(count) as usize;
-            let Circle { center, radius } = circles[place % circles.len()];
+            let Disc { center, radius } = circles[place % circles.len()];
             let center = patterns.of(member).turn(place) * center;
-            Circle { center, radius }
+            Disc { center, radius }
         };
         let middle = 0.5 * (driver[0].leading.crossing + driver[0].trailing.crossing);
         let mut poses = Poses::new(self.rolling, middle + 0.25 * pitch, pitch);
@@ -204,7 +204,7 @@ impl Fitting<'_> {
     }
 
     /// Circles around the teeth of both gears before any is trimmed, as deep as any mate reaches.
-    fn circles(&self, gears: [(&[ToothPlan], &[Reaches]); 2]) -> [Vec<Circle>; 2] {
+    fn circles(&self, gears: [(&[ToothPlan], &[Reaches]); 2]) -> [Vec<Disc>; 2] {
         [Member::Driver, Member::Driven].map(|member| {
             let (teeth, reaches) = gears[member as usize];
             let mates = gears[member.mate() as usize].1.iter().flatten();
@@ -226,7 +226,7 @@ impl Fitting<'_> {
     /// there are any.
     ///
     /// Where that depth would cut into the flank that the lower side works on, the root has a step; the tip goes to and fro above it,
-    /// and is clear of it wherever it stands if its higher side would be clear of the lower root.
+    /// and is clear of it at any position if its higher side would be clear of the lower root.
     fn level(
         &self,
         member: Member,

@@ -176,7 +176,7 @@ impl Flank<'_> {
     pub(crate) fn beyond_corner(&self, corner: &Corner, arc: f64, point: [f64; 2]) -> f64 {
         let (center, turn) = self.center_offset(corner, arc);
         let offset = Vector::new(point[0] - center[0], point[1] - center[1]);
-        // As the tool stands with the centre below its axis, the flank on the left.
+        // With the tool's centre below its axis, the flank on the left.
         let (sin, cos) = turn.sin_cos();
         let across = self.side.sign() * (cos * offset.x + sin * offset.y);
         let below = sin * offset.x - cos * offset.y;
@@ -244,7 +244,7 @@ impl Flank<'_> {
         for i in 1..=SAMPLES {
             checkpoint();
             let t = start + (end - start) * f64::from(i) / f64::from(SAMPLES);
-            // The shortest normal is no longer than one that is found at once, unless that stands far off.
+            // The shortest normal is no longer than one that is found at once, unless that is far off.
             let (foot, above) = self.foot(t);
             let [at, under] = [t, foot].map(|t| self.rolling.arc_length(t));
             let room = height.abs() - above.abs();
@@ -326,7 +326,7 @@ impl Flank<'_> {
             }
         }
         let found = (tau, self.height_over(tau, &point));
-        // Far from the axis rounding keeps the steps from ending: that is no other place.
+        // Far from the axis rounding keeps the steps from ending: that is no other position.
         if last <= 1e-9 * limit {
             return found;
         }
@@ -341,8 +341,8 @@ impl Flank<'_> {
         Some((tau, self.height_over(tau, &point)))
     }
 
-    /// Arc length from the pitch point at which a place was made to the foot of its shortest normal, at most: that pitch point is no
-    /// farther than it rolled, and what is nearer lies thereabouts.
+    /// Arc length from the pitch point at which a position was made to the foot of its shortest normal, at most: that pitch
+    /// point is no farther than it rolled, and what is nearer lies thereabouts.
     fn reach(&self, arc: f64) -> f64 {
         let limit = self.tool.addendum + self.tool.dedendum;
         let reach = 2.0 * (limit + (self.crossing - arc).abs());

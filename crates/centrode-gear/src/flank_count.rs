@@ -14,7 +14,7 @@ use super::{
 /// Flank count of a gear with every tooth cut to the tool's full height: all, undercut and short ones.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub struct FlankCount {
-    /// Flanks of the gear, two a tooth.
+    /// Flanks of the gear, two per tooth.
     pub flanks: u32,
     /// Flanks that undercut shortens.
     pub undercut: u32,

@@ -25,7 +25,7 @@ pub struct Limits {
     /// the flank ends, along the line of action (from the equation of Euler and Savary).
     pub largest_module_of_fillets: f64,
     /// Largest addendum, mm, with every flank regular wherever the teeth fall, and every tooth as cut
-    /// no thinner at its tip than asked for.
+    /// no thinner at its tip than requested.
     pub largest_addendum: f64,
     /// Range of curvature of the driver's and of the driven gear's pitch curve.
     pub ranges: [CurvatureRange; 2],
@@ -44,10 +44,10 @@ pub struct PitchPoint {
     pub driver_curvature: f64,
     /// Curvature of the driven gear's pitch curve, 1/mm.
     pub driven_curvature: f64,
-    /// Angle between the common normal and the driven gear's motion while the driver pushes it on, rad:
+    /// Angle between the common normal and the driven gear's motion while the driver pushes that gear on, rad:
     /// |alpha - mu|, with mu the inclination of the pitch curve, tan mu = r'/r.
     pub pressure_angle: f64,
-    /// Pressure angle while the driver pushes it back, rad: |alpha + mu|.
+    /// Pressure angle while the driver pushes the driven gear back, rad: |alpha + mu|.
     pub reverse_pressure_angle: f64,
 }
 
@@ -80,7 +80,8 @@ impl GearPair {
         }
     }
 
-    /// Maximum pressure angle over the cycle, whichever way the driver pushes, and the driver angle at which it is, rad.
+    /// Maximum pressure angle over the cycle, with the driver pushing in either direction, and the driver angle at which it is,
+    /// rad.
     #[must_use]
     pub fn maximum_pressure_angle(&self) -> Extreme {
         let rolling = self.rolling();
@@ -138,7 +139,7 @@ impl GearPair {
         let mut height = limit;
         for member in [Member::Driver, Member::Driven] {
             let (pattern, tool) = (self.patterns.of(member), self.operating_tool(member));
-            // Teeth that are images of others are as wide as they.
+            // A tooth that is the image of another has the same width.
             let teeth = (0..).zip(self.gear(member).teeth());
             for (_, tooth) in teeth.filter(|(k, _)| pattern.image(*k).is_none()) {
                 checkpoint();

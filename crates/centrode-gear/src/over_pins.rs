@@ -35,10 +35,10 @@ pub enum PinFault {
     #[error("the pin is too small for this space: it rests on the fillet or the root")]
     TooSmall,
     /// The pin is too large: it rests on the tips, or above them on nothing.
-    #[error("the pin is too large for this space: it stands on the tips of the teeth")]
+    #[error("the pin is too large for this space: it rests on the tips of the teeth")]
     TooLarge,
     /// The gear is in the way before the pin touches both flanks.
-    #[error("the pin does not get to the flanks of this space: another tooth is in its way")]
+    #[error("the pin does not get to the flanks of this space: another tooth blocks it")]
     Blocked,
     /// There is no space: a tooth next to it has been cut off or has no flank.
     #[error("a tooth next to this space has no flank")]
@@ -112,7 +112,7 @@ impl Gear {
     /// A pin of this diameter (mm) laid into every space, solved on the finished outline to the float
     /// limit: its center lies half a diameter from both flanks.
     ///
-    /// A space that cannot be measured says why in its place; a diameter that is not a positive number
+    /// A space that cannot be measured has the reason instead; a diameter that is not a positive number
     /// fits no space.
     #[must_use]
     pub fn over_pins(&self, diameter: f64) -> OverPins {

@@ -19,22 +19,22 @@ const SAME: f64 = 1e-12;
 /// Share of an arc length that is its rounding.
 const ROUNDING: f64 = 1e-15;
 
-/// Places of one gear, its teeth or the spaces after them, that are images of others.
+/// Positions of one gear, its teeth or the spaces after them, that are images of others.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pattern {
     count: u32,
     /// Pitches after which the gear is as before; a divisor of the count.
     period: u32,
-    /// The place `k` is mirrored to the place `mirror - k`.
+    /// Position `k` is mirrored to position `mirror - k`.
     mirror: Option<i64>,
-    /// Sense in which places follow each other: 1 counter-clockwise.
+    /// Sense in which positions follow each other: 1 counter-clockwise.
     sense: f64,
 }
 
-/// Image of a place: mirrored first about the axis through both shafts, then turned.
+/// Image of a position: mirrored first about the axis through both shafts, then turned.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Image {
-    /// The place it is an image of.
+    /// The position that it is an image of.
     pub(crate) of: u32,
     pub(crate) mirrored: bool,
     /// Pitches turned by.
@@ -49,7 +49,7 @@ impl Pattern {
         self.count / self.period
     }
 
-    /// Image that a place is; none for a place that others are images of.
+    /// Image that a position is; `None` for a position that others are images of.
     pub(crate) fn image(&self, place: u32) -> Option<Image> {
         let period = i64::from(self.period);
         let first = i64::from(place) % period;
@@ -79,7 +79,7 @@ impl Pattern {
         &mut teeth[..self.period as usize]
     }
 
-    /// Turn, counter-clockwise, that makes one of the first places the place.
+    /// Turn, counter-clockwise, that makes one of the first positions the position.
     pub(crate) fn turn(&self, place: usize) -> UnitComplex<f64> {
         let pitches = (place - place % self.period as usize) as f64;
         UnitComplex::new(self.sense * TAU * pitches / f64::from(self.count))
@@ -211,7 +211,7 @@ impl Mating {
 
 impl FlankPlan {
     fn is_like(&self, other: &Self, within: f64) -> bool {
-        // Far round the curve a place is no finer.
+        // Far round the curve a position is no finer.
         let within = within.max(ROUNDING * self.crossing.abs());
         let top = match (self.top, other.top) {
             (Top::Height(a), Top::Height(b)) | (Top::Reach(a), Top::Reach(b)) => a - b,
@@ -252,7 +252,7 @@ impl Patterns {
                 mirror,
                 sense: 1.0,
             },
-            // A driven tooth is half a pitch behind; the gear turns the other way.
+            // A driven tooth is half a pitch behind; the gear turns in the opposite direction.
             driven: Pattern {
                 count: counts.driven,
                 period: periods[1],
@@ -302,15 +302,15 @@ impl Patterns {
 }
 
 impl GearPair {
-    /// Driver pitches after which both gears and the law are as they were: the whole cycle, unless the form of the pitch curve tells
-    /// that it repeats and the teeth repeat with it.
+    /// Driver pitches after which both gears and the law are as they were: the whole cycle, unless the form of the pitch curve
+    /// shows that it repeats and the teeth repeat with it.
     #[must_use]
     pub fn period(&self) -> u32 {
         self.patterns.period()
     }
 
     /// Whether the pair run backwards from the driver angle 0 is the mirror image of the pair run on, as far as the form of the
-    /// pitch curve tells.
+    /// pitch curve shows.
     #[must_use]
     pub fn is_mirrored(&self) -> bool {
         self.patterns.is_mirrored()

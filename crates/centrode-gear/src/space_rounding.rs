@@ -19,17 +19,19 @@ const ROUNDEST: f64 = 0.8;
 /// Minimum share of a straight rack's flank speed down to which a flank goes on below where its mate works.
 const SLOWEST: f64 = 0.01;
 
-/// Places of a tip on its way from the flank to the root at which it is held against the corner: at first, and where it is near.
+/// Positions of a tip on its path from the flank to the root at which it is held against the corner: at first, and where it is
+/// near.
 const PLACES: [u32; 2] = [8, 32];
 
-/// Nearness of a tip to the corner that so many places may miss, as a share of the depth times the square of their number.
+/// Clearance that n samples may miss, relative to depth / n²: smaller values miss contacts, larger ones trim too much.
 const BETWEEN: f64 = 1e-2;
 
-/// Place of a tip on that way: the arc length rolled, and how far the tip is ahead and above the point at which the pitch curves touch.
+/// Position of a tip on that way: the arc length rolled, and how far the tip is ahead and above the point at which the pitch
+/// curves touch.
 type Place = (f64, [f64; 2]);
 
 impl Fitting<'_> {
-    /// The corner of a space of some depth next to a flank that a tip works on; none where it would cut into that flank.
+    /// The corner of a space of some depth next to a flank that a tip works on; `None` if it would cut into that flank.
     pub(super) fn corner_below(
         &self,
         member: Member,
@@ -44,7 +46,7 @@ impl Fitting<'_> {
 
     /// Fits every space of a gear to the tips that enter it: of `meshes` teeth the driven gear's k enters
     /// the space after the driver's tooth k, the driver's k + 1 that after the driven gear's. One depth a space, below the
-    /// higher tip, where the flanks bear it; a fillet below each flank. The teeth take up `length` of the pitch curve.
+    /// higher tip, where the flanks allow it; a fillet below each flank. The teeth take up `length` of the pitch curve.
     pub(super) fn serve(
         &self,
         member: Member,
@@ -93,8 +95,8 @@ impl Fitting<'_> {
         }
     }
 
-    /// A corner with the rounding made as small as the mate's tip needs, which comes by it on its way from the flank to the root, as
-    /// far as the flank goes on above it. The tip works on the flank down to a roll.
+    /// A corner with the rounding made as small as the mate's tip needs, which comes by it on its path from the flank to the
+    /// root, as far as the flank goes on above it. The tip works on the flank down to a roll.
     fn clear_corner(&self, corner: Corner, flank: &Flank<'_>, rolled: f64) -> Corner {
         let beyond = |path: &[Place], radius: f64| {
             let corner = flank.tool.corner(corner.depth, radius);
@@ -140,7 +142,7 @@ impl Fitting<'_> {
     }
 }
 
-/// The way of a mate's tip from a flank, on which it works down to a roll below the crossing, to the root.
+/// The path of a mate's tip from a flank, on which it works down to a roll below the crossing, to the root.
 fn tip_path(flank: &Flank<'_>, rolled: f64, places: u32) -> Vec<Place> {
     let cos = flank.tool.pressure_angle.cos();
     let mate = Flank {
@@ -150,7 +152,7 @@ fn tip_path(flank: &Flank<'_>, rolled: f64, places: u32) -> Vec<Place> {
     };
     let arc = |share: f64| mate.crossing - mate.side.sign() * rolled * share;
     let tip = mate.point(mate.rolling.parameter(arc(1.0)));
-    // The tip is deepest about where it stands above the pitch curve.
+    // The tip is deepest about where it is above the pitch curve.
     let shares = (1..=places).map(|i| 1.0 - cos * cos * f64::from(i) / f64::from(places));
     shares
         .map(|share| {

@@ -62,7 +62,7 @@ pub enum TeethError {
     TipRadius {
         /// Gear of the space.
         member: Member,
-        /// Radius asked for, mm.
+        /// Required radius, mm.
         radius: f64,
         /// Width of the space on the pitch curve, mm.
         space: f64,
@@ -72,7 +72,7 @@ pub enum TeethError {
         maximum: f64,
     },
     /// The tool comes to a point before it is as deep as it must cut.
-    #[error("the tool comes to a point {short:.6} mm above its tip: a space {space:.6} mm wide on the {} is to be cut {depth:.6} mm deep", .member.name())]
+    #[error("the tool comes to a point {short:.6} mm before it reaches the required depth: a space {space:.6} mm wide on the {} is to be cut {depth:.6} mm deep", .member.name())]
     NoTip {
         /// Gear of the space.
         member: Member,
@@ -247,7 +247,7 @@ fn minimum_lever(rolling: &Rolling, pressure_angle: f64) -> f64 {
 /// Pitches from phi = 0 to the middle of a driver tooth, and whether the gears are congruent.
 ///
 /// Two gears are the same part when r(s) + r(s* - s) = a for some s*: the driven tooth at
-/// (k + phase + 1/2) p must fall on a driver tooth of the mirrored count, which asks
+/// (k + phase + 1/2) p must fall on a driver tooth of the mirrored count, which requires
 /// 2 phase = s*/p - 1/2 mod 1.
 fn phase(
     rolling: &Rolling,

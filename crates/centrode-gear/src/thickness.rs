@@ -1,77 +1,17 @@
 //! Limits of tooth thickness.
 
+use std::sync::LazyLock;
+
+use centrode_kinematics::machine::StandardTable;
+
 use super::design::BodySpec;
 use super::{GearPair, Member};
 
-/// Reference diameters up to which, mm, and tolerances of tooth thickness of series 21 to 30, um; DIN 3967, table 2.
-const TOLERANCES: [(f64, [f64; 10]); 11] = [
-    (
-        10.0,
-        [3.0, 5.0, 8.0, 12.0, 20.0, 30.0, 50.0, 80.0, 130.0, 200.0],
-    ),
-    (
-        50.0,
-        [5.0, 8.0, 12.0, 20.0, 30.0, 50.0, 80.0, 130.0, 200.0, 300.0],
-    ),
-    (
-        125.0,
-        [
-            6.0, 10.0, 16.0, 25.0, 40.0, 60.0, 100.0, 160.0, 250.0, 400.0,
-        ],
-    ),
-    (
-        280.0,
-        [
-            8.0, 12.0, 20.0, 30.0, 50.0, 80.0, 130.0, 200.0, 300.0, 500.0,
-        ],
-    ),
-    (
-        560.0,
-        [
-            10.0, 16.0, 25.0, 40.0, 60.0, 100.0, 160.0, 250.0, 400.0, 600.0,
-        ],
-    ),
-    (
-        1000.0,
-        [
-            12.0, 20.0, 30.0, 50.0, 80.0, 130.0, 200.0, 300.0, 500.0, 800.0,
-        ],
-    ),
-    (
-        1600.0,
-        [
-            16.0, 25.0, 40.0, 60.0, 100.0, 160.0, 250.0, 400.0, 600.0, 1000.0,
-        ],
-    ),
-    (
-        2500.0,
-        [
-            20.0, 30.0, 50.0, 80.0, 130.0, 200.0, 300.0, 500.0, 800.0, 1300.0,
-        ],
-    ),
-    (
-        4000.0,
-        [
-            25.0, 40.0, 60.0, 100.0, 160.0, 250.0, 400.0, 600.0, 1000.0, 1600.0,
-        ],
-    ),
-    (
-        6300.0,
-        [
-            30.0, 50.0, 80.0, 130.0, 200.0, 300.0, 500.0, 800.0, 1300.0, 2000.0,
-        ],
-    ),
-    (
-        10_000.0,
-        [
-            40.0, 60.0, 100.0, 160.0, 250.0, 400.0, 600.0, 1000.0, 1600.0, 2400.0,
-        ],
-    ),
-];
-/// First of these series.
-const FIRST: u32 = 21;
+/// Reference diameters up to which, mm, and tolerances of tooth thickness by series, um.
+static TOLERANCES: LazyLock<StandardTable<11>> =
+    LazyLock::new(|| StandardTable::read(include_str!("../data/din-3967.csv")));
 /// Series less the accuracy class: series 26 for class 8. A tolerance is then at least twice what the thickness of the teeth of
-/// one gear of the class varies by, as DIN 3967 asks.
+/// one gear of the class varies by, as DIN 3967 requires.
 const ABOVE_CLASS: u32 = 18;
 /// Minimum module of the standard, mm.
 const MIN_MODULE: f64 = 1.0;
@@ -130,9 +70,8 @@ impl GearPair {
 
 /// Tolerance of tooth thickness of a series by the reference diameter, mm.
 fn tolerance(diameter: f64, series: u32) -> Option<f64> {
-    let (_, row) = TOLERANCES.iter().find(|(end, _)| diameter <= *end)?;
-    let column = usize::try_from(series.checked_sub(FIRST)?).ok()?;
-    row.get(column).map(|um| um / 1000.0)
+    let column = TOLERANCES.column(&series.to_string())?;
+    TOLERANCES.up_to(diameter).map(|row| row[column] / 1000.0)
 }
 
 impl BodySpec {
@@ -165,12 +104,12 @@ mod tests {
 
     #[test]
     fn tolerances_grow_with_diameter_and_series() {
-        for (_, row) in TOLERANCES {
-            assert!(row.windows(2).all(|pair| pair[0] < pair[1]));
+        assert_eq!(TOLERANCES.rows.len(), 11);
+        for row in &TOLERANCES.rows {
+            assert!(row[1..].windows(2).all(|pair| pair[0] < pair[1]));
         }
-        for pair in TOLERANCES.windows(2) {
-            let [(end, small), (next, large)] = [pair[0], pair[1]];
-            assert!(end < next && small.iter().zip(large).all(|(a, b)| *a < b));
+        for pair in TOLERANCES.rows.windows(2) {
+            assert!(pair[0].iter().zip(pair[1]).all(|(a, b)| *a < b));
         }
     }
 }

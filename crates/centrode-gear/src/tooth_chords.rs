@@ -2,7 +2,7 @@
 
 use std::cell::Cell;
 
-use centrode_geometry::{Point, Vector};
+use centrode_geometry::{Disc, Point, Vector};
 
 use super::{
     flank::{Flank, Side},
@@ -22,7 +22,7 @@ pub(super) struct ToothChords {
     /// Height of the curve above the middle of each chord, out of the material.
     bulges: Vec<f64>,
     /// Circles around groups of chords.
-    groups: Vec<(Point, f64)>,
+    groups: Vec<Disc>,
     /// Sign: +1 where the material lies to the left of the walk.
     material: f64,
     supports: Option<Supports>,
@@ -35,15 +35,8 @@ pub(super) struct ToothChords {
 /// Multiple of the distance of a tooth's ends and corners from its middle within which all of it lies.
 const ROUND: f64 = 1.25;
 
-/// A circle that has a tooth within it, mm.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Circle {
-    pub(crate) center: Point,
-    pub(crate) radius: f64,
-}
-
 /// A circle around the working part of a tooth.
-pub(super) fn circle(rolling: &Rolling, tools: &[Tool; 2], candidate: &Candidate) -> Circle {
+pub(super) fn circle(rolling: &Rolling, tools: &[Tool; 2], candidate: &Candidate) -> Disc {
     let [leading, trailing] = [Side::Leading, Side::Trailing].map(|side| {
         let flank = candidate.flank(rolling, tools, side);
         [0.0, 0.5, 1.0].map(|share| candidate.along(&flank, share))
@@ -51,7 +44,7 @@ pub(super) fn circle(rolling: &Rolling, tools: &[Tool; 2], candidate: &Candidate
     let center = nalgebra::center(&leading[1], &trailing[1]);
     let away = leading.iter().chain(&trailing).map(|p| (p - center).norm());
     let radius = ROUND * away.fold(0.0, f64::max);
-    Circle { center, radius }
+    Disc { center, radius }
 }
 
 impl Candidate {
@@ -141,7 +134,7 @@ impl ToothChords {
     pub(super) fn runs(&self) -> impl Iterator<Item = (&Point, f64, &[Point])> {
         let last = self.groups.len() - 1;
         let runs = self.groups.iter().enumerate();
-        runs.map(move |(number, (center, radius))| {
+        runs.map(move |(number, Disc { center, radius })| {
             let from = number * GROUP;
             let to = if number == last {
                 self.places.len()
@@ -180,7 +173,7 @@ impl ToothChords {
         // No chord is nearest that is farther than a place.
         let within = (point - self.places[self.last.get()]).norm();
         let mut found = 0;
-        for (number, (center, radius)) in self.groups.iter().enumerate() {
+        for (number, Disc { center, radius }) in self.groups.iter().enumerate() {
             let reach = (within + radius) * (1.0 + 1e-9);
             if (point - center).norm_squared() > reach * reach {
                 continue;
@@ -261,10 +254,11 @@ impl Supports {
 }
 
 /// Circle around neighbouring places of a curve.
-fn group(places: &[Point]) -> (Point, f64) {
+fn group(places: &[Point]) -> Disc {
     let center = nalgebra::center(&places[0], &places[places.len() - 1]);
     let away = places.iter().map(|p| (p - center).norm());
-    (center, away.fold(0.0, f64::max))
+    let radius = away.fold(0.0, f64::max);
+    Disc { center, radius }
 }
 
 /// The bulge of every chord of a smooth part, by second differences.

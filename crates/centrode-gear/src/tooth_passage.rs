@@ -4,12 +4,12 @@ use std::cell::{OnceCell, RefCell};
 use std::collections::VecDeque;
 use std::rc::Rc;
 
-use centrode_geometry::{Point, checkpoint, parallel_map};
+use centrode_geometry::{Disc, Point, checkpoint, parallel_map};
 
 use super::{
     rolling::{Frame, Member, Rolling},
     tool::Tool,
-    tooth_chords::{Circle, ToothChords},
+    tooth_chords::ToothChords,
 };
 
 /// Poses a pitch at which two teeth are held against each other.
@@ -17,7 +17,7 @@ const POSES: u32 = 20;
 /// Pitches, half of them on either side of the middle of a passage, within which teeth are held against each other: on pitch curves that
 /// are concave in turn they still meet some pitches before they mesh.
 const PITCHES: u32 = 16;
-/// Maximum way of a corner in its mate's axes, pitches, from one pose to the next where teeth are trimmed.
+/// Maximum path of a corner in its mate's axes, pitches, from one pose to the next where teeth are trimmed.
 const WAY: f64 = 0.02;
 /// Penetration that may be the approximation's own, as a share of the pitch.
 const PENETRATION: f64 = 3e-5;
@@ -50,7 +50,7 @@ pub(crate) struct Poses<'a> {
     /// Arc length of pose 0, and of a step.
     origin: f64,
     step: f64,
-    /// Number of the first pose kept.
+    /// Number of the first stored pose.
     first: i64,
     kept: VecDeque<[Frame; 2]>,
 }
@@ -75,7 +75,7 @@ impl<'a> Poses<'a> {
         ((middle - self.origin) / self.step).round() as i64 - Self::COUNT / 2
     }
 
-    /// Finds the poses about all arc lengths from one to another, and keeps those that are known.
+    /// Finds the poses about all arc lengths from one to another, and reuses those that are known.
     pub(crate) fn find(&mut self, [first, last]: [f64; 2]) {
         let (from, to) = (self.from(first), self.from(last) + Self::COUNT);
         let end = self.first + self.kept.len() as i64;
@@ -113,7 +113,7 @@ pub(crate) struct ToothPassage<'a> {
     near: Vec<[Frame; 2]>,
 }
 
-/// A tooth of which a share of the reaches is kept, with its shapes as far as they have been asked for.
+/// A tooth of which a share of the reaches is kept, with its shapes as far as they have been requested.
 struct Trimmed<'a> {
     candidate: &'a Candidate,
     whole: OnceCell<Rc<ToothChords>>,
@@ -167,7 +167,7 @@ impl<'a> ToothPassage<'a> {
         tools: &'a [Tool; 2],
         middle: f64,
         pitch: f64,
-        [one, two]: [&Circle; 2],
+        [one, two]: [&Disc; 2],
     ) -> Option<Self> {
         let rolling = poses.rolling;
         let poses = poses.about(middle);
@@ -214,7 +214,7 @@ impl<'a> ToothPassage<'a> {
             let shares = |share: f64| cut.map(|cut| if cut { share } else { 1.0 });
             let left = |[first, second]: [f64; 2]| [driver.reaches(first), driven.reaches(second)];
             let kept = |part: u32| -> f64 { left(shares(margined(part))).iter().flatten().sum() };
-            // What keeps less than another way does is not looked for.
+            // Options worse than a known one are not searched.
             let minimum = first_part(|part| kept(part) >= best.0);
             if minimum == PARTS {
                 continue;
@@ -291,7 +291,7 @@ fn penetrate([a, b]: &[Frame; 2], teeth: &[Rc<ToothChords>; 2], pitch: f64) -> b
     is_deep(one, carried(a, b), two, pitch) || is_deep(two, carried(b, a), one, pitch)
 }
 
-/// Whether a place of a tooth, carried to where its mate is, lies deep in the mate.
+/// Whether a position of a tooth, carried to where its mate is, lies deep in the mate.
 fn is_deep(
     tooth: &ToothChords,
     carried: impl Fn(&Point) -> Point,
@@ -306,7 +306,7 @@ fn is_deep(
                 .is_some_and(|d| d > PENETRATION * pitch && d < 0.5 * pitch)
     };
     let mut near = tooth.runs().filter(|(center, radius, _)| {
-        // Rounding may put a place out of its circle.
+        // Rounding may put a position out of its circle.
         !mate.is_beyond(&carried(center), radius * (1.0 + 1e-9))
     });
     near.any(|(_, _, places)| places.iter().any(is_deep))

@@ -17,7 +17,7 @@ mod test_shapes;
 pub use approximation::Sample;
 pub use curve::{
     Arc, BezierFit, Bounds, CrossingError, Curve, FittedSpan, Jet, PolySegment, Segment,
-    SegmentJet, SegmentRange, crossings, self_crossings,
+    SegmentJet, SegmentRange, Span, SpanBounds,
 };
 pub use numeric::{
     Antiderivative, BadTolerance, CHEBYSHEV_TERMS, COMPUTED, Cancel, Cancelled, Extreme, Recent,
@@ -27,8 +27,8 @@ pub use numeric::{
     piece_ends, rounding, run_both, stay_on_one_thread,
 };
 pub use region::{
-    AreaMoments, ConvexPieces, Crossing, LoopError, OpenOutline, Outline, ShortSide, convex_hull,
-    convex_pieces, without_loops,
+    AreaMoments, BoundTree, ConvexPieces, Crossing, Disc, LoopError, OpenOutline, Outline, Run,
+    ShortSide, convex_hull, convex_pieces, without_loops,
 };
 pub use solid::{
     MassProperties, Mesh, Opening, Shell, ShellBuilder, ShellCurve, ShellEdge, ShellFace,

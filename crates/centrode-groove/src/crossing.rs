@@ -8,21 +8,21 @@ use centrode_kinematics::transmission::Transmission;
 /// Point where the groove crosses itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
-    /// Shaft angle at which the slider passes it on the way out, rad.
+    /// Shaft angle at which the slider passes it on the outward stroke, rad.
     pub out: f64,
-    /// Shaft angle at which it passes on the way back, rad.
+    /// Shaft angle at which it passes on the return stroke, rad.
     pub back: f64,
     /// Position along the shaft, mm.
     pub position: f64,
-    /// Angle between both ways, rad: the sum of their lead angles.
+    /// Angle between both strokes, rad: the sum of their lead angles.
     pub angle: f64,
     /// Length without walls, mm: a slider guided through must be longer. `w / sin(angle)`.
     pub gap: f64,
-    /// Whether both ways are strokes here, not reversals.
+    /// Whether both are strokes here, not reversals.
     pub of_strokes: bool,
 }
 
-/// A shift of the return stroke that keeps the slow places off the crossings.
+/// A shift of the return stroke with which the slow points are off the crossings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ClearOffset {
     /// `return_offset`, mm.
@@ -37,9 +37,9 @@ pub struct ClearOffset {
 const TRIED: u32 = 64;
 
 impl Groove {
-    /// Crossings of the groove with itself, in the order the slider passes them on its way out.
+    /// Crossings of the groove with itself, in the order the slider passes them on its outward stroke.
     ///
-    /// One for every turn of the cycle but one: going out and coming back the slider takes every place
+    /// One for every turn of the cycle but one: going out and coming back the slider takes every position
     /// once each, so at the same angle of the shaft the two meet exactly once a turn between them.
     #[must_use]
     pub fn crossings(&self) -> Vec<Crossing> {
@@ -51,7 +51,7 @@ impl Groove {
             .map(|turns| {
                 let later = TAU * f64::from(turns);
                 let apart = |out: f64| place(out + later) - place(out);
-                // Both on their own ways: falls from end to end.
+                // Both on their own strokes: falls from end to end.
                 let low = (near - period).max(far - later);
                 let high = far.min(near - later);
                 let out = bracketed_root(apart, low, high, apart(low), apart(high));
@@ -86,8 +86,8 @@ impl Groove {
     /// Minimum shift of the return stroke with which a slider of this length (mm) bridges every crossing
     /// of the two strokes, or the best there is if none is enough.
     ///
-    /// Picking the same hole at the same angle of the shaft on both ways puts a crossing there, whatever
-    /// the law: only by missing the hole a little, half of the offset each way, does the slow place come
+    /// Picking the same hole at the same angle of the shaft on both strokes puts a crossing there, whatever
+    /// the law: only by missing the hole a little, half of the offset on each stroke, does the slow point come
     /// off it. The crossings next to the reversals cannot be moved so.
     ///
     /// # Errors

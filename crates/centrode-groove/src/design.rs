@@ -24,8 +24,7 @@ pub struct SpiralShaftDesign {
     pub holes: u32,
     /// Radius of the shaft, mm.
     pub radius: f64,
-    /// Distance the box shall move in the window, mm; sets the amplitude of a sine law.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Distance the box must move in the window, mm; sets the amplitude of a sine law.
     pub moved_distance: Option<f64>,
     /// Shaft turn during which a seedling is picked, rad (degrees in the file).
     #[serde(rename = "window_deg", with = "degrees")]
@@ -37,7 +36,7 @@ pub struct SpiralShaftDesign {
     pub pick: f64,
     /// Width of a pot, mm: the box may move by a sixth of it while a seedling is picked.
     pub pot_width: f64,
-    /// Shift of the return groove next to the forward one, mm: brings the slow places off the crossings at the price
+    /// Shift of the return groove next to the forward one, mm: brings the slow points off the crossings at the price
     /// of missing each hole by half of it.
     pub return_offset: f64,
     /// Speed along the shaft.
@@ -137,7 +136,7 @@ impl SpiralShaftDesign {
             [1e-6, 360.0],
             " deg",
         )?;
-        // A hundred turns either way; of many millions nothing is left of an angle within one.
+        // A hundred turns in either direction; of many millions nothing is left of an angle within one.
         in_range("pick_deg", self.pick.to_degrees(), [-36e3, 36e3], " deg")?;
         positive("pot_width", self.pot_width)?;
         finite("return_offset", self.return_offset)?;
@@ -159,7 +158,7 @@ impl SpiralShaftDesign {
         }
     }
 
-    /// Law with its amplitude solved for the wanted distance where one is given.
+    /// Law with its amplitude solved for the required distance where one is given.
     ///
     /// # Errors
     /// [`ShaftError`] where no amplitude gives it.

@@ -19,7 +19,7 @@ pub struct EllipticDrive {
 
 impl EllipticDrive {
     /// Elliptic pair that lets a plain shaft of this lead (mm a turn) move the slider by `moved` (mm) in the
-    /// window (rad) around the slow place: `k = t / (sin h - t cos h)`, `h = W / 2`,
+    /// window (rad) around the slow point: `k = t / (sin h - t cos h)`, `h = W / 2`,
     /// `t = tan((W - 2 pi d / p) / 4)`.
     ///
     /// # Errors

@@ -13,9 +13,9 @@ pub enum ShaftError {
     /// A table or formula of the speed cannot be read.
     #[error(transparent)]
     Speed(#[from] PitchError),
-    /// The slider would stop or run back on the way.
+    /// The slider would stop or run back on a stroke.
     #[error(
-        "amplitude is {amplitude} mm, but with the harmonic {harmonic} and a lead of {lead} mm the slider only keeps moving one way below {limit:.6} mm"
+        "amplitude is {amplitude} mm, but with the harmonic {harmonic} and a lead of {lead} mm the slider moves in one direction only below {limit:.6} mm"
     )]
     Amplitude {
         /// Amplitude, mm.
@@ -39,10 +39,10 @@ pub enum ShaftError {
     },
     /// A distance no amplitude gives.
     #[error(
-        "moved_distance must lie between {minimum:.6} mm, where the slider stands still, and {maximum:.6} mm, where its speed is constant, not {required}"
+        "moved_distance must lie between {minimum:.6} mm, where the slider stops, and {maximum:.6} mm, where its speed is constant, not {required}"
     )]
     MovedDistance {
-        /// Distance asked for, mm.
+        /// Required distance, mm.
         required: f64,
         /// Lower bound, mm.
         minimum: f64,
@@ -51,7 +51,7 @@ pub enum ShaftError {
     },
     /// A window that holds whole waves, over which no amplitude changes the distance.
     #[error(
-        "window_deg is {window_deg}, whole waves of the harmonic {harmonic}: every amplitude moves the slider alike over it"
+        "window_deg is {window_deg}, whole waves of the harmonic {harmonic}: every amplitude moves the slider by the same distance over it"
     )]
     Window {
         /// Width of the window, deg.
@@ -64,9 +64,9 @@ pub enum ShaftError {
         "the reversal must take a whole number of half turns, or the groove does not close on the shaft; it is {0}"
     )]
     ReversalAngle(f64),
-    /// A law that does not bring the speed smoothly and evenly from one way to the other.
+    /// A law that does not bring the speed smoothly and evenly from one direction to the other.
     #[error(
-        "the law {law} does not reverse the slider: its acceleration must vanish at both ends and its halves be alike"
+        "the law {law} does not reverse the slider: its acceleration must vanish at both ends and its halves be equal"
     )]
     ReversalLaw {
         /// Name of the law.

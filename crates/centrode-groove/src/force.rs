@@ -57,7 +57,7 @@ impl Load {
     }
 
     /// Forces on the slider for a motion (mm and rad of what turns at the load's speed) on a groove of this lead angle
-    /// (rad) and radius (mm): those of a [`GuideForce`] for the push `m (x'' + g mu)` along the way of the box.
+    /// (rad) and radius (mm): those of a [`GuideForce`] for the push `m (x'' + g mu)` along the path of the box.
     ///
     /// Replaces equations (14) and (15) of Zhou et al. 2018.
     #[must_use]
@@ -68,13 +68,13 @@ impl Load {
         GuideForce::new(push, lead_angle, radius, self.groove_friction)
     }
 
-    /// Friction of the rails on the box in a motion, N: against its way.
+    /// Friction of the rails on the box in a motion, N: against its motion.
     #[must_use]
     pub fn rail_force(&self, motion: &MotionJet) -> f64 {
         -way(motion) * self.mass * GRAVITY * self.rail_friction
     }
 
-    /// Speed of the shaft, turns a minute, above which a motion whose deceleration along its way is at most
+    /// Speed of the shaft, turns a minute, above which a motion whose deceleration along its motion is at most
     /// `deceleration` (mm/rad^2) leaves the driving wall: `omega^2 = g mu / deceleration`. A motion that never slows down
     /// stays on its wall at any speed: infinite, with friction on the rails and without.
     #[must_use]
@@ -92,7 +92,7 @@ impl Load {
     }
 }
 
-/// Sign of the way the box moves, or is about to move.
+/// Sense in which the box moves, or is about to move.
 fn way(motion: &MotionJet) -> f64 {
     if motion.velocity == 0.0 {
         motion.acceleration.signum()
@@ -110,7 +110,7 @@ pub struct ForceRange {
     pub normal_of_reversal: Extreme,
     /// Minimum and maximum torque over the cycle, N mm.
     pub torque: [Extreme; 2],
-    /// Maximum deceleration along the way on the strokes, mm/rad^2.
+    /// Maximum deceleration along the motion on the strokes, mm/rad^2.
     pub deceleration: Extreme,
     /// Maximum deceleration over the whole cycle, with the reversals, mm/rad^2.
     pub deceleration_of_cycle: Extreme,

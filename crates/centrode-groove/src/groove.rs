@@ -7,7 +7,7 @@ use centrode_spec::rule::positive;
 /// Wall of the groove, by its side.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Wall {
-    /// Left of the way the slider goes, seen on the development.
+    /// Left of the direction of the slider, seen on the development.
     Left,
     /// Right of it.
     Right,
@@ -114,7 +114,7 @@ impl Groove {
         self.depth
     }
 
-    /// Places between which the motion is smooth and short: its breaks, tips and quarter turns.
+    /// Positions between which the motion is smooth and short: its breaks, tips and quarter turns.
     #[must_use]
     pub(crate) fn ends(&self) -> Vec<f64> {
         let period = self.traverse.period();
@@ -150,13 +150,13 @@ impl Groove {
         Point::new(self.radius * theta, self.traverse.at(theta).position)
     }
 
-    /// Lead angle, rad: `atan(s' / R)`, negative on the way back.
+    /// Lead angle, rad: `atan(s' / R)`, negative on the return stroke.
     #[must_use]
     pub fn lead_angle(&self, theta: f64) -> f64 {
         (self.traverse.at(theta).velocity / self.radius).atan()
     }
 
-    /// Angle between the wall's normal and the slider's way along the shaft, rad: the lead angle without
+    /// Angle between the wall's normal and the slider's path along the shaft, rad: the lead angle without
     /// its sign.
     #[must_use]
     pub fn pressure_angle(&self, theta: f64) -> f64 {
@@ -240,7 +240,7 @@ impl Groove {
     }
 
     /// Maximum distance, mm, between a radial wall and the wall an end mill of the groove's width cuts:
-    /// both pass the surface alike, at the foot the mill leaves the groove this much wider on each side.
+    /// both pass the surface equally, at the foot the mill leaves the groove this much wider on each side.
     #[must_use]
     pub fn wall_deviation(&self) -> f64 {
         let apart = |theta: f64| {

@@ -1,4 +1,4 @@
-//! Spiral shafts: the law of a slider that travels both ways at its own speeds, its groove, and the moving box.
+//! Spiral shafts: the law of a slider that moves back and forth at its own speeds, its groove, and the moving box.
 //!
 //! The shaft turns by `theta` and carries the slider along its axis, z. Lengths are mm, angles rad, velocities mm per radian
 //! of shaft turn. After M. L. Zhou et al., "New type of transverse moving box mechanism for pot seedling transplanting

@@ -38,13 +38,10 @@ pub enum Scheme {
 #[serde(default, deny_unknown_fields)]
 pub struct EllipticGears {
     /// Eccentricity of the pitch ellipses.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub eccentricity: Option<f64>,
     /// Maximum speed of the shaft over its minimum.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub speed_ratio: Option<f64>,
-    /// Distance a plain shaft shall move the box in the window, mm.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Distance a plain shaft must move the box in the window, mm.
     pub moved_distance: Option<f64>,
     /// Module, mm.
     pub module: f64,
@@ -146,7 +143,6 @@ pub struct MovingBoxDesign {
     /// Scheme that slows the box down.
     pub scheme: Scheme,
     /// The elliptic gears, for the schemes that have them.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub gears: Option<EllipticGears>,
     /// The shaft.
     pub shaft: SpiralShaftDesign,
@@ -200,7 +196,7 @@ impl MovingBoxDesign {
         self.shaft.validate().map_err(|e| e.inside("shaft"))
     }
 
-    /// The gear pair of the scheme, the driver's far apex on the line of centres at the slow place.
+    /// The gear pair of the scheme, the driver's far apex on the line of centres at the slow point.
     ///
     /// The driven gear sits on the shaft's near journal: unless its body has a bore, both have the journal's, and the
     /// hub's keyway for the journal's key. The driven gear's lies where that key is when the shaft turns slowest at
@@ -303,11 +299,7 @@ impl MovingBox {
     pub fn shaft_turn(&self, input: f64) -> MotionJet {
         match &self.drive {
             Some(drive) => drive.at(input),
-            None => MotionJet {
-                position: input,
-                velocity: 1.0,
-                ..MotionJet::default()
-            },
+            None => MotionJet::uniform(input, 1.0),
         }
     }
 

@@ -13,24 +13,20 @@ impl SpiralShaft {
     pub fn pin(&self, link: &str) -> TurnedPieces {
         let slider = self.slider();
         let length = slider.reach + IN_BOX * slider.pin_diameter;
-        let bar = Bar::new(slider.pin_diameter, &slider.pin_fit, [0.0, length]);
-        let stock = Stock::new(&slider.material, slider.density);
-        let mut part = bar.part("pin", "Pin of the slider", stock, "");
-        part.notes = vec![format!(
-            "{} mm of it in the slider.",
-            thousandths(slider.reach)
-        )];
         let classes = [&*slider.hole_fit, &slider.pin_fit];
         let fit = Fit::new("slider on its pin", slider.pin_diameter, classes);
-        TurnedPieces {
-            pieces: vec![TurnedPiece {
-                link: link.into(),
-                at: [self.groove().radius() - slider.reach, 0.0, 0.0],
-                turn: [0.0, FRAC_PI_2, 0.0],
-                // The mass moved is given.
-                is_counted: true,
-            }],
-            ..TurnedPieces::new(part, fit)
-        }
+        let stock = Stock::new(&slider.material, slider.density);
+        let bar = Bar::new(fit, [0.0, length]);
+        let mut pin = bar.turned("pin", "Pin of the slider", stock, "");
+        let inside = thousandths(slider.reach);
+        pin.part.notes = vec![format!("{inside} mm of it in the slider.")];
+        pin.pieces = vec![TurnedPiece {
+            link: link.into(),
+            at: [self.groove().radius() - slider.reach, 0.0, 0.0],
+            turn: [0.0, FRAC_PI_2, 0.0],
+            // The mass moved is given.
+            is_counted: true,
+        }];
+        pin
     }
 }

@@ -42,7 +42,7 @@ impl SpiralShaft {
     /// 3 pi / 2)`, with the shaft's angular velocity `w` and the amplitude `kappa` of (3) in metres. None for a
     /// law that is no sine.
     ///
-    /// (16) differentiates `kappa sin` as if it were the speed. It is the place, so a factor `n w` is missing
+    /// (16) differentiates `kappa sin` as if it were the speed. It is the position, so a factor `n w` is missing
     /// and the unit is m/s. A sine along the shaft of amplitude `B` corresponds to `kappa = B sin b`, with `tan b =
     /// 2 pi R / p`.
     #[must_use]

@@ -19,7 +19,7 @@ use centrode_spec::rule::in_range;
 #[serde(default, deny_unknown_fields)]
 pub struct Reversal {
     /// Shaft turn of one reversal, rad (degrees in the file): whole half turns, so that the groove
-    /// closes. One turn lets the same places be picked on the way out and back.
+    /// closes. One turn lets the same positions be picked on the outward stroke and back.
     #[serde(rename = "angle_deg", with = "degrees")]
     #[schemars(with = "f64")]
     pub angle: f64,

@@ -3,7 +3,7 @@ use std::f64::consts::TAU;
 use super::Traverse;
 use centrode_kinematics::transmission::Transmission;
 
-/// Way of the box while a hole is picked.
+/// Path of the box while a hole is picked.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Way {
     /// Forward stroke.
@@ -14,17 +14,11 @@ pub enum Way {
     Return,
 }
 
-impl Way {
-    /// Word for the way.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Forward => "forward",
-            Self::Reversing => "reversing",
-            Self::Return => "return",
-        }
-    }
-}
+centrode_spec::words!(Way {
+    Forward = "forward",
+    Reversing = "reversing",
+    Return = "return",
+});
 
 /// One picking.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,7 +27,7 @@ pub struct Pick {
     pub turn: u32,
     /// Angle of the shaft, or of the drive's input, at the middle of the window, rad.
     pub theta: f64,
-    /// Way of the box.
+    /// Path of the box.
     pub way: Way,
     /// Position of the box, mm.
     pub position: f64,
@@ -45,7 +39,7 @@ pub struct Pick {
     pub swept: f64,
 }
 
-/// Holes picked at each turn over a whole way out and back, one pick a turn.
+/// Holes picked at each turn over a whole cycle out and back, one pick a turn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Schedule {
     /// The picks in order.
@@ -58,7 +52,7 @@ impl Schedule {
     /// Schedule of picks at `pick + 2 pi k`, each in a window (rad) around that angle.
     ///
     /// The holes lie a lead apart, the first where the box is at the first pick; with a return offset
-    /// they are half of it nearer, so that both ways miss them alike.
+    /// they are half of it nearer, so that both strokes miss them equally.
     #[must_use]
     pub fn new(traverse: &Traverse, pick: f64, window: f64) -> Self {
         Self::driven(traverse, pick, window, |input| input)

@@ -132,7 +132,7 @@ impl SliderSpec {
     /// it, its foot has left the groove.
     ///
     /// `2 sqrt(R^2 - (R - h)^2)` with `h` the reach, at most the slider's length. The lead angle, which
-    /// flattens the curve under the slider, is left out of account: the true length is greater by its
+    /// flattens the curve under the slider, is not counted: the true length is greater by its
     /// cosine's inverse, at 16 deg by 4 %.
     #[must_use]
     pub fn guided_length(&self, radius: f64) -> f64 {

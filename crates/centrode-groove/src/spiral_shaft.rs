@@ -59,7 +59,7 @@ impl SpiralShaft {
         &self.law
     }
 
-    /// Amplitude of a sine, mm; none for other laws.
+    /// Amplitude of a sine, mm; `None` for other laws.
     #[must_use]
     pub fn amplitude(&self) -> Option<f64> {
         match &self.law {
@@ -75,7 +75,7 @@ impl SpiralShaft {
         self.traverse().law()
     }
 
-    /// The slider's motion over the whole way out and back.
+    /// The slider's motion over the whole cycle out and back.
     #[must_use]
     pub fn traverse(&self) -> &Traverse {
         self.groove.traverse()
@@ -146,7 +146,7 @@ impl SpiralShaft {
         Ok(ShaftSolid::new(&self.groove, self.body())?.mass_properties())
     }
 
-    /// The shaft's boundary on exact surfaces; the fillet along the groove's floor is left out.
+    /// The shaft's boundary on exact surfaces; the fillet along the groove's floor is omitted.
     ///
     /// # Errors
     /// [`ShaftError`] where body and groove do not go together, or the law is too wild for smooth surfaces.

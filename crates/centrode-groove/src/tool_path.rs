@@ -11,8 +11,7 @@ use centrode_spec::rule::{Rule, broken, positive};
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Mill {
-    /// Diameter, mm; left out, the groove's width. A thinner one goes once along each wall.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Diameter, mm; default: the groove's width. A thinner one goes once along each wall.
     pub diameter: Option<f64>,
     /// Depth of one pass, mm.
     pub depth_step: f64,

@@ -6,5 +6,8 @@
 pub mod arm;
 pub mod feeder;
 pub mod machine;
+mod pin_hole;
 mod screw_room;
 pub mod three_arm;
+
+pub use pin_hole::PinHole;

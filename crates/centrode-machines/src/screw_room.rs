@@ -41,7 +41,7 @@ impl ScrewRoom {
                 let at = self.stepped(segment.at(2.0 * i as f64 / parts - 1.0).point);
                 let room = self.room(at);
                 if room >= radius {
-                    // Alike places differ by rounding: the first of them is taken.
+                    // Equal positions differ by rounding: the first of them is taken.
                     free.push((at, (1e6 * room).round()));
                 }
             }
@@ -76,7 +76,7 @@ impl ScrewRoom {
         Ok(found)
     }
 
-    /// The place nearest to another with coordinates in whole steps.
+    /// The position nearest to another with coordinates in whole steps.
     fn stepped(&self, at: Point) -> Point {
         if self.grid > 0.0 {
             at.map(|x| (x / self.grid).round() * self.grid)
@@ -85,7 +85,7 @@ impl ScrewRoom {
         }
     }
 
-    /// Radius of the free circle about a place, mm.
+    /// Radius of the free circle about a position, mm.
     fn room(&self, at: Point) -> f64 {
         let off = self.taken.iter().map(|([from, to], radius)| {
             let along = to - from;

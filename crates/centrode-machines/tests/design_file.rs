@@ -720,7 +720,7 @@ fn titles_hold_no_character_that_xml_has_not() {
         let error = GearPairDesign::from_toml(&title(c)).expect_err("refused");
         let message = error.message();
         assert!(
-            message.ends_with("not 2 with 1 control characters (U+FFFE and U+FFFF count as such)"),
+            message.ends_with("not 2 with 1 control characters (U+FFFE and U+FFFF count, too)"),
             "{c:?}: {message}"
         );
     }

@@ -42,7 +42,7 @@ pub struct Settings {
     pub method: Method,
     /// Seed: the same one gives the same answer.
     pub seed: u64,
-    /// Points a generation; by the method and the number of variables if left out.
+    /// Points per generation; default: by the method and the number of variables.
     pub population: Option<usize>,
     /// Maximum number of evaluations; the generation under way is finished.
     pub evaluations: u64,
@@ -96,7 +96,7 @@ pub enum Ended {
     Target,
     /// The evaluations are used up.
     Evaluations,
-    /// The observer asked for it.
+    /// The observer requested it.
     Stopped,
     /// No step helps any more.
     Stuck,
@@ -240,7 +240,7 @@ impl Search {
     }
 
     /// Searches until the target is reached, the evaluations are used up or `observe` breaks off; the
-    /// best so far is kept in every case.
+    /// best found is stored in every case.
     pub fn run(
         &mut self,
         problem: &dyn Problem,

@@ -32,7 +32,7 @@ macro_rules! packed {
     };
 }
 
-/// three.js, which draws in space; the page fetches it when that is asked for.
+/// three.js, which draws in space; the page fetches it when that is requested.
 const PACKED: [Packed; 2] = packed!("three-0.184.0": "three.module.min.js", "three.core.min.js");
 
 /// The packed module of the page with a name.
@@ -193,7 +193,7 @@ pub fn report(title: &str, snapshot: &str) -> String {
     between(&page, "<!-- scripts -->", "<!-- /scripts -->", &script)
 }
 
-/// The text with what stands between two marks replaced; as it is where a mark is missing.
+/// The text with the part between two marks replaced; unchanged where a mark is missing.
 fn between(text: &str, open: &str, close: &str, new: &str) -> String {
     let Some((before, rest)) = text.split_once(open) else {
         return text.to_owned();

@@ -1,4 +1,4 @@
-//! The design page without a server: its scripts and styles, and the answers to what they ask.
+//! The design page without a server: its scripts and styles, and the answers to their requests.
 //!
 //! A question and its answer are text: a design file goes in, JSON, a changed design file or HTML comes out ([`Subject`],
 //! [`edited`], [`report`]). The words of the page for each family are here. Whoever serves the page brings HTTP, files, threads.

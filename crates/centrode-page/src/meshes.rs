@@ -2,7 +2,7 @@ use centrode_export::linked;
 use centrode_families::FAMILIES;
 use centrode_geometry::Tolerance;
 
-/// Meshes of a design, and where they stand at the picture's inputs, as the page reads them.
+/// Meshes of a design, and their poses at the picture's inputs, as the page reads them.
 ///
 /// # Errors
 /// The reason in words if there is no machine, or a body of it is no solid.

@@ -33,7 +33,7 @@ struct Chart {
     unit: &'static str,
     /// Figures; none where there is no mechanism.
     figures: Vec<Option<f64>>,
-    /// Minimum and maximum figure wanted.
+    /// Minimum and maximum required figure.
     required: [Option<f64>; 2],
 }
 

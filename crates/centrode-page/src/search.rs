@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Interval at which the best design so far is written out for the page.
+/// Interval at which the best design found is written out for the page.
 const SHOW: Duration = Duration::from_millis(400);
 
 /// Maximum number of points of the history that the page draws.
@@ -44,7 +44,7 @@ pub struct State {
     remark: Option<String>,
     /// The best at the ends of its generations, thinned out.
     history: Vec<Progress>,
-    /// The best design so far, as a file.
+    /// The best design found, as a file.
     text: String,
     /// Goals of that design.
     goals: Vec<GoalWords>,
@@ -59,7 +59,7 @@ struct Missed {
     unit: &'static str,
     start: String,
     best: String,
-    /// Range it is wanted in.
+    /// Range it is required in.
     required: String,
     met: bool,
 }
@@ -71,7 +71,7 @@ struct Run {
 }
 
 impl Run {
-    /// Ends a search that panicked; the best design so far stays.
+    /// Ends a search that panicked; the best design found stays.
     fn fail(&self, fault: InternalFault) {
         let mut state = self.state();
         state.running = false;
@@ -156,12 +156,12 @@ impl Searching {
         Ok(())
     }
 
-    /// Progress of the last search; none before the first.
+    /// Progress of the last search; `None` before the first.
     pub fn state(&self) -> Option<State> {
         self.run().as_ref().map(|run| run.state().clone())
     }
 
-    /// Stops at the end of the generation; the best so far is kept until it is dismissed by stopping once more.
+    /// Stops at the end of the generation; the best found is shown until it is dismissed by stopping once more.
     pub fn dismiss(&self) {
         self.stop();
         let mut run = self.run();
@@ -170,7 +170,7 @@ impl Searching {
         }
     }
 
-    /// Stops and forgets at once, best and all.
+    /// Stops at once and discards everything, the best design included.
     pub fn forget(&self) {
         self.stop();
         *self.run() = None;

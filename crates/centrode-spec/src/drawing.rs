@@ -1,3 +1,4 @@
+use crate::words;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -29,8 +30,7 @@ pub struct DrawingSpec {
     /// Who has approved it.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub approved_by: String,
-    /// Size of the sheets; left out, the smallest that takes the part.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Size of the sheets; default: the smallest that takes the part.
     pub sheet: Option<SheetSize>,
     /// Arrangement of the views.
     pub projection: Projection,
@@ -38,7 +38,7 @@ pub struct DrawingSpec {
     pub general_tolerance: String,
     /// State of the edges.
     pub edges: String,
-    /// Texture of the surfaces that nothing else is said of, ISO 21920.
+    /// Texture of the surfaces without a texture of their own, ISO 21920.
     pub surface: String,
     /// Texture of the surfaces with a tolerance class up to grade 8, and of flanks and profiles, ISO 21920; empty, that of the others.
     pub fitted_surface: String,
@@ -121,21 +121,20 @@ impl DrawingSpec {
     }
 }
 
-impl Projection {
-    /// Name, as written in the design.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::FirstAngle => "first-angle",
-            Self::ThirdAngle => "third-angle",
-        }
-    }
-}
+words!(Projection {
+    FirstAngle = "first-angle",
+    ThirdAngle = "third-angle",
+});
+
+words!(SheetSize {
+    A4 = "A4",
+    A3 = "A3",
+    A2 = "A2",
+    A1 = "A1",
+    A0 = "A0",
+});
 
 impl SheetSize {
-    /// All sizes, smallest first.
-    pub const ALL: [Self; 5] = [Self::A4, Self::A3, Self::A2, Self::A1, Self::A0];
-
     /// Width and height of the trimmed sheet, mm.
     #[must_use]
     pub fn size(self) -> [f64; 2] {
@@ -145,18 +144,6 @@ impl SheetSize {
             Self::A2 => [594.0, 420.0],
             Self::A1 => [841.0, 594.0],
             Self::A0 => [1189.0, 841.0],
-        }
-    }
-
-    /// Name: "A4".
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::A4 => "A4",
-            Self::A3 => "A3",
-            Self::A2 => "A2",
-            Self::A1 => "A1",
-            Self::A0 => "A0",
         }
     }
 }

@@ -6,7 +6,7 @@ use super::visible;
 use crate::digits::shortened;
 use crate::{Rule, SpecError};
 
-/// Error of a design file: the fault and its place.
+/// Error of a design file: the fault and its position.
 #[derive(Debug, Error)]
 #[error("line {line}, column {column}: {}", self.message())]
 pub struct DesignError {
@@ -126,7 +126,7 @@ impl DesignError {
         }
     }
 
-    /// The key and what is wrong with it, without the place.
+    /// The key and what is wrong with it, without the position.
     #[must_use]
     pub fn message(&self) -> String {
         named(&self.key, &self.fault)

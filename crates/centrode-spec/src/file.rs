@@ -4,7 +4,7 @@ use super::keys::{Keys, line_and_column};
 use super::reader::Reader;
 use super::{Design, DesignError, DesignFamily, DesignFault, MechanismError};
 
-/// A design together with the places of its keys, so that later errors find their line.
+/// A design together with the positions of its keys, so that later errors find their line.
 #[derive(Clone, Debug)]
 pub struct DesignFile {
     design: Arc<dyn Design>,

@@ -6,7 +6,7 @@ use toml::de::{DeTable, DeValue};
 
 use super::path::{Path, at};
 
-/// Places of all keys of a file.
+/// Positions of all keys of a file.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Keys(Vec<Entry>);
 
@@ -21,7 +21,7 @@ struct Entry {
     inner: Vec<Option<usize>>,
 }
 
-/// Visits every value of a table by its key, with where its key stands, entries of lists by their number.
+/// Visits every value of a table by its key, with the position of its key, entries of lists by their number.
 ///
 /// The parser refuses deep nesting, so this recursion is shallow.
 fn visit<'t>(
@@ -55,7 +55,7 @@ fn visit_value<'t>(
     }
 }
 
-/// Serde's word for a value that it did not expect.
+/// Description of an unexpected value, as in the messages of serde.
 fn unexpected(value: &DeValue<'_>) -> String {
     match value {
         DeValue::String(word) => format!("string {word:?}"),
@@ -82,9 +82,9 @@ fn is_on(message: &str, value: &DeValue<'_>) -> bool {
     given.is_some_and(|(given, _)| given == unexpected(value))
 }
 
-/// The key of a value on which serde has a message, and where it stands, where serde tells but the table or list around it.
+/// The key of a value on which serde has a message, and its position, if serde names only the table or list around it.
 ///
-/// Serde gathers a table whose `kind` decides its other keys before it looks at them, and loses their places on the way.
+/// Serde gathers a table whose `kind` decides its other keys before it looks at them, and loses their positions.
 pub(super) fn inside(
     text: &str,
     around: &str,
@@ -124,7 +124,7 @@ pub(super) fn inside(
         return None;
     }
     let Some(name) = name else {
-        // Of equal values one may be as it should: only entries of one list are told by the first.
+        // Of equal values one may be as it should: only entries of one list are reported by the first.
         let list = |path: &str| path[..path.rfind('[').unwrap_or(path.len())].to_owned();
         let first = list(&found.first()?.0);
         let is_one = found.iter().all(|(path, _)| list(path) == first);

@@ -16,6 +16,7 @@ mod reader;
 pub mod rule;
 mod schema;
 mod text;
+mod word;
 
 pub use digits::shortened;
 pub use drawing::{DrawingSpec, Projection, SheetSize};

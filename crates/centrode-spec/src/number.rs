@@ -113,7 +113,7 @@ impl NumberedDesign {
             };
         }
         match last {
-            // A key that is left out takes a number like one that is written.
+            // A key that is omitted takes a number like one that is written.
             Step::Name(name) => {
                 let table = here.as_table_mut()?;
                 Some(table.entry(name.clone()).or_insert(toml::Value::Float(0.0)))

@@ -26,7 +26,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The places of the keys.
+    /// The positions of the keys.
     pub(super) fn into_keys(self) -> Keys {
         self.keys
     }
@@ -193,7 +193,7 @@ fn plain(message: &str) -> String {
         return message.into();
     };
     let given = match given.split_once(' ') {
-        // The value itself stands behind the name of its type, numbers in backticks.
+        // The value itself is behind the name of its type, numbers in backticks.
         Some((_, value)) if value.starts_with(['"', '`']) || value.starts_with("point `") => {
             let value = value.trim_start_matches("point ");
             value.trim_end_matches(" as i128").trim_matches('`')

@@ -69,7 +69,7 @@ pub enum Rule {
     Name(String),
     /// Words that do not fit one line of a drawing.
     #[error(
-        "must be one line of at most {most} characters, not {count} with {controls} control characters (U+FFFE and U+FFFF count as such)"
+        "must be one line of at most {most} characters, not {count} with {controls} control characters (U+FFFE and U+FFFF count, too)"
     )]
     Line {
         /// Characters given.
@@ -86,7 +86,7 @@ pub enum Rule {
     NoClass {
         /// Word given.
         word: String,
-        /// Side of the fit it stands for.
+        /// Side of the fit it represents.
         of: &'static str,
         /// A class of that side.
         like: &'static str,

@@ -20,13 +20,30 @@ pub fn json_schema<F: AsRef<DesignFamily>>(families: &[F]) -> Value {
             schema.to_value()
         })
         .collect();
-    json!({
+    without_nulls(json!({
         "oneOf": alternatives,
         "description": "A mechanism as written: one of the families, by the key `family`.",
         "title": "Design",
         "$schema": generator.settings().meta_schema,
         "$defs": generator.take_definitions(true),
-    })
+    }))
+}
+
+/// Drops the defaults of keys that are optional: a design file has no word for none.
+fn without_nulls(mut schema: Value) -> Value {
+    match &mut schema {
+        Value::Object(keys) => {
+            keys.retain(|_, value| !value.is_null());
+            keys.values_mut()
+                .for_each(|value| *value = without_nulls(value.take()));
+        }
+        Value::Array(list) => {
+            list.iter_mut()
+                .for_each(|value| *value = without_nulls(value.take()));
+        }
+        _ => {}
+    }
+    schema
 }
 
 impl DesignFamily {
@@ -42,13 +59,13 @@ impl DesignFamily {
             schema.insert("$defs".into(), Value::Object(definitions));
         }
         self.tag(&mut schema);
-        schema.to_value()
+        without_nulls(schema.to_value())
     }
 
-    /// Keys of a name in the family's design files, the four nearest to a place in a file: `teeth.backlash`,
+    /// Keys of a name in the family's design files, the four nearest to a position in a file: `teeth.backlash`,
     /// `cams.NAME.motion`.
     ///
-    /// Without those at the place of `key` itself, which other kinds of its table may have.
+    /// Without those at the position of `key` itself, which other kinds of its table may have.
     pub(super) fn keys_named(&self, name: &str, key: &str) -> Vec<String> {
         let mut found = self.keys(&|found| found == name);
         found.retain(|path| !is_at(path, key));
@@ -78,7 +95,7 @@ impl DesignFamily {
         found.iter().map(name).collect()
     }
 
-    /// All keys of the family's design files whose name is wanted.
+    /// All keys of the family's design files whose name is required.
     fn keys(&self, is_required: &dyn Fn(&str) -> bool) -> Vec<String> {
         let schema = self.json_schema();
         let mut found = Vec::new();
@@ -127,7 +144,7 @@ fn is_at(path: &str, key: &str) -> bool {
     depth == parts(key).len() && common(path, key) == depth
 }
 
-/// Gathers the keys of wanted names at and below a schema, but not below itself.
+/// Gathers the keys of required names at and below a schema, but not below itself.
 fn named_in<'s>(
     root: &'s Value,
     here: &'s Value,

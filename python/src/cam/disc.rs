@@ -25,7 +25,7 @@ type Peak = (f64, f64);
 ///     follower: What rides on it.
 ///     segments: What the follower does in one turn; the spans add up to a whole turn.
 ///     base_radius: Radius of the base circle, mm.
-///     rotation: Which way the cam turns, "counter-clockwise" or "clockwise".
+///     rotation: Sense in which the cam turns, "counter-clockwise" or "clockwise".
 ///     start: Cam angle at which the first segment begins, rad.
 ///     body: Width, bore and material.
 ///     name: Used for file names.
@@ -218,8 +218,8 @@ impl DiscCam {
         named
     }
 
-    /// The minimum base radius, mm, that keeps the pressure angle below `rise` while the cam lifts and
-    /// below `fall` while the follower returns, rad (any, if left out); None where none does.
+    /// The minimum base radius, mm, with which the pressure angle is below `rise` while the cam lifts and
+    /// below `fall` while the follower returns, rad (any, by default); `None` if none does.
     #[pyo3(signature = (*, rise, fall=None))]
     fn minimum_base_radius(
         &self,
@@ -235,7 +235,7 @@ impl DiscCam {
     /// The cam's files by name, not written.
     ///
     /// Args:
-    ///     formats: Any of "dxf", "svg", "stl", "step", "3mf" and "csv"; all of these if left out.
+    ///     formats: Any of "dxf", "svg", "stl", "step", "3mf" and "csv"; all of these by default.
     ///     tolerance: Maximum distance of every arc and mesh from the exact curve, mm.
     ///
     /// Raises:

@@ -31,7 +31,7 @@ const JOINTS: [&str; 2] = ["pin-on-rod", "pin-on-fork"];
 ///     arm_length: Of the roller's centre from the pivot, mm.
 ///     lever_length: l, mm: of the rod's axis, or of the pin on the fork, from the pivot.
 ///     lever_start: b0, rad.
-///     lifts: Which way the fork turns when the cam lifts it.
+///     lifts: Sense in which the fork turns when the cam lifts it.
 ///     joint: "pin-on-rod" or "pin-on-fork".
 ///
 /// Raises:
@@ -148,12 +148,12 @@ impl Fork {
         })
     }
 
-    /// The cam that draws the rod back and lets it go as wanted.
+    /// The cam that draws the rod back and lets it go as required.
     ///
     /// Args:
     ///     segments: What the rod does while the arm makes one turn about the cam, lifts in mm.
     ///     base_radius: Radius of the base circle, mm: the roller rests on it with the rod thrown out.
-    ///     rotation: Which way the cam turns, seen from the arm.
+    ///     rotation: Sense in which the cam turns, seen from the arm.
     ///     start: Cam angle at which the first segment begins, rad.
     ///     body: Width, bore and material.
     ///     name: Used for file names.
@@ -229,8 +229,5 @@ impl Fork {
 
 /// Motion of a fixed position.
 fn at_rest(position: f64) -> MotionJet {
-    MotionJet {
-        position,
-        ..MotionJet::default()
-    }
+    MotionJet::at_rest(position)
 }

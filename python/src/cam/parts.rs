@@ -161,7 +161,7 @@ fn travel(
 }
 
 /// A rise over the cam angle `span` by `lift` (mm, a slide) or `swing` (rad, an arm); the law is
-/// "cycloidal" if left out.
+/// "cycloidal" by default.
 ///
 /// >>> import centrode as ct
 /// >>> ct.cam.rise(span=2, lift=10, law="modified-sine")

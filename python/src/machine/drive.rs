@@ -14,7 +14,7 @@ use crate::made::{Reduced, by};
 use crate::record::Keywords;
 use crate::wait::wait;
 
-/// Gears that drive the crank of a machine so that its output does what its goals ask for, found by `gear_drive`.
+/// Gears that drive the crank of a machine so that its output does what its goals require, found by `gear_drive`.
 #[pyclass(frozen, module = "centrode")]
 #[derive(Debug)]
 pub(crate) struct GearDrive {
@@ -26,10 +26,10 @@ pub(crate) struct GearDrive {
     found: Found,
 }
 
-/// Finds the pair of non-circular gears that drives a crank so that the output of the machine does what its goals ask for.
+/// Finds the pair of non-circular gears that drives a crank so that the output of the machine does what its goals require.
 ///
-/// Goals over "deviation" with `uniform` say where the output goes evenly, goals over "span" with maximum and within_deg where it
-/// rests at an end of its stroke; all of one figure. In between the crank's speed is free and changes smoothly.
+/// Goals over "deviation" with `uniform` say where the output goes evenly, goals over "span" with maximum and within_deg where
+/// it rests at an end of its stroke; all of one figure. In between the crank's speed is free and changes smoothly.
 ///
 /// Args:
 ///     machine: Machine whose crank turns by law = { ratio = 1 } on a point of the frame; no other body moves by the input.
@@ -38,7 +38,7 @@ pub(crate) struct GearDrive {
 ///     direction_deg: Direction from the crank's axis to the new shaft, degrees.
 ///
 /// Raises:
-///     MechanismError: The body is no crank, or no gears do what the goals ask for.
+///     MechanismError: The body is no crank, or no gears do what the goals require.
 ///
 /// >>> import centrode as ct
 /// >>> press = ct.Machine.from_toml('''
@@ -102,7 +102,7 @@ impl GearDrive {
         (minimum.value, maximum.value)
     }
 
-    /// Minimum and maximum place of the output, mm or rad.
+    /// Minimum and maximum position of the output, mm or rad.
     #[getter]
     fn places(&self) -> (f64, f64) {
         self.timing.places().into()

@@ -51,7 +51,7 @@ fn checked(order: Count) -> Answer<usize> {
 }
 
 impl Machine {
-    /// Places of points at inputs, worked out side by side.
+    /// Positions of points at inputs, worked out side by side.
     fn at_each(&self, phi: Values, tail: &[usize], points: Vec<BodyPoint>) -> Course {
         let made = Arc::clone(&self.0);
         Course::by_blocks(phi, tail, move |phi, places| {
@@ -98,7 +98,7 @@ impl Machine {
     /// Args:
     ///     name: `body.point`, or the point alone where no other body has one of that name.
     ///     phi: Inputs, rad.
-    ///     order: 0 for the place, 1 to 3 for derivatives, mm/rad, mm/rad² and mm/rad³.
+    ///     order: 0 for the position, 1 to 3 for derivatives, mm/rad, mm/rad² and mm/rad³.
     ///
     /// Raises:
     ///     DesignError: There is no such point.
@@ -136,7 +136,7 @@ impl Machine {
     /// Args:
     ///     name: Name of the body.
     ///     phi: Inputs, rad.
-    ///     order: 0 for the place, 1 to 3 for derivatives.
+    ///     order: 0 for the position, 1 to 3 for derivatives.
     ///
     /// Raises:
     ///     DesignError: There is no such body.
@@ -161,7 +161,7 @@ impl Machine {
     /// Args:
     ///     first: Name of a body or an obstacle.
     ///     second: Name of another one.
-    ///     phi: Inputs, rad; left out, the whole cycle.
+    ///     phi: Inputs, rad; default: the whole cycle.
     ///     tolerance: Accuracy, mm.
     ///
     /// Raises:
@@ -226,12 +226,12 @@ impl Machine {
     /// the force on each body by its name, N along x and y of the frame; `closures` that on the second body of the pin that
     /// closes a dyad, by both; `meshes` that along the normal of the teeth that move a body, by its name, N.
     ///
-    /// Inertia, weight and the loads of the design count; friction and backlash are left out. `drives` is the torque (N mm) or
+    /// Inertia, weight and the loads of the design count; friction and backlash are omitted. `drives` is the torque (N mm) or
     /// force (N) of what moves a body: zero where teeth or a dyad do.
     ///
     /// Args:
     ///     phi: Inputs, rad.
-    ///     speed: Speed of the input, rad/s; left out, the design's. Zero holds it still.
+    ///     speed: Speed of the input, rad/s; default: the design's. Zero holds it still.
     ///
     /// Raises:
     ///     MechanismError: A part cannot be made, more than one thing holds a body, or no force balances the load.

@@ -1,4 +1,4 @@
-//! How an object of Python holds its machine, and asks it.
+//! How an object of Python holds its machine, and calls it.
 
 use crate::array::{Course, Values};
 use crate::design::named;
@@ -30,7 +30,7 @@ use std::sync::{Arc, OnceLock};
 #[derive(Debug)]
 pub(crate) struct Mechanism(
     pub(super) Arc<dyn family::Mechanism>,
-    /// Its links and its table of motion, made when they are first asked for.
+    /// Its links and its table of motion, made when they are first requested.
     pub(super) OnceLock<Arc<LinkedMachine>>,
 );
 
@@ -51,7 +51,7 @@ impl Mechanism {
         named(self.0.design().family().word)
     }
 
-    /// Asks the machine something that may take long.
+    /// Runs a long computation on the machine.
     pub(super) fn ask<T: Send + 'static>(
         &self,
         py: Python<'_>,

@@ -108,7 +108,7 @@ impl Mechanism {
     ///
     /// Args:
     ///     path: File to write.
-    ///     pair: Name of a pair of the machine; left out, its only one.
+    ///     pair: Name of a pair of the machine; by default its only one.
     ///
     /// Raises:
     ///     MechanismError: There is no such pair, there are several, or the pair has no certificate.
@@ -152,7 +152,7 @@ impl Mechanism {
         Ok(columns)
     }
 
-    /// Where every link stands at inputs, rad, in the frame of the first: by its name an array of the shape of `phi` and
+    /// Poses of every link at inputs, rad, in the frame of the first: by its name an array of the shape of `phi` and
     /// then (4, 4), lengths in mm.
     ///
     /// >>> import centrode as ct
@@ -166,11 +166,11 @@ impl Mechanism {
     /// Forces at inputs, rad, that turn evenly: the torque of the input and what joints, pins, rollers and teeth carry.
     ///
     /// The links weigh what their bodies do, with the loads of the design. Wear, backlash and, but for grooves and rails,
-    /// friction are left out.
+    /// friction are omitted.
     ///
     /// Args:
     ///     phi: Inputs, rad.
-    ///     speed: Speed of the input, rad/s; left out, the design's, or 1 where it says nothing. Zero holds it still.
+    ///     speed: Speed of the input, rad/s; default: the design's, or 1 where it says nothing. Zero holds it still.
     ///
     /// Raises:
     ///     MechanismError: A part cannot be made, more than one thing holds a link, or no force balances the load.
@@ -206,7 +206,7 @@ impl Mechanism {
     /// The parts that are straight extrusions, by the names of their files: exact edges and heights, for CAD kernels.
     ///
     /// Args:
-    ///     parts: Names of parts, as their files have them; all if left out.
+    ///     parts: Names of parts, as their files have them; all by default.
     ///     tolerance: Sides shorter than this, mm, are closed up: a CAD kernel takes them for points.
     ///
     /// >>> import centrode as ct
@@ -223,7 +223,7 @@ impl Mechanism {
         self.kept_solids(py, parts, tolerance)
     }
 
-    /// The links with their bodies and the joints that carry them; none stands before the one that carries it.
+    /// The links with their bodies and the joints that carry them; none comes before the one that carries it.
     ///
     /// Args:
     ///     tolerance: As for `solids`.
@@ -250,9 +250,9 @@ impl Mechanism {
     /// Args:
     ///     method: "guided", "cma-es", "de" or "ga".
     ///     seed: Same seed, same answer, on any number of cores.
-    ///     evaluations: Most points looked at; the generation under way is finished.
-    ///     population: Points a generation; by the method if left out.
-    ///     progress: Called with evaluations, violation and objective of the best so far; False ends the search.
+    ///     evaluations: Maximum number of points evaluated; the generation under way is finished.
+    ///     population: Points per generation; default: by the method.
+    ///     progress: Called with evaluations, violation and objective of the best found; False ends the search.
     ///
     /// Raises:
     ///     MechanismError: There is no search for such a design.
@@ -289,7 +289,7 @@ impl Mechanism {
     /// Args:
     ///     parameter: Key of the design file, "arm.tip_distance", or a parameter's name, "r1", "crank" or "pivot_x".
     ///     values: In the file's unit: mm, degrees.
-    ///     whole: Ask for the teeth and the cam, too, which takes some ten times as long.
+    ///     whole: Compute the teeth and the cam, too, which takes some ten times as long.
     ///
     /// >>> import centrode as ct, numpy as np
     /// >>> arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
@@ -343,8 +343,8 @@ impl Mechanism {
     ///
     /// Args:
     ///     directory: Where to.
-    ///     formats: Any of "dxf", "svg", "sheet", "pdf", "stl", "step", "3mf", "csv", "urdf" and "mjcf"; all if left out.
-    ///     parts: Names of parts, as their files have them, or "assembly"; all if left out. Motion and models are of the
+    ///     formats: Any of "dxf", "svg", "sheet", "pdf", "stl", "step", "3mf", "csv", "urdf" and "mjcf"; all by default.
+    ///     parts: Names of parts, as their files have them, or "assembly"; all by default. Motion and models are of the
     ///         whole. A family whose parts have no names takes none.
     ///     tolerance: Maximum distance of every arc, point sequence and mesh from the exact curve or surface, mm.
     ///     dxf_version: "R2010" or "R12".

@@ -186,7 +186,7 @@ pub(crate) fn polar(radius: Option<Law>, keywords: Option<Bound<'_, PyDict>>) ->
 /// Args:
 ///     driven_angle: Driven angle, rad, as a formula in the driver angle ``phi`` (rad); or at equal steps of one
 ///         driver turn, both ends included.
-///     interpolation: Between the samples; "quintic" if left out.
+///     interpolation: Between the samples; "quintic" by default.
 ///     center_distance: mm; or give `module` and `tooth_count`.
 ///     module: Module, mm.
 ///     tooth_count: Number of teeth.
@@ -209,7 +209,7 @@ pub(crate) fn from_transmission(
 
 /// The curve with a given ratio d driven / d driver: a formula in ``phi``, or samples over one driver turn.
 ///
-/// Samples stand at equal steps of one driver turn, without the repeated end.
+/// Samples are at equal steps of one driver turn, without the repeated end.
 ///
 /// >>> import centrode as ct
 /// >>> pitch = ct.pitch.from_ratio("1 - 0.16*cos(2*phi)", center_distance=60)

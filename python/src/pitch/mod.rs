@@ -63,7 +63,7 @@ impl Pitch {
         self.resolved.tooth_count
     }
 
-    /// Turns of driver and driven gear the description asks for, if it does.
+    /// Turns of driver and driven gear the description requires, if it does.
     #[getter]
     fn implied_ratio(&self) -> Option<(u32, u32)> {
         self.resolved.implied_ratio

@@ -19,7 +19,7 @@ pub(super) struct Request {
     pub(super) is_open: bool,
     pub(super) aim: Option<Aim>,
     pub(super) wishes: Wishes,
-    /// Corners of the box in which the axis is sought, mm.
+    /// Corners of the box in which the axis is searched, mm.
     pub(super) axis_box: Option<[[f64; 2]; 2]>,
 }
 
@@ -36,7 +36,7 @@ pub(super) struct Eased {
     pub(super) findings: Vec<Finding>,
 }
 
-/// Bands and module that were asked for.
+/// Bands and module that were requested.
 pub(super) fn requested(
     band: Option<Values>,
     module: Option<f64>,

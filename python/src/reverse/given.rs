@@ -24,7 +24,7 @@ pub(super) enum Given {
         points: Vec<Point>,
         axis: Option<(f64, f64)>,
         axis_box: Option<[[f64; 2]; 2]>,
-        /// Whether the axis found stands at the border of its box.
+        /// Whether the axis found is at the border of its box.
         findings: Vec<Finding>,
         eased: Option<Box<Eased>>,
     },
@@ -34,28 +34,28 @@ pub(super) enum Given {
     },
 }
 
-/// Makes a machine from the path wanted of its tip.
+/// Makes a machine from the path required of its tip.
 ///
 /// Args:
 ///     path: Points in the order in which the tip passes them, mm, an array (N, 2): a closed periodic cubic spline runs
 ///         through them.
-///     axis: Axis of the carrier, mm; default: the mildest, that of the minimum change of the gears' ratio.
+///     axis: Axis of the carrier, mm; default: the gentlest, that of the minimum change of the gears' ratio.
 ///     split: "powers", two different pairs, "mildest", two whose sharpest pitch curve is as blunt as can be, or "one-pair", one
 ///         pair twice.
-///     axis_box: Two corners of the box in which the axis is sought, mm; left out, the path's box with a quarter of its size round
-///         it. `findings` tells where the axis found stands at its border.
+///     axis_box: Two corners of the box in which the axis is searched, mm; default: the path's box with a quarter of its size round
+///         it. `findings` reports an axis at its border.
 ///     bend_deg: Angle from the carrier's first leg, to the intermediate gear, to its second, degrees.
 ///     arms: Number of arms.
 ///     control: Whether the points are the control points of a closed cubic B-spline, which need not pass them.
 ///     band: Distance within which the path may pass its points, mm, one for all or an array (N,): it is eased there until its
 ///         gears bear full teeth as large as can be. Without an axis the search begins with the one of the bluntest gears.
-///     open: Whether the points are the working part alone: the return from the last to the first is sought, too.
+///     open: Whether the points are the working part alone: the return from the last to the first is searched, too.
 ///     module: Module of full teeth, mm, for which it is eased, and no more.
 ///     aim: What is made the most of where something is free: "module", the largest teeth, "mild", the ratio nearest to 1, or
 ///         "small", the minimum reach of the tip; default: the largest teeth where the path is eased or something is wished, else
-///         the mildest ratio.
-///     wishes: What else is wanted, with the keys of the table wishes of a design file of family path: carrier, arm,
-///         center_distance, ratio, directions, clamp_deg, turn, keep_out. `goals` tells how far they are reached.
+///         the gentlest ratio.
+///     wishes: What else is required, with the keys of the table wishes of a design file of family path: carrier, arm,
+///         center_distance, ratio, directions, clamp_deg, turn, keep_out. `goals` shows how far they are reached.
 ///
 /// Raises:
 ///     DesignError: The points make no path, or a value breaks a rule of its own.
@@ -160,7 +160,7 @@ pub(crate) fn reverse(
 /// Makes a machine whose arm takes key poses in order, the path between them free.
 ///
 /// Args:
-///     poses: Three to seven places of the tip, mm, and directions of the clamp there, degrees, an array (N, 3).
+///     poses: Three to seven points of the tip, mm, and directions of the clamp there, degrees, an array (N, 3).
 ///     split: "powers", two different pairs, "mildest", two whose sharpest pitch curve is as blunt as can be, or "one-pair", one
 ///         pair twice.
 ///     bend_deg: Angle from the carrier's first leg, to the intermediate gear, to its second, degrees.
@@ -168,7 +168,7 @@ pub(crate) fn reverse(
 ///
 /// Raises:
 ///     DesignError: The poses are no three to seven different ones, or a value breaks a rule of its own.
-///     MechanismError: No carrier and arm meet the poses in order; the sentence tells how near the nearest comes.
+///     MechanismError: No carrier and arm meet the poses in order; the message has the distance of the nearest.
 ///
 /// >>> import centrode as ct
 /// >>> poses = [(249.08, 50.03, 31.93), (167.32, 64.88, 20.89), (104.40, 34.05, 42.55), (175.51, 14.69, 53.59)]

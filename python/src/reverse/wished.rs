@@ -24,7 +24,7 @@ pub(super) fn read(wishes: &Bound<'_, PyDict>) -> Answer<Wishes> {
             path => format!("wishes.{path}"),
         };
         let stated = error.inner().to_string();
-        // Its place in the text is none of the caller's.
+        // Its position in the text means nothing to the caller.
         let stated = stated.split(" at line ").next().unwrap_or_default();
         Raised::sentence(&key, format!("{key}: {stated}"))
     })

@@ -15,7 +15,7 @@ use crate::record;
 
 /// A machine whose grooved shaft moves a box out and back: `SpiralShaft` and `MovingBox`.
 ///
-/// `phi` is the angle of its input; a whole way out and back takes `cycle` radians.
+/// `phi` is the angle of its input; a whole cycle out and back takes `cycle` radians.
 #[pyclass(frozen, subclass, extends = Mechanism, module = "centrode")]
 #[derive(Debug)]
 pub(crate) struct BoxDrive(Arc<dyn Drive>);
@@ -92,7 +92,7 @@ impl BoxDrive {
 
 #[pymethods]
 impl BoxDrive {
-    /// Input turn of the whole way out and back, rad.
+    /// Input turn of the whole cycle out and back, rad.
     #[getter]
     fn cycle(&self) -> f64 {
         self.0.motion().period()
@@ -104,7 +104,7 @@ impl BoxDrive {
         self.0.moved_in_window()
     }
 
-    /// Place of the box, mm, over the whole way out and back.
+    /// Position of the box, mm, over the whole cycle out and back.
     ///
     /// >>> import centrode as ct, numpy as np
     /// >>> shaft = ct.SpiralShaft(amplitude=1.28)
@@ -139,7 +139,7 @@ impl BoxDrive {
         Ok(self.0.moved(finite("start", start)?, finite("stop", stop)?))
     }
 
-    /// Forces on the slider at the input angles `phi`; the input's speed, mass and frictions stand in for the
+    /// Forces on the slider at the input angles `phi`; the input's speed, mass and frictions replace the
     /// design's. The torque is the shaft's.
     ///
     /// >>> import centrode as ct

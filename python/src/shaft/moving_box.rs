@@ -17,16 +17,16 @@ use crate::word::Word;
 
 /// A seedling box that slows down while a seedling is picked: by its shaft's groove, by elliptic gears, or by both.
 ///
-/// `phi` is the angle of the machine's input: the shaft's where nothing stands before it, else that of the driving
-/// gear. A whole way out and back takes `cycle` radians of either.
+/// `phi` is the angle of the machine's input: the shaft's where nothing drives it, else that of the driving
+/// gear. A whole cycle out and back takes `cycle` radians of either.
 ///
 /// Args:
-///     shaft: The shaft; the one of the design's defaults, which is plain, if left out.
-///     scheme: "shaft", "elliptic-gear" or "both"; left out, "shaft" without gears, "elliptic-gear" with gears
+///     shaft: The shaft; the one of the design's defaults, which is plain, by default.
+///     scheme: "shaft", "elliptic-gear" or "both"; default: "shaft" without gears, "elliptic-gear" with gears
 ///         before a plain shaft, "both" before another.
 ///     eccentricity: Of the pitch ellipses.
 ///     speed_ratio: Maximum speed of the shaft over its minimum, instead of the eccentricity.
-///     moved_distance: Distance a plain shaft shall move the box in the window, mm, instead of both.
+///     moved_distance: Distance a plain shaft must move the box in the window, mm, instead of both.
 ///     module: Of the gears, mm.
 ///     tooth_count: Of each gear.
 ///     name: Short name: letters, digits, "-" and "_".

@@ -20,7 +20,7 @@ use crate::wait::wait;
 
 /// A variable-speed spiral shaft: the slider's law, the groove out and back, the forces on the slider.
 ///
-/// The input is the shaft's angle: 0 where the slider leaves the first hole. A whole way out and back takes
+/// The input is the shaft's angle: 0 where the slider leaves the first hole. A whole cycle out and back takes
 /// `cycle` radians.
 ///
 /// Args:
@@ -28,13 +28,13 @@ use crate::wait::wait;
 ///     holes: Holes across the box.
 ///     radius: Radius of the shaft, mm.
 ///     amplitude: Amplitude of the sine, mm; 0 for a plain shaft.
-///     harmonic: Slow places a turn.
-///     phase: Shaft angle of a slow place, rad.
+///     harmonic: Slow points per turn.
+///     phase: Shaft angle of a slow point, rad.
 ///     rotated: Whether the sine is turned onto the helix, equations (3) to (5) of the paper of 2018, instead of
 ///         being the integral of the speed.
 ///     speed: Speeds over equal steps of a turn instead of a sine; only their ratios count.
 ///     expression: A formula for the speed in `phi`, instead of a sine.
-///     moved_distance: Distance the box shall move in the picking window, mm, by a sine that is slow where the first
+///     moved_distance: Distance the box must move in the picking window, mm, by a sine that is slow where the first
 ///         seedling is picked: its amplitude is solved.
 ///     window: Shaft turn during which a seedling is picked, rad.
 ///     pick: Shaft angle in the middle of the first picking, rad.
@@ -180,7 +180,7 @@ impl SpiralShaft {
         self.0.speed_ratio()
     }
 
-    /// Lead angle of the groove on the shaft's surface, rad; negative on the way back.
+    /// Lead angle of the groove on the shaft's surface, rad; negative on the return stroke.
     fn lead_angle(&self, theta: Values) -> Course {
         self.each(theta, |s, t| s.groove().lead_angle(t))
     }
@@ -192,7 +192,7 @@ impl SpiralShaft {
 
     /// The developed groove: "center", "left" and "right" wall, each (N, 2), mm, not wrapped round.
     ///
-    /// Along x the arc R theta, along y the place on the shaft; polylines within `tolerance` (mm).
+    /// Along x the arc R theta, along y the position on the shaft; polylines within `tolerance` (mm).
     ///
     /// >>> import centrode as ct
     /// >>> developed = ct.SpiralShaft(amplitude=1.28).developed(0.01)
@@ -217,7 +217,7 @@ impl SpiralShaft {
         Ok(developed)
     }
 
-    /// Crossings of the groove with itself, (N, 4): shaft angle out, shaft angle back, place (mm), and the
+    /// Crossings of the groove with itself, (N, 4): shaft angle out, shaft angle back, position (mm), and the
     /// length without walls (mm) a slider must bridge.
     ///
     /// >>> import centrode as ct

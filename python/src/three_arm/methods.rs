@@ -75,7 +75,7 @@ impl ThreeArm {
         self.0.module()
     }
 
-    /// The planet's zero behind the chain's second leg at the start, rad.
+    /// Planet reference angle `phi_30`: from the planet's zero to the chain's second leg at the start, rad.
     #[getter]
     fn planet_reference(&self) -> f64 {
         self.0.train().planet_reference()
@@ -111,7 +111,7 @@ impl ThreeArm {
         Ok(self.0.planting(self.arm(arm)?))
     }
 
-    /// Tip of an arm at carrier turns (rad), (N, 2), mm: in the machine's frame, or over ground as the machine travels.
+    /// Tip of an arm at carrier turns (rad), (N, 2), mm: in the machine's frame, or over ground as the machine moves.
     ///
     /// >>> import centrode as ct, numpy as np
     /// >>> arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
@@ -142,9 +142,9 @@ impl ThreeArm {
         Ok(self.each(theta, move |arms, theta| arms.clamp_elevation(theta, arm)))
     }
 
-    /// Where every link stands: by name x, y (mm) and turn (rad) of its frame, (N, 3).
+    /// Pose of every link: by name x, y (mm) and turn (rad) of its frame, (N, 3).
     ///
-    /// Gears stand in the frames of a gear pair's gears; an arm's x axis points as its clamp does.
+    /// Gears have the frames of a gear pair's gears; an arm's x axis points as its clamp does.
     ///
     /// >>> import centrode as ct
     /// >>> arms = ct.ThreeArm.from_toml(ct.template("three-arm"))
@@ -243,7 +243,7 @@ impl ThreeArm {
     ///     parameters: Values by the parameter's name: "r1" to "r99" and "theta1" to "theta99" for radius and polar angle of a
     ///         control point, "carrier_start", "bend", "mounting_angle", "tip_distance", "pusher_offset", "planet_reference",
     ///         "picking", "planting"; arrays of one length, or single numbers; mm, degrees.
-    ///     inputs: Inputs a turn at which the tip's path is looked at before its extremes are sharpened.
+    ///     inputs: Inputs a turn at which the tip's path is sampled before its extremes are sharpened.
     ///
     /// Returns:
     ///     Arrays by name, angles in radians: "pick-angle", "push-angle", "angle-difference", "gearbox-clearance",

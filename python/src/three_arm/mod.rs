@@ -15,25 +15,25 @@ use crate::mechanism::Mechanism;
 
 /// A three-arm transplanting mechanism: fixed sun, turning carrier, arms on the planets of bent chains.
 ///
-/// The carrier's axis is the origin; theta is the carrier's turn from its start, positive whichever way it turns. Every
+/// The carrier's axis is the origin; theta is the carrier's turn from its start, positive in the direction in which it turns. Every
 /// arm does what the first does, later by its share of a turn; arms are counted from 0.
 ///
 /// Args:
-///     pitch: Pitch curve of the sun; the planets are alike, the intermediate gears follow.
+///     pitch: Pitch curve of the sun; the planets are equal, the intermediate gears follow.
 ///     carrier_start: Direction of the first intermediate gear's axis from the sun's at the start, rad.
 ///     bend: From the leg sun - intermediate to the leg intermediate - planet, rad.
 ///     arm_mounting_angle: Direction of the tip from the planet's zero, rad.
 ///     tip_distance: Of the tip from the planet's axis, mm.
 ///     pusher_offset: Distance of the pusher's axis, which ends at the tip, from the planet's axis, mm.
-///     planet_reference: The planet's zero behind the second leg at the start, rad; left out, the intermediate's turn
+///     planet_reference: Angle from the planet's zero to the second leg at the start, rad; default: the intermediate's turn
 ///         over the first abs(bend) of carrier turn.
 ///     arms: 1 to 6.
 ///     direction: "clockwise" or "counter-clockwise".
-///     tooth_count: Of every gear; left out, there are no teeth to judge.
+///     tooth_count: Of every gear; default: there are no teeth to judge.
 ///     center_distance: mm; it follows from the pitch curve, and is checked if given.
-///     picking: Carrier turn at which the first arm picks, rad; left out, where its tip enters the tray, or reaches
+///     picking: Carrier turn at which the first arm picks, rad; default: where its tip enters the tray, or reaches
 ///         farthest towards it.
-///     planting: Carrier turn at which the first arm plants, rad; left out, where its tip is lowest.
+///     planting: Carrier turn at which the first arm plants, rad; default: where its tip is lowest.
 ///     rate_per_minute: Seedlings planted.
 ///     plant_spacing: Distance of the plants along the row, mm.
 ///     planting_depth: Of the lowest tip below the ground, mm.
@@ -43,10 +43,10 @@ use crate::mechanism::Mechanism;
 ///     seedling_width: Of a planted stem, mm.
 ///     clamp_length: Back from the tip, mm: what passes between seedlings.
 ///     housing_offset: Of the gearbox from the largest pitch radius, mm.
-///     tool: What cuts the gears; the rack of ISO 53, profile A, if left out.
+///     tool: What cuts the gears; the rack of ISO 53, profile A, by default.
 ///     shift: Profile shift coefficient of sun and planets, in modules; the intermediate gears have the opposite one.
 ///     addendum: "full" or "fitted".
-///     backlash: Play of each mesh along the normal, mm.
+///     backlash: Backlash of each mesh along the normal, mm.
 ///     sun: Body of the sun.
 ///     intermediate: Body of the intermediate gears.
 ///     planet: Body of the planets.

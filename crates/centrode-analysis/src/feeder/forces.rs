@@ -152,18 +152,6 @@ pub(super) fn forces(feeder: &Feeder, report: &mut Report) {
     let values = &mut report.values;
     values.insert("crank_torque_still_max", still[0].value);
     values.insert("crank_torque_moving_max", moving[0].value);
-    let (body, width) = (
-        feeder.design().gears.body(),
-        feeder.design().plates.thickness,
-    );
-    let seated = body
-        .keyway
-        .and_then(|hub| Some((hub, Key::square(hub, width)?)));
-    if let Some((keyway, key)) = seated {
-        let pressure = |torque: f64| keyway.pressure(torque, body.bore, key.bearing_length());
-        values.insert("crank_key_pressure_max", pressure(moving[0].value));
-        values.insert("crank_key_pressure_still_max", pressure(still[0].value));
-    }
     keys(feeder, [&still, &moving], report);
     let of = |Extreme { value, .. }: &Extreme| *value;
     let maximum = still.iter().zip(&moving).map(|(a, b)| vec![of(a), of(b)]);
@@ -188,18 +176,21 @@ fn keys(feeder: &Feeder, [still, moving]: [&[Extreme]; 2], report: &mut Report) 
     let [thin, wide] = [plates.thickness, body.width];
     // The key of the thin plate has square ends.
     let [square, fitting] = [Key::square(hub, thin), Key::fitting(hub, wide)];
-    for (part, figure, (key, face), torque, material) in [
-        ("crank", None, (square, thin), 0, plate),
+    let [at_rest, in_motion] = ["crank_key_pressure_still_max", "crank_key_pressure_max"];
+    let of_crank = [Some(at_rest), Some(in_motion), None];
+    let of_gear = |figure| [None, None, Some(figure)];
+    for (part, figures, (key, face), torque, material) in [
+        ("crank", of_crank, (square, thin), 0, plate),
         (
             "gear-driven",
-            Some("gear_driven_key_pressure_max"),
+            of_gear("gear_driven_key_pressure_max"),
             (fitting, wide),
             0,
             gear,
         ),
         (
             "gear-driver",
-            Some("gear_driver_key_pressure_max"),
+            of_gear("gear_driver_key_pressure_max"),
             (fitting, wide),
             1,
             gear,
@@ -208,21 +199,25 @@ fn keys(feeder: &Feeder, [still, moving]: [&[Extreme]; 2], report: &mut Report) 
         let Some(key) = key else {
             continue;
         };
-        let torque = match still[torque].value > moving[torque].value {
-            true => still[torque],
-            false => moving[torque],
+        let [still, moving] = [still[torque], moving[torque]];
+        let maximum = if still.value > moving.value {
+            still
+        } else {
+            moving
         };
-        let loaded = LoadedKey {
+        let materials = [gear, material];
+        let loaded = |torque| LoadedKey {
             key,
             hub,
             face,
             diameter: body.bore,
-            materials: &[gear, material],
+            materials: &materials,
             torque,
             part,
         };
-        let values = &mut report.values;
-        values.extend(figure.map(|figure| (figure, loaded.pressure())));
-        loaded.check(report);
+        let all = figures.into_iter().zip([still, moving, maximum]);
+        let all = all.filter_map(|(figure, torque)| Some((figure?, loaded(torque).pressure())));
+        report.values.extend(all);
+        loaded(maximum).check(report);
     }
 }

@@ -23,28 +23,14 @@ static PROVEN: Recent<GearsSpec, Arc<IntermittentContact>> = Recent::new();
 /// Checks that the intermittent gears can be cut, and hold the crank all the way: nothing penetrates, and the crank is
 /// free by no more than the backlash asked for.
 pub(super) fn gears(feeder: &Feeder, report: &mut Report) {
-    let about_gears =
-        |rule, severity, message, [measured, required]: [Option<f64>; 2], unit, input| {
-            Finding::new(rule, severity, message)
-                .measured(measured, required, unit)
-                .on("gears")
-                .at(input)
-        };
+    let about = |rule, severity, message: String| Finding::new(rule, severity, message).on("gears");
     let spec = &feeder.design().gears;
     let cut = feeder.gears();
     let pair = match cut {
         Ok(pair) => pair,
         Err(error) => {
-            let message = error.to_string();
-            let none = [None, None];
-            let finding = about_gears(
-                "no-gears",
-                Severity::Error,
-                message,
-                none,
-                Unit::Count,
-                None,
-            );
+            let finding = about("no-gears", Severity::Error, error.to_string());
+            let finding = finding.measured(None, None, Unit::Count);
             report.findings.push(finding);
             return;
         }
@@ -71,15 +57,12 @@ pub(super) fn gears(feeder: &Feeder, report: &mut Report) {
             "the intermittent gears penetrate each other by {:.4} mm",
             penetration.value
         );
-        let figures = [Some(penetration.value), Some(limit)];
-        report.findings.push(about_gears(
-            "gears-penetrate",
-            Severity::of_overlap(penetration.value),
-            message,
-            figures,
-            Unit::Millimetre,
-            Some(penetration.input),
-        ));
+        let severity = Severity::of_overlap(penetration.value);
+        report.findings.push(
+            about("gears-penetrate", severity, message)
+                .measured(penetration.value, limit, Unit::Millimetre)
+                .at(penetration.input),
+        );
     }
     if let Some(nominal) = contact.pin_clearance {
         let (size, [_, class]) = (spec.cam_pin(), Feeder::CAM_PIN_FIT);
@@ -87,19 +70,17 @@ pub(super) fn gears(feeder: &Feeder, report: &mut Report) {
         let clearance = nominal.value - 0.5 * upper;
         report.values.insert("gear_pin_clearance_min", clearance);
         if clearance < 0.0 {
-            let mut finding = about_gears(
-                "cam-pin-clearance",
-                Severity::of_overlap(-clearance),
-                format!(
-                    "a pin of diameter {size} mm {class} at its upper limit overlaps its cam by {:.4} mm",
-                    -clearance
-                ),
-                [Some(clearance), Some(0.0)],
-                Unit::Millimetre,
-                Some(nominal.input),
+            let message = format!(
+                "a pin of diameter {size} mm {class} at its upper limit overlaps its cam by {:.4} mm",
+                -clearance
             );
-            finding.remedy = Some("more backlash, a larger pin_angle_deg, or smaller pins");
-            report.findings.push(finding);
+            let severity = Severity::of_overlap(-clearance);
+            report.findings.push(
+                about("cam-pin-clearance", severity, message)
+                    .measured(clearance, 0.0, Unit::Millimetre)
+                    .at(nominal.input)
+                    .remedy("more backlash, a larger pin_angle_deg, or smaller pins"),
+            );
         }
     }
     let loose = if moving.value >= resting.value {
@@ -121,17 +102,13 @@ pub(super) fn gears(feeder: &Feeder, report: &mut Report) {
             "the intermittent gears leave the crank free by {:.3} deg",
             loose.value.to_degrees()
         );
-        let figures = [Some(loose.value), Some(allowed)];
-        let mut finding = about_gears(
-            "gears-loose",
-            Severity::Warning,
-            message,
-            figures,
-            Unit::Angle,
-            Some(loose.input),
+        report.findings.push(
+            about("gears-loose", Severity::Warning, message)
+                .measured(loose.value, allowed, Unit::Angle)
+                .at(loose.input)
+                .remedy(
+                    "an entry angle, for which cams are made, or pins nearer the line of centres",
+                ),
         );
-        finding.remedy =
-            Some("an entry angle, for which cams are made, or pins nearer the line of centres");
-        report.findings.push(finding);
     }
 }

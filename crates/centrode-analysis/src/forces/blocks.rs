@@ -25,7 +25,7 @@ pub(super) fn blocks(mut needs: Vec<Vec<bool>>) -> Vec<Vec<usize>> {
             None => blocks.push(vec![one]),
         }
     }
-    // What needs more comes later.
+    // Blocks that need more things come later.
     blocks.sort_by_key(|block| needs[block[0]].iter().filter(|need| **need).count());
     blocks
 }

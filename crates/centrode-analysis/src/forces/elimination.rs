@@ -1,7 +1,7 @@
 /// Share of the maximum lever that rounding leaves: below it a force is not determined.
 const DEAD: f64 = 1e-13;
 
-/// Solution of equations, each a row that ends in its right side; none where rounding leaves none.
+/// Solution of equations, each a row that ends in its right side; `None` if rounding leaves none.
 ///
 /// Source: Gauss's elimination with the pivots of scaled rows; ties come in ones and twos.
 pub(super) fn eliminated(mut rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {

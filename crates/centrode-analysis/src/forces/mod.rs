@@ -61,7 +61,7 @@ impl LinkLoad {
 pub struct JointForce {
     /// Torque about the axis (N mm), or force along it (N), of what moves the joint: zero where teeth, a pin or a roller do.
     pub drive: f64,
-    /// Force on the link carried; none where a cam or groove of which only the law is known takes a part of it.
+    /// Force on the link carried; `None` if a cam or groove of which only the law is known takes a part of it.
     pub reaction: Option<Reaction>,
 }
 
@@ -78,7 +78,7 @@ pub struct Reaction {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ToothForce {
     /// Size along the flanks' normal, N: positive where the flanks carry that drive with a counter-clockwise moment on the
-    /// driven link, negative on the other ones; none where the normal is not known.
+    /// driven link, negative on the other ones; `None` if the normal is not known.
     pub normal: Option<f64>,
     /// Force on the driven link, N, in the axes of the first link of the machine; along the pitch curves' tangent where the
     /// normal is not known.
@@ -129,7 +129,7 @@ pub enum ForcesError {
         /// Speed of the input, rad/s.
         speed: f64,
     },
-    /// Forces grow beyond bounds: a dead position, or teeth that stand still on both links.
+    /// Forces grow beyond bounds: a dead position, or teeth that are fixed on both links.
     #[error("at the input {input} rad no force on {links} balances the load: a dead position")]
     Dead {
         /// The input, rad.

@@ -9,7 +9,7 @@ pub(super) struct LinkMotion {
     pub(super) place: Vector3<f64>,
     /// First and second derivative of the turn.
     pub(super) spin: [Vector3<f64>; 2],
-    /// First and second derivative of the place.
+    /// First and second derivative of the position.
     pub(super) way: [Vector3<f64>; 2],
 }
 
@@ -35,7 +35,7 @@ impl Seat {
 }
 
 impl LinkMotion {
-    /// The first link: it stands still.
+    /// The first link: it is fixed.
     pub(super) fn still() -> Self {
         Self {
             turn: Matrix3::identity(),
@@ -52,7 +52,7 @@ impl LinkMotion {
         [first, spin_up.cross(&arm) + spin.cross(&first)]
     }
 
-    /// First and second derivative of the place of a point of the link, given in the axes of the first.
+    /// First and second derivative of the position of a point of the link, given in the axes of the first.
     pub(super) fn point(&self, at: Vector3<f64>) -> [Vector3<f64>; 2] {
         let [first, second] = self.carried(at - self.place);
         [self.way[0] + first, self.way[1] + second]

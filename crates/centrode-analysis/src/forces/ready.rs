@@ -20,7 +20,7 @@ pub struct Balance {
     pub(super) masses: Vec<Mass>,
     /// Steps that settle forces which the tree does not, in an order in which each can be worked out.
     pub(super) steps: Vec<Step>,
-    /// Whether a force of unknown place passes a joint.
+    /// Whether a force of unknown position passes a joint.
     pub(super) hidden: Vec<bool>,
     /// Whether a joint has a drive that the input feeds at once.
     pub(super) driven: Vec<bool>,

@@ -14,7 +14,7 @@ pub(super) struct Tie {
     pub(super) held: Vec<usize>,
     /// Joints that carry the second link alone (1) or the first alone (-1).
     pub(super) between: Vec<(usize, f64)>,
-    /// Joint about whose axis its plane turns; none for the plane of the first link.
+    /// Joint that carries the plane of the force; `None` for the frame.
     normal: Option<usize>,
 }
 
@@ -26,7 +26,7 @@ pub(super) enum TieKind {
     Contact(usize),
 }
 
-/// Place of a tie's force, and unit vectors along its components.
+/// Position of a tie's force, and unit vectors along its components.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lines {
     pub(super) at: Vector3<f64>,
@@ -108,7 +108,7 @@ impl Tie {
         matches!(self.kind, TieKind::Mesh(i) if machine.meshes[i].pressure_angle.is_none())
     }
 
-    /// Place and components of the force: of teeth along the tangent of the pitch curves. None where links that mesh stand
+    /// Position and components of the force: of teeth along the tangent of the pitch curves. None where links that mesh are
     /// still on each other and their pitch curves are not given.
     pub(super) fn lines(
         &self,
@@ -222,7 +222,7 @@ fn known_pitch_point(
     along_pitch(at, out * slope + round * radius, to, axis)
 }
 
-/// Lines of a mesh at its pitch point by a tangent of the pitch curves, either way.
+/// Lines of a mesh at its pitch point by a tangent of the pitch curves, in either direction.
 fn along_pitch(
     at: Vector3<f64>,
     tangent: Vector3<f64>,

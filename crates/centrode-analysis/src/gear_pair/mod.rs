@@ -136,9 +136,7 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
             range.minimum.1,
             range.maximum.1,
         ];
-        for (name, figure) in names(member).into_iter().zip(figures) {
-            values.insert(name, figure);
-        }
+        report.values.extend(names(member).into_iter().zip(figures));
         let concave = -range.minimum.1;
         if let ToolKind::Shaper { radius } = pair.teeth().tool(member).kind
             && concave > 0.0
@@ -149,12 +147,11 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
                 member.name(),
                 1.0 / concave
             );
-            report.findings.push(
-                Finding::new("shaper-radius", Severity::Error, message)
-                    .measured(radius, 1.0 / concave, Unit::Millimetre)
-                    .remedy(remedy("shaper-radius"))
-                    .on(member.name()),
-            );
+            Finding::new("shaper-radius", Severity::Error, message)
+                .measured(radius, 1.0 / concave, Unit::Millimetre)
+                .remedy(remedy("shaper-radius"))
+                .on(member.name())
+                .add_to(report);
         }
     }
     report.findings.extend(pitch_overlap(pair));
@@ -166,19 +163,18 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
     report.values.insert("pressure_angle_max", steepest);
     if exceeds(steepest, PRESSURE_ANGLE) {
         let message = format!(
-            "the force on the driven gear stands up to {:.1} deg off its direction of turning",
+            "the pressure angle reaches {:.1} deg",
             steepest.to_degrees()
         );
-        report.findings.push(
-            Finding::new(
-                "pressure-angle",
-                Severity::of_pressure_angle(steepest),
-                message,
-            )
-            .measured(steepest, PRESSURE_ANGLE, Unit::Angle)
-            .remedy(remedy("pressure-angle"))
-            .at(input),
-        );
+        Finding::new(
+            "pressure-angle",
+            Severity::of_pressure_angle(steepest),
+            message,
+        )
+        .measured(steepest, PRESSURE_ANGLE, Unit::Angle)
+        .remedy(remedy("pressure-angle"))
+        .at(input)
+        .add_to(report);
     }
     report
         .values
@@ -205,7 +201,7 @@ fn sampled_corners(pair: &GearPair) -> impl Iterator<Item = Finding> {
     })
 }
 
-/// The overlap of the pitch curves away from the point at which they roll, as a finding; none where they only roll.
+/// The overlap of the pitch curves away from the point at which they roll, as a finding; `None` if they only roll.
 #[must_use]
 pub fn pitch_overlap(pair: &GearPair) -> Option<Finding> {
     let Extreme { input, value } = pair.rolling().overlap()?;
@@ -226,7 +222,7 @@ const CARRIED: f64 = 0.5;
 /// Pressure angle above which friction is commonly considered a danger, rad.
 const PRESSURE_ANGLE: f64 = 50.0 * PI / 180.0;
 
-/// Transmission error that play brings, rad, at most what gears are made to: it thins the flanks, and edges meet their mates
+/// Transmission error due to backlash, rad, at most what gears are made to: it thins the flanks, and edges meet their mates
 /// where they would without it only to the first order of it.
 pub(crate) fn thinned(pair: &GearPair) -> f64 {
     let a = pair.center_distance();
@@ -268,15 +264,14 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
         .chain([error, reverse, extremes.backlash[1]])
         .find(|figure| !figure.value.is_finite());
     if let Some(Extreme { input, .. }) = loose {
-        report.findings.push(
-            Finding::new(
-                "disengaged",
-                Severity::Error,
-                "nothing holds the driven gear: no tooth of one gear reaches the other",
-            )
-            .remedy(remedy("disengaged"))
-            .at(input),
-        );
+        Finding::new(
+            "disengaged",
+            Severity::Error,
+            "nothing holds the driven gear: no tooth of one gear reaches the other",
+        )
+        .remedy(remedy("disengaged"))
+        .at(input)
+        .add_to(report);
     }
     let interferes = contact.interferes(pair);
     let mm = |depth: f64| Unit::Millimetre.with_unit(depth);
@@ -321,7 +316,7 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
         reverse
     };
     let share = extremes.lost;
-    // Where flanks carry everywhere, edges are early by no more than the play thins the teeth.
+    // Where flanks carry everywhere, edges are early by no more than the backlash thins the teeth.
     let allowed = if share == 0.0 {
         LOST.max(thinned(pair))
     } else {
@@ -343,20 +338,19 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
             },
             Unit::Angle.with_unit(worst.value),
         );
-        report.findings.push(
-            Finding::new(
-                "contact-lost",
-                if share > CARRIED {
-                    Severity::Error
-                } else {
-                    Severity::of_deviation(worst.value * pair.rolling().radii(Member::Driven).1)
-                },
-                message,
-            )
-            .measured(worst.value, allowed, Unit::Angle)
-            .remedy(remedy("contact-lost"))
-            .at(worst.input),
-        );
+        Finding::new(
+            "contact-lost",
+            if share > CARRIED {
+                Severity::Error
+            } else {
+                Severity::of_deviation(worst.value * pair.rolling().radii(Member::Driven).1)
+            },
+            message,
+        )
+        .measured(worst.value, allowed, Unit::Angle)
+        .remedy(remedy("contact-lost"))
+        .at(worst.input)
+        .add_to(report);
     }
     report
         .findings
@@ -391,7 +385,7 @@ fn oscillations(pair: &GearPair, contact: &Contact) -> Option<Finding> {
         return None;
     }
     let message = format!(
-        "the pitch curves swing {swings} times for {teeth} teeth: the figures of the mesh are the maximum and minimum at {} places, and others between them may go beyond",
+        "the pitch curves swing {swings} times for {teeth} teeth: the figures of the mesh are the maximum and minimum at {} samples, and values between them may exceed these",
         contact.input.len()
     );
     Some(

@@ -11,7 +11,7 @@ const CARRIED: f64 = 1e-9;
 /// Maximum tooth count of a driver that [`remedies`] tries.
 pub const MAX_TEETH: u32 = 600;
 
-/// Overlap of the pitch curves, modules, above which no teeth are looked for.
+/// Overlap of the pitch curves, modules, above which no teeth are searched.
 const OVERLAP: f64 = 0.5;
 
 /// Counts, from one that does not carry the motion to one that does, that are tried one by one.
@@ -31,14 +31,16 @@ pub struct PairRemedy {
     pub design: GearPairDesign,
 }
 
-/// Finds from which tooth count on full teeth, fitted ones, and fitted ones of chosen phase, thickness and pressure angle carry the
-/// motion of a pair by their flanks alone.
+/// Finds from which tooth count on full teeth, fitted ones, and fitted ones of chosen phase, thickness and pressure angle carry
+/// the motion of a pair by their flanks alone.
 ///
-/// They do where flanks face each other as designed at all samples of [`Contact::analyse`], nothing penetrates, and the transmission
-/// error stays below 1e-9 rad, more only by what the play thins the flanks (2e-5 rad at most), by [`Contact::extremes`]. Counts grow by a quarter from the one written till one does;
-/// between that and the first, where they are few, all are tried, and else they are halved: the count found carries the motion and the one below it does not, but a greater one may fail again, and a lesser one may carry. A kind of teeth that does not up to [`MAX_TEETH`]
-/// is left out. Each count tried costs a pair and its contact; a choice (`teeth.fit`) is looked for only where as many fitted
-/// teeth as written do not carry, up to the count from which they do and to twice the one written.
+/// They do where flanks face each other as designed at all samples of [`Contact::analyse`], nothing penetrates, and the
+/// transmission error stays below 1e-9 rad, more only by what the backlash thins the flanks (2e-5 rad at most), by
+/// [`Contact::extremes`]. Counts grow by a quarter from the one written till one does; between that and the first, where they
+/// are few, all are tried, and else they are halved: the count found carries the motion and the one below it does not, but a
+/// greater one may fail again, and a lesser one may carry. A kind of teeth that does not up to [`MAX_TEETH`] is omitted. Each
+/// count tried costs a pair and its contact; a choice (`teeth.fit`) is searched only where as many fitted teeth as written do
+/// not carry, up to the count from which they do and to twice the one written.
 #[must_use]
 pub fn remedies(pair: &GearPair) -> Vec<PairRemedy> {
     // Where pitch curves lie in each other by half a tooth or more, no teeth of that size or smaller ones roll.
@@ -85,7 +87,7 @@ pub fn remedies(pair: &GearPair) -> Vec<PairRemedy> {
     found
 }
 
-/// The minimum tooth count at which the flanks of a design carry its motion, looked for from one on and up to another.
+/// The minimum tooth count at which the flanks of a design carry its motion, searched from one on and up to another.
 pub(crate) fn minimum_count(design: &GearPairDesign, written: u32, most: u32) -> Option<u32> {
     // The driven gear has a whole number of teeth.
     let step = design.mean_ratio[1];
@@ -153,8 +155,8 @@ fn is_exact(pair: &GearPair, found: &Contact) -> bool {
         && found.clearance.value.min(found.fillet_clearance.value) >= -deepest
 }
 
-/// Whether the flanks carry the motion wherever a contact was looked at: flanks that face each other as designed do, but for what
-/// play brings, and whatever leaves the driven gear on its law.
+/// Whether the flanks carry the motion wherever a contact was sampled: flanks that face each other as designed do, but for what
+/// backlash causes, and contacts that leave the driven gear on its law.
 fn is_sampled(pair: &GearPair, found: &Contact) -> bool {
     let play = CARRIED.max(thinned(pair));
     let errors = found.transmission_error.iter();

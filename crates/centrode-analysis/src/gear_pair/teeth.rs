@@ -63,7 +63,7 @@ pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut 
     let largest = if module < USEFUL * pair.module() {
         let sharpest = limits.convex_curvature.max(limits.concave_curvature);
         format!(
-            "the pitch curves bend to a radius of {:.4} mm, too sharp for any module of use",
+            "the pitch curves bend to a radius of {:.4} mm, too sharp for any practical module",
             1.0 / sharpest
         )
     } else {
@@ -93,13 +93,12 @@ pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut 
             "short-tooth" => flanks(pair, gear, &|side| side.tip_shortening > small, true),
             _ => Vec::new(),
         };
-        report.findings.push(
-            Finding::new(rule, severity, say(&who, worst))
-                .measured(measured, required, unit)
-                .remedy(remedy_of_teeth(rule, pair.teeth().addendum))
-                .on(part)
-                .teeth(numbers, flanks),
-        );
+        Finding::new(rule, severity, say(&who, worst))
+            .measured(measured, required, unit)
+            .remedy(remedy_of_teeth(rule, pair.teeth().addendum))
+            .on(part)
+            .teeth(numbers, flanks)
+            .add_to(report);
     };
     let cut_through = collect(&|t| t.cut_through.then_some(1.0));
     add(

@@ -1,4 +1,4 @@
-use centrode_geometry::{Bounds, Outline, Point, Tolerance, Vector};
+use centrode_geometry::{BoundTree, Bounds, Disc, Outline, Point, Run, Tolerance, Vector};
 
 use super::parry::Boundary;
 
@@ -11,27 +11,16 @@ use super::parry::Boundary;
 pub struct Body {
     edges: Vec<[Point; 2]>,
     corners: Vec<Point>,
-    nodes: Vec<Node>,
+    /// Indices of the edges, neighbours next to each other.
+    order: Vec<u32>,
+    /// Discs around the edges in that order.
+    tree: BoundTree<Disc>,
     flattening: f64,
     boundary: Boundary,
 }
 
 /// Share of a circle's size by which its rounded figures may be off.
 const ROUNDING: f64 = 1e-14;
-
-/// A circle around some edges; the first node is around all.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Node {
-    pub(super) center: Point,
-    pub(super) radius: f64,
-    pub(super) part: NodeKind,
-}
-
-#[derive(Clone, Copy, Debug)]
-pub(super) enum NodeKind {
-    Edge(u32),
-    Halves([u32; 2]),
-}
 
 /// Reason why outlines make no body.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
@@ -42,7 +31,7 @@ pub enum BodyError {
     Empty,
     /// A point of an outline is no number, or one whose square is not finite.
     #[error(
-        "outline {outline} has a point that is not finite, or farther away than can be squared"
+        "outline {outline} has a point that is not finite, or with coordinates too large to be squared"
     )]
     NotFinite {
         /// Index of the outline.
@@ -84,12 +73,13 @@ impl Body {
             return Err(BodyError::Empty);
         }
         let mut order: Vec<u32> = (0..).take(edges.len()).collect();
-        let mut nodes = Vec::with_capacity(2 * edges.len());
-        grow(&edges, &mut order, &mut nodes);
+        sort(&edges, &mut order);
+        let ends = |run: &[u32]| Disc::around(run.iter().flat_map(|&e| edges[e as usize]));
         Ok(Self {
+            tree: BoundTree::new(&order, ends),
             boundary: Boundary::new(&edges),
             flattening: if straight { 0.0 } else { tolerance.mm() },
-            nodes,
+            order,
             edges,
             corners,
         })
@@ -110,15 +100,21 @@ impl Body {
     /// Maximum distance of any point of the body from its frame's origin, mm, or a little more.
     #[must_use]
     pub fn reach(&self) -> f64 {
-        self.nodes[0].center.coords.norm() + self.nodes[0].radius
+        let disc = |whole: Run<Disc>| whole.bound.center.coords.norm() + whole.bound.radius;
+        self.tree.root().map_or(0.0, disc)
     }
 
     pub(super) fn edge(&self, index: u32) -> &[Point; 2] {
         &self.edges[index as usize]
     }
 
-    pub(super) fn node(&self, index: u32) -> &Node {
-        &self.nodes[index as usize]
+    pub(super) fn tree(&self) -> &BoundTree<Disc> {
+        &self.tree
+    }
+
+    /// Index of the edge of a run of the tree, if it is the only one.
+    pub(super) fn single(&self, run: &Run<Disc>) -> Option<u32> {
+        run.single().map(|place| self.order[place])
     }
 
     /// One corner of every outline.
@@ -132,54 +128,42 @@ impl Body {
 
     /// Whether a point of the body's frame lies in the material: a ray from it along x crosses an odd number of edges.
     pub(super) fn contains(&self, p: Point) -> bool {
-        self.crossings(0, p) % 2 == 1
+        let whole = self.tree.root();
+        whole.is_some_and(|run| self.crossings(&run, p) % 2 == 1)
     }
 
-    /// Edges of a node that a ray from a point along x crosses.
-    fn crossings(&self, node: u32, p: Point) -> usize {
-        let Node {
-            center,
-            radius,
-            part,
-        } = self.node(node);
+    /// Edges of a run that a ray from a point along x crosses.
+    fn crossings(&self, run: &Run<Disc>, p: Point) -> usize {
+        let Disc { center, radius } = run.bound;
         // A little more, since the circle is rounded.
         let reach = radius + ROUNDING * (radius + center.x.abs() + center.y.abs());
         if (p.y - center.y).abs() > reach || p.x > center.x + reach {
             return 0;
         }
-        match *part {
-            NodeKind::Edge(e) => {
-                let [a, b] = self.edge(e);
-                let crosses = (a.y > p.y) != (b.y > p.y)
-                    && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x);
-                usize::from(crosses)
-            }
-            NodeKind::Halves(halves) => halves.map(|half| self.crossings(half, p)).iter().sum(),
+        if let Some(e) = self.single(run) {
+            let [a, b] = self.edge(e);
+            let crosses =
+                (a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x);
+            usize::from(crosses)
+        } else {
+            let halves = self.tree.halves(run);
+            halves.iter().map(|half| self.crossings(half, p)).sum()
         }
     }
 }
 
-/// Adds the tree of `order`'s edges to `nodes`; returns the index of its root.
-fn grow(edges: &[[Point; 2]], order: &mut [u32], nodes: &mut Vec<Node>) -> u32 {
-    let ends = || order.iter().flat_map(|&e| edges[e as usize]);
-    let bounds: Bounds = ends().collect();
-    let center = bounds.center();
-    let radius = ends().map(|p| (p - center).norm()).fold(0.0, f64::max);
-    let own = nodes.len();
-    nodes.push(Node {
-        center,
-        radius,
-        part: NodeKind::Edge(order[0]),
-    });
-    if order.len() > 1 {
-        let extent: Vector = bounds.max - bounds.min;
-        let axis = usize::from(extent.y > extent.x);
-        let middle = order.len() / 2;
-        let place = |e: u32| edges[e as usize].iter().map(|p| p[axis]).sum::<f64>();
-        order.select_nth_unstable_by(middle, |&a, &b| place(a).total_cmp(&place(b)));
-        let (first, second) = order.split_at_mut(middle);
-        let halves = [grow(edges, first, nodes), grow(edges, second, nodes)];
-        nodes[own].part = NodeKind::Halves(halves);
+/// Brings edges near each other next to each other: halves along the longer axis, each sorted likewise.
+fn sort(edges: &[[Point; 2]], order: &mut [u32]) {
+    if order.len() < 2 {
+        return;
     }
-    u32::try_from(own).unwrap_or(u32::MAX)
+    let bounds: Bounds = order.iter().flat_map(|&e| edges[e as usize]).collect();
+    let extent: Vector = bounds.max - bounds.min;
+    let axis = usize::from(extent.y > extent.x);
+    let middle = order.len() / 2;
+    let place = |e: u32| edges[e as usize].iter().map(|p| p[axis]).sum::<f64>();
+    order.select_nth_unstable_by(middle, |&a, &b| place(a).total_cmp(&place(b)));
+    let (first, second) = order.split_at_mut(middle);
+    sort(edges, first);
+    sort(edges, second);
 }

@@ -3,9 +3,9 @@
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
-use centrode_geometry::{Point, checkpoint};
+use centrode_geometry::{Disc, Point, Run, checkpoint};
 
-use super::body::{Body, NodeKind};
+use super::body::Body;
 use super::{InterferenceError, Moving, Patience};
 
 /// Deepest point found.
@@ -32,7 +32,7 @@ struct BoundaryPiece {
 
 #[derive(Clone, Copy, Debug)]
 enum Stretch {
-    Node(u32),
+    Run(Run<Disc>),
     /// A part of an edge.
     Chord([Point; 2]),
 }
@@ -42,17 +42,14 @@ impl Stretch {
     fn chord(&self, body: &Body) -> Option<[Point; 2]> {
         match self {
             Self::Chord(ends) => Some(*ends),
-            Self::Node(n) => match body.node(*n).part {
-                NodeKind::Edge(e) => Some(*body.edge(e)),
-                NodeKind::Halves(_) => None,
-            },
+            Self::Run(run) => body.single(run).map(|e| *body.edge(e)),
         }
     }
 
     /// A circle around the stretch; its centre is on the stretch if that is straight.
-    fn circle(&self, body: &Body) -> (Point, f64) {
+    fn circle(&self) -> (Point, f64) {
         match self {
-            Self::Node(n) => (body.node(*n).center, body.node(*n).radius),
+            Self::Run(run) => (run.bound.center, run.bound.radius),
             Self::Chord([a, b]) => (nalgebra::center(a, b), 0.5 * (b - a).norm()),
         }
     }
@@ -62,12 +59,10 @@ impl Stretch {
             let middle = nalgebra::center(&a, &b);
             [Self::Chord([a, middle]), Self::Chord([middle, b])]
         };
-        match self {
-            Self::Chord(ends) => halved(*ends),
-            Self::Node(n) => match body.node(*n).part {
-                NodeKind::Edge(e) => halved(*body.edge(e)),
-                NodeKind::Halves(halves) => halves.map(Self::Node),
-            },
+        match (self, self.chord(body)) {
+            (_, Some(ends)) => halved(ends),
+            (Self::Run(run), None) => body.tree().halves(run).map(Self::Run),
+            (Self::Chord(ends), None) => halved(*ends),
         }
     }
 }
@@ -106,14 +101,17 @@ pub(super) fn deepest(
     beat: f64,
     tolerance: f64,
 ) -> Result<Deepest, InterferenceError> {
-    let whole = |of: usize| BoundaryPiece {
-        of,
-        stretch: Stretch::Node(0),
-        from,
-        to,
-        bound: f64::INFINITY,
+    let whole = |of: usize| {
+        let root = pair[of].body.tree().root();
+        root.map(|run| BoundaryPiece {
+            of,
+            stretch: Stretch::Run(run),
+            from,
+            to,
+            bound: f64::INFINITY,
+        })
     };
-    let mut open = BinaryHeap::from([whole(0), whole(1)]);
+    let mut open: BinaryHeap<BoundaryPiece> = [0, 1].into_iter().filter_map(whole).collect();
     let mut best = Deepest {
         depth: beat,
         bound: f64::NEG_INFINITY,
@@ -128,7 +126,7 @@ pub(super) fn deepest(
             break;
         }
         let own = pair[piece.of].body;
-        let (center, radius) = piece.stretch.circle(own);
+        let (center, radius) = piece.stretch.circle();
         let chord = piece.stretch.chord(own);
         let middle = 0.5 * (piece.from + piece.to);
         let seen = Seen::new([pair[piece.of], pair[1 - piece.of]], &piece, center, chord)?;

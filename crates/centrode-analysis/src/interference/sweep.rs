@@ -8,9 +8,9 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 use std::rc::Rc;
 
-use centrode_geometry::{Point, Vector, checkpoint};
+use centrode_geometry::{Disc, Point, Run, Vector, checkpoint};
 
-use super::body::{Body, NodeKind};
+use super::body::Body;
 use super::motion::{Bend, Frame};
 use super::{InterferenceError, Moving, Patience};
 
@@ -152,14 +152,22 @@ impl<'a> PairState<'a> {
         while let Some(pair) = open.pop() {
             checkpoint();
             let tolerance = patience.after_one_more();
-            let [p, q] = [0, 1].map(|i| self.bodies[i].node(pair[i]));
+            let [p, q] = self.runs(pair);
             let (bound, blur) = self.circles(pair);
             if bound >= found.minimum - tolerance {
                 found.bound = found.bound.min(bound);
                 continue;
             }
-            match (p.part, q.part) {
-                (NodeKind::Edge(e), NodeKind::Edge(f)) => {
+            let mut split = |k: usize| {
+                let halves = self.bodies[k].tree().halves([p, q][k]);
+                open.extend(halves.map(|half| {
+                    let mut of = pair;
+                    of[k] = half.index();
+                    of
+                }));
+            };
+            match [0, 1].map(|k| self.bodies[k].single([p, q][k])) {
+                [Some(e), Some(f)] => {
                     let (distance, bound) = self.edges([e, f]);
                     if distance < found.minimum {
                         (found.minimum, found.input) = (distance, Some(self.input));
@@ -171,20 +179,23 @@ impl<'a> PairState<'a> {
                     }
                 }
                 // A pair that moves by more than its circles are wide is cut in time, not in space.
-                _ if blur > p.radius + q.radius => rest.keep(pair, bound),
-                (NodeKind::Halves([m, n]), _) if p.radius >= q.radius || is_edge(q.part) => {
-                    open.extend([[m, pair[1]], [n, pair[1]]]);
-                }
-                (_, NodeKind::Halves([m, n])) => open.extend([[pair[0], m], [pair[0], n]]),
-                (NodeKind::Halves([m, n]), _) => open.extend([[m, pair[1]], [n, pair[1]]]),
+                _ if blur > p.bound.radius + q.bound.radius => rest.keep(pair, bound),
+                [None, Some(_)] => split(0),
+                [Some(_), None] => split(1),
+                [None, None] => split(usize::from(p.bound.radius < q.bound.radius)),
             }
         }
         rest
     }
 
+    /// The runs of both bodies with these indices.
+    fn runs(&self, pair: [u32; 2]) -> [&'a Run<Disc>; 2] {
+        [0, 1].map(|k| self.bodies[k].tree().run(pair[k]))
+    }
+
     /// Lower bound of the distance of two circles in the interval, and the share of it owed to their movement.
     fn circles(&self, pair: [u32; 2]) -> (f64, f64) {
-        let [p, q] = [0, 1].map(|i| self.bodies[i].node(pair[i]));
+        let [p, q] = self.runs(pair).map(|run| run.bound);
         let (at_p, move_p) = self.frames[0].moved(&p.center);
         let (at_q, move_q) = self.frames[1].moved(&q.center);
         let apart = at_p - at_q;
@@ -230,10 +241,6 @@ impl Rest {
         self.pairs.push(pair);
         self.bound = self.bound.min(bound);
     }
-}
-
-fn is_edge(part: NodeKind) -> bool {
-    matches!(part, NodeKind::Edge(_))
 }
 
 /// Distance of two edges and the vector from a closest point of the second to one of the first.

@@ -169,7 +169,7 @@ fn slots(spec: &IntermittentPairSpec, pair: &IntermittentPair) -> (f64, f64) {
     let base = backlash_radius(spec, pair);
     let (circle, angle) = (0.75 * base / 20_f64.to_radians().cos(), spec.pins.angle);
     let (x, y) = (a - circle * angle.cos(), circle * angle.sin());
-    // The way of a pin as the driven gear turns by the backlash, along its line from the driver's axis.
+    // The path of a pin as the driven gear turns by the backlash, along its line from the driver's axis.
     let turned = 0.5 * spec.backlash / base;
     let (way_x, way_y) = (turned * circle * angle.sin(), turned * circle * angle.cos());
     (minimum, (way_x * x + way_y * y) / x.hypot(y))

@@ -33,7 +33,7 @@ pub(super) fn cams(composed: &Machine, report: &mut Report) {
             ),
             pushes: [
                 format!("while cam {} lifts its follower it pushes up to", cam.name),
-                "off the way of what it lifts".into(),
+                "off the path of its follower".into(),
             ],
             remedies: [
                 "a longer span_deg, a larger base_radius, or a smaller roller",
@@ -43,28 +43,27 @@ pub(super) fn cams(composed: &Machine, report: &mut Report) {
         };
         checked.report(&limits, report);
     }
-    if angles.is_empty() {
-        return;
-    }
-    report.tables.push(Table {
-        name: "cam-pressure-angles",
-        title: "Maximum pressure angle of cam",
-        unit: Unit::Angle,
-        columns: ["rise", "return"].map(String::from).into(),
-        rows: angles,
-    });
-    report.tables.push(Table {
-        name: "cam-radii",
-        title: "Radius of cam, and minimum radii of curvature",
-        unit: Unit::Millimetre,
-        columns: ["minimum", "maximum", "convex", "concave"]
-            .map(String::from)
-            .into(),
-        rows: radii,
-    });
+    report.table(
+        Table::new(
+            "cam-pressure-angles",
+            "Maximum pressure angle of cam",
+            Unit::Angle,
+        )
+        .columns(["rise", "return"])
+        .rows(angles),
+    );
+    report.table(
+        Table::new(
+            "cam-radii",
+            "Radius of cam, and minimum radii of curvature",
+            Unit::Millimetre,
+        )
+        .columns(["minimum", "maximum", "convex", "concave"])
+        .rows(radii),
+    );
 }
 
-/// Tells of a roller whose wall is too thin for the pins of the design: it has no part and no pin.
+/// Reports a roller whose wall is too thin for the pins of the design: it has no part and no pin.
 fn thin_roller(composed: &Machine, cam: &MachineCam, report: &mut Report) {
     let pin = composed.plates().pin_diameter;
     let radius = cam.disc().follower().roller_radius().unwrap_or(0.0);
@@ -78,10 +77,9 @@ fn thin_roller(composed: &Machine, cam: &MachineCam, report: &mut Report) {
         cam.name,
         2.0 * radius
     );
-    report.findings.push(
-        Finding::new("thin-roller", Severity::Warning, message)
-            .measured(wall, minimum, Unit::Millimetre)
-            .remedy("a larger roller_radius, or a smaller pin_diameter")
-            .on(cam.name.clone()),
-    );
+    Finding::new("thin-roller", Severity::Warning, message)
+        .measured(wall, minimum, Unit::Millimetre)
+        .remedy("a larger roller_radius, or a smaller pin_diameter")
+        .on(cam.name.clone())
+        .add_to(report);
 }

@@ -47,11 +47,10 @@ pub(super) fn apart(composed: &Machine, found: &[Found], report: &mut Report) {
             "goal {}, {}: {one} and {other} share no height along the shafts, so that their clearance is infinite",
             found.goal.number, found.goal.title
         );
-        report.findings.push(
-            Finding::new("no-common-height", Severity::Note, message)
-                .measured(f64::INFINITY, None, Unit::Millimetre)
-                .remedy("one layer for both, if they are to pass each other in one plane")
-                .on(one),
-        );
+        Finding::new("no-common-height", Severity::Note, message)
+            .measured(f64::INFINITY, None, Unit::Millimetre)
+            .remedy("one layer for both, if they are to pass each other in one plane")
+            .on(one)
+            .add_to(report);
     }
 }

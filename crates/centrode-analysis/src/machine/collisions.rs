@@ -9,13 +9,13 @@ use super::{Made, ends as ends_of, through};
 use crate::interference::LinkPair;
 use crate::{Finding, Report, Severity, Unit};
 
-/// Accuracy to which collisions of parts are sought, as a share of a plate's width.
+/// Accuracy to which collisions of parts are searched, as a share of a plate's width.
 const ACCURACY: f64 = 1e-3;
 
 /// Accuracy to which it is found how near the circles around two parts come, as a share of their distance.
 const SLACK: f64 = 0.05;
 
-/// Most pairs of parts of a kind that collide and are told of.
+/// Maximum number of colliding pairs of parts of a kind that are reported.
 const MOST: usize = 30;
 
 /// Surfaces of a link that belong to one part, and a circle around them.
@@ -28,7 +28,7 @@ pub(super) struct PartSurfaces<'a> {
 }
 
 impl<'a> PartSurfaces<'a> {
-    /// The part; none where it has no surface.
+    /// The part; `None` if it has no surface.
     pub(super) fn new(
         name: &'a str,
         link: usize,
@@ -101,7 +101,7 @@ pub(super) fn collisions(made: &Made<'_>, ends: &[f64], report: &mut Report) {
     through::collisions(composed, machine, ends, tolerance, report);
 }
 
-/// Parts of a kind that overlap, and how many pairs are not looked at since so many do.
+/// Parts of a kind that overlap, and how many pairs are not examined since so many do.
 pub(super) struct Overlaps<'a> {
     found: Vec<Overlap<'a>>,
     left: usize,
@@ -110,7 +110,7 @@ pub(super) struct Overlaps<'a> {
 /// Two parts that overlap, with their minimum clearance (mm, below zero) and the input there.
 type Overlap<'a> = ([&'a PartSurfaces<'a>; 2], [f64; 2]);
 
-/// Pairs of parts that overlap within the cycle, among those that may collide, until so many do as are told of.
+/// Pairs of parts that overlap within the cycle, among those that may collide, until so many do as are reported.
 ///
 /// What touches, as plates side by side on one line do, does not overlap; parts whose circles keep apart, and parts at other
 /// heights, cost no more than that look.
@@ -258,7 +258,7 @@ fn collision(
     .at(input)
 }
 
-/// Whether two gears are to mesh, or stand on each other.
+/// Whether two gears are to mesh, or carry each other.
 fn is_meshed(
     composed: &Machine,
     machine: &LinkedMachine,
@@ -282,7 +282,7 @@ fn meet([a, b]: [usize; 2], links: [usize; 2]) -> bool {
     [a, b] == links || [b, a] == links
 }
 
-/// Whether two links are held together by a joint or pin, or stand on each other.
+/// Whether two links are held together by a joint or pin, or carry each other.
 fn held(machine: &LinkedMachine, links: [usize; 2]) -> bool {
     let mut joints = machine.joints.iter();
     let joined = joints.any(|joint| meet([joint.parent, joint.child], links));

@@ -35,7 +35,7 @@ impl Loaded {
         })
     }
 
-    /// Forces at an input; none where they are not determined.
+    /// Forces at an input; `None` if they are not determined.
     pub(super) fn at(&self, input: f64) -> Option<Forces> {
         let speed = self.balance.machine().input.speed;
         match self.balance.at(input, speed) {
@@ -79,7 +79,7 @@ impl Loaded {
     }
 }
 
-/// A figure of the forces of a state, N or N mm; none where it is none of theirs or not determined. Forces in joints and pins are
+/// A figure of the forces of a state, N or N mm; `None` if it is none of theirs or not determined. Forces in joints and pins are
 /// sizes; that of a mesh has the sign of [`crate::forces::ToothForce`].
 pub(super) fn part(forces: &Forces, figure: &MachineFigure) -> Option<f64> {
     match *figure {
@@ -191,34 +191,17 @@ pub(super) fn forces(
     let of_meshes = rows[joints..].iter().zip(minima).zip(&found_rows[joints..]);
     let of_meshes =
         of_meshes.map(|(((name, _), low), high)| (name.clone(), vec![-low.value, high.value]));
-    for (name, title, columns, rows) in [
-        (
-            "joint-forces",
-            "Maximum force of joint",
-            &["force"][..],
-            of_joints.collect::<Vec<_>>(),
-        ),
-        (
-            "mesh-forces",
-            "Force of mesh, with its sign",
-            &["minimum", "maximum"],
-            of_meshes.collect(),
-        ),
-    ] {
-        let rows: Vec<(String, Vec<f64>)> = rows
-            .into_iter()
-            .filter(|(_, values)| values.iter().all(|value| value.is_finite()))
-            .collect();
-        if !rows.is_empty() {
-            report.tables.push(Table {
-                name,
-                title,
-                unit: Unit::Newton,
-                columns: columns.iter().map(|&column| column.into()).collect(),
-                rows,
-            });
-        }
-    }
+    let known = |(_, values): &(String, Vec<f64>)| values.iter().all(|value| value.is_finite());
+    report.table(
+        Table::new("joint-forces", "Maximum force of joint", Unit::Newton)
+            .columns(["force"])
+            .rows(of_joints.filter(known).collect()),
+    );
+    report.table(
+        Table::new("mesh-forces", "Force of mesh, with its sign", Unit::Newton)
+            .columns(["minimum", "maximum"])
+            .rows(of_meshes.filter(known).collect()),
+    );
 }
 
 /// Arm of a torque on each link, mm: the minimum pitch radius of its gears, or else the length of the shortest bar.
@@ -262,27 +245,25 @@ fn excessive<'a>(
             force.value / load
         );
         let remedy = "other lengths, another pressure angle or a gentler ratio, so that the driving force acts along the motion";
-        report.findings.push(
-            Finding::new("excessive-force", Severity::Error, message)
-                .measured(force.value, EXCESSIVE * load, Unit::Newton)
-                .remedy(remedy)
-                .on(name.clone())
-                .at(force.input),
-        );
+        Finding::new("excessive-force", Severity::Error, message)
+            .measured(force.value, EXCESSIVE * load, Unit::Newton)
+            .remedy(remedy)
+            .on(name.clone())
+            .at(force.input)
+            .add_to(report);
     }
 }
 
 /// Reports why the forces are not known: a dead position, where they grow beyond bounds, is an error.
 fn undetermined(error: &ForcesError, report: &mut Report) {
-    report.findings.push(
-        Finding::new(
-            "forces-undetermined",
-            match error {
-                ForcesError::Dead { .. } => Severity::Error,
-                _ => Severity::Note,
-            },
-            format!("there are no forces: {error}"),
-        )
-        .measured(None, None, Unit::Newton),
-    );
+    Finding::new(
+        "forces-undetermined",
+        match error {
+            ForcesError::Dead { .. } => Severity::Error,
+            _ => Severity::Note,
+        },
+        format!("there are no forces: {error}"),
+    )
+    .measured(None, None, Unit::Newton)
+    .add_to(report);
 }

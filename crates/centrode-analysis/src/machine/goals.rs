@@ -111,13 +111,11 @@ pub fn machine_figures(composed: &Machine) -> Vec<Table> {
         }
         match tables.iter_mut().find(|table| table.unit == unit) {
             Some(table) => table.rows.push(row),
-            None => tables.push(Table {
-                name: "figures",
-                title: "Figure",
-                unit,
-                columns: ["minimum", "maximum"].map(String::from).into(),
-                rows: vec![row],
-            }),
+            None => tables.push(
+                Table::new("figures", "Figure", unit)
+                    .columns(["minimum", "maximum"])
+                    .rows(vec![row]),
+            ),
         }
     }
     tables

@@ -11,7 +11,8 @@ use crate::{Finding, Report, Severity, Unit};
 /// Rings that hold what is on a pin or shaft, one at each end.
 const RINGS: usize = 2;
 
-/// Checks that rings and keys hold every part, and that shafts held at one end of a frame can take the forces of `report`.
+/// Checks that rings and keys hold every part, and that overhung shafts, held in the frame at one end only, can take the
+/// forces of `report`.
 pub(super) fn held(composed: &Machine, report: &mut Report) {
     if composed.design().hardware() != Hardware::Full {
         return;
@@ -87,12 +88,11 @@ pub(super) fn held(composed: &Machine, report: &mut Report) {
                 (Severity::Note, message)
             }
         };
-        report.findings.push(
-            Finding::new("overhung", severity, message)
-                .measured(stress, allowed, Unit::NewtonPerSquareMillimetre)
-                .remedy("a thicker frame, a wider shaft, or a layer nearer to the frame")
-                .on(name),
-        );
+        Finding::new("overhung", severity, message)
+            .measured(stress, allowed, Unit::NewtonPerSquareMillimetre)
+            .remedy("a thicker frame, a wider shaft, or a layer nearer to the frame")
+            .on(name)
+            .add_to(report);
     }
     report
         .values

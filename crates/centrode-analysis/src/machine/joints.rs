@@ -9,7 +9,7 @@ use centrode_machines::machine::{DyadKind, Machine};
 use super::motion::Motion;
 use crate::{Report, Table, Unit};
 
-/// Distance, as a share of a turn, within which a dead centre lies of the extreme that is found by places alone.
+/// Distance, as a share of a turn, within which a dead centre lies of the extreme that is found by positions alone.
 const NEAR: f64 = 1e-5;
 /// Swings and strokes of joints that come back, and the inputs of their dead centres.
 pub(super) fn joints(composed: &Machine, motion: &Motion, report: &mut Report) {
@@ -36,36 +36,14 @@ pub(super) fn joints(composed: &Machine, motion: &Motion, report: &mut Report) {
         let dead = [low, high].map(dead);
         centres.push((body.name.clone(), dead.to_vec()));
     }
-    let mut add = |name, title, unit, columns: [&str; 3], rows: Vec<(String, Vec<f64>)>| {
-        if rows.is_empty() {
-            return;
-        }
-        let count = rows[0].1.len();
-        report.tables.push(Table {
-            name,
-            title,
-            unit,
-            columns: columns[..count].iter().map(|&c| c.into()).collect(),
-            rows,
-        });
-    };
+    let swing = Table::new("swings", "Angle of joint that rocks", Unit::Angle);
+    let stroke = Table::new("strokes", "Position of slide", Unit::Millimetre);
+    let dead = "Input at the dead centres of joint";
+    let dead = Table::new("dead-centres", dead, Unit::Angle);
     let span = ["minimum", "maximum", "span"];
-    add(
-        "swings",
-        "Angle of joint that rocks",
-        Unit::Angle,
-        span,
-        swings,
-    );
-    add("strokes", "Place of slide", Unit::Millimetre, span, strokes);
-    let inputs = ["minimum", "maximum", ""];
-    add(
-        "dead-centres",
-        "Input at the dead centres of joint",
-        Unit::Angle,
-        inputs,
-        centres,
-    );
+    report.table(swing.columns(span).rows(swings));
+    report.table(stroke.columns(span).rows(strokes));
+    report.table(dead.columns(["minimum", "maximum"]).rows(centres));
 }
 
 /// How every table of angles is read: the turn of the body over it, and the steps that show this turn.
@@ -78,20 +56,14 @@ pub(super) fn tables(composed: &Machine, report: &mut Report) {
         Some((name.clone(), row))
     });
     let rows: Vec<_> = read.collect();
-    if !rows.is_empty() {
-        report.tables.push(Table {
-            name: "table-readings",
-            title: "Table of angles of body",
-            unit: Unit::Angle,
-            columns: ["turn over the table", "largest step", "last step"]
-                .map(String::from)
-                .into(),
-            rows,
-        });
-    }
+    report.table(
+        Table::new("table-readings", "Table of angles of body", Unit::Angle)
+            .columns(["turn over the table", "largest step", "last step"])
+            .rows(rows),
+    );
 }
 
-/// Input at which a motion stands in an extreme: where its speed is zero, and in the first turn of several alike.
+/// Input of an extreme of a motion: where its speed is zero, in the first of several equal turns.
 fn dead_centre(law: &dyn Transmission, found: &Extreme, stroke: f64, period: f64) -> f64 {
     let alike = |input: &f64| {
         let off = law.at(*input).position - found.value;
@@ -147,13 +119,13 @@ pub(super) fn four_bars(composed: &Machine, report: &mut Report) {
         }
         rows.extend(four.map(|margin| (dyad.name.clone(), vec![margin])));
     }
-    if !rows.is_empty() {
-        report.tables.push(Table {
-            name: "grashof",
-            title: "Grashof's margin of the four-bar of dyad",
-            unit: Unit::Millimetre,
-            columns: vec!["margin".into()],
-            rows,
-        });
-    }
+    report.table(
+        Table::new(
+            "grashof",
+            "Grashof's margin of the four-bar of dyad",
+            Unit::Millimetre,
+        )
+        .columns(["margin"])
+        .rows(rows),
+    );
 }

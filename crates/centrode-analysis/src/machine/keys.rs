@@ -8,7 +8,7 @@ use crate::Report;
 use crate::forces::Forces;
 use crate::key_pressure::LoadedKey;
 
-/// Key of a part on a shaft whose torque the forces of the machine tell.
+/// Key of a part on a shaft whose torque follows from the forces of the machine.
 pub(super) struct KeyUnderLoad<'a> {
     shaft: &'a MachineShaft,
     part: &'a ShaftPart,
@@ -21,7 +21,7 @@ pub(super) struct KeyUnderLoad<'a> {
 
 /// The keys whose torque is known: of gears by the forces of their meshes, and of the one part next to them on their shaft by
 /// these forces and the drive of the shaft. How several such parts share it depends on what is around them. Inertia of
-/// gears and shafts is left out; of copies the original stands for all.
+/// gears and shafts is omitted; of copies the original represents all.
 pub(super) fn under_load(composed: &Machine) -> Vec<KeyUnderLoad<'_>> {
     let shafts = composed.shafts().iter();
     let originals = shafts.filter(|shaft| composed.original(&shaft.name) == shaft.name);

@@ -55,7 +55,7 @@ pub(super) fn layers(composed: &Machine, ends: &[f64], report: &mut Report) {
                 "no order of the plates is free of collisions, because in each of them one of these pins runs into a plate: {}",
                 pairs.join("; ")
             ),
-            "other points for one of these pins, or an outline of the plate that keeps clear of it",
+            "other points for one of these pins, or an outline of the plate that is clear of it",
         ),
         Layers::Tried(count) => (
             format!(

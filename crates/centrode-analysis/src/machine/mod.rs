@@ -65,7 +65,7 @@ pub fn check_machine(composed: &Machine) -> Report {
 }
 
 /// Checks the motion of a composed machine alone: all of [`check_machine`] but teeth, cams, forces and collisions,
-/// which only goals that name them ask for.
+/// which only goals that name them require.
 #[must_use]
 pub fn check_machine_motion(composed: &Machine) -> Report {
     let motion = Motion::new(composed, &ends(composed));
@@ -179,7 +179,7 @@ pub fn machine_goals(composed: &Machine) -> Vec<Goal> {
     found.map(|found| found.goal).collect()
 }
 
-/// A composed machine with what its checks share, each made when it is first asked for.
+/// A composed machine with what its checks share, each made when it is first requested.
 struct Made<'a> {
     composed: &'a Machine,
     outlined: OnceLock<Option<LinkedMachine>>,
@@ -199,13 +199,13 @@ impl<'a> Made<'a> {
         }
     }
 
-    /// Its bodies as links; none where a plate is no solid.
+    /// Its bodies as links; `None` if a plate is no solid.
     fn machine(&self) -> Option<&LinkedMachine> {
         let made = || self.composed.machine().ok();
         self.machine.get_or_init(made).as_ref()
     }
 
-    /// Its links with their contours, with whatever else is known of them; none where a plate is no solid.
+    /// Its links with their contours, with whatever else is known of them; `None` if a plate is no solid.
     fn outlined(&self) -> Option<&LinkedMachine> {
         match self.machine.get() {
             Some(made) => made.as_ref(),
@@ -282,24 +282,23 @@ fn dyads(composed: &Machine, motion: &Motion, report: &mut Report) {
                 "the transmission angle of dyad {} {reaches} to {degrees:.2} deg: {limit} deg friction may lock it",
                 dyad.name
             );
-            report.findings.push(
-                Finding::new("transmission-angle", Severity::Warning, message)
-                    .measured(held, HOLDS_BADLY.to_radians(), Unit::Angle)
-                    .remedy("longer bars against the motion that drives them, or other pins")
-                    .on(dyad.name.clone())
-                    .at(end.input),
-            );
+            Finding::new("transmission-angle", Severity::Warning, message)
+                .measured(held, HOLDS_BADLY.to_radians(), Unit::Angle)
+                .remedy("longer bars against the motion that drives them, or other pins")
+                .on(dyad.name.clone())
+                .at(end.input)
+                .add_to(report);
         }
     }
-    if !rows.is_empty() {
-        report.tables.push(Table {
-            name: "transmission-angles",
-            title: "Transmission angle of dyad",
-            unit: Unit::Angle,
-            columns: ["minimum", "at", "maximum", "at"].map(String::from).into(),
-            rows,
-        });
-    }
+    report.table(
+        Table::new(
+            "transmission-angles",
+            "Transmission angle of dyad",
+            Unit::Angle,
+        )
+        .columns(["minimum", "at", "maximum", "at"])
+        .rows(rows),
+    );
 }
 
 /// Reach and speed of every point that moves.
@@ -309,23 +308,14 @@ fn points(composed: &Machine, motion: Motion, report: &mut Report) {
         reach.push((point.name.clone(), point.sides.to_vec()));
         speed.push((point.name, vec![point.fastest * composed.speed()]));
     }
-    if reach.is_empty() {
-        return;
-    }
-    report.tables.push(Table {
-        name: "reach",
-        title: "Reach of point",
-        unit: Unit::Millimetre,
-        columns: ["minimum x", "maximum x", "minimum y", "maximum y"]
-            .map(String::from)
-            .into(),
-        rows: reach,
-    });
-    report.tables.push(Table {
-        name: "speed",
-        title: "Maximum speed of point",
-        unit: Unit::MillimetrePerSecond,
-        columns: vec!["speed".into()],
-        rows: speed,
-    });
+    report.table(
+        Table::new("reach", "Reach of point", Unit::Millimetre)
+            .columns(["minimum x", "maximum x", "minimum y", "maximum y"])
+            .rows(reach),
+    );
+    report.table(
+        Table::new("speed", "Maximum speed of point", Unit::MillimetrePerSecond)
+            .columns(["speed"])
+            .rows(speed),
+    );
 }

@@ -1,7 +1,7 @@
 use centrode_geometry::{Extreme, maxima, rounding};
 use centrode_machines::machine::{BodyPoint, Machine};
 
-/// Extremes over the cycle of all that a check tells of the motion, found in one sweep.
+/// Extremes over the cycle of all reported motions, found in one sweep.
 pub(super) struct Motion {
     /// Minimum and maximum transmission angle of each dyad, rad.
     pub(super) angles: Vec<[Extreme; 2]>,
@@ -21,7 +21,7 @@ pub(super) struct PointMotion {
     pub(super) fastest: f64,
 }
 
-/// Functions of a point: its components either way, and its speed.
+/// Functions of a point: its components in either direction, and its speed.
 const OF_POINT: usize = 5;
 
 impl Motion {

@@ -27,7 +27,7 @@ pub(super) fn checked(composed: &Machine) -> Vec<Arc<Report>> {
         .collect()
 }
 
-/// Findings of the pairs, each told with its pair, and how many of their teeth carry.
+/// Findings of the pairs, each with its pair, and how many of their teeth are in contact.
 pub(super) fn pairs(made: &Made<'_>, report: &mut Report) {
     let mut rows = Vec::new();
     for (pair, own) in made.composed.pairs().into_iter().zip(made.pairs()) {
@@ -48,15 +48,11 @@ pub(super) fn pairs(made: &Made<'_>, report: &mut Report) {
         let value = |key: &str| own.values.get(key).copied().unwrap_or(f64::NAN);
         rows.push((name.to_owned(), carrying.map(value).to_vec()));
     }
-    if !rows.is_empty() {
-        report.tables.push(Table {
-            name: "contact-ratios",
-            title: "Contact ratio of pair",
-            unit: Unit::Number,
-            columns: ["minimum", "mean"].map(String::from).into(),
-            rows,
-        });
-    }
+    report.table(
+        Table::new("contact-ratios", "Contact ratio of pair", Unit::Number)
+            .columns(["minimum", "mean"])
+            .rows(rows),
+    );
 }
 
 #[cfg(test)]

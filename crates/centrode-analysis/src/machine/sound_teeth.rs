@@ -44,7 +44,7 @@ pub enum NoSoundTeeth {
     },
     /// The flanks carry the motion with no tooth count tried.
     #[error(
-        "pair {pair}: full teeth are undercut above a module of {full_module:.4} mm, and fitted ones carry the motion by their flanks alone with no count up to {MAX_TEETH}: take another axis, bend or split, or ease the path; of a drive, leave more room between what its goals want"
+        "pair {pair}: full teeth are undercut above a module of {full_module:.4} mm, and fitted ones carry the motion by their flanks alone with no count up to {MAX_TEETH}: take another axis, bend or split, or ease the path; of a drive, leave more room between its goals"
     )]
     None {
         /// Name of the pair.
@@ -106,7 +106,7 @@ fn sound(
     Ok(teeth(Addendum::Fitted, count))
 }
 
-/// The minimum count of full teeth that are sound and carry, from the count on at which the pitch curves bear them anyway.
+/// The minimum count of full teeth that are sound and carry, from the count on at which the pitch curves allow them anyway.
 fn full(design: &GearPairDesign, pair: &GearPair, borne: f64) -> Option<u32> {
     let mut full = design.clone();
     full.teeth.addendum = Addendum::Full;
@@ -119,7 +119,7 @@ fn full(design: &GearPairDesign, pair: &GearPair, borne: f64) -> Option<u32> {
         return None;
     }
     let mut count = (borne.ceil() as u32).max(3);
-    // Flanks may miss the sharpest places of the pitch curves.
+    // Flanks may miss the sharpest points of the pitch curves.
     while count > 3 && is_sound(count - 1) {
         checkpoint();
         count -= 1;

@@ -100,7 +100,7 @@ pub(super) fn collisions(
     let remedy = "another layer for a plate or cam that it joins, or for what it runs into";
     let found = findings("pins-collide", "parts", remedy, &found);
     report.findings.extend(found);
-    // Plates among each other, and gears, are looked at by themselves.
+    // Plates among each other, and gears, are checked on their own.
     let parts_may = |pair: [usize; 2]| {
         let is_ours = matches!(
             pair.map(|part| kinds[part]),
@@ -161,13 +161,11 @@ fn bars(pieces: &TurnedPieces, piece: &TurnedPiece) -> Vec<Surface> {
 /// A cylinder about the axis of a piece, between heights above its lower end.
 fn round(piece: &TurnedPiece, diameter: f64, span: [f64; 2]) -> Surface {
     let [x, y, low] = piece.at;
-    Surface {
-        name: piece.link.clone(),
-        outline: Outline::circle(Point::new(x, y), 0.5 * diameter),
-        span: [low + span[0] + LEVEL, low + span[1] - LEVEL],
-        teeth: Vec::new(),
-        coarseness: 1.0,
-    }
+    Surface::new(
+        piece.link.clone(),
+        Outline::circle(Point::new(x, y), 0.5 * diameter),
+        [low + span[0] + LEVEL, low + span[1] - LEVEL],
+    )
 }
 
 /// Name, link, surface and solid of every plate, gear and cam.
@@ -215,7 +213,7 @@ fn is_in_hole(frames: &Frames, own: BodyPoint, link: usize, holes: &[Outline]) -
     holes.any(|hole| frames.path(link, own).all(|at| hole.contains(at)))
 }
 
-/// Whether a pin, with what is on it at the height of a plate, keeps within one slot of it all through the cycle.
+/// Whether a pin, with what is on it at the height of a plate, stays within one slot of it over the whole cycle.
 fn is_in_slot<'a>(
     composed: &Machine,
     paths: impl Fn() -> &'a Frames,

@@ -19,12 +19,11 @@ pub(super) fn crossings(shaft: &SpiralShaft, report: &mut Report) {
             "a slider {length} mm long loses both walls at {open} of {} crossings; it takes more than {longest:.3} mm",
             all.len()
         );
-        report.findings.push(
-            Finding::new("slider-length", Severity::Error, message)
-                .measured(length, longest, Unit::Millimetre)
-                .remedy("a longer slider, a narrower groove, or a return_offset")
-                .on("slider"),
-        );
+        Finding::new("slider-length", Severity::Error, message)
+            .measured(length, longest, Unit::Millimetre)
+            .remedy("a longer slider, a narrower groove, or a return_offset")
+            .on("slider")
+            .add_to(report);
     }
     tilt(shaft, longest, report);
     let design = shaft.design();
@@ -46,13 +45,12 @@ pub(super) fn crossings(shaft: &SpiralShaft, report: &mut Report) {
         first.gap,
         advice(shaft)
     );
-    report.findings.push(
-        Finding::new("crossing-while-picking", Severity::Warning, message)
-            .measured(first.gap, length, Unit::Millimetre)
-            .remedy("a slider longer than the gap, or a return_offset")
-            .on("shaft")
-            .at(first.out),
-    );
+    Finding::new("crossing-while-picking", Severity::Warning, message)
+        .measured(first.gap, length, Unit::Millimetre)
+        .remedy("a slider longer than the gap, or a return_offset")
+        .on("shaft")
+        .at(first.out)
+        .add_to(report);
 }
 
 /// Checks a slider free on its pin, pushed against one wall, where a crossing interrupts that wall over `gap` mm.
@@ -67,28 +65,27 @@ fn tilt(shaft: &SpiralShaft, gap: f64, report: &mut Report) {
         return;
     }
     let message = format!(
-        "a crossing takes the wall that pushes the slider away over {gap:.2} mm: {length} mm long and free on its pin, the slider can turn into the other groove there; held by the walls alone it must be {:.2} mm long",
+        "at crossings the driving wall is missing for {gap:.2} mm: a slider {length} mm long and free on its pin can swing into the other groove; make it {:.2} mm long or fix it",
         2.0 * gap
     );
-    report.findings.push(
-        Finding::new("slider-tilts", Severity::Warning, message)
-            .measured(length, 2.0 * gap, Unit::Millimetre)
-            .remedy("a narrower groove, a longer slider, or a pin that does not turn freely")
-            .on("slider"),
-    );
+    Finding::new("slider-tilts", Severity::Warning, message)
+        .measured(length, 2.0 * gap, Unit::Millimetre)
+        .remedy("a narrower groove, a longer slider, or a pin that does not turn freely")
+        .on("slider")
+        .add_to(report);
 }
 
-/// Shift of the return groove that brings the slow places off the crossings, in words.
+/// Shift of the return groove that brings the slow points off the crossings, in words.
 fn advice(shaft: &SpiralShaft) -> String {
     let law = shaft.law();
     let steepest = 2.0 * (law.mean_speed() / shaft.groove().radius()).atan();
     let required = 1.25 * shaft.groove().width() / steepest.sin();
     match offered(shaft, required) {
         Ok(clear) if clear.return_offset == 0.0 => {
-            "no shift of the return groove makes that shorter; meeting the same hole at the same angle both ways always crosses there".to_owned()
+            "no shift of the return groove makes that shorter; a hole met at the same angle on both strokes always gives a crossing there".to_owned()
         }
         Ok(clear) => format!(
-            "return_offset = {:.4} lets {:.2} mm of slider bridge those of the strokes and misses each hole by {:.4} mm; meeting the same hole at the same angle both ways always crosses there",
+            "return_offset = {:.4} lets {:.2} mm of slider bridge those of the strokes and misses each hole by {:.4} mm; a hole met at the same angle on both strokes always gives a crossing there",
             clear.return_offset, clear.slider_length, clear.misplacement
         ),
         Err(error) => format!("no shifted return groove: {error}"),

@@ -63,13 +63,12 @@ fn moved(shaft: &SpiralShaft, moved: f64, picks: &Schedule, report: &mut Report)
             "the box moves {most:.4} mm while a seedling is picked, more than a sixth of the pot, {limit:.4} mm"
         );
         let remedy = "a larger amplitude, moved_distance to solve for it, or a slow place where the picks are";
-        report.findings.push(
-            Finding::new("moved-distance", Severity::Error, message)
-                .measured(most, limit, Unit::Millimetre)
-                .remedy(remedy)
-                .on("shaft")
-                .at(theta),
-        );
+        Finding::new("moved-distance", Severity::Error, message)
+            .measured(most, limit, Unit::Millimetre)
+            .remedy(remedy)
+            .on("shaft")
+            .at(theta)
+            .add_to(report);
     }
 }
 
@@ -115,20 +114,19 @@ fn schedule(shaft: &SpiralShaft, schedule: &Schedule, report: &mut Report) {
         } else {
             Severity::of_deviation(misplacement.abs())
         };
-        report.findings.push(
-            Finding::new(
-                "misplaced-hole",
-                severity,
-                format!(
-                    "turn {turn} of the cycle picks {:.4} mm next to hole {hole}",
-                    misplacement.abs()
-                ),
-            )
-            .measured(misplacement.abs(), limit, Unit::Millimetre)
-            .remedy("a reversal of 360 deg, and no more return_offset than needed")
-            .on("shaft")
-            .at(*theta),
-        );
+        Finding::new(
+            "misplaced-hole",
+            severity,
+            format!(
+                "turn {turn} of the cycle picks {:.4} mm next to hole {hole}",
+                misplacement.abs()
+            ),
+        )
+        .measured(misplacement.abs(), limit, Unit::Millimetre)
+        .remedy("a reversal of 360 deg, and no more return_offset than needed")
+        .on("shaft")
+        .at(*theta)
+        .add_to(report);
     }
     let uneven: Vec<u32> = (0..)
         .zip(&schedule.visits)
@@ -137,21 +135,20 @@ fn schedule(shaft: &SpiralShaft, schedule: &Schedule, report: &mut Report) {
         .collect();
     if let Some(first) = uneven.first() {
         let message = format!(
-            "{} of {} holes, hole {first} the first of them, are not picked exactly once each way",
+            "{} of {} holes, hole {first} the first of them, are not picked exactly once on each stroke",
             uneven.len(),
             schedule.visits.len()
         );
-        report.findings.push(
-            Finding::new("hole-not-picked-twice", Severity::Error, message)
-                .measured(
-                    f64::from(schedule.visits[*first as usize]),
-                    2.0,
-                    Unit::Count,
-                )
-                .remedy("a reversal of 360 deg")
-                .on("shaft")
-                .at(shaft.design().pick),
-        );
+        Finding::new("hole-not-picked-twice", Severity::Error, message)
+            .measured(
+                f64::from(schedule.visits[*first as usize]),
+                2.0,
+                Unit::Count,
+            )
+            .remedy("a reversal of 360 deg")
+            .on("shaft")
+            .at(shaft.design().pick)
+            .add_to(report);
     }
 }
 
@@ -166,20 +163,19 @@ fn groove(shaft: &SpiralShaft, report: &mut Report) {
     values.insert("bend_radius_min", 1.0 / groove.tightest().value);
     values.insert("wall_deviation_max", groove.wall_deviation());
     if exceeds(steepest.value, PRESSURE_ANGLE) {
-        report.findings.push(
-            Finding::new(
-                "pressure-angle",
-                Severity::Warning,
-                format!(
-                    "the wall pushes the slider up to {:.2} deg off its way",
-                    steepest.value.to_degrees()
-                ),
-            )
-            .measured(steepest.value, PRESSURE_ANGLE, Unit::Angle)
-            .remedy("a larger radius, or a smaller lead or amplitude")
-            .on("shaft")
-            .at(steepest.input),
-        );
+        Finding::new(
+            "pressure-angle",
+            Severity::Warning,
+            format!(
+                "the wall pushes the slider up to {:.2} deg off its path",
+                steepest.value.to_degrees()
+            ),
+        )
+        .measured(steepest.value, PRESSURE_ANGLE, Unit::Angle)
+        .remedy("a larger radius, or a smaller lead or amplitude")
+        .on("shaft")
+        .at(steepest.input)
+        .add_to(report);
     }
 }
 
@@ -198,17 +194,16 @@ fn slider(shaft: &SpiralShaft, report: &mut Report) {
             "a straight slider {} mm long needs {needed:.4} mm of clearance where the groove bends most, and has {}",
             slider.length, slider.clearance
         );
-        report.findings.push(
-            Finding::new(
-                "slider-clearance",
-                Severity::of_overlap(needed - slider.clearance),
-                message,
-            )
-            .measured(slider.clearance, needed, Unit::Millimetre)
-            .remedy("more clearance, a shorter slider, or a larger radius")
-            .on("shaft")
-            .at(shaft.groove().tightest().input),
-        );
+        Finding::new(
+            "slider-clearance",
+            Severity::of_overlap(needed - slider.clearance),
+            message,
+        )
+        .measured(slider.clearance, needed, Unit::Millimetre)
+        .remedy("more clearance, a shorter slider, or a larger radius")
+        .on("shaft")
+        .at(shaft.groove().tightest().input)
+        .add_to(report);
     }
     let guided = slider.guided_length(shaft.groove().radius());
     report.values.insert("slider_guided_length", guided);
@@ -219,12 +214,11 @@ fn slider(shaft: &SpiralShaft, report: &mut Report) {
             "of a flat slider {} mm long only {guided:.2} mm reach into a groove on a shaft this thin: to bridge {longest:.2} mm without walls it must be bent round the shaft",
             slider.length
         );
-        report.findings.push(
-            Finding::new("flat-slider", Severity::Warning, message)
-                .measured(guided, longest, Unit::Millimetre)
-                .remedy("a thicker shaft, or a slider bent round it")
-                .on("slider"),
-        );
+        Finding::new("flat-slider", Severity::Warning, message)
+            .measured(guided, longest, Unit::Millimetre)
+            .remedy("a thicker shaft, or a slider bent round it")
+            .on("slider")
+            .add_to(report);
     }
 }
 
@@ -260,25 +254,24 @@ fn forces(shaft: &SpiralShaft, report: &mut Report) {
     contact(limit, load.speed_rpm, report);
     let steepest = shaft.groove().steepest();
     if !exceeds(load.jamming_angle(), steepest.value) {
-        report.findings.push(
-            Finding::new(
-                "jamming",
-                Severity::Error,
-                format!(
-                    "at {:.2} deg the slider jams: friction allows less than {:.2} deg",
-                    steepest.value.to_degrees(),
-                    load.jamming_angle().to_degrees()
-                ),
-            )
-            .measured(steepest.value, load.jamming_angle(), Unit::Angle)
-            .remedy("a larger radius, or less friction in the groove")
-            .on("shaft")
-            .at(steepest.input),
-        );
+        Finding::new(
+            "jamming",
+            Severity::Error,
+            format!(
+                "at {:.2} deg the slider jams: friction allows less than {:.2} deg",
+                steepest.value.to_degrees(),
+                load.jamming_angle().to_degrees()
+            ),
+        )
+        .measured(steepest.value, load.jamming_angle(), Unit::Angle)
+        .remedy("a larger radius, or less friction in the groove")
+        .on("shaft")
+        .at(steepest.input)
+        .add_to(report);
     }
 }
 
-/// Pressure on the key of the near journal at a torque, and whether the shaft bears it.
+/// Pressure on the key of the near journal at a torque, and whether the shaft can support it.
 fn key(shaft: &SpiralShaft, torque: Extreme, report: &mut Report) {
     let body = shaft.body();
     let hub = body.keyway.map(Keyway::of_hub);
@@ -319,16 +312,15 @@ fn contact(limit: f64, speed: f64, report: &mut Report) {
         } else {
             "without friction on the rails the box runs ahead, and the slider changes walls on the stroke at any speed".into()
         };
-        report.findings.push(
-            Finding::new("contact-lost", Severity::Warning, message)
-                .measured(speed, limit, Unit::TurnsPerMinute)
-                .remedy(if limit > 0.0 {
-                    "a lower speed, a smaller amplitude, or fewer waves a turn"
-                } else {
-                    "friction on the rails, rail_friction, or a box that moves evenly"
-                })
-                .on("slider"),
-        );
+        Finding::new("contact-lost", Severity::Warning, message)
+            .measured(speed, limit, Unit::TurnsPerMinute)
+            .remedy(if limit > 0.0 {
+                "a lower speed, a smaller amplitude, or fewer waves a turn"
+            } else {
+                "friction on the rails, rail_friction, or a box that moves evenly"
+            })
+            .on("slider")
+            .add_to(report);
     }
 }
 

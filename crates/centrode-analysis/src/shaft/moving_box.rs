@@ -59,8 +59,8 @@ pub fn check_moving_box(machine: &MovingBox) -> Report {
     report
 }
 
-/// Pressure on the keys of both gears at the maximum torques that the box asks of them, in place of that of the shaft turned
-/// evenly, and those that are pressed harder than their materials bear.
+/// Pressure on the keys of both gears at the maximum torques that the box requires, instead of that of the shaft turned
+/// evenly, and those that are pressed harder than their materials allow.
 fn keys(machine: &MovingBox, drive: &EllipticDrive, report: &mut Report) {
     let Some(design) = machine.design().gear_pair(drive) else {
         return;
@@ -134,14 +134,13 @@ fn gears(machine: &MovingBox, drive: &EllipticDrive, report: &mut Report) {
     };
     match GearPair::resolve(&design) {
         Ok(pair) => report.findings.extend(gear_pair::check(&pair).findings),
-        Err(error) => report.findings.push(
-            Finding::new(
-                "no-gears",
-                Severity::Error,
-                format!("no gears can be cut: {}: {error}", error.key()),
-            )
-            .on("gears"),
-        ),
+        Err(error) => Finding::new(
+            "no-gears",
+            Severity::Error,
+            format!("no gears can be cut: {}: {error}", error.key()),
+        )
+        .on("gears")
+        .add_to(report),
     }
 }
 
@@ -157,10 +156,9 @@ fn seat(machine: &MovingBox, report: &mut Report) {
     let message = format!(
         "the driven gear's bore of {bore} mm does not fit the shaft's journal of {journal} mm"
     );
-    report.findings.push(
-        Finding::new("gear-seat", Severity::Error, message)
-            .measured(bore, journal, Unit::Millimetre)
-            .remedy("leave gears.body.bore out, or change shaft.body.journal_diameter")
-            .on("gears"),
-    );
+    Finding::new("gear-seat", Severity::Error, message)
+        .measured(bore, journal, Unit::Millimetre)
+        .remedy("leave gears.body.bore out, or change shaft.body.journal_diameter")
+        .on("gears")
+        .add_to(report);
 }

@@ -25,11 +25,7 @@ pub(super) fn schemes(machine: &MovingBox) -> Vec<Table> {
         acceleration: mean * turn.acceleration,
         jerk: mean * turn.jerk,
     };
-    let even = |input: f64| MotionJet {
-        position: input,
-        velocity: 1.0,
-        ..MotionJet::default()
-    };
+    let even = |input: f64| MotionJet::uniform(input, 1.0);
     let ways = [
         Way {
             name: "plain shaft",
@@ -61,53 +57,47 @@ pub(super) fn schemes(machine: &MovingBox) -> Vec<Table> {
     let both = [shaft.law().pieces(pick), machine.stroke_pieces()].concat();
     let ends = piece_ends(pick, pick + TAU, 1, &both);
     let range = |of: &dyn Fn(f64) -> f64| extremes(of, &ends).map(|extreme| extreme.value).to_vec();
-    let table = |name, title, unit, columns: &[&str], of: &dyn Fn(&Way<'_>) -> Vec<f64>| Table {
-        name,
-        title,
-        unit,
-        columns: columns.iter().map(|c| (*c).to_owned()).collect(),
-        rows: ways.iter().map(|way| (way.name.into(), of(way))).collect(),
+    let rows = |of: &dyn Fn(&Way<'_>) -> Vec<f64>| {
+        let row = |way: &Way<'_>| (way.name.into(), of(way));
+        ways.iter().map(row).collect()
     };
+    let acceleration = "Acceleration on a stroke";
     vec![
-        table(
+        Table::new(
             "schemes",
             "Box while a seedling is picked",
             Unit::Millimetre,
-            &["moves", "may move"],
-            &|way| {
-                let place = |input: f64| (way.at)(input).0.position;
-                vec![
-                    place(pick + half) - place(pick - half),
-                    design.pot_width / 6.0,
-                ]
-            },
-        ),
-        table(
-            "scheme-speeds",
-            "Speed over its mean",
-            Unit::Number,
-            &["minimum", "maximum"],
-            &|way| range(&|input| (way.at)(input).0.velocity / mean),
-        ),
-        table(
+        )
+        .columns(["moves", "may move"])
+        .rows(rows(&|way| {
+            let place = |input: f64| (way.at)(input).0.position;
+            vec![
+                place(pick + half) - place(pick - half),
+                design.pot_width / 6.0,
+            ]
+        })),
+        Table::new("scheme-speeds", "Speed over its mean", Unit::Number)
+            .columns(["minimum", "maximum"])
+            .rows(rows(&|way| {
+                range(&|input| (way.at)(input).0.velocity / mean)
+            })),
+        Table::new(
             "scheme-accelerations",
-            "Acceleration on a stroke",
+            acceleration,
             Unit::MetrePerSecondSquared,
-            &["minimum", "maximum"],
-            &|way| range(&|input| metres * (way.at)(input).0.acceleration),
-        ),
-        table(
-            "scheme-forces",
-            "Normal force on the slider",
-            Unit::Newton,
-            &["minimum", "maximum"],
-            &|way| {
+        )
+        .columns(["minimum", "maximum"])
+        .rows(rows(&|way| {
+            range(&|input| metres * (way.at)(input).0.acceleration)
+        })),
+        Table::new("scheme-forces", "Normal force on the slider", Unit::Newton)
+            .columns(["minimum", "maximum"])
+            .rows(rows(&|way| {
                 range(&|input| {
                     let (motion, lead) = (way.at)(input);
                     load.force(motion, lead, radius).normal
                 })
-            },
-        ),
+            })),
     ]
 }
 
@@ -125,7 +115,7 @@ fn eighths(of: impl Fn(f64) -> Vec<f64>) -> Vec<(String, Vec<f64>)> {
 /// Acceleration and forces over one turn of a stroke by equilibrium, next to equations (14) to (18) of Zhou et al.
 /// 2018, which do not hold: see [`Load::published`](centrode_groove::Load::published).
 ///
-/// (16) to (18) are for sines; for another law they are left out.
+/// (16) to (18) are for sines; for another law they are omitted.
 pub(super) fn published(shaft: &SpiralShaft) -> Vec<Table> {
     let (load, radius) = (shaft.load(), shaft.groove().radius());
     let printed = |theta: f64| shaft.published_acceleration(theta, load);
@@ -145,42 +135,34 @@ pub(super) fn published(shaft: &SpiralShaft) -> Vec<Table> {
             .collect()
     };
     let of = |side: usize| eighths(|theta| forces(theta).iter().map(|force| force[side]).collect());
-    let table = |name, title, unit, columns: &[&str], rows: Vec<(String, Vec<f64>)>| Table {
-        name,
-        title,
-        unit,
-        columns: columns.iter().map(|&c| c.to_owned()).collect(),
-        rows,
-    };
     let columns = if sine { 3 } else { 2 };
+    let (normal, transverse) = (
+        "Normal force next to the paper's",
+        "Transverse force next to the paper's",
+    );
     let mut tables = vec![
-        table(
-            "normal-forces",
-            "Normal force next to the paper's",
-            Unit::Newton,
-            &["normal", "by (14)", "by (17)"][..columns],
-            of(0),
-        ),
-        table(
-            "transverse-forces",
-            "Transverse force next to the paper's",
-            Unit::Newton,
-            &["transverse", "by (15)", "by (18)"][..columns],
-            of(1),
-        ),
+        Table::new("normal-forces", normal, Unit::Newton)
+            .columns(["normal", "by (14)", "by (17)"].into_iter().take(columns))
+            .rows(of(0)),
+        Table::new("transverse-forces", transverse, Unit::Newton)
+            .columns(
+                ["transverse", "by (15)", "by (18)"]
+                    .into_iter()
+                    .take(columns),
+            )
+            .rows(of(1)),
     ];
     if sine {
         let accelerations = |theta: f64| {
             let ours = shaft.stroke_acceleration(theta, load);
             [Some(ours), printed(theta)].into_iter().flatten().collect()
         };
-        tables.push(table(
-            "accelerations",
-            "Acceleration next to the paper's",
-            Unit::MetrePerSecondSquared,
-            &["acceleration", "by (16)"],
-            eighths(accelerations),
-        ));
+        let title = "Acceleration next to the paper's";
+        tables.push(
+            Table::new("accelerations", title, Unit::MetrePerSecondSquared)
+                .columns(["acceleration", "by (16)"])
+                .rows(eighths(accelerations)),
+        );
     }
     tables
 }

@@ -69,7 +69,7 @@ fn the_paper_s_equations_for_a_sine_stand_beside_sines_alone() {
         }),
         ..SpiralShaftDesign::default()
     };
-    // kappa w = 1 mm * 200 r/min, a quarter turn after the slow place.
+    // kappa w = 1 mm * 200 r/min, a quarter turn after the slow point.
     let turned = report(&turned);
     let row = &table(&turned, "accelerations").rows[2].1;
     assert!((row[1] - 1e-3 * 200.0 * TAU / 60.0).abs() < 1e-12);

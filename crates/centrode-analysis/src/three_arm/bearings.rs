@@ -3,7 +3,7 @@ use centrode_machines::three_arm::ThreeArm;
 
 use crate::{Finding, Report, Severity, Unit};
 
-/// Tells of shafts for which bearings are asked and none is as narrow as the carrier's plates are thick.
+/// Reports shafts with requested bearings of which none is as narrow as the carrier's plates are thick.
 pub(super) fn check_bearings(mechanism: &ThreeArm, report: &mut Report) {
     let design = mechanism.design();
     let wall = design.gearbox.wall;
@@ -26,17 +26,14 @@ pub(super) fn check_bearings(mechanism: &ThreeArm, report: &mut Report) {
             ),
             None => format!("no bearing of series 618, 60 and 62 has a bore of {bore} mm"),
         };
-        report.findings.push(
-            Finding::new(
-                "no-bearing",
-                Severity::Warning,
-                format!("the shaft of {bore} mm of the {part} turns in the bare plates: {why}"),
-            )
-            .measured(wall, narrowest, Unit::Millimetre)
-            .remedy(
-                "thicker plates (wall), or a bore of 5 to 10, 12, 15, 17, 20, 25, 30, 35 or 40 mm",
-            )
-            .on(part),
-        );
+        Finding::new(
+            "no-bearing",
+            Severity::Warning,
+            format!("the shaft of {bore} mm of the {part} turns in the bare plates: {why}"),
+        )
+        .measured(wall, narrowest, Unit::Millimetre)
+        .remedy("thicker plates (wall), or a bore of 5 to 10, 12, 15, 17, 20, 25, 30, 35 or 40 mm")
+        .on(part)
+        .add_to(report);
     }
 }

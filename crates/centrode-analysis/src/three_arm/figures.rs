@@ -53,7 +53,7 @@ pub(crate) const FIGURES: &[FigureGroup] = &[
         rows: &[
             row("carrier", &["carrier_speed"], RadianPerSecond),
             row("tip at picking", &["picking_speed"], MillimetrePerSecond),
-            row("the same with two arms", &["picking_speed_of_two_arms"], MillimetrePerSecond),
+            row("tip speed with two arms", &["picking_speed_of_two_arms"], MillimetrePerSecond),
             row("tip at planting", &["planting_speed"], MillimetrePerSecond),
         ],
     },
@@ -61,8 +61,8 @@ pub(crate) const FIGURES: &[FigureGroup] = &[
         heading: "Limits of the gear train",
         columns: &[],
         rows: &[
-            row("teeth off their mates", &["mesh_phase_error_max"], Radian),
-            row("planet's zero, behind", &["planet_reference"], Angle),
+            row("maximum mesh phase error", &["mesh_phase_error_max"], Radian),
+            row("planet reference angle phi_30", &["planet_reference"], Angle),
         ],
     },
 ];

@@ -34,7 +34,7 @@ pub use variants::{Variants, VariantsError};
 /// Tolerance of the arms' clearances, as a share of the tip's distance from the planet's axis.
 const ARM_TOLERANCE: f64 = 1e-4;
 
-/// Checks a three-arm mechanism: its goals, its working points, and the teeth its curves can bear.
+/// Checks a three-arm mechanism: its goals, its working points, and the teeth its curves allow.
 #[must_use]
 pub fn check_three_arm(mechanism: &ThreeArm) -> Report {
     let teeth = filling([0.0, 0.7], || TrainTeeth::analyse(mechanism));
@@ -119,11 +119,12 @@ fn check_teeth(
     match teeth {
         Ok(None) => {}
         Ok(Some(teeth)) => check_gear_train(mechanism, teeth, report),
-        Err(error) => report.findings.push(Finding::new(
+        Err(error) => Finding::new(
             "teeth",
             Severity::Error,
             format!("no teeth can be cut: {}: {error}", error.key()),
-        )),
+        )
+        .add_to(report),
     }
 }
 
@@ -202,12 +203,11 @@ fn crowded(arms: Option<&ArmClearance>, report: &mut Report) {
     // Stems in a tray are held by their plugs and spring back.
     let severity = Severity::of_deviation(-found.minimum);
     let message = "an arm bends stems of the rows still in the tray";
-    report.findings.push(
-        Finding::new("unpicked-seedlings", severity, message)
-            .measured(found.minimum, 0.0, Unit::Millimetre)
-            .on("tray")
-            .at(found.input),
-    );
+    Finding::new("unpicked-seedlings", severity, message)
+        .measured(found.minimum, 0.0, Unit::Millimetre)
+        .on("tray")
+        .at(found.input)
+        .add_to(report);
 }
 
 /// Reports a gearbox that reaches into the tray.
@@ -216,16 +216,15 @@ fn gearbox_in_tray(mechanism: &ThreeArm, report: &mut Report) {
     if clearance >= 0.0 {
         return;
     }
-    report.findings.push(
-        Finding::new(
-            "gearbox-tray",
-            Severity::Warning,
-            "the gearbox reaches behind the tray's surface",
-        )
-        .measured(clearance, 0.0, Unit::Millimetre)
-        .remedy("a smaller bend_deg either way, or a tray farther away")
-        .on("tray"),
-    );
+    Finding::new(
+        "gearbox-tray",
+        Severity::Warning,
+        "the gearbox reaches behind the tray's surface",
+    )
+    .measured(clearance, 0.0, Unit::Millimetre)
+    .remedy("a smaller bend_deg of either sign, or a tray farther away")
+    .on("tray")
+    .add_to(report);
 }
 
 /// Table 1 of the paper: carrier turns at which each arm picks and plants.
@@ -234,19 +233,12 @@ fn working_points(mechanism: &ThreeArm) -> Table {
     let row = |name: &str, f: &dyn Fn(u32) -> f64| {
         (name.to_owned(), arms.iter().map(|&arm| f(arm)).collect())
     };
-    Table {
-        name: "working-points",
-        title: "Carrier turn",
-        unit: Unit::Angle,
-        columns: arms
-            .iter()
-            .map(|&arm| format!("arm {}", numeral(arm)))
-            .collect(),
-        rows: vec![
+    Table::new("working-points", "Carrier turn", Unit::Angle)
+        .columns(arms.iter().map(|&arm| format!("arm {}", numeral(arm))))
+        .rows(vec![
             row("picking", &|arm| mechanism.picking(arm)),
             row("planting", &|arm| mechanism.planting(arm)),
-        ],
-    }
+        ])
 }
 
 fn numeral(arm: u32) -> &'static str {
@@ -272,29 +264,28 @@ fn unmet(mechanism: &ThreeArm, arms: Option<&ArmClearance>, report: &mut Report)
         ..Missed::default()
     });
     let mut note = |rule, message: &str, input: f64| {
-        report.findings.push(
-            Finding::new(rule, Severity::Note, message)
-                .measured(input.rem_euclid(TAU), None, Unit::Angle)
-                .at(input),
-        );
+        Finding::new(rule, Severity::Note, message)
+            .measured(input.rem_euclid(TAU), None, Unit::Angle)
+            .at(input)
+            .add_to(report);
     };
     match path.picking_rule {
         PickingRule::Given => {}
         PickingRule::EntersTray => note(
             "picking",
-            "arms pick where the tip enters the tray",
+            "picking angle not given: the arms pick where the tip enters the tray",
             path.picking,
         ),
         PickingRule::Farthest => note(
             "picking",
-            "arms pick where the tip reaches farthest towards the tray; work.picking_deg or tray.distance says otherwise",
+            "picking angle not given: the arms pick where the tip is farthest towards the tray. Set work.picking_deg or tray.distance to change it",
             path.picking,
         ),
     }
     if path.planting_rule == PlantingRule::Lowest {
         note(
             "planting",
-            "arms plant where the tip is lowest; work.planting_deg says otherwise",
+            "planting angle not given: the arms plant where the tip is lowest. Set work.planting_deg to change it",
             path.planting,
         );
     }
@@ -335,10 +326,9 @@ fn tooth_findings(teeth: &[FlankCount; 2], report: &mut Report) {
             "of {} flanks of each of the {part}, {} are undercut and {} short of the full addendum at this module",
             sound.flanks, sound.undercut, sound.short
         );
-        report.findings.push(
-            Finding::new("full-teeth", Severity::Warning, message)
-                .measured(f64::from(sound.unsound), 0.0, Unit::Count)
-                .on(part),
-        );
+        Finding::new("full-teeth", Severity::Warning, message)
+            .measured(f64::from(sound.unsound), 0.0, Unit::Count)
+            .on(part)
+            .add_to(report);
     }
 }

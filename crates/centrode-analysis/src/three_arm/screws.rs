@@ -3,7 +3,7 @@ use centrode_machines::three_arm::{Pusher, ThreeArm};
 use crate::Report;
 use crate::no_screws::no_screws;
 
-/// Tells of carrier plates and covers of the arms for which no screws are found.
+/// Reports carrier plates and covers of the arms for which no screws are found.
 pub(super) fn check_screws(mechanism: &ThreeArm, pusher: &Pusher, report: &mut Report) {
     let Ok(arm) = mechanism.arm_body() else {
         return;

@@ -30,7 +30,7 @@ pub enum VariantsError {
         /// Points of the pitch curve.
         points: usize,
     },
-    /// A parameter is asked for twice.
+    /// A parameter is requested twice.
     #[error("`{0}` is given twice")]
     Twice(String),
     /// The pitch curve is of another kind.

@@ -35,7 +35,7 @@ impl From<CamError> for ExportError {
     }
 }
 
-/// The files of a cam in the formats asked for, named after it, not yet on disk.
+/// The files of a cam in the requested formats, named after it, not yet on disk.
 ///
 /// # Errors
 /// [`ExportError`], for instance for a format of machines or a tolerance so coarse that the contours cross.

@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 /// The profile table of a cam at `rows` equal steps of the cam angle: where it is touched, with outward
 /// normal and curvature, the roller's centre, the follower's motion and pressure angle, and whether the
-/// place is cut away by undercut.
+/// position is cut away by undercut.
 #[must_use]
 pub fn columns(cam: &Cam, rows: u32) -> Vec<Column> {
     let disc = cam.disc();

@@ -8,7 +8,7 @@ use centrode_kinematics::machine::{
 use centrode_machines::feeder::{Feeder, FeederPart, GearBody, Plate};
 
 use super::gears::TITLES;
-use super::plates::spacer;
+use super::plates::{made, spacer};
 use crate::turned;
 
 /// Corners of a path.
@@ -70,23 +70,13 @@ fn paths(feeder: &Feeder, machine: &mut LinkedMachine) {
 }
 
 fn list(feeder: &Feeder, plate: &Plate, machine: &mut LinkedMachine) {
-    let spec = &feeder.design().plates;
     let (part, name) = (plate.part, plate.part.name());
-    let Some(link) = machine.link_named(name) else {
-        return;
-    };
-    let cut: f64 = plate.cut_outs().iter().map(|hole| hole.area().abs()).sum();
-    let volume = (plate.outline.area() - cut) * plate.thickness;
+    let links = vec![part.link(); part.quantity() as usize];
     machine.part(machine::Part {
         name: name.into(),
-        links: vec![link; part.quantity() as usize],
-        material: spec.material.clone(),
-        blank: Blank::plate(&plate.outline, plate.thickness),
-        mass: Some(volume * spec.density * 1e-9),
-        file: name.into(),
         remark: format!("z = {}", number(plate.bottom, PLACES)),
         place: machine.place_on_edge(name, &plate.outline),
-        ..machine::Part::default()
+        ..made(feeder, plate).listed(links)
     });
 }
 
@@ -97,16 +87,10 @@ fn screws(feeder: &Feeder, machine: &mut LinkedMachine) {
         return;
     };
     let frame = FeederPart::Frame;
-    let mass = spacer.mass([0.0, spacer.thickness]).ok();
     machine.part(machine::Part {
         name: "spacer of the frame".into(),
-        links: vec![frame.link(); screws.at.len()],
-        blank: Blank::plate(&spacer.outline, spacer.thickness),
-        mass: mass.map(|mass| mass.mass),
         remark: format!("{} long", number(spacer.thickness, PLACES)),
-        material: spacer.material,
-        file: spacer.name,
-        ..machine::Part::default()
+        ..spacer.listed(vec![frame.link(); screws.at.len()])
     });
     let role = "of the frame's plates";
     turned::list(&[screws.screws(&[frame.name().into()], role)], machine);
@@ -125,74 +109,54 @@ fn pins(feeder: &Feeder, machine: &mut LinkedMachine) {
     ));
 }
 
-/// The intermittent gears with their cams and pins, which are not cut for this.
+/// The intermittent gears with their cams.
 fn gears(feeder: &Feeder, machine: &mut LinkedMachine) {
     let spec = &feeder.design().gears;
-    let crank = machine.link_named(FeederPart::Crank.name()).unwrap_or(0);
-    let made = spec.body();
-    let rim = |pitches: u32| [0.0, 0.5 * spec.module * f64::from(pitches) + spec.module];
-    let bored = |pitches: u32| format!("{pitches} pitches, bore Ø{}", number(spec.bore, PLACES));
-    let [own, mate, entry, exit] = GearBody::NAMES.map(|name| machine.link_named(name));
-    // Arcs are laid a micrometre to either side of the teeth: a gear's blank is that of the teeth themselves.
-    let cut = own.and_then(|_| feeder.gears().ok());
-    let toothed = |file: &str| {
-        let pair = cut.as_ref()?;
-        let contour = match file == GearBody::NAMES[0] {
-            true => pair.driver(),
-            false => pair.driven(),
+    let toothed = [
+        ("driver", spec.driver_pitches, 0),
+        ("driven gear", spec.driven_pitches, FeederPart::Crank.link()),
+    ];
+    let links = GearBody::NAMES.map(|name| machine.link_named(name));
+    let cut = links[0].and_then(|_| feeder.gears().ok());
+    let count = if feeder.has_cams() { 4 } else { 2 };
+    for (index, (name, file)) in TITLES
+        .into_iter()
+        .zip(GearBody::NAMES)
+        .enumerate()
+        .take(count)
+    {
+        let seen = toothed.get(index);
+        let own = links[index].map(|link| &machine.links[link]);
+        let solid = own.and_then(|link| match &machine.shapes[link.shape?].form {
+            Form::Solids(solids) => solids.first(),
+            _ => None,
+        });
+        // Arcs are laid a micrometre to either side of the teeth: a gear's blank is that of the teeth themselves.
+        let teeth = cut.as_ref().map(|pair| [pair.driver(), pair.driven()]);
+        let blank = match seen {
+            Some(_) => teeth.and_then(|teeth| Blank::round(teeth[index], spec.width)),
+            None => solid.and_then(|solid| Blank::plate(solid.outline(), spec.width)),
         };
-        Blank::round(contour, spec.width)
-    };
-    let mut add =
-        |name: &str, links: Vec<usize>, file: &str, remark: String, seen: Option<(&str, u32)>| {
-            let weighed = links.first().map(|&link| &machine.links[link]);
-            let body = weighed.and_then(|link| match &machine.shapes[link.shape?].form {
-                Form::Solids(solids) if link.name == file => solids.first(),
-                _ => None,
-            });
-            let blank = body.and_then(|body| match seen {
-                Some(_) => toothed(file),
-                None => Blank::plate(body.outline(), spec.width),
-            });
-            machine.part(machine::Part {
-                name: name.into(),
-                blank,
-                mass: weighed
-                    .filter(|link| link.name == file)
-                    .and_then(|link| Some(link.mass?.mass)),
-                links,
-                material: made.material.clone(),
-                file: file.into(),
-                remark,
-                place: seen.and_then(|(figure, pitches)| machine.place_on(figure, rim(pitches))),
-                ..machine::Part::default()
-            });
+        let remark = match seen {
+            Some((_, pitches, _)) => {
+                format!("{pitches} pitches, bore Ø{}", number(spec.bore, PLACES))
+            }
+            None => "next to the intermittent gear".into(),
         };
-    let (driver, driven) = (spec.driver_pitches, spec.driven_pitches);
-    let seen = Some(("driver", driver));
-    add(
-        TITLES[0],
-        vec![own.unwrap_or(0)],
-        "gear-driver",
-        bored(driver),
-        seen,
-    );
-    let seen = Some(("driven gear", driven));
-    add(
-        TITLES[1],
-        vec![mate.unwrap_or(crank)],
-        "gear-driven",
-        bored(driven),
-        seen,
-    );
-    if feeder.has_cams() {
-        let beside = "next to the intermittent gear";
-        for (name, link, file) in [
-            (TITLES[2], entry, "gear-entry-cam"),
-            (TITLES[3], exit, "gear-exit-cam"),
-        ] {
-            add(name, vec![link.unwrap_or(0)], file, beside.into(), None);
-        }
+        machine.part(machine::Part {
+            name: name.into(),
+            links: vec![links[index].or(seen.map(|seen| seen.2)).unwrap_or(0)],
+            material: spec.body().material,
+            blank,
+            mass: own.and_then(|link| Some(link.mass?.mass)),
+            file: file.into(),
+            remark,
+            place: seen.and_then(|(figure, pitches, _)| {
+                let rim = 0.5 * spec.module * f64::from(*pitches) + spec.module;
+                machine.place_on(figure, [0.0, rim])
+            }),
+            ..machine::Part::default()
+        });
     }
 }
 

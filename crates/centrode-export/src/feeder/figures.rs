@@ -57,7 +57,7 @@ pub(super) fn draw(
             FeederPart::Coupler | FeederPart::Rocker => false,
         });
         machine.marks.extend(named.map(|joint| Mark {
-            name: joint.name.into(),
+            name: joint.name.clone(),
             figure,
             at: joint.at.coords.into(),
         }));

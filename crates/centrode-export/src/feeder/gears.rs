@@ -181,7 +181,8 @@ fn tip(gears: &IntermittentPair, member: Member) -> f64 {
     corners.map(|at| at.coords.norm()).fold(0.0, f64::max)
 }
 
-/// Corners of a part's contour, in order, and how the side that begins there is bent: the tangent of a quarter of its angle.
+/// Corners of a part's contour, in order, each with the bulge of the side that begins there: the tangent of a quarter of the
+/// arc's angle, 0 for a line.
 pub(super) fn columns(part: &Plate) -> Vec<Column> {
     let segments = part.outline.segments();
     let of = |value: fn(&Segment) -> f64| segments.iter().map(value);
@@ -196,7 +197,7 @@ pub(super) fn columns(part: &Plate) -> Vec<Column> {
     ]
 }
 
-/// The gears in place as the motion begins.
+/// The gears assembled, at the start of the motion.
 pub(super) fn assembly(gears: &IntermittentPair, parts: &[Plate]) -> Drawing {
     let mut drawing = cutting::drawing().layer(CAM, Color::Green, LineType::Continuous, 0.25);
     for part in parts {

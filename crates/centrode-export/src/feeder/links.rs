@@ -1,5 +1,5 @@
 use centrode_gear::IntermittentPair;
-use centrode_kinematics::machine::{Form, LinkedMachine, Mounted, Quantity, Shape};
+use centrode_kinematics::machine::{LinkedMachine, Quantity};
 use centrode_machines::feeder::{Feeder, FeederPart, Plate};
 
 use super::plates::spacer;
@@ -16,9 +16,7 @@ pub(super) fn drawn(
     let mut machine = feeder.links(feeder.design().drive.carried_mass);
     let meaning =
         "angle the intermittent gear has turned by since the effector left its place of rest";
-    machine.column("input_angle_rad", "rad", meaning, Quantity::Input(1.0));
-    let time = Quantity::Input(1.0 / feeder.speed());
-    machine.column("time_s", "s", "time at the design's speed", time);
+    machine.input_columns(meaning);
     for part in FeederPart::ALL
         .into_iter()
         .filter(|part| part.carrier().is_some())
@@ -43,45 +41,24 @@ pub(super) fn machine(feeder: &Feeder, plates: &[Plate]) -> Result<LinkedMachine
         let name = plate.part.name();
         let bodies = feeder.bodies(plate);
         let (solids, mass) = bodies.map_err(ExportError::no_solid(name))?;
-        let shape = machine.shape(Shape {
-            name: format!("links/{name}"),
-            part: String::new(),
-            form: Form::Solids(solids),
-        });
+        let shape = machine.solids(&format!("links/{name}"), "", solids);
         let link = &mut machine.links[plate.part.link()];
         link.mass = Some(mass);
         link.shape = Some(shape);
     }
-    spacers(feeder, &mut machine)?;
+    let screws = feeder.frame_screws().and_then(Result::ok);
+    if let (Some(screws), Some(spacer)) = (screws, spacer(feeder)) {
+        let bottom = screws.faces[0] + screws.plate;
+        let at = screws.at.iter().map(|at| [at.x, at.y, bottom]);
+        let at: Vec<[f64; 3]> = at.collect();
+        let pieces = spacer.pieces(&mut machine, ["links/spacer", ""], &at)?;
+        for (body, own) in pieces {
+            machine.mount_body(FeederPart::Frame.link(), body, Some(own));
+        }
+    }
     // Shafts and pins add to the masses of the plates.
     arrangement::annotate(feeder, plates, &mut machine);
     Ok(machine)
-}
-
-/// Spacers between the plates of the frame.
-fn spacers(feeder: &Feeder, machine: &mut LinkedMachine) -> Result<(), ExportError> {
-    let found = feeder.frame_screws().and_then(Result::ok);
-    let (Some(screws), Some(spacer)) = (found, spacer(feeder)) else {
-        return Ok(());
-    };
-    let solid = spacer
-        .solid()
-        .map_err(ExportError::no_solid(&spacer.name))?;
-    let own = solid.mass_properties(spacer.density);
-    let shape = machine.shape(Shape {
-        name: format!("links/{}", spacer.name),
-        part: String::new(),
-        form: Form::Solids(vec![solid]),
-    });
-    for at in &screws.at {
-        let body = Mounted {
-            shape,
-            at: [at.x, at.y, screws.faces[0] + screws.plate],
-            turn: [0.0; 3],
-        };
-        machine.mount_body(FeederPart::Frame.link(), body, Some(own));
-    }
-    Ok(())
 }
 
 fn meaning_of(part: FeederPart) -> (&'static str, &'static str) {

@@ -2,7 +2,6 @@ use crate::cutting::CENTER;
 use crate::number::capital;
 use crate::plate::{self, Hole};
 use centrode_formats::drawing::{Anchor, Color, Drawing, EntityShape, LineType, Text};
-use centrode_formats::sheet::number;
 use centrode_geometry::{Bounds, Point, Vector};
 use centrode_kinematics::machine::Stock;
 use centrode_machines::feeder::{Feeder, FeederPart, Plate};
@@ -16,29 +15,16 @@ const POINTS: u32 = 360;
 /// A plate of the six-bar as a shop makes it: the distances of its holes are as exact as the swing needs them.
 pub(super) fn made(feeder: &Feeder, plate: &Plate) -> plate::Plate {
     let (spec, making) = (&feeder.design().plates, &feeder.design().making);
-    let joints = plate.joints.iter().filter(|joint| joint.hole.is_some());
-    let pins = plate.holes.iter().zip(joints).map(|(outline, joint)| {
+    let pins = plate.holes().map(|joint| Hole {
         // Only the effector's pivot lies off the line through the others.
-        let off = match joint.at {
+        off: match joint.at {
             at if at == Point::origin() => 0.0,
             at if at.y == 0.0 => making.length_tolerance,
             _ => making.pivot_tolerance,
-        };
-        let mut bored = Hole::bore(outline.clone(), &feeder.hub(joint));
-        if !bored.notes.is_empty() {
-            // Its contour is no circle, whose place the sheet would tell.
-            let [x, y] = [joint.at.x, joint.at.y];
-            let place = format!("at {}, {}", number(x, 4), number(y, 4));
-            bored.notes.insert(1, place);
-        }
-        Hole {
-            label: joint.name.into(),
-            off,
-            is_seat: !bored.notes.is_empty(),
-            ..bored
-        }
+        },
+        ..Hole::of_pin(joint.outline(), joint)
     });
-    let slot = plate.slot.iter().map(|(_, outline)| Hole {
+    let slot = plate.slot.iter().map(|outline| Hole {
         fit: spec.slot_fit.clone(),
         ..Hole::from(outline.clone())
     });
@@ -54,22 +40,14 @@ pub(super) fn made(feeder: &Feeder, plate: &Plate) -> plate::Plate {
         FeederPart::Slider => spec.slider_fit.clone(),
         _ => String::new(),
     };
+    let stock = Stock::new(&spec.material, spec.density).treated(&spec.heat_treatment);
+    let (outline, thickness) = (plate.outline.clone(), plate.thickness);
     plate::Plate {
-        name: name.into(),
-        title: capital(name),
         quantity: plate.part.quantity() as usize,
-        outline: plate.outline.clone(),
         holes: pins.chain(slot).chain(screws).collect(),
-        opening: None,
-        thickness: plate.thickness,
-        material: spec.material.clone(),
-        density: spec.density,
-        heat_treatment: Some(spec.heat_treatment.clone()),
         notes: vec![note],
-        tables: Vec::new(),
-        exactness: None,
-        marks: Vec::new(),
         classes: [rim, String::new()],
+        ..plate::Plate::new(name, &capital(name), outline, thickness, stock)
     }
 }
 

@@ -15,7 +15,7 @@ struct Gauge {
 }
 
 impl Gauge {
-    /// Tolerance of a class by that of class 5, um, rounded as the standard asks for.
+    /// Tolerance of a class by that of class 5, um, rounded as the standard requires.
     fn of(self, fifth: f64) -> f64 {
         let exact = fifth * 2_f64.powf(0.5 * (f64::from(self.class) - 5.0));
         match exact {

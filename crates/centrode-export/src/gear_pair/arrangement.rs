@@ -4,7 +4,7 @@ use crate::number::range;
 use centrode_formats::sheet::number;
 use centrode_gear::design::BodySpec;
 use centrode_gear::{Gear, GearPair, Member};
-use centrode_kinematics::machine::{Blank, Callout, Datum, Fit, Key, LinkedMachine, Part, Supply};
+use centrode_kinematics::machine::{Blank, Callout, Datum, Key, LinkedMachine, Part};
 
 /// Material of keys; their mass is that of the shaft's link, which is the customer's.
 const KEY: &str = "steel";
@@ -19,7 +19,7 @@ pub fn contact_data(contact_ratio: [f64; 2], backlash: [f64; 2]) -> Vec<Datum> {
     ]
 }
 
-/// Lists the gears and tells the pair's arrangement.
+/// Lists the gears and fills the pair's arrangement.
 pub(super) fn annotate(pair: &GearPair, machine: &mut LinkedMachine) {
     list_pair(pair, "", &[Member::Driver, Member::Driven], machine);
     let stated = &mut machine.arrangement;
@@ -124,14 +124,8 @@ pub(crate) fn list_keys(machine: &mut LinkedMachine, body: &BodySpec, links: Vec
 fn list_shafts(machine: &mut LinkedMachine, gear: &Gear, name: &str, links: Vec<usize>) {
     if gear.body().bore > 0.0 && !links.is_empty() {
         let body = gear.body();
-        let fit = Fit::new(name, body.bore, [&body.bore_fit, &body.shaft_fit]);
-        machine.part(Part {
-            name: name.into(),
-            links: links.clone(),
-            supply: Supply::Given,
-            remark: fit::shaft(&fit),
-            ..Part::default()
-        });
+        let fit = body.seat(name);
+        machine.part(Part::given(name, links.clone(), fit::shaft(&fit)));
         machine.fit(fit);
         list_keys(machine, body, links);
     }
@@ -165,11 +159,8 @@ fn data(pair: &GearPair) -> Vec<Datum> {
     data.extend(of_both(pair, None));
     let radius = number(pair.rolling().radius(0.0), 6);
     data.push(Datum::new("Pitch point at φ = 0, from driver", "r", radius));
-    data.push(Datum::new(
-        "Ratio at φ = 0",
-        "i",
-        number(pair.ratio(0.0), 6),
-    ));
+    let ratio = number(pair.ratio(0.0).recip(), 6);
+    data.push(Datum::new("Ratio at φ = 0", "i", ratio));
     data
 }
 
@@ -178,36 +169,20 @@ pub(crate) fn of_both(pair: &GearPair, of: Option<Member>) -> Vec<Datum> {
     let (driver, driven) = pair.mean_ratio();
     let a = pair.center_distance();
     let (minimum, maximum) = pair.rolling().radii(Member::Driver);
-    let ratios = [minimum / (a - minimum), maximum / (a - maximum)];
-    // In a machine of several meshes either gear may move the other.
-    let (mean, ratio, turns, ratios) = match of {
-        None => (
-            "driver : driven",
-            "driven : driver",
-            [driver, driven],
-            ratios,
-        ),
-        Some(Member::Driver) => (
-            "this gear : mate",
-            "mate : this gear",
-            [driver, driven],
-            ratios,
-        ),
+    let [low, high] = [a / maximum - 1.0, a / minimum - 1.0];
+    // In a machine of several meshes either gear may drive the other.
+    let (gears, turns, ratios) = match of {
+        None => ("driver : driven", [driver, driven], [low, high]),
+        Some(Member::Driver) => ("this gear : mate", [driver, driven], [low, high]),
         Some(Member::Driven) => {
-            let [minimum, maximum] = ratios.map(f64::recip);
-            let turns = [driven, driver];
-            (
-                "this gear : mate",
-                "mate : this gear",
-                turns,
-                [maximum, minimum],
-            )
+            let inverse = [high.recip(), low.recip()];
+            ("this gear : mate", [driven, driver], inverse)
         }
     };
     let turns = format!("{}:{}", turns[0], turns[1]);
     let mut data = vec![
-        Datum::new(&format!("Mean ratio, turns {mean}"), "", turns),
-        Datum::new(&format!("Ratio, {ratio} speed"), "i", range(ratios, 6)),
+        Datum::new(&format!("Mean ratio, turns {gears}"), "", turns),
+        Datum::new(&format!("Ratio, {gears} speed"), "i", range(ratios, 6)),
         Datum::new("Centre distance", "a", number(a, 6)),
         Datum::new(
             "Backlash, as designed, normal",
@@ -219,7 +194,7 @@ pub(crate) fn of_both(pair: &GearPair, of: Option<Member>) -> Vec<Datum> {
     data
 }
 
-/// Half of what a pair with a normal backlash, mm, lets its centre distance be shorter, mm; none without backlash.
+/// Half of what a pair with a normal backlash, mm, lets its centre distance be shorter, mm; `None` without backlash.
 pub(crate) fn half_backlash(pair: &GearPair, backlash: f64) -> Option<f64> {
     let [minimum, _] = pair.backlash_limits(backlash);
     (minimum > 0.0).then(|| 0.5 * shorter(pair, minimum))

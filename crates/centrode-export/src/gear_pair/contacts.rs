@@ -7,13 +7,13 @@ use crate::picture::{Contacts, Track, short};
 const SAMPLES: u32 = 8;
 /// Samples of the pitch point in one turn of the driver.
 pub(crate) const PITCH_SAMPLES: u32 = 120;
-/// Places are rounded by this share of the module, inputs of gears on fixed axes by the same number of radians.
+/// Positions are rounded by this share of the module, inputs of gears on fixed axes by the same number of radians.
 pub(crate) const ROUNDING: f64 = 1e-4;
 
 /// Flanks of the driver that touch.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) enum Flanks {
-    /// Those that go ahead as the driver turns clockwise: they touch where it drives that way.
+    /// Those that go ahead as the driver turns clockwise: they touch where it drives in that direction.
     Leading,
     /// The others.
     Trailing,
@@ -37,7 +37,7 @@ impl Flanks {
     }
 }
 
-/// Places at which the flanks touch while the driver drives, along one cycle, in the axes of the frame.
+/// Positions at which the flanks touch while the driver drives, along one cycle, in the axes of the frame.
 ///
 /// The driver turns clockwise: it drives by its leading flanks.
 #[must_use]
@@ -57,7 +57,7 @@ pub fn contacts(pair: &GearPair) -> Contacts {
     }
 }
 
-/// A track of inputs and places, rounded to units.
+/// A track of inputs and positions, rounded to units.
 pub(crate) fn track(
     samples: impl IntoIterator<Item = (f64, Point)>,
     [angle, length]: [f64; 2],
@@ -71,7 +71,7 @@ pub(crate) fn track(
     Track::from_samples(samples.into_iter().map(rounded))
 }
 
-/// Paths of contact of one cycle: polar angles of the driver, ascending, and places with the driver's axis at the origin
+/// Paths of contact of one cycle: polar angles of the driver, ascending, and positions with the driver's axis at the origin
 /// and the driven gear's on the x axis.
 ///
 /// By the law of gearing a flank touches its mate where its normal passes through the pitch point; as long as both
@@ -85,7 +85,7 @@ pub(crate) fn paths(pair: &GearPair, flanks: Flanks) -> Vec<Vec<(f64, Point)>> {
         Flanks::Leading => -sin,
         Flanks::Trailing => sin,
     };
-    // The driven flank about the same place of the pitch curves, as the gears roll on.
+    // The driven flank about the same point of the pitch curves, as the gears roll on.
     let mate = |crossing: f64| {
         let along = crossing.rem_euclid(lengths[1]);
         let off = |side: &ToothSide| {

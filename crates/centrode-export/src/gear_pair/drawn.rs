@@ -24,7 +24,7 @@ impl<'a> Drawn<'a> {
         }
     }
 
-    /// A gear, or both in place at phi = 0.
+    /// A gear, or both assembled at phi = 0.
     pub(super) fn drawing(&self, subject: Subject, curves: Curves) -> Drawing {
         if let Some(member) = subject.member() {
             return sheet::gear(self.contours(member, curves));

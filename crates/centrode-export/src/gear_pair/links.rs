@@ -3,8 +3,7 @@ use std::sync::Arc;
 use centrode_gear::{Gear, GearPair, Member, Role};
 use centrode_geometry::Outline;
 use centrode_kinematics::machine::{
-    Form, GearMesh, Input, Joint, Line, LineRole, Linear, Link, LinkedMachine, Quantity, Shape,
-    Surface,
+    GearMesh, Input, Joint, Line, LineRole, Linear, Link, LinkedMachine, Quantity, Surface,
 };
 use centrode_kinematics::transmission::Transmission;
 
@@ -18,7 +17,7 @@ use crate::ExportError;
 pub fn machine(pair: &GearPair) -> Result<LinkedMachine, ExportError> {
     let mut machine = drawn(pair);
     for (link, member) in [(1, Member::Driver), (2, Member::Driven)] {
-        embody(&mut machine, link, pair, member, "")?;
+        embody(&mut machine, link, pair, member, [member.name(); 2])?;
     }
     Ok(machine)
 }
@@ -36,30 +35,19 @@ pub fn drawn(pair: &GearPair) -> LinkedMachine {
         },
         ..LinkedMachine::default()
     };
-    let [base, driver, driven] =
-        ["base", Member::Driver.name(), Member::Driven.name()].map(|name| {
-            machine.link(Link {
-                name: name.into(),
-                ..Link::default()
-            })
-        });
+    let [base, driver, driven] = ["base", Member::Driver.name(), Member::Driven.name()]
+        .map(|name| machine.link(Link::new(name)));
     // At the driver's polar angle phi the driver has turned by -phi, the driven gear by its driven angle.
-    let law = Linear {
-        start: 0.0,
-        slope: -1.0,
-    };
+    let law = Linear::new(0.0, -1.0);
     let driving = machine.joint(Joint::turning(base, driver, Arc::new(law)));
     let law: Arc<dyn Transmission> = Arc::new(pair.rolling().clone());
     let at = [pair.center_distance(), 0.0, 0.0];
     let joint = machine.joint(Joint::turning(base, driven, law).at(at));
-    machine.meshes.push(GearMesh {
-        links: [driver, driven],
+    machine.meshes.push(GearMesh::new(
+        [driver, driven],
         joint,
-        copy: 0,
-        pressure_angle: Some(pair.pressure_angle()),
-        axes: Default::default(),
-        pitch: None,
-    });
+        pair.pressure_angle(),
+    ));
     machine.column(
         "driver_angle_rad",
         "rad",
@@ -105,24 +93,19 @@ pub(crate) fn lines_within(outline: &Outline, gear: &Gear) -> Vec<Line> {
     lines
 }
 
-/// Gives a link the body of a gear, whose files' names begin with the prefix.
+/// Gives a link the body of a gear, by the name of its files and that of its teeth.
 pub(crate) fn embody(
     machine: &mut LinkedMachine,
     link: usize,
     pair: &GearPair,
     member: Member,
-    prefix: &str,
+    [file, name]: [&str; 2],
 ) -> Result<(), ExportError> {
     let solid = solid(pair, member)?;
     let gear = pair.gear(member);
-    let name = member.name();
     let surface = machine.surface(teeth(gear, name));
     let mass = solid.mass_properties(gear.body().density);
-    let shape = machine.shape(Shape {
-        name: format!("{prefix}{name}-body"),
-        part: format!("{prefix}{name}"),
-        form: Form::Solids(vec![solid]),
-    });
+    let shape = machine.solids(&format!("{file}-body"), file, vec![solid]);
     let link = &mut machine.links[link];
     link.mass = Some(mass);
     link.shape = Some(shape);
@@ -131,19 +114,16 @@ pub(crate) fn embody(
 }
 
 /// The teeth of a gear: flanks and tips touch, fillets do not.
-pub(crate) fn teeth(gear: &Gear, name: &str) -> Surface {
+fn teeth(gear: &Gear, name: &str) -> Surface {
     let touches =
         |(role, owner): (&Role, &u32)| matches!(role, Role::Flank | Role::Tip).then_some(*owner);
     Surface {
-        name: name.into(),
-        outline: gear.outline().clone(),
-        span: [0.0, gear.body().width],
         teeth: gear
             .roles()
             .iter()
             .zip(gear.owners())
             .map(touches)
             .collect(),
-        coarseness: 1.0,
+        ..Surface::new(name, gear.outline().clone(), [0.0, gear.body().width])
     }
 }

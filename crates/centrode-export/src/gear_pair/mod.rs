@@ -23,7 +23,7 @@ pub(crate) use contacts::{Flanks, PITCH_SAMPLES, ROUNDING, paths, track};
 pub use curves::curves;
 use drawn::Drawn;
 pub use links::{drawn, machine};
-pub(crate) use links::{embody, lines, lines_within, teeth};
+pub(crate) use links::{embody, lines, lines_within};
 pub(crate) use sheets::{Label, measured, over_pins};
 pub use sheets::{Subject, sheets};
 pub use solid::{mesh, solid};
@@ -34,7 +34,7 @@ impl From<GearPairError> for ExportError {
     }
 }
 
-/// The files of a pair in the formats asked for, not yet on disk. URDF and MJCF bring the STL files they
+/// The files of a pair in the requested formats, not yet on disk. URDF and MJCF bring the STL files they
 /// name (URDF a folder of them to touch with), the law of motion and a script that plays them.
 ///
 /// # Errors
@@ -49,11 +49,11 @@ pub fn files(
     package.finish()
 }
 
-/// The files of one gear, or of both in place, in the formats asked for and at any tolerance: drawing and sheets, of
+/// The files of one gear, or of both assembled, in the requested formats and at any tolerance: drawing and sheets, of
 /// a gear solid and tables, too.
 ///
 /// # Errors
-/// [`ExportError`] where the gear is no solid, or a size asked for is too small.
+/// [`ExportError`] where the gear is no solid, or a requested size is too small.
 pub fn subject_files(
     pair: &GearPair,
     subject: Subject,

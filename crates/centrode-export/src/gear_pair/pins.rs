@@ -4,7 +4,7 @@ use centrode_gear::{GearPair, Member, OverPins, Pin};
 /// Measuring pins, a row a tooth space: where the pin lies, and the measures over it. Cells of a space
 /// that cannot be measured are empty, and the last column says why.
 ///
-/// Where the design tells deviations of tooth thickness, the limits that they leave follow.
+/// If the design gives deviations of tooth thickness, their limits follow.
 pub(super) fn columns(
     pair: &GearPair,
     member: Member,

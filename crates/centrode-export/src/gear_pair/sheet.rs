@@ -68,7 +68,7 @@ pub(super) fn gear(contours: &Contours) -> Drawing {
     drawing
 }
 
-/// Both gears in place at phi = 0, the driver's axis at the origin.
+/// Both gears assembled at phi = 0, the driver's axis at the origin.
 pub(super) fn assembly(pair: &GearPair, [driver, driven]: [&Contours; 2]) -> Drawing {
     let mut drawing = layers().layer(TEXT, Color::Foreground, LineType::Continuous, 0.25);
     let a = pair.center_distance();

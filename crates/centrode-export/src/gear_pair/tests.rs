@@ -360,12 +360,12 @@ fn ratios_of_a_gear_of_a_machine_are_those_of_itself_and_its_mate() {
     assert_eq!(
         (name.as_str(), own.as_str()),
         (
-            "Ratio, driven : driver speed",
-            "Ratio, mate : this gear speed"
+            "Ratio, driver : driven speed",
+            "Ratio, this gear : mate speed"
         )
     );
     assert_eq!(value, other);
-    // r / (a - r) of an ellipse turns over into itself.
+    // The ratios of an ellipse are their own inverses.
     assert_eq!(stated(Some(Member::Driven)).1, value);
     let mut design = GearPairDesign::new(PitchSpec::Circle(Circle {
         module: Some(2.0),
@@ -374,11 +374,14 @@ fn ratios_of_a_gear_of_a_machine_are_those_of_itself_and_its_mate() {
     }));
     design.mean_ratio = [2, 1];
     let pair = GearPair::resolve(&design).expect("a sound pair");
-    let turns = |of| of_both(&pair, of)[0].value.clone();
-    assert_eq!(
-        [turns(Some(Member::Driver)), turns(Some(Member::Driven))],
-        ["2:1", "1:2"]
-    );
+    let stated = |of| {
+        let data = of_both(&pair, of);
+        (data[0].value.clone(), data[1].value.clone())
+    };
+    // Driving speed over driven speed, as ISO 1122-1 has it: the driver turns twice as fast.
+    assert_eq!(stated(None), ("2:1".into(), "2".into()));
+    assert_eq!(stated(Some(Member::Driver)), stated(None));
+    assert_eq!(stated(Some(Member::Driven)), ("1:2".into(), "0.5".into()));
 }
 
 #[test]

@@ -3,15 +3,15 @@ use centrode_geometry::{ConvexPieces, Mesh, Point, Tolerance, Vector, convex_pie
 use centrode_kinematics::machine::Surface;
 use std::collections::BTreeMap;
 
-/// Convex bodies that stand for a surface.
+/// Convex bodies that replace a surface.
 pub(super) struct ContactBodies {
     /// Of a gear the teeth in order, each one body or several, then the hub.
     pub(super) bodies: Vec<Convex>,
-    /// How far a body stands out of the surface at most, mm.
+    /// Maximum distance by which a body exceeds the surface, mm.
     pub(super) excess: f64,
 }
 
-/// A surface as convex bodies between its heights that stand off it by no more than the tolerance, as often as the surface
+/// A surface as convex bodies between its heights that are off it by no more than the tolerance, as often as the surface
 /// allows.
 pub(super) fn all(surface: &Surface, tolerance: Tolerance) -> ContactBodies {
     let tolerance = tolerance.scaled(surface.coarseness);
@@ -43,7 +43,7 @@ fn plate(surface: &Surface, tolerance: Tolerance) -> ContactBodies {
 /// end, cut into as many pieces as it takes to stand out of it by no more than the tolerance. Under them
 /// the hub, from the bottom of one space to that of the next, its bore filled.
 ///
-/// Fillets are left out: mates do not touch there, and each would take a dozen bodies.
+/// Fillets are omitted: mates do not touch there, and each would take a dozen bodies.
 fn gear(surface: &Surface, tolerance: Tolerance) -> ContactBodies {
     // Half for the chords of a concave flank, half for what bridges them.
     let half = tolerance.scaled(0.5);
@@ -95,12 +95,13 @@ struct Sections {
     teeth: BTreeMap<u32, Vec<Vec<Point>>>,
     /// Corners of what carries them.
     hub: Vec<Point>,
-    /// How far the hub stands out of the contour at most, mm.
+    /// Maximum distance by which the hub exceeds the contour, mm.
     excess: f64,
 }
 
 impl Sections {
-    /// Takes a contour apart whose points begin a part of a tooth, by number, or of a space.
+    /// Splits a contour into teeth and spaces. `owners` has, for each point, the number of the tooth whose part begins there; `None`
+    /// if a space begins.
     fn new(contour: &[Point], owners: &[Option<u32>], tolerance: Tolerance) -> Self {
         let n = contour.len();
         // Begin with a whole space, not in the middle of one.

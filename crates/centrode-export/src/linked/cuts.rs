@@ -2,7 +2,7 @@ use centrode_formats::drawing::Anchor;
 use centrode_formats::sheet::Table;
 use centrode_kinematics::machine::{Blank, LinkedMachine, Part};
 
-/// Parts from which on a list of what is cut pays: those of a gear pair are told by their own sheets.
+/// Parts from which on a list of what is cut pays: those of a gear pair are on their own sheets.
 const WORTH_IT: usize = 4;
 
 /// The pieces of stock that a machine is made from, those of one material and thickness together; empty for a few parts.

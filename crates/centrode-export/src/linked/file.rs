@@ -40,7 +40,7 @@ pub enum MachineFileError {
         /// Its version.
         version: u32,
     },
-    /// The machine does not hang together.
+    /// The machine is not connected.
     #[error(transparent)]
     LinkedMachine(#[from] LinkedMachineError),
 }
@@ -105,7 +105,7 @@ pub fn write(machine: &LinkedMachine) -> serde_json::Result<Vec<u8>> {
 /// Reads the plain file of a machine.
 ///
 /// # Errors
-/// [`MachineFileError`] where it is of another kind, or the machine does not hang together.
+/// [`MachineFileError`] where it is of another kind, or the machine is not connected.
 pub fn read(bytes: &[u8]) -> Result<LinkedMachine, MachineFileError> {
     let MachineFile {
         format,

@@ -66,7 +66,7 @@ pub(crate) fn add(machine: &LinkedMachine, package: &mut Package<'_>) -> Result<
     if urdf {
         package.file(&format!("{MODEL}.urdf"), urdf::write(&simulated.model)?)?;
         for body in simulated.model.links.iter().flat_map(|l| &l.collision) {
-            // Links that are alike have the same bodies.
+            // Links that are equal have the same bodies.
             let name = urdf::collision_file(&body.name);
             package.shown(&name, || Ok(body.mesh.clone()))?;
         }
@@ -80,7 +80,7 @@ pub(crate) fn add(machine: &LinkedMachine, package: &mut Package<'_>) -> Result<
     Ok(())
 }
 
-/// Adds the whole machine in place, one body a link or several.
+/// Adds the whole assembled machine, one or several bodies per link.
 pub(crate) fn add_whole(
     machine: &LinkedMachine,
     package: &mut Package<'_>,
@@ -125,7 +125,7 @@ pub fn motion_schema() -> serde_json::Value {
 /// Reads the table of motion; both scripts hold it.
 const LAW: &str = include_str!("law.py");
 
-/// A script with the class in the place of its import, so that one file is enough to run it.
+/// A script with the class instead of its import, so that one file is enough to run it.
 fn script(script: &str) -> Vec<u8> {
     const IMPORT: &str = "# isort: split\nfrom law import Law\n";
     let class = LAW.find("class ").map_or("", |at| &LAW[at..]);

@@ -6,7 +6,7 @@ use centrode_kinematics::machine::{Form, JointKind, Link, LinkedMachine, Shape};
 use super::motion::Line;
 use super::{bodies, motion};
 
-/// A machine as simulators want it.
+/// A machine as simulators require it.
 pub(crate) struct Simulated {
     pub(crate) model: Model,
     /// Loops that the tree of joints leaves open.
@@ -211,7 +211,7 @@ fn note(
     }
     if let Some(excess) = of(false) {
         note += &format!(
-            " Other bodies that touch are convex and stand off by at most {excess:.1e} mm."
+            " Other bodies that touch are convex and exceed the parts by at most {excess:.1e} mm."
         );
     }
     if let Some(off) = seen.iter().map(|seen| seen.off).reduce(f64::max) {

@@ -30,7 +30,7 @@ pub(super) fn steps(machine: &LinkedMachine, tolerance: Tolerance) -> (u32, f64)
     (steps as u32, bend * (period / steps).powi(2) / 8.0)
 }
 
-/// Maximum acceleration by the input of any place on a link that its own joint causes, mm/rad^2: a chord over a step h
+/// Maximum acceleration by the input of any position on a link that its own joint causes, mm/rad^2: a chord over a step h
 /// is off by at most h^2/8 of it.
 fn bend(machine: &LinkedMachine) -> f64 {
     let of = machine.joints.iter().map(|joint| {

@@ -22,7 +22,7 @@ pub struct MotionFile {
     pub interpolation: Interpolation,
     /// Joints of the models that move.
     pub joints: Vec<JointWords>,
-    /// Points whose places are in the table.
+    /// Points whose positions are in the table.
     pub points: Vec<PointWords>,
     /// Links that touch by their teeth.
     pub meshes: Vec<MeshWords>,
@@ -63,7 +63,7 @@ pub struct ColumnWords {
 pub struct Interpolation {
     /// `cubic Hermite`: by the values and rates of two rows.
     pub kind: &'static str,
-    /// Maximum way of a link off its own by straight lines between rows instead, mm.
+    /// Maximum path of a link off its own by straight lines between rows instead, mm.
     pub linear_error_max_mm: f64,
 }
 
@@ -78,7 +78,7 @@ pub struct JointWords {
     pub factor: f64,
     /// Offset: the joint is zero where the cycle begins.
     pub offset: f64,
-    /// Column of its rate; none for a joint that moves evenly.
+    /// Column of its rate; `None` for a joint that moves evenly.
     pub rate: Option<String>,
     /// Factor from that column to the joint's rate by the input, rad/rad or m/rad.
     pub rate_factor: f64,
@@ -108,9 +108,9 @@ pub struct PointWords {
     pub name: String,
     /// The link it is fixed to.
     pub link: String,
-    /// Place in the link's frame, mm.
+    /// Position in the link's frame, mm.
     pub at_mm: [f64; 3],
-    /// Columns of its place in the frame of the first link, x and y or x, y and z.
+    /// Columns of its position in the frame of the first link, x and y or x, y and z.
     pub columns: Vec<String>,
 }
 
@@ -130,7 +130,7 @@ pub struct MeshWords {
 pub struct ClosureWords {
     /// The two links that are pinned to each other.
     pub links: [String; 2],
-    /// Place of the pin in the first one's frame, mm.
+    /// Position of the pin in the first one's frame, mm.
     pub at_mm: [f64; 3],
     /// The joints that it moves.
     pub joints: Vec<String>,

@@ -4,7 +4,7 @@ use centrode_formats::drawing::Anchor;
 use centrode_formats::sheet::Table;
 use centrode_kinematics::machine::{LinkedMachine, Part, Supply};
 
-/// The parts list of a machine, numbered from one; columns that say nothing of any part are left out.
+/// The parts list of a machine, numbered from one; columns that say nothing of any part are omitted.
 #[must_use]
 pub fn parts_list(machine: &LinkedMachine) -> Table {
     let row = |(index, part): (usize, &Part)| {
@@ -45,7 +45,7 @@ pub fn parts_list(machine: &LinkedMachine) -> Table {
     let mut given = machine.parts.iter().map(|part| part.supply);
     let given = given.any(|supply| supply == Supply::Given);
     let given =
-        given.then(|| "Given parts are the customer's: the remark says what they must fit.".into());
+        given.then(|| "Parts marked given come from the customer; sizes are in the remark.".into());
     Table {
         title: "Parts".into(),
         headings: headings.map(|(heading, _)| heading.into()).into(),

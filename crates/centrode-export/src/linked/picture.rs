@@ -20,19 +20,19 @@ const PER_TURN: f64 = 60.0;
 const BETWEEN: f64 = 10.0;
 /// Most steps of a period.
 const MOST: f64 = 2e4;
-/// How long before a jump the picture still stands where it jumps from, and how long after it stands where it jumps to, rad.
+/// Time before a jump at which the picture has the position before, and after it at which it has the one after, rad.
 const BEFORE: f64 = 1e-6;
 const AFTER: f64 = 1e-9;
-/// Change over [`BEFORE`], as a share of the law's speed, above which a law jumps.
+/// Change of a law over [`BEFORE`], relative to one plus its speed, above which it counts as a jump.
 const SUDDEN: f64 = 1e-3;
-/// Finest tolerance, as a share of how far the material of a figure reaches: what is finer is seen by no eye, and a figure out of all
-/// proportion to the others would take without end.
+/// Minimum tolerance, as a share of the reach of the largest figure: nobody sees a finer one, and a figure much larger than the
+/// others would need too many points.
 const FINEST: f64 = 1e-7;
-/// Angles and inputs are rounded by, rad.
+/// Steps to which angles and inputs are rounded, rad.
 const ANGLE: f64 = 1e-6;
 const INPUT: f64 = 1e-7;
 
-/// The machine as a picture that moves; lines are within the tolerance of the exact ones, and so are places at steps of the
+/// The machine as a picture that moves; lines are within the tolerance of the exact ones, and so are positions at steps of the
 /// input, between them within ten times as much. A tolerance below 1e-7 of how far the largest figure reaches is that.
 #[must_use]
 pub fn picture(machine: &LinkedMachine, tolerance: Tolerance) -> Picture {
@@ -89,12 +89,12 @@ pub fn picture(machine: &LinkedMachine, tolerance: Tolerance) -> Picture {
     }
 }
 
-/// Where all figures stand over a period.
+/// Poses of all figures over a period.
 struct Course {
     input: Vec<f64>,
     /// Of each figure x, y and turn at every input.
     poses: Vec<Vec<[f64; 3]>>,
-    /// Of each point its place at every input; empty for one that nothing traces.
+    /// Of each point its position at every input; empty for one that nothing traces.
     points: Vec<Vec<Point>>,
 }
 
@@ -147,7 +147,7 @@ impl Course {
         }
     }
 
-    /// Maximum distance of a figure's lines from the middle of where they stand before and after, jumps aside.
+    /// Maximum distance of a figure's lines from the middle of their positions before and after, jumps aside.
     fn bend(&self, machine: &LinkedMachine, rims: &[Vec<Point>], sudden: &[f64]) -> f64 {
         let smooth = |&i: &usize| {
             sudden
@@ -172,7 +172,7 @@ impl Course {
         figures.map(of).fold(0.0, f64::max)
     }
 
-    /// The way of the point that a line traces, as seen from its figure.
+    /// The path of the point that a line traces, as seen from its figure.
     fn way(&self, line: &Line, figure: usize, tolerance: Tolerance) -> Option<Path> {
         let LinePath::Trace(point) = line.path else {
             return None;
@@ -229,7 +229,7 @@ pub(super) fn placed([x, y, turn]: &[f64; 3]) -> Isometry2<f64> {
     Isometry2::new(nalgebra::Vector2::new(*x, *y), *turn)
 }
 
-/// Where a figure stands at an input; a link's turn goes on from the one before.
+/// Pose of a figure at an input; a link's turn goes on from the one before.
 pub(super) fn pose(
     machine: &LinkedMachine,
     figure: &Figure,
@@ -282,7 +282,7 @@ fn traces(sketch: &Sketch, point: usize) -> bool {
     lines.any(|line| line.path == LinePath::Trace(point))
 }
 
-/// Inputs at which a figure's speed jumps, and just before and after those at which its place does, ascending.
+/// Inputs at which a figure's speed jumps, and just before and after those at which its position does, ascending.
 fn sudden(machine: &LinkedMachine, required: &[bool]) -> Vec<f64> {
     let moved = machine.joints.iter().filter(|joint| required[joint.child]);
     let mut laws: Vec<&dyn Transmission> = moved.map(|joint| joint.law.as_ref()).collect();

@@ -256,7 +256,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("--drive", action="store_true", help="move the joints by forces")
     parser.add_argument("--contact", action="store_true", help="hold the input alone to its law")
-    parser.add_argument("--backward", action="store_true", help="turn the other way")
+    parser.add_argument("--backward", action="store_true", help="turn in the opposite direction")
     parser.add_argument("--speed", type=float, help="speed of the input, rad/s (the design's)")
     parser.add_argument("--load", type=float, default=0.01, help="torque at the end of a chain of gears, N m")
     parser.add_argument("--check", action="store_true", help="no window: print the errors as one line of JSON")

@@ -6,13 +6,13 @@ use centrode_kinematics::machine::LinkedMachine;
 use nalgebra::Isometry3;
 use serde::Serialize;
 
-/// Head of a machine in space: the files of its meshes, its links, and where they stand.
+/// Head of a machine in space: the files of its meshes, its links, and their poses.
 #[derive(Serialize)]
 struct Head<'a> {
     shapes: Vec<StlFile>,
     /// Bodies of the links.
     links: Vec<Placed<'a>>,
-    /// Inputs at which their places are given, rad.
+    /// Inputs at which their positions are given, rad.
     input: &'a [f64],
 }
 
@@ -28,7 +28,7 @@ struct Placed<'a> {
     shape: usize,
 }
 
-/// The machine in space: each mesh as the STL file that goes with the simulator models, and the place of each body of a link,
+/// The machine in space: each mesh as the STL file that goes with the simulator models, and the position of each body of a link,
 /// at every input given.
 ///
 /// The bytes are: length of the head (u32), head (JSON, filled with blanks to a multiple of four bytes); of each body in turn

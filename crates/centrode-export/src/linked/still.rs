@@ -15,7 +15,7 @@ const LONGEST: usize = 2000;
 /// Contours as they were fitted last.
 static FITTED: Recent<(Outline, Tolerance), Path, CACHED> = Recent::new();
 
-/// Contours of a machine, those that look alike once, to be fitted by several threads.
+/// Contours of a machine, those that look the same once, to be fitted by several threads.
 pub(super) struct Still<'a> {
     tolerance: Tolerance,
     contours: Vec<Contour<'a>>,
@@ -61,7 +61,7 @@ impl<'a> Still<'a> {
         }
     }
 
-    /// A line as a path; none for the way of a point.
+    /// A line as a path; `None` for the path of a point.
     pub(super) fn path(&self, line: &Line) -> Option<Path> {
         let role = line.role;
         match &line.path {

@@ -21,10 +21,10 @@ const COLORS: [[u8; 3]; 8] = [
 /// Colour of shafts and pins, with their rings and keys.
 const MOUNTED: [u8; 3] = [0x5a, 0x60, 0x68];
 
-/// Places of a body in the machine: those of its pieces, each with the name of its link.
+/// Positions of a body in the machine: those of its pieces, each with the name of its link.
 type Places = Vec<(String, Isometry3<f64>)>;
 
-/// A shape of the machine as it stands there.
+/// A shape of the machine in its position there.
 struct Placed<'a> {
     shape: &'a Shape,
     color: [u8; 3],
@@ -51,7 +51,7 @@ impl<'a> Whole<'a> {
         Ok(Self { bodies })
     }
 
-    /// Bodies in their places as the general arrangement shows the machine.
+    /// Bodies in their positions as the general arrangement shows the machine.
     pub(super) fn objects(&self) -> Vec<Object<'_>> {
         let bodies = self.bodies.iter();
         bodies
@@ -72,7 +72,7 @@ impl<'a> Whole<'a> {
     }
 }
 
-/// Exact bodies in their places as the general arrangement shows the machine; none of those known as meshes alone.
+/// Exact bodies in their positions as the general arrangement shows the machine; none of those known as meshes alone.
 pub(super) fn components(machine: &LinkedMachine) -> Vec<Component<'_>> {
     let shapes = placed(machine).into_iter();
     let components = shapes.filter_map(|placed| {

@@ -10,7 +10,7 @@ use crate::picture::Curve;
 const SAMPLES: u32 = 720;
 const MOST: u32 = 2880;
 
-/// Angle of every body along the cycle, place and speed of those that slide, pressure angle of every cam, and the minimum
+/// Angle of every body along the cycle, position and speed of those that slide, pressure angle of every cam, and the minimum
 /// transmission angle of all dyads, where there are any.
 #[must_use]
 pub fn curves(composed: &Machine) -> Vec<Curve> {
@@ -36,7 +36,7 @@ fn names(composed: &Machine) -> Vec<(Cow<'static, str>, &'static str)> {
     let angles = moving.map(|body| (format!("Angle of {}", body.name), "°"));
     let slides = sliding(composed).flat_map(|(MachineBody { name, .. }, _)| {
         [
-            (format!("Place of {name}"), "mm"),
+            (format!("Position of {name}"), "mm"),
             (format!("Speed of {name}"), "mm/s"),
         ]
     });

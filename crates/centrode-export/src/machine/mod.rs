@@ -18,7 +18,7 @@ const SCENERY: &str = "SCENERY";
 
 /// Mass and inertia of a body without any in a simulator model, kg and kg mm².
 const TINY: f64 = 1e-6;
-/// Points of the way of a point.
+/// Points of the path of a point.
 const POINTS: u32 = 360;
 
 /// A composed machine as links and joints, each body a plate.
@@ -43,8 +43,9 @@ pub fn outlined(composed: &Machine) -> Result<LinkedMachine, ExportError> {
 
 /// The files of a machine in the requested formats, not yet on disk.
 ///
-/// Each body is a plate named after it, each gear and cam a part of its name; `assembly` is the machine where its cycle begins, with the ways of its points. MJCF
-/// closes the loops by equality constraints; URDF, which has no loops, leaves them open and says so.
+/// Each body is a plate named after it, each gear and cam a part of its name; `assembly` is the machine where its cycle begins,
+/// with the paths of its points. MJCF closes the loops by equality constraints; URDF, which has no loops, leaves them open and
+/// says so.
 ///
 /// # Errors
 /// [`ExportError`], for instance where the tolerance is too coarse.
@@ -94,12 +95,12 @@ fn plates(machine: &LinkedMachine, link: usize) -> &[Solid] {
     }
 }
 
-/// The machine where its cycle begins, seen along the shafts, a layer a body, with the ways of its points.
+/// The machine where its cycle begins, seen along the shafts, a layer a body, with the paths of its points.
 fn assembly(composed: &Machine, machine: &LinkedMachine) -> Drawing {
     let mut drawing = Drawing::default().layer(PATH, Color::Blue, LineType::Continuous, 0.18);
     for (index, body) in composed.bodies().iter().enumerate() {
         let layer = body.name.to_uppercase();
-        // The frame, and bars that stand for bodies without plates, are no parts.
+        // The frame, and bars that represent bodies without plates, are no parts.
         let line = match index == 0 || composed.bar(index).is_some() {
             true => LineType::Phantom,
             false => LineType::Continuous,
@@ -124,7 +125,7 @@ fn assembly(composed: &Machine, machine: &LinkedMachine) -> Drawing {
     drawing
 }
 
-/// Place of a body where the cycle begins.
+/// Position of a body where the cycle begins.
 fn start(composed: &Machine, body: usize) -> Isometry2<f64> {
     let at = composed.place(body, Point::origin(), 0.0);
     Isometry2::new(at.coords, composed.angle(body, 0.0).position)

@@ -1,7 +1,7 @@
-use centrode_formats::sheet::number;
-use centrode_geometry::{Outline, Solid};
-use centrode_kinematics::machine::LinkedMachine;
-use centrode_machines::machine::{Hardware, Machine, PinHole};
+use centrode_geometry::Solid;
+use centrode_kinematics::machine::{LinkedMachine, Stock};
+use centrode_machines::PinHole;
+use centrode_machines::machine::{Hardware, Machine};
 
 use super::plates;
 use crate::gear_pair::{self, Label};
@@ -56,7 +56,7 @@ pub(super) fn add(
     Ok(())
 }
 
-/// A body as a plate; none for one without a contour.
+/// A body as a plate; `None` for one without a contour.
 fn plate(
     composed: &Machine,
     machine: &LinkedMachine,
@@ -90,40 +90,19 @@ fn plate(
         }
         (None, _) => None,
     };
+    let (outline, thickness) = (solid.outline().clone(), composed.thickness(body));
+    let stock = Stock::new(&spec.material, spec.density).treated(&spec.heat_treatment);
     Some(Plate {
-        name: name.clone(),
-        title: capital(name),
         quantity,
-        outline: solid.outline().clone(),
         holes,
-        opening: None,
-        thickness: composed.thickness(body),
-        material: spec.material.clone(),
-        density: spec.density,
-        heat_treatment: Some(spec.heat_treatment.clone()),
         notes: std::iter::once(axes).chain(slides).collect(),
-        tables: Vec::new(),
-        exactness: None,
-        marks: Vec::new(),
         classes: [guided.map_or("", |_| block).into(), String::new()],
+        ..Plate::new(name, &capital(name), outline, thickness, stock)
     })
 }
 
 /// Holes of a plate: those of pins and shafts, then those of the screws of a frame, or slots.
 fn holes(composed: &Machine, body: usize, solid: &Solid, pins: Vec<PinHole>) -> Vec<Hole> {
-    let hole = |(outline, pin): (&Outline, PinHole)| {
-        let mut bored = Hole::bore(outline.clone(), &pin.hub);
-        if !bored.notes.is_empty() {
-            // Its contour is no circle, whose place the sheet would tell.
-            let [x, y] = [pin.at.x, pin.at.y].map(|mm| number(mm, 4));
-            bored.notes.insert(1, format!("at {x}, {y}"));
-        }
-        Hole {
-            label: pin.name,
-            is_seat: !bored.notes.is_empty(),
-            ..bored
-        }
-    };
     let [guide, _] = Machine::GUIDE_FIT;
     let slots = composed.slots(body);
     let own_slots = solid.holes().get(pins.len()..).unwrap_or_default();
@@ -132,7 +111,8 @@ fn holes(composed: &Machine, body: usize, solid: &Solid, pins: Vec<PinHole>) -> 
         fit: guide.into(),
         ..Hole::from(outline.clone())
     });
-    let bored = solid.holes().iter().zip(pins).map(hole);
+    let bored = solid.holes().iter().zip(&pins);
+    let bored = bored.map(|(outline, pin)| Hole::of_pin(outline.clone(), pin));
     let screws = composed.frame_screws().filter(|_| body == 0);
     bored
         .chain(own_slots)

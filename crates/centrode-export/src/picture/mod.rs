@@ -18,7 +18,7 @@ use serde::Serialize;
 
 /// A machine drawn to scale, and how it moves.
 ///
-/// As JSON its links name a shape each, so that parts which look alike are told, and drawn, once.
+/// As JSON its links name a shape each, so that parts which look the same are reported, and drawn, once.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Picture {
     /// The moving parts, the hindmost first.
@@ -27,9 +27,9 @@ pub struct Picture {
     pub motion: Motion,
     /// Points that can be dragged with the mouse.
     pub handles: Vec<Handle>,
-    /// Places worth a name.
+    /// Named positions.
     pub marks: Vec<Mark>,
-    /// Places at which gears touch, mesh by mesh.
+    /// Positions at which gears touch, mesh by mesh.
     pub contacts: Vec<Contacts>,
     /// Minimum x, minimum y, maximum x, maximum y of everything over the whole cycle, mm.
     pub extent: [f64; 4],
@@ -44,7 +44,7 @@ pub struct PictureLink {
     pub paths: Vec<Path>,
 }
 
-/// A place worth a name.
+/// A named position.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Mark {
     /// Its name.
@@ -55,7 +55,7 @@ pub struct Mark {
     pub at: [f64; 2],
 }
 
-/// Places at which the flanks of two gears touch, in the axes of the picture.
+/// Positions at which the flanks of two gears touch, in the axes of the picture.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Contacts {
     /// The gears, in words.
@@ -66,17 +66,17 @@ pub struct Contacts {
     pub paths: Vec<Track>,
 }
 
-/// Place that moves with the input.
+/// Position that moves with the input.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Track {
-    /// Inputs, rad, ascending; there is no such place before the first and after the last.
+    /// Inputs, rad, ascending; there is no such position before the first and after the last.
     pub input: Vec<f64>,
     /// x and y, mm, at every input.
     pub at: Vec<[f64; 2]>,
 }
 
 impl Track {
-    /// A track of inputs and places.
+    /// A track of inputs and positions.
     #[must_use]
     pub fn from_samples(samples: impl IntoIterator<Item = (f64, [f64; 2])>) -> Self {
         let (input, at) = samples.into_iter().unzip();
@@ -84,9 +84,9 @@ impl Track {
     }
 }
 
-/// Where every link stands along one cycle of the input.
+/// Poses of every link along one cycle of the input.
 ///
-/// Between samples a pose is interpolated linearly, angle and place.
+/// Between samples a pose is interpolated linearly, angle and position.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Motion {
     /// Name of the input: the turning link.
@@ -94,11 +94,11 @@ pub struct Motion {
     /// Input angles, rad, ascending, over one whole cycle.
     pub input: Vec<f64>,
     /// For every link: x, y (mm) and angle (rad) at every input, one after the other; the three alone for
-    /// one that stands still.
+    /// one that is fixed.
     pub poses: Vec<Vec<f64>>,
 }
 
-/// A point of the picture that stands for numbers of the design.
+/// A point of the picture that represents numbers of the design.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Handle {
     /// Description for those who cannot see it.

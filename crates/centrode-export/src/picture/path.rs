@@ -48,7 +48,8 @@ impl Path {
         }
     }
 
-    /// The way of a point, within the tolerance of the straight lines between the places given; closed where it ends as it begins.
+    /// The path of a point, within the tolerance of the straight lines between the given points; closed where it ends as it
+    /// begins.
     pub(crate) fn way(role: LineRole, places: &[Point], tolerance: Tolerance) -> Self {
         let unit = unit(tolerance);
         let place = |p: &Point| [short(p.x, unit), short(p.y, unit), 0.0];
@@ -76,8 +77,8 @@ impl Path {
     }
 }
 
-/// Places, by their numbers, between which straight lines leave none of the others farther away than a distance: each line reaches as
-/// far as it can.
+/// Positions, by their numbers, between which straight lines leave none of the others farther away than a distance: each line
+/// reaches as far as it can.
 fn fewest(places: &[Point], off: f64) -> Vec<usize> {
     let last = places.len().saturating_sub(1);
     let mut kept: Vec<usize> = (0..places.len().min(1)).collect();
@@ -89,10 +90,10 @@ fn fewest(places: &[Point], off: f64) -> Vec<usize> {
     kept
 }
 
-/// Number of the last place to which a straight line from the first leaves none between them farther away than a distance, as far as
-/// the next one does not turn back; 1 at least.
+/// Number of the last position to which a straight line from the first leaves none between them farther away than a distance,
+/// as far as the next one does not turn back; 1 at least.
 ///
-/// The directions in which the line passes a place near enough are a range, which narrows from place to place.
+/// The directions in which the line passes a position near enough are a range, which narrows from point to point.
 fn farthest(places: &[Point], off: f64) -> usize {
     let from = places[0];
     let (mut middle, mut range) = (None, [-FRAC_PI_2, FRAC_PI_2]);

@@ -10,7 +10,7 @@ use crate::fit;
 
 /// Words of the runout of both faces.
 const FACES: &str = "both faces";
-/// Places of lengths.
+/// Decimals of lengths.
 const PLACES: usize = 3;
 
 impl Plate {
@@ -27,7 +27,7 @@ impl Plate {
         Some((axis, steady(2.0 * self.reach(axis))))
     }
 
-    /// The edge, next to the face: seen from the left it stands on the right in first angle.
+    /// The edge, next to the face: seen from the left it is on the right in first angle.
     pub(super) fn edge(&self, draft: &mut Draft, k: f64, projection: Projection) {
         let whole = draft.bounds();
         let Bounds { min, max } = self.outline.bounds();
@@ -72,7 +72,7 @@ impl Plate {
         );
         if let Some(frame) = self.face_runout() {
             let tip = p(left, high - 0.2 * (high - low));
-            // Words of a short dimension stand above it: the frame ends before them.
+            // Words of a short dimension are above it: the frame ends before them.
             let before = left + thick + 4.0 - frame.width(FACES);
             let at = p(
                 (left - 4.0).min(before),

@@ -22,7 +22,7 @@ impl Plate {
             Some((index, (at - origin).norm()))
         });
         let others: Vec<(usize, f64)> = fitted.filter(|(index, _)| *index != first).collect();
-        // Holes of screws, which have play, are datums only of each other.
+        // Holes of screws, which have clearance, are datums only of each other.
         let of_screws = self.holes[first].screw.is_some();
         let seats = others.iter();
         let seats = seats.filter(|(index, _)| of_screws || self.holes[*index].screw.is_none());
@@ -46,7 +46,7 @@ impl Plate {
             let position = distance.and_then(|mm| grade::position_of_slot(mm, &datums));
             frames[index].extend(position);
         }
-        // A letter that nothing lies to is not told.
+        // A letter that nothing lies to is not stated.
         let is_used = (0..frames.len())
             .any(|index| index != first && Some(index) != second && !frames[index].is_empty());
         if let Some(second) = second.filter(|_| is_used) {
@@ -66,7 +66,7 @@ impl Plate {
         frames
     }
 
-    /// Runout of the faces of a body that turns on its shaft, by the circle about it.
+    /// Runout tolerance of the faces of a body seated on a shaft; it depends on the diameter of the circle around the body.
     pub(super) fn face_runout(&self) -> Option<Frame> {
         let (first, origin) = self.first_datum()?;
         if !self.holes[first].is_seat {
@@ -135,7 +135,7 @@ mod tests {
     use centrode_gear::design::BodySpec;
     use centrode_geometry::Outline;
     use centrode_kinematics::machine::Keyway;
-    use centrode_machines::machine::PinHole;
+    use centrode_machines::PinHole;
 
     use super::*;
 

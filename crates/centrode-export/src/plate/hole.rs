@@ -3,6 +3,7 @@ use centrode_formats::sheet::number;
 use centrode_gear::design::BodySpec;
 use centrode_geometry::{COMPUTED, Outline, Point, Segment};
 use centrode_kinematics::machine::{Fastening, Screw};
+use centrode_machines::PinHole;
 use std::f64::consts::TAU;
 
 /// A contour cut out of a plate.
@@ -13,10 +14,10 @@ pub(crate) struct Hole {
     pub(crate) label: String,
     /// Tolerance class of its diameter or width, ISO 286; empty where general tolerances hold.
     pub(crate) fit: String,
-    /// How far its place may be off either way, mm; 0 where general tolerances hold.
+    /// How far its position may be off in either direction, mm; 0 where general tolerances hold.
     pub(crate) off: f64,
-    /// How far its distance from another hole of the plate may be off either way, mm: that of two gears in mesh. None where
-    /// nothing asks for it.
+    /// How far its distance from another hole of the plate may be off in either direction, mm: that of two gears in mesh. None
+    /// where nothing requires it.
     pub(crate) apart: Option<f64>,
     /// Whether it is the seat of a shaft.
     pub(crate) is_seat: bool,
@@ -38,8 +39,8 @@ pub(crate) enum ScrewHole {
 }
 
 impl ScrewHole {
-    /// How far its place may be off either way, mm: screws that are fixed in a thread find their holes where hole and thread
-    /// share the play, each with a cylinder of half of it.
+    /// How far its position may be off in either direction, mm: screws that are fixed in a thread find their holes where hole
+    /// and thread share the clearance, each with a cylinder of half of it.
     fn off(self) -> f64 {
         let (Self::Clearance(screw) | Self::Thread(screw, _)) = self;
         0.25 * (screw.clearance_hole() - screw.diameter)
@@ -97,9 +98,22 @@ impl Hole {
         }
         bore
     }
+
+    /// The hole of a plate for a pin or shaft, named as its point is.
+    pub(crate) fn of_pin(outline: Outline, pin: &PinHole) -> Self {
+        let mut bored = Self::bore(outline, &pin.hub);
+        bored.is_seat = !bored.notes.is_empty();
+        if bored.is_seat {
+            // Its contour is no circle, whose position the sheet would state.
+            let [x, y] = [pin.at.x, pin.at.y].map(|mm| number(mm, 4));
+            bored.notes.insert(1, format!("at {x}, {y}"));
+        }
+        bored.label.clone_from(&pin.name);
+        bored
+    }
 }
 
-/// Holds holes that are the centre distance of gears in mesh apart, mm, to how far it may be off either way.
+/// Holds holes that are the centre distance of gears in mesh apart, mm, to how far it may be off in either direction.
 pub(crate) fn hold_apart(holes: &mut [Hole], distance: f64, off: f64) {
     const NEAR: f64 = 1e-6;
     let axes: Vec<Option<Point>> = holes.iter().map(Hole::axis).collect();

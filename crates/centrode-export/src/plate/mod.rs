@@ -15,11 +15,14 @@ use centrode_gear::design::BodySpec;
 use centrode_geometry::{
     MassProperties, Opening, Outline, Point, Solid, SolidError, Tolerance, Vector,
 };
-use centrode_kinematics::machine::{Fastening, Stock};
+use centrode_kinematics::machine::{Blank, Fastening, LinkedMachine, Mounted, Part, Stock};
 use centrode_spec::DrawingSpec;
 pub(crate) use hole::{Hole, hold_apart};
 use hole::{HoleKind, ScrewHole};
 use nalgebra::Isometry2;
+
+/// Bodies to be mounted, each with its mass.
+pub(crate) type Pieces = Vec<(Mounted, MassProperties)>;
 
 /// A part of one thickness.
 #[derive(Clone, Debug)]
@@ -39,7 +42,7 @@ pub(crate) struct Plate {
     pub(crate) material: String,
     /// kg/m^3.
     pub(crate) density: f64,
-    /// Heat treatment, empty for none; `None` where a table of the sheet tells it.
+    /// Heat treatment, empty for none; `None` where a table of the sheet shows it.
     pub(crate) heat_treatment: Option<String>,
     /// Further notes of its sheet.
     pub(crate) notes: Vec<String>,
@@ -66,6 +69,33 @@ pub(crate) enum Exactness {
 }
 
 impl Plate {
+    /// One plate of a contour and thickness, mm, without holes, and without heat treatment if that of its stock is empty.
+    pub(crate) fn new(
+        name: &str,
+        title: &str,
+        outline: Outline,
+        thickness: f64,
+        stock: Stock<'_>,
+    ) -> Self {
+        Self {
+            name: name.into(),
+            title: title.into(),
+            quantity: 1,
+            outline,
+            holes: Vec::new(),
+            opening: None,
+            thickness,
+            material: stock.material.into(),
+            density: stock.density,
+            heat_treatment: Some(stock.heat_treatment.into()),
+            notes: Vec::new(),
+            tables: Vec::new(),
+            exactness: None,
+            marks: Vec::new(),
+            classes: Default::default(),
+        }
+    }
+
     /// A body with its bore, as gears and cams have it, of files of a name and with a title.
     pub(crate) fn of_body(
         name: &str,
@@ -74,25 +104,11 @@ impl Plate {
         bore: Option<Outline>,
         body: &BodySpec,
     ) -> Self {
+        let stock = Stock::new(&body.material, body.density).treated(&body.heat_treatment);
+        let bore = bore.map(|bore| Hole::bore(bore, body));
         Self {
-            name: name.into(),
-            title: title.into(),
-            quantity: 1,
-            outline,
-            holes: bore
-                .map(|bore| Hole::bore(bore, body))
-                .into_iter()
-                .collect(),
-            opening: None,
-            thickness: body.width,
-            material: body.material.clone(),
-            density: body.density,
-            heat_treatment: Some(body.heat_treatment.clone()),
-            notes: Vec::new(),
-            tables: Vec::new(),
-            exactness: None,
-            marks: Vec::new(),
-            classes: [String::new(), String::new()],
+            holes: bore.into_iter().collect(),
+            ..Self::new(name, title, outline, body.width, stock)
         }
     }
 
@@ -107,23 +123,13 @@ impl Plate {
             at: vec![Point::origin()],
             ..screws.clone()
         };
+        let outline = Outline::circle(Point::origin(), screws.screw.diameter);
         Self {
-            name: "spacer".into(),
-            title: title.into(),
             quantity,
-            outline: Outline::circle(Point::origin(), screws.screw.diameter),
             holes: Hole::threads(&one),
-            opening: None,
-            thickness: screws.between(),
-            material: stock.material.into(),
-            density: stock.density,
-            heat_treatment: Some(stock.heat_treatment.into()),
-            notes: vec!["Those of one machine are of one length within 0.02 mm.".into()],
-            tables: Vec::new(),
-            exactness: None,
-            marks: Vec::new(),
-            classes: [String::new(), String::new()],
+            ..Self::new("spacer", title, outline, screws.between(), stock)
         }
+        .noted("Those of one machine are of one length within 0.02 mm.")
     }
 
     /// The plate with its origin elsewhere.
@@ -164,8 +170,38 @@ impl Plate {
         })
     }
 
-    pub(crate) fn mass(&self, span: [f64; 2]) -> Result<MassProperties, SolidError> {
-        Ok(self.placed(span)?.mass_properties(self.density))
+    /// Its line in the parts list of a machine, on the links that carry its pieces.
+    pub(crate) fn listed(&self, links: Vec<usize>) -> Part {
+        let solid = self.solid().ok();
+        Part {
+            name: self.title.clone(),
+            links,
+            material: self.material.clone(),
+            blank: Blank::plate(&self.outline, self.thickness),
+            mass: solid.map(|solid| solid.mass_properties(self.density).mass),
+            file: self.name.clone(),
+            ..Part::default()
+        }
+    }
+
+    /// Pieces of it to be mounted on a link, their lower faces at places in its frame, mm: names of their shape and of its part.
+    ///
+    /// # Errors
+    /// [`ExportError`] where it is no solid.
+    pub(crate) fn pieces(
+        &self,
+        machine: &mut LinkedMachine,
+        [name, part]: [&str; 2],
+        places: &[[f64; 3]],
+    ) -> Result<Pieces, ExportError> {
+        let solid = self.solid().map_err(ExportError::no_solid(&self.name))?;
+        let own = solid.mass_properties(self.density);
+        let shape = machine.solids(name, part, vec![solid]);
+        let mounted = |&at: &[f64; 3]| {
+            let turn = [0.0; 3];
+            (Mounted { shape, at, turn }, own)
+        };
+        Ok(places.iter().map(mounted).collect())
     }
 
     /// Mass of one, in words.

@@ -12,15 +12,15 @@ use super::{Exactness, Hole, HoleKind, Plate, ScrewHole};
 use crate::SheetOptions;
 use crate::{number::fixed, treatment::treatment_note};
 
-/// Most holes with their size and place next to the view; more have a table.
+/// Maximum number of holes with their size and position next to the view; more have a table.
 const CALLED_OUT: usize = 6;
 /// Most sides of a contour that a sheet is read for; more are in the cutting file alone.
 const SIDES: usize = 40;
 /// Radius of a timing mark on a sheet, mm.
 const MARK: f64 = 0.6;
-/// How much farther from a hole than next to it its label may stand, mm.
+/// How much farther from a hole than next to it its label may be, mm.
 const FARTHER: [f64; 4] = [0.0, 2.0, 5.0, 9.0];
-/// Places of lengths.
+/// Decimals of lengths.
 const PLACES: usize = 3;
 
 impl Plate {
@@ -80,9 +80,9 @@ impl Plate {
         });
         lines.push(match self.shows_axes() {
             true => {
-                "Places x, y from the crossing of the long centre lines, x to the right.".into()
+                "Positions x, y from the crossing of the long centre lines, x to the right.".into()
             }
-            false => "Places x, y from an origin next to the part, x to the right.".into(),
+            false => "Positions x, y from an origin next to the part, x to the right.".into(),
         });
         let frames = self.frames();
         if frames
@@ -90,14 +90,14 @@ impl Plate {
             .flatten()
             .any(|frame| frame.characteristic == Characteristic::Position)
         {
-            lines.push("Places of holes with a position tolerance are exact.".into());
+            lines.push("Positions of holes with a position tolerance are exact (TED).".into());
         }
         lines.extend(self.notes.iter().cloned());
         lines.extend(self.heat_treatment.as_deref().map(treatment_note));
         lines
     }
 
-    /// Whether the axes of all places cross on the part.
+    /// Whether the axes of all positions cross on the part.
     fn shows_axes(&self) -> bool {
         let Bounds { min, max } = self.outline.bounds();
         min.x < 0.0 && max.x > 0.0 && min.y < 0.0 && max.y > 0.0
@@ -120,7 +120,7 @@ impl Plate {
             draft.line(Pen::Axis, p(low.x - 3.0, 0.0), p(high.x + 3.0, 0.0));
             draft.line(Pen::Axis, p(0.0, low.y - 3.0), p(0.0, high.y + 3.0));
         }
-        // Below everything, and left of the notes. The diameter of a round one stands at its edge.
+        // Below everything, and left of the notes. The diameter of a round one is at its edge.
         if self.round().is_none() && self.blank().is_none() {
             draft.dimension(
                 [p(low.x, low.y), p(high.x, low.y)],
@@ -203,7 +203,7 @@ impl Plate {
         }
     }
 
-    /// Holes by their size and place.
+    /// Holes by their size and position.
     fn callouts(&self, k: f64) -> Vec<(Point, Vec<NoteLine>)> {
         let frames = self.frames();
         let holes = self.holes.iter().enumerate();
@@ -271,13 +271,13 @@ impl Plate {
         })
     }
 
-    /// Contours that a sheet tells by their corners: the outline, and holes that are neither round nor slots.
+    /// Contours that a sheet shows by their corners: the outline, and holes that are neither round nor slots.
     fn stated(&self) -> impl Iterator<Item = &Outline> {
         let holes = self.holes.iter().filter(|hole| hole.is_by_contour());
         std::iter::once(&self.outline).chain(holes.map(|hole| &hole.outline))
     }
 
-    /// Whether the sheet tells all of the contour.
+    /// Whether the sheet shows all of the contour.
     fn is_stated(&self) -> bool {
         self.outline.segments().len() <= SIDES
             && self.stated().all(|contour| {
@@ -286,7 +286,7 @@ impl Plate {
             })
     }
 
-    /// The contour's corners and roundings; none for one with more than a sheet would be read for.
+    /// The contour's corners and roundings; `None` for one with more than a sheet would be read for.
     fn contour_table(&self) -> Option<Table> {
         if !self.is_stated() {
             return None;
@@ -342,7 +342,7 @@ fn rounding(arc: &Arc, counter_clockwise: bool) -> String {
     format!("{}{concave}{long}", number(arc.radius(), PLACES))
 }
 
-/// A place, mm, as exactly as any is written.
+/// A coordinate, mm, with the maximum number of digits.
 fn written(at: Point) -> String {
     let [x, y] = [at.x, at.y].map(|x| number(x, PLACES + 1));
     format!("{x}, {y}")
@@ -380,7 +380,7 @@ impl Hole {
         }
     }
 
-    /// Place in the plate's axes, in words.
+    /// Position in the plate's axes, in words.
     fn place(&self) -> Vec<String> {
         match self.kind() {
             HoleKind::Round(center, _) => vec![format!("at {}", written(center))],

@@ -6,10 +6,10 @@ use crate::{ExportError, fit, gear_pair, turned};
 use centrode_formats::sheet::number;
 use centrode_gear::Member;
 use centrode_groove::ShaftSolid;
-use centrode_kinematics::machine::{Axis, Blank, Datum, Dimension, LinkedMachine, Part, Supply};
+use centrode_kinematics::machine::{Axis, Blank, Datum, Dimension, LinkedMachine, Part};
 use std::f64::consts::TAU;
 
-/// Lists shaft, slider, box and gears with their masses, and tells the arrangement: the groove unrolled, the slider in it.
+/// Lists shaft, slider, box and gears with their masses, and fills the arrangement: the groove unrolled, the slider in it.
 pub(super) fn annotate(parts: &Parts<'_>, machine: &mut LinkedMachine) -> Result<(), ExportError> {
     list(parts, machine)?;
     let shaft = parts.shaft;
@@ -108,13 +108,9 @@ fn list(parts: &Parts<'_>, machine: &mut LinkedMachine) -> Result<(), ExportErro
     turned::list(std::slice::from_ref(&pin), machine);
     machine.fit(pin.fit);
     machine.part(Part {
-        name: "Box with its rail".into(),
-        supply: Supply::Given,
-        links: vec![carriage],
         mass: weight(machine, carriage).map(|mass| mass - of_pin),
-        remark: in_box,
         place: machine.place_on("box", figures::corner(shaft).coords.into()),
-        ..Part::default()
+        ..Part::given("Box with its rail", vec![carriage], in_box)
     });
     if let Some(gears) = &parts.gears {
         // The driven gear sits on the grooved shaft.

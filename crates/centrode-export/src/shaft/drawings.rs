@@ -25,8 +25,8 @@ fn rectangle(low: Point, high: Point) -> EntityShape {
 
 /// The developed surface of the shaft, to be laid round it: along x the arc `R phi`, along y the axis.
 ///
-/// Layers: BLANK the edge, WALL the upper edges of the walls as far as they stand, CENTER the centre line,
-/// PICK the places of the slider while a seedling is picked, TEXT. Polylines are within the tolerance.
+/// Layers: BLANK the edge, WALL the upper edges of the existing walls, CENTER the centre line,
+/// PICK the positions of the slider while a seedling is picked, TEXT. Polylines are within the tolerance.
 ///
 /// # Errors
 /// [`ShaftError`] where body and groove do not go together.
@@ -83,7 +83,7 @@ pub fn developed(shaft: &SpiralShaft, tolerance: Tolerance) -> Result<Drawing, S
     Ok(drawing)
 }
 
-/// A way on the unrolled development cut into pieces of one turn each.
+/// A path on the unrolled development cut into pieces of one turn each.
 fn wrapped(way: &[Point], around: f64) -> Vec<Vec<Point>> {
     let mut pieces: Vec<Vec<Point>> = Vec::new();
     for pair in way.windows(2) {
@@ -233,7 +233,7 @@ pub fn side_view(shaft: &SpiralShaft, tolerance: Tolerance) -> Result<Drawing, S
     Ok(drawing)
 }
 
-/// Places along the shaft at which walls stand at an arc `x` round it, ascending.
+/// Positions along the shaft of the walls at an arc `x` round it, ascending.
 fn passed(edges: &[Vec<Point>], x: f64) -> Vec<f64> {
     let segments = edges.iter().flat_map(|edge| edge.windows(2));
     let mut places: Vec<f64> = segments

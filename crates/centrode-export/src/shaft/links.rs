@@ -15,7 +15,7 @@ use super::machine::{Gears, Parts};
 use super::{arrangement, figures, slider_solid};
 use crate::{ExportError, gear_pair};
 
-/// How far beyond the slider's way the box's joint lets it slide, mm.
+/// How far beyond the slider's path the box's joint lets it slide, mm.
 const ROOM: f64 = 1.0;
 /// Edge of the cube whose inertia the box has, mm.
 const CUBE: f64 = 100.0;
@@ -30,7 +30,7 @@ pub(super) const BOX: &str = "box";
 pub(super) const GEARS: &str = "gears-";
 
 /// The shaft lying along x of the world, the slider on top of it; the box slides, the slider swivels on its pin, and
-/// elliptic gears, if any, stand at the near end.
+/// elliptic gears, if any, are at the near end.
 pub(super) fn machine(parts: &Parts<'_>) -> Result<machine::LinkedMachine, ExportError> {
     let shaft = parts.shaft;
     let mut machine = drawn(parts)?;
@@ -40,11 +40,7 @@ pub(super) fn machine(parts: &Parts<'_>) -> Result<machine::LinkedMachine, Expor
         part: "shaft".into(),
         form: Form::Body(Arc::new(Grooved(shaft.clone()))),
     });
-    let cut = machine.shape(Shape {
-        name: "slider-body".into(),
-        part: "slider".into(),
-        form: Form::Solids(vec![block.clone()]),
-    });
+    let cut = machine.solids("slider-body", "slider", vec![block.clone()]);
     let block = block.mass_properties(shaft.slider().density);
     let carried = carried(shaft.load().mass - block.mass);
     for (name, mass, shape) in [
@@ -60,7 +56,8 @@ pub(super) fn machine(parts: &Parts<'_>) -> Result<machine::LinkedMachine, Expor
     if let Some(gears) = &parts.gears {
         for member in MEMBERS {
             let link = machine.link_named(member.name()).unwrap_or(0);
-            gear_pair::embody(&mut machine, link, &gears.pair, member, GEARS)?;
+            let names = [&*format!("{GEARS}{}", member.name()), member.name()];
+            gear_pair::embody(&mut machine, link, &gears.pair, member, names)?;
         }
     }
     arrangement::annotate(parts, &mut machine)?;
@@ -91,12 +88,7 @@ pub(super) fn drawn(parts: &Parts<'_>) -> Result<machine::LinkedMachine, ExportE
         ..machine::LinkedMachine::default()
     };
     let links = ["base", "frame", "shaft", BOX, "slider"];
-    let [base, frame, turned, carriage, slid] = links.map(|name| {
-        machine.link(Link {
-            name: name.into(),
-            ..Link::default()
-        })
-    });
+    let [base, frame, turned, carriage, slid] = links.map(|name| machine.link(Link::new(name)));
     // The frame's z, along the shaft, on the world's x; its x, where the slider is, upwards.
     machine.joint(Joint::fixed(base, frame).turned([PI, -FRAC_PI_2, 0.0]));
     let (turn, stroke) = (turn(parts), parts.stroke.clone());
@@ -151,10 +143,7 @@ impl SolidBody for Grooved {
 fn turn(parts: &Parts<'_>) -> Arc<dyn Transmission> {
     match &parts.gears {
         Some(gears) => Arc::new(*gears.drive),
-        None => Arc::new(Linear {
-            start: 0.0,
-            slope: 1.0,
-        }),
+        None => Arc::new(Linear::new(0.0, 1.0)),
     }
 }
 
@@ -162,9 +151,8 @@ fn turn(parts: &Parts<'_>) -> Arc<dyn Transmission> {
 fn swivel(turn: &Arc<dyn Transmission>, stroke: &Arc<dyn Transmission>, radius: f64) -> Piecewise {
     let (turn, stroke) = (turn.clone(), stroke.clone());
     let (period, breaks) = (stroke.period(), stroke.breaks());
-    Piecewise::fit(&FromFn::new(period, 0.0, breaks, move |input| MotionJet {
-        position: (stroke.at(input).velocity / turn.at(input).velocity / radius).atan(),
-        ..MotionJet::default()
+    Piecewise::fit(&FromFn::new(period, 0.0, breaks, move |input| {
+        MotionJet::at_rest((stroke.at(input).velocity / turn.at(input).velocity / radius).atan())
     }))
 }
 
@@ -178,9 +166,8 @@ fn loads(machine: &mut machine::LinkedMachine, shaft: &SpiralShaft, joint: usize
     });
     let stroke = machine.joints[joint].law.clone();
     let (period, breaks) = (stroke.period(), stroke.breaks());
-    let law = FromFn::new(period, 0.0, breaks, move |input| MotionJet {
-        position: load.rail_force(&stroke.at(input)),
-        ..MotionJet::default()
+    let law = FromFn::new(period, 0.0, breaks, move |input| {
+        MotionJet::at_rest(load.rail_force(&stroke.at(input)))
     });
     let effort = Quantity::Law(Arc::new(law));
     machine.loads.push(Load::Joint { joint, effort });
@@ -197,19 +184,8 @@ fn columns(
     let joint = |joint, order: u8, sign: f64| {
         Quantity::rate(joint, order, sign * omega.powi(i32::from(order)))
     };
+    machine.input_columns("angle of the input");
     let places = [
-        (
-            "input_angle_rad",
-            "rad",
-            "angle of the input",
-            Quantity::Input(1.0),
-        ),
-        (
-            "time_s",
-            "s",
-            "time at the design's speed",
-            Quantity::Input(1.0 / omega),
-        ),
         (
             "shaft_angle_rad",
             "rad",
@@ -225,7 +201,7 @@ fn columns(
         (
             "position_mm",
             "mm",
-            "place of the box along the shaft",
+            "position of the box along the shaft",
             joint(carriage, 0, 1.0),
         ),
         (
@@ -271,9 +247,8 @@ fn columns(
     let (period, breaks) = (parts.shaft.cycle(), machine.joints[carriage].law.breaks());
     let mut add = |name: &str, unit: &str, meaning: &str, of: fn(&GuideForce, f64) -> f64| {
         let (turn, force) = (turn.clone(), force.clone());
-        let law = FromFn::new(period, 0.0, breaks.clone(), move |input| MotionJet {
-            position: of(&force(turn.as_ref(), input), turn.at(input).velocity),
-            ..MotionJet::default()
+        let law = FromFn::new(period, 0.0, breaks.clone(), move |input| {
+            MotionJet::at_rest(of(&force(turn.as_ref(), input), turn.at(input).velocity))
         });
         machine.column(name, unit, meaning, Quantity::Law(Arc::new(law)))
     };
@@ -321,29 +296,16 @@ fn hang(
     turning: usize,
     machine: &mut machine::LinkedMachine,
 ) -> usize {
-    let links = MEMBERS.map(|member| {
-        machine.link(Link {
-            name: member.name().into(),
-            ..Link::default()
-        })
-    });
-    let law = Linear {
-        start: -gears.drive.phase - gears.slowest(),
-        slope: 1.0,
-    };
+    let links = MEMBERS.map(|member| machine.link(Link::new(member.name())));
+    let law = Linear::new(-gears.drive.phase - gears.slowest(), 1.0);
     let at = [-gears.pair.center_distance(), 0.0, end];
     let joint = machine.joint(Joint::turning(frame, links[0], Arc::new(law)).at(at));
     let meaning = "turn of the gear that drives, from its zero";
     machine.column("driver_angle_rad", "rad", meaning, Quantity::joint(joint));
     let fixed = Joint::fixed(shaft, links[1]).at([0.0, 0.0, end]);
     machine.joint(fixed.turned([0.0, 0.0, gears.rest()]));
-    machine.meshes.push(GearMesh {
-        links,
-        joint: turning,
-        copy: 0,
-        pressure_angle: Some(gears.pair.pressure_angle()),
-        axes: Default::default(),
-        pitch: None,
-    });
+    machine
+        .meshes
+        .push(GearMesh::new(links, turning, gears.pair.pressure_angle()));
     joint
 }

@@ -13,7 +13,7 @@ pub(super) struct Parts<'a> {
     pub(super) shaft: &'a SpiralShaft,
     pub(super) gears: Option<Gears<'a>>,
     pub(super) schedule: Schedule,
-    /// Way of the box by the input, mm.
+    /// Path of the box by the input, mm.
     pub(super) stroke: Arc<dyn Transmission>,
 }
 
@@ -63,11 +63,7 @@ impl<'a> Parts<'a> {
     pub(super) fn turn(&self, input: f64) -> MotionJet {
         match &self.gears {
             Some(gears) => gears.drive.at(input),
-            None => MotionJet {
-                position: input,
-                velocity: 1.0,
-                ..MotionJet::default()
-            },
+            None => MotionJet::uniform(input, 1.0),
         }
     }
 
@@ -90,11 +86,10 @@ impl<'a> Parts<'a> {
             self.shaft.traverse().at(turn.position),
         );
         let slope = motion.velocity / radius;
-        let by_turn = MotionJet {
-            position: slope.atan(),
-            velocity: motion.acceleration / radius / (1.0 + slope * slope),
-            ..MotionJet::default()
-        };
+        let by_turn = MotionJet::uniform(
+            slope.atan(),
+            motion.acceleration / radius / (1.0 + slope * slope),
+        );
         by_turn.after(&turn)
     }
 
@@ -117,8 +112,8 @@ impl Gears<'_> {
         }
     }
 
-    /// Turn of the driven gear on the shaft, rad: it has turned by its own angle at the slow place when the shaft, by
-    /// `-pick`, stands there.
+    /// Turn of the driven gear on the shaft, rad: it has turned by its own angle at the slow point when the shaft, by
+    /// `-pick`, is there.
     pub(super) fn rest(&self) -> f64 {
         self.pair.driven_angle(self.slowest()) + self.drive.phase
     }

@@ -27,11 +27,11 @@ impl From<ShaftError> for ExportError {
     }
 }
 
-/// The files of a spiral shaft in the formats asked for, not yet on disk.
+/// The files of a spiral shaft in the requested formats, not yet on disk.
 ///
 /// DXF and SVG hold the developed groove, the side view and the slider; the sheets shaft and slider with
 /// dimensions; STL, STEP and 3MF shaft and slider; CSV the lead table, motion and forces, the schedule and the
-/// way of the mill, with it as a program for a machine with a rotary axis; URDF and MJCF the model of shaft,
+/// path of the mill, with it as a program for a machine with a rotary axis; URDF and MJCF the model of shaft,
 /// box and slider with the law of motion, and a script that plays it.
 ///
 /// # Errors
@@ -44,7 +44,7 @@ pub fn files(
     all("a spiral shaft", &Parts::of_shaft(shaft), formats, options)
 }
 
-/// The files of a moving box in the formats asked for: those of its shaft with the motion by the machine's
+/// The files of a moving box in the requested formats: those of its shaft with the motion by the machine's
 /// input, and those of its elliptic gears with `gears-` before their names.
 ///
 /// # Errors

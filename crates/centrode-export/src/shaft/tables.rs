@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 /// Step of the lead table, rad: 1 deg.
 const LEAD_STEP: f64 = PI / 180.0;
 
-/// Place, speed and lead angle every degree over the whole cycle.
+/// Position, speed and lead angle every degree over the whole cycle.
 pub(super) fn lead(shaft: &SpiralShaft) -> Vec<Column> {
     let groove = shaft.groove();
     let steps = groove.steps(LEAD_STEP);
@@ -40,7 +40,7 @@ pub(super) fn schedule(schedule: &Schedule) -> Vec<Column> {
     ]
 }
 
-/// The way of the mill: angle of the shaft in its chuck, place along it, depth below the surface.
+/// The path of the mill: angle of the shaft in its chuck, position along it, depth below the surface.
 pub(super) fn tool_path(shaft: &SpiralShaft, tolerance: Tolerance) -> Vec<Column> {
     let groove = shaft.groove();
     let mill = &shaft.design().mill;

@@ -5,10 +5,10 @@ use centrode_formats::sheet::number;
 use centrode_gear::Member;
 use centrode_gear::design::BodySpec;
 use centrode_geometry::Point;
-use centrode_kinematics::machine::{self, Axis, Blank, Callout, Datum, Dimension, Fit, Supply};
+use centrode_kinematics::machine::{self, Axis, Callout, Datum, Dimension, Fit};
 use centrode_machines::three_arm::ThreeArm;
 
-/// Lists the parts and tells the arrangement: the mechanism as its first arm picks.
+/// Lists the parts and fills the arrangement: the mechanism as its first arm picks.
 pub(super) fn annotate(parts: &Parts<'_>, machine: &mut machine::LinkedMachine) {
     let mechanism = parts.mechanism;
     for part in ThreeArmPart::ALL {
@@ -45,10 +45,7 @@ pub(super) fn annotate(parts: &Parts<'_>, machine: &mut machine::LinkedMachine) 
 /// Lists what holds sun, cams and arms fast and is the customer's: the remark says what it must fit.
 fn given(parts: &Parts<'_>, machine: &mut machine::LinkedMachine) {
     let design = parts.mechanism.design();
-    let on_shaft = |body: &BodySpec| {
-        let fit = Fit::new("", body.bore, [&body.bore_fit, &body.shaft_fit]);
-        (body.bore > 0.0).then(|| fit::shaft(&fit))
-    };
+    let on_shaft = |body: &BodySpec| (body.bore > 0.0).then(|| fit::shaft(&body.seat("")));
     let cam = parts.pusher.cam().body();
     // Heights above the outer face of the carrier's front plate.
     let [[rear, _], [_, front]] = parts.gearbox.spans;
@@ -102,13 +99,7 @@ fn given(parts: &Parts<'_>, machine: &mut machine::LinkedMachine) {
     ];
     for (name, links, remark) in all {
         if let Some(remark) = remark {
-            machine.part(machine::Part {
-                name: name.into(),
-                links,
-                supply: Supply::Given,
-                remark,
-                ..machine::Part::default()
-            });
+            machine.part(machine::Part::given(name, links, remark));
         }
     }
 }
@@ -176,7 +167,7 @@ pub(super) fn links(part: ThreeArmPart, arms: u32, machine: &machine::LinkedMach
     }
 }
 
-/// Lists a part; its number stands at a piece on an arm that leaves the others room.
+/// Lists a part; its number is at a piece on an arm that leaves the others room.
 fn list(parts: &Parts<'_>, part: ThreeArmPart, machine: &mut machine::LinkedMachine) {
     let arms = parts.mechanism.arms();
     let links = links(part, arms, machine);
@@ -214,17 +205,10 @@ fn list(parts: &Parts<'_>, part: ThreeArmPart, machine: &mut machine::LinkedMach
         ThreeArmPart::PushRod => edge(machine, arm("push rod", 0)),
         _ => None,
     };
-    let mass = plate.mass([0.0, plate.thickness]).ok();
     machine.part(machine::Part {
-        name: part.title().into(),
-        links,
-        material: plate.material,
-        blank: Blank::plate(&plate.outline, plate.thickness),
-        mass: mass.map(|mass| mass.mass),
-        file: part.name().into(),
         remark: format!("{} thick", number(plate.thickness, 3)),
         place,
-        ..machine::Part::default()
+        ..plate.listed(links)
     });
 }
 

@@ -30,7 +30,7 @@ pub(super) fn contours(machine: &Parts<'_>, tolerance: Tolerance) -> Vec<(&'stat
     };
     let mut found = Vec::new();
     let mut draw = |layer: &'static str, outline: &Outline, at: &Isometry2<f64>| {
-        // Arcs first: turned splines would be fitted anew for every place.
+        // Arcs first: turned splines would be fitted anew for every position.
         found.push((layer, outline.arcs(tolerance).transformed(at)));
     };
     let carrier = place(ThreeArmLink::Carrier);

@@ -48,7 +48,7 @@ impl Mesh {
         }
     }
 
-    /// A place next to the axes of the pair, at a carrier turn, in the machine's axes.
+    /// A position relative to the axes of the pair, at a carrier turn, in the machine's axes.
     fn place(self, mechanism: &ThreeArm, input: f64, at: Point) -> Point {
         let train = mechanism.train();
         let way = train.carrier_start() + train.direction().sign() * input;
@@ -73,7 +73,7 @@ impl Mesh {
     }
 }
 
-/// Places at which the flanks of sun, intermediate gears and planets touch, while the carrier drives by the sun that is
+/// Positions at which the flanks of sun, intermediate gears and planets touch, while the carrier drives by the sun that is
 /// held; without teeth the pitch points alone.
 #[must_use]
 pub fn contacts(mechanism: &ThreeArm, teeth: Option<&GearPair>) -> Vec<Contacts> {
@@ -113,7 +113,7 @@ pub fn contacts(mechanism: &ThreeArm, teeth: Option<&GearPair>) -> Vec<Contacts>
     .collect()
 }
 
-/// Paths of contact of a mesh of the first chain: inputs, ascending, and places in the machine's axes.
+/// Paths of contact of a mesh of the first chain: inputs, ascending, and positions in the machine's axes.
 fn touching(mechanism: &ThreeArm, teeth: Option<&GearPair>, mesh: Mesh) -> Vec<Vec<(f64, Point)>> {
     let Some(pair) = teeth else {
         return Vec::new();
@@ -140,7 +140,7 @@ mod tests {
     use centrode_machines::three_arm::design::{Direction, ThreeArmDesign};
     use centrode_spec::DesignSpec as _;
 
-    /// Distance of a place of the machine's axes from the outline of a gear.
+    /// Distance of a position of the machine's axes from the outline of a gear.
     fn off(
         mechanism: &ThreeArm,
         polygon: &[Point],

@@ -32,16 +32,19 @@ pub fn curves(mechanism: &ThreeArm) -> Vec<Curve> {
         curve("Acceleration of the tip", "", "m/s²", &|chain| {
             1e-3 * tip(chain).acceleration.norm()
         }),
-        curve("Turn a carrier turn", "intermediate gear", "", &|chain| {
-            chain.train().intermediate.velocity
-        }),
-        curve("Turn a carrier turn", "planet", "", &|chain| {
+        curve(
+            "Turns per carrier turn",
+            "intermediate gear",
+            "",
+            &|chain| chain.train().intermediate.velocity,
+        ),
+        curve("Turns per carrier turn", "planet", "", &|chain| {
             chain.train().planet.velocity
         }),
     ]
 }
 
-/// Place and velocity of every arm's tip along a carrier turn, by components, at the design's rate.
+/// Position and velocity of every arm's tip along a carrier turn, by components, at the design's rate.
 #[must_use]
 pub fn arm_curves(mechanism: &ThreeArm) -> Vec<Curve> {
     let inputs = inputs();

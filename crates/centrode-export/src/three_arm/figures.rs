@@ -13,7 +13,7 @@ use crate::gear_pair;
 
 /// Planted seedlings that are shown.
 const SEEDLINGS: u32 = 4;
-/// Corners of each curve drawn in place of teeth.
+/// Corners of each curve drawn instead of teeth.
 const CORNERS: u32 = 240;
 /// Draws gears, carrier, arms, the path of the tip, tray and seedlings; the gears by their pitch curves without a pair, carrier and
 /// arms as bars without parts.
@@ -97,11 +97,7 @@ fn planted(mechanism: &ThreeArm, machine: &mut LinkedMachine) {
         let place = move |input: f64| {
             let steps = (input - release) / apart;
             let since = steps - (steps + WRITTEN).floor() + f64::from(before);
-            MotionJet {
-                position: foot.x + velocity * since * apart,
-                velocity,
-                ..MotionJet::default()
-            }
+            MotionJet::uniform(foot.x + velocity * since * apart, velocity)
         };
         let breaks = vec![release.rem_euclid(apart)];
         let x = Quantity::Law(Arc::new(FromFn::new(apart, 0.0, breaks, place)));

@@ -5,10 +5,10 @@ use nalgebra::Isometry2;
 use super::ThreeArmPart;
 use super::links::{Builder, Seen};
 use super::machine::{Parts, no_fork};
-use super::pieces::Pieces;
 use crate::ExportError;
+use crate::plate::Pieces;
 
-/// Times the tolerance by which the bodies of an arm may stand off it: arms touch nothing as closely as teeth do.
+/// Times the tolerance by which the bodies of an arm may exceed it: arms touch nothing as closely as teeth do.
 const COARSE: f64 = 20.0;
 
 /// The parts every chain has.
@@ -78,11 +78,12 @@ fn touching(parts: &Parts<'_>, builder: &mut Builder<'_>) -> Vec<usize> {
             }
         }
         Some(Surface {
-            name: format!("arm_{}", name.replace('-', "_")),
-            outline: part.outline.clone(),
-            span: [bottom, top],
-            teeth: Vec::new(),
             coarseness: COARSE,
+            ..Surface::new(
+                format!("arm_{}", name.replace('-', "_")),
+                part.outline.clone(),
+                [bottom, top],
+            )
         })
     });
     let surfaces = surfaces.into_iter().flatten();

@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 use centrode_gear::{GearPair, Member};
 use centrode_geometry::{MassProperties, Solid};
 use centrode_kinematics::machine::{
-    self, Column, Form, GearMesh, Input, Joint, JointKind, Linear, LinkPoint, Quantity,
+    self, Column, Form, GearMesh, Input, Joint, JointKind, Linear, Link, LinkPoint, Quantity,
     STANDARD_GRAVITY, Shape,
 };
 use centrode_kinematics::transmission::{FromFn, MotionJet, Transmission};
@@ -27,7 +27,7 @@ pub(super) fn cam_on_carrier(machine: &Parts<'_>, chain: u32) -> Isometry2<f64> 
 }
 
 /// Sun and tray fixed to the base, ground sliding on it, the carrier on the base, gears and cams on the carrier, arms on
-/// planets, forks and rods on arms; without parts what moves alone, and neither cams nor forks nor rods. The gears are drawn
+/// planets, forks and rods on arms. Without parts only moving links: no cams, forks or rods. The gears are drawn
 /// with the teeth of a pair, or by their pitch curves.
 pub(super) fn machine(
     mechanism: &ThreeArm,
@@ -59,10 +59,10 @@ pub(super) fn machine(
     builder.machine.column(
         "carrier_turn_rad",
         "rad",
-        "turn of the carrier from its start, positive whichever way it turns",
+        "turn of the carrier from its start, positive in the direction in which it turns",
         Quantity::Input(1.0),
     );
-    let base = builder.link("base", None, None, Vec::new());
+    let base = builder.machine.link(Link::new("base"));
     builder.surroundings(base);
     let carrier = builder.carrier(base)?;
     let sun = builder.sun(base)?;
@@ -88,12 +88,12 @@ type Solved = (f64, [LinkMotion; 3]);
 pub(super) struct Laws {
     pub(super) mechanism: ThreeArm,
     pub(super) pusher: Option<Pusher>,
-    /// Of each chain what was asked for last.
+    /// Of each chain what was requested last.
     last: Vec<Mutex<Option<Solved>>>,
 }
 
 impl Laws {
-    /// Intermediate gear, planet and arm of a chain: the train is solved once where its joints ask in turn.
+    /// Intermediate gear, planet and arm of a chain: the train is solved once for all its joints.
     fn links(&self, chain: u32, input: f64) -> [LinkMotion; 3] {
         let last = &self.last[chain as usize];
         let known = *last.lock().unwrap_or_else(PoisonError::into_inner);
@@ -118,18 +118,11 @@ pub(super) struct Builder<'a> {
 }
 
 impl Builder<'_> {
-    fn link(
-        &mut self,
-        name: &str,
-        mass: Option<MassProperties>,
-        shape: Option<usize>,
-        surfaces: Vec<usize>,
-    ) -> usize {
+    fn link(&mut self, name: &str, mass: Option<MassProperties>, shape: Option<usize>) -> usize {
         self.machine.link(machine::Link {
             name: name.into(),
             mass,
             shape,
-            surfaces,
             ..machine::Link::default()
         })
     }
@@ -137,7 +130,7 @@ impl Builder<'_> {
     /// Adds a link of a shape and mass alone.
     pub(super) fn bodied(&mut self, name: &str, seen: Option<Seen>) -> usize {
         let (shape, mass) = seen.map_or((None, None), |(shape, mass)| (Some(shape), mass));
-        self.link(name, mass, shape, Vec::new())
+        self.link(name, mass, shape)
     }
 
     /// The law of a joint by the carrier's turn.
@@ -178,15 +171,12 @@ impl Builder<'_> {
     ) -> Result<Seen, ExportError> {
         let (mut solids, mut masses): (Vec<Solid>, Vec<_>) = (Vec::new(), Vec::new());
         for (plate, span) in plates {
-            let named = || ExportError::no_solid(&plate.name);
-            solids.push(plate.placed(*span).map_err(named())?);
-            masses.push(plate.mass(*span).map_err(named())?);
+            let solid = plate.placed(*span);
+            let solid = solid.map_err(ExportError::no_solid(&plate.name))?;
+            masses.push(solid.mass_properties(plate.density));
+            solids.push(solid);
         }
-        let shape = self.machine.shape(Shape {
-            name: name.into(),
-            part: String::new(),
-            form: Form::Solids(solids),
-        });
+        let shape = self.machine.solids(name, "", solids);
         Ok((shape, MassProperties::combined(&masses)))
     }
 
@@ -195,11 +185,10 @@ impl Builder<'_> {
         let (mut shapes, mut heavy) = ([None; 2], None);
         if let Some(parts) = self.parts {
             let mut seen = |name: &str, mesh| {
-                Some(self.machine.shape(Shape {
-                    name: name.into(),
-                    part: String::new(),
-                    form: Form::Mesh(mesh, 0.0),
-                }))
+                Some(
+                    self.machine
+                        .shape(Shape::new(name, "", Form::Mesh(mesh, 0.0))),
+                )
             };
             shapes = [
                 seen("tray", surroundings::tray_body(mechanism)),
@@ -211,13 +200,13 @@ impl Builder<'_> {
             heavy = solid.map(|solid| solid.mass_properties(2000.0)).ok();
         }
         let [tray, ground] = shapes;
-        let tray = self.link("tray", None, tray, Vec::new());
+        let tray = self.link("tray", None, tray);
         self.machine.joint(Joint::fixed(base, tray));
-        let ground = self.link("ground", heavy, ground, Vec::new());
-        let law = Linear {
-            start: 0.0,
-            slope: mechanism.train().direction().sign() * mechanism.advance(),
-        };
+        let ground = self.link("ground", heavy, ground);
+        let law = Linear::new(
+            0.0,
+            mechanism.train().direction().sign() * mechanism.advance(),
+        );
         let travel = TAU * mechanism.advance();
         let (axis, range) = ([1.0, 0.0, 0.0], [-travel, travel]);
         let slide = Joint::sliding(base, ground, axis, range, Arc::new(law));
@@ -241,10 +230,7 @@ impl Builder<'_> {
             }
         }
         let train = self.mechanism.train();
-        let law = Linear {
-            start: train.carrier_start(),
-            slope: train.direction().sign(),
-        };
+        let law = Linear::new(train.carrier_start(), train.direction().sign());
         let joint = Joint::turning(base, carrier, Arc::new(law));
         let joint = self.machine.joint(joint);
         let meaning = "direction of the first intermediate gear's axis from the x axis";
@@ -266,21 +252,14 @@ impl Builder<'_> {
             return Ok(self.bodied(name, None));
         };
         let (pair, member) = parts.gear(part).ok_or_else(no_gearbox)?;
-        let solid = gear_pair::solid(pair, member)?;
-        let gear = pair.gear(member);
         // A planet has the teeth of the sun.
-        let prefix = match member {
+        let teeth = match member {
             Member::Driver if same_width(parts) => ThreeArmPart::Sun.name(),
             _ => part.name(),
         };
-        let surface = self.machine.surface(gear_pair::teeth(gear, prefix));
-        let mass = solid.mass_properties(gear.body().density);
-        let shape = self.machine.shape(Shape {
-            name: format!("{}-body", part.name()),
-            part: part.name().into(),
-            form: Form::Solids(vec![solid]),
-        });
-        Ok(self.link(name, Some(mass), Some(shape), vec![surface]))
+        let link = self.bodied(name, None);
+        gear_pair::embody(&mut self.machine, link, pair, member, [part.name(), teeth])?;
+        Ok(link)
     }
 
     /// Intermediate gear, planet, cam, arm, fork and rod of a chain.
@@ -306,14 +285,10 @@ impl Builder<'_> {
             ([intermediate, planet], second),
         ] {
             let copy = k as usize;
-            let pressure_angle = Some(mechanism.design().tool.pressure_angle());
+            let pressure_angle = mechanism.design().tool.pressure_angle();
             self.machine.meshes.push(GearMesh {
-                links,
-                joint,
                 copy,
-                pressure_angle,
-                axes: Default::default(),
-                pitch: None,
+                ..GearMesh::new(links, joint, pressure_angle)
             });
         }
         let level = mechanism.arm_level();
@@ -346,11 +321,10 @@ impl Builder<'_> {
         let mechanism = self.mechanism;
         let turn = move |laws: &Laws, input: f64| {
             let train = laws.mechanism.train();
-            let carrier = MotionJet {
-                position: train.carrier_start() + train.direction().sign() * input,
-                velocity: train.direction().sign(),
-                ..MotionJet::default()
-            };
+            let carrier = MotionJet::uniform(
+                train.carrier_start() + train.direction().sign() * input,
+                train.direction().sign(),
+            );
             let motion = laws.links(chain, input)[number];
             motion.angle.plus(-1.0, &carrier)
         };

@@ -136,21 +136,9 @@ impl<'a> Parts<'a> {
         stock: Stock<'_>,
     ) -> Plate {
         Plate {
-            name: part.name().into(),
-            title: part.title().into(),
             quantity: part.quantity(self.mechanism.arms()) as usize,
-            outline,
             holes: holes.into_iter().map(Hole::from).collect(),
-            opening: None,
-            thickness: top - bottom,
-            material: stock.material.into(),
-            density: stock.density,
-            heat_treatment: Some(stock.heat_treatment.into()),
-            notes: Vec::new(),
-            tables: Vec::new(),
-            exactness: None,
-            marks: Vec::new(),
-            classes: Default::default(),
+            ..Plate::new(part.name(), part.title(), outline, top - bottom, stock)
         }
     }
 
@@ -166,8 +154,7 @@ impl<'a> Parts<'a> {
         ];
         let seats = seats.into_iter().filter_map(|(part, name)| {
             let (pair, member) = self.gear(part)?;
-            let body = pair.gear(member).body();
-            Some(Fit::new(name, body.bore, [&body.bore_fit, &body.shaft_fit]))
+            Some(pair.gear(member).body().seat(name))
         });
         let in_carrier = match self.mechanism.bearing(body.bore) {
             Some(bearing) => {

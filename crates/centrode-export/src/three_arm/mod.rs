@@ -60,7 +60,7 @@ fn linked(machine: &Parts<'_>) -> Result<LinkedMachine, ExportError> {
     links::machine(machine.mechanism, Some(machine), Some(&machine.pairs[0]))
 }
 
-/// The files of a mechanism's parts in the formats asked for, not yet on disk: each part once, however many
+/// The files of a mechanism's parts in the requested formats, not yet on disk: each part once, however many
 /// there are. URDF and MJCF are of the whole machine, with the STL files they show, the laws of motion and
 /// a script that plays them.
 ///

@@ -30,50 +30,28 @@ pub enum ThreeArmPart {
     Clamp,
     /// The push rod with its pusher, one an arm.
     PushRod,
-    /// Everything in place.
+    /// The assembly.
     Assembly,
 }
 
+centrode_spec::words!(ThreeArmPart {
+    Sun = "sun",
+    Intermediate = "intermediate",
+    Planet = "planet",
+    Cam = "cam",
+    Fork = "fork",
+    Roller = "roller",
+    Carrier = "carrier",
+    Spacer = "spacer",
+    Housing = "housing",
+    CoverRear = "cover-rear",
+    CoverFront = "cover-front",
+    Clamp = "clamp",
+    PushRod = "push-rod",
+    Assembly = "assembly",
+});
+
 impl ThreeArmPart {
-    /// All of them, in the order files are written.
-    pub const ALL: [Self; 14] = [
-        Self::Sun,
-        Self::Intermediate,
-        Self::Planet,
-        Self::Cam,
-        Self::Fork,
-        Self::Roller,
-        Self::Carrier,
-        Self::Spacer,
-        Self::Housing,
-        Self::CoverRear,
-        Self::CoverFront,
-        Self::Clamp,
-        Self::PushRod,
-        Self::Assembly,
-    ];
-
-    /// The name its files have.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Sun => "sun",
-            Self::Intermediate => "intermediate",
-            Self::Planet => "planet",
-            Self::Cam => "cam",
-            Self::Fork => "fork",
-            Self::Roller => "roller",
-            Self::Carrier => "carrier",
-            Self::Spacer => "spacer",
-            Self::Housing => "housing",
-            Self::CoverRear => "cover-rear",
-            Self::CoverFront => "cover-front",
-            Self::Clamp => "clamp",
-            Self::PushRod => "push-rod",
-            Self::Assembly => "assembly",
-        }
-    }
-
     /// Name of its drawing.
     #[must_use]
     pub fn title(self) -> &'static str {

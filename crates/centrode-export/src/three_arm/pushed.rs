@@ -60,10 +60,7 @@ impl Builder<'_> {
         let effort = self.law(0.0, move |laws, input| {
             let pusher = laws.pusher.as_ref();
             let back = pusher.map_or(0.0, |pusher| back(laws, pusher, input).position);
-            MotionJet {
-                position: spring.preload + spring.rate * back,
-                ..MotionJet::default()
-            }
+            MotionJet::at_rest(spring.preload + spring.rate * back)
         });
         let effort = Quantity::Law(effort);
         self.machine.loads.push(Load::Joint { joint, effort });

@@ -103,11 +103,11 @@ fn slotted(radius: f64, key: Keyway, k: f64) -> Option<Outline> {
 /// Height of the letters of a cutting plane, and the distance of their middle from the tip of the arrow, mm.
 const LETTER: f64 = 3.5;
 const BEFORE: f64 = 3.2;
-/// From the outer end of the plane to the tip of its arrow, and how far it stands out, mm.
+/// From the outer end of the plane to the tip of its arrow, and how far it projects, mm.
 const ARROW: f64 = 7.0;
 const OUT: f64 = 6.0;
 
-/// Places of a section along its keyway, as shares of its length, in the order in which they are tried.
+/// Positions of a section along its keyway, as shares of its length, in the order in which they are tried.
 const PLANES: [f64; 7] = [0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8];
 
 /// The ends of the plane of a section across a shaft, seen towards the left end: in the middle of a keyway or near it, where its

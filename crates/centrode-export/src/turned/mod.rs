@@ -23,7 +23,7 @@ pub(crate) fn list(all: &[TurnedPieces], machine: &mut LinkedMachine) {
     }
 }
 
-/// Tells the sizes of turned parts that a machine lists.
+/// States the sizes of turned parts that a machine lists.
 pub(crate) fn size(all: &[TurnedPieces], machine: &mut LinkedMachine) {
     for pieces in all {
         let listed = machine.parts.iter_mut();
@@ -126,7 +126,7 @@ impl Deref for Drawn<'_> {
 }
 
 impl Drawn<'_> {
-    /// Corners of the upper half of its contour, from end to end along x, the ends' middles left out.
+    /// Corners of the upper half of its contour, from end to end along x, the ends' middles omitted.
     fn half(&self) -> Vec<Point> {
         let (mut at, c) = (0.0, self.chamfer);
         let mut corners = Vec::new();

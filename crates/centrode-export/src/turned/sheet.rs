@@ -16,7 +16,7 @@ use crate::{fit, grade, number::mass, treatment::treatment_note};
 const SECTION: char = 'C';
 /// Tolerance class of the width of a ring's groove, ISO 286.
 const GROOVE: &str = "H13";
-/// Places of lengths.
+/// Decimals of lengths.
 const PLACES: usize = 3;
 /// Distance of heights that are one, mm: rounding.
 const ROUNDING: f64 = 1e-6;
@@ -184,8 +184,8 @@ impl Drawn<'_> {
         cutting_plane(draft, [k * from, k * to], height, SECTION);
     }
 
-    /// Lengths that are dimensioned, with their words: of every step but grooves and the last one, and over all. Where deviations hold for
-    /// several steps between two grooves, their sum has them in the place of the last of these.
+    /// Lengths that are dimensioned, with their words: of every step but grooves and the last one, and over all. Where
+    /// deviations hold for several steps between two grooves, their sum has them instead of the last of these.
     fn dimensioned(&self) -> Vec<([f64; 2], String)> {
         let last = self.steps.len() - 1;
         let inside = |held: &&HeldLength, [from, to]: [f64; 2]| {

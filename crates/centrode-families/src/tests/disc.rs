@@ -96,10 +96,7 @@ impl Mechanism for Disc {
                 ..Link::default()
             })
         });
-        let law = Linear {
-            start: 0.0,
-            slope: 1.0,
-        };
+        let law = Linear::new(0.0, 1.0);
         let joint = machine.joint(Joint::turning(base, disc, Arc::new(law)));
         let turned = Quantity::joint(joint);
         machine.column("disc_rad", "rad", "turn of the disc", turned);

@@ -31,7 +31,7 @@ pub struct Dimension {
     pub line: Point,
     /// Middle of the words.
     pub middle: Point,
-    /// Words, as they stand there.
+    /// Words, unchanged.
     pub words: String,
     /// Height of the letters, mm.
     pub letters: f64,

@@ -47,7 +47,7 @@ impl Style {
         }
     }
 
-    /// Name of the style, by its place among all.
+    /// Name of the style, by its position among all.
     fn name(self, styles: &[Self]) -> String {
         let index = styles.iter().position(|style| *style == self);
         format!("ISO129-{}", index.map_or(0, |i| i + 1))
@@ -64,7 +64,7 @@ pub(super) fn block_names(drawing: &Drawing) -> Vec<String> {
     (0..dimensions(drawing).count()).map(block_name).collect()
 }
 
-/// The table of dimension styles; lengths are told in millimetres of the part whatever the scale.
+/// The table of dimension styles; lengths are in millimetres of the part at any scale.
 pub(super) fn dimension_styles(file: &mut Pairs, drawing: &Drawing, lettering: Option<Handle>) {
     const CLASS: &str = "AcDbDimStyleTableRecord";
     let styles = styles(drawing);

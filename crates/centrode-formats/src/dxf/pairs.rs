@@ -66,7 +66,7 @@ impl Pairs {
         self.word(code, &format!("{value:>6}"))
     }
 
-    /// Writes a number to twelve places.
+    /// Writes a number to twelve decimals.
     pub(super) fn number(&mut self, code: u16, value: f64) -> &mut Self {
         let text = format!("{:.12}", value + 0.0);
         let short = text.trim_end_matches('0');

@@ -31,7 +31,7 @@ const OPTIONS: &str = r#"  <compiler angle="radian" autolimits="true"/>
 #[non_exhaustive]
 pub enum MjcfError {
     /// A joint names a link that is not there.
-    #[error("joint {joint:?} names link {link:?}, which the model has not")]
+    #[error("joint {joint:?} names link {link:?}, which is not in the model")]
     Link {
         /// The joint.
         joint: String,
@@ -39,7 +39,7 @@ pub enum MjcfError {
         link: String,
     },
     /// The joints do not hang every link from the first one, once.
-    #[error("link {link:?} hangs from the first link by {ways} chains of joints, not by one")]
+    #[error("link {link:?} is joined to the first link by {ways} chains of joints, not by one")]
     Tree {
         /// The link.
         link: String,

@@ -25,7 +25,7 @@ impl Draft {
         self.dimension_clear_of(ends, along, at, words, &[]);
     }
 
-    /// Draws a dimension whose words leave lines square to it free, given by their places along the direction, mm.
+    /// Draws a dimension whose words leave lines square to it free, given by their positions along the direction, mm.
     pub fn dimension_clear_of(
         &mut self,
         [a, b]: [Point; 2],

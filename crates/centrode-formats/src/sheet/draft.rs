@@ -22,7 +22,7 @@ pub struct Draft {
     pub(super) scale: f64,
 }
 
-/// Covered places of the first entities, found when they are first asked for.
+/// Covered places of the first entities, found when they are first requested.
 #[derive(Clone, Debug, Default)]
 struct Known(RefCell<Vec<Covered>>);
 
@@ -178,7 +178,7 @@ impl Draft {
         known.iter().any(is)
     }
 
-    /// Number of entities so far.
+    /// Number of entities.
     pub(super) fn count(&self) -> usize {
         self.entities.len()
     }

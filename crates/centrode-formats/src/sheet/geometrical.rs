@@ -16,9 +16,9 @@ const HALF: f64 = 2.15;
 /// Tolerated property of a feature.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Characteristic {
-    /// Place of an axis; the zone is a cylinder.
+    /// Position of an axis; the zone is a cylinder.
     Position,
-    /// Form and place of a profile, the zone equally on both sides of it.
+    /// Form and position of a profile, the zone equally on both sides of it.
     Profile,
     /// Median plane of a feature on that of its datum.
     Symmetry,
@@ -117,7 +117,7 @@ impl Frame {
     fn widths(&self) -> Vec<f64> {
         let wide = |cell: &String| lettering::width(cell, LETTERS) + 2.0 * PAD;
         let cells = self.cells.iter().map(wide).map(|w| w.max(2.0 * HALF));
-        // The triangle of a datum stands where the symbol of a tolerance does.
+        // The triangle of a datum is in the position of a tolerance symbol.
         std::iter::once(2.0 * HALF).chain(cells).collect()
     }
 }

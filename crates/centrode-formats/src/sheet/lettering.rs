@@ -84,7 +84,7 @@ impl Letter {
         self.ink.is_some()
     }
 
-    /// The empty box in the place of a letter that the font has not, in ems from its start.
+    /// The empty box instead of a letter that the font has not, in ems from its start.
     pub(crate) fn empty_box(&self) -> Option<Bounds> {
         self.ink.filter(|_| self.glyph == GlyphId::NOTDEF.to_u32())
     }

@@ -1,4 +1,4 @@
-//! Drawing sheets: one layout on paper, ISO 5457, for DXF, SVG and PDF alike.
+//! Drawing sheets: one layout on paper, ISO 5457, the same for DXF, SVG and PDF.
 
 mod dimension;
 mod draft;
@@ -57,7 +57,7 @@ pub enum SheetError {
     /// The views do not fit, not even at the smallest scale.
     #[error("the views with their dimensions do not fit on {}: at scale {scale} they still take {:.0} x {:.0} mm of {:.0} x {:.0} mm", size.name(), needed[0], needed[1], room[0], room[1])]
     Views {
-        /// The sheet asked for.
+        /// The requested sheet.
         size: SheetSize,
         /// The smallest scale.
         scale: Scale,
@@ -67,9 +67,9 @@ pub enum SheetError {
         room: [f64; 2],
     },
     /// A table is wider than the sheet.
-    #[error("the table {title:?} is {width:.0} mm wide: {} leaves it {room:.0} mm", size.name())]
+    #[error("the table {title:?} is {width:.0} mm wide; {} has room for {room:.0} mm", size.name())]
     Table {
-        /// The sheet asked for.
+        /// The requested sheet.
         size: SheetSize,
         /// Title of the table.
         title: String,
@@ -84,11 +84,11 @@ pub enum SheetError {
 /// tables where there is room left, and on further sheets.
 ///
 /// `extent` is the longest side of a view at full scale, mm: no scale is tried at which it alone is too
-/// long. Without a size asked for it is the smallest sheet that takes all pieces at full scale or larger, or A0; where the pieces
-/// take less than half of its room, a smaller one that takes them reduced, the longest side still 100 mm on paper.
+/// long. Without a requested size it is the smallest sheet that takes all pieces at full scale or larger, or A0; where the
+/// pieces take less than half of its room, a smaller one that takes them reduced, the longest side still 100 mm on paper.
 ///
 /// # Errors
-/// [`SheetError`] if views or a table do not fit on the sheet asked for.
+/// [`SheetError`] if views or a table do not fit on the requested sheet.
 pub fn compose(
     required: Option<SheetSize>,
     block: &TitleBlock,

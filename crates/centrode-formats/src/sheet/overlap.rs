@@ -104,7 +104,7 @@ impl Covered {
                 && self.lines.iter().any(|line| ink.is_met_by(*line, 0.0)))
     }
 
-    /// Whether a straight line of a thin pen runs through its words, or so near that it would be the line they stand on.
+    /// Whether a straight line of a thin pen runs through its words, or so near that it would be their base line.
     pub(super) fn is_struck(&self, line: [Point; 2]) -> bool {
         self.inks.iter().any(|ink| ink.is_met_by(line, AIR))
     }

@@ -41,7 +41,7 @@ impl SheetBlock {
         }
     }
 
-    /// Section that may stand on a further page.
+    /// Section that may be on a further page.
     pub fn further(name: &'static str, draft: Draft) -> Self {
         Self {
             floats: false,

@@ -132,7 +132,7 @@ fn what_cannot_fit_is_refused_with_its_size() {
     wide.rows[0][1] = "7".repeat(200);
     let error =
         compose(Some(SheetSize::A4), &block(), 50.0, &plate(50.0), &[wide]).expect_err("wide");
-    assert!(error.to_string().contains("leaves it"), "{error}");
+    assert!(error.to_string().contains("has room for"), "{error}");
 }
 
 #[test]

@@ -99,8 +99,8 @@ impl TitleBlock {
     /// Coarsest grade of ISO 286 whose surfaces have a texture of their own.
     pub const FINE: u32 = 8;
 
-    /// Names the texture of fitted surfaces behind that of the others, where some of these tolerance classes are fine or the part has
-    /// flanks or a profile, in words; the note that tells where it holds.
+    /// Names the texture of fitted surfaces behind that of the others, where some of these tolerance classes are fine or the
+    /// part has flanks or a profile, in words; the note that shows where it holds.
     pub fn fitted<'a>(
         &mut self,
         classes: impl IntoIterator<Item = &'a str>,

@@ -1,4 +1,4 @@
-//! Products in their places: one file with every body once, coloured, and each piece by its name.
+//! Products in their positions: one file with every body once, coloured, and each piece by its name.
 
 use centrode_geometry::{Shell, Solid};
 use nalgebra::Isometry3;
@@ -15,7 +15,7 @@ pub enum Exact<'a> {
     Shell(Shell),
 }
 
-/// A product of an assembly, and every place where it stands.
+/// A product of an assembly, and each of its positions.
 #[derive(Clone, Debug)]
 pub struct Component<'a> {
     /// Name.
@@ -26,13 +26,13 @@ pub struct Component<'a> {
     pub color: [u8; 3],
     /// Material; may be empty.
     pub material: String,
-    /// Name and place of each piece.
+    /// Name and position of each piece.
     pub items: Vec<(String, Isometry3<f64>)>,
 }
 
-/// Writes products in their places as one STEP AP214 file in millimetres, called `name`, the assembly `title`.
+/// Writes products in their positions as one STEP AP214 file in millimetres, called `name`, the assembly `title`.
 ///
-/// Each body is as exact as [`super::write`] has it, and stands in the file once, however many pieces there are.
+/// Each body is as exact as [`super::write`] has it, and is in the file once, for any number of pieces.
 ///
 /// # Errors
 /// [`StepError`] if a body cannot be written.

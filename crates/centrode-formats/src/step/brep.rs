@@ -229,7 +229,7 @@ impl<'a> ExtrusionWriter<'a> {
         self.data.add(format_args!("{kind}('',{ring},.T.)"))
     }
 
-    /// A boundary of a face from edges all walked the same way.
+    /// A boundary of a face from edges all walked in the same direction.
     fn bound(&mut self, kind: &str, edges: &[Id], forward: bool) -> Id {
         let edges: Vec<Id> = edges
             .iter()
@@ -264,7 +264,7 @@ fn logical(truth: bool) -> &'static str {
 /// Bézier control points of a polynomial segment, which represent the curve exactly.
 ///
 /// Control point `j` is the polar form at `j` ones and `n - j` minus ones; there a power `k` becomes the
-/// elementary symmetric function of order `k` over its number of terms, at most 1, so digits are kept.
+/// elementary symmetric function of order `k` over its number of terms, at most 1, so no digits are lost.
 #[must_use]
 pub fn poles(poly: &PolySegment) -> Vec<Point> {
     let coefficients = poly.coefficients();

@@ -40,7 +40,7 @@ fn sides(contour: usize, outline: &Outline, shortest: f64) -> Result<Vec<Segment
     Ok(kept)
 }
 
-/// Segment with its ends moved by the length of a side left out; an arc that is flat becomes a line.
+/// Segment with its ends moved by the length of a side omitted; an arc that is flat becomes a line.
 fn between(segment: &Segment, start: Point, end: Point) -> Segment {
     match segment {
         Segment::Line(..) => Segment::Line(start, end),

@@ -196,7 +196,7 @@ mod tests {
         assert_eq!(count(&file, "ADVANCED_FACE"), 6);
         assert_eq!(count(&file, "CYLINDRICAL_SURFACE"), 4);
         assert_eq!(count(&file, "EDGE_CURVE"), 12);
-        // Every edge is walked once each way.
+        // Every edge is walked once in each direction.
         for edge in file.lines().filter(|line| line.contains("=EDGE_CURVE(")) {
             let id = edge.split('=').next().expect("numbered");
             for way in ["T", "F"] {

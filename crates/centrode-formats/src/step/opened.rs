@@ -125,7 +125,7 @@ impl Edges {
 }
 
 /// Both sides, floor and ceiling of the opening: `outer` begins and ends at the outline's corners, `inner` at the
-/// hole's, which is walked the other way.
+/// hole's, which is walked in the opposite direction.
 fn inside(
     shape: &mut ExtrusionWriter<'_>,
     [first, second]: &[Edges; 2],

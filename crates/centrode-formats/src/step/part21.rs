@@ -80,7 +80,7 @@ impl Data {
         Id(self.count)
     }
 
-    /// Every entity so far, a line each.
+    /// All entities, a line each.
     pub(super) fn lines(&self) -> &str {
         &self.lines
     }

@@ -62,7 +62,7 @@ pub enum CamError {
         /// Advance over that input.
         advance: f64,
     },
-    /// A slide that passes outside the roller's lowest place.
+    /// A slide that passes outside the roller's lowest point.
     #[error(
         "the slide passes the axis at {offset} mm, but the roller's centre is only {prime_radius} mm from it"
     )]
@@ -81,12 +81,12 @@ pub enum CamError {
         arm: f64,
         /// Distance of the pivot from the axis, mm.
         center_distance: f64,
-        /// Distance asked for, mm.
+        /// Required distance, mm.
         distance: f64,
     },
     /// An arm that swings through the line from its pivot to the axis, or beyond the opposite direction.
     #[error(
-        "at {degrees} deg the arm stands at {arm_degrees} deg to the line of centres: it must stay between 0 and 180"
+        "at {degrees} deg the arm is at {arm_degrees} deg to the line of centres: it must stay between 0 and 180"
     )]
     ArmTurnsOver {
         /// Cam angle.
@@ -108,7 +108,7 @@ pub enum CamError {
         /// Cam angle.
         degrees: f64,
     },
-    /// A push rod wanted farther back than its fork can bring it.
+    /// A push rod required farther back than its fork can bring it.
     #[error(
         "at {degrees} deg the rod is to be {retraction} mm back, more than a lever of {length} mm can do"
     )]

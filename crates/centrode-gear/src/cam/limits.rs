@@ -108,7 +108,7 @@ impl DiscCam {
     }
 
     /// Minimum base radius, mm, at which no convex part of the profile is sharper than `radius`, mm;
-    /// zero asks for no undercut alone. `None` where no base circle will do.
+    /// zero requires no undercut alone. `None` where no base circle will do.
     #[must_use]
     pub fn minimum_regular_base_radius(&self, radius: f64) -> Option<f64> {
         self.minimum_base(|cam| radius - cam.limits().minimum_radius.value)

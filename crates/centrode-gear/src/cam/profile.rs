@@ -46,7 +46,7 @@ impl Profile {
         self.undercut.iter().any(within)
     }
 
-    /// Minimum and maximum distance from the axis, mm, at nine places a segment.
+    /// Minimum and maximum distance from the axis, mm, at nine samples a segment.
     pub(super) fn radii(&self) -> (f64, f64) {
         let points = self.outline.segments().iter().flat_map(|segment| {
             (0..=8).map(|i| segment.at(-1.0 + 0.25 * f64::from(i)).point.coords.norm())

@@ -522,10 +522,7 @@ fn followers_that_cannot_follow_are_refused() {
     ));
     let error = sliding(roller(0.0), -1.0, 5.0, 60.0).expect_err("refused");
     assert_eq!(error.key(), "base_radius");
-    let wild = FromFn::new(TAU, 0.0, vec![], |_| MotionJet {
-        position: f64::NAN,
-        ..MotionJet::default()
-    });
+    let wild = FromFn::new(TAU, 0.0, vec![], |_| MotionJet::at_rest(f64::NAN));
     assert!(matches!(
         DiscCam::new(Arc::new(wild), roller(0.0), 20.0, Turn::Clockwise).map(|_| ()),
         Err(CamError::NotFinite { .. })

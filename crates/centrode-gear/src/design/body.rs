@@ -3,7 +3,7 @@ use std::f64::consts::TAU;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use centrode_kinematics::machine::{Keyway, Stock, hole_class, shaft_class};
+use centrode_kinematics::machine::{Fit, Keyway, Stock, hole_class, shaft_class};
 use centrode_spec::degrees;
 use centrode_spec::rule::{
     Rule, SpecError, broken, in_range, is_zero, not_negative, positive, single_line,
@@ -19,7 +19,6 @@ pub struct BodySpec {
     /// Diameter of the bore, mm; 0 for none.
     pub bore: f64,
     /// Keyway in the bore.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub keyway: Option<Keyway>,
     /// Direction of the keyway from the body's x axis, rad (degrees in the file).
     #[serde(rename = "keyway_angle_deg", with = "degrees")]
@@ -68,6 +67,12 @@ impl Default for BodySpec {
 }
 
 impl BodySpec {
+    /// Fit of its bore on its shaft, under a name.
+    #[must_use]
+    pub fn seat(&self, name: &str) -> Fit {
+        Fit::new(name, self.bore, [&self.bore_fit, &self.shaft_fit])
+    }
+
     /// Material of the shaft in its bore.
     #[must_use]
     pub fn shaft_stock(&self) -> Stock<'_> {

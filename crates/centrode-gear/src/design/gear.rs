@@ -17,17 +17,13 @@ pub const SHIFTS: [f64; 2] = [-2.0, 2.0];
 pub struct GearSpec {
     /// Profile shift coefficient: distance in modules by which the tool is moved away from the axis. Default: opposite to that
     /// of the mate, or for circular gears the shift that gives the centre distance.
-    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("x-symbol" = "x"))]
     pub shift: Option<f64>,
     /// Height of the teeth above the pitch curve without profile shift, in modules. Default: that of the tool.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub addendum: Option<f64>,
     /// Depth of the spaces below the pitch curve without profile shift, in modules. Default: that of the tool.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub dedendum: Option<f64>,
     /// The tool that cuts this gear, of the same pressure angle. Default: the tool of the pair.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub tool: Option<ToolSpec>,
     /// Body of the gear.
     #[serde(flatten)]

@@ -36,11 +36,9 @@ pub struct GearPairDesign {
     #[serde(default = "default_mean_ratio")]
     pub mean_ratio: [u32; 2],
     /// Teeth of the driver, for a pitch curve with a size of its own: the module follows.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tooth_count: Option<u32>,
     /// Centre distance, mm. Default: it follows from pitch curve, mean ratio and profile shifts. Circular gears with one shift
     /// given get the other shift from it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub center_distance: Option<f64>,
     /// Pitch curve of the driver.
     pub pitch: PitchSpec,

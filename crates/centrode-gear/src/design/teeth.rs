@@ -10,10 +10,10 @@ use centrode_spec::rule::{Rule, SpecError, broken, finite, in_range, not_negativ
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct TeethSpec {
-    /// Height of the teeth: "full", as high as the tool asks, or "fitted", each as high as works.
+    /// Height of the teeth: "full", the height of the tool, or "fitted", each of the largest height that works.
     pub addendum: Addendum,
-    /// Numbers chosen so that fitted teeth work deepest, in the place of those written: the driver's share of the pitch, the tool's
-    /// pressure angle, the phase; "addendum" stands for fitted teeth, which they are with any of these.
+    /// Parameters to optimise for the contact ratio, instead of those written: the driver's share of the pitch, the tool's
+    /// pressure angle, the phase; "addendum" is fitted teeth; any of the others implies it.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub fit: Vec<Fit>,
     /// Change of every addendum: "keep-clearance", as much as keeps the clearance of the tool at the centre distance of shifted
@@ -24,12 +24,8 @@ pub struct TeethSpec {
     pub phase: Phase,
     /// Total backlash of the pair along the normal, mm.
     pub backlash: f64,
-    /// Total backlash as a bound on the play of the driven gear, rad (degrees in the file).
-    #[serde(
-        rename = "backlash_angle_deg",
-        with = "degrees",
-        skip_serializing_if = "Option::is_none"
-    )]
+    /// Total backlash as a bound on the free angle of the driven gear, rad (degrees in the file).
+    #[serde(rename = "backlash_angle_deg", with = "degrees")]
     #[schemars(with = "Option<f64>")]
     pub backlash_angle: Option<f64>,
     /// The driver's share of the pitch: its tooth thickness over the circular pitch.
@@ -39,10 +35,8 @@ pub struct TeethSpec {
     /// Upper and lower deviation of the thickness of every finished tooth along its pitch curve from the tooth as designed, mm,
     /// each within half a module: limits for the shop. An upper one above zero takes backlash. Default: zero and minus the
     /// tolerance of DIN 3967 for the accuracy class.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub thickness_deviations: Option<[f64; 2]>,
-    /// Diameter of the measuring pins, mm; left out, a pin that touches near the pitch curve.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Diameter of the measuring pins, mm; default: a pin that touches near the pitch curve.
     pub pin_diameter: Option<f64>,
 }
 
@@ -67,7 +61,7 @@ impl Default for TeethSpec {
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Addendum {
-    /// Full height, as the tool's data asks.
+    /// Full height, by the tool's data.
     #[default]
     Full,
     /// Trimmed tooth by tooth to what works, at most to the dedendum.
@@ -243,7 +237,7 @@ impl JsonSchema for Phase {
 }
 
 impl TeethSpec {
-    /// Checks the ranges, and that backlash is given in one way only.
+    /// Checks the ranges, and that backlash is given only once.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.

@@ -17,7 +17,7 @@ pub enum IntermittentError {
         "{kept} teeth and the entry and exit take {motion} rad of the driver's turn, so nothing is left to dwell: the toothed arc must turn the driven gear faster than one to one (more than {kept} pitches round the driver)"
     )]
     NoDwell {
-        /// Teeth kept.
+        /// Number of teeth.
         kept: u32,
         /// Driver angle of the motion, rad.
         motion: f64,
@@ -27,7 +27,7 @@ pub enum IntermittentError {
         "{kept} teeth move the driven gear by {kept}/{driven} of a turn: it needs stops at equal angles, so one number must be a multiple of the other"
     )]
     Stops {
-        /// Teeth kept.
+        /// Number of teeth.
         kept: u32,
         /// Pitches round the driven gear.
         driven: u32,
@@ -43,7 +43,7 @@ pub enum IntermittentError {
 /// Motion of an intermittent gear pair with circular pitch curves: a toothed arc of the driver turns
 /// the driven gear at the arc's own ratio, the rest of its turn holds it locked.
 ///
-/// Both counts are of pitches all round. N teeth kept turn the driven gear by N of its pitches while
+/// Both counts are of pitches all round. N teeth turn the driven gear by N of its pitches while
 /// the driver turns by N of its own, so one driven turn a driver turn with a dwell needs a driver with
 /// more pitches than the driven gear: equal pitch circles, a full turn and a dwell contradict each
 /// other. Angles are those of the pitch circles; the law holds for teeth that enter and leave without backlash.
@@ -175,20 +175,13 @@ impl IntermittentDrive {
     fn within(&self, input: f64) -> MotionJet {
         let (motion, entry, ratio) = (self.motion_angle(), self.entry, self.ratio());
         if input >= motion {
-            return MotionJet {
-                position: self.driven_angle(),
-                ..MotionJet::default()
-            };
+            return MotionJet::at_rest(self.driven_angle());
         }
         if input < entry {
             return self.ramp(input);
         }
         if input < motion - entry {
-            return MotionJet {
-                position: ratio * (input - 0.5 * entry),
-                velocity: ratio,
-                ..MotionJet::default()
-            };
+            return MotionJet::uniform(ratio * (input - 0.5 * entry), ratio);
         }
         // The exit is the entry run backwards.
         let mirrored = self.ramp(motion - input);

@@ -37,11 +37,7 @@ impl IntermittentLaw {
             return ease(input);
         }
         if input <= motion - entry {
-            return MotionJet {
-                position: input - 0.5 * entry,
-                velocity: 1.0,
-                ..MotionJet::default()
-            };
+            return MotionJet::uniform(input - 0.5 * entry, 1.0);
         }
         // The exit is the entry run backwards.
         let back = ease(motion - input);
@@ -60,10 +56,7 @@ impl Transmission for IntermittentLaw {
         let within = input - turns * TAU;
         let gone = turns * self.driven;
         if within >= self.motion_angle() {
-            return MotionJet {
-                position: gone + self.driven,
-                ..MotionJet::default()
-            };
+            return MotionJet::at_rest(gone + self.driven);
         }
         let rolled = self.rolled(within);
         let phi = rolled.position;

@@ -277,7 +277,7 @@ impl IntermittentPair {
         &self.cams
     }
 
-    /// Teeth that the driver has kept.
+    /// Teeth of the driver.
     #[must_use]
     pub fn teeth(&self) -> u32 {
         self.teeth
@@ -305,7 +305,7 @@ impl IntermittentPair {
         }
     }
 
-    /// Angle, rad, by which the driven gear can turn either way when the locking arc alone holds it: where the arc
+    /// Angle, rad, by which the driven gear can turn in either direction when the locking arc alone holds it: where the arc
     /// faces the whole notch, in the middle of the dwell. Pins on cams hold it closer.
     #[must_use]
     pub fn locked_backlash(&self) -> f64 {

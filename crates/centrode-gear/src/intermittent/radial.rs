@@ -4,9 +4,9 @@ use std::sync::LazyLock;
 use centrode_geometry::{Point, Tolerance, Vector};
 use nalgebra::Isometry2;
 
-/// Distance of places from a chord, as a share of the tolerance, within which they are as far off: rounding.
+/// Distance of points from a chord, as a share of the tolerance, within which they are as far off: rounding.
 const ALIKE: f64 = 1e-6;
-/// Directions in which a contour's radius is kept.
+/// Directions in which a contour's radius is stored.
 const DIRECTIONS: usize = 32_768;
 
 /// Unit vectors of the directions.
@@ -122,7 +122,7 @@ impl Radial {
         self.radius.iter().copied().fold(0.0, f64::max)
     }
 
-    /// The radius in a direction, of the nearest kept one.
+    /// The radius in a direction, of the nearest stored one.
     pub(super) fn at(&self, direction: f64) -> f64 {
         let index = (direction.rem_euclid(TAU) / TAU * DIRECTIONS as f64).round();
         self.radius[index as usize % DIRECTIONS]
@@ -218,7 +218,7 @@ impl Radial {
         let start = (0..DIRECTIONS)
             .max_by(|&a, &b| self.radius[a].total_cmp(&self.radius[b]))
             .unwrap_or(0);
-        // Farthest place between two from their chord, the first of those that are as far off, and how far that is.
+        // Farthest point between two from their chord, the first of those that are as far off, and how far that is.
         let farthest = |from: usize, to: usize| {
             let (a, chord) = (place(from), place(to) - place(from));
             let length = chord.norm();
@@ -299,7 +299,7 @@ mod tests {
         blank.limit(5.0);
         let needle = [[0.0, 0.0], [20.0, 1.0], [20.0, -1.0]].map(Point::from);
         let at = |y: f64| Isometry2::translation(3.0, y);
-        // A straight way of the point at x = 3, in coarse steps.
+        // A straight path of the point at x = 3, in coarse steps.
         for step in 0..4 {
             let (before, now) = (at(f64::from(step) - 2.0), at(f64::from(step) - 1.0));
             for chain in Chain::new(&needle) {

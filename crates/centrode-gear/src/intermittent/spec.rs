@@ -5,7 +5,7 @@ use crate::design::GearPairDesign;
 use centrode_spec::SpecError;
 use centrode_spec::rule::{count_in_range, in_range, not_negative, positive};
 
-/// Intermittent gear pair as asked for.
+/// Intermittent gear pair as requested.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IntermittentPairSpec {
     /// The complete pair: any pitch curve, the mean ratio that of all pitches round both gears.
@@ -14,7 +14,7 @@ pub struct IntermittentPairSpec {
     pub teeth: u32,
     /// Driver angle over which the driven gear comes to speed, and to rest, rad; 0 for none.
     pub entry: f64,
-    /// Radius of the locking arc, mm; left out, that of the driver's pitch point at rest.
+    /// Radius of the locking arc, mm; default: that of the driver's pitch point at rest.
     pub lock_radius: Option<f64>,
     /// Clearance between locking arc and notch, mm.
     pub lock_clearance: f64,
@@ -27,9 +27,9 @@ pub struct IntermittentPairSpec {
 /// The pins of the driven gear that run on the driver's entry cam.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pins {
-    /// Diameter, mm; left out, two and a half modules.
+    /// Diameter, mm; default: two and a half modules.
     pub diameter: Option<f64>,
-    /// Diameter of the circle through their centres, mm; left out, three quarters of the pitch circle's.
+    /// Diameter of the circle through their centres, mm; default: three quarters of the pitch circle's.
     pub circle: Option<f64>,
     /// Angle of each from the line of centres at rest, rad.
     pub angle: f64,
@@ -112,7 +112,7 @@ pub enum IntermittentPairError {
     },
     /// Several stops in a turn of a driven gear that is not round.
     #[error(
-        "{kept} teeth stop the driven gear {} times in a turn: only round gears come to each stop alike", .driven / .kept
+        "{kept} teeth stop the driven gear {} times in a turn: only round gears come to each stop in the same pose", .driven / .kept
     )]
     StopsNeedCircles {
         /// Pitches driven in one turn of the driver.

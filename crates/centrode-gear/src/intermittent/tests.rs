@@ -33,7 +33,7 @@ fn one_driven_turn_a_driver_turn_and_then_rest() {
         assert!((law.advance() - TAU).abs() < 1e-9);
         assert!((law.at(TAU).position - TAU).abs() < 1e-9);
         assert_eq!(law.at(law.motion_angle() + 0.1).velocity, 0.0);
-        // Fewer than the thirty pitches driven: the locking arc takes the place of some.
+        // Fewer than the thirty pitches driven: the locking arc replaces some.
         assert!((24..=30).contains(&pair.teeth()), "{}", pair.teeth());
         assert_eq!(pair.cams().len(), if entry > 0.0 { 2 } else { 0 });
         assert_eq!(pair.shock() == 0.0, entry > 0.0);

@@ -35,7 +35,7 @@ impl Gear {
         (0..teeth)
             .map(|k| {
                 let next = (k + 1) % teeth;
-                // The contour runs counter-clockwise; the driven gear's teeth are numbered the other way.
+                // The contour runs counter-clockwise; the driven gear's teeth are numbered in the opposite direction.
                 let (before, after) = match self.member() {
                     Member::Driver => (k, next),
                     Member::Driven => (next, k),

@@ -36,7 +36,7 @@ impl Cutting<'_> {
         let made = |member| Ok(self.gear(member, self.cut(member)?));
         let (one, two): (Result<_, ProfileError>, Result<_, ProfileError>) =
             run_both(|| made(driver), || made(driven));
-        // Teeth that cannot be cut are told before bodies that do not fit them.
+        // Teeth that cannot be cut are reported before bodies that do not fit them.
         let (one, two) = (one?, two?);
         Ok([one?, two?])
     }

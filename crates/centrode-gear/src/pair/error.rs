@@ -48,7 +48,7 @@ pub enum GearPairError {
         /// Ratio of the law.
         implied: (u32, u32),
     },
-    /// The pitch curve swings so often that the waves of a tooth cannot all be told from each other.
+    /// The pitch curve swings so often that the waves of a tooth cannot all be distinguished from each other.
     #[error(
         "the pitch curves swing {swings} times for {teeth} teeth; swings times swings a tooth may be {MAX_WORK} at most: smooth the law, or give fewer points or more digits"
     )]
@@ -82,7 +82,7 @@ pub enum GearPairError {
         /// Polar angle, rad.
         angle: f64,
     },
-    /// The wanted centre distance is not the one at which the curves roll.
+    /// The required centre distance is not the one at which the curves roll.
     #[error(
         "center_distance is {required} mm, but this pitch curve rolls on a closed conjugate only at {needed} mm"
     )]

@@ -170,7 +170,7 @@ fn around(segment: &Segment) -> (f64, f64) {
     }
 }
 
-/// The minimum of a function from its samples at some places, as far as it is below what is known.
+/// The minimum of a function from some samples, as far as it is below what is known.
 fn nearest(
     samples: &[f64; STEPS + 1],
     place: impl Fn(usize) -> f64,

@@ -235,7 +235,7 @@ impl GearPair {
         &self.rolling
     }
 
-    /// The rolling pitch curves, to be kept by what moves by them.
+    /// The rolling pitch curves, to be shared by everything that moves by them.
     pub fn shared_rolling(&self) -> Arc<Rolling> {
         Arc::clone(&self.rolling)
     }

@@ -37,13 +37,10 @@ pub struct Bezier {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub y: Vec<f64>,
     /// Module, mm, with `tooth_count`: scales the curve.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub module: Option<f64>,
     /// Diametral pitch, 1/in, instead of the module: 25.4 mm over the module.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub diametral_pitch: Option<f64>,
     /// Number of teeth; alone, the module follows from the size of the curve.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub tooth_count: Option<u32>,
 }
 
@@ -79,12 +76,12 @@ impl Bezier {
             let key = lists.key();
             return Err(PitchError::ArcsIncomplete { key, count, degree });
         }
-        let size = Size {
-            module: self.module,
-            diametral_pitch: self.diametral_pitch,
-            tooth_count: self.tooth_count,
-            own: OwnSize::Written,
-        };
+        let size = Size::new(
+            self.module,
+            self.diametral_pitch,
+            self.tooth_count,
+            OwnSize::Written,
+        );
         let definition = format!(
             "closed chain of {} Bezier arcs of degree {degree}",
             count / degree as usize

@@ -11,16 +11,12 @@ use super::{Draft, PitchError, Scaled, Symmetry};
 #[serde(default, deny_unknown_fields)]
 pub struct Circle {
     /// Radius, mm; or leave it out and give module and `tooth_count`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub radius: Option<f64>,
     /// Module, mm, with `tooth_count`: sets the size of the curve.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub module: Option<f64>,
     /// Diametral pitch, 1/in, instead of the module: 25.4 mm over the module.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub diametral_pitch: Option<f64>,
     /// Number of teeth.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub tooth_count: Option<u32>,
 }
 
@@ -33,27 +29,23 @@ pub struct EccentricCircle {
     /// Offset of the centre from the shaft axis over the radius `R`, at least 0 and less than 1.
     pub eccentricity: f64,
     /// Radius `R`, mm; or leave it out and give module and `tooth_count`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub radius: Option<f64>,
     /// Module, mm, with `tooth_count`: sets the size of the curve.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub module: Option<f64>,
     /// Diametral pitch, 1/in, instead of the module: 25.4 mm over the module.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub diametral_pitch: Option<f64>,
     /// Number of teeth.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tooth_count: Option<u32>,
 }
 
 impl Circle {
     pub(crate) fn draft(&self) -> Result<Draft, PitchError> {
-        let size = Size {
-            module: self.module,
-            diametral_pitch: self.diametral_pitch,
-            tooth_count: self.tooth_count,
-            own: OwnSize::of("radius", self.radius)?,
-        };
+        let size = Size::new(
+            self.module,
+            self.diametral_pitch,
+            self.tooth_count,
+            OwnSize::of("radius", self.radius)?,
+        );
         let law = Eccentric {
             radius: self.radius.unwrap_or(1.0),
             eccentricity: 0.0,
@@ -70,12 +62,12 @@ impl EccentricCircle {
             radius: self.radius.unwrap_or(1.0),
             eccentricity: eccentricity(self.eccentricity)?,
         };
-        let size = Size {
-            module: self.module,
-            diametral_pitch: self.diametral_pitch,
-            tooth_count: self.tooth_count,
-            own: OwnSize::of("radius", self.radius)?,
-        };
+        let size = Size::new(
+            self.module,
+            self.diametral_pitch,
+            self.tooth_count,
+            OwnSize::of("radius", self.radius)?,
+        );
         let definition = format!(
             "eccentric circle, r = R (e cos phi + sqrt(1 - e^2 sin^2 phi)), e = {}",
             self.eccentricity

@@ -21,13 +21,10 @@ pub struct Conjugate {
     #[serde(default = "one_to_one")]
     pub mean_ratio: [u32; 2],
     /// Module, mm, with `tooth_count`: scales the curve.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub module: Option<f64>,
     /// Diametral pitch, 1/in, instead of the module: 25.4 mm over the module.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub diametral_pitch: Option<f64>,
     /// Number of teeth; alone, the module follows from the size of the curve.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tooth_count: Option<u32>,
     /// The curve it rolls on.
     pub of: Box<PitchSpec>,
@@ -39,12 +36,12 @@ fn one_to_one() -> [u32; 2] {
 
 impl Conjugate {
     pub(crate) fn draft(&self) -> Result<Draft, PitchError> {
-        let size = Size {
-            module: self.module,
-            diametral_pitch: self.diametral_pitch,
-            tooth_count: self.tooth_count,
-            own: OwnSize::Written,
-        };
+        let size = Size::new(
+            self.module,
+            self.diametral_pitch,
+            self.tooth_count,
+            OwnSize::Written,
+        );
         size.check()?;
         if self.depth() > DEEPEST {
             let (key, rule) = ("of", "is a conjugate of conjugates more than four deep");

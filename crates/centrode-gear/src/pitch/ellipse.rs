@@ -15,16 +15,12 @@ pub struct Ellipse {
     /// Distance of the focus from the centre over the semi-major axis, `k`: at least 0, less than 1.
     pub eccentricity: f64,
     /// Semi-major axis `A`, mm; or leave it out and give module and `tooth_count`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub semi_major_axis: Option<f64>,
     /// Module, mm, with `tooth_count`: sets the size of the curve.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub module: Option<f64>,
     /// Diametral pitch, 1/in, instead of the module: 25.4 mm over the module.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub diametral_pitch: Option<f64>,
     /// Number of teeth.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tooth_count: Option<u32>,
 }
 
@@ -39,16 +35,12 @@ pub struct LobedEllipse {
     /// Eccentricity `k`: at least 0, less than 1.
     pub eccentricity: f64,
     /// Mean of the maximum and minimum radius, `A`, mm; or leave it out and give module and `tooth_count`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub semi_major_axis: Option<f64>,
     /// Module, mm, with `tooth_count`: sets the size of the curve.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub module: Option<f64>,
     /// Diametral pitch, 1/in, instead of the module: 25.4 mm over the module.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub diametral_pitch: Option<f64>,
     /// Number of teeth.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tooth_count: Option<u32>,
 }
 
@@ -108,12 +100,12 @@ fn draft(
     tooth_count: Option<u32>,
     definition: String,
 ) -> Result<Draft, PitchError> {
-    let size = Size {
+    let size = Size::new(
         module,
         diametral_pitch,
         tooth_count,
-        own: OwnSize::of("semi_major_axis", own)?,
-    };
+        OwnSize::of("semi_major_axis", own)?,
+    );
     let draft = Draft::new("eccentricity", PolarCurve::new(law), size, definition)?;
     Ok(draft.scaled(Scaled::Length("A", own.unwrap_or(1.0))))
 }

@@ -42,7 +42,7 @@ pub enum PitchError {
     /// A gear with fewer than three teeth.
     #[error("tooth_count must be at least 3, not {0}")]
     ToothCount(u32),
-    /// Module without tooth count, or the other way round for a shape without a size.
+    /// Module without tooth count, or vice versa for a shape without a size.
     #[error("{given} is given without {missing}: the two together set the size of the curve")]
     SizeIncomplete {
         /// The key that is there.
@@ -65,7 +65,7 @@ pub enum PitchError {
         maximum: f64,
     },
     /// Nothing sets the size of the curve.
-    #[error("nothing sets the size of the curve: give module and tooth_count, or {0}")]
+    #[error("the size of the curve is not given: give module and tooth_count, or {0}")]
     NoSize(&'static str),
     /// The size is set twice.
     #[error("{0} and {1} both set the size of the curve: give one of them")]
@@ -146,7 +146,7 @@ pub enum PitchError {
     },
     /// The polar angle turns back.
     #[error(
-        "the curve turns back or crosses itself near {angle:.3} deg, radius {radius:.6} mm: its polar angle must increase all the way round the shaft axis"
+        "the curve turns back or crosses itself near {angle:.3} deg, radius {radius:.6} mm: its polar angle must increase over the whole turn about the shaft axis"
     )]
     SelfCrossing {
         /// Key of the shape.
@@ -240,7 +240,7 @@ pub enum PitchError {
         /// Polar angle, degrees.
         angle: f64,
     },
-    /// The curve whose conjugate is wanted does not exist.
+    /// The curve whose conjugate is required does not exist.
     #[error("of: {0}")]
     Of(Box<PitchError>),
     /// No closed curve rolls on the one given.

@@ -6,7 +6,7 @@ use super::plane::{Derivatives, Direction, PolarCurve, RadiusLaw};
 use super::size::{OwnSize, Size};
 use super::{Draft, PitchError, Scaled, Symmetry};
 
-/// A limacon of Pascal, if wanted with several lobes: `r(phi) = b + c cos(N phi)`.
+/// A limacon of Pascal, if with several lobes: `r(phi) = b + c cos(N phi)`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct Limacon {
@@ -18,13 +18,10 @@ pub struct Limacon {
     #[serde(default = "one")]
     pub lobes: u32,
     /// Module, mm, with `tooth_count`: scales the curve.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub module: Option<f64>,
     /// Diametral pitch, 1/in, instead of the module: 25.4 mm over the module.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub diametral_pitch: Option<f64>,
     /// Number of teeth; alone, the module follows from the size of the curve.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tooth_count: Option<u32>,
 }
 
@@ -52,12 +49,12 @@ impl Limacon {
             amplitude: finite("amplitude", self.amplitude)?,
             lobes: in_range("lobes", self.lobes, 1, 60)?,
         };
-        let size = Size {
-            module: self.module,
-            diametral_pitch: self.diametral_pitch,
-            tooth_count: self.tooth_count,
-            own: OwnSize::Written,
-        };
+        let size = Size::new(
+            self.module,
+            self.diametral_pitch,
+            self.tooth_count,
+            OwnSize::Written,
+        );
         let definition = format!(
             "limacon, r = b + c cos({} phi), c/b = {}",
             self.lobes,

@@ -60,7 +60,7 @@ pub enum PitchSpec {
     Ellipse(Ellipse),
     /// Focal ellipse drawn together so that it repeats several times in one turn.
     LobedEllipse(LobedEllipse),
-    /// Limacon of Pascal, if wanted with several lobes.
+    /// Limacon of Pascal, if with several lobes.
     Limacon(Limacon),
     /// Closed uniform B-spline.
     Bspline(Bspline),
@@ -88,11 +88,30 @@ pub struct Pitch {
     pub module: Option<f64>,
     /// Definition of the curve in one line, for reports and drawings.
     pub definition: String,
-    /// Turns of driver and driven gear that the description asks for, in lowest terms.
+    /// Turns of driver and driven gear that the description requires, in lowest terms.
     pub implied_ratio: Option<(u32, u32)>,
     /// Corners of the law that samples follow; the curve through them rounds these.
     pub corners: Vec<SampledCorner>,
     pub(crate) symmetry: Symmetry,
+}
+
+/// An expression of the spec of whatever kind a curve is.
+macro_rules! of_kind {
+    ($curve:expr, $spec:ident => $expression:expr) => {
+        match $curve {
+            Self::Circle($spec) => $expression,
+            Self::EccentricCircle($spec) => $expression,
+            Self::Ellipse($spec) => $expression,
+            Self::LobedEllipse($spec) => $expression,
+            Self::Limacon($spec) => $expression,
+            Self::Bspline($spec) => $expression,
+            Self::Bezier($spec) => $expression,
+            Self::Polar($spec) => $expression,
+            Self::Transmission($spec) => $expression,
+            Self::Ratio($spec) => $expression,
+            Self::Conjugate($spec) => $expression,
+        }
+    };
 }
 
 impl PitchSpec {
@@ -107,80 +126,16 @@ impl PitchSpec {
     /// Number of teeth written with the curve.
     #[must_use]
     pub fn tooth_count(&self) -> Option<u32> {
-        match self {
-            Self::Circle(spec) => spec.tooth_count,
-            Self::EccentricCircle(spec) => spec.tooth_count,
-            Self::Ellipse(spec) => spec.tooth_count,
-            Self::LobedEllipse(spec) => spec.tooth_count,
-            Self::Limacon(spec) => spec.tooth_count,
-            Self::Bspline(spec) => spec.tooth_count,
-            Self::Bezier(spec) => spec.tooth_count,
-            Self::Polar(spec) => spec.tooth_count,
-            Self::Transmission(spec) => spec.tooth_count,
-            Self::Ratio(spec) => spec.tooth_count,
-            Self::Conjugate(spec) => spec.tooth_count,
-        }
+        of_kind!(self, spec => spec.tooth_count)
     }
 
     /// Gives it another number of teeth, where it has one: on a curve of the same size, so that the module changes.
     pub(crate) fn set_tooth_count(&mut self, teeth: u32) {
-        let (module, diametral_pitch, count) = match self {
-            Self::Circle(spec) => (
-                &mut spec.module,
-                &mut spec.diametral_pitch,
-                &mut spec.tooth_count,
-            ),
-            Self::EccentricCircle(spec) => (
-                &mut spec.module,
-                &mut spec.diametral_pitch,
-                &mut spec.tooth_count,
-            ),
-            Self::Ellipse(spec) => (
-                &mut spec.module,
-                &mut spec.diametral_pitch,
-                &mut spec.tooth_count,
-            ),
-            Self::LobedEllipse(spec) => (
-                &mut spec.module,
-                &mut spec.diametral_pitch,
-                &mut spec.tooth_count,
-            ),
-            Self::Limacon(spec) => (
-                &mut spec.module,
-                &mut spec.diametral_pitch,
-                &mut spec.tooth_count,
-            ),
-            Self::Bspline(spec) => (
-                &mut spec.module,
-                &mut spec.diametral_pitch,
-                &mut spec.tooth_count,
-            ),
-            Self::Bezier(spec) => (
-                &mut spec.module,
-                &mut spec.diametral_pitch,
-                &mut spec.tooth_count,
-            ),
-            Self::Polar(spec) => (
-                &mut spec.module,
-                &mut spec.diametral_pitch,
-                &mut spec.tooth_count,
-            ),
-            Self::Transmission(spec) => (
-                &mut spec.module,
-                &mut spec.diametral_pitch,
-                &mut spec.tooth_count,
-            ),
-            Self::Ratio(spec) => (
-                &mut spec.module,
-                &mut spec.diametral_pitch,
-                &mut spec.tooth_count,
-            ),
-            Self::Conjugate(spec) => (
-                &mut spec.module,
-                &mut spec.diametral_pitch,
-                &mut spec.tooth_count,
-            ),
-        };
+        let (module, diametral_pitch, count) = of_kind!(self, spec => (
+            &mut spec.module,
+            &mut spec.diametral_pitch,
+            &mut spec.tooth_count,
+        ));
         let Some(count) = count else { return };
         if let Some(module) = module {
             *module *= f64::from(*count) / f64::from(teeth);
@@ -192,23 +147,11 @@ impl PitchSpec {
     }
 
     fn draft(&self) -> Result<Draft, PitchError> {
-        match self {
-            Self::Circle(spec) => spec.draft(),
-            Self::EccentricCircle(spec) => spec.draft(),
-            Self::Ellipse(spec) => spec.draft(),
-            Self::LobedEllipse(spec) => spec.draft(),
-            Self::Limacon(spec) => spec.draft(),
-            Self::Bspline(spec) => spec.draft(),
-            Self::Bezier(spec) => spec.draft(),
-            Self::Polar(spec) => spec.draft(),
-            Self::Transmission(spec) => spec.draft(),
-            Self::Ratio(spec) => spec.draft(),
-            Self::Conjugate(spec) => spec.draft(),
-        }
+        of_kind!(self, spec => spec.draft())
     }
 }
 
-/// How a definition in words tells the scale of its curve.
+/// How a definition in words states the scale of its curve.
 #[derive(Debug)]
 enum Scaled {
     /// It holds at every scale.
@@ -252,7 +195,7 @@ impl Draft {
         })
     }
 
-    /// Its definition tells how it is scaled.
+    /// Its definition states how it is scaled.
     fn scaled(self, scaled: Scaled) -> Self {
         Self { scaled, ..self }
     }

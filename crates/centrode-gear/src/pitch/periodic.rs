@@ -99,7 +99,7 @@ impl Periodic {
         }
     }
 
-    /// Symmetry of the function, as far as its coefficients tell.
+    /// Symmetry of the function, as far as its coefficients show.
     pub(crate) fn symmetry(&self) -> Symmetry {
         match &self.0 {
             Form::Fourier(series) => series.symmetry(),

@@ -68,7 +68,7 @@ pub(crate) trait ScalableCurve: Curve {
         false
     }
 
-    /// Symmetry of the curve about its axis, as far as its form tells.
+    /// Symmetry of the curve about its axis, as far as its form shows.
     fn symmetry(&self) -> Symmetry {
         Symmetry::NONE
     }
@@ -84,7 +84,7 @@ pub(crate) trait RadiusLaw: std::fmt::Debug + Send + Sync {
         false
     }
 
-    /// Symmetry of the law, as far as its form tells.
+    /// Symmetry of the law, as far as its form shows.
     fn symmetry(&self) -> Symmetry {
         Symmetry::NONE
     }

@@ -20,9 +20,8 @@ use centrode_spec::degrees;
 pub struct Polar {
     /// Radius, mm, as a formula in `phi` (rad): `+ - * / ^`, `pi`, sin, cos, tan, asin, acos, atan,
     /// sinh, cosh, tanh, exp, ln, sqrt.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub expression: Option<String>,
-    /// Radii, mm; over equal steps from the angle zero if `angle_deg` is left out.
+    /// Radii, mm; over equal steps from the angle zero if `angle_deg` is omitted.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub radius: Vec<f64>,
     /// Polar angles of the radii, rad (degrees in the file), increasing within one turn.
@@ -33,11 +32,9 @@ pub struct Polar {
     )]
     #[schemars(with = "Vec<f64>")]
     pub angle: Vec<f64>,
-    /// Interpolation between the radii; left out, "quintic" over equal steps, "cubic" with `angle_deg`.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Interpolation between the radii; default: "quintic" over equal steps, "cubic" with `angle_deg`.
     pub interpolation: Option<Interpolation>,
     /// Mean radius of a Fourier series, mm.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub mean: Option<f64>,
     /// Cosine coefficients from the first harmonic, mm.
     #[serde(skip_serializing_if = "Vec::is_empty")]
@@ -46,13 +43,10 @@ pub struct Polar {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub sin: Vec<f64>,
     /// Module, mm, with `tooth_count`: scales the curve.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub module: Option<f64>,
     /// Diametral pitch, 1/in, instead of the module: 25.4 mm over the module.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub diametral_pitch: Option<f64>,
     /// Number of teeth; alone, the module follows from the size of the curve.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub tooth_count: Option<u32>,
 }
 
@@ -67,12 +61,12 @@ impl Polar {
     }
 
     pub(crate) fn draft(&self) -> Result<Draft, PitchError> {
-        let size = Size {
-            module: self.module,
-            diametral_pitch: self.diametral_pitch,
-            tooth_count: self.tooth_count,
-            own: OwnSize::Written,
-        };
+        let size = Size::new(
+            self.module,
+            self.diametral_pitch,
+            self.tooth_count,
+            OwnSize::Written,
+        );
         if let Some(text) = &self.expression {
             self.nothing_of(&["radius", "mean"])?;
             let law = FormulaLaw::read("expression", text)?;
@@ -143,7 +137,7 @@ impl Polar {
         Ok((table, Interpolation::Cubic.name()))
     }
 
-    /// Refuses keys of another way to give the radius than the one in use.
+    /// Refuses keys of another definition of the radius than the one in use.
     fn nothing_of(&self, ways: &[&str]) -> Result<(), PitchError> {
         let given = [
             ("radius", "radius", !self.radius.is_empty()),

@@ -36,6 +36,20 @@ impl OwnSize {
 }
 
 impl Size {
+    pub(crate) fn new(
+        module: Option<f64>,
+        diametral_pitch: Option<f64>,
+        tooth_count: Option<u32>,
+        own: OwnSize,
+    ) -> Self {
+        Self {
+            module,
+            diametral_pitch,
+            tooth_count,
+            own,
+        }
+    }
+
     /// Module, mm, as written or by the diametral pitch.
     pub(crate) fn module(&self) -> Option<f64> {
         let by_pitch = || Some(INCH / self.diametral_pitch?);

@@ -25,7 +25,6 @@ const MAX_TURNS: u32 = 60;
 #[serde(default, deny_unknown_fields)]
 pub struct Transmission {
     /// Driven angle, rad, as a formula in the driver angle `phi`, rad.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub expression: Option<String>,
     /// Driven angles, rad (degrees in the file), over equal steps of one driver turn, both ends included.
     #[serde(
@@ -35,20 +34,15 @@ pub struct Transmission {
     )]
     #[schemars(with = "Vec<f64>")]
     pub driven_angle: Vec<f64>,
-    /// Interpolation between the samples; left out, "quintic".
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Interpolation between the samples; default: "quintic".
     pub interpolation: Option<Interpolation>,
     /// Centre distance `a`, mm; or leave it out and give module and `tooth_count`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub center_distance: Option<f64>,
     /// Module, mm, with `tooth_count`: sets the size of the curve.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub module: Option<f64>,
     /// Diametral pitch, 1/in, instead of the module: 25.4 mm over the module.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub diametral_pitch: Option<f64>,
     /// Number of teeth.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub tooth_count: Option<u32>,
 }
 
@@ -59,25 +53,19 @@ pub struct Transmission {
 #[serde(default, deny_unknown_fields)]
 pub struct Ratio {
     /// Ratio as a formula in the driver angle `phi`, rad.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub expression: Option<String>,
     /// Ratios over equal steps of one driver turn, without the repeated end.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub ratio: Vec<f64>,
-    /// Interpolation between the samples; left out, "quintic".
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Interpolation between the samples; default: "quintic".
     pub interpolation: Option<Interpolation>,
     /// Centre distance `a`, mm; or leave it out and give module and `tooth_count`.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub center_distance: Option<f64>,
     /// Module, mm, with `tooth_count`: sets the size of the curve.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub module: Option<f64>,
     /// Diametral pitch, 1/in, instead of the module: 25.4 mm over the module.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub diametral_pitch: Option<f64>,
     /// Number of teeth.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub tooth_count: Option<u32>,
 }
 
@@ -232,12 +220,12 @@ fn size(
     diametral_pitch: Option<f64>,
     tooth_count: Option<u32>,
 ) -> Result<Size, PitchError> {
-    let size = Size {
+    let size = Size::new(
         module,
         diametral_pitch,
         tooth_count,
-        own: OwnSize::of("center_distance", own)?,
-    };
+        OwnSize::of("center_distance", own)?,
+    );
     size.check().map(|()| size)
 }
 

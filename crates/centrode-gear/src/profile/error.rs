@@ -1,4 +1,4 @@
-use centrode_geometry::{LoopError, OpenOutline, Point};
+use centrode_geometry::{LoopError, OpenOutline};
 
 use crate::rolling::Member;
 
@@ -33,18 +33,6 @@ pub enum ProfileError {
         roles: [Role; 2],
         /// Distance of their ends, mm.
         gap: f64,
-    },
-    /// A contour that touches itself.
-    #[error("the {} has no profile: its contour touches itself at ({:.6}, {:.6}) mm, between a {} of tooth {} and a {} of tooth {}, so the teeth are too large for the pitch curve", .member.name(), .point.x, .point.y, .roles[0].name(), .teeth[0], .roles[1].name(), .teeth[1])]
-    Touches {
-        /// Gear at fault.
-        member: Member,
-        /// Place of the touch, mm.
-        point: Point,
-        /// Roles of the two parts.
-        roles: [Role; 2],
-        /// Their teeth, counted from 0.
-        teeth: [u32; 2],
     },
     /// A contour that leaves its axis outside, so that nothing can carry it.
     #[error("the {} has no profile: its axis lies outside its contour, {away:.6} mm from it, so the teeth are too large for the pitch curve", .member.name())]

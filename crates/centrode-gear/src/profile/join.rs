@@ -4,13 +4,6 @@ use centrode_geometry::{
 
 use super::{Cutter, Member, Profile, ProfileError, Role, Side, Tooth, ToothCurve};
 
-/// Length, in tolerances of the contour, over which two curves may part from their joint in one direction within
-/// rounding.
-const SPECK: f64 = 1e5;
-
-/// Distance, in tolerances of the contour, that two curves may lie over each other at a cusp for the tolerance of both.
-const THIN: f64 = 2.0;
-
 impl Cutter<'_> {
     /// Joins what is left of the pieces into the contour, and finds what it leaves of each tooth.
     pub(super) fn join(
@@ -93,19 +86,8 @@ impl Cutter<'_> {
             roles.reverse();
             owners.reverse();
         }
-        let outline = Outline::new(segments)?;
-        // Where a flank turns back on its fillet the two part by less than rounding at first.
-        let tolerance = self.tolerance.mm();
-        if let Some(found) = outline.crossing_ignoring(SPECK * tolerance, THIN * tolerance) {
-            return Err(ProfileError::Touches {
-                member: self.member,
-                point: found.point,
-                roles: found.segments.map(|i| roles[i]),
-                teeth: found.segments.map(|i| owners[i]),
-            });
-        }
         Ok(Profile {
-            outline,
+            outline: Outline::new(segments)?,
             roles,
             owners,
             teeth,

@@ -14,7 +14,7 @@ pub enum RollingError {
     },
     /// The pitch curve swings or kinks too often to be followed.
     #[error(
-        "the pitch curve swings, or kinks, too often: cut into 4096 pieces, between each two of its own joints, it is still not smooth in {unsettled} of them, of which {most} are let pass; smooth the law"
+        "the pitch curve oscillates or has kinks too often: with up to 4096 pieces between two neighbouring joints it is still not smooth in {unsettled} of the pieces; at most {most} are allowed; smooth the law"
     )]
     Unsettled {
         /// Pieces on which the curve's length is no polynomial to a billionth.

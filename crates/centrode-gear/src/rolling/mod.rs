@@ -26,6 +26,11 @@ pub enum Member {
     Driven,
 }
 
+centrode_spec::words!(Member {
+    Driver = "driver",
+    Driven = "driven",
+});
+
 impl Member {
     /// The other gear of the pair.
     #[must_use]
@@ -33,15 +38,6 @@ impl Member {
         match self {
             Self::Driver => Self::Driven,
             Self::Driven => Self::Driver,
-        }
-    }
-
-    /// The name used in files and reports.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Driver => "driver",
-            Self::Driven => "driven",
         }
     }
 }
@@ -70,7 +66,7 @@ pub struct Frame {
 /// parallel to the world's at phi = 0.
 ///
 /// Source: Litvin's centrode relations; the closure is derived again for a mean ratio n1:n2 (turns of
-/// driver to turns of driven), which asks one driver turn to give 2 pi n2/n1.
+/// driver to turns of driven), which requires one driver turn to give 2 pi n2/n1.
 #[derive(Clone, Debug)]
 pub struct Rolling {
     curve: Arc<dyn Curve>,
@@ -185,8 +181,8 @@ impl Rolling {
         self.swings
     }
 
-    /// Whether the pitch curves swing more than twice a tooth of a driver with `teeth`: every wave has its peak, and their teeth are
-    /// looked at at few places.
+    /// Whether the pitch curves swing more than twice a tooth of a driver with `teeth`: every wave has its peak, and their
+    /// teeth are sampled at few inputs.
     #[must_use]
     pub fn oscillates_per_tooth(&self, teeth: u32) -> bool {
         self.swings > 2 * teeth as usize
@@ -388,7 +384,7 @@ impl Rolling {
         self.jumps.contains(&inside)
     }
 
-    /// Parameter of that place in the first turn, and the turns before it.
+    /// Parameter of that position in the first turn, and the turns before it.
     pub(crate) fn wrapped(&self, t: f64) -> (f64, f64) {
         let period = self.curve.period();
         if t >= self.start && t <= self.start + period {

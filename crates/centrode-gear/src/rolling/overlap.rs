@@ -6,10 +6,10 @@ use centrode_geometry::{COMPUTED, Extreme, Point, bracketed_minimum, checkpoint}
 
 use super::Rolling;
 
-/// Places on a turn of the driver among which an overlap is sought.
+/// Positions on a turn of the driver among which an overlap is searched.
 const PLACES: usize = 360;
 
-/// A place of the driver's pitch curve, with what the driven gear's has there.
+/// A point of the driver's pitch curve, with that of the driven gear's curve there.
 struct Place {
     angle: f64,
     radius: f64,
@@ -22,7 +22,7 @@ impl Rolling {
     ///
     /// With the driver at phi, the point of the driven gear's curve that is to come to the pitch point after a turn beta of that
     /// gear is at (a - r2 cos beta, r2 sin beta); with rho and gamma its distance and angle from the driver's shaft, the overlap is
-    /// r1(phi + gamma) - rho. Convex curves have none. Sought among 360 places of either curve and found between them.
+    /// r1(phi + gamma) - rho. Convex curves have none. Searched among 360 points of either curve and found between them.
     #[must_use]
     pub fn overlap(&self) -> Option<Extreme> {
         if self
@@ -42,7 +42,7 @@ impl Rolling {
         let mut best: Option<Extreme> = None;
         for (rough, [pose, place]) in found {
             checkpoint();
-            // What is so far off comes no nearer between the places than the steps are long.
+            // Points farther off than a step come no nearer between the samples.
             if rough < -step || best.is_some_and(|best| rough < best.value - step) {
                 break;
             }
@@ -63,7 +63,7 @@ impl Rolling {
         best.filter(|best| best.value > COMPUTED * self.center_distance)
     }
 
-    /// Place at an arc length.
+    /// Position at an arc length.
     fn place(&self, arc: f64) -> Place {
         let contact = self.pitch_contact(self.parameter(arc));
         Place {
@@ -73,22 +73,22 @@ impl Rolling {
         }
     }
 
-    /// A place of the driven gear's curve with the gears at a pose.
+    /// A point of the driven gear's curve with the gears at a pose.
     fn beside(&self, pose: &Place, place: &Place) -> Point {
         let (sin, cos) = (place.driven - pose.driven).sin_cos();
         let radius = self.center_distance - place.radius;
         Point::new(self.center_distance - radius * cos, radius * sin)
     }
 
-    /// Depth of that place within the driver's curve; negative outside.
+    /// Depth of that position within the driver's curve; negative outside.
     fn depth(&self, pose: &Place, place: &Place) -> f64 {
         let point = self.beside(pose, place);
         let radius = self.radius(pose.angle + point.y.atan2(point.x));
         radius - point.coords.norm()
     }
 
-    /// Poses and places, by their numbers, at which a place is deeper than those next to it at that pose, and than at the poses
-    /// next to it; each with its depth, by chords.
+    /// Poses and positions, by their numbers, at which a position is deeper than those next to it at that pose, and than at the
+    /// poses next to it; each with its depth, by chords.
     fn suspects(&self, places: &[Place]) -> Vec<(f64, [i64; 2])> {
         let count = PLACES as i64;
         let angle_of_turn = self.driven.total();
@@ -111,7 +111,7 @@ impl Rolling {
             let pair = [radii[k % PLACES], radii[(k + 1) % PLACES]];
             pair[0] + rest * (pair[1] - pair[0])
         };
-        // Deepest place of a pose on either side of the pitch point, beyond where the curves part from there.
+        // Deepest point of a pose on either side of the pitch point, beyond where the curves part from there.
         let deepest = |pose: i64, way: i64| {
             let here = at(pose);
             let depth = |steps: i64| {

@@ -233,7 +233,7 @@ fn turns(values: impl Iterator<Item = f64>, threshold: f64) -> usize {
     rises.iter().zip(again).filter(|(a, b)| a != b).count()
 }
 
-/// Newton's method kept above the maximum radius, where the driven angle falls from infinity to zero.
+/// Newton's method bounded below by the maximum radius, where the driven angle falls from infinity to zero.
 fn closure(nodes: &[(f64, f64)], maximum: f64, required: f64) -> f64 {
     let turned = |a: f64| -> (f64, f64) {
         let (mut sum, mut slope) = (0.0, 0.0);

@@ -2,6 +2,7 @@ use super::smooth_run::{Deviation, Node, hermite_peak};
 use crate::{
     Point, Vector,
     curve::{Arc, Segment},
+    numeric::rounding,
 };
 
 /// Bulge of an arc, the tangent of a quarter of its turn, from the directions of its start and its chord, or its chord and its
@@ -12,7 +13,7 @@ pub(crate) fn bulge(from: Vector, to: Vector) -> f64 {
 
 /// An arc, or a line if the sagitta of the arc is below the rounding of its ends.
 pub(crate) fn arc(start: Point, end: Point, bulge: f64) -> Segment {
-    let rounding = 4.0 * f64::EPSILON * start.coords.amax().max(end.coords.amax());
+    let rounding = rounding(start.coords.amax().max(end.coords.amax()));
     // NaN for equal ends: a line as well.
     if bulge.abs() * (end - start).norm() > rounding {
         Segment::Arc(Arc { start, end, bulge })

@@ -1,6 +1,6 @@
 use crate::{
     curve::{Piece, Segment},
-    numeric::Tolerance,
+    numeric::{COMPUTED, Tolerance},
     region::{CORNER, Outline, Position},
 };
 
@@ -55,7 +55,7 @@ impl Outline {
             });
             let rest = piece.after(u);
             let own = max_length(piece.curvature, 0.0, tolerance);
-            if rest > own * (1.0 + 1e-9) {
+            if rest > own * (1.0 + COMPUTED) {
                 u += (piece.u1 - u) / (rest / own).ceil();
                 continue;
             }

@@ -7,8 +7,8 @@ use std::collections::HashSet;
 use crate::{
     Point,
     curve::{Bounds, SegmentRange},
-    numeric::{Tolerance, bracketed_root},
-    region::{Outline, Position},
+    numeric::{COMPUTED, POSITION, Tolerance, bracketed_root},
+    region::{BoundTree, Outline, Position},
 };
 
 /// Maximum number of passes, each of which divides the chords that cross. With too few, crossings remain near cusps; more only cost
@@ -18,14 +18,6 @@ const MAX_PASSES: u32 = 48;
 /// Fraction of a chord's parameter range at each end in which no position is added. Much smaller, chords become as short as
 /// rounding; much larger, crossings near the ends remain.
 const END: f64 = 1e-6;
-
-/// Fraction of the size of the outline below which a loop of chords is dropped. Ten times larger drops real loops; ten times
-/// smaller approaches rounding.
-const SMALL_LOOP: f64 = 1e-10;
-
-/// Fraction of the size of the outline below which a chord is rounding and has no direction. Ten times larger ignores real
-/// crossings; ten times smaller follows rounding.
-const ROUNDING: f64 = 64.0 * f64::EPSILON;
 
 impl Outline {
     /// Adds positions until no chords cross, except where the outline crosses itself or two parts differ only by rounding.
@@ -43,11 +35,11 @@ impl Outline {
                 .map(|&position| self.point(position))
                 .collect();
             let size = points.iter().copied().collect::<Bounds>().diagonal();
-            let crossed = Chords::new(&points).crossed(tolerance.mm(), ROUNDING * size);
+            let crossed = Chords::new(&points).crossed(tolerance.mm(), POSITION * size);
             if crossed.is_empty() {
                 break;
             }
-            let dropped = small_loops(&points, &crossed, SMALL_LOOP * size);
+            let dropped = small_loops(&points, &crossed, COMPUTED * size);
             if !dropped.is_empty() {
                 let mut number = 0..;
                 positions.retain(|_| number.next().is_some_and(|k| !dropped.contains(&k)));
@@ -177,93 +169,52 @@ fn small_loops(points: &[Point], crossed: &[(usize, usize)], size: f64) -> HashS
     both.flat_map(|(from, to)| between(from, to)).collect()
 }
 
-/// Chords of a closed polygon in a binary tree of boxes.
+/// Chords of a closed polygon in a tree of boxes.
 struct Chords<'a> {
     points: &'a [Point],
-    /// Box of node `k`; its halves are the nodes `2 k` and `2 k + 1`.
-    boxes: Vec<Bounds>,
-}
-
-/// A run of chords, one node of the tree.
-#[derive(Clone, Copy, PartialEq)]
-struct ChordRun {
-    node: usize,
-    /// Index of the first chord.
-    first: usize,
-    /// Index after the last chord.
-    end: usize,
-}
-
-impl ChordRun {
-    fn len(self) -> usize {
-        self.end - self.first
-    }
-
-    fn halves(self) -> [Self; 2] {
-        let middle = self.first.midpoint(self.end);
-        [(0, self.first, middle), (1, middle, self.end)].map(|(half, first, end)| Self {
-            node: 2 * self.node + half,
-            first,
-            end,
-        })
-    }
+    tree: BoundTree<Bounds>,
 }
 
 impl<'a> Chords<'a> {
     fn new(points: &'a [Point]) -> Self {
-        let mut tree = Self {
-            points,
-            boxes: vec![Bounds::EMPTY; 2 * points.len().next_power_of_two()],
-        };
-        tree.fill(tree.root());
-        tree
+        let next = points.iter().cycle().skip(1);
+        let chords: Vec<[Point; 2]> = points.iter().zip(next).map(|(p, q)| [*p, *q]).collect();
+        let tree = BoundTree::new(&chords, |run| run.iter().flatten().copied().collect());
+        Self { points, tree }
     }
 
     fn chord(&self, k: usize) -> [Point; 2] {
         [self.points[k], self.points[(k + 1) % self.points.len()]]
     }
 
-    fn root(&self) -> ChordRun {
-        ChordRun {
-            node: 1,
-            first: 0,
-            end: self.points.len(),
-        }
-    }
-
-    fn fill(&mut self, run: ChordRun) -> Bounds {
-        let bounds = if run.len() == 1 {
-            self.chord(run.first).into_iter().collect()
-        } else {
-            let [low, high] = run.halves();
-            self.fill(low).union(self.fill(high))
-        };
-        self.boxes[run.node] = bounds;
-        bounds
-    }
-
     /// Pairs of chords that meet although their curves, within the tolerance, need not. Chords below rounding do not count.
     fn crossed(&self, tolerance: f64, rounding: f64) -> Vec<(usize, usize)> {
         let mut found = Vec::new();
-        let whole = self.root();
-        let mut pending = vec![(whole, whole)];
+        let mut pending: Vec<_> = self
+            .tree
+            .root()
+            .map(|whole| (whole, whole))
+            .into_iter()
+            .collect();
         while let Some((a, b)) = pending.pop() {
             crate::checkpoint();
-            if a == b {
-                if a.len() > 1 {
-                    let [low, high] = a.halves();
-                    pending.extend([(low, low), (high, high), (low, high)]);
-                }
-            } else if self.boxes[a.node].meets(&self.boxes[b.node]) {
-                if a.len() == 1 && b.len() == 1 {
-                    if self.cross(a.first, b.first, tolerance, rounding) {
-                        found.push((a.first, b.first));
+            match (a.single(), b.single()) {
+                _ if a.index() == b.index() => {
+                    if a.count() > 1 {
+                        let [low, high] = self.tree.halves(&a);
+                        pending.extend([(low, low), (high, high), (low, high)]);
                     }
-                } else if a.len() >= b.len() {
-                    pending.extend(a.halves().map(|half| (half, b)));
-                } else {
-                    pending.extend(b.halves().map(|half| (a, half)));
                 }
+                _ if !a.bound.meets(&b.bound) => {}
+                (Some(i), Some(j)) => {
+                    if self.cross(i, j, tolerance, rounding) {
+                        found.push((i, j));
+                    }
+                }
+                _ if a.count() >= b.count() => {
+                    pending.extend(self.tree.halves(&a).map(|half| (half, b)));
+                }
+                _ => pending.extend(self.tree.halves(&b).map(|half| (a, half))),
             }
         }
         found

@@ -1,4 +1,4 @@
-use crate::{Point, curve::Segment};
+use crate::Point;
 
 /// The smallest axis-aligned rectangle around a shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,46 +68,5 @@ impl Bounds {
 impl FromIterator<Point> for Bounds {
     fn from_iter<I: IntoIterator<Item = Point>>(points: I) -> Self {
         points.into_iter().fold(Self::EMPTY, Self::with)
-    }
-}
-
-impl Segment {
-    /// A rectangle that contains the part between two parameters; not always the smallest one.
-    pub(crate) fn enclosure(&self, u0: f64, u1: f64) -> Bounds {
-        match self {
-            Self::Line(..) => Bounds::EMPTY
-                .with(self.at(u0).point)
-                .with(self.at(u1).point),
-            Self::Arc(_) => {
-                let (start, end) = (self.at(u0), self.at(u1));
-                let length = start.first.norm() * (u1 - u0);
-                let turned = start.second.norm() / start.first.norm() * (u1 - u0);
-                let sagitta = (length * turned / 8.0).min(0.5 * length);
-                let ends = Bounds::EMPTY.with(start.point).with(end.point);
-                enlarged(ends, sagitta, sagitta)
-            }
-            Self::Poly(poly) => {
-                let part = poly.part(u0, u1);
-                let c = part.coefficients();
-                let ends = Bounds::EMPTY
-                    .with(part.at(-1.0).point)
-                    .with(part.at(1.0).point);
-                // An even power lies at most 1 below its value at the ends, an odd one at most 2.
-                let reach = |axis: usize| {
-                    let curved: f64 = c.iter().skip(2).map(|c| c[axis].abs()).sum();
-                    2.0 * curved
-                };
-                enlarged(ends, reach(0), reach(1))
-            }
-        }
-    }
-}
-
-/// The rectangle with a margin on every side.
-fn enlarged(bounds: Bounds, x: f64, y: f64) -> Bounds {
-    let margin = crate::Vector::new(x, y);
-    Bounds {
-        min: bounds.min - margin,
-        max: bounds.max + margin,
     }
 }

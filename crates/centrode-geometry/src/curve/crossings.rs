@@ -2,10 +2,12 @@
 //!
 //! Source: Sederberg and Meyers, Loop detection in surface patch intersections, CAGD 5, 1988.
 
+mod cusp;
+
 use crate::{
     Point, Vector,
-    curve::{Segment, SegmentJet},
-    numeric::Tolerance,
+    curve::{Bounds, Span, SpanBounds},
+    numeric::{ITERATED, Tolerance, WRITTEN, rounding},
 };
 
 /// Maximum number of pairs of parts compared for one pair of segments.
@@ -15,20 +17,12 @@ use crate::{
 /// some strands at a cusp count as such; ten times more only delays the error.
 const MAX_PAIRS: u32 = 200_000;
 
-/// Part of one segment, with the bounds that prove it separate from another part.
+/// Part of one segment.
 struct Part<'a> {
-    segment: &'a Segment,
-    /// Upper bound of the third derivative over the whole segment.
-    third: f64,
-    from: f64,
-    to: f64,
-    start: Point,
-    end: Point,
-    middle: SegmentJet,
+    span: Span<'a>,
     /// Upper bound of the distance between any two of its points, mm.
     size: f64,
-    /// Minimum and maximum coordinates.
-    bounds: [Point; 2],
+    bounds: Bounds,
     cone: Option<Cone>,
     /// Index of the first of its two halves, once they exist.
     halves: Option<usize>,
@@ -37,7 +31,7 @@ struct Part<'a> {
 /// Cone that contains every tangent of a part.
 #[derive(Clone, Copy)]
 struct Cone {
-    /// Unit tangent in the middle.
+    /// Direction of its middle, that of the chord.
     tangent: Vector,
     /// Cosine and sine of the half-angle.
     half: [f64; 2],
@@ -56,82 +50,48 @@ struct ConeAngles {
 struct Parts<'a>(Vec<Part<'a>>);
 
 impl<'a> Part<'a> {
-    fn new(
-        segment: &'a Segment,
-        third: f64,
-        [from, to]: [f64; 2],
-        [start, end]: [Point; 2],
-    ) -> Self {
-        let middle = segment.at(0.5 * (from + to));
-        let length = to - from;
-        let (quarter, rest) = (0.125 * length * length, 0.5 * third * length);
-        let margin = middle.second.map(|s| quarter * (s.abs() + rest));
-        let sagitta = quarter * (middle.second.norm() + rest);
+    fn new(span: Span<'a>) -> Self {
+        let SpanBounds {
+            direction,
+            cos,
+            sin,
+            ..
+        } = span.bounds;
+        let cone = Cone {
+            tangent: direction,
+            half: [cos, sin],
+        };
         Self {
-            segment,
-            third,
-            from,
-            to,
-            start,
-            end,
-            middle,
-            size: (end - start).norm() + 2.0 * sagitta,
-            bounds: [start.inf(&end) - margin, start.sup(&end) + margin],
-            cone: Cone::new(&middle, 0.5 * length, third),
+            size: span.size(),
+            bounds: span.bounding_box(),
+            cone: (cos > 0.0 && direction != Vector::zeros()).then_some(cone),
             halves: None,
+            span,
         }
-    }
-
-    fn length(&self) -> f64 {
-        self.to - self.from
     }
 
     /// Whether the part is shorter than a length, or so short that it has no midpoint.
     fn is_shorter(&self, length: f64) -> bool {
-        self.size < length || self.length() <= 4.0 * f64::EPSILON
+        self.size < length || self.span.u[1] - self.span.u[0] <= rounding(1.0)
     }
 
-    /// Minimum and maximum coordinate of the part along an axis.
-    fn along(&self, axis: &Vector) -> (f64, f64) {
-        let [a, b] = [self.start, self.end].map(|p| axis.dot(&p.coords));
-        let bend =
-            axis.dot(&self.middle.second).abs() + 0.5 * self.third * self.length() * axis.norm();
-        let margin = 0.125 * bend * self.length() * self.length();
-        (a.min(b) - margin, a.max(b) + margin)
-    }
-
-    /// Whether an axis or the normal of a chord separates the two parts.
-    fn is_separate(&self, other: &Self) -> bool {
+    /// Whether an axis or the normal of a chord separates the two parts by more than `gap`, mm.
+    fn is_separate(&self, other: &Self, gap: f64) -> bool {
         let before = |one: &Self, two: &Self| {
-            let (high, low) = (one.bounds[1], two.bounds[0]);
-            high.x < low.x || high.y < low.y
+            let (high, low) = (one.bounds.max, two.bounds.min);
+            high.x + gap < low.x || high.y + gap < low.y
         };
         let clear = |part: &Self| {
-            let chord = part.end - part.start;
-            let normal = Vector::new(-chord.y, chord.x);
-            let (a, b) = (self.along(&normal), other.along(&normal));
-            a.1 < b.0 || b.1 < a.0
+            let along = part.span.bounds.direction;
+            let normal = Vector::new(-along.y, along.x);
+            let (a, b) = (self.span.extent(&normal), other.span.extent(&normal));
+            a.1 + gap < b.0 || b.1 + gap < a.0
         };
         before(self, other) || before(other, self) || clear(self) || clear(other)
     }
 }
 
 impl Cone {
-    /// Tangents within `half` of the parameter in the middle; `None` if they may have any direction.
-    fn new(middle: &SegmentJet, half: f64, third: f64) -> Option<Self> {
-        let size = middle.first.norm();
-        let tangent = middle.first / size;
-        // Along and across the tangent separately: near a cusp the speed changes fast, the direction does not.
-        let rest = 0.5 * third * half * half;
-        let along = size - half * tangent.dot(&middle.second).abs() - rest;
-        let across = half * tangent.perp(&middle.second).abs() + rest;
-        let sides = Vector::new(along, across);
-        (along > 0.0).then(|| Self {
-            tangent,
-            half: (sides / sides.norm()).into(),
-        })
-    }
-
     /// Whether all tangents lie within less than half a turn.
     fn is_narrow(&self) -> bool {
         self.half[1] < MAX_HALF_ANGLE_TAN * self.half[0]
@@ -173,30 +133,14 @@ impl Cone {
 const MAX_HALF_ANGLE_TAN: f64 = 14.1;
 
 impl<'a> Parts<'a> {
-    fn new() -> Self {
-        Self(Vec::with_capacity(16))
-    }
-
-    /// Adds a whole segment and returns its index.
-    fn whole(&mut self, segment: &'a Segment) -> Result<usize, CrossingError> {
-        let third = match segment {
-            Segment::Line(..) => 0.0,
-            Segment::Arc(arc) => (0.5 * arc.sweep().abs()).powi(3) * arc.radius(),
-            Segment::Poly(poly) => poly
-                .coefficients()
-                .iter()
-                .enumerate()
-                .skip(3)
-                .map(|(k, c)| (k * (k - 1) * (k - 2)) as f64 * c.norm())
-                .sum(),
-        };
-        let ends = [segment.start(), segment.end()];
-        let whole = Part::new(segment, third, [-1.0, 1.0], ends);
-        if !whole.size.is_finite() {
-            return Err(CrossingError::NotFinite);
-        }
-        self.0.push(whole);
-        Ok(self.0.len() - 1)
+    /// Whole segments first.
+    fn new(whole: &[&Span<'a>]) -> Result<Self, CrossingError> {
+        let mut parts = Vec::with_capacity(16);
+        parts.extend(whole.iter().map(|&&span| Part::new(span)));
+        let is_finite = parts.iter().all(|part| part.size.is_finite());
+        is_finite
+            .then_some(Self(parts))
+            .ok_or(CrossingError::NotFinite)
     }
 
     /// Indices of the two halves of a part.
@@ -205,14 +149,8 @@ impl<'a> Parts<'a> {
         let part = &mut self.0[index];
         let first = *part.halves.get_or_insert(next);
         if first == next {
-            let (segment, third) = (part.segment, part.third);
-            let u = 0.5 * (part.from + part.to);
-            let (from, to, start, end) = (part.from, part.to, part.start, part.end);
-            let middle = part.middle.point;
-            self.0
-                .push(Part::new(segment, third, [from, u], [start, middle]));
-            self.0
-                .push(Part::new(segment, third, [u, to], [middle, end]));
+            let halves = part.span.halves();
+            self.0.extend(halves.map(Part::new));
         }
         [first, first + 1]
     }
@@ -232,63 +170,92 @@ pub enum CrossingError {
     },
 }
 
-/// Parameters, on `a` and on `b`, at which two segments cross.
+/// Where two segments meet, as parameters on the first and on the second.
+#[derive(Debug, Default)]
+pub(crate) struct Meetings {
+    /// Crossings, refined to rounding.
+    pub(crate) crossings: Vec<(f64, f64)>,
+    /// Parts at the limit of division of which neither is proven: that they cross, or that they are apart.
+    pub(crate) touches: Vec<(f64, f64)>,
+}
+
+/// How far two segments are resolved.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Resolution {
+    /// Size, mm, below which parts are not divided further.
+    pub(crate) size: f64,
+    /// Distance, mm, that two parts must exceed to be separate.
+    pub(crate) gap: f64,
+    /// Distance, mm, within which the two sides of a cusp may overlap if they separate to one side; `None` if every crossing
+    /// counts.
+    pub(crate) cusp: Option<f64>,
+}
+
+impl Resolution {
+    /// Crossings only, of parts down to the tolerance.
+    pub(crate) fn of_crossings(tolerance: Tolerance) -> Self {
+        Self {
+            size: tolerance.mm(),
+            gap: 0.0,
+            cusp: None,
+        }
+    }
+}
+
+/// Where two segments meet.
 ///
-/// If `joined` is true, `b` starts at the end of `a`; this point is then not a crossing. Parts are halved until their
-/// bounding boxes or their tangent cones separate; Newton's method refines a crossing. Parts smaller than `tolerance`
-/// count as touching, not as crossing.
+/// If `joined` is true, `b` starts at the end of `a`; this point then does not count. Parts are halved until their bounding
+/// boxes or their tangent cones separate; Newton's method refines a crossing.
 ///
 /// # Errors
 /// [`CrossingError`] if the segments lie on each other or a coordinate is not a number.
-pub fn crossings(
-    a: &Segment,
-    b: &Segment,
+pub(crate) fn meetings(
+    a: &Span<'_>,
+    b: &Span<'_>,
     joined: bool,
-    tolerance: Tolerance,
-) -> Result<Vec<(f64, f64)>, CrossingError> {
-    let mut parts = Parts::new();
-    let both = [parts.whole(a)?, parts.whole(b)?];
-    let mut out = Vec::new();
-    search(&mut parts, both, joined, tolerance.mm(), &mut out)?;
+    resolution: Resolution,
+) -> Result<Meetings, CrossingError> {
+    let mut parts = Parts::new(&[a, b])?;
+    let mut out = Meetings::default();
+    search(&mut parts, [0, 1], joined, resolution, &mut out)?;
     Ok(out)
 }
 
-/// Pairs of parameters at which a segment crosses itself.
+/// Where a segment meets itself.
 ///
 /// # Errors
 /// [`CrossingError`] if it lies on itself or a coordinate is not a number.
-pub fn self_crossings(
-    segment: &Segment,
-    tolerance: Tolerance,
-) -> Result<Vec<(f64, f64)>, CrossingError> {
-    let mut out = Vec::new();
-    let shortest = tolerance.mm();
-    let mut parts = Parts::new();
+pub(crate) fn self_meetings(
+    segment: &Span<'_>,
+    resolution: Resolution,
+) -> Result<Meetings, CrossingError> {
+    let mut out = Meetings::default();
+    let mut parts = Parts::new(&[segment])?;
     // A smooth curve is cut a few times, a curve with a cusp once per level.
-    let mut pending = vec![parts.whole(segment)?];
+    let mut pending = vec![0];
     while let Some(index) = pending.pop() {
         crate::checkpoint();
         let part = &parts.0[index];
         // A curve whose tangents fit in half a turn cannot return to itself.
-        if part.cone.is_some_and(|cone| cone.is_narrow()) || part.is_shorter(shortest) {
+        if part.cone.is_some_and(|cone| cone.is_narrow()) || part.is_shorter(resolution.size) {
             continue;
         }
         let halves = parts.halves(index);
         pending.extend(halves);
-        search(&mut parts, halves, true, shortest, &mut out)?;
+        search(&mut parts, halves, true, resolution, &mut out)?;
     }
     Ok(out)
 }
 
-/// Adds the crossings of two parts to `out`.
+/// Adds the meetings of two parts to `out`.
 fn search(
     parts: &mut Parts<'_>,
     [a, b]: [usize; 2],
     joined: bool,
-    shortest: f64,
-    out: &mut Vec<(f64, f64)>,
+    resolution: Resolution,
+    out: &mut Meetings,
 ) -> Result<(), CrossingError> {
-    let mut near = parts.0[a].end;
+    let mut near = parts.0[a].span.ends[0];
     let mut pending = vec![(a, b, joined)];
     for _ in 0..MAX_PAIRS {
         crate::checkpoint();
@@ -296,28 +263,32 @@ fn search(
             return Ok(());
         };
         let (a, b) = (&parts.0[first], &parts.0[second]);
-        near = a.middle.point;
-        if !joined && a.is_separate(b) {
+        near = a.span.ends[0];
+        if !joined && a.is_separate(b, resolution.gap) {
             continue;
         }
         if let (Some(one), Some(two)) = (&a.cone, &b.cone) {
             if joined {
-                if one.continues_into(two) {
+                if one.continues_into(two) || a.parts_from(b, resolution) {
                     continue;
                 }
             } else if one.crosses(two) {
                 // Tangents are nowhere parallel or opposite: at most one crossing. If Newton's method leads elsewhere,
                 // that does not prove that there is none.
-                if let Some(found) = refine(a, b) {
-                    let mut known = out.iter();
-                    if !known.any(|&known| is_same(a, b, known, found, shortest)) {
-                        out.push(found);
+                if let Some(found) = refine(&a.span, &b.span) {
+                    let mut known = out.crossings.iter();
+                    if !known.any(|&known| is_same(&a.span, &b.span, known, found, resolution.size))
+                    {
+                        out.crossings.push(found);
                     }
                     continue;
                 }
             }
         }
-        if a.is_shorter(shortest) && b.is_shorter(shortest) {
+        if a.is_shorter(resolution.size) && b.is_shorter(resolution.size) {
+            if !joined {
+                out.touches.push((a.span.u[0], b.span.u[0]));
+            }
             continue;
         }
         let is_first = a.size >= b.size;
@@ -338,37 +309,47 @@ fn search(
     Err(CrossingError::Overlap { near })
 }
 
+/// Difference of the parameter of a segment within which two crossings in one direction are the same. Ten times smaller, the
+/// rounding at a flat crossing makes two of it; ten times larger joins crossings of small loops.
+const NEAR: f64 = 1e-7;
+
 /// Whether two crossings, found from neighbouring parts, are the same.
 ///
 /// Strands that cross twice cross in opposite directions. So two crossings in one direction with no length between them are
 /// the same. Near a cusp the parameters of one point differ by the root of the rounding or more, so the points are compared,
 /// within [`point_error`] on each strand.
 fn is_same(
-    a: &Part<'_>,
-    b: &Part<'_>,
+    a: &Span<'_>,
+    b: &Span<'_>,
     known: (f64, f64),
     found: (f64, f64),
     shortest: f64,
 ) -> bool {
-    let near = |part: &Part<'_>, x: f64, y: f64| {
+    let near = |part: &Span<'_>, x: f64, y: f64| {
         let at = |u: f64| part.segment.at(u).point;
         let (from, to, middle) = (at(x), at(y), at(0.5 * (x + y)));
         let apart = (middle - from).norm() + (to - middle).norm();
         let speed = part.segment.at(x).first.norm();
-        (x - y).abs() < 1e-7 || apart < shortest + 2.0 * point_error(part, speed)
+        (x - y).abs() < NEAR || apart < shortest + 2.0 * point_error(part, speed)
     };
     let rises = |(u, v): (f64, f64)| a.segment.at(u).first.perp(&b.segment.at(v).first) > 0.0;
     near(a, known.0, found.0) && near(b, known.1, found.1) && rises(known) == rises(found)
 }
 
 /// Distance, mm, that rounding may leave between the points of a crossing on its two strands.
-fn point_error(part: &Part<'_>, speed: f64) -> f64 {
-    1e-11 * (speed + part.start.coords.amax())
+fn point_error(part: &Span<'_>, speed: f64) -> f64 {
+    ITERATED * (speed + part.ends[0].coords.amax())
 }
 
 /// Newton's method on both parameters; `None` if it ends outside the parts by more than rounding.
-fn refine(a: &Part<'_>, b: &Part<'_>) -> Option<(f64, f64)> {
-    let (mut u, mut v) = (0.5 * (a.from + a.to), 0.5 * (b.from + b.to));
+fn refine(a: &Span<'_>, b: &Span<'_>) -> Option<(f64, f64)> {
+    let [mut u, mut v] = [a, b].map(|part| 0.5 * (part.u[0] + part.u[1]));
+    // A step may leave a part by at most half its length.
+    let near = |part: &Span<'_>, x: f64| {
+        let [from, to] = part.u;
+        let half = 0.5 * (to - from);
+        x.clamp(from - half, to + half)
+    };
     for _ in 0..50 {
         let (p, q) = (a.segment.at(u), b.segment.at(v));
         let gap = q.point - p.point;
@@ -377,18 +358,17 @@ fn refine(a: &Part<'_>, b: &Part<'_>) -> Option<(f64, f64)> {
         if !(du.is_finite() && dv.is_finite()) {
             return None;
         }
-        // A step may leave a part by at most half its length.
         let before = (u, v);
-        u = (u + du).clamp(a.from - 0.5 * a.length(), a.to + 0.5 * a.length());
-        v = (v + dv).clamp(b.from - 0.5 * b.length(), b.to + 0.5 * b.length());
-        if (u, v) == before || (du.abs() < 1e-15 && dv.abs() < 1e-15) {
+        u = near(a, u + du);
+        v = near(b, v + dv);
+        if (u, v) == before || (du.abs().max(dv.abs()) < rounding(1.0)) {
             break;
         }
     }
     let gap = (b.segment.at(v).point - a.segment.at(u).point).norm();
     let speed = a.segment.at(u).first.norm();
     let size = speed.max(b.segment.at(v).first.norm());
-    let inside = |x: f64, part: &Part<'_>| x >= part.from - 1e-12 && x <= part.to + 1e-12;
+    let inside = |x: f64, part: &Span<'_>| x >= part.u[0] - WRITTEN && x <= part.u[1] + WRITTEN;
     let hit = gap <= point_error(a, size) && inside(u, a) && inside(v, b);
     hit.then(|| (u.clamp(-1.0, 1.0), v.clamp(-1.0, 1.0)))
 }

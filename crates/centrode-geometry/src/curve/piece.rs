@@ -84,15 +84,6 @@ impl Piece {
         (self.length * self.length * self.curvature / 8.0).min(0.5 * self.length)
     }
 
-    /// Upper bound on the angle, rad, by which the tangent turns.
-    pub(crate) fn turning(&self) -> f64 {
-        if self.length == 0.0 {
-            0.0
-        } else {
-            self.length * self.curvature
-        }
-    }
-
     /// The two halves.
     pub(crate) fn halves(&self, segment: &Segment) -> [Self; 2] {
         let middle = 0.5 * (self.u0 + self.u1);

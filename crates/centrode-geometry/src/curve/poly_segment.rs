@@ -1,6 +1,9 @@
 use nalgebra::UnitComplex;
 
-use crate::{Point, Vector, numeric::Tolerance};
+use crate::{
+    Point, Vector,
+    numeric::{POSITION, Tolerance},
+};
 
 /// Number of interpolation nodes of a [`PolySegment`] of degree thirteen. Fewer need more segments per curve, more cost time
 /// per segment; [`GAUSS_NODES`](crate::numeric::GAUSS_NODES) depends on it.
@@ -127,8 +130,7 @@ impl PolySegment {
             crate::checkpoint();
             let (mut poly, error) = Self::interpolate(&mut curve, a, b);
             // Halving does not help below the rounding of the points, nor at a jump of the curve.
-            let rounding =
-                32.0 * f64::EPSILON * poly.start.coords.amax().max(poly.end.coords.amax());
+            let rounding = POSITION * poly.start.coords.amax().max(poly.end.coords.amax());
             if error <= tolerance.mm().max(rounding) || depth >= 16 || error.is_nan() {
                 if let Some(last) = out.last() {
                     poly.start = last.poly.end;

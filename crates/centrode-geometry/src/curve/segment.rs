@@ -1,7 +1,7 @@
 use crate::{
     Point, Vector,
     curve::{PolySegment, SegmentJet},
-    numeric::gauss_legendre,
+    numeric::{COMPUTED, POSITION, WRITTEN, gauss_legendre},
 };
 use nalgebra::Rotation2;
 
@@ -161,7 +161,7 @@ impl Segment {
     /// Whether the segment is shorter than the rounding of its end points, so that it has no tangent.
     pub(crate) fn is_null(&self) -> bool {
         let start = self.start();
-        let rounding = 4096.0 * f64::EPSILON * start.coords.amax();
+        let rounding = WRITTEN * start.coords.amax();
         (self.end() - start).amax() <= rounding && self.length() <= rounding
     }
 
@@ -176,7 +176,7 @@ impl Segment {
     pub fn tangent(&self, u: f64) -> Vector {
         let jet = self.at(u);
         let speed = jet.first.norm();
-        if speed > 1e-9 * jet.second.norm() {
+        if speed > COMPUTED * jet.second.norm() {
             jet.first / speed
         } else {
             let inside = if u < 0.0 { jet.second } else { -jet.second };
@@ -207,7 +207,8 @@ impl Segment {
                 while let Some((low, high, whole, depth)) = stack.pop() {
                     let middle = 0.5 * (low + high);
                     let (left, right) = (over(low, middle), over(middle, high));
-                    if depth >= 30 || (left + right - whole).abs() <= 1e-14 * (left + right + total)
+                    if depth >= 30
+                        || (left + right - whole).abs() <= POSITION * (left + right + total)
                     {
                         total += left + right;
                     } else {

@@ -1,12 +1,10 @@
-use crate::numeric::bracketed_newton;
+use crate::numeric::{COMPUTED, bracketed_newton};
 
 /// Nodes per panel, on which the integrand is a polynomial of degree 15.
 const NODES: usize = 16;
 /// Relative size of the last two Chebyshev coefficients below which they count as rounding. Ten times larger loses a digit;
 /// ten times smaller halves panels because of rounding.
 const NOISE: f64 = 3e-14;
-/// Relative size of the same coefficients above which a panel of the last halving counts as not converged.
-const UNCONVERGED: f64 = 1e-9;
 /// Maximum number of halvings. A panel that needs more contains a point where the integrand is not analytic.
 const MAX_DEPTH: u32 = 12;
 
@@ -78,7 +76,7 @@ impl Antiderivative {
                 pending.push((a, middle, depth + 1));
                 continue;
             }
-            unconverged += usize::from(tail > UNCONVERGED * size);
+            unconverged += usize::from(tail > COMPUTED * size);
             let mut integral = [0.0; NODES + 1];
             for k in 1..=NODES {
                 let lower = if k == 1 {

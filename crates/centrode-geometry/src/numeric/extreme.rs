@@ -1,4 +1,4 @@
-use crate::numeric::bracketed_minimum;
+use crate::numeric::{bracketed_minimum, rounding};
 
 /// A maximum or minimum of a function.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -14,19 +14,6 @@ pub struct Extreme {
 const SAMPLES: usize = 48;
 /// Minimum number of samples per piece of a range with pieces of different length.
 const MIN_SAMPLES: usize = 12;
-
-/// Difference, as a share of the figures' size, within which two that are computed in many steps count as equal. Ten times larger
-/// takes 0.1 µm in 10 mm for rounding; ten times smaller takes the rounding of long computations for a difference.
-pub const COMPUTED: f64 = 1e-9;
-/// Difference, as a share of the figures' size, within which two that follow from written ones in a few steps count as equal. Ten
-/// times larger takes digits that were written for rounding; a thousand times smaller refuses sums of written figures.
-pub const WRITTEN: f64 = 1e-12;
-
-/// Difference, below which two values of a size are equal but for rounding.
-#[must_use]
-pub fn rounding(size: f64) -> f64 {
-    4.0 * f64::EPSILON * size.abs()
-}
 
 /// Ends of the pieces of an interval, ascending: those of `count` equal parts, and the breaks inside.
 #[must_use]

@@ -1,6 +1,6 @@
 //! Numbers without geometry: roots, extremes, quadrature, series and tolerances, and the two helpers of every long computation.
 //!
-//! Reading order: [`tolerance`], [`roots`], [`extreme`] (minima and maxima over an interval), [`quadrature`],
+//! Reading order: [`tolerance`], [`precision`] (when two values are equal), [`roots`], [`extreme`] (minima and maxima over an interval), [`quadrature`],
 //! [`chebyshev`], [`antiderivative`]; then [`cancel`] (stop a computation, run jobs on two threads) and [`recent`]
 //! (cache results). Uses no other room.
 
@@ -8,6 +8,7 @@ mod antiderivative;
 mod cancel;
 mod chebyshev;
 mod extreme;
+mod precision;
 mod quadrature;
 mod recent;
 mod roots;
@@ -19,9 +20,11 @@ pub use cancel::{
 };
 pub use chebyshev::{CHEBYSHEV_TERMS, chebyshev_roots, chebyshev_series};
 pub use extreme::{
-    COMPUTED, Extreme, SampledPiece, WRITTEN, extremes, maxima, maximum, maximum_of_each,
-    maximum_of_samples, minimum, piece_ends, rounding,
+    Extreme, SampledPiece, extremes, maxima, maximum, maximum_of_each, maximum_of_samples, minimum,
+    piece_ends,
 };
+pub use precision::{COMPUTED, WRITTEN, rounding};
+pub(crate) use precision::{ITERATED, POSITION};
 pub(crate) use quadrature::GAUSS_NODES;
 pub use quadrature::gauss_legendre;
 pub use recent::Recent;

@@ -1,3 +1,5 @@
+use crate::numeric::ITERATED;
+
 /// The root of `f` between `low` and `high`, to the float limit, by Brent's method.
 ///
 /// `f_low` and `f_high` are the values at the ends; they must not have the same sign. If one of them is zero, that end is
@@ -70,9 +72,6 @@ pub fn bracketed_root(
     b
 }
 
-/// Step of [`bracketed_newton`], as a fraction of the bracket, after which the next step is below rounding. Ten times
-/// larger loses two digits of the root; ten times smaller costs a step.
-const LAST_STEP: f64 = 1e-11;
 /// Maximum number of steps: that many halvings alone reach rounding.
 const MAX_STEPS: u32 = 60;
 
@@ -91,7 +90,7 @@ pub fn bracketed_newton(
     mut high: f64,
     start: f64,
 ) -> f64 {
-    let last_step = LAST_STEP * (high - low);
+    let last_step = ITERATED * (high - low);
     let mut t = start;
     for _ in 0..MAX_STEPS {
         let (value, step) = at(t);

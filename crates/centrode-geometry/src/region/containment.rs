@@ -1,4 +1,8 @@
-use crate::{Point, curve::winding, region::Outline};
+use crate::{
+    Point,
+    curve::{Span, winding},
+    region::Outline,
+};
 
 impl Outline {
     /// Whether a point lies inside, by the parity of the crossings with a ray to the right.
@@ -9,7 +13,7 @@ impl Outline {
         let turns = self
             .segments()
             .iter()
-            .map(|segment| winding(segment, point));
+            .map(|segment| winding(&Span::whole(segment), point));
         turns.sum::<i32>() % 2 != 0
     }
 }

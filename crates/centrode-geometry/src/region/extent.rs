@@ -1,6 +1,6 @@
 use crate::{
     Point,
-    curve::{Bounds, Segment},
+    curve::{Bounds, Segment, Span},
     numeric::{bracketed_root, maximum},
     region::Outline,
 };
@@ -11,7 +11,7 @@ impl Outline {
     pub fn bounds(&self) -> Bounds {
         let mut bounds: Bounds = self.segments().iter().map(Segment::start).collect();
         for segment in self.segments() {
-            if !bounds.may_grow_by(&segment.enclosure(-1.0, 1.0)) {
+            if !bounds.may_grow_by(&Span::whole(segment).bounding_box()) {
                 continue;
             }
             // A coordinate has an extreme where the velocity in its direction changes sign.
@@ -45,12 +45,14 @@ impl Outline {
         let mut farthest = ends.fold(0.0, f64::max);
         let reach = |segment: &Segment| {
             let parts = [-1.0, -0.5, 0.0, 0.5, 1.0];
-            let parts = parts.windows(2).map(|u| segment.enclosure(u[0], u[1]));
+            let parts = parts
+                .windows(2)
+                .map(|u| Span::between(segment, [u[0], u[1]]).bounding_box());
             parts.map(corner).fold(0.0, f64::max)
         };
         for segment in self.segments() {
             // First compare one rectangle, then four smaller ones.
-            if corner(segment.enclosure(-1.0, 1.0)) > farthest && reach(segment) > farthest {
+            if corner(Span::whole(segment).bounding_box()) > farthest && reach(segment) > farthest {
                 let distance = |u: f64| (segment.at(u).point - from).norm();
                 farthest = farthest.max(maximum(distance, &[-1.0, 1.0]).value);
             }

@@ -2,10 +2,13 @@
 //!
 //! Reading order: [`outline`], [`position`] (a point of an outline), [`placement`] (move, circle, polygon), [`moments`] (area,
 //! length, centroid), [`extent`], [`containment`]; then the makers [`hull`], [`rounded_polygon`] and [`convex`], the test
-//! [`self_crossing`], and [`loops`], which cuts the loops off a chain that crosses itself. Uses `numeric` and `curve`.
+//! [`self_crossing`], and [`loops`], which cuts the loops off a chain that crosses itself; [`bound_tree`] finds near items, with
+//! bounds such as a [`disc`]. Uses `numeric` and `curve`.
 
+mod bound_tree;
 mod containment;
 mod convex;
+mod disc;
 mod extent;
 mod hull;
 mod loops;
@@ -16,7 +19,9 @@ mod position;
 mod rounded_polygon;
 mod self_crossing;
 
+pub use bound_tree::{BoundTree, Run};
 pub use convex::{ConvexPieces, convex_hull, convex_pieces};
+pub use disc::Disc;
 pub use loops::{LoopError, without_loops};
 pub use moments::AreaMoments;
 pub use outline::{OpenOutline, Outline};

@@ -34,9 +34,9 @@ pub enum SolidError {
         /// Index of the hole.
         hole: usize,
     },
-    /// A section of a turned body is no cylinder or cone of 45°, or does not hold the slot.
+    /// A section of a turned body is neither a cylinder nor a cone of 45°, or does not contain the slot.
     #[error(
-        "section {section} of a turned body is no cylinder or cone of 45°, or does not hold its slot"
+        "section {section} of a turned body is neither a cylinder nor a cone of 45°, or does not contain its slot"
     )]
     Turned {
         /// Index of the section.

@@ -14,7 +14,7 @@ use centrode_spec::rule::{Rule, SpecError, positive};
 
 /// Speeds at chosen shaft angles, each joined to the next by a motion law; only their ratios count.
 ///
-/// Two neighbouring equal speeds are a stretch of constant speed: the slow one is the place for the
+/// Two neighbouring equal speeds are a stretch of constant speed: the slow one is the position for the
 /// picking window. The whole is scaled so that one turn advances by the lead.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
@@ -35,8 +35,7 @@ pub struct SpeedKnots {
 pub struct SpeedTable {
     /// The speeds, in any unit.
     pub speed: Vec<f64>,
-    /// Interpolation between the samples; left out, "quintic".
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Interpolation between the samples; default: "quintic".
     pub interpolation: Option<Interpolation>,
 }
 
@@ -76,11 +75,7 @@ impl Speed {
                 let span = if count == 1 { TAU } else { span };
                 let x = (theta - angle[i]).rem_euclid(TAU) / span;
                 let jet = law.at(x);
-                let inner = MotionJet {
-                    position: x,
-                    velocity: 1.0 / span,
-                    ..MotionJet::default()
-                };
+                let inner = MotionJet::uniform(x, 1.0 / span);
                 let rise = Taylor::constant(speed[j] - speed[i]);
                 Taylor::constant(speed[i]) + rise * jet.after(&inner).series()
             }

@@ -57,7 +57,7 @@ impl Default for SpeedLaw {
 }
 
 impl SpeedLaw {
-    /// The exact law for a lead (mm a turn), proved to run one way. `radius` (mm) is that of the shaft;
+    /// The exact law for a lead (mm a turn), proved to run in one direction. `radius` (mm) is that of the shaft;
     /// only the rotated sine depends on it.
     ///
     /// # Errors
@@ -144,7 +144,7 @@ impl ShaftLaw {
     }
 
     /// Maximum distance between this law and another along the shaft over one turn, each counted from
-    /// its own place at `from`; mm.
+    /// its own position at `from`; mm.
     #[must_use]
     pub fn deviation(&self, other: &Self, from: f64) -> f64 {
         let apart = |theta: f64| (self.moved(from, theta) - other.moved(from, theta)).abs();

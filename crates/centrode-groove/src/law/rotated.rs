@@ -19,9 +19,9 @@ use centrode_spec::rule::{count_in_range, finite};
 pub struct RotatedSine {
     /// Amplitude across the helix `kappa`, mm on the development.
     pub amplitude: f64,
-    /// Slow places a turn, `n`.
+    /// Slow points per turn, `n`.
     pub harmonic: u32,
-    /// Shaft angle `theta_0` of a slow place, rad (degrees in the file).
+    /// Shaft angle `theta_0` of a slow point, rad (degrees in the file).
     #[serde(rename = "phase_deg", with = "degrees")]
     #[schemars(with = "f64")]
     pub phase: f64,

@@ -11,16 +11,16 @@ use centrode_spec::rule::{count_in_range, finite, positive};
 
 /// A cosine on the speed: `s = p theta / (2 pi) - B sin(n (theta - theta_0))`, slowest at `theta_0`.
 ///
-/// Equation (2) of Zhou et al. 2018 with its amplitude `B = dv / omega`; the constant there is left out, for
+/// Equation (2) of Zhou et al. 2018 with its amplitude `B = dv / omega`; the constant there is omitted, for
 /// the integral from zero has none. Monotone while `n |B| < p / (2 pi)`.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct Sine {
     /// Amplitude `B`, mm; 0 for a plain shaft.
     pub amplitude: f64,
-    /// Slow places a turn, `n`.
+    /// Slow points per turn, `n`.
     pub harmonic: u32,
-    /// Shaft angle `theta_0` of a slow place, rad (degrees in the file).
+    /// Shaft angle `theta_0` of a slow point, rad (degrees in the file).
     #[serde(rename = "phase_deg", with = "degrees")]
     #[schemars(with = "f64")]
     pub phase: f64,
@@ -36,16 +36,16 @@ impl Default for Sine {
     }
 }
 
-/// Problem of a wanted distance in a window around a slow place.
+/// Problem of a required distance in a window around a slow point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AmplitudeFor {
-    /// Distance the slider shall move in the window, mm.
+    /// Distance the slider must move in the window, mm.
     pub moved_distance: f64,
     /// Width of the window, rad.
     pub window: f64,
     /// Lead, mm a turn.
     pub lead: f64,
-    /// Slow places a turn.
+    /// Slow points per turn.
     pub harmonic: u32,
 }
 

@@ -24,7 +24,6 @@ pub struct ShaftBody {
     /// Chamfers at 45 deg on every end, mm.
     pub chamfer: f64,
     /// Keyway in the near journal, along x, open at the tip and half round at its other end; depth from the journal's surface.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub keyway: Option<Keyway>,
     /// Tolerance class of the keyway's width, ISO 286, for the drawing.
     pub keyway_fit: String,

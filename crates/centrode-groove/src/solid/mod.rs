@@ -80,7 +80,7 @@ impl<'a> ShaftSolid<'a> {
     }
 
     /// The boundary on exact surfaces: cylinders, cones, planes and the walls, ruled between polynomial edges
-    /// within 1e-7 mm of the exact ones. The fillet along the floor is left out.
+    /// within 1e-7 mm of the exact ones. The fillet along the floor is omitted.
     ///
     /// # Errors
     /// [`ShaftError::Boundary`] where the edges are too wild for smooth pieces.

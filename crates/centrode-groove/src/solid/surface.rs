@@ -7,7 +7,7 @@ use centrode_geometry::{Mesh, Point, checkpoint};
 use super::plan::Plan;
 use crate::Wall;
 
-/// Mark of a vertex on the shaft's surface, in place of a level of the groove.
+/// Mark of a vertex on the shaft's surface, instead of a level of the groove.
 const LAND: usize = usize::MAX;
 /// Mark of a vertex on the crest between two grooves' fillets; from here on, of rows of the walls.
 const RIDGE: usize = usize::MAX / 4;

@@ -1,5 +1,5 @@
 //! Two numbers side by side: every processor works on two at once, and holds the series of a linkage in its registers.
-//! With four it does not, and takes twice the time. A number has the same bits whatever stands next to it.
+//! With four it does not, and takes twice the time. A number has the same bits for any neighbours.
 
 use wide::f64x2;
 

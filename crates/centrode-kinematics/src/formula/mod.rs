@@ -83,8 +83,8 @@ impl Formula {
         self.run(phi, |_, _, _| ())
     }
 
-    /// Evaluates the formula, and tells the value of each function, product, quotient and power by its place in the program, with
-    /// the argument of one that may change at once.
+    /// Evaluates the formula, and shows the value of each function, product, quotient and power by its position in the program,
+    /// with the argument of one that may change at once.
     #[inline]
     fn run(&self, phi: f64, mut seen: impl FnMut(usize, Option<&Taylor>, &Taylor)) -> Taylor {
         let mut stack = [Taylor::constant(0.0); DEEPEST];

@@ -3,19 +3,19 @@
 use super::{Formula, Taylor};
 use centrode_geometry::WRITTEN;
 
-/// Places of a turn at which any formula is looked at.
+/// Samples per turn of any formula.
 const FEWEST: usize = 512;
 
-/// Most places: a bump is seen where one of them lies within seven of its widths.
+/// Maximum number of samples: a bump is found where one of them lies within seven of its widths.
 const MOST: usize = 1 << 18;
 
-/// Maximum rate a radian of which features are found wherever they are without being looked for.
+/// Features slower than this rate, 1/rad, are resolved by the default partition.
 const GENTLE: f64 = 12.0;
 
 /// Length of a part, as a multiple of the width of the narrowest feature.
 const PART: f64 = 24.0;
 
-/// Parts of a turn go by so many, so that they repeat with the formula.
+/// The number of intervals is a multiple of this, so that the partition repeats with the formula.
 const PARTS: usize = 60;
 
 /// Most parts of a turn.
@@ -35,7 +35,7 @@ pub struct Steep {
 struct Course {
     low: f64,
     high: f64,
-    /// Maximum slope, of its own and from one place to the next.
+    /// Maximum slope, of its own and from one position to the next.
     steepest: f64,
     last: f64,
 }
@@ -103,7 +103,8 @@ impl Formula {
         Ok((1..count).map(|k| turn * k as f64 / count as f64).collect())
     }
 
-    /// Maximum rates a radian, at even places of a turn: of what a function is of, and of what follows, as a share of its range.
+    /// Maximum rates a radian, at even samples of a turn: of what a function is of, and of what follows, as a share of its
+    /// range.
     fn rates(&self, turn: f64, count: usize) -> [f64; 2] {
         let step = turn / count as f64;
         let mut courses = vec![Course::NONE; self.program.len()];

@@ -12,7 +12,7 @@ pub(super) fn shortened(program: Vec<Step>) -> Vec<Step> {
     short
 }
 
-/// Number of last steps that go with the next one, and what takes their place.
+/// Number of last steps that go with the next one, and what replaces them.
 fn replaced(before: &[Step], next: Step) -> (usize, Vec<Step>) {
     use Step::{Apply, Constant, Multiple, Multiply, Scale, Variable, Wave};
     let is_sine = matches!(next, Apply(Function::Sin));

@@ -300,7 +300,7 @@ impl Linkage {
         })
     }
 
-    /// Adds two blocks pinned to each other, each on a line of its own (dyad PRP). It closes one way only.
+    /// Adds two blocks pinned to each other, each on a line of its own (dyad PRP). It closes in one direction only.
     ///
     /// # Errors
     /// [`LinkageError::Unknown`], [`LinkageError::NotFinite`].

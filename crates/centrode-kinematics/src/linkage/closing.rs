@@ -9,7 +9,7 @@ use super::series::{Series, SeriesItem};
 
 /// Samples over a turn of the input in the search for where dyads cease to close.
 const SAMPLES: u32 = 720;
-/// Parts of a gap in which the maximum distance between a dyad's ends is looked for.
+/// Parts of a gap in which the maximum distance between a dyad's ends is searched.
 const PARTS: u32 = 4;
 /// Squared sine of the transmission angle that is rounding: at an angle below 2e-4 deg both branches of a dyad meet. Ten times
 /// more calls linkages flat that just close; ten times less takes rounding of long chains for gaps.
@@ -61,7 +61,7 @@ impl Linkage {
     }
 
     /// The dyads that do not close over the whole cycle, or that have change points, in the order of building; empty if each
-    /// dyad keeps its branch all over the cycle.
+    /// dyad has one branch over the whole cycle.
     #[must_use]
     pub fn not_closing(&self) -> Vec<NotClosing> {
         let closing = self.closing().into_iter().enumerate();
@@ -225,7 +225,7 @@ impl Linkage {
     }
 }
 
-/// Sine of the angle of a dyad's two guides, with its sign; none for another dyad.
+/// Sine of the angle of a dyad's two guides, with its sign; `None` for another dyad.
 fn slant(step: &Step, series: &Series<1>) -> Option<f64> {
     match step {
         Step::Prp {

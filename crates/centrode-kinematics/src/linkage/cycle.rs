@@ -119,7 +119,7 @@ pub enum Coordinate {
 }
 
 impl Coordinate {
-    /// Numbers of the two links whose place against each other it tells.
+    /// Numbers of the two links whose relative position it is.
     fn links(&self) -> [usize; 2] {
         match self {
             Self::Angle { link, against } => [link.0, against.0],
@@ -157,7 +157,7 @@ pub struct LinkTransmission {
 }
 
 thread_local! {
-    /// Room of the last series, to be used again: a coordinate is asked for thousands of times.
+    /// Room of the last series, to be used again: a coordinate is requested thousands of times.
     static ROOM: Cell<Option<Box<Series<4>>>> = const { Cell::new(None) };
 }
 

@@ -100,7 +100,7 @@ impl Linkage {
         }
     }
 
-    /// Place of a link's point, given in its axes in mm, at an input, mm; of the links on which it depends alone.
+    /// Position of a link's point, given in its axes in mm, at an input, mm; of the links on which it depends alone.
     ///
     /// Not finite where the linkage does not close.
     ///

@@ -9,7 +9,7 @@ use crate::formula::{Number, Taylor};
 )]
 #[serde(rename_all = "lowercase")]
 pub enum Branch {
-    /// Upper branch. Two bars: their common joint lies to the left of the way from the first outer joint to the
+    /// Upper branch. Two bars: their common joint lies to the left of the line from the first outer joint to the
     /// second. A bar and a slider: the slider lies forward along its line.
     #[default]
     Upper,
@@ -46,7 +46,7 @@ pub(crate) struct Closed<const N: usize, T = f64> {
     pub(crate) room: T,
 }
 
-/// Length that is a plain number, or a series where its own influence is asked for.
+/// Length that is a plain number, or a series where its own influence is requested.
 pub(crate) trait Length<const N: usize, T>: Copy {
     fn value(self) -> T;
 
@@ -100,7 +100,7 @@ impl<const N: usize> Length<N, f64> for Taylor<N> {
 
 /// The common joint of two bars from `p` and `q`, `first` and `second` long.
 ///
-/// With d the way from p to q and s = d², the joint is p + a d + h d⊥, where
+/// With d the vector from p to q and s = d², the joint is p + a d + h d⊥, where
 /// a = 1/2 + (first² - second²) / (2 s) and, after Heron,
 /// h = sqrt(((first + second)² - s) (s - (first - second)²)) / (2 s).
 /// That it stays so far from p and from q gives its derivatives one after the other: each is the solution of the two

@@ -40,7 +40,7 @@ pub enum LinkageError {
         dyad: usize,
         /// The input, rad.
         input: f64,
-        /// Distance between its ends, mm: 0 at the limit of the crank; for two parallel guides not finite.
+        /// Distance that is missing for it to close, mm: 0 at the limit of the crank; infinite for two parallel guides.
         missing: f64,
     },
     /// A dyad only just closes, and velocities have no finite value.

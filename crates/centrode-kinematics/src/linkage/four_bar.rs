@@ -346,7 +346,7 @@ impl FourBar {
         })
     }
 
-    /// Angle between the rocker's ends, rad; none for what is not a crank-rocker.
+    /// Angle between the rocker's ends, rad; `None` for what is not a crank-rocker.
     #[must_use]
     pub fn rocker_swing(&self) -> Option<f64> {
         let dead = self.dead_centers()?;
@@ -354,7 +354,7 @@ impl FourBar {
         Some((ends[0] - ends[1]).abs())
     }
 
-    /// Crank angle of the slower stroke of the rocker, rad; none for what is not a crank-rocker.
+    /// Crank angle of the slower stroke of the rocker, rad; `None` for what is not a crank-rocker.
     #[must_use]
     pub fn slow_stroke(&self) -> Option<f64> {
         let dead = self.dead_centers()?;

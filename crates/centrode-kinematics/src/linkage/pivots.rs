@@ -23,7 +23,7 @@ impl SixBar {
     /// and from nowhere else: from outside the circle the arc looks smaller, on the near side of the
     /// chord larger. Every other swing is seen from an isoptic of the arc, found along rays from the
     /// chord's middle, on which the swing falls all the way (and is below half a turn past the arc). No
-    /// pivot sees more than half a turn and half the rocker's swing. Each place gives the swing to the float limit;
+    /// pivot sees more than half a turn and half the rocker's swing. Each point gives the swing to the float limit;
     /// the spaces between them are equal to about a hundredth.
     #[must_use]
     pub fn pivots(four_bar: &FourBar, swing: f64, count: usize) -> Vec<Point> {

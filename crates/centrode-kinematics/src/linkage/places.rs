@@ -49,7 +49,7 @@ impl Step {
     }
 }
 
-/// Place of a point: a joint, or a point of a link.
+/// Position of a point: a joint, or a point of a link.
 enum Source {
     Joint(usize),
     Of(LinkId, Point),
@@ -60,7 +60,7 @@ enum Source {
 pub(super) struct Needed {
     steps: Vec<bool>,
     frames: Vec<bool>,
-    /// Link in whose axes all is told, on which the parts depend alone; the frame where there is no nearer one.
+    /// Link in whose axes all is reported, on which the parts depend alone; the frame where there is no nearer one.
     base: usize,
 }
 
@@ -77,8 +77,8 @@ impl Needed {
 }
 
 impl Linkage {
-    /// Places of points of links, given in their axes in mm, at each of many inputs, mm: all points at the first input, then
-    /// at the second and so on; equal to [`place`](Self::place) but for a few units in the last place, computed side by side,
+    /// Positions of points of links, given in their axes in mm, at each of many inputs, mm: all points at the first input, then
+    /// at the second and so on; equal to [`place`](Self::place) but for a few units in the last digit, computed side by side,
     /// and of the links on which these depend alone.
     ///
     /// Not finite where the linkage does not close.
@@ -135,7 +135,7 @@ impl Linkage {
         }
     }
 
-    /// Place (mm) and velocity (mm per radian of the input) of each of several points of links, given in their axes in mm, at
+    /// Position (mm) and velocity (mm per radian of the input) of each of several points of links, given in their axes in mm, at
     /// an input; of the links on which these depend alone.
     ///
     /// Not finite where the linkage does not close.
@@ -192,8 +192,8 @@ impl Linkage {
         self.needed_above(0, joints, links)
     }
 
-    /// Steps on which links depend against each other, told in the axes of the last link on which all of them stand: how that one
-    /// moves is not asked for.
+    /// Steps on which links depend against each other, stated in the axes of the last link that carries all of them: how that
+    /// one moves is not requested.
     pub(super) fn needed_among(&self, links: &[usize]) -> Needed {
         let of = |base: usize| self.needed_above(base, std::iter::empty(), links.iter().copied());
         let bases = 1..links.iter().copied().max().unwrap_or(0);

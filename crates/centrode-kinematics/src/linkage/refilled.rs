@@ -1,6 +1,6 @@
 use std::ops::Deref;
 
-/// List that is filled from its start on, again and again: what is left out keeps its room.
+/// List that is filled from its start on, again and again: unused entries stay allocated.
 pub(super) struct Refilled<T> {
     list: Vec<T>,
     next: usize,

@@ -26,7 +26,7 @@ pub(super) enum SeriesItem {
     Step(usize),
     /// A link's origin and axis, by its number.
     Frame(usize),
-    /// A link, by its number, in whose axes all is told.
+    /// A link, by its number, in whose axes all is reported.
     Base(usize),
 }
 
@@ -53,7 +53,7 @@ impl<const N: usize, T: Number> Series<N, T> {
         self.frames[link.0]
     }
 
-    /// Place of a joint.
+    /// Position of a joint.
     pub(super) fn joint(&self, joint: usize) -> PointSeries<N, T> {
         self.joints[joint]
     }
@@ -151,7 +151,7 @@ impl Linkage {
         )
     }
 
-    /// Distance between the ends of a dyad that does not close, mm.
+    /// Distance that is missing for a dyad to close, mm; infinite for parallel guides.
     pub(super) fn missing(&self, dyad: usize, input: f64) -> f64 {
         let series = self.series::<1>(input);
         let between =

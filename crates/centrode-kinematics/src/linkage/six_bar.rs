@@ -150,7 +150,8 @@ impl SixBar {
 
     /// The ends of the effector's swing.
     ///
-    /// They are dead centres of the crank-rocker, or where the effector touches the slider's path.
+    /// They are dead centres of the crank-rocker, or positions in which the line from the pivot to the slider is tangent to the
+    /// slider's path.
     #[must_use]
     pub fn extremes(&self) -> EffectorExtremes {
         self.extremes

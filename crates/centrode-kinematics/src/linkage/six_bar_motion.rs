@@ -86,7 +86,7 @@ impl SixBar {
         self.moving(input).position(0)
     }
 
-    /// Every joint at each of many crank angles: equal to [`at`](Self::at) but for a few units in the last place,
+    /// Every joint at each of many crank angles: equal to [`at`](Self::at) but for a few units in the last digit,
     /// computed side by side in half its time.
     #[must_use]
     pub fn at_each(&self, inputs: &[f64]) -> Vec<SixBarPosition> {

@@ -67,7 +67,7 @@ impl SliderArc {
 
     /// Direction from `from` to the arc's point at a rocker angle, without jumps along the arc.
     ///
-    /// With w the way from `from` to D as a complex number and r the arc's radius it is
+    /// With w the vector from `from` to D as a complex number and r the arc's radius it is
     /// arg(w + r e^(i theta)), taken as theta + arg(1 + w/r e^(-i theta)) inside the circle and as
     /// arg w + arg(1 + r/w e^(i theta)) outside, where the second term never leaves (-pi/2, pi/2).
     fn direction(&self, from: Point, rocker: f64) -> f64 {

@@ -59,7 +59,7 @@ impl SliderCrank {
         Err(FourBarError::DoesNotClose { input, limit })
     }
 
-    /// Stroke of the slider, mm: sqrt((b + a)² - e²) - sqrt((b - a)² - e²); none where the crank cannot turn.
+    /// Stroke of the slider, mm: sqrt((b + a)² - e²) - sqrt((b - a)² - e²); `None` if the crank cannot turn.
     #[must_use]
     pub fn stroke(&self) -> Option<f64> {
         let (a, b, e) = (self.crank, self.rod, self.offset);

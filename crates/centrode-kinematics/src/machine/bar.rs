@@ -1,5 +1,8 @@
+use centrode_geometry::Point;
+
 use super::{
-    Circlip, HeldLength, Stock, TurnedPart, TurnedStep, general_deviation, preferred_size,
+    Bearing, Circlip, Dowel, Fit, HeldLength, Key, SeatedKey, Spacer, Stock, TurnedPart,
+    TurnedPiece, TurnedPieces, TurnedStep, general_deviation, preferred_size,
 };
 use crate::machine::Keyway;
 
@@ -12,11 +15,16 @@ const CLEARANCE: f64 = 0.05;
 /// Steps of deviations of a length between grooves, and the width of its tolerance, mm.
 const DEVIATION: [f64; 2] = [0.05, 0.1];
 
-/// A bar of one diameter through the parts that it joins, at heights in its machine.
+/// A bar of one diameter through the parts on one axis, at heights in its machine: the shaft or pin with its rings, keys, bearings and
+/// spacers follows from them.
 #[derive(Clone, Debug)]
 pub struct Bar {
-    diameter: f64,
+    /// Its diameter and the fit of what sits on it.
+    fit: Fit,
+    /// Tolerance class of its diameter where nothing else is stated.
     class: String,
+    /// Parallel pin that is bought instead.
+    standard: Option<Dowel>,
     /// Lower and upper end, mm.
     span: [f64; 2],
     keyed: Vec<[f64; 2]>,
@@ -27,21 +35,47 @@ pub struct Bar {
     seats: Vec<([f64; 2], String)>,
     /// Extents of the parts on it.
     parts: Vec<[f64; 2]>,
+    /// Keys, bearings and spacers on it, each with the height of its lower end.
+    keys: Vec<(Key, f64)>,
+    bearings: Vec<(Bearing, f64)>,
+    spacers: Vec<(Spacer, f64)>,
 }
 
 impl Bar {
-    /// A bar between two heights, of a diameter in a tolerance class.
-    pub fn new(diameter: f64, class: &str, span: [f64; 2]) -> Self {
+    /// A bar between two heights, mm, of the size and shaft class of a fit.
+    pub fn new(fit: Fit, span: [f64; 2]) -> Self {
         Self {
-            diameter,
-            class: class.into(),
+            class: fit.shaft.clone(),
+            fit,
+            standard: None,
             span,
             keyed: Vec::new(),
             grooves: Vec::new(),
             keyway: None,
             seats: Vec::new(),
             parts: Vec::new(),
+            keys: Vec::new(),
+            bearings: Vec::new(),
+            spacers: Vec::new(),
         }
+    }
+
+    /// The longest parallel pin that has room between two heights, flush with the upper one; a bar between both where there is none, or where
+    /// it is shorter by a length, mm, or more.
+    pub fn dowel(fit: Fit, [low, high]: [f64; 2], short: f64) -> Self {
+        let standard = Dowel::for_diameter(fit.size, high - low);
+        let standard = standard.filter(|pin| high - low - pin.length < short);
+        let low = standard.map_or(low, |pin| high - pin.length);
+        Self {
+            standard,
+            ..Self::new(fit, [low, high])
+        }
+    }
+
+    /// The bar in another tolerance class than that of its fit.
+    pub fn of_class(mut self, class: &str) -> Self {
+        self.class = class.into();
+        self
     }
 
     /// The parts on it, by their lower and upper faces, mm: rings leave them play.
@@ -58,7 +92,7 @@ impl Bar {
 
     /// A retaining ring below or above a height, where there is room for its groove; at an end the bar grows by what the land takes.
     pub fn ring(mut self, wall: f64, above: bool, room: f64) -> Self {
-        let Some(ring) = Circlip::of_shaft(self.diameter) else {
+        let Some(ring) = Circlip::of_shaft(self.fit.size) else {
             return self;
         };
         let [low, high] = self.span;
@@ -119,6 +153,27 @@ impl Bar {
         self
     }
 
+    /// A key in the middle between two heights, mm.
+    pub fn key(mut self, key: Option<Key>, [low, high]: [f64; 2]) -> Self {
+        self.keys
+            .extend(key.map(|key| (key, 0.5 * (low + high - key.length))));
+        self
+    }
+
+    /// A bearing from a height on, mm, with a seat of a tolerance class.
+    pub fn bearing(mut self, bearing: Bearing, low: f64, class: &str) -> Self {
+        self.bearings.push((bearing, low));
+        self.seat([low, low + bearing.width], class)
+    }
+
+    /// Spacers, each with the height of its lower face, mm; they are parts on it.
+    pub fn spaced(mut self, spacers: Vec<(Spacer, f64)>) -> Self {
+        let spans = spacers.iter().map(|(ring, at)| [*at, at + ring.length]);
+        self.parts.extend(spans);
+        self.spacers.extend(spacers);
+        self
+    }
+
     /// Whether a ring is at the lower end, and whether at the upper.
     pub fn rings(&self) -> [bool; 2] {
         [false, true].map(|way| self.grooves.iter().any(|(_, above)| *above == way))
@@ -139,7 +194,7 @@ impl Bar {
 
     /// The bar without the ring at its upper end where that, moved by the play, finds no room.
     pub fn within(mut self, room: f64, general: &str) -> Self {
-        let needed = Circlip::of_shaft(self.diameter).map_or(0.0, Circlip::room);
+        let needed = Circlip::of_shaft(self.fit.size).map_or(0.0, Circlip::room);
         if needed + self.growth(general) <= room + ROUNDING {
             return self;
         }
@@ -158,7 +213,7 @@ impl Bar {
 
     /// Lower and upper walls of its grooves, from the lowest on, and whether the ring in each holds what is below it.
     fn walls(&self) -> Vec<([f64; 2], bool)> {
-        let width = Circlip::of_shaft(self.diameter).map_or(0.0, |ring| ring.width);
+        let width = Circlip::of_shaft(self.fit.size).map_or(0.0, |ring| ring.width);
         let walls = self.grooves.iter().map(|&(wall, above)| match above {
             true => ([wall, wall + width], above),
             false => ([wall - width, wall], above),
@@ -175,7 +230,7 @@ impl Bar {
     /// its deviation.
     fn held_lengths(&self, general: &str) -> Vec<HeldLength> {
         let slack =
-            Circlip::of_shaft(self.diameter).map_or(0.0, |ring| ring.width - ring.thickness);
+            Circlip::of_shaft(self.fit.size).map_or(0.0, |ring| ring.width - ring.thickness);
         let between = |pair: &[([f64; 2], bool)]| {
             let ([_, low], lower_holds_below) = pair[0];
             let ([high, _], upper_holds_below) = pair[1];
@@ -205,7 +260,7 @@ impl Bar {
 
     /// Cylinders one after another from the lower end.
     fn steps(&self) -> Vec<TurnedStep> {
-        let ring = Circlip::of_shaft(self.diameter);
+        let ring = Circlip::of_shaft(self.fit.size);
         let grooves: Vec<[f64; 2]> = self.walls().into_iter().map(|(walls, _)| walls).collect();
         let mut ends: Vec<f64> = self.span.to_vec();
         let seats: Vec<[f64; 2]> = self.seats.iter().map(|(span, _)| *span).collect();
@@ -221,7 +276,7 @@ impl Bar {
             let class = seat.map_or(&self.class, |(_, class)| class);
             let plain = TurnedStep {
                 is_keyed: within(&self.keyed),
-                ..TurnedStep::plain(self.diameter, pair[1] - pair[0], class)
+                ..TurnedStep::plain(self.fit.size, pair[1] - pair[0], class)
             };
             match ring.filter(|_| within(&grooves)) {
                 Some(ring) => TurnedStep {
@@ -236,13 +291,33 @@ impl Bar {
         ends.windows(2).map(step).collect()
     }
 
-    /// The part that it is: names of its files and in words, material, and the general tolerances.
-    pub fn part(&self, name: &str, title: &str, stock: Stock<'_>, general: &str) -> TurnedPart {
+    /// A piece upright on a link, its axis at a point in the link's frame, mm.
+    pub fn piece(&self, link: &str, at: Point) -> TurnedPiece {
+        TurnedPiece::upright(link, [at.x, at.y, self.bottom()])
+    }
+
+    /// The turned part with what sits on it, without pieces yet: names of its files and in words, material, and the general tolerances.
+    pub fn turned(&self, name: &str, title: &str, stock: Stock<'_>, general: &str) -> TurnedPieces {
+        let above = |at: f64| at - self.bottom();
+        let keys = self.keys.iter();
+        let keys = keys.map(|&(key, at)| SeatedKey { key, at: above(at) });
+        let bearings = self.bearings.iter();
+        let spacers = self.spacers.iter();
+        TurnedPieces {
+            standard: self.standard.map(Dowel::name),
+            keys: keys.collect(),
+            bearings: bearings.map(|&(one, at)| (one, above(at))).collect(),
+            spacers: spacers.map(|&(one, at)| (one, above(at))).collect(),
+            ..TurnedPieces::new(self.part(name, title, stock, general), self.fit.clone())
+        }
+    }
+
+    fn part(&self, name: &str, title: &str, stock: Stock<'_>, general: &str) -> TurnedPart {
         let (mut steps, mut held) = (self.steps(), self.held_lengths(general));
         lengthen(&mut steps, &mut held);
         let lands = [steps.first(), steps.last()].into_iter().flatten();
         let shortest = lands.map(|step| step.length).fold(f64::INFINITY, f64::min);
-        let chamfer = (CHAMFER * self.diameter).min(0.5 * shortest);
+        let chamfer = (CHAMFER * self.fit.size).min(0.5 * shortest);
         TurnedPart {
             name: name.into(),
             title: title.into(),

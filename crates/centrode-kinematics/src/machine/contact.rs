@@ -40,6 +40,21 @@ pub struct GearMesh {
     pub pitch: Option<PitchCurves>,
 }
 
+impl GearMesh {
+    /// Driving and driven link on the origins of their frames, the joint that the teeth move, and the pressure angle, rad.
+    #[must_use]
+    pub fn new(links: [usize; 2], joint: usize, pressure_angle: f64) -> Self {
+        Self {
+            links,
+            joint,
+            copy: 0,
+            pressure_angle: Some(pressure_angle),
+            axes: Default::default(),
+            pitch: None,
+        }
+    }
+}
+
 /// Whether two places are the origins of their frames.
 fn at_origins(places: &[[f64; 3]; 2]) -> bool {
     *places == [[0.0; 3]; 2]

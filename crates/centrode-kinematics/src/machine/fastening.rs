@@ -32,7 +32,7 @@ pub struct Fastening {
 pub enum FasteningError {
     /// No screw enters far enough.
     #[error(
-        "no screw of ISO 4762 through plates of {plate} mm enters the {between} mm between them by {minimum} mm from either side, as M{diameter} needs"
+        "no screw M{diameter} of ISO 4762 fits: through a plate of {plate} mm it must enter by {minimum} mm from each side, and the plates are {between} mm apart"
     )]
     TooShort {
         /// Nominal diameter, mm.
@@ -198,7 +198,7 @@ mod tests {
         let error = between(10.0).expect_err("too short");
         assert_eq!(
             error.to_string(),
-            "no screw of ISO 4762 through plates of 6 mm enters the 10 mm between them by 6 mm from either side, as M6 needs"
+            "no screw M6 of ISO 4762 fits: through a plate of 6 mm it must enter by 6 mm from each side, and the plates are 10 mm apart"
         );
     }
 }

@@ -1,52 +1,24 @@
+use std::sync::LazyLock;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::LinkedMachine;
+use super::{LinkedMachine, StandardTable};
 
-/// Upper ends of the ranges of nominal sizes, mm.
-const RANGES: [f64; 13] = [
-    3.0, 6.0, 10.0, 18.0, 30.0, 50.0, 80.0, 120.0, 180.0, 250.0, 315.0, 400.0, 500.0,
-];
-
-/// A number for each range of sizes, µm.
-type Row = [f64; 13];
+/// Upper end of the range of the smallest sizes, mm: some holes have limits of their own there. ISO 286-1:2010.
+const SMALLEST: f64 = 3.0;
 
 /// Standard tolerances by grade.
-#[rustfmt::skip]
-const GRADES: [(&str, Row); 9] = [
-    ("5", [4.0, 5.0, 6.0, 8.0, 9.0, 11.0, 13.0, 15.0, 18.0, 20.0, 23.0, 25.0, 27.0]),
-    ("6", [6.0, 8.0, 9.0, 11.0, 13.0, 16.0, 19.0, 22.0, 25.0, 29.0, 32.0, 36.0, 40.0]),
-    ("7", [10.0, 12.0, 15.0, 18.0, 21.0, 25.0, 30.0, 35.0, 40.0, 46.0, 52.0, 57.0, 63.0]),
-    ("8", [14.0, 18.0, 22.0, 27.0, 33.0, 39.0, 46.0, 54.0, 63.0, 72.0, 81.0, 89.0, 97.0]),
-    ("9", [25.0, 30.0, 36.0, 43.0, 52.0, 62.0, 74.0, 87.0, 100.0, 115.0, 130.0, 140.0, 155.0]),
-    ("10", [40.0, 48.0, 58.0, 70.0, 84.0, 100.0, 120.0, 140.0, 160.0, 185.0, 210.0, 230.0, 250.0]),
-    ("11", [60.0, 75.0, 90.0, 110.0, 130.0, 160.0, 190.0, 220.0, 250.0, 290.0, 320.0, 360.0, 400.0]),
-    ("12", [100.0, 120.0, 150.0, 180.0, 210.0, 250.0, 300.0, 350.0, 400.0, 460.0, 520.0, 570.0, 630.0]),
-    ("13", [140.0, 180.0, 220.0, 270.0, 330.0, 390.0, 460.0, 540.0, 630.0, 720.0, 810.0, 890.0, 970.0]),
-];
+static GRADES: LazyLock<StandardTable<10>> =
+    LazyLock::new(|| StandardTable::read(include_str!("../../data/iso-286-grades.csv")));
 
 /// Distances of the nearer limit from the nominal size by letter: of shafts below it from d to h, above it from k to p.
-#[rustfmt::skip]
-const DEVIATIONS: [(&str, Row); 9] = [
-    ("d", [20.0, 30.0, 40.0, 50.0, 65.0, 80.0, 100.0, 120.0, 145.0, 170.0, 190.0, 210.0, 230.0]),
-    ("e", [14.0, 20.0, 25.0, 32.0, 40.0, 50.0, 60.0, 72.0, 85.0, 100.0, 110.0, 125.0, 135.0]),
-    ("f", [6.0, 10.0, 13.0, 16.0, 20.0, 25.0, 30.0, 36.0, 43.0, 50.0, 56.0, 62.0, 68.0]),
-    ("g", [2.0, 4.0, 5.0, 6.0, 7.0, 9.0, 10.0, 12.0, 14.0, 15.0, 17.0, 18.0, 20.0]),
-    ("h", [0.0; 13]),
-    ("k", [0.0, 1.0, 1.0, 1.0, 2.0, 2.0, 2.0, 3.0, 3.0, 4.0, 4.0, 4.0, 5.0]),
-    ("m", [2.0, 4.0, 6.0, 7.0, 8.0, 9.0, 11.0, 13.0, 15.0, 17.0, 20.0, 21.0, 23.0]),
-    ("n", [4.0, 8.0, 10.0, 12.0, 15.0, 17.0, 20.0, 23.0, 27.0, 31.0, 34.0, 37.0, 40.0]),
-    ("p", [6.0, 12.0, 15.0, 18.0, 22.0, 26.0, 32.0, 37.0, 43.0, 50.0, 56.0, 62.0, 68.0]),
-];
+static DEVIATIONS: LazyLock<StandardTable<10>> =
+    LazyLock::new(|| StandardTable::read(include_str!("../../data/iso-286-deviations.csv")));
 
-/// Upper ends of ranges of nominal sizes, mm, and the lower deviation of shafts r in them, µm: above 50 mm the ranges are finer.
-#[rustfmt::skip]
-const R: [(f64, f64); 22] = [
-    (3.0, 10.0), (6.0, 15.0), (10.0, 19.0), (18.0, 23.0), (30.0, 28.0), (50.0, 34.0),
-    (65.0, 41.0), (80.0, 43.0), (100.0, 51.0), (120.0, 54.0), (140.0, 63.0), (160.0, 65.0),
-    (180.0, 68.0), (200.0, 77.0), (225.0, 80.0), (250.0, 84.0), (280.0, 94.0), (315.0, 98.0),
-    (355.0, 108.0), (400.0, 114.0), (450.0, 126.0), (500.0, 132.0),
-];
+/// Lower deviation of shafts r.
+static R: LazyLock<StandardTable<2>> =
+    LazyLock::new(|| StandardTable::read(include_str!("../../data/iso-286-r.csv")));
 
 /// Lower and upper deviation of a size in a tolerance class, mm.
 ///
@@ -57,32 +29,29 @@ const R: [(f64, f64); 22] = [
 /// Source: ISO 286-1:2010, tables of standard tolerance grades and fundamental deviations.
 #[must_use]
 pub fn limits_of_size(size: f64, class: &str) -> Option<[f64; 2]> {
-    let range = RANGES.iter().position(|&end| size <= end);
-    let range = range.filter(|_| size > 0.0)?;
+    let grades = GRADES.up_to(size).filter(|_| size > 0.0)?;
     let letters = class.trim_end_matches(|c: char| c.is_ascii_digit());
     let (_, grade) = class.split_at(letters.len());
     let number: u32 = grade.parse().ok()?;
-    let of = |rows: &[(&str, Row)], name: &str| {
-        let found = rows.iter().find(|(known, _)| *known == name);
-        found.map(|(_, row)| row[range])
-    };
-    let width = of(&GRADES, grade)?;
-    let from = of(&DEVIATIONS, &letters.to_lowercase());
+    let is_smallest = size <= SMALLEST;
+    let width = grades[GRADES.column(grade)?];
+    let nearer = DEVIATIONS.column(&letters.to_lowercase());
+    let from = nearer.and_then(|column| Some(DEVIATIONS.up_to(size)?[column]));
     let lower = match letters {
         "D" | "E" | "F" | "G" | "H" => from?,
         "d" | "e" | "f" | "g" | "h" => -from? - width,
         "JS" | "js" => -0.5 * width,
         // Shaft n mirrored, nearer to the line by what the grade is wider than the one before.
         "N" if (6..=8).contains(&number) => {
-            let before = of(&GRADES, &(number - 1).to_string())?;
-            -from? + if range == 0 { 0.0 } else { width - before } - width
+            let before = grades[GRADES.column(&(number - 1).to_string())?];
+            -from? + if is_smallest { 0.0 } else { width - before } - width
         }
         // Holes up to 3 mm have 4 µm at this grade, larger ones none.
-        "N" if number == 9 => -width - if range == 0 { 4.0 } else { 0.0 },
+        "N" if number == 9 => -width - if is_smallest { 4.0 } else { 0.0 },
         "P" if number == 9 => -width - from?,
         "k" if number <= 7 => from?,
         "m" | "n" | "p" if number <= 9 => from?,
-        "r" if number <= 9 => R.iter().find(|(end, _)| size <= *end)?.1,
+        "r" if number <= 9 => R.up_to(size)?[1],
         _ => return None,
     };
     Some([lower / 1000.0, (lower + width) / 1000.0])

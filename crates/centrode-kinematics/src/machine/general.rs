@@ -1,12 +1,12 @@
-/// Upper ends of the ranges of nominal lengths, mm; ISO 2768-1, table 1.
-const RANGES: [f64; 8] = [3.0, 6.0, 30.0, 120.0, 400.0, 1000.0, 2000.0, 4000.0];
-/// Deviations either way by class and range, mm; those that the standard leaves out are of the next range it has.
-const CLASSES: [(char, [f64; 8]); 4] = [
-    ('f', [0.05, 0.05, 0.1, 0.15, 0.2, 0.3, 0.5, 0.5]),
-    ('m', [0.1, 0.1, 0.2, 0.3, 0.5, 0.8, 1.2, 2.0]),
-    ('c', [0.2, 0.3, 0.5, 0.8, 1.2, 2.0, 3.0, 4.0]),
-    ('v', [0.5, 0.5, 1.0, 1.5, 2.5, 4.0, 6.0, 8.0]),
-];
+use std::sync::LazyLock;
+
+use super::StandardTable;
+
+/// Deviations either way by class and range of lengths, mm.
+static CLASSES: LazyLock<StandardTable<5>> =
+    LazyLock::new(|| StandardTable::read(include_str!("../../data/iso-2768-1.csv")));
+/// Column of class m.
+const MEDIUM: usize = 2;
 
 /// Deviation either way that general tolerances allow a length (mm): by the class that they name, as "ISO 2768-mK" names m, or by class m
 /// where they name none.
@@ -16,11 +16,10 @@ const CLASSES: [(char, [f64; 8]); 4] = [
 pub fn general_deviation(words: &str, length: f64) -> f64 {
     let named = words.split_once("2768-").and_then(|(_, class)| {
         let class = class.chars().find(char::is_ascii_alphabetic)?;
-        CLASSES.iter().find(|(known, _)| *known == class)
+        CLASSES.column(&class.to_string())
     });
-    let (_, deviations) = named.unwrap_or(&CLASSES[1]);
-    let range = RANGES.iter().position(|most| length <= *most);
-    deviations[range.unwrap_or(RANGES.len() - 1)]
+    let row = CLASSES.up_to(length).or(CLASSES.rows.last());
+    row.map_or(0.0, |row| row[named.unwrap_or(MEDIUM)])
 }
 
 #[cfg(test)]

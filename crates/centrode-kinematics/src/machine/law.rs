@@ -10,10 +10,7 @@ pub struct Constant(pub f64);
 
 impl Transmission for Constant {
     fn at(&self, _input: f64) -> MotionJet {
-        MotionJet {
-            position: self.0,
-            ..MotionJet::default()
-        }
+        MotionJet::at_rest(self.0)
     }
 }
 
@@ -26,13 +23,17 @@ pub struct Linear {
     pub slope: f64,
 }
 
+impl Linear {
+    /// A position at input zero, and its change by a radian of the input.
+    #[must_use]
+    pub fn new(start: f64, slope: f64) -> Self {
+        Self { start, slope }
+    }
+}
+
 impl Transmission for Linear {
     fn at(&self, input: f64) -> MotionJet {
-        MotionJet {
-            position: self.start + self.slope * input,
-            velocity: self.slope,
-            ..MotionJet::default()
-        }
+        MotionJet::uniform(self.start + self.slope * input, self.slope)
     }
 
     fn advance(&self) -> f64 {

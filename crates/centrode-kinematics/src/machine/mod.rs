@@ -53,8 +53,8 @@ pub use mount::Fastener;
 pub use part::{Part, Supply};
 pub use spacer::{Spacer, SpacerKind};
 pub use standard::{
-    Bearing, Circlip, Dowel, Key, Keyway, Screw, allowed_pressure, hole_class, screw_size,
-    shaft_class,
+    Bearing, Circlip, Dowel, Key, Keyway, Screw, StandardTable, allowed_pressure, hole_class,
+    screw_size, shaft_class,
 };
 pub use stock::Stock;
 pub use turned::{HeldLength, SeatedKey, TurnedPart, TurnedPiece, TurnedPieces, TurnedStep};
@@ -202,7 +202,7 @@ pub enum Quantity {
         /// 0, 1, 2: x, y, z.
         axis: usize,
     },
-    /// Size of a point's velocity by the input, times a factor.
+    /// Magnitude of the derivative of a point's position by the input, times a factor.
     PointSpeed {
         /// Index of the point.
         point: usize,
@@ -218,6 +218,16 @@ pub enum Quantity {
 }
 
 impl Shape {
+    /// A body by the name of its file, and by that of its own part, which may be empty.
+    #[must_use]
+    pub fn new(name: impl Into<String>, part: impl Into<String>, form: Form) -> Self {
+        Self {
+            name: name.into(),
+            part: part.into(),
+            form,
+        }
+    }
+
     /// Name without its folder.
     #[must_use]
     pub fn short_name(&self) -> &str {
@@ -226,6 +236,15 @@ impl Shape {
 }
 
 impl Link {
+    /// A link without a body.
+    #[must_use]
+    pub fn new(name: impl Into<String>) -> Self {
+        Self {
+            name: name.into(),
+            ..Self::default()
+        }
+    }
+
     /// Every body it is seen with, by the index of its shape, and the body's place in the link's frame.
     pub fn bodies(&self) -> impl Iterator<Item = (usize, Isometry3<f64>)> {
         let own = self.shape.map(|shape| (shape, Isometry3::identity()));
@@ -320,6 +339,27 @@ pub struct Surface {
     pub coarseness: f64,
 }
 
+impl Surface {
+    /// A plate's surface: the contour between two heights, mm, whose bodies keep to the tolerance.
+    #[must_use]
+    pub fn new(name: impl Into<String>, outline: Outline, span: [f64; 2]) -> Self {
+        Self {
+            name: name.into(),
+            outline,
+            span,
+            teeth: Vec::new(),
+            coarseness: 1.0,
+        }
+    }
+
+    /// The surface round an extrusion.
+    #[must_use]
+    pub fn of_solid(name: impl Into<String>, solid: &Solid) -> Self {
+        let span = [solid.bottom(), solid.top()];
+        Self::new(name, solid.outline().clone(), span)
+    }
+}
+
 impl LinkedMachine {
     /// Adds a link.
     pub fn link(&mut self, link: Link) -> usize {
@@ -342,6 +382,15 @@ impl LinkedMachine {
         })
     }
 
+    /// Adds solids as one shape, or finds the one of that name; its index. A part's name if they are the body of its files, or empty.
+    pub fn solids(&mut self, name: &str, part: &str, solids: Vec<Solid>) -> usize {
+        self.shape(Shape {
+            name: name.into(),
+            part: part.into(),
+            form: Form::Solids(solids),
+        })
+    }
+
     /// Adds a surface, or finds the one of that name.
     pub fn surface(&mut self, surface: Surface) -> usize {
         let known = self.surfaces.iter().position(|s| s.name == surface.name);
@@ -360,6 +409,13 @@ impl LinkedMachine {
             quantity,
         });
         self.columns.len() - 1
+    }
+
+    /// Adds the columns of the input, an angle of a meaning, and of the time.
+    pub fn input_columns(&mut self, meaning: &str) {
+        self.column("input_angle_rad", "rad", meaning, Quantity::Input(1.0));
+        let time = Quantity::Input(1.0 / self.input.speed);
+        self.column("time_s", "s", "time at the design's speed", time);
     }
 
     /// Name of a joint: that of the link it carries.

@@ -173,11 +173,8 @@ impl LinkedMachine {
                 None => bought,
             };
             if let Some(solid) = solid {
-                let shape = self.shape(Shape {
-                    name: format!("{}/{}", listed.supply.name(), listed.word()),
-                    part: listed.file.clone(),
-                    form: Form::Solids(vec![solid]),
-                });
+                let name = format!("{}/{}", listed.supply.name(), listed.word());
+                let shape = self.solids(&name, &listed.file, vec![solid]);
                 for piece in &all.pieces {
                     self.mount(shape, piece, fastener.at, fastener.turn, own);
                 }

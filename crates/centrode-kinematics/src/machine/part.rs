@@ -43,17 +43,13 @@ pub enum Supply {
     Given,
 }
 
-impl Supply {
-    /// Word for it.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Made => "made",
-            Self::Bought => "bought",
-            Self::Given => "given",
-        }
-    }
+centrode_spec::words!(Supply {
+    Made = "made",
+    Bought = "bought",
+    Given = "given",
+});
 
+impl Supply {
     fn is_made(&self) -> bool {
         *self == Self::Made
     }
@@ -67,6 +63,18 @@ impl Part {
             name,
             links,
             supply: Supply::Bought,
+            ..Self::default()
+        }
+    }
+
+    /// A part that is the customer's, with its pieces: the remark says what it must fit.
+    #[must_use]
+    pub fn given(name: &str, links: Vec<usize>, remark: String) -> Self {
+        Self {
+            name: name.into(),
+            links,
+            supply: Supply::Given,
+            remark,
             ..Self::default()
         }
     }

@@ -18,10 +18,7 @@ fn wavy(k: f64) -> Arc<dyn Transmission> {
 }
 
 fn link(name: &str) -> Link {
-    Link {
-        name: name.into(),
-        ..Link::default()
-    }
+    Link::new(name)
 }
 
 /// An arm on a turning carrier with a rod that slides askew in it.
@@ -102,10 +99,7 @@ fn pieces_are_a_law_within_rounding() {
 #[test]
 fn a_break_off_the_start_by_rounding_leaves_no_sliver() {
     let law = FromFn::new(TAU, 0.0, vec![1e-16, 2.0, 2.0 + 1e-15], |t: f64| {
-        MotionJet {
-            position: t.sin(),
-            ..MotionJet::default()
-        }
+        MotionJet::at_rest(t.sin())
     });
     let pieces = Piecewise::fit(&law);
     for at in [0.0, 1e-16, 2.0, 2.0 + 5e-16] {
@@ -115,18 +109,16 @@ fn a_break_off_the_start_by_rounding_leaves_no_sliver() {
 
 #[test]
 fn a_straight_line_with_rounding_is_one_piece() {
-    let line = FromFn::new(TAU, 40.0 * TAU, vec![], |t: f64| MotionJet {
-        position: 40.0 * t * (1.0 + 1e-16 * (1e6 * t).sin()),
-        ..MotionJet::default()
+    let line = FromFn::new(TAU, 40.0 * TAU, vec![], |t: f64| {
+        MotionJet::at_rest(40.0 * t * (1.0 + 1e-16 * (1e6 * t).sin()))
     });
     assert_eq!(Piecewise::fit(&line).pieces.len(), 1);
 }
 
 #[test]
 fn noise_in_a_law_ends_its_halving() {
-    let noisy = FromFn::new(TAU, 0.0, vec![], |t: f64| MotionJet {
-        position: t.sin() + 1e-12 * (1e7 * t).sin(),
-        ..MotionJet::default()
+    let noisy = FromFn::new(TAU, 0.0, vec![], |t: f64| {
+        MotionJet::at_rest(t.sin() + 1e-12 * (1e7 * t).sin())
     });
     let pieces = Piecewise::fit(&noisy);
     assert!(pieces.pieces.len() < 1000, "{}", pieces.pieces.len());
@@ -135,9 +127,8 @@ fn noise_in_a_law_ends_its_halving() {
 
 #[test]
 fn a_law_that_jumps_is_cut_where_it_jumps() {
-    let step = FromFn::new(TAU, 0.0, vec![], |t: f64| MotionJet {
-        position: if t.rem_euclid(TAU) < 2.0 { 1.0 } else { 5.0 },
-        ..MotionJet::default()
+    let step = FromFn::new(TAU, 0.0, vec![], |t: f64| {
+        MotionJet::at_rest(if t.rem_euclid(TAU) < 2.0 { 1.0 } else { 5.0 })
     });
     let pieces = Piecewise::fit(&step);
     assert!(pieces.is_sound());
@@ -154,14 +145,7 @@ fn guide(radius: f64, friction: f64) -> Guide {
 }
 
 fn mesh(angle: f64) -> GearMesh {
-    GearMesh {
-        links: [1, 2],
-        joint: 0,
-        copy: 0,
-        pressure_angle: Some(angle),
-        axes: Default::default(),
-        pitch: None,
-    }
+    GearMesh::new([1, 2], 0, angle)
 }
 
 #[test]
@@ -342,4 +326,32 @@ fn parts_and_arrangement_name_only_what_is_there() {
         stated(&|machine| machine.arrangement.columns.push(1)),
         "the arrangement names column 1, of which there are 0"
     );
+}
+
+#[test]
+fn keys_are_in_the_middle_of_hubs_and_dowels_are_flush_with_the_upper_end() {
+    let hub = Keyway {
+        width: 5.0,
+        depth: 2.3,
+    };
+    let stock = Stock::new("steel", 7850.0);
+    let bar = Bar::new(Fit::new("", 16.0, ["H7", "h6"]), [-3.0, 40.0]).ring(-3.0, false, 9.0);
+    let bar = bar.key(Key::fitting(hub, 15.0), [2.0, 17.0]);
+    let made = bar.turned("shaft", "Shaft", stock, "");
+    let middle = |seated: &SeatedKey| bar.bottom() + seated.at + 0.5 * seated.key.length;
+    assert!(bar.bottom() < -3.0, "a land beyond the ring");
+    assert!(
+        made.keys
+            .iter()
+            .all(|key| (middle(key) - 9.5).abs() < 1e-12)
+    );
+    assert_eq!((made.keys.len(), made.standard), (1, None));
+    let pin = |short: f64| {
+        let bar = Bar::dowel(Fit::new("", 8.0, ["H7", "m6"]), [1.0, 34.0], short);
+        let made = bar.turned("pin", "Pin", stock, "").bought_as("pressed in");
+        (bar.bottom(), made.standard, made.role)
+    };
+    let bought = Some("Pin ISO 8734 - 8 x 32 - A".to_owned());
+    assert_eq!(pin(f64::INFINITY), (2.0, bought, "pressed in".into()));
+    assert_eq!(pin(0.5), (1.0, None, String::new()));
 }

@@ -257,6 +257,15 @@ impl TurnedPieces {
             axis: None,
         }
     }
+
+    /// The parts with a purpose in words if they are bought by a standard: sheets of others state it.
+    #[must_use]
+    pub fn bought_as(mut self, role: &str) -> Self {
+        if self.standard.is_some() {
+            self.role = role.into();
+        }
+        self
+    }
 }
 
 impl TurnedPiece {
@@ -297,8 +306,8 @@ mod tests {
     #[test]
     fn a_pin_is_held_by_rings_where_there_is_room_for_them() {
         let pin = |room: [f64; 2]| {
-            let bar = Bar::new(10.0, "f7", [0.0, 18.0]).held(room);
-            bar.part("pin", "Pin", STEEL, "ISO 2768-mK")
+            let bar = Bar::new(Fit::new("", 10.0, ["", "f7"]), [0.0, 18.0]).held(room);
+            bar.turned("pin", "Pin", STEEL, "ISO 2768-mK").part
         };
         // DIN 471 for 10 mm: groove 9.6 mm in diameter and 1.1 mm wide, a land of 0.6 mm beyond.
         let both = pin([2.0, 2.0]);
@@ -314,9 +323,9 @@ mod tests {
     #[test]
     fn a_length_between_rings_has_deviations_where_general_tolerances_leave_no_play() {
         let held = |parts: &[[f64; 2]], general: &str| {
-            let bar = Bar::new(16.0, "h6", [0.0, 60.0]).ring(0.0, false, 9.0);
+            let bar = Bar::new(Fit::new("", 16.0, ["", "h6"]), [0.0, 60.0]).ring(0.0, false, 9.0);
             let bar = bar.ring(15.0, true, 2.0).through(parts);
-            let shaft = bar.part("shaft", "Shaft", STEEL, general);
+            let shaft = bar.turned("shaft", "Shaft", STEEL, general).part;
             let stated = |held: &HeldLength| {
                 let long = held.span[1] - held.span[0];
                 ((1e6 * long).round() / 1e6, held.deviations)
@@ -339,9 +348,9 @@ mod tests {
 
     #[test]
     fn a_keyway_of_a_shaft_goes_through_the_grooves_in_it() {
-        let bar = Bar::new(16.0, "h6", [0.0, 60.0]).ring(0.0, false, 9.0);
+        let bar = Bar::new(Fit::new("", 16.0, ["", "h6"]), [0.0, 60.0]).ring(0.0, false, 9.0);
         let bar = bar.ring(15.0, true, 2.0).keyed(Some(HUB), [-9.0, 20.0]);
-        let shaft = bar.part("shaft", "Shaft", STEEL, "ISO 2768-mK");
+        let shaft = bar.turned("shaft", "Shaft", STEEL, "ISO 2768-mK").part;
         let steps = [
             (16.0, 1.2, true),
             (15.2, 1.1, true),

@@ -6,9 +6,9 @@ use centrode_geometry::{bracketed_root, piece_ends};
 
 use super::Transmission;
 
-/// Parts of a turn of the input, in each of which a motion is taken to pass a place at most once.
+/// Parts of a turn of the input, in each of which a motion is taken to pass a position at most once.
 const PARTS: u32 = 720;
-/// Miss of a place at the ends of a period that is rounding, as a share of the cycle or of the place.
+/// Miss of a position at the ends of a period that is rounding, as a share of the cycle or of the position.
 const ROUNDING: f64 = 1e-13;
 
 /// Breaks of a motion over a period of a whole number of its own.

@@ -12,7 +12,7 @@ pub struct Chain {
     outer: Arc<dyn Transmission>,
     /// Cycles of the driving motion in one of the chain, and of the driven one, below zero where it runs backwards.
     cycles: (f64, f64),
-    /// Inputs at which a derivative may jump, once they have been asked for.
+    /// Inputs at which a derivative may jump, once they have been requested.
     breaks: OnceLock<Vec<f64>>,
 }
 
@@ -48,7 +48,7 @@ impl Chain {
         })
     }
 
-    /// Chains two transmissions of which one runs through a cycle, either way, as the other does.
+    /// Chains two transmissions of which one runs through a cycle, in either direction, as the other does.
     ///
     /// # Errors
     /// [`TransmissionError::Periods`] where it does not.
@@ -113,10 +113,8 @@ mod tests {
     }
 
     fn broken_at(at: f64) -> Arc<dyn Transmission> {
-        Arc::new(FromFn::new(TAU, TAU, vec![at], |t: f64| MotionJet {
-            position: t,
-            velocity: 1.0,
-            ..MotionJet::default()
+        Arc::new(FromFn::new(TAU, TAU, vec![at], |t: f64| {
+            MotionJet::uniform(t, 1.0)
         }))
     }
 
@@ -135,10 +133,7 @@ mod tests {
 
     #[test]
     fn a_slow_drive_takes_several_cycles_for_one() {
-        let slow = Arc::new(Linear {
-            start: 0.0,
-            slope: -2.0 / 3.0,
-        });
+        let slow = Arc::new(Linear::new(0.0, -2.0 / 3.0));
         let chain = Chain::new(broken_at(1.0), slow).expect("three cycles");
         assert_eq!(chain.period(), 3.0 * TAU);
         assert_eq!(chain.advance(), -2.0 * TAU);
@@ -152,10 +147,7 @@ mod tests {
 
     #[test]
     fn cycles_without_a_common_one_are_refused() {
-        let odd = Arc::new(Linear {
-            start: 0.0,
-            slope: 0.5_f64.sqrt(),
-        });
+        let odd = Arc::new(Linear::new(0.0, 0.5_f64.sqrt()));
         let error = Chain::new(broken_at(1.0), odd).expect_err("no common cycle");
         assert!(error.to_string().contains("no whole number"), "{error}");
     }

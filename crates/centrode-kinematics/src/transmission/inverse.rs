@@ -16,7 +16,7 @@ pub struct Inverse {
 }
 
 impl Inverse {
-    /// Inverts a transmission that runs one way.
+    /// Inverts a transmission that runs in one direction.
     ///
     /// # Errors
     /// [`TransmissionError::StandsStill`] where its velocity is zero or against its advance, sampled

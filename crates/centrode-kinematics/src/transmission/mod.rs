@@ -32,6 +32,22 @@ pub struct MotionJet {
 }
 
 impl MotionJet {
+    /// Jet of a position that does not change.
+    #[must_use]
+    pub fn at_rest(position: f64) -> Self {
+        Self::uniform(position, 0.0)
+    }
+
+    /// Jet of a position that changes at a constant velocity.
+    #[must_use]
+    pub fn uniform(position: f64, velocity: f64) -> Self {
+        Self {
+            position,
+            velocity,
+            ..Self::default()
+        }
+    }
+
     /// Jet of this motion's output by the variable of which its input is a function.
     ///
     /// `self` is f at g(t), `inner` is g at t: the result is f(g(t)), by the chain rule to third order.
@@ -89,7 +105,7 @@ impl MotionJet {
         }
     }
 
-    /// Taylor coefficients of this jet, as many as are asked for; those above the third are not known and left zero.
+    /// Taylor coefficients of this jet, as many as are requested; those above the third are not known and left zero.
     pub(crate) fn coefficients<const N: usize>(&self) -> Taylor<N> {
         let known = self.series().0;
         Taylor(std::array::from_fn(|k| {
@@ -213,8 +229,10 @@ pub enum TransmissionError {
         /// Maximum number tried.
         most: u32,
     },
-    /// A motion that must run one way stops or runs back.
-    #[error("the motion must run one way, but at the input {input} rad its velocity is {velocity}")]
+    /// A motion that must run in one direction stops or runs back.
+    #[error(
+        "the motion must run in one direction, but at the input {input} rad its velocity is {velocity}"
+    )]
     StandsStill {
         /// Input there.
         input: f64,

@@ -10,7 +10,7 @@ const BITS: u32 = 12;
 
 /// A transmission that remembers its values, for one that is costly and on which several others are built.
 ///
-/// What is remembered is equal to what is computed, bit by bit. Each input has one place for its value, which it shares with
+/// What is remembered is equal to what is computed, bit by bit. Each input has one position for its value, which it shares with
 /// others: the last one keeps it.
 #[derive(Debug)]
 pub struct Remembered<T> {
@@ -26,7 +26,7 @@ impl<T: Transmission> Remembered<T> {
     }
 }
 
-/// Place of an input's value.
+/// Position of an input's value.
 fn place(bits: u64) -> usize {
     // By the golden ratio: inputs that follow each other lie far apart.
     (bits.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> (u64::BITS - BITS)) as usize
@@ -81,11 +81,7 @@ mod tests {
         let counted = Arc::clone(&calls);
         let sine = FromFn::new(1.0, 0.5, vec![0.25], move |t: f64| {
             counted.fetch_add(1, Ordering::Relaxed);
-            MotionJet {
-                position: t.sin(),
-                velocity: t.cos(),
-                ..MotionJet::default()
-            }
+            MotionJet::uniform(t.sin(), t.cos())
         });
         let law = Remembered::new(sine);
         let inputs: Vec<f64> = (0..500).map(|i| 0.01 * f64::from(i)).collect();
@@ -94,7 +90,7 @@ mod tests {
                 assert_eq!(law.at(input).position, input.sin());
             }
         }
-        // Those that share a place push each other out in every round.
+        // Those that share a position push each other out in every round.
         let places = |input: &f64| place(input.to_bits());
         let shared = |input: &&f64| {
             let same = inputs.iter().filter(|other| places(other) == places(input));

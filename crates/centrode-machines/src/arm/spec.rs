@@ -41,9 +41,8 @@ pub struct HousingSpec {
     pub bore: f64,
     /// Diameter of the hole in the rear cover for the sleeve that carries the cam, mm; 0 for none.
     pub sleeve_bore: f64,
-    /// Nominal diameter of the screws of the covers, ISO 4762, mm: 3 for M3, 0 for none; left out, the largest no thicker than a
+    /// Nominal diameter of the screws of the covers, ISO 4762, mm: 3 for M3, 0 for none; default: the largest no thicker than a
     /// cover that finds room.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub screw: Option<f64>,
     /// Heat treatment of housing and covers, for the drawing; left empty, none.
     #[serde(skip_serializing_if = "String::is_empty")]

@@ -53,7 +53,7 @@ pub enum FeederError {
         /// The plate.
         part: &'static str,
         /// Letters of the joints.
-        joints: [&'static str; 2],
+        joints: [String; 2],
         /// Distance of their centres, mm.
         distance: f64,
         /// Sum of the holes' reaches, mm.

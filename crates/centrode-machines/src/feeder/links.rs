@@ -57,10 +57,7 @@ impl Feeder {
         };
         let rest = |part: FeederPart| self.place(part, self.start()).translation.vector;
         for part in FeederPart::ALL {
-            let link = machine.link(Link {
-                name: part.name().into(),
-                ..Link::default()
-            });
+            let link = machine.link(Link::new(part.name()));
             let Some(carrier) = part.carrier() else {
                 continue;
             };

@@ -26,7 +26,7 @@ pub use dimension::{Dimension, UnknownDimension};
 pub use error::FeederError;
 pub use gears::GearsSpec;
 pub use mount::GearBody;
-pub use parts::{FeederPart, JointHole, Plate, PlateJoint};
+pub use parts::{FeederPart, Plate};
 pub use plates::PlatesSpec;
 pub use search::DimensionSearchSpec;
 

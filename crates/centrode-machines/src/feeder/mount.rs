@@ -4,7 +4,7 @@ use centrode_geometry::{Outline, Recent, Solid, SolidError, Tolerance};
 
 use super::{Feeder, FeederPart, GearsSpec};
 use centrode_gear::IntermittentPair;
-use centrode_kinematics::machine::{Form, Joint, Linear, Link, LinkedMachine, Quantity, Shape};
+use centrode_kinematics::machine::{Joint, Linear, Link, LinkedMachine, Quantity};
 
 /// Name of the intermittent gear: of its files and its link.
 const DRIVER: &str = "gear-driver";
@@ -113,10 +113,7 @@ impl Feeder {
         let density = spec.body().density;
         let mut driver = frame;
         for body in bodies.iter() {
-            let link = machine.link(Link {
-                name: body.name.into(),
-                ..Link::default()
-            });
+            let link = machine.link(Link::new(body.name));
             let (joint, bottom) = match body.name {
                 DRIVER => {
                     driver = link;
@@ -139,11 +136,7 @@ impl Feeder {
             }
             let solid = body.solid([bottom, bottom + spec.width])?;
             machine.links[link].mass = Some(solid.mass_properties(density));
-            let shape = machine.shape(Shape {
-                name: format!("links/{}", body.name),
-                part: String::new(),
-                form: Form::Solids(vec![solid]),
-            });
+            let shape = machine.solids(&format!("links/{}", body.name), "", vec![solid]);
             machine.links[link].shape = Some(shape);
         }
         Ok(())

@@ -4,6 +4,7 @@ use centrode_geometry::{Outline, Point, Solid, SolidError, Vector};
 use nalgebra::Isometry2;
 
 use super::{Feeder, FeederError};
+use crate::PinHole;
 use centrode_gear::design::BodySpec;
 
 /// A part of the six-bar, cut from plate.
@@ -68,28 +69,6 @@ impl FeederPart {
     }
 }
 
-/// Hole of a plate at a joint.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum JointHole {
-    /// For a pin.
-    Pin,
-    /// In which a shaft of the gears turns.
-    Bearing,
-    /// Keyed to a shaft of the gears: direction of the keyway from the plate's x axis, rad.
-    Keyed(f64),
-}
-
-/// A joint of a [`Plate`].
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PlateJoint {
-    /// Letter, A to G.
-    pub name: &'static str,
-    /// Position in the plate's own axes, mm.
-    pub at: Point,
-    /// Its hole; none at the tip.
-    pub hole: Option<JointHole>,
-}
-
 /// A part as a plate in its own axes: the first joint in the origin, the second one along x.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plate {
@@ -97,14 +76,12 @@ pub struct Plate {
     pub part: FeederPart,
     /// Contour.
     pub outline: Outline,
-    /// Holes of the joints that have one, in their order.
-    pub holes: Vec<Outline>,
     /// Holes of the screws that hold the frame's plates apart.
     pub screws: Vec<Outline>,
-    /// Ends of the slot along x, mm, round ends included, and its contour.
-    pub slot: Option<([f64; 2], Outline)>,
-    /// Joints.
-    pub joints: Vec<PlateJoint>,
+    /// Slot for the slider.
+    pub slot: Option<Outline>,
+    /// Joints by their letters, A to G; the tip has no bore.
+    pub joints: Vec<PinHole>,
     /// Height of the lower face along the shafts, mm.
     pub bottom: f64,
     /// Thickness, mm.
@@ -112,20 +89,16 @@ pub struct Plate {
 }
 
 impl Plate {
+    /// Joints with a hole.
+    pub fn holes(&self) -> impl Iterator<Item = &PinHole> {
+        self.joints.iter().filter(|joint| joint.hub.bore > 0.0)
+    }
+
     /// Contours of all cut-outs: holes, slot, holes of screws.
     #[must_use]
     pub fn cut_outs(&self) -> Vec<Outline> {
-        let slot = self.slot.iter().map(|(_, contour)| contour.clone());
-        let holes = self.holes.iter().cloned().chain(slot);
-        holes.chain(self.screws.iter().cloned()).collect()
-    }
-
-    /// The plate lying on z = 0.
-    ///
-    /// # Errors
-    /// [`SolidError`] where a number is not finite.
-    pub fn solid(&self) -> Result<Solid, SolidError> {
-        self.solid_at(&Isometry2::identity(), 0.0)
+        let others = self.slot.iter().chain(&self.screws).cloned();
+        self.holes().map(PinHole::outline).chain(others).collect()
     }
 
     /// The plate moved in its plane, its lower face at a height.
@@ -149,12 +122,21 @@ impl Feeder {
     pub fn plate(&self, part: FeederPart) -> Result<Plate, FeederError> {
         let (spec, gears) = (&self.design().plates, &self.design().gears);
         let [crank, coupler, rocker, frame] = self.six_bar().four_bar().lengths();
-        let joint = |name, x: f64, y: f64, hole| PlateJoint {
-            name,
+        let joint = |name: &str, x: f64, y: f64, hub: &BodySpec| PinHole {
+            name: name.into(),
             at: Point::new(x, y),
-            hole,
+            hub: BodySpec {
+                width: spec.thickness,
+                ..hub.clone()
+            },
         };
-        let (pin, bearing) = (Some(JointHole::Pin), Some(JointHole::Bearing));
+        let round = |bore, class: &str| BodySpec {
+            bore,
+            bore_fit: class.into(),
+            ..BodySpec::default()
+        };
+        let pin = &round(spec.pin_diameter, &spec.hole_fit);
+        let bearing = &round(gears.bore, &spec.bearing_fit);
         let pivot = self.six_bar().pivot();
         let joints = match part {
             FeederPart::Frame => vec![
@@ -165,14 +147,19 @@ impl Feeder {
             ],
             FeederPart::Crank => {
                 // The gear's x axis points from the intermittent gear's as the motion begins.
-                let keyed = Some(JointHole::Keyed(-self.start()));
-                vec![joint("A", 0.0, 0.0, keyed), joint("B", crank, 0.0, pin)]
+                let keyed = BodySpec {
+                    keyway_angle: -self.start(),
+                    bore_fit: Self::CRANK_FIT[0].into(),
+                    shaft_fit: Self::CRANK_FIT[1].into(),
+                    ..gears.body()
+                };
+                vec![joint("A", 0.0, 0.0, &keyed), joint("B", crank, 0.0, pin)]
             }
             FeederPart::Coupler => vec![joint("B", 0.0, 0.0, pin), joint("C", coupler, 0.0, pin)],
             FeederPart::Rocker => vec![joint("D", 0.0, 0.0, pin), joint("C", rocker, 0.0, pin)],
             FeederPart::Effector => vec![
                 joint("F", 0.0, 0.0, pin),
-                joint("E", self.six_bar().effector_length(), 0.0, None),
+                joint("E", self.six_bar().effector_length(), 0.0, &round(0.0, "")),
             ],
             FeederPart::Slider => vec![joint("C", 0.0, 0.0, pin)],
         };
@@ -196,71 +183,35 @@ impl Feeder {
             _ => {}
         }
         let no_plate = || FeederError::NoPlate(part.name());
-        let mut holes: Vec<(&PlateJoint, f64, Outline)> = Vec::new();
-        for joint in joints.iter().filter(|joint| joint.hole.is_some()) {
-            let hub = self.hub(joint);
-            let reach = hub.bore_reach();
-            for (other, beside, _) in &holes {
-                let distance = (joint.at - other.at).norm();
-                if distance <= reach + beside {
-                    return Err(FeederError::HolesMeet {
-                        part: part.name(),
-                        joints: [other.name, joint.name],
-                        distance,
-                        reach: reach + beside,
-                    });
-                }
-            }
-            let hole = hub.bore_outline().ok_or_else(no_plate)?;
-            let place = Isometry2::translation(joint.at.x, joint.at.y);
-            holes.push((joint, reach, hole.transformed(&place)));
-        }
-        let holes = holes.into_iter().map(|(_, _, hole)| hole).collect();
         let contour = |[start, end]: [f64; 2]| {
             let radius = 0.5 * spec.slot_width;
             let ends = [start + radius, end - radius].map(|x| (Point::new(x, 0.0), radius));
-            Some(([start, end], Outline::hull(&ends)?))
+            Outline::hull(&ends).ok_or_else(no_plate)
         };
-        let slot = match slot {
-            Some(ends) => Some(contour(ends).ok_or_else(no_plate)?),
-            None => None,
-        };
-        Ok(Plate {
+        let plate = Plate {
             part,
             outline: Outline::hull(&circles).ok_or_else(no_plate)?,
-            holes,
             screws: Vec::new(),
-            slot,
+            slot: slot.map(contour).transpose()?,
             joints,
             bottom: part.layer() * (spec.thickness + spec.gap),
             thickness: spec.thickness,
-        })
-    }
-
-    /// Bore of a plate at a joint, with its keyway and its tolerance class; none of the tip.
-    #[must_use]
-    pub fn hub(&self, joint: &PlateJoint) -> BodySpec {
-        let (spec, gears) = (&self.design().plates, self.design().gears.body());
-        let round = |bore, class: &str| BodySpec {
-            bore,
-            bore_fit: class.into(),
-            ..BodySpec::default()
         };
-        let bored = match joint.hole {
-            None => BodySpec::default(),
-            Some(JointHole::Pin) => round(spec.pin_diameter, &spec.hole_fit),
-            Some(JointHole::Bearing) => round(gears.bore, &spec.bearing_fit),
-            Some(JointHole::Keyed(keyway_angle)) => BodySpec {
-                keyway_angle,
-                bore_fit: Self::CRANK_FIT[0].into(),
-                shaft_fit: Self::CRANK_FIT[1].into(),
-                ..gears
-            },
-        };
-        BodySpec {
-            width: spec.thickness,
-            ..bored
+        for (index, hole) in plate.holes().enumerate() {
+            for other in plate.holes().take(index) {
+                let distance = (hole.at - other.at).norm();
+                let reach = hole.hub.bore_reach() + other.hub.bore_reach();
+                if distance <= reach {
+                    return Err(FeederError::HolesMeet {
+                        part: part.name(),
+                        joints: [other, hole].map(|hole| hole.name.clone()),
+                        distance,
+                        reach,
+                    });
+                }
+            }
         }
+        Ok(plate)
     }
 
     /// Ends of the effector's slot, distances from its pivot, mm.

@@ -3,9 +3,7 @@
 use centrode_geometry::Point;
 
 use super::{Feeder, FeederPart, GearBody, Plate};
-use centrode_kinematics::machine::{
-    Bar, Dowel, Fit, Key, SeatedKey, TurnedPart, TurnedPiece, TurnedPieces,
-};
+use centrode_kinematics::machine::{Bar, Fit, Key, TurnedPiece, TurnedPieces};
 
 impl Feeder {
     /// Tolerance classes, ISO 286, of the holes into which the pins of the cams are pressed and of the pins, ISO 8734.
@@ -29,28 +27,20 @@ impl Feeder {
         let stops = spec.drive().ok()?.stops();
         let room = 2.0 * spec.width + self.design().plates.gap;
         let fit = Fit::new("pins of the cams", spec.cam_pin(), Self::CAM_PIN_FIT);
-        let standard = Dowel::for_diameter(fit.size, room);
-        let long = standard.map_or(room, |pin| pin.length);
-        let bar = Bar::new(fit.size, &fit.shaft, [0.0, long]);
+        let bar = Bar::dowel(fit, [0.0, room], f64::INFINITY);
         let [middle, entry, _] = self.gear_levels(true);
         let gears = self.gears().ok();
         // Ends flush with the cams.
-        let levels = [entry, middle + room - long];
+        let levels = [entry, middle + bar.bottom()];
         let cams = gears.iter().flat_map(|gears| gears.cams()).zip(levels);
         let at = cams.flat_map(|(cam, z)| cam.pins.iter().map(move |at| [at.x, at.y, z]));
         // Without gears none has a place.
         let at = at.chain(std::iter::repeat([0.0; 3]));
-        let pieces = at.take(2 * stops as usize);
-        let made = bar.part("pin-cam", "Pin of a cam", body.shaft_stock(), "");
+        let on_gear = |at| TurnedPiece::upright(GearBody::NAMES[1], at);
+        let made = bar.turned("pin-cam", "Pin of a cam", body.shaft_stock(), "");
         self.has_cams().then(|| TurnedPieces {
-            role: standard
-                .map_or("", |_| "pressed into the driven gear")
-                .into(),
-            standard: standard.map(Dowel::name),
-            pieces: pieces
-                .map(|at| TurnedPiece::upright(GearBody::NAMES[1], at))
-                .collect(),
-            ..TurnedPieces::new(made, fit)
+            pieces: at.take(2 * stops as usize).map(on_gear).collect(),
+            ..made.bought_as("pressed into the driven gear")
         })
     }
 
@@ -113,15 +103,12 @@ impl Feeder {
             ),
         ]
         .map(|([name, title], link, axis, span, room, parts)| {
-            let bar = Bar::new(spec.pin_diameter, &spec.pin_fit, span).held(room);
-            let bar = bar.through(&parts);
+            let bar = Bar::new(fit.clone(), span).held(room).through(&parts);
             let at = axis - self.place(link, self.start()).translation.vector;
-            let at = [at.x, at.y, bar.bottom()];
-            let part = bar.part(name, title, spec.pin_stock(), general);
             TurnedPieces {
-                pieces: vec![TurnedPiece::upright(link.name(), at)],
+                pieces: vec![bar.piece(link.name(), at)],
                 axis: Some(axis.coords.into()),
-                ..TurnedPieces::new(part, fit.clone())
+                ..bar.turned(name, title, spec.pin_stock(), general)
             }
         })
     }
@@ -131,26 +118,34 @@ impl Feeder {
         let (body, plates) = (self.design().gears.body(), &self.design().plates);
         let [middle, entry, exit] = self.gear_levels(self.has_cams());
         let (gap, free) = (plates.gap, f64::INFINITY);
-        let [rear, front] = [-gap - plates.thickness, -gap];
-        let hub = |bottom: f64| [bottom, bottom + body.width];
-        let stock = body.shaft_stock();
-        let general = &self.design().drawing.general_tolerance;
-        let fit = Fit::new("", body.bore, [&body.bore_fit, &body.shaft_fit]);
-        let keyed = |bar: Bar, ends: [f64; 2]| bar.keyed(body.keyway, ends);
-        let held = |bar: Bar| bar.ring(rear, false, gap).ring(front, true, gap);
-        let crank = Bar::new(body.bore, &body.shaft_fit, [middle, plates.thickness]);
-        let crank = crank.ring(middle, false, free);
-        // Half round ends of keyways end with the keys, which stand in the middle of their hubs.
-        let key_of_hub = |keyway| Key::fitting(keyway, body.width);
-        let key_of_hub = body.keyway.and_then(key_of_hub);
-        let beyond = key_of_hub.map_or(0.0, |key| 0.5 * (body.width - key.length));
-        let crank = keyed(crank, [f64::NEG_INFINITY, hub(middle)[1] - beyond]);
-        // A key with square ends leaves its whole seat to the straight part of the keyway.
+        let ([rear, front], plate) = ([-gap - plates.thickness, -gap], [0.0, plates.thickness]);
+        let key = body.keyway;
+        let key = key.and_then(|hub| Key::fitting(hub, body.width));
+        // Half round ends of keyways end with the keys, which are in the middle of their hubs.
+        let beyond = key.map_or(0.0, |key| 0.5 * (body.width - key.length));
+        // A bar up to a height through hubs, from the lowest on, with a ring on either side of each.
+        let through = |hubs: &[f64], end: f64| {
+            let bar = Bar::new(body.seat(""), [hubs[0], end]).ring(hubs[0], false, free);
+            let hubs = hubs.iter().map(|&low| [low, low + body.width]);
+            let last = hubs.clone().fold(free, |_, hub| hub[1]);
+            let on = |bar: Bar, hub: [f64; 2]| {
+                let bar = bar.ring(hub[1], true, gap);
+                bar.through(&[hub]).key(key, hub)
+            };
+            let bar = hubs.fold(bar, on).through(&[[rear, front]]);
+            bar.keyed(body.keyway, [f64::NEG_INFINITY, last - beyond])
+        };
+        // In the thin crank a key with round ends would bear over less than half its length: one with square ends leaves its whole seat to
+        // the straight part of the keyway.
+        let square = body.keyway;
+        let square = square.and_then(|hub| Key::square(hub, plates.thickness));
         let before = 0.5 * body.keyway.map_or(0.0, |keyway| keyway.width);
-        let crank = crank.ring(hub(middle)[1], true, gap);
-        let crank = keyed(held(crank), [front - before, free]);
-        let crank = crank.seat([0.0, free], Self::CRANK_FIT[1]);
-        let crank = crank.through(&[hub(middle), [rear, front]]);
+        let crank = through(&[middle], plates.thickness)
+            .ring(rear, false, gap)
+            .ring(front, true, gap)
+            .keyed(body.keyway, [front - before, free])
+            .seat([0.0, free], Self::CRANK_FIT[1])
+            .key(square, plate);
         let hubs = match self.has_cams() {
             true => vec![entry, middle, exit],
             false => vec![middle],
@@ -158,62 +153,24 @@ impl Feeder {
         // The crank does not reach as far as this shaft.
         let reach = self.six_bar().four_bar().lengths()[0] + 0.5 * plates.width;
         let distance = self.design().gears.center_distance();
-        let before = match reach < distance - 0.5 * body.bore {
+        let room = match reach < distance - 0.5 * body.bore {
             true => gap + plates.thickness,
             false => gap,
         };
-        let own = Bar::new(body.bore, &body.shaft_fit, [hubs[0], front]);
-        let own = own.ring(hubs[0], false, free);
-        let own = hubs
-            .iter()
-            .fold(own, |bar, &bottom| bar.ring(hub(bottom)[1], true, gap));
-        let last = hubs
-            .iter()
-            .fold(f64::NEG_INFINITY, |top, &bottom| top.max(hub(bottom)[1]));
-        let own = keyed(own, [f64::NEG_INFINITY, last - beyond]).ring(front, true, before);
-        let on_it = hubs.iter().map(|&bottom| hub(bottom));
-        let own = own.through(&on_it.chain([[rear, front]]).collect::<Vec<_>>());
-        let mut of_crank = crank.part("shaft-a", "Shaft A", stock, general);
-        of_crank.notes =
+        let own = through(&hubs, front).ring(front, true, room);
+        let general = &self.design().drawing.general_tolerance;
+        let made = |bar: &Bar, [name, title, link, role]: [&str; 4], x: f64| TurnedPieces {
+            role: role.into(),
+            pieces: vec![bar.piece(link, Point::origin())],
+            axis: Some([x, 0.0]),
+            ..bar.turned(name, title, body.shaft_stock(), general)
+        };
+        let link = FeederPart::Crank.name();
+        let mut crank = made(&crank, ["shaft-a", "Shaft A", link, "of the crank"], 0.0);
+        crank.part.notes =
             vec!["The crank is pressed on its seat and key, flush with the end.".into()];
-        let on_shaft = |part: TurnedPart, bar: &Bar, link: &str| TurnedPieces {
-            pieces: vec![TurnedPiece::upright(link, [0.0, 0.0, bar.bottom()])],
-            ..TurnedPieces::new(part, fit.clone())
-        };
-        // In the middle of its hub.
-        let seated = |key: Key, [low, high]: [f64; 2], bar: &Bar| SeatedKey {
-            key,
-            at: 0.5 * (low + high - key.length) - bar.bottom(),
-        };
-        let key = |bottom: f64, bar: &Bar| {
-            let key = Key::fitting(body.keyway?, body.width)?;
-            Some(seated(key, hub(bottom), bar))
-        };
-        let square = || {
-            let key = Key::square(body.keyway?, plates.thickness)?;
-            Some(seated(key, [0.0, plates.thickness], &crank))
-        };
-        [
-            TurnedPieces {
-                role: "of the crank".into(),
-                // In the thin crank a key with round ends would bear over less than half its length.
-                keys: [key(middle, &crank), square()]
-                    .into_iter()
-                    .flatten()
-                    .collect(),
-                axis: Some([0.0; 2]),
-                ..on_shaft(of_crank, &crank, FeederPart::Crank.name())
-            },
-            TurnedPieces {
-                role: "of the intermittent gear".into(),
-                keys: hubs.iter().filter_map(|&low| key(low, &own)).collect(),
-                axis: Some([-distance, 0.0]),
-                ..on_shaft(
-                    own.part("shaft-g", "Shaft G", stock, general),
-                    &own,
-                    GearBody::NAMES[0],
-                )
-            },
-        ]
+        let role = "of the intermittent gear";
+        let names = ["shaft-g", "Shaft G", GearBody::NAMES[0], role];
+        [crank, made(&own, names, -distance)]
     }
 }

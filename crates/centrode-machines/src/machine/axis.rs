@@ -9,7 +9,7 @@ use super::{BodyPoint, Mount};
 use centrode_kinematics::machine::JointKind;
 
 impl Mount {
-    /// Place of the joint's axes in the carrier's.
+    /// Position of the joint's axes in the carrier's.
     pub(super) fn seat(&self) -> Isometry2<f64> {
         Isometry2::new(self.at.coords, self.angle)
     }
@@ -28,7 +28,7 @@ impl Builder<'_> {
         angle
     }
 
-    /// Place, in the axes of a body that carries it, of a point of another that stands still there; none where it moves by
+    /// Position, in the axes of a body that carries it, of a point of another that is fixed there; `None` if it moves by
     /// more than a length.
     pub(super) fn axis_on(&self, carrier: usize, mut point: BodyPoint, size: f64) -> Option<Point> {
         loop {
@@ -46,7 +46,7 @@ impl Builder<'_> {
         }
     }
 
-    /// A point of a body in the axes of one that it carries, where it stands still.
+    /// A point of a body in the axes of one that it carries, where it is fixed.
     fn down(&self, carrier: usize, point: BodyPoint, size: f64) -> Option<Point> {
         if carrier == point.body {
             return Some(point.at);

@@ -16,7 +16,7 @@ use centrode_spec::rule::{
 };
 use centrode_spec::{DesignSpec, DrawingSpec, SpecError};
 
-/// Name of the body that stands still.
+/// Name of the body that is fixed.
 pub(super) const FRAME: &str = "frame";
 /// Most turns of the input in a period.
 const MAX_TURNS: u32 = 60;
@@ -38,7 +38,7 @@ pub struct MachineDesign {
     /// The shaft that drives it.
     #[serde(default)]
     pub input: MachineInputSpec,
-    /// The body that stands still.
+    /// The body that is fixed.
     #[serde(default)]
     pub frame: MachinePointsSpec,
     /// Bodies by name.
@@ -64,7 +64,6 @@ pub struct MachineDesign {
     pub copies: BTreeMap<String, MachineCopiesSpec>,
     /// Plates, pins and shafts: `full` designs them, `none` does not; default `full` if `plates` or a body describes them,
     /// otherwise `none`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hardware: Option<Hardware>,
     /// The bodies as plates.
     #[serde(default)]
@@ -72,8 +71,7 @@ pub struct MachineDesign {
     /// The drawing sheets.
     #[serde(default, skip_serializing_if = "DrawingSpec::is_default")]
     pub drawing: DrawingSpec,
-    /// Acceleration of free fall, m/s²: x and y; left out, there is no weight.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// Acceleration of free fall, m/s²: x and y; default: there is no weight.
     pub gravity: Option<[f64; 2]>,
     /// Loads by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]

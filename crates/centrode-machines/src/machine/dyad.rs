@@ -35,55 +35,33 @@ pub struct MachineDyadSpec {
     /// Names of the two bodies that it makes, in the order of the type's letters.
     pub bodies: [String; 2],
     /// Pin at which it begins: `crank.A`; of all types but PRP.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub from: Option<String>,
     /// Pin at which it ends: `frame.P`; of RRR and RPR.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub to: Option<String>,
     /// Name of the joint between its bodies, a point of both; not of RPR.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub joint: Option<String>,
     /// Lengths of the bars, mm: two of RRR, one of RRP.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub lengths: Vec<f64>,
-    /// Assembly: left or right for RRR, the joint's side of the way from `from` to `to`; forward or backward for RRP, the
-    /// slider's place along its line, and for RPR, the direction of the guide from its pin towards the block.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// Assembly: left or right for RRR, the joint's side of the line from `from` to `to`; forward or backward for RRP, the
+    /// slider's position along its line, and for RPR, the direction of the guide from its pin towards the block.
     pub side: Option<Side>,
     /// Point through which the line of the slide passes: `frame.O`; of RRP, PRP and RPP.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub line: Option<String>,
     /// Direction of that line in the axes of its body, rad (degrees in the file).
-    #[serde(
-        default,
-        rename = "line_deg",
-        with = "degrees",
-        skip_serializing_if = "Option::is_none"
-    )]
+    #[serde(default, rename = "line_deg", with = "degrees")]
     #[schemars(with = "Option<f64>")]
     pub direction: Option<f64>,
     /// Point through which the line of the second block passes; of PRP.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub second_line: Option<String>,
     /// Direction of that line in the axes of its body, rad (degrees in the file).
-    #[serde(
-        default,
-        rename = "second_line_deg",
-        with = "degrees",
-        skip_serializing_if = "Option::is_none"
-    )]
+    #[serde(default, rename = "second_line_deg", with = "degrees")]
     #[schemars(with = "Option<f64>")]
     pub second_direction: Option<f64>,
     /// Distance at which the guide passes its own pin, to the left of its direction, mm; of RPR.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub offset: Option<f64>,
     /// Direction of the yoke's slot against its line, rad (degrees in the file); of RPP.
-    #[serde(
-        default,
-        rename = "slot_deg",
-        with = "degrees",
-        skip_serializing_if = "Option::is_none"
-    )]
+    #[serde(default, rename = "slot_deg", with = "degrees")]
     #[schemars(with = "Option<f64>")]
     pub slot: Option<f64>,
 }

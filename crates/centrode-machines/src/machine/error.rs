@@ -22,14 +22,16 @@ pub enum MachineError {
         /// The word.
         word: String,
     },
-    /// A body that is not there.
-    #[error("there is no body {body:?}; there are {}", known.join(", "))]
-    NoBody {
+    /// A body, dyad, gear, pair or cam that is not there.
+    #[error("there is no {what} {name:?}; there are {}", if known.is_empty() { "none".to_owned() } else { known.join(", ") })]
+    Unknown {
         /// Key that names it.
         key: String,
+        /// Kind: `body`, `dyad`, `gear`, `pair` or `cam`.
+        what: &'static str,
         /// Its name.
-        body: String,
-        /// Bodies there are.
+        name: String,
+        /// Names there are.
         known: Vec<String>,
     },
     /// A point that is not there.
@@ -55,9 +57,7 @@ pub enum MachineError {
         point: String,
     },
     /// A body that cannot drive another by its turn.
-    #[error(
-        "body {body:?} does not turn on a pin: only a body that does can take the place of the input"
-    )]
+    #[error("body {body:?} does not turn on a pin: only a body that does can replace the input")]
     NoTurn {
         /// Key that names it.
         key: String,
@@ -82,7 +82,7 @@ pub enum MachineError {
         /// The body.
         body: String,
     },
-    /// A body that would have to be in place before itself.
+    /// A body that would have to be placed before itself.
     #[error("{}", ring(.names))]
     Ring {
         /// Key at which the ring is entered.
@@ -128,26 +128,6 @@ pub enum MachineError {
         /// Input, rad.
         input: f64,
     },
-    /// Words that are no figure.
-    #[error("there is no figure {words:?}; its forms are {}", known.join(", "))]
-    NoFigure {
-        /// Key that names it.
-        key: String,
-        /// The words.
-        words: String,
-        /// Forms of figures.
-        known: Vec<String>,
-    },
-    /// A dyad that is not there.
-    #[error("there is no dyad {dyad:?}; there are {}", known.join(", "))]
-    NoDyad {
-        /// Key that names it.
-        key: String,
-        /// Its name.
-        dyad: String,
-        /// Dyads there are.
-        known: Vec<String>,
-    },
     /// A pair that cannot be cut.
     #[error("{error}")]
     Pair {
@@ -164,22 +144,6 @@ pub enum MachineError {
         /// Why.
         error: CamError,
     },
-    /// A cam that cannot be followed.
-    #[error("{why}")]
-    NoFollower {
-        /// Key of the cam or of the body.
-        key: String,
-        /// Why.
-        why: String,
-    },
-    /// Copies that cannot be.
-    #[error("{why}")]
-    NoCopies {
-        /// Key of the copies.
-        key: String,
-        /// Why.
-        why: String,
-    },
     /// An error of a copy, none of its original.
     #[error("of a copy: {error}")]
     Copy {
@@ -188,27 +152,7 @@ pub enum MachineError {
         /// The error of the copy.
         error: Box<MachineError>,
     },
-    /// A gear, pair or cam that is not there.
-    #[error("there is no {what} {name:?}; there are {}", if known.is_empty() { "none".to_owned() } else { known.join(", ") })]
-    NoGear {
-        /// Key that names it.
-        key: String,
-        /// Kind: `gear`, `pair` or `cam`.
-        what: &'static str,
-        /// Its name.
-        name: String,
-        /// Names there are.
-        known: Vec<String>,
-    },
-    /// Gears that cannot mesh.
-    #[error("{why}")]
-    NoMesh {
-        /// Key of the mesh.
-        key: String,
-        /// Why.
-        why: String,
-    },
-    /// Something written that cannot be: a contour, a load.
+    /// Something written that cannot be: a contour, a load, a mesh, a follower, a copy, a figure.
     #[error("{why}")]
     Refused {
         /// Key at fault.
@@ -297,34 +241,49 @@ fn ring(names: &[String]) -> String {
     match names {
         [one] => format!("{one} is held by itself"),
         _ => format!(
-            "{} wait for each other: each needs another one to be in place",
+            "{} wait for each other: each needs another one to be placed",
             names.join(", ")
         ),
     }
 }
 
 impl MachineError {
+    /// Something written at a key that cannot be, and why.
+    pub(crate) fn refused(key: impl Into<String>, why: impl Into<String>) -> Self {
+        let (key, why) = (key.into(), why.into());
+        Self::Refused { key, why }
+    }
+
+    /// Something that a key names and that is not among the names of its kind.
+    pub(crate) fn unknown(
+        key: impl Into<String>,
+        what: &'static str,
+        name: impl Into<String>,
+        known: impl IntoIterator<Item = String>,
+    ) -> Self {
+        Self::Unknown {
+            key: key.into(),
+            what,
+            name: name.into(),
+            known: known.into_iter().collect(),
+        }
+    }
+
     /// Key of the design to blame.
     #[must_use]
     pub fn key(&self) -> String {
         match self {
             Self::Spec(error) => error.key.clone(),
             Self::NoReference { key, .. }
-            | Self::NoBody { key, .. }
+            | Self::Unknown { key, .. }
             | Self::NoPoint { key, .. }
             | Self::PointTwice { key, .. }
             | Self::HeldTwice { key, .. }
             | Self::Ring { key, .. }
             | Self::NoTriangle { key, .. }
             | Self::NoDirection { key, .. }
-            | Self::NoFigure { key, .. }
-            | Self::NoDyad { key, .. }
             | Self::NoTurn { key, .. }
-            | Self::NoGear { key, .. }
-            | Self::NoMesh { key, .. }
             | Self::Refused { key, .. }
-            | Self::NoFollower { key, .. }
-            | Self::NoCopies { key, .. }
             | Self::Copy { key, .. }
             | Self::Pair { key, .. }
             | Self::Linkage { key, .. } => key.clone(),

@@ -36,9 +36,9 @@ const LENGTHS: [&str; 19] = [
 const OWN_FILES: [&str; 2] = ["assembly", "sheets"];
 /// Tables of the whole machine: gears and cams have tables, too.
 const OWN_TABLES: [&str; 2] = ["motion", "parts"];
-/// Names that Windows keeps for devices.
+/// Names that Windows reserves for devices.
 const DEVICES: [&str; 4] = ["aux", "con", "nul", "prn"];
-/// Tables whose numbers say what is wanted, not what the machine is.
+/// Tables whose numbers say what is required, not what the machine is.
 const REQUIRED: [&str; 2] = ["goals", "vary"];
 
 impl MachineDesign {
@@ -59,10 +59,7 @@ impl MachineDesign {
     /// [`MachineError::Refused`] with the key at fault.
     pub fn check_vary(&self) -> Result<(), MachineError> {
         for key in self.vary.keys() {
-            let refused = |why: String| MachineError::Refused {
-                key: format!("vary.{key}"),
-                why,
-            };
+            let refused = |why: String| MachineError::refused(format!("vary.{key}"), why);
             let table = key.split('.').next().unwrap_or_default();
             if REQUIRED.contains(&table) || key == "input.turns" {
                 return Err(refused(
@@ -100,10 +97,7 @@ impl Machine {
         }
         let mut taken: BTreeMap<String, String> = BTreeMap::new();
         for (key, stem) in &stems {
-            let refused = |why: String| {
-                let key = key.clone();
-                Err(MachineError::Refused { key, why })
-            };
+            let refused = |why: String| Err(MachineError::refused(key, why));
             // File systems may take small and capital letters for one.
             let small = stem.to_ascii_lowercase();
             let is_tabled = !key.starts_with("bodies.");
@@ -124,8 +118,7 @@ impl Machine {
             let small = stem.to_ascii_lowercase();
             let part = without_sheet(&small);
             if let Some(other) = taken.get(part).filter(|_| part != small) {
-                let why = one_name(&key, other);
-                return Err(MachineError::Refused { key, why });
+                return Err(MachineError::refused(&key, one_name(&key, other)));
             }
         }
         Ok(())

@@ -4,8 +4,8 @@ use super::hardware::pieces::Pieces;
 use super::load::MachineLoad;
 use super::{BodyPoint, Hardware, Hold, Machine, MachineBody};
 use centrode_kinematics::machine::{
-    Blank, Closure, Fit, Form, GearMesh, Input, Joint, JointKind, Line, LineRole, Link, LinkPoint,
-    LinkedMachine, Mark, Part, PitchCurves, Quantity, Shape, Surface,
+    Blank, Closure, Fit, GearMesh, Input, Joint, JointKind, Line, LineRole, Link, LinkPoint,
+    LinkedMachine, Mark, Part, PitchCurves, Quantity, Surface,
 };
 
 impl Machine {
@@ -37,7 +37,7 @@ impl Machine {
         Ok(machine)
     }
 
-    /// The machine as links and joints as far as pictures and clearances ask: without masses, pins and a list of parts.
+    /// The machine as links and joints for pictures and clearances: without masses, pins and a list of parts.
     ///
     /// # Errors
     /// [`SolidError`] where a plate is no solid.
@@ -67,10 +67,7 @@ impl Machine {
             loads: self.loads.iter().flat_map(MachineLoad::parts).collect(),
             ..LinkedMachine::default()
         };
-        let meaning = "angle the driving shaft has turned by";
-        machine.column("input_angle_rad", "rad", meaning, Quantity::Input(1.0));
-        let time = Quantity::Input(1.0 / self.speed());
-        machine.column("time_s", "s", "time at the design's speed", time);
+        machine.input_columns("angle the driving shaft has turned by");
         for (index, body) in self.bodies.iter().enumerate() {
             self.add_link(&mut machine, index, &pieces[index]);
             if let Some(mount) = &body.mount {
@@ -190,7 +187,7 @@ impl Machine {
         }
     }
 
-    /// Tells the fit of the pins in the plates, where there are any.
+    /// States the fit of the pins in the plates, if there are any.
     fn list_fits(&self, machine: &mut LinkedMachine) {
         let spec = &self.design.plates;
         for shaft in self.shafts() {
@@ -256,20 +253,12 @@ impl Machine {
     /// Adds a body with its plate, gears and cams: shape, mass, surfaces to touch with.
     fn add_link(&self, machine: &mut LinkedMachine, body: usize, pieces: &Pieces<'_>) {
         let name = &self.bodies[body].name;
-        let mut link = Link {
-            name: name.clone(),
-            ..Link::default()
-        };
+        let mut link = Link::new(name.clone());
         let plates = pieces.plate.iter().map(|plate| (name.as_str(), plate));
         let top = pieces.top.iter().map(|top| (Self::FRAME_TOP, top));
         for (name, solid) in plates.chain(top) {
-            link.surfaces.push(machine.surface(Surface {
-                name: name.into(),
-                outline: solid.outline().clone(),
-                span: [solid.bottom(), solid.top()],
-                teeth: Vec::new(),
-                coarseness: 1.0,
-            }));
+            link.surfaces
+                .push(machine.surface(Surface::of_solid(name, solid)));
         }
         for piece in &pieces.gears {
             let surface = piece.of.surface(&piece.solid);
@@ -281,11 +270,7 @@ impl Machine {
         }
         let solids = pieces.solids();
         if !solids.is_empty() {
-            link.shape = Some(machine.shape(Shape {
-                name: format!("links/{name}"),
-                part: String::new(),
-                form: Form::Solids(solids),
-            }));
+            link.shape = Some(machine.solids(&format!("links/{name}"), "", solids));
         }
         machine.link(link);
     }
@@ -310,7 +295,7 @@ impl Machine {
         let (unit, meaning) = match mount.kind {
             JointKind::Fixed => return,
             JointKind::Turning => ("rad", format!("angle of {name} against {carrier}")),
-            JointKind::Sliding(_) => ("mm", format!("place of {name} along {carrier}")),
+            JointKind::Sliding(_) => ("mm", format!("position of {name} along {carrier}")),
         };
         let column = format!("{}_joint_{unit}", name.replace('-', "_"));
         machine.column(&column, unit, &meaning, Quantity::joint(joint));
@@ -333,7 +318,7 @@ impl Machine {
         }
     }
 
-    /// Draws every body, and the ways of the points on which nothing is held.
+    /// Draws every body, and the paths of the points on which nothing is held.
     fn draw(&self, machine: &mut LinkedMachine, pieces: &[Pieces<'_>]) {
         let followed = self.followed();
         let traced: Vec<usize> = (0..machine.points.len())

@@ -21,25 +21,17 @@ pub struct MachineLoadSpec {
     /// Point of a body on which it acts, `ram.tool`; or the body alone for its origin.
     pub on: String,
     /// Components of the force along x and y, N.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub force: Option<[f64; 2]>,
     /// Axes of the force's components.
     #[serde(default, skip_serializing_if = "LoadAxes::is_world")]
     pub axes: LoadAxes,
     /// Torque, counter-clockwise positive, N mm.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub torque: Option<f64>,
     /// Formula of the input `phi` in rad by which force and torque are multiplied.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub expression: Option<String>,
     /// Arc of the input over which it acts, from the first to the second, past the end of the cycle where the second is less,
-    /// rad (degrees in the file); left out, it acts always.
-    #[serde(
-        default,
-        rename = "over_deg",
-        with = "degrees",
-        skip_serializing_if = "Option::is_none"
-    )]
+    /// rad (degrees in the file); by default it acts always.
+    #[serde(default, rename = "over_deg", with = "degrees")]
     #[schemars(with = "Option<[f64; 2]>")]
     pub over: Option<[f64; 2]>,
 }
@@ -93,10 +85,7 @@ impl MachineLoadSpec {
     /// Share of force and torque that acts, by the input.
     fn factor(&self, key: &str, turns: u32) -> Result<Arc<dyn Transmission>, MachineError> {
         let period = TAU * f64::from(turns);
-        let wrong = |of: &str, why: String| MachineError::Refused {
-            key: format!("{key}.{of}"),
-            why,
-        };
+        let wrong = |of: &str, why: String| MachineError::refused(format!("{key}.{of}"), why);
         let size = self.expression.as_deref().unwrap_or("1");
         let formula = formula_of(size, period);
         let formula =

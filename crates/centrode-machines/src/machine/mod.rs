@@ -54,7 +54,7 @@ pub use goal::{MachineGoalSpec, Over};
 pub use hardware::Hardware;
 pub use hardware::frame::Overhang;
 pub use hardware::layers::LayerOrders;
-pub use hardware::plates::{MachinePlatesSpec, PinHole};
+pub use hardware::plates::MachinePlatesSpec;
 pub use hardware::shafts::{Hold, MachineShaft, ShaftPart};
 pub use hardware::sizes::Plates;
 pub use hardware::slots::Slot;
@@ -108,7 +108,7 @@ pub struct MachineBody {
     pub name: String,
     /// Link of the linkage.
     pub link: LinkId,
-    /// Joint that carries it; none for the frame.
+    /// Joint that carries it; `None` for the frame.
     pub mount: Option<Mount>,
 }
 
@@ -117,7 +117,7 @@ pub struct MachineBody {
 pub struct Mount {
     /// Index of the body that carries.
     pub carrier: usize,
-    /// Place of the joint in the carrier's axes, mm.
+    /// Position of the joint in the carrier's axes, mm.
     pub at: Point,
     /// Turn of the joint's axes against the carrier's, rad.
     pub angle: f64,
@@ -142,7 +142,7 @@ pub struct MachineDyad {
 #[derive(Clone, Debug, PartialEq)]
 struct Pin {
     bodies: [usize; 2],
-    /// Place in the axes of the first, mm.
+    /// Position in the axes of the first, mm.
     at: Point,
 }
 
@@ -179,7 +179,7 @@ impl Mount {
         }
     }
 
-    /// Place of what slides along it by a distance, in the carrier's axes, mm.
+    /// Position of what slides along it by a distance, in the carrier's axes, mm.
     fn along(&self, distance: f64) -> Point {
         let (sin, cos) = self.angle.sin_cos();
         self.at + Vector::new(cos, sin) * distance
@@ -281,7 +281,7 @@ impl Machine {
         self.bodies.iter().position(|body| body.name == name)
     }
 
-    /// Every point by `body.point`, with its body and place: those of the bodies themselves, not the pins on which
+    /// Every point by `body.point`, with its body and position: those of the bodies themselves, not the pins on which
     /// they turn.
     pub fn points(&self) -> impl Iterator<Item = (String, BodyPoint)> + '_ {
         self.bodies
@@ -316,7 +316,7 @@ impl Machine {
         }
     }
 
-    /// Motion of a point of a body by the input: place in mm and its derivatives.
+    /// Motion of a point of a body by the input: position in mm and its derivatives.
     ///
     /// # Panics
     /// Never for the index of a body.
@@ -325,7 +325,7 @@ impl Machine {
         self.linkage.body(self.bodies[body].link, input).point(at)
     }
 
-    /// Place of a point of a body at an input, mm.
+    /// Position of a point of a body at an input, mm.
     ///
     /// # Panics
     /// Never for the index of a body.
@@ -334,7 +334,7 @@ impl Machine {
         self.linkage.place(self.bodies[body].link, at, input)
     }
 
-    /// Places of points of bodies at each of many inputs, mm, input by input; see [`Linkage::places_each`].
+    /// Positions of points of bodies at each of many inputs, mm, input by input; see [`Linkage::places_each`].
     ///
     /// # Panics
     /// Never for indices of bodies.
@@ -352,7 +352,7 @@ impl Machine {
         self.linkage.write_places(&points, inputs, places);
     }
 
-    /// Place (mm) and velocity (mm per radian of the input) of each of several points of bodies at an input; see
+    /// Position (mm) and velocity (mm per radian of the input) of each of several points of bodies at an input; see
     /// [`Linkage::moving`].
     ///
     /// # Panics

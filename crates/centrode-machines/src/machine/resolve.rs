@@ -157,7 +157,7 @@ impl<'a> Builder<'a> {
         .sized()
     }
 
-    /// The machine with all that stands on it, checked.
+    /// The machine with all its parts, checked.
     pub(super) fn finished(self, written: &MachineDesign) -> Result<Machine, MachineError> {
         self.check_loops()?;
         self.check_cams()?;

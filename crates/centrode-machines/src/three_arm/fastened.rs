@@ -13,20 +13,20 @@ const ENTERED: [f64; 2] = [1.0, 1.5];
 const EDGE: f64 = 1.5;
 /// Minimum distance of the middle of a screw from the edge of a cover, in diameters of its hole; EN 1993-1-8, 3.5, e1 and e2.
 const COVER_EDGE: f64 = 1.2;
-/// Fewest screws of a plate of the carrier.
+/// Minimum number of screws per plate of the carrier.
 const OF_CARRIER: usize = 3;
-/// Screws of a cover.
+/// Number of screws per cover.
 const OF_COVER: usize = 4;
 
-/// A place that stands still, with a radius around it, mm.
+/// A fixed position, with a radius around it, mm.
 fn round(at: Point, radius: f64) -> ([Point; 2], f64) {
     ([at; 2], radius)
 }
 
 impl ThreeArm {
-    /// Screws of the carrier's plates, in the carrier's frame, into steel spacers twice as thick as they are, heights from the rear
-    /// faces of the gears: clear of the gears by the gearbox's clearance, and their heads of the arms' housings. None where the
-    /// design asks for none.
+    /// Screws of the carrier's plates, in the carrier's frame, into steel spacers twice as thick as they are, heights from the
+    /// rear faces of the gears: clear of the gears by the gearbox's clearance, and their heads of the arms' housings. None
+    /// where the design requires none.
     #[must_use]
     pub fn carrier_screws(&self, arm: &ArmBody) -> Option<Result<Fastening, FasteningError>> {
         let spec = &self.design().gearbox;
@@ -57,7 +57,7 @@ impl ThreeArm {
     }
 
     /// Screws of the covers of an arm, in the arm's frame, into bosses on the inside of the wall between them, twice as thick as
-    /// they are: clear of cam, fork, spring and rod by half a wall. None where the design asks for none.
+    /// they are: clear of cam, fork, spring and rod by half a wall. None where the design has none.
     #[must_use]
     pub fn cover_screws(
         &self,
@@ -130,10 +130,10 @@ impl ThreeArm {
     }
 }
 
-/// Places of the fork that are looked at.
+/// Positions of the fork that are sampled.
 const SWINGS: u32 = 24;
 
-/// Distance of the farthest corner or rounding of a contour from a place, mm.
+/// Distance of the farthest corner or rounding of a contour from a position, mm.
 fn farthest(outline: &Outline, from: Point) -> f64 {
     let points = outline
         .segments()

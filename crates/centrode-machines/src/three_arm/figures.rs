@@ -51,7 +51,7 @@ impl ThreeArm {
 
     /// Radius of the circle that the gearbox sweeps around the carrier's axis, mm.
     ///
-    /// The housing keeps its offset from the largest pitch radius around every axis.
+    /// The housing is its offset away from the largest pitch radius around every axis.
     #[must_use]
     pub fn gearbox_radius(&self) -> f64 {
         let (_, sun) = self.rolling().radii(Member::Driver);

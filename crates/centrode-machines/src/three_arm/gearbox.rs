@@ -72,8 +72,8 @@ impl ThreeArm {
         })
     }
 
-    /// Bearing in the carrier's plates on a shaft of a diameter, mm; none where the design asks for none, or where none is as narrow as
-    /// the plates are thick.
+    /// Bearing in the carrier's plates on a shaft of a diameter, mm; `None` if the design has none, or where none is as narrow
+    /// as the plates are thick.
     #[must_use]
     pub fn bearing(&self, bore: f64) -> Option<Bearing> {
         let gearbox = &self.design().gearbox;

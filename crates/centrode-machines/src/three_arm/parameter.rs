@@ -33,7 +33,7 @@ pub enum Parameter {
     TipDistance,
     /// Distance of the pusher's axis from the planet's axis, H1.
     PusherOffset,
-    /// The planet's zero behind the second leg at the start, `phi_30`.
+    /// Angle from the planet's zero to the second leg at the start, `phi_30`.
     PlanetReference,
     /// Carrier turn at which the first arm picks.
     Picking,
@@ -119,7 +119,7 @@ impl Parameter {
         )
     }
 
-    /// Value in a design, rad or mm; none where the design does not write it.
+    /// Value in a design, rad or mm; `None` if the design does not write it.
     #[must_use]
     pub fn of(self, design: &ThreeArmDesign) -> Option<f64> {
         let spline = || match &design.pitch {

@@ -150,10 +150,7 @@ impl ThreeArm {
         match link {
             ThreeArmLink::Sun => LinkMotion {
                 origin: rest,
-                angle: MotionJet {
-                    position: self.train().carrier_start(),
-                    ..MotionJet::default()
-                },
+                angle: MotionJet::at_rest(self.train().carrier_start()),
             },
             ThreeArmLink::Carrier => LinkMotion {
                 origin: rest,

@@ -64,7 +64,7 @@ impl ThreeArm {
         (0..count).map(place).collect()
     }
 
-    /// The stem of a planted seedling over its foot; none where the design gives it no size.
+    /// The stem of a planted seedling over its foot; `None` if the design gives it no size.
     #[must_use]
     pub fn stem(&self) -> Option<Outline> {
         let spec = &self.design().seedling;

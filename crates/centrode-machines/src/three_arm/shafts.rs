@@ -7,7 +7,7 @@ use super::{Pusher, ThreeArm};
 use crate::arm::ArmBody;
 use centrode_gear::design::BodySpec;
 use centrode_kinematics::machine::{
-    Bar, Bearing, Dowel, Fit, Key, SeatedKey, TurnedPart, TurnedPiece, TurnedPieces, TurnedStep,
+    Bar, Fit, Key, TurnedPart, TurnedPiece, TurnedPieces, TurnedStep,
 };
 
 /// Diameters of its own that the carrier's shaft goes on behind the gearbox.
@@ -31,7 +31,7 @@ impl ThreeArm {
         all
     }
 
-    /// A piece on a link of every chain, at a place in it.
+    /// A piece on a link of every chain, at a position in it.
     fn on_chains(&self, link: &str, at: [f64; 3]) -> Vec<TurnedPiece> {
         let piece = |k| TurnedPiece::upright(&format!("{link}_{k}"), at);
         (0..self.arms()).map(piece).collect()
@@ -65,7 +65,7 @@ impl ThreeArm {
         all.into_iter().flatten().collect()
     }
 
-    /// Shaft of the sun, which stands still and about which the carrier turns; none without a gearbox, or a bore of the sun.
+    /// Shaft of the sun, which is fixed and about which the carrier turns; `None` without a gearbox, or a bore of the sun.
     #[must_use]
     pub fn carrier_shaft(&self) -> Option<TurnedPieces> {
         let (design, [rear, front]) = (self.design(), self.gearbox()?.spans);
@@ -97,28 +97,21 @@ impl ThreeArm {
         let [rear, front] = self.gearbox().filter(|_| body.bore > 0.0)?.spans;
         let general = &self.design().drawing.general_tolerance;
         let [_, end] = span;
-        let bar = Bar::new(body.bore, &body.shaft_fit, span).held(room);
+        let bar = Bar::new(body.seat(""), span).held(room);
         // Plates of the carrier, what holds them apart and, where the shaft goes on, what holds the arm.
         let arm = (end > front[1]).then_some([front[1], end]);
         let between = [rear, [rear[1], front[0]], front];
         let on_it: Vec<[f64; 2]> = between.into_iter().chain(arm).collect();
-        let mut bar = bar.through(&on_it).keyed(body.keyway, [0.0, body.width]);
+        let (hub, key) = ([0.0, body.width], body.keyway);
+        let key = key.and_then(|hub| Key::fitting(hub, body.width));
+        let bar = bar.through(&on_it).keyed(body.keyway, hub);
+        let mut bar = bar.key(key, hub);
         // At the outer faces of the plates, against the rings.
-        let bearings = self.bearing(body.bore).map(|bearing| {
-            let wide = bearing.width;
-            [(bearing, rear[0]), (bearing, front[1] - wide)]
-        });
-        for (bearing, low) in bearings.into_iter().flatten() {
-            bar = bar.seat([low, low + bearing.width], BEARING[1]);
+        if let Some(bearing) = self.bearing(body.bore) {
+            for low in [rear[0], front[1] - bearing.width] {
+                bar = bar.bearing(bearing, low, BEARING[1]);
+            }
         }
-        let above = |(bearing, low): (Bearing, f64)| (bearing, low - bar.bottom());
-        let part = bar.part(name, title, body.shaft_stock(), general);
-        let fit = Fit::new("", body.bore, [&body.bore_fit, &body.shaft_fit]);
-        let key = body.keyway.and_then(|hub| Key::fitting(hub, body.width));
-        let key = key.map(|key| SeatedKey {
-            key,
-            at: 0.5 * (body.width - key.length) - bar.bottom(),
-        });
         // Keyways of shaft and gear are on one line.
         let seat = |piece: TurnedPiece| TurnedPiece {
             at: [0.0, 0.0, bar.bottom()],
@@ -126,10 +119,8 @@ impl ThreeArm {
             ..piece
         };
         Some(TurnedPieces {
-            keys: key.into_iter().collect(),
-            bearings: bearings.into_iter().flatten().map(above).collect(),
             pieces: links.into_iter().map(seat).collect(),
-            ..TurnedPieces::new(part, fit)
+            ..bar.turned(name, title, body.shaft_stock(), general)
         })
     }
 
@@ -140,41 +131,22 @@ impl ThreeArm {
         let wide = |name: &str| span(arm, name).unwrap_or([0.0, 1.0]);
         // The cam behind the fork reaches beyond the pivot.
         let [_, cover] = wide("cover-front");
-        let seat = pusher.pivot_fit();
-        // From the rear face of the fork, or a little above it where no pin is as long, to the outside of the front cover.
-        let standard = Dowel::for_diameter(seat.size, cover - fork[0]);
-        let standard = standard.filter(|pin| cover - pin.length < fork[0] + SHORT * spec.width);
-        let low = standard.map_or(fork[0], |pin| cover - pin.length);
-        let bar = Bar::new(seat.size, seat.pin, [low, cover]);
         let stock = STEEL.treated(&spec.pin_heat_treatment);
-        let mut pivot = bar.part("pin-fork", "Pin of the fork", stock, "");
-        pivot.notes = vec!["Pressed into the front cover, flush with its outside.".into()];
+        // From the rear face of the fork, or a little above it where no pin is as long, to the outside of the front cover.
+        let [pressed, _] = pusher.pivot_fit().fits([""; 2]);
+        let bar = Bar::dowel(pressed, [fork[0], cover], SHORT * spec.width);
+        let pivot = bar.turned("pin-fork", "Pin of the fork", stock, "");
+        let mut pivot = pivot.bought_as("of the fork, pressed into the front cover");
+        pivot.part.notes = vec!["Pressed into the front cover, flush with its outside.".into()];
         let at = pusher.pivot();
-        let [pressed, _] = seat.fits([""; 2]);
-        let pivot = TurnedPieces {
-            pieces: self.on_chains("arm", [at.x, at.y, bar.bottom()]),
-            role: standard
-                .map_or("", |_| "of the fork, pressed into the front cover")
-                .into(),
-            standard: standard.map(Dowel::name),
-            ..TurnedPieces::new(pivot, pressed)
-        };
+        pivot.pieces = self.on_chains("arm", [at.x, at.y, bar.bottom()]);
         // From the roller, which is behind it, through the fork.
-        let (low, high) = (fork[0].min(cam[0]), fork[1].max(cam[1]));
-        let standard = Dowel::for_diameter(spec.roller_bore, high - low);
-        let long = standard.map_or(high - low, |pin| pin.length);
-        let seat = pusher.roller_fit();
-        let bar = Bar::new(seat.size, seat.pin, [high - long, high]);
-        let [pressed, _] = seat.fits([""; 2]);
-        let made = bar.part("pin-roller", "Pin of the roller", stock, "");
-        let roller = TurnedPieces {
-            pieces: self.on_chains("fork", [spec.arm_length, 0.0, high - long]),
-            role: standard
-                .map_or("", |_| "of the roller, pressed into the fork")
-                .into(),
-            standard: standard.map(Dowel::name),
-            ..TurnedPieces::new(made, pressed)
-        };
+        let room = [fork[0].min(cam[0]), fork[1].max(cam[1])];
+        let [pressed, _] = pusher.roller_fit().fits([""; 2]);
+        let bar = Bar::dowel(pressed, room, f64::INFINITY);
+        let roller = bar.turned("pin-roller", "Pin of the roller", stock, "");
+        let mut roller = roller.bought_as("of the roller, pressed into the fork");
+        roller.pieces = self.on_chains("fork", [spec.arm_length, 0.0, bar.bottom()]);
         let thin = 0.5 * spec.slot_width;
         let [under, over] = wide("push-rod");
         let rod = TurnedPart {

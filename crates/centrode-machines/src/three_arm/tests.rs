@@ -152,7 +152,7 @@ fn gears_in_mesh_touch_at_their_pitch_curves_and_roll() {
                 let d = touch - of.origin.position;
                 Point::new(cos * d.x + sin * d.y, cos * d.y - sin * d.x)
             };
-            // No slip: both bodies move alike where their pitch curves touch.
+            // No slip: both bodies move in the same manner where their pitch curves touch.
             let slip =
                 driver.point(local(&driver)).velocity - driven.point(local(&driven)).velocity;
             assert!(slip.norm() < 1e-9, "{theta}: {slip}");

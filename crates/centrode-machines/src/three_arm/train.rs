@@ -42,7 +42,7 @@ pub struct TrainJet {
     pub arm: MotionJet,
 }
 
-/// Adds a number to a jet: the position is moved, the derivatives are kept.
+/// Adds a number to a jet: the position is moved, the derivatives do not change.
 pub(super) fn moved(jet: MotionJet, by: f64) -> MotionJet {
     MotionJet {
         position: jet.position + by,
@@ -67,7 +67,7 @@ impl Train {
         }
     }
 
-    /// Sun and intermediate gear as a rolling pair; intermediate and planet are the same pair turned round.
+    /// Sun and intermediate gear as a rolling pair. Planet and intermediate gear are the same pair, with the planet as its driver.
     #[must_use]
     pub fn rolling(&self) -> &Arc<Rolling> {
         &self.rolling
@@ -115,16 +115,8 @@ impl Train {
     /// Angles of the links at a carrier turn; any real input.
     #[must_use]
     pub fn at(&self, input: f64) -> TrainJet {
-        let carrier = MotionJet {
-            position: self.carrier_start + self.sign * input,
-            velocity: self.sign,
-            ..MotionJet::default()
-        };
-        let psi = MotionJet {
-            position: self.sign * input,
-            velocity: self.sign,
-            ..MotionJet::default()
-        };
+        let carrier = MotionJet::uniform(self.carrier_start + self.sign * input, self.sign);
+        let psi = MotionJet::uniform(self.sign * input, self.sign);
         let turned = self.rolling.driven_jet(psi.position).after(&psi);
         let met = moved(turned, -self.bend - PI);
         let chi = self.rolling.driver_jet(met.position).after(&met);

@@ -133,7 +133,7 @@ impl<'a> ReachSamples<'a> {
     }
 }
 
-/// Reach of a point in a direction, and its speed that way.
+/// Reach of a point in a direction, and its speed in that direction.
 fn reach(tip: &PointMotion, direction: &Vector) -> [f64; 2] {
     [
         tip.position.coords.dot(direction),

@@ -9,8 +9,8 @@ const DEPTH: f64 = 2.0;
 
 /// Side view of the tray, with the seedlings that are still in it.
 ///
-/// Its frame has its origin in the tray's surface at the hole that is picked from; x points the way the arms enter, y
-/// along the rows.
+/// Its frame has its origin in the tray's surface at the hole that is picked from; x points in the direction in which the arms
+/// enter, y along the rows.
 #[derive(Clone, Debug)]
 pub struct TrayBody {
     /// Pose of the tray's frame in the machine's.

@@ -21,7 +21,7 @@ pub struct Made {
     pub left_out: Option<LeftOut>,
 }
 
-/// Details that are left out of a design.
+/// Details that are omitted from a design.
 #[derive(Debug)]
 pub struct LeftOut {
     /// Reason why the first of them cannot be made.
@@ -77,7 +77,8 @@ fn resolved(text: &str) -> Result<Arc<dyn Mechanism>, DesignError> {
     FAMILIES.read(text.as_bytes())?.mechanism()
 }
 
-/// Mechanism of a design without the details that are at fault, and the keys left out; `None` where the fault is in anything else.
+/// Mechanism of a design without the details that are at fault, and the keys omitted; `None` where the fault is in anything
+/// else.
 fn without_details(text: &str, error: &DesignError) -> Option<(Arc<dyn Mechanism>, Vec<String>)> {
     // A key that means nothing is no detail: who wrote it meant something else.
     if matches!(error.fault, DesignFault::UnknownKey { .. }) {

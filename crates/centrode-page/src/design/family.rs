@@ -6,7 +6,7 @@ use super::edit::{Step, container, set, written};
 use super::field::tables;
 use super::kind::{fresh, mechanism};
 
-/// Names of numbers that mean the same wherever they stand.
+/// Names of numbers that mean the same in every table.
 const ALIKE: [&str; 6] = [
     "module",
     "tooth_count",
@@ -16,15 +16,16 @@ const ALIKE: [&str; 6] = [
     "speed_rpm",
 ];
 
-/// Tables about what is wanted and searched: their numbers stay among themselves.
+/// Tables about what is required and searched: their numbers stay among themselves.
 const WISHES: [&str; 3] = ["goals", "bounds", "optimise"];
 
 /// A key of a design, and its value.
 type Entry = (String, Json);
 
-/// Design of another family that keeps of this one what makes a mechanism there; none where it is of this family, or there is no such family.
+/// Design of another family with those keys of this one that make a mechanism there; `None` if it is of this family, or there is
+/// no such family.
 ///
-/// It starts from the template of the family. A key is kept at its own place, else at one whose path ends like its own (`lead`,
+/// It starts from the template of the family. A key is copied to the same path, else to one with the same ending (`lead`,
 /// `shaft.lead`), and a few that mean the same everywhere by their names alone.
 pub(super) fn turned(document: &DocumentMut, word: &str) -> Option<DocumentMut> {
     let old = serde_json::to_value(document.to_string().parse::<toml::Table>().ok()?).ok()?;
@@ -160,7 +161,7 @@ fn with_as_many(start: DocumentMut, required: &[Entry]) -> (DocumentMut, Vec<Ent
     (made, lost)
 }
 
-/// Sets a key; a table takes the place of all that is in it.
+/// Sets a key; a table replaces all that is in it.
 fn put(document: &mut DocumentMut, key: &str, value: &Json) -> Option<()> {
     let mut steps: Vec<Step> = key.split('.').map(Step::named).collect();
     let Json::Object(new) = value else {

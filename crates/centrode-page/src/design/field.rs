@@ -17,12 +17,12 @@ pub(crate) struct Table {
     /// Path of the table, `driver.keyway`; empty for the keys before the first table.
     pub(crate) key: String,
     doc: String,
-    /// Whether it may be left out as a whole.
+    /// Whether it is optional as a whole.
     optional: bool,
     /// Whether the table is in the file and may be taken out of it.
     #[serde(skip)]
     pub(crate) may_go: bool,
-    /// Whether it says what bodies look like, and moves nothing.
+    /// Whether the key changes only the shape of bodies, not the motion.
     #[serde(skip)]
     pub(crate) detail: bool,
     pub(crate) fields: Vec<Field>,
@@ -46,9 +46,9 @@ pub(crate) struct Field {
     pub(crate) value: Value,
     /// Whether the key is written in the file.
     written: bool,
-    /// Whether the key may be left out.
+    /// Whether the key is optional.
     optional: bool,
-    /// Whether it says what bodies look like, and moves nothing.
+    /// Whether the key changes only the shape of bodies, not the motion.
     #[serde(skip)]
     pub(crate) detail: bool,
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -58,7 +58,7 @@ pub(crate) struct Field {
 }
 
 impl Field {
-    /// Whether the key is in the file and may be left out.
+    /// Whether the key is in the file and is optional.
     pub(crate) fn may_go(&self) -> bool {
         self.written && self.optional
     }
@@ -171,7 +171,7 @@ pub(crate) fn required(text: &str, table: &str) -> Vec<(String, Value)> {
         .collect()
 }
 
-/// Effective list of a key; none for any other key.
+/// Effective list of a key; `None` for any other key.
 pub(crate) fn list(text: &str, key: &str) -> Option<Value> {
     let mut fields = tables(text).into_iter().flat_map(|table| table.fields);
     let field = fields.find(|field| field.key == key)?;

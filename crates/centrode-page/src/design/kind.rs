@@ -9,10 +9,10 @@ use toml_edit::{DocumentMut, InlineTable, Item, Value};
 /// Maximum number of keys of other tables that give way to a new kind.
 pub(super) const MOST: usize = 3;
 
-/// Changes the kind of the table at a path; none where the table has no kinds, or not this one.
+/// Changes the kind of the table at a path; `None` if the table has no kinds, or not this one.
 ///
 /// Keys that the new kind has too stay, others go, and its required keys get a value, so that the design is a
-/// mechanism: kept keys give way to that, then keys outside the table that may be left out.
+/// mechanism: copied keys are dropped for that, then optional keys outside the table.
 pub(super) fn switched(document: &DocumentMut, steps: &[Step], kind: &str) -> Option<DocumentMut> {
     let text = document.to_string();
     let names: Vec<&str> = steps.iter().filter_map(Step::name).collect();
@@ -217,7 +217,7 @@ pub(super) mod tests {
         let mut words = kind_of(text, key).expect("a kind").words();
         let table = key.trim_end_matches("kind");
         if key.starts_with("cams.") && key.ends_with(".follower.kind") {
-            // A motion may be none of a flat face, and a body that slides carries no gear: that is told where it stands.
+            // A motion may be none of a flat face, and a body that slides carries no gear: that is reported at its position.
             let own = value(text, key).expect("written");
             let own = own.as_str().expect("a word");
             let swings = |word: &str| word.starts_with("swinging");

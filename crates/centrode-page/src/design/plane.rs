@@ -13,7 +13,7 @@ const PLANES: [(&str, [&str; 2]); 2] = [
     ("cartesian", ["x", "y"]),
 ];
 
-/// Design with the points of the table at a path in another plane, where they are; none if the table has no points of the
+/// Design with the points of the table at a path in another plane, where they are; `None` if the table has no points of the
 /// plane before, or those of the new one.
 pub(super) fn moved(document: &DocumentMut, steps: &[Step], plane: &str) -> Option<DocumentMut> {
     let to = PLANES.iter().position(|(word, _)| *word == plane)?;

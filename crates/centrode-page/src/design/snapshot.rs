@@ -28,7 +28,7 @@ pub struct Snapshot {
     picture: Option<Picture>,
     /// Whether the picture lacks details that take longer to make.
     coarse: bool,
-    /// Whether its goals are told before the rest of the checks.
+    /// Whether its goals are reported before the rest of the checks.
     goals_first: bool,
     #[serde(skip)]
     beside: Adjacent,
@@ -49,11 +49,11 @@ struct Adjacent {
 #[derive(Clone, Debug, Serialize)]
 pub struct Fault {
     key: String,
-    /// Line from one; zero where no place in the file is to blame.
+    /// Line from one; zero where no position in the file is to blame.
     line: usize,
     column: usize,
     message: String,
-    /// The message without the key: it stands next to its field.
+    /// The message without the key: it is shown next to its field.
     rule: String,
 }
 
@@ -128,7 +128,7 @@ pub struct Subject {
     snapshot: Snapshot,
     mechanism: Arc<dyn Mechanism>,
     beside: OnceLock<Adjacent>,
-    /// Picture in detail, once it has been asked for.
+    /// Picture in detail, once it has been requested.
     detailed: OnceLock<Option<Picture>>,
 }
 
@@ -294,7 +294,7 @@ impl Subject {
         snapshot
     }
 
-    /// Goals, checked as far as the motion tells.
+    /// Goals, checked as far as the motion shows.
     pub fn goals(&self) -> Goals {
         Goals::new(&*self.mechanism, &self.mechanism.check_goals())
     }

@@ -6,6 +6,7 @@ use centrode_gear::pitch::{
 };
 use centrode_geometry::Antiderivative;
 use centrode_groove::{RotatedSine, Sine, SpeedFormula, SpeedKnots, SpeedLaw, SpeedTable};
+use serde::Serialize;
 use serde_json::{Map, Value};
 use std::f64::consts::TAU;
 
@@ -71,25 +72,27 @@ fn mean_radius(pitch: &Value) -> Option<f64> {
 
 /// Tables from which a kind can start, the preferred one first: each holds the keys it needs besides the defaults.
 pub(super) fn starts(kind: &str, about: &Measures) -> Vec<Map<String, Value>> {
-    // A curve that does not repeat as often as the ratio asks gives no pair unless it is round.
+    // A curve that does not repeat as often as the ratio requires gives no pair unless it is round.
     let swings = [0.2 / (1.0 + f64::from(about.repeats).powi(2)), 0.0];
     let pitches = swings
         .into_iter()
-        .filter_map(|swing| Some(serde_json::to_value(pitch(kind, about, swing)?)));
+        .filter_map(|swing| table(pitch(kind, about, swing)?));
     // Before a plain shaft only elliptic gears change the speed.
     let speeds = [0.4, 0.0]
         .into_iter()
-        .filter_map(|swing| Some(serde_json::to_value(speed(kind, about.lead, swing)?)));
-    let others = [
-        tool(kind).map(serde_json::to_value),
-        law(kind).map(serde_json::to_value),
-    ];
-    let all = pitches.chain(speeds).chain(others.into_iter().flatten());
-    let tables = all.filter_map(|table| match table {
+        .filter_map(|swing| table(speed(kind, about.lead, swing)?));
+    let others = [tool(kind).and_then(table), law(kind).and_then(table)];
+    let others = others.into_iter().flatten();
+    pitches.chain(speeds).chain(others).collect()
+}
+
+/// Keys of a table as the file holds them: without those that are not given.
+fn table(written: impl Serialize) -> Option<Map<String, Value>> {
+    let written = toml::Table::try_from(written).ok()?;
+    match serde_json::to_value(written) {
         Ok(Value::Object(table)) => Some(table),
         _ => None,
-    });
-    tables.collect()
+    }
 }
 
 /// Rounds to a thousandth: numbers in the file are to be read.
@@ -105,7 +108,7 @@ fn pitch(kind: &str, about: &Measures, swing: f64) -> Option<PitchSpec> {
     let own = (!about.sized).then_some(mean);
     let center_distance = own.map(|r| short(r * (1.0 + f64::from(n1) / f64::from(n2))));
     let amplitude = short(swing * mean);
-    // Curves of one lobe must be round where the ratio asks for several.
+    // Curves of one lobe must be round where the ratio requires several.
     let single = if repeats == 1 { swing } else { 0.0 };
     let share = f64::from(n2) / f64::from(n1);
     let (quotient, driven) = if n1 == n2 {
@@ -220,7 +223,7 @@ fn tool(kind: &str) -> Option<ToolSpec> {
     }
 }
 
-/// A law with one slow place a turn, at the angle zero, whose speed swings by a share of its mean.
+/// A law with one slow point a turn, at the angle zero, whose speed swings by a share of its mean.
 fn speed(kind: &str, lead: f64, swing: f64) -> Option<SpeedLaw> {
     let amplitude = short(swing * lead / TAU);
     let (slow, fast) = (short(1.0 - swing), short(1.0 + swing));

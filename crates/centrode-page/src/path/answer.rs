@@ -1,8 +1,8 @@
 use super::cache::Cached;
 use super::drawing::{self, Drawing, mark};
 use super::wish::{Wish, points};
+use crate::reverse::words;
 use crate::reverse::words::Labelled;
-use crate::reverse::{sharpest, words};
 use centrode_analysis::{Goal, Unit};
 use centrode_export::picture::{Curve, Mark, Picture};
 use centrode_gear::Limits;
@@ -94,16 +94,18 @@ impl Answer {
             answer.figures = figures(&chain, None);
             answer
         });
-        // The machine as it is drawn; what is sought may reach more.
+        // The machine as it is drawn; a search may reach more.
         let count = passed.len() - usize::from(passed.first() == passed.last());
         answer.goals = goals(&reached(&design.wishes, &chain, design.bend, count));
         if ask.others {
-            answer.figures.extend(others(&design, &chain));
+            let others = words::other_splits(&chain, design.split, design.bend).into_iter();
+            let others = others.map(|(name, words)| figure(&name, words));
+            answer.figures.extend(others);
         }
         answer
     }
 
-    /// The machine that is sought.
+    /// The machine that is searched.
     ///
     /// # Errors
     /// The reason in words if there is no machine.
@@ -167,7 +169,7 @@ impl Answer {
     }
 }
 
-/// Places on the path where an axis is not possible.
+/// Positions on the path where an axis is not possible.
 fn places(fault: &AxisFault) -> Vec<Mark> {
     match fault {
         AxisFault::Extremes { maxima } => {
@@ -175,7 +177,7 @@ fn places(fault: &AxisFault) -> Vec<Mark> {
             far.collect()
         }
         AxisFault::CarrierTurnsBack { at, .. } => vec![mark("carrier turns back", *at)],
-        AxisFault::ArmStops { at } => vec![mark("arm stands still", *at)],
+        AxisFault::ArmStops { at } => vec![mark("arm stops", *at)],
         _ => Vec::new(),
     }
 }
@@ -192,7 +194,7 @@ fn figures(chain: &TwoBar, bend: Option<f64>) -> Vec<Figure> {
     ));
     if let Some(bend) = bend {
         let module = Limits::largest_full_module(chain.curvatures(bend));
-        let full = format!("surely sound up to module {} by powers", mm(module));
+        let full = format!("guaranteed up to module {} by powers", mm(module));
         found.push(figure("full teeth", full));
     }
     found
@@ -216,21 +218,6 @@ fn rested(chain: &TwoBar, split: &Split, design: &PathDesign) -> Result<Vec<Figu
         ));
     }
     Ok(found)
-}
-
-/// Figures of the splits that were not chosen.
-fn others(design: &PathDesign, chain: &TwoBar) -> Vec<Figure> {
-    let kinds = SplitKind::NAMES.into_iter();
-    let kinds = kinds.filter(|(_, kind)| design.split != *kind);
-    kinds
-        .map(|(name, kind)| {
-            let words = match Split::new(chain, kind, design.bend) {
-                Ok(split) => sharpest(chain, &split),
-                Err(error) => error.to_string(),
-            };
-            figure(&format!("split {name}"), words)
-        })
-        .collect()
 }
 
 fn figure(name: &str, words: String) -> Figure {

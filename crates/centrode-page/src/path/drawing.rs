@@ -13,7 +13,7 @@ const MOMENTS: u32 = 120;
 /// Rounding of what is drawn, mm and rad.
 const DIGITS: [f64; 2] = [1e3, 1e5];
 
-/// The path alone, with places on it.
+/// The path alone, with marked positions.
 pub(super) fn path(required: &RequiredPath, marks: Vec<Mark>) -> Picture {
     let range = AxisRange::about(required);
     let at = |i: u32| {
@@ -25,7 +25,7 @@ pub(super) fn path(required: &RequiredPath, marks: Vec<Mark>) -> Picture {
     still(&points, LineRole::Trace, [range.x, range.y], marks)
 }
 
-/// A polygon through points that are no path, with places on it.
+/// A polygon through points that are no path, with marked positions.
 pub(super) fn polygon(points: &[Point], marks: Vec<Mark>) -> Picture {
     let bounds: Bounds = points.iter().copied().collect();
     let [x, y] = [[bounds.min.x, bounds.max.x], [bounds.min.y, bounds.max.y]];
@@ -46,7 +46,7 @@ fn still(points: &[Point], role: LineRole, [x, y]: [[f64; 2]; 2], marks: Vec<Mar
     }
 }
 
-/// A place on the path with a name.
+/// A point on the path with a name.
 pub(super) fn mark(name: &str, at: Point) -> Mark {
     Mark {
         name: name.into(),

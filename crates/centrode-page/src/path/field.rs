@@ -110,9 +110,9 @@ fn words(name: &str) -> &'static str {
         "on-axis" => "the path passes through the axis",
         "winding" => "the path goes round the axis more than once",
         "carrier-turns-back" => "the carrier would turn back",
-        "arm-stops" => "the arm would stand still on the carrier",
+        "arm-stops" => "the arm would stop on the carrier",
         "too-far" => "the axis is more than 1000 times the size of the path away from it",
-        _ => "the axis is no place for this path",
+        _ => "the axis is not possible for this path",
     }
 }
 
@@ -121,11 +121,11 @@ fn words(name: &str) -> &'static str {
 pub struct Best {
     points: Vec<[f64; 2]>,
     bend_deg: f64,
-    /// Whether the bluntest gears are wanted, not the mildest ratio.
+    /// Whether the bluntest gears are required, not the gentlest ratio.
     bluntest: bool,
 }
 
-/// The mildest axis, or that of the bluntest gears.
+/// The gentlest axis, or that of the bluntest gears.
 ///
 /// # Errors
 /// The reason in words if the points make no path, or no axis is possible.
@@ -139,7 +139,9 @@ pub fn best(ask: &Best) -> Result<[f64; 2], String> {
     };
     let tried = map.found().len();
     let axis = axis.ok_or_else(|| {
-        format!("of {tried} axes tried on and about the path none is possible: change the path")
+        format!(
+            "none of the {tried} axes tried on and around the path is possible: change the path"
+        )
     })?;
     // As many digits as the page shows.
     Ok([axis.x, axis.y].map(|x| (x * 1e4).round() / 1e4))

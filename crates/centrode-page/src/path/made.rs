@@ -39,7 +39,7 @@ pub fn machine(
     let split = Split::new(&found.chain, design.split, design.bend);
     let split = split.map_err(|error| error.to_string())?;
     let made = rolled(&design, &found.chain, &split).map_err(|error| error.to_string())?;
-    // What was found is told even where there are no teeth.
+    // The result is reported even if there are no teeth.
     let (toothed, refused) = match Toothed::new(&made) {
         Ok(toothed) => (Some(toothed), None),
         Err(error) => (None, Some(without_teeth(&error))),

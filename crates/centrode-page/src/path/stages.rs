@@ -60,7 +60,7 @@ impl Stage {
     }
 }
 
-/// Number of the place so many steps on.
+/// Number of the position so many steps on.
 fn around(i: usize, k: i32) -> usize {
     (i as i32 + k).rem_euclid(STEPS as i32) as usize
 }

@@ -8,13 +8,13 @@ use serde::Deserialize;
 pub struct Wish {
     /// The design; of key poses, its bend, split and arms count.
     design: PathDesign,
-    /// Key poses in the place of a path: places of the tip, mm, and directions of the clamp, degrees.
+    /// Key poses instead of a path: points of the tip, mm, and directions of the clamp, degrees.
     #[serde(default)]
     poses: Vec<[f64; 3]>,
-    /// Whether the hand rests: what takes longer is told, too.
+    /// Whether the drag has paused: slower figures are reported, too.
     #[serde(default)]
     pub(super) rest: bool,
-    /// Whether the other splits are told, too.
+    /// Whether the other splits are reported, too.
     #[serde(default)]
     pub(super) others: bool,
 }
@@ -34,12 +34,12 @@ impl Wish {
                 "path.file: the points are in {file}, which the page cannot read: open that file"
             ));
         }
-        // Points that make no path are told in the words of the path.
+        // Points that make no path are reported in the words of the path.
         let text = design.to_toml().map_err(|error| error.message())?;
         PathDesign::from_toml(&text).map_err(|error| error.message())
     }
 
-    /// Key poses; none where a path is given.
+    /// Key poses; `None` if a path is given.
     pub(super) fn poses(&self) -> Option<Vec<KeyPose>> {
         let pose = |[x, y, direction]: &[f64; 3]| KeyPose {
             point: Point::new(*x, *y),

@@ -17,13 +17,13 @@ pub struct Found {
     pub why: String,
     /// Axes tried for a path that is followed as it is.
     pub map: Option<AxisMap>,
-    /// Further lines to tell: names and words.
+    /// Further lines to print: names and words.
     pub stated: Vec<Labelled>,
     /// Further wishes, and how far they are reached.
     pub goals: Vec<Goal>,
     /// Findings on what was found.
     pub findings: Vec<Finding>,
-    /// Whether what was wanted is reached.
+    /// Whether all requirements are met.
     pub is_reached: bool,
 }
 
@@ -112,9 +112,9 @@ impl Found {
         stated.extend(eased.clamp.map(words::clamp));
         Ok(Self {
             why: match (axis, design.aim.unwrap_or_default()) {
-                (Some(_), _) => "as asked",
+                (Some(_), _) => "as given",
                 (None, Aim::Module) => "with the bluntest gears found",
-                (None, Aim::Mild) => "the mildest found",
+                (None, Aim::Mild) => "the gentlest found",
                 (None, Aim::Small) => "with the minimum reach found",
             }
             .into(),
@@ -127,7 +127,7 @@ impl Found {
         })
     }
 
-    /// The machine of a path as it is wanted.
+    /// The machine of a path as it is required.
     fn as_given(design: &PathDesign, path: &RequiredPath) -> Result<Self, NotFound> {
         let Some(at) = design.axis else {
             return Self::mildest(design, path);
@@ -135,7 +135,7 @@ impl Found {
         let chain = TwoBar::new(path, at.into(), None);
         Ok(Self {
             chain: chain.map_err(|fault| NotFound::Axis { at, fault })?,
-            why: "as asked".into(),
+            why: "as given".into(),
             map: None,
             stated: Vec::new(),
             goals: Vec::new(),
@@ -153,7 +153,7 @@ impl Found {
         Ok(Self {
             findings: axis_at_border(chain.axis(), &room).into_iter().collect(),
             chain,
-            why: "the mildest found".into(),
+            why: "the gentlest found".into(),
             map: Some(map),
             stated: Vec::new(),
             goals: Vec::new(),
@@ -171,7 +171,7 @@ impl Found {
             stated: words::poses(found.clamp, &found.misses),
             chain: found.chain,
             why: format!(
-                "the mildest found from {} starts that meet the poses in order",
+                "the gentlest found from {} starts that meet the poses in order",
                 found.possible
             ),
             map: None,
@@ -190,7 +190,7 @@ fn check_crossing(design: &PathDesign, path: &RequiredPath) -> Result<(), NotFou
     }
 }
 
-/// Lines on how far a path was eased, and what full teeth it bears.
+/// Lines on how far a path was eased, and which full teeth it allows.
 fn eased_words(eased: &EasedPath, module: Option<f64>, is_moved: bool) -> Vec<Labelled> {
     let mm = |x: f64| Unit::Millimetre.with_unit(x);
     let moved = eased.moved.iter().enumerate();
@@ -224,7 +224,7 @@ fn eased_words(eased: &EasedPath, module: Option<f64>, is_moved: bool) -> Vec<La
         };
         stated.push(("path eased".to_owned(), words));
     }
-    let words = format!("surely sound up to module {}{before}{required}", mm(borne));
+    let words = format!("guaranteed up to module {}{before}{required}", mm(borne));
     stated.push(("full teeth".to_owned(), words));
     stated
 }

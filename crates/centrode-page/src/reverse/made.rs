@@ -31,7 +31,7 @@ pub struct Toothed {
     pub design: Box<dyn Design>,
     /// The teeth, pair by pair.
     pub teeth: Vec<SoundTeeth>,
-    /// Plates and gears of several arms that collide, as its check tells them: the deepest of each kind.
+    /// Plates and gears of several arms that collide, as its check reports them: the deepest of each kind.
     pub findings: Vec<Finding>,
 }
 

@@ -1,19 +1,18 @@
-//! A machine made from a path or of key poses, in words: for the page and the command.
+//! Text about a machine made from a path or from key poses, for the page and the command.
 
 mod found;
 mod made;
 pub mod words;
 
-use centrode_analysis::Unit;
-use centrode_synthesis::reverse::{DrawnPath, PathError, ReversedMachine, Split, TwoBar};
+use centrode_synthesis::reverse::{DrawnPath, PathError};
 
 pub use found::{Found, NotFound};
 pub use made::{Toothed, rolled};
 
-/// Distance within which a path lies of a drawing where none is given, mm.
+/// Default of the maximum distance between a path and its drawing, mm.
 pub const WITHIN: f64 = 0.01;
 
-/// Points along the path of an SVG file; none where the file is another.
+/// Points along the path of an SVG file; `None` if the file is not one.
 ///
 /// # Errors
 /// [`PathError`] if the drawing has no single path.
@@ -23,15 +22,4 @@ pub fn drawn(bytes: &[u8], within: f64) -> Result<Option<DrawnPath>, PathError> 
     is_drawing
         .then(|| DrawnPath::from_svg(bytes, within))
         .transpose()
-}
-
-/// The sharpest pitch curve of a split that was not chosen.
-pub fn sharpest(chain: &TwoBar, split: &Split) -> String {
-    match ReversedMachine::new(chain, split, 1, None) {
-        Ok(made) => {
-            let minimum = Unit::Millimetre.with_unit(made.minimum_radius());
-            format!("possible, minimum convex radius {minimum}")
-        }
-        Err(error) => error.to_string(),
-    }
 }

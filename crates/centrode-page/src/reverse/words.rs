@@ -3,7 +3,7 @@
 use centrode_analysis::{Finding, Goal, SoundTeeth, Unit};
 use centrode_gear::design::Addendum;
 use centrode_machines::three_arm::design::Direction;
-use centrode_synthesis::reverse::{ReversedMachine, TwoBar};
+use centrode_synthesis::reverse::{ReversedMachine, Split, SplitKind, TwoBar};
 
 /// Name of a figure, and its words.
 pub type Labelled = (String, String);
@@ -75,7 +75,31 @@ pub fn poses(angle: f64, misses: &[[f64; 2]]) -> Vec<Labelled> {
     std::iter::once(clamp(angle)).chain(poses).collect()
 }
 
-/// Line on a goal: its figure, what was wanted, and by how much it is missed.
+/// Lines on the splits other than the chosen one.
+pub fn other_splits(chain: &TwoBar, chosen: SplitKind, bend: f64) -> Vec<Labelled> {
+    let others = SplitKind::ALL.into_iter().filter(|kind| *kind != chosen);
+    let line = |kind: SplitKind| {
+        let words = match Split::new(chain, kind, bend) {
+            Ok(split) => sharpest(chain, &split),
+            Err(error) => error.to_string(),
+        };
+        (format!("split {}", kind.name()), words)
+    };
+    others.map(line).collect()
+}
+
+/// The sharpest pitch curve of a split that was not chosen.
+fn sharpest(chain: &TwoBar, split: &Split) -> String {
+    match ReversedMachine::new(chain, split, 1, None) {
+        Ok(made) => {
+            let minimum = mm(made.minimum_radius());
+            format!("possible, minimum convex radius {minimum}")
+        }
+        Err(error) => error.to_string(),
+    }
+}
+
+/// Line on a goal: its figure, what was required, and by how much it is missed.
 pub fn goal(goal: &Goal) -> Labelled {
     let show = |x: f64| goal.unit.with_unit(x);
     let value = goal.value.map_or_else(String::new, show);

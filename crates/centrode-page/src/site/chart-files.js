@@ -120,7 +120,7 @@ export function handOver(file, words, ending) {
 
 /** Hands over a chart of a design as a file. */
 export async function take(chart, kind, design) {
-  // As fine as a good print wants it.
+  // As fine as a good print needs.
   const file = kind === "PNG" ? await image(svg(chart), FINE * WIDTH, FINE * HEIGHT) : new Blob([kind === "CSV" ? csv(chart) : svg(chart)], { type: MEDIA[kind] });
   handOver(file, `${design || "design"} ${chart.name}`, kind.toLowerCase());
 }

@@ -36,7 +36,7 @@ function brief(value, count) {
 }
 
 export class Charts {
-  /** `go(input)` is called when a place in a chart is picked; `name()` is that of the design, `speed()` that of its input, rad/s. */
+  /** `go(input)` is called when a position in a chart is picked; `name()` is that of the design, `speed()` that of its input, rad/s. */
   constructor(go, name, speed) {
     Object.assign(this, { go, name, speed, unit: "degrees" });
     /** Stretch of the input that is shown, degrees; all of it where there is none. */
@@ -115,7 +115,7 @@ export class Charts {
     // All charts show the same stretch of the input.
     const ends = curves.flatMap(({ input }) => [input[0], input.at(-1)]).filter(Number.isFinite);
     const reach = [Math.min(...ends), Math.max(...ends)].map((end) => whole(end * DEG));
-    // Of another cycle another stretch is looked at.
+    // Of another cycle another stretch is sampled.
     if (this.reach.some((end, i) => end !== reach[i])) this.zoomed = null;
     this.reach = reach;
     byId("zoomed").hidden = !this.zoomed;

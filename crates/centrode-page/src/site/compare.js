@@ -1,4 +1,4 @@
-// Several designs side by side: pictures that stand at one place of their cycles, and goals in columns.
+// Several designs side by side: pictures at one position of their cycles, and goals in columns.
 
 import * as dialogs from "./dialogs.js";
 import { byId, element } from "./elements.js";
@@ -36,7 +36,7 @@ export class Compare {
     this.kept.push(snapshot);
   }
 
-  /** The designs beside each other, the one that is shown last. */
+  /** The designs next to each other, the one that is shown last. */
   async show() {
     const table = element("div", { class: "compared" });
     const place = element("input", { type: "range", min: "0", max: "1", step: "any", value: "0", id: "compare-place", oninput: () => turn() });
@@ -75,7 +75,7 @@ export class Compare {
       turn();
     };
     const shown = dialogs.ask("Side by side", [table,
-      element("p", { class: "option" }, element("label", { for: "compare-place" }, "Place in the cycle"), place), keep], [["", "Close"]]);
+      element("p", { class: "option" }, element("label", { for: "compare-place" }, "Position in the cycle"), place), keep], [["", "Close"]]);
     fill();
     await shown;
   }

@@ -70,7 +70,7 @@ export async function files(formats, parts, sheets) {
   return { options: { formats: chosen, parts: some.length === named.length ? [] : some, none: named.length > 0 && some.length === 0, tolerance: tolerance.value, dxf: dxf.value }, edits };
 }
 
-/** A line below the bar; `key` names it, so that the next of its kind takes its place. */
+/** A line below the bar; `key` names it, so that the next of its kind replaces it. */
 export function notice(key, words, buttons = [], severity = "note") {
   withdraw(key);
   const close = () => withdraw(key);

@@ -7,7 +7,7 @@ const MANY = 4;
 
 let exact = false;
 
-/** Shows the groups; figures of `pinned`, by key, beside those that differ. */
+/** Shows the groups; figures of `pinned`, by key, next to those that differ. */
 export function show(verdict, pinned) {
   const before = new Map();
   for (const group of pinned?.figures ?? []) {

@@ -1,4 +1,4 @@
-// The design file on disk: kept beside, saved, loaded, exported from, and compared with what others make of it.
+// The design file on disk: autosaved, saved, loaded, exported from, and compared with what others make of it.
 
 import * as dialogs from "./dialogs.js";
 import * as link from "./link.js";
@@ -6,12 +6,12 @@ import { element, words } from "./elements.js";
 import * as server from "./server.js";
 import { work } from "./work.js";
 
-/** Work is put beside the file so long after a change, ms. */
+/** Work is put next to the file so long after a change, ms. */
 const REST = 200;
 
 export class DesignFile {
   /**
-   * `page.settled()` waits for the changes on their way, `page.replace(text)` takes another text, `page.saved()` is told of
+   * `page.settled()` waits for the changes on their way, `page.replace(text)` takes another text, `page.saved()` is called
    * a new state of the file, `page.complain(key, error)` of what goes wrong.
    */
   constructor(name, formats, history, page) {
@@ -25,18 +25,18 @@ export class DesignFile {
     });
   }
 
-  /** Puts what is not saved beside the file, soon. */
+  /** Puts what is not saved next to the file, soon. */
   keep() {
     this.keeping ||= setTimeout(() => this.put(), REST);
   }
 
-  /** Puts what is not saved beside the file, now. */
+  /** Puts what is not saved next to the file, now. */
   put() {
     this.rest();
     server.keep(this.history.text).then(() => dialogs.withdraw("keep")).catch((error) => this.page.complain("keep", error));
   }
 
-  /** Nothing is left to be put beside the file. */
+  /** Nothing is left to be put next to the file. */
   rest() {
     clearTimeout(this.keeping);
     this.keeping = 0;

@@ -26,11 +26,11 @@ export class Find {
     return written || (!optional && value !== null);
   }
 
-  /** Hides what is not looked for. */
+  /** Hides fields outside the search. */
   show() {
     const asked = this.box.value.toLowerCase().split(/\s+/).filter(Boolean);
     const all = [...this.form.controls.values()].filter(({ field }) => field);
-    // The columns of a table of points have one place.
+    // The columns of a table of points have one position.
     const places = new Map();
     for (const { field, row, remark } of all) {
       const place = row.closest(".points") ?? row;

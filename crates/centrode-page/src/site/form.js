@@ -49,12 +49,12 @@ export class Form {
     this.changed.set(input, this.clock);
   }
 
-  /** Whether an input was given something since the program was asked for what is shown. */
+  /** Whether an input was edited since the request of the shown design. */
   isAhead(input) {
     return (this.changed.get(input) ?? 0) > this.asked;
   }
 
-  /** Shows a design; `asked` is the clock as it was when the program was asked for it: what was given since stays. */
+  /** Shows a design; `asked` is the clock at its request: later edits stay. */
   show(snapshot, asked = this.clock) {
     this.asked = asked;
     const shape = JSON.stringify(snapshot.tables.map((table) => [table.key, table.fields.map((field) =>
@@ -96,14 +96,14 @@ export class Form {
     if (start !== undefined && again?.type === "text") again.setSelectionRange(start, end);
   }
 
-  /** Takes what an input held over to the one in its place. */
+  /** Copies the text of an input to the one that replaces it. */
   carry(old, input) {
     if (input?.type !== old.type) return;
     if (old.tagName === "SELECT") input.replaceChildren(...old.children);
     input.checked = old.checked;
     input.value = old.value;
     if (this.changed.has(old)) this.changed.set(input, this.changed.get(old));
-    // The browser tells of a change only what was typed into this very element.
+    // The browser reports a change only of what was typed into this very element.
     input.addEventListener("blur", () => {
       if (input.value !== input.dataset.value) input.dispatchEvent(new Event("change"));
     }, { once: true });
@@ -158,7 +158,7 @@ export class Form {
     if (["number", "integer"].includes(field.kind) && !this.fixed) {
       this.draggable(label, control);
       // Keys have F4 for it: a stop at each number on the way through the form would be too many.
-      unit.after(element("button", { type: "button", class: "respond", tabindex: -1, title: "What goals and ways do with this number (F4)",
+      unit.after(element("button", { type: "button", class: "respond", tabindex: -1, title: "How goals and paths respond to this number (F4)",
         "aria-label": `Response to ${words(field.key)}`, onclick: () => this.respond(field.key) }, "∿"));
     }
     return control.row;
@@ -214,7 +214,7 @@ export class Form {
     box.addEventListener("focus", measure);
     box.addEventListener("change", () => {
       const value = worked(box.value, field.unit);
-      // The result takes the place of what it was worked out from.
+      // The result replaces the formula it was computed from.
       if (typeof value === "number" && typed(box.value) !== value) box.value = String(value);
       measure();
       if (value === "" && field.optional && key === field.key) give(null);
@@ -326,7 +326,7 @@ export class Form {
     return changed.length === 1 ? changed[0].key : key;
   }
 
-  /** Errors and findings beside what causes them. */
+  /** Errors and findings next to what causes them. */
   remark(snapshot) {
     const remarks = new Map();
     const put = (key, severity, message) => {

@@ -1,6 +1,6 @@
 // Animations as GIF 89a: one palette for all frames, packed by LZW.
 
-/** Colours are told apart by so many bits of red, green and blue. */
+/** Colours differ in so many bits of red, green and blue. */
 const BITS = 5;
 /** Most colours of a palette. */
 const COLOURS = 256;

@@ -1,4 +1,4 @@
-// Points of the drawing that stand for numbers of the design: to be dragged, or moved by arrow keys.
+// Points of the drawing that represent numbers of the design: to be dragged, or moved by arrow keys.
 
 import { byId, drawn } from "./elements.js";
 
@@ -22,7 +22,7 @@ function words({ keys, values }) {
   return said.join(", ").replaceAll("_", " ");
 }
 
-/** The table and the place in its list of a point of a curve; null for another. */
+/** The table and the position in its list of a point of a curve; null for another. */
 function pointOf({ keys: [key], chained }) {
   const found = chained && /^(.+)\.[^.]+\[(\d+)\]$/.exec(key);
   return found ? [found[1], Number(found[2])] : null;
@@ -31,7 +31,7 @@ function pointOf({ keys: [key], chained }) {
 /** So near to a curve is on it, pixels. */
 const NEAR = 8;
 
-/** Distance of a place from the line between two others. */
+/** Distance of a position from the line between two others. */
 function off([px, py], [x, y], [u, v]) {
   const [dx, dy] = [u - x, v - y];
   const share = ((px - x) * dx + (py - y) * dy) / (dx * dx + dy * dy || 1);
@@ -39,7 +39,7 @@ function off([px, py], [x, y], [u, v]) {
   return Math.hypot(px - x - on * dx, py - y - on * dy);
 }
 
-/** Room that the coordinates of a point take beside it, pixels. */
+/** Room that the coordinates of a point take next to it, pixels. */
 const ROOM = 190;
 
 /** A power of ten so small that a step of it is no more than the size. */
@@ -48,7 +48,7 @@ const power = (size) => 10 ** Math.floor(Math.log10(size));
 const rounded = (value, step) => Number((Math.round(value / step) * step).toFixed(Math.max(0, -Math.round(Math.log10(step)))));
 
 export class Handles {
-  /** `edit(edits, final)` takes new values; `began()` is told when a drag starts; `points(table)` are those of a curve. */
+  /** `edit(edits, final)` takes new values; `began()` is called when a drag starts; `points(table)` are those of a curve. */
   constructor(stage, { edit, began, points }) {
     this.points = points;
     /** Name of the point that gets the focus once it is there. */
@@ -101,7 +101,7 @@ export class Handles {
     this.place(this.poses);
   }
 
-  /** Writes the coordinates of a point beside it. */
+  /** Writes the coordinates of a point next to it. */
   tell(handle, mark) {
     const told = words(handle);
     const label = `${handle.name}: ${told}`;
@@ -211,11 +211,11 @@ export class Handles {
     return [rounded(radius, step), rounded(now + 360 * turns, turn)];
   }
 
-  /** Takes a point of the drawing back to the numbers it stands for. */
+  /** Takes a point of the drawing back to the numbers it represents. */
   move(name, place, final) {
     const handle = this.named(name);
     if (!handle) {
-      // This design has no such point: it stays as it is, and so does what was asked for last.
+      // This design has no such point: it stays as it is, and so does what was requested last.
       if (final) this.edit([], true);
       return;
     }
@@ -236,7 +236,7 @@ export class Handles {
     const bounds = this.stage.box.getBoundingClientRect();
     const place = [event.clientX - bounds.left, event.clientY - bounds.top];
     const plane = this.within(own[0], this.pointed(event));
-    // Between the places of poses, or of a stroke, no curve is known.
+    // Between the positions of poses, or of a stroke, no curve is known.
     const i = points.smooth ? this.spanAt(own, place) : points.halfway ? null : this.sectorAt(own, place, plane);
     if (i === null) return;
     event.stopPropagation();
@@ -248,13 +248,13 @@ export class Handles {
     points.add(i, null, values);
   }
 
-  /** Turn from a handle on to a place of its plane, going round, degrees. */
+  /** Turn from a handle on to a position of its plane, going round, degrees. */
   turn({ plane: kind, values: [a, b] }, plane) {
     const from = kind === "polar" ? b : Math.atan2(b, a) / DEG;
     return ((Math.atan2(plane[1], plane[0]) / DEG - from) % 360 + 360) % 360;
   }
 
-  /** The handle before a place of the box, going round; null for a place that is on no line. */
+  /** The handle before a position of the box, going round; null for a position that is on no line. */
   sectorAt(own, place, plane) {
     const { link } = own[0];
     const [ox, oy, angle] = this.poses[link];
@@ -268,7 +268,7 @@ export class Handles {
     return own.reduce((best, handle, k) => (this.turn(handle, plane) < this.turn(own[best], plane) ? k : best), 0);
   }
 
-  /** The handle before a place of the box on the curve through all of them, whose corners are spread evenly from handle to handle. */
+  /** The handle before a position of the box on the curve through all of them, whose corners are spread evenly from handle to handle. */
   spanAt(own, place) {
     const { shapes, links } = this.stage.scene.picture;
     const [{ vertices }] = shapes[links[own[0].link].shape];

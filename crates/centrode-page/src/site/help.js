@@ -9,7 +9,7 @@ const KEYS = [
   ]],
   ["A number", [
     ["↑ ↓", "step; with Shift ten times, with Alt a tenth"], ["Enter", "take what is typed: 2*1.5, 1/8 in, pi/9 rad"], ["drag its name", "change it"],
-    ["F4, or ∿ beside it", "what goals and ways do with it"],
+    ["F4, or ∿ next to it", "how goals and paths respond to it"],
     ["F1, or a tap on its name", "what it is, and its range"],
   ]],
   ["The drawing", [

@@ -5,7 +5,7 @@ import { element } from "./elements.js";
 /** A press that moves farther is a drag, pixels. */
 const STILL = 3;
 
-/** Shows what is known of fields of a form when it is asked for. */
+/** Shows what is known of fields of a form when it is requested. */
 export function listen(form) {
   let pressed = 0;
   const of = (target) => {

@@ -1,4 +1,4 @@
-// A design in the fragment of an address: it travels with the link, and no request ever holds it.
+// A design in the fragment of an address: it moves with the link, and no request ever holds it.
 
 import { handOver } from "./chart-files.js";
 import * as dialogs from "./dialogs.js";

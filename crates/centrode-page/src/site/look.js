@@ -10,7 +10,7 @@ export class LookView {
   constructor(stage) {
     this.stage = stage;
     this.choice = byId("look");
-    /** Number of the link that is looked at; none. */
+    /** Number of the link in view; none. */
     this.index = null;
     this.gears = [];
     this.choice.addEventListener("change", () => this.turn());

@@ -302,7 +302,7 @@ async function start() {
       ["Discard", () => server.forget(left).catch((error) => complain("keep", error))],
     ], "warning");
   }
-  // What the tour points at is in its place then.
+  // The target of the tour is in its final position then.
   settled().then(() => state.shown).then(help.start);
   link.listen((text) => file.offer(text), (error) => complain("link", error));
   server.watch({ disk: (state) => file.compare(state), lost, found });

@@ -3,12 +3,12 @@
 import { byId } from "./elements.js";
 import { color } from "./theme.js";
 
-/** Width of the view, in lengths of the longest path of contact beside the pitch point. */
+/** Width of the view, in lengths of the longest path of contact next to the pitch point. */
 const WIDTHS = 4;
 /** Width of the view where no path is known, as a share of the picture. */
 const SHARE = 0.15;
 
-/** Place of a track at an input, which may be one of the cycle before or after; null where it has none. */
+/** Position of a track at an input, which may be one of the cycle before or after; null where it has none. */
 function place({ input, at }, now, cycle) {
   const first = input[0];
   const last = input[input.length - 1];
@@ -34,11 +34,11 @@ export function touching(painter, input) {
     const pitch = place(pitches, input, cycle);
     if (!pitch) return [];
     const points = paths.map((path) => place(path, input, cycle)).filter(Boolean);
-    // All contacts lie on one line through the pitch point: the farthest tells it best.
+    // All contacts lie on one line through the pitch point: the farthest shows it best.
     const far = points.reduce((best, point) => (apart(pitch, point) > apart(pitch, best) ? point : best), pitch);
     const [middle, end] = [pitch, far].map((at) => painter.toBox(...at));
     const length = apart(middle, end);
-    // Of several meshes each has its own line beside it; that of one goes through the picture.
+    // Of several meshes each has its own line next to it; that of one goes through the picture.
     const reach = contacts.length > 1 ? Math.max(24, 2 * length) : painter.width + painter.height;
     const way = [0, 1].map((k) => (reach * (end[k] - middle[k])) / length);
     const line = length > 0 ? [-1, 1].map((side) => [0, 1].map((k) => middle[k] + side * way[k])) : null;
@@ -83,7 +83,7 @@ export class MeshView {
     this.stage = stage;
     this.button = byId("mesh");
     this.contacts = [];
-    /** Number of the mesh that is looked at; none. */
+    /** Number of the mesh in view; none. */
     this.index = null;
     this.button.addEventListener("click", () => this.turn());
   }
@@ -109,7 +109,7 @@ export class MeshView {
     this.tell();
   }
 
-  /** Names the mesh that is looked at, where there are several. */
+  /** Names the mesh in view, where there are several. */
   tell() {
     const { length } = this.contacts;
     const words = length > 1 && this.on ? `Mesh ${this.index + 1}/${length}` : "Mesh";
@@ -135,7 +135,7 @@ export class MeshView {
 
   /** Width of the view, mm. */
   width() {
-    // Beside the pitch point, which may be carried about.
+    // Next to the pitch point, which may be carried about.
     const lengths = this.contacts.flatMap(({ pitch_point: pitches, paths }) => paths.map(({ input, at }) => {
       const ends = [0, at.length - 1].map((i) => apart(at[i], place(pitches, input[i], this.cycle)));
       return ends[0] + ends[1];

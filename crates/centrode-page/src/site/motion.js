@@ -1,4 +1,4 @@
-// Where every link stands at an input: read between the samples of the snapshot.
+// Poses of every link at an input: read between the samples of the snapshot.
 
 export class Motion {
   constructor({ input, poses }) {
@@ -20,7 +20,7 @@ export class Motion {
     return [low, span > 0 ? (input - this.input[low]) / span : 0];
   }
 
-  /** x, y and angle of every link; one that stands still has them once. */
+  /** x, y and angle of every link; one that is fixed has them once. */
   at(input) {
     const [index, share] = this.place(Math.min(Math.max(input, 0), this.cycle));
     return this.poses.map((samples) => {

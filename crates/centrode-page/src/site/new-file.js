@@ -1,4 +1,4 @@
-// A new design file: asked for, made, and opened; and the files opened of late.
+// A new design file: requested, made, and opened; and the files opened of late.
 
 import * as dialogs from "./dialogs.js";
 import { element } from "./elements.js";

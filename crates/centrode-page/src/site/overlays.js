@@ -1,4 +1,4 @@
-// What can be laid over the picture: the machine at other places of its cycle, and dimensions.
+// What can be laid over the picture: the machine at other positions of its cycle, and dimensions.
 
 import { bore, reach } from "./reach.js";
 import { color } from "./theme.js";
@@ -24,7 +24,7 @@ export function poses(painter) {
   context.globalAlpha = alpha;
 }
 
-/** The axes of bodies at a place of the cycle, each once. */
+/** The axes of bodies at a position of the cycle, each once. */
 function axes(scene, places) {
   const [left, bottom, right, top] = scene.picture.extent;
   const near = ONE * Math.hypot(right - left, top - bottom);

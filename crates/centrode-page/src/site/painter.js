@@ -127,7 +127,7 @@ export class Painter {
     ];
   }
 
-  /** Whether a place of the box is within some pixels of the pitch curve of a link. */
+  /** Whether a position of the box is within some pixels of the pitch curve of a link. */
   isAtPitch(index, pose, [px, py], pixels) {
     const width = this.enter(pose);
     this.context.setLineDash([]);
@@ -161,7 +161,7 @@ export class Painter {
     this.named(poses).forEach((mark) => this.mark(mark));
   }
 
-  /** Places worth a name, in pixels, with where the name begins: beside its place where no other name is, nowhere if there is no room, once where two of one name meet. */
+  /** Named positions, in pixels, with where the name begins: next to its position where no other name is, nowhere if there is no room, once where two of one name meet. */
   named(poses) {
     this.context.font = NAMES;
     const taken = [];
@@ -239,7 +239,7 @@ export class Painter {
     context.fillText(name, ...words);
   }
 
-  /** The outlines of a link, with the ways of its points or without. */
+  /** The outlines of a link, with the paths of its points or without. */
   ghost(link, pose, tint, ways = true) {
     if (!pose) return;
     const width = this.enter(pose);

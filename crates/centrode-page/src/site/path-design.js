@@ -20,13 +20,13 @@ function wishesOf(wish) {
   const directions = direction_deg.flatMap((angle, i) => (angle === null ? [] : [{ point: i + 1, direction_deg: angle, tolerance_deg: direction_tolerance_deg[i] ?? USUAL }]));
   if (wish.directed && directions.length) found.directions = directions;
   const { turn } = wish;
-  // One that is half given is told by its field.
+  // One that is half given is reported by its field.
   if (turn && turn.from !== null && turn.to !== null) found.turn = { from: turn.from, to: turn.to, between_deg: [turn.between[0] ?? 0, turn.between[1] ?? 360] };
   if (wish.keep_out.length) found.keep_out = shapes.written(wish.keep_out);
   return found;
 }
 
-/** The design; where the axis is free it is left out, unless it is `placed` all the same. */
+/** The design; where the axis is free it is omitted, unless it is `placed` all the same. */
 export function designOf(wish, { placed = false, band = wish.band } = {}) {
   const { given, rest, axis, bend, arms, split, aim, module } = wish;
   const design = { ...rest.design, bend_deg: bend, arms, split };
@@ -49,13 +49,13 @@ export function designOf(wish, { placed = false, band = wish.band } = {}) {
   return design;
 }
 
-/** Whether more is wanted than the path as it is drawn, so that a machine is sought and not merely made. */
+/** Whether more is required than the path as it is drawn, so that a machine is searched and not merely made. */
 export const isSought = (wish) => wish.given !== "path" || wish.free || wish.each || wish.band > 0 || Boolean(wish.aim) || hasKeys(wishesOf(wish));
 
 /** Whether there are wishes besides the path. */
 export const isWished = (wish) => wish.given !== "poses" && hasKeys(wishesOf(wish));
 
-/** Columns of points with directions wanted at some of them, and tolerances where they have such. */
+/** Columns of points with directions required at some of them, and tolerances where they have such. */
 export function columnsOf({ points, tolerance = [] }, directions = []) {
   const column = (of) => points.map((_, i) => of(i) ?? null);
   const at = (i) => directions.find(({ point }) => point === i + 1);

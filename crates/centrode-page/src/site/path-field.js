@@ -1,4 +1,4 @@
-// The map of possible axes: a coloured field below the machine, its legend, and what it says of a place.
+// The map of possible axes: a coloured field below the machine, its legend, and what it says of a position.
 
 import { byId, element } from "./elements.js";
 import { rowsOf } from "./path-form.js";
@@ -40,7 +40,7 @@ function mixed(share) {
   return SCALE[i].map((one, k) => Math.round(one + (place - i) * (SCALE[i + 1][k] - one)));
 }
 
-/** Whether a place of the stripes of a reason is dark. */
+/** Whether a position of the stripes of a reason is dark. */
 const striped = (stripe, i, j) => stripe !== 0 && (i + Math.sign(stripe) * j) % Math.abs(stripe) === 0;
 
 export class Field {
@@ -97,7 +97,7 @@ export class Field {
 
   mark(stale) {
     this.stale = stale;
-    // What was asked for is no longer what is wanted.
+    // The request is out of date.
     if (stale) this.key = "";
     byId("field").classList.toggle("stale", stale);
   }
@@ -182,19 +182,19 @@ export class Field {
     context.globalAlpha = 1;
   }
 
-  /** Number of the axis tried nearest to a place; null outside the map. */
+  /** Number of the axis tried nearest to a position; null outside the map. */
   cell([px, py]) {
     const { x, y, count } = this.map;
     const [i, j] = [[px, x], [py, y]].map(([at, [from, to]], k) => Math.round(((at - from) / (to - from)) * (count[k] - 1)));
     return i >= 0 && j >= 0 && i < count[0] && j < count[1] ? j * count[0] + i : null;
   }
 
-  /** Says what the map knows of a place. */
+  /** Says what the map knows of a position. */
   read(place) {
     const readout = byId("field-readout");
     const n = place && this.map && !this.stale ? this.cell(place) : null;
     if (n === null) {
-      readout.textContent = "Point at the field: what an axis there would be stands here.";
+      readout.textContent = "Point at the field for the figures of an axis there.";
       return;
     }
     const { fault, faults, ratios, radius } = this.map;

@@ -6,7 +6,7 @@ import * as shapes from "./path-shapes.js";
 const none = (list) => list.map(() => null);
 const points = (x, y) => ({ x, y, tolerance: none(x), direction_deg: none(x), direction_tolerance_deg: none(x) });
 
-/** The drawn path of the documentation, with an axis beside it, its working part, and key poses. */
+/** The drawn path of the documentation, with an axis next to it, its working part, and key poses. */
 export const EXAMPLE = {
   given: "path",
   path: points([0, 60, 150, 230, 262, 235, 170, 100, 40, -5, -30, -38, -30], [0, 70, 150, 215, 262, 300, 330, 330, 300, 250, 190, 130, 60]),
@@ -39,19 +39,19 @@ const FEWEST = { path: 4, stroke: 3, poses: 3 };
 /** Length of the clamp as it is drawn, as a share of the size of all poses; and of a direction, of the path's. */
 const CLAMP = 0.2;
 const ARROW = 0.13;
-/** More rows and handles would take the page too long, and more handles of directions that are not wanted yet. */
+/** More rows and handles would take the page too long, and more handles of directions that are not required yet. */
 const MOST = 200;
 const MOST_FREE = 60;
 
 const GIVEN = [
   { word: "path", doc: "A closed path: the tip passes its points in order." },
-  { word: "stroke", doc: "The working part of a path: the return from its last point to its first is sought." },
-  { word: "poses", doc: "Three to seven key poses: places of the tip and the way the clamp points there; the path between them is free." },
+  { word: "stroke", doc: "The working part of a path: the return from its last point to its first is searched." },
+  { word: "poses", doc: "Three to seven key poses: positions of the tip and directions of the clamp; the path between them is free." },
 ];
 
 const SPLITS = [
   { word: "powers", doc: "Two different pairs, each with half of the logarithm of the ratio." },
-  { word: "mildest", doc: "Two different pairs, the sharpest of whose pitch curves is as blunt as it can be." },
+  { word: "mildest", doc: "Two different pairs with the largest minimum radius of their pitch curves." },
   { word: "one-pair", doc: "One pair twice: sun and planet are the same part." },
 ];
 
@@ -68,7 +68,7 @@ const FIELDS = {
   "wanted.given": { kind: "choice", unit: "", choices: GIVEN, doc: "A closed path, its working part with the return free, or a few key poses with the path between them free." },
   "axis.x": { unit: "mm", doc: "Axis about which the carrier turns. Drag it in the picture, too." },
   "axis.y": { unit: "mm", doc: "Axis about which the carrier turns. Drag it in the picture, too." },
-  "axis.sought": { label: "Seek it, too", kind: "switch", unit: "", doc: "The axis is sought on and about the path when the machine is found or made; the one drawn shows one that may be." },
+  "axis.sought": { label: "Seek it, too", kind: "switch", unit: "", doc: "The axis is searched on and about the path when the machine is found or made; the drawn one is an example." },
   "axis.within_x": { ...range("mm", "Minimum and maximum x of the axis to search; default: those of the map of possible axes."), minimum: undefined, label: "Within x" },
   "axis.within_y": { ...range("mm", "Minimum and maximum y of the axis to search; default: those of the map of possible axes."), minimum: undefined, label: "Within y" },
   "gears.bend_deg": { unit: "°", minimum: -170, maximum: 170, doc: "Angle from the carrier's first leg, to the intermediate gear, to its second. A greater bend gives greater gears." },
@@ -77,13 +77,13 @@ const FIELDS = {
   "gears.split": { kind: "choice", unit: "", choices: SPLITS, doc: "How two stages of gears share the motion." },
   "gears.module": { unit: "mm", positive: true, optional: true, doc: "Module of full teeth up to which the path is eased, and no more." },
   "gears.aim": { kind: "choice", unit: "", optional: true, choices: AIMS, doc: "What is made the most of where something is free." },
-  "path.tolerances": { label: "Tolerances", kind: "switch", unit: "", doc: "Each point has a tolerance of its own, in the place of one band for all." },
-  "path.directions": { label: "Directions", kind: "switch", unit: "", doc: "Directions of the clamp wanted at points: drag the small circles beside them, or type them in the table." },
+  "path.tolerances": { label: "Tolerances", kind: "switch", unit: "", doc: "Each point has its own tolerance, instead of one band for all." },
+  "path.directions": { label: "Directions", kind: "switch", unit: "", doc: "Directions of the clamp required at points: drag the small circles next to them, or type them in the table." },
   "wishes.carrier": range("mm", "Minimum and maximum length of the carrier."),
   "wishes.arm": range("mm", "Minimum and maximum length of the arm."),
   "wishes.center_distance": { ...range("mm", "Minimum and maximum centre distance of the gears."), label: "Centre distance" },
   "wishes.ratio": range("", "Minimum and maximum ratio of planet to carrier."),
-  "wishes.clamp_deg": { label: "Clamp", unit: "°", optional: true, doc: "Direction of the clamp less that of the arm; left out, the one that suits the directions best." },
+  "wishes.clamp_deg": { label: "Clamp", unit: "°", optional: true, doc: "Direction of the clamp less that of the arm; default: the one that suits the directions best." },
   "wishes.turn.from": { label: "Turn from point", kind: "integer", unit: "", minimum: 1, optional: true, doc: "Turn of the carrier: number of the point from which it is counted." },
   "wishes.turn.to": { label: "Turn to point", kind: "integer", unit: "", minimum: 1, optional: true, doc: "Number of the point up to which it is counted." },
   "wishes.turn.between_deg": { label: "Turn", kind: "numbers", unit: "°", minimum: 0, maximum: 360, optional: true, holders: ["minimum", "maximum"], doc: "Minimum and maximum turn of the carrier from the one point to the other." },
@@ -116,7 +116,7 @@ function onward(points, i) {
   return [...place, ...none(points[i].slice(2))];
 }
 
-/** A pose halfway to the next, or a point, of which nothing else is wanted. */
+/** A pose halfway to the next, or a point, of which nothing else is required. */
 const between = (poses, i) => poses[i].map((one, k) => {
   const other = poses[(i + 1) % poses.length][k];
   return one === null || other === null ? null : short((one + other) / 2);
@@ -134,7 +134,7 @@ function given(wish) {
   const poses = kind === "poses";
   const names = columns(wish);
   const column = (name) => {
-    const [heading, unit, doc] = FREE[name] ?? [undefined, "mm", poses ? "Place of the tip." : "Points that the tip passes, in order."];
+    const [heading, unit, doc] = FREE[name] ?? [undefined, "mm", poses ? "Position of the tip." : "Points that the tip passes, in order."];
     if (poses && heading) return numbers("poses.direction_deg", wish.poses.direction_deg, "Direction of the clamp.", "°");
     return numbers(`${kind}.${name}`, wish[kind][name], doc, unit, heading);
   };
@@ -165,7 +165,7 @@ export function tables(wish, act) {
     ...found,
     { key: "gears", doc: "Gears and arms", fields: gears },
     given(wish),
-    { key: "wishes", title: "Bounds, clamp, turn", doc: "What else is wanted of the machine", optional: true, fields: wishes },
+    { key: "wishes", title: "Bounds, clamp, turn", doc: "Other requirements on the machine", optional: true, fields: wishes },
     ...shapes.tables(wish.keep_out, act),
   ];
 }
@@ -212,7 +212,7 @@ function recounted(turn, before, after) {
 /** Points in words, to be compared. */
 const places = ({ x, y }) => x.map((one, i) => `${one} ${y[i]}`);
 
-/** What a wish lacks before it can be told to the program: its key and the reason; null where it is whole. */
+/** What a wish lacks before it can be sent to the program: its key and the reason; null where it is whole. */
 export function lacks(wish) {
   if (wish.given === "poses") return null;
   if (wish.turn) {
@@ -223,7 +223,7 @@ export function lacks(wish) {
   if (!wish.free || wish.given !== "path") return null;
   const ends = wish.box.flat();
   const some = ends.filter((end) => end !== null).length;
-  if (some > 0 && some < ends.length) return { key: `axis.within_${wish.box[0].includes(null) ? "x" : "y"}`, wrong: "the axis is sought within four numbers, or, without any, on the map" };
+  if (some > 0 && some < ends.length) return { key: `axis.within_${wish.box[0].includes(null) ? "x" : "y"}`, wrong: "the axis is searched within four numbers, or, without any, on the map" };
   return null;
 }
 
@@ -312,7 +312,7 @@ function offered({ x, y }, i) {
   return Math.round(Math.atan2(y[i] - (low + high) / 2, x[i] - (left + right) / 2) / DEG);
 }
 
-/** Handles of the directions wanted at points, and of those that may be. */
+/** Handles of the directions required at points, and of those that may be. */
 function directions(wish) {
   const { given: kind } = wish;
   const { x, y, direction_deg } = wish[kind];
@@ -345,12 +345,12 @@ export function handles(wish) {
   }))];
 }
 
-/** A line from a place in a direction, degrees. */
+/** A line from a position in a direction, degrees. */
 function ray(role, [x, y], length, angle) {
   return { role, closed: false, vertices: [x, y, 0, x + length * Math.cos(angle * DEG), y + length * Math.sin(angle * DEG), 0] };
 }
 
-/** Lines that show what is wanted: the clamp in every pose or at points, within its tolerance; of a stroke, its points joined; shapes. */
+/** Lines that show what is required: the clamp in every pose or at points, within its tolerance; of a stroke, its points joined; shapes. */
 export function wantedLines(wish) {
   const { x, y, direction_deg, direction_tolerance_deg } = wish[wish.given];
   const at = (i) => [x[i], y[i]];
@@ -367,7 +367,7 @@ export function wantedLines(wish) {
   return [...found, ...shapes.lines(wish.keep_out, wish[wish.given])];
 }
 
-/** A picture with the lines of what is wanted, and room for the shapes. */
+/** A picture with the lines of what is required, and room for the shapes. */
 export function withWanted(picture, wish) {
   const { links, motion } = picture;
   const [left, low, right, high] = picture.extent;
@@ -382,7 +382,7 @@ export function withWanted(picture, wish) {
   };
 }
 
-/** What is wanted as a picture: the order of the places, and the lines. */
+/** What is required as a picture: the order of the places, and the lines. */
 export function wantedPicture(wish) {
   const { x, y } = wish[wish.given];
   const room = 2 * CLAMP * sizeOf({ x, y });

@@ -1,4 +1,4 @@
-// From the page of a path to a design: teeth are sought, a file is asked for, and its page is opened.
+// From the page of a path to a design: teeth are searched, a file is requested, and its page is opened.
 
 import * as dialogs from "./dialogs.js";
 import { element } from "./elements.js";
@@ -46,9 +46,9 @@ async function name({ text, stated: rows, goals, findings }) {
   await files.make({ text }, "The machine of the path, with sound teeth.", files.free("reversed", taken), folder, [...told.wishes(goals, "Wishes", "h3"), ...told.findings(findings), table]);
 }
 
-/** Says why what is sought gives no machine. */
+/** Shows why the search gives no machine. */
 async function refuse({ refused, goals }) {
-  await dialogs.ask("No machine", [element("p", {}, refused), ...told.wishes(goals, "Wishes", "h3"), element("p", {}, "What helps: a greater bend, another split, or other places.")], [["close", "Close", "main"]]);
+  await dialogs.ask("No machine", [element("p", {}, refused), ...told.wishes(goals, "Wishes", "h3"), element("p", {}, "Try a larger bend, another split, or other positions.")], [["close", "Close", "main"]]);
 }
 
 /** Says why there is no machine; resolves to a band within which the path is to be eased, or to null. */
@@ -69,7 +69,7 @@ async function remedy(wish, { refused, goals }, before) {
     element("ul", { class: "remedies" },
       element("li", {}, "another axis: where the field is bright, coloured by the minimum radius,"),
       element("li", {}, "a greater bend, or another split,"),
-      element("li", {}, "a path without sharp places: let it pass beside its points, and have it eased.")),
+      element("li", {}, "a path without sharp points: let it pass next to its points, and ease it.")),
     element("p", { class: "option" }, element("label", { for: "band" }, "Pass within"), box, element("span", { class: "unit" }, "mm")),
     remark,
   ], [["", "Cancel"], ["ease", "Ease the path and make", "main"]], sound);

@@ -1,6 +1,6 @@
-// Shapes that the machine keeps out of: in the form, as handles and as lines.
+// Shapes that the machine must not enter: in the form, as handles and as lines.
 
-/** New shapes are so large, a share of the path's size, and so far beside it. */
+/** New shapes are so large, a share of the path's size, and so far next to it. */
 const LARGE = 0.1;
 const BESIDE = 0.15;
 
@@ -20,7 +20,7 @@ export function boxOf({ x, y }) {
   return { left, right, low, high, size: Math.hypot(right - left, high - low) };
 }
 
-/** A new shape beside points, with a name that no other has. */
+/** A new shape next to points, with a name that no other has. */
 export function added(kind, shapes, points) {
   const { right, low, high, size } = boxOf(points);
   const taken = shapes.map(({ name }) => name);
@@ -97,13 +97,13 @@ export function tables(shapes, act) {
     polygon: columns,
   };
   const one = (shape) => ({
-    key: base(shape), title: `Keep out of ${shape.name}`, doc: "A shape that the machine keeps out of: also dragged in the picture.",
+    key: base(shape), title: `Keep out of ${shape.name}`, doc: "A shape that the machine must not enter; it can be dragged in the picture.",
     points: shape.kind === "polygon" ? { columns: ["x", "y"], fewest: 3, noun: "corner", halfway: (points, i) => points[i].map((one, k) => short((one + points[(i + 1) % points.length][k]) / 2)) } : undefined,
     fields: [field(shape, "name"), ...own[shape.kind](shape), field(shape, "clearance")],
     actions: [{ id: `delete-${shape.name}`, words: `Delete ${shape.name}`, act: () => act.drop(shape.name) }],
   });
   const add = Object.entries(KINDS).map(([kind, words]) => ({ id: `add-${kind}`, words, title: `Add a shape to keep out of: ${words.toLowerCase()}`, act: () => act.add(kind) }));
-  return [{ key: "wishes.keep_out", title: "Keep out of", doc: "Shapes that the machine keeps out of: tray, ground, planted stems.", fields: [], actions: add }, ...shapes.map(one)];
+  return [{ key: "wishes.keep_out", title: "Keep out of", doc: "Shapes that the machine must not enter: tray, ground, planted stems.", fields: [], actions: add }, ...shapes.map(one)];
 }
 
 /** Points of the picture by which shapes are dragged; Delete at one of them drops the shape, but for a corner. */

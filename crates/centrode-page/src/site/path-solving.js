@@ -5,7 +5,7 @@ import * as server from "./server.js";
 import { work } from "./work.js";
 
 export class Solving {
-  /** `show(answer, more)` takes an answer and whether more figures are to come, `complain(error)` an error; `rested()` is told when nothing is left to do. */
+  /** `show(answer, more)` takes an answer and whether more figures are to come, `complain(error)` an error; `rested()` is called when nothing is left to do. */
   constructor({ show, complain, rested }) {
     Object.assign(this, { show, complain, rested });
     this.pending = null;
@@ -27,7 +27,7 @@ export class Solving {
     });
   }
 
-  /** Ends what is under way: another machine is shown than the one asked for. */
+  /** Ends the running request: another machine is shown than the requested one. */
   end() {
     this.pending = null;
     this.stop?.abort();
@@ -40,7 +40,7 @@ export class Solving {
       this.pending = null;
       const answer = await this.answer(wish, "stop", {});
       if (answer) this.show(answer, true);
-      // Of a path or an axis that is not possible no more is to be told; of a split, what the others would be.
+      // Of a path or an axis that is not possible no more is to be reported; of a split, what the others would be.
       if (!final || !answer || this.pending || ["path", "axis"].includes(answer.fault?.of)) continue;
       for (const others of [false, true]) {
         const whole = await this.answer(wish, "resting", { rest: true, others });

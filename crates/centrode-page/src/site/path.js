@@ -28,7 +28,7 @@ class PathStage extends Stage {
     this.field?.paint(this);
   }
 
-  /** Whether a link is drawn: the path and what is wanted of it always are. */
+  /** Whether a link is drawn: the path and what is required of it always are. */
   isShown({ name }) {
     return ["path", "wanted"].includes(name) || byId("show-gears").checked;
   }
@@ -123,11 +123,11 @@ function take(next, final, fresh = true) {
   }
 }
 
-/** Shows what is given, for which no machine has been sought yet. */
+/** Shows what is given, for which no machine has been searched yet. */
 function unfound() {
   busy(false);
   const words = wish.given === "poses" ? "takes these poses" : "runs along these points, with any return to the first,";
-  show({ curves: [], figures: [], fault: { of: "sought", message: `The machine whose tip ${words} is sought when you say so: it takes some seconds.` } });
+  show({ curves: [], figures: [], fault: { of: "sought", message: `The machine whose tip ${words} is searched on request: it takes some seconds.` } });
 }
 
 /** Seeks the machine of poses or of a stroke. */
@@ -214,7 +214,7 @@ function judge(fault, found) {
 
 const capital = (words) => words.charAt(0).toUpperCase() + words.slice(1);
 
-const heading = ({ of }) => ({ path: "✕ No path", axis: "✕ This axis is not possible", split: "✕ No gears", wish: "✕ A value breaks a rule", sought: "○ Not sought yet", none: "✕ No machine found" })[of];
+const heading = ({ of }) => ({ path: "✕ No path", axis: "✕ This axis is not possible", split: "✕ No gears", wish: "✕ A value breaks a rule", sought: "○ Not searched yet", none: "✕ No machine found" })[of];
 
 // A window may have no storage.
 function kept() {

@@ -154,7 +154,7 @@ function around({ picture, motion }) {
   return box;
 }
 
-/** A machine on a canvas of its own, whole or close to a mesh, on white, at any place of its cycle. */
+/** A machine on a canvas of its own, whole or close to a mesh, on white, at any position of its cycle. */
 class Film extends Painter {
   constructor(stage, width) {
     super(document.createElement("canvas"), { willReadFrequently: true });
@@ -191,7 +191,7 @@ class Film extends Painter {
 
 const rest = () => new Promise((resume) => setTimeout(resume));
 
-/** One cycle as GIF; `told(share)` is told how far it is, and `signal` ends it. */
+/** One cycle as GIF; `told(share)` is called with its progress, and `signal` ends it. */
 export async function asGif(stage, width, seconds, told, signal) {
   const film = new Film(stage, width);
   // Hundredths of a second are what a GIF counts in.

@@ -1,4 +1,4 @@
-// How goals and ways of points answer one number of the design.
+// How goals and paths of points respond to one number of the design.
 
 import uPlot from "./uplot.js";
 import { axes, line } from "./axes.js";
@@ -87,7 +87,7 @@ export async function ask(snapshot, text, take, first) {
     try {
       const name = key.value;
       const answers = await server.response({ text, key: name, from: number(from), to: number(to) }, signal);
-      // Another has been asked for since.
+      // Another has been requested since.
       if (signal.aborted) return;
       const gaps = answers.charts.some((chart) => chart.figures.includes(null));
       words.textContent = answers.charts.length === 0
@@ -99,7 +99,7 @@ export async function ask(snapshot, text, take, first) {
       if (!signal.aborted) words.replaceChildren(element("span", { class: "error" }, error.message));
     }
   };
-  /** Ways of the points at some of the values, and a list of these to take one from. */
+  /** Paths of the points at some of the values, and a list of these to take one from. */
   const overlay = async (name, { values, charts }, signal) => {
     const ways = new Ways();
     const list = element("ul", { class: "ways-list" });

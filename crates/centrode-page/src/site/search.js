@@ -18,8 +18,8 @@ const ENDED = {
 
 export class Search {
   /**
-   * `design.text()` is the design to start from; `preview(text, goals)` shows the best so far without taking it, `left()` is
-   * told when it is shown no more, `take(text)` takes it, `drop()` shows the design again; `changed()` is told when a search
+   * `design.text()` is the design to start from; `preview(text, goals)` shows the best found without taking it, `left()` is
+   * called when it is shown no more, `take(text)` takes it, `drop()` shows the design again; `changed()` is called when a search
    * begins or ends to show.
    */
   constructor(methods, design) {
@@ -85,7 +85,7 @@ export class Search {
     }
   }
 
-  /** Says why it does not go on; the best so far can still be taken. */
+  /** Says why it does not go on; the best found can still be taken. */
   fail(error) {
     if (this.last) this.show({ ...this.last, running: false, ended: null });
     this.words.textContent = error.message;
@@ -148,9 +148,9 @@ export class Search {
     this.design.left();
   }
 
-  /** The numbers of the design cannot be changed while the best so far is shown in their place. */
+  /** The numbers of the design cannot be changed while the best found is shown instead. */
   hold(on) {
-    // Told from any other, so that who follows one that is over finds out.
+    // A name that differs from any other, so that a follower of one that is over notices it.
     this.showing = on ? Symbol("search") : null;
     document.body.classList.toggle("searching", on);
     byId("form").inert = on;
@@ -181,12 +181,12 @@ export class Search {
     if (!this.box.hidden) this.draw(state.history);
   }
 
-  /** What is counted as missed: at the start, by the best so far, and the range it is wanted in. */
+  /** What is counted as missed: at the start, by the best found, and the range it is required in. */
   tell(list) {
     this.missed.hidden = list.length === 0;
     const cell = (value, unit) => element("td", {}, `${value}${unit && ` ${unit}`}`);
     this.missed.replaceChildren(
-      element("caption", {}, "Counted as missed"),
+      element("caption", {}, "Not yet met"),
       element("thead", {}, element("tr", {}, ...["", "start", "now", "required"].map((words) => element("th", { scope: "col" }, words)))),
       element("tbody", {}, ...list.map(({ title, unit, start, best, required, met }) => element("tr", { class: met ? "met" : "unmet" },
         element("th", { scope: "row" }, title), cell(start, unit), cell(`${met ? "✓ " : ""}${best}`, unit), cell(required, unit)))));

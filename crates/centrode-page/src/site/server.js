@@ -1,4 +1,4 @@
-// What the page asks of the program behind it.
+// Requests of the page to the program behind it.
 
 /** An answer that is none: the reason, in the program's words. */
 export class Refused extends Error {
@@ -19,7 +19,7 @@ export class Away extends Error {
 /** This page among those that are open. */
 const page = String(Math.random());
 
-/** Solves asked for so far: one held up on its way is not to take the place of a later one. */
+/** Number of solves requested: a delayed one must not replace a later one. */
 let turn = 0;
 
 /** The program stops what it does for an answer once `signal` aborts. */

@@ -1,6 +1,6 @@
-// What is out of sight is drawn last: once it comes into sight, or once nothing else has been asked for.
+// What is out of sight is drawn last: once it comes into sight, or once nothing else has been requested.
 
-/** How long nothing is asked for before what is out of sight has its turn, ms. */
+/** How long nothing is requested before what is out of sight has its turn, ms. */
 const REST = 500;
 /** How long it goes on before whatever else is due has a turn, ms. */
 const SLICE = 8;
@@ -30,7 +30,7 @@ export class Sight {
     this.waiting.delete(place);
   }
 
-  /** Does a job for an element, in the place of any that it waits for. */
+  /** Does a job for an element, instead of any that it waits for. */
   draw(place, job) {
     if (!this.away.has(place)) {
       this.waiting.delete(place);

@@ -9,7 +9,7 @@ import { progress, work } from "./work.js";
 
 /** Checks slower than this come after the picture, ms. */
 export const SLOW = 20;
-/** Whoever waits longer is told so, ms. */
+/** A longer wait is shown, ms. */
 const PATIENCE = 300;
 /** A picture that takes longer is not waited for while a drag goes on, ms. */
 const STALE = 2000;
@@ -17,10 +17,10 @@ const STALE = 2000;
 const LATE = 100;
 /** Goals that take longer do not follow a drag, ms. */
 const LIVE = 250;
-/** While checks last, how much of them is done is asked for so often, ms. */
+/** While checks last, how much of them is done is polled so often, ms. */
 const ASKED = 500;
 
-/** The page: its `form`, `file()`, and what is told of answers: `draw`, `show`, `judge`, `complain`. */
+/** The page: its `form`, `file()`, and the receivers of answers: `draw`, `show`, `judge`, `complain`. */
 const page = {};
 export const connect = (own) => Object.assign(page, own);
 
@@ -181,11 +181,11 @@ async function follow(stop) {
     const share = await server.progress();
     if (share > 0 && share < 1 && state.checking === stop) progress(`${Math.floor(100 * share)} % done`);
   } catch {
-    // Who waits for the checks is told why there are none.
+    // Those who wait for the checks get the reason why there are none.
   }
 }
 
-/** The checks were cancelled: they are done when asked for. */
+/** The checks were cancelled: they are done when requested. */
 function rest() {
   verdict.unchecked(() => {
     verdict.clear();

@@ -12,9 +12,9 @@ const ROOM = 1.12;
 const TURN = -60 * DEG;
 const TILT = 35 * DEG;
 
-/** How much of what stands still is seen where it is to be looked through. */
+/** How much of what is fixed is seen where it is to be looked through. */
 const THIN = 0.22;
-/** Size of a body beside the machine from which on it hides the rest. */
+/** Size of a body next to the machine from which on it hides the rest. */
 const LARGE = 0.6;
 
 /** Reads what the program answers: head, places and STL files. */
@@ -88,7 +88,7 @@ export class View {
     });
     this.measure();
     const keeps = ({ userData: { places } }, first) => places.every((value, i) => i % 7 < first || Math.abs(value - places[i % 7]) < 1e-6);
-    // What stands still, and ground that slides below the machine.
+    // What is fixed, and ground that slides below the machine.
     const still = (body) => keeps(body, 0) || (keeps(body, 3) && body.geometry.boundingSphere.radius > LARGE * this.radius);
     this.still = this.bodies.filter(still);
     // Where nothing moves there is nothing behind it.
@@ -98,7 +98,7 @@ export class View {
     this.at(this.now);
   }
 
-  /** How what stands still is drawn: "solid", "thin", to be looked through, or "hidden". */
+  /** How what is fixed is drawn: "solid", "thin", to be looked through, or "hidden". */
   stand(how) {
     this.standing = how;
     for (const body of this.still ?? []) {
@@ -227,7 +227,7 @@ export class View {
     this.draw();
   }
 
-  /** Draws in the next frame, once however often it is asked for. */
+  /** Draws in the next frame, once however often it is requested. */
   draw() {
     this.frame ||= requestAnimationFrame(() => this.render());
   }

@@ -1,17 +1,17 @@
-// The 3D view over the drawing: asked for by its button, worked by mouse, touch and keys.
+// The 3D view over the drawing: requested by its button, worked by mouse, touch and keys.
 
 import { byId, element } from "./elements.js";
 import { parse, View } from "./space-view.js";
 import * as server from "./server.js";
 import { work } from "./work.js";
 
-/** A change rests so long before its meshes are asked for, ms. */
+/** A change rests so long before its meshes are requested, ms. */
 const REST = 400;
 const STEP = (5 * Math.PI) / 180;
 const MISSING = "This browser shows no 3D view: WebGL is missing or switched off. The drawing and the exported files need none.";
 
 export class Space {
-  /** `design` says the text that is shown and whether it is a mechanism; `complain` tells an error. */
+  /** `design` says the text that is shown and whether it is a mechanism; `complain` shows an error. */
   constructor(stage, design) {
     Object.assign(this, { stage, design, view: null, text: null, stop: null, timer: 0, box: null });
     this.button = byId("space");
@@ -24,8 +24,8 @@ export class Space {
     this.words = element("p", { class: "space-words", role: "status" }, "Loading …");
     const section = element("select", { "aria-label": "Section plane" },
       ...[["", "no section"], ["0", "section x"], ["1", "section y"], ["2", "section z"]].map(([value, words]) => element("option", { value }, words)));
-    const where = element("input", { type: "range", min: "0", max: "1", step: "0.01", value: "0.5", "aria-label": "Place of the section", disabled: true });
-    const standing = element("select", { "aria-label": "What stands still", onchange: () => this.view?.stand(standing.value) },
+    const where = element("input", { type: "range", min: "0", max: "1", step: "0.01", value: "0.5", "aria-label": "Position of the section", disabled: true });
+    const standing = element("select", { "aria-label": "Fixed parts", onchange: () => this.view?.stand(standing.value) },
       ...[["thin", "frame see-through"], ["solid", "frame solid"], ["hidden", "frame hidden"]].map(([value, words]) => element("option", { value }, words)));
     const apart = element("input", { type: "range", min: "0", max: "1", step: "0.01", value: "0" });
     this.standing = standing;
@@ -57,7 +57,7 @@ export class Space {
       const three = await import(new URL("three.module.min.js", location.href).href);
       if (this.box !== box) return;
       try {
-        // Asked before three.js, which would write its own complaint.
+        // Checked before three.js, which would write its own complaint.
         if (!document.createElement("canvas").getContext("webgl2")) throw new Error(MISSING);
         this.view = new View(three, canvas);
       } catch {

@@ -70,7 +70,7 @@ export class Stage extends Painter {
 
   resize(density) {
     this.measureBy(this.box, density);
-    // On paper the drawing keeps the shape it has on the screen.
+    // On paper the drawing has the same shape as on the screen.
     if (!matchMedia("print").matches) this.box.style.setProperty("--aspect", this.width > 0 && this.height > 0 ? this.width / this.height : 1);
     if (this.fitted) this.fit();
     else this.draw();
@@ -84,7 +84,7 @@ export class Stage extends Painter {
     this.draw();
   }
 
-  /** Zooms so that the point under a place of the box stays there. */
+  /** Zooms so that the point under a position of the box stays there. */
   zoom(factor, px = this.width / 2, py = this.height / 2) {
     const [x, y] = this.toModel(px, py);
     this.view.scale = Math.min(Math.max(this.view.scale * factor, 1 / CLOSEST), CLOSEST);
@@ -108,7 +108,7 @@ export class Stage extends Painter {
     return this.mesh.on || this.look.on;
   }
 
-  /** What the view follows at an input; null where it stands still. */
+  /** What the view follows at an input; null where it is fixed. */
   middle(input) {
     return this.mesh.middle(input) ?? this.look.middle(input);
   }

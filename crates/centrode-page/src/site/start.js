@@ -10,7 +10,7 @@ import * as theme from "./theme.js";
 
 /** Speed of the moving pictures, rad of the input a millisecond. */
 const SPEED = (2 * Math.PI * 6) / 60000;
-/** Pictures asked for at once: they take the computer's time. */
+/** Pictures requested at once: they take the computer's time. */
 const AT_ONCE = 2;
 /** Room around a picture, pixels. */
 const ROOM = [16, 16];
@@ -187,7 +187,7 @@ moving.addEventListener("click", () => {
   moving.setAttribute("aria-pressed", String(moving.getAttribute("aria-pressed") !== "true"));
   for (const thumbnail of thumbnails.values()) thumbnail.go();
 });
-// Who asks for less motion gets none.
+// With reduced motion nothing moves.
 const calm = () => {
   moving.hidden = still.matches;
 };

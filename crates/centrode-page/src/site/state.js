@@ -1,4 +1,4 @@
-// What the page knows: the design that is shown, what is asked for it, and what is under way.
+// What the page knows: the design that is shown, what it was requested to do, and what is running.
 
 export const state = {
   snapshot: null,

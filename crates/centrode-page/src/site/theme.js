@@ -4,7 +4,7 @@ import { byId } from "./elements.js";
 
 const KEY = "centrode-theme";
 
-/** Colours asked for since they last changed. */
+/** Colours requested since they last changed. */
 const known = new Map();
 
 /** Starts the switch; calls back whenever the colours change. */

@@ -49,7 +49,7 @@ export function show(snapshot, pinned, go) {
       title(line ? "No mechanism" : "Not solved", "error"),
       element("ul", { class: "findings no-mechanism" }, element("li", { class: "error" },
         element("p", {}, element("b", {}, `${SIGN.error} error `), key ? `${path(key)}: ${words}` : words),
-        // What is no design at all has no form: its place is one in the text.
+        // What is no design at all has no form: its position is one in the text.
         line && !key ? element("p", { class: "detail" }, `line ${line}, column ${column}`) : null)),
       ...(snapshot.picture ? [element("p", { class: "detail" }, "Picture and curves are those of the last good design.")] : []),
     );
@@ -60,7 +60,7 @@ export function show(snapshot, pinned, go) {
     // What is known of the design before says nothing of this one.
     if (!place.querySelector(".findings:not(.no-mechanism)")) place.replaceChildren(title("Checking …", "open"));
     const left = [told ? null : byId("goals").firstChild && "goals", place.querySelector("li") && "findings", byId("figures").firstChild && "figures"].filter(Boolean);
-    place.firstChild.replaceWith(title("Checking …", "open", left.length ? `still of the design before: ${left.join(", ")}` : ""));
+    place.firstChild.replaceWith(title("Checking …", "open", left.length ? `figures are from the previous design: ${left.join(", ")}` : ""));
     return;
   }
   place.replaceChildren(
@@ -106,7 +106,7 @@ function bar(goal, before) {
     element("div", { class: "head" }, element("span", {}, `${goal.number}. ${goal.title}`, goal.paper === null ? null : element("span", { class: "quiet" }, ` goal ${goal.paper} of the paper`)),
       element("b", { title: goal.exact }, `${sign} ${goal.value}${goal.unit && ` ${goal.unit}`}${was}`)),
     element("div", { class: "track", role: "progressbar", "aria-label": goal.title, "aria-valuemin": 0, "aria-valuemax": 1,
-      "aria-valuenow": goal.progress ?? undefined, "aria-valuetext": `${goal.value} ${goal.unit}, wanted ${goal.required}, ${goal.verdict}` }, fill),
+      "aria-valuenow": goal.progress ?? undefined, "aria-valuetext": `${goal.value} ${goal.unit}, required ${goal.required}, ${goal.verdict}` }, fill),
     element("div", { class: "detail" }, `${goal.required}${goal.unit && ` ${goal.unit}`}; ${goal.verdict}${goal.spare ? `, ${goal.spare} to spare` : ""}`));
 }
 

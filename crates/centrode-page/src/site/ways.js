@@ -1,4 +1,4 @@
-// Ways of a machine's points at several values of one number, over each other.
+// Paths of a machine's points at several values of one number, over each other.
 
 import { element } from "./elements.js";
 import { Painter, Scene } from "./painter.js";
@@ -20,12 +20,12 @@ function told(picture) {
 /** Draws the ways of one design after the other; the first is the design as it is. */
 export class Ways extends Painter {
   constructor() {
-    super(element("canvas", { role: "img", "aria-label": "Ways of the points at these values" }));
+    super(element("canvas", { role: "img", "aria-label": "Paths of the points at these values" }));
     this.box = element("div", { class: "ways" }, this.canvas);
     this.drawn = [];
   }
 
-  /** Adds a design's ways, with a name to be written beside them. */
+  /** Adds a design's ways, with a name to be written next to them. */
   add(picture, name) {
     const [left, bottom, right, top] = picture.extent;
     const before = this.scene?.picture.extent ?? picture.extent;
@@ -62,7 +62,7 @@ export class Ways extends Painter {
     }
     const longest = lines.reduce((best, line) => (line.vertices.length > (best?.vertices.length ?? 0) ? line : best), null);
     if (!longest || !name) return;
-    // Each name at another place of its way, so that they do not lie on each other.
+    // Each name at another point of its path, so that they do not lie on each other.
     const count = longest.vertices.length / 3;
     const at = Math.floor(((index * 0.17) % 1) * count);
     const [u, v] = [longest.vertices[3 * at], longest.vertices[3 * at + 1]];

@@ -2,7 +2,7 @@
 
 import { byId } from "./elements.js";
 
-/** Whoever waits longer is told so, ms. */
+/** A longer wait is shown, ms. */
 const PATIENCE = 1000;
 
 /** Why a job was aborted, where the user did. */

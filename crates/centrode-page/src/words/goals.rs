@@ -20,7 +20,7 @@ pub struct GoalWords {
     pub exact: Option<String>,
     /// Unit of the figure.
     pub unit: &'static str,
-    /// The range it is wanted in.
+    /// The range it is required in.
     pub required: String,
     /// Met, missed by how much, or not checked.
     pub verdict: String,

@@ -16,13 +16,13 @@ use centrode_spec::digits::stated;
 const NEAR_ENOUGH: f64 = 1e-7;
 /// Range of the centre distance, mm.
 const DISTANCES: [f64; 2] = [1e-3, 1e6];
-/// Maximum direction of the shaft either way, degrees.
+/// Maximum direction of the shaft in either direction, degrees.
 const MAX_DIRECTION: f64 = 360.0;
 
-/// Which crank of a machine a gear pair shall drive, and where its shaft is.
+/// Which crank of a machine a gear pair must drive, and where its shaft is.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GearDriveSpec {
-    /// Body that turns evenly as the machine stands: the crank.
+    /// Body that turns evenly in the machine as it is: the crank.
     pub body: String,
     /// Distance of the driving shaft from the crank's axis, mm.
     pub center_distance: f64,
@@ -30,12 +30,12 @@ pub struct GearDriveSpec {
     pub direction: f64,
 }
 
-/// A machine whose crank is driven by a pair of non-circular gears, so that its output does what its goals ask for.
+/// A machine whose crank is driven by a pair of non-circular gears, so that its output does what its goals require.
 #[derive(Clone, Debug)]
 pub struct GearDrive {
     /// The design; its teeth are fitted, of a count that may be changed.
     pub design: MachineDesign,
-    /// Whether the output is an angle, in rad, and not a place, in mm.
+    /// Whether the output is an angle, in rad, and not a position, in mm.
     pub turns: bool,
     /// Law of the crank by the input; its output is the one that the goals name.
     pub timing: Timing,
@@ -53,7 +53,7 @@ pub struct GearDrive {
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum GearDriveError {
-    /// The machine as it stands, or the one driven, cannot be.
+    /// The machine as it is, or the driven one, is impossible.
     #[error(transparent)]
     Machine(#[from] Box<MachineError>),
     /// A body that is no crank on the frame.
@@ -68,18 +68,18 @@ pub enum GearDriveError {
     },
     /// Another body moves by the input.
     #[error(
-        "bodies.{body}.law moves {body} by the input, too: the crank alone may do so, or the output hangs on both"
+        "bodies.{body}.law moves {body} by the input, too: the crank alone may do so, or the output depends on both"
     )]
     Another {
         /// The other body.
         body: String,
     },
-    /// No goal says what is wanted.
+    /// No goal says what is required.
     #[error(
-        "no goal says what the output shall do: give one over = \"deviation\" with uniform, or one over = \"span\" with maximum for a rest, both with within_deg"
+        "no goal defines the output: give one over = \"deviation\" with uniform, or one over = \"span\" with maximum for a rest, both with within_deg"
     )]
     Nothing,
-    /// Goals of several figures, or one that is no place or angle.
+    /// Goals of several figures, or one that is no position or angle.
     #[error("goals.{goal} is of {figure}: {why}")]
     Figure {
         /// The goal.
@@ -119,7 +119,7 @@ pub enum GearDriveError {
         /// Maximum, degrees.
         maximum: f64,
     },
-    /// No law does what is wanted.
+    /// No law does what is required.
     #[error(transparent)]
     Timing(#[from] TimingError),
     /// The gears do not exist.
@@ -131,7 +131,7 @@ impl GearDrive {
     /// Name of its pair in the design.
     pub const PAIR: &'static str = crank::DRIVE;
 
-    /// Finds the law and the gears with which the output meets the goals that ask it to go evenly (`over = "deviation"`) and to
+    /// Finds the law and the gears with which the output meets the goals for it to go evenly (`over = "deviation"`) and to
     /// rest (`over = "span"` with `maximum` and `within_deg`); other goals are left alone.
     ///
     /// The law is written as a table of driven angles with as few of 90, 180 and so on up to 2,880 steps as bring the output

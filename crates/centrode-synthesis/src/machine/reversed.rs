@@ -35,7 +35,7 @@ const RANGE: [u32; 2] = [12, 5000];
 /// Distance of the tip from the path that is near enough, as a share of the maximum distance of the path from the axis.
 const NEAR_ENOUGH: f64 = 1e-7;
 
-/// A machine whose tip runs along the path wanted, as a design of family machine.
+/// A machine whose tip runs along the path required, as a design of family machine.
 #[derive(Clone, Debug)]
 pub struct ReversedMachine {
     /// The design; its teeth are fitted, of a count that may be changed.
@@ -84,7 +84,7 @@ impl ReversedMachine {
     /// The machine of a split: the sun on the frame, an intermediate gear, or two on one body, and a planet with the arm, whose
     /// point `tip` is where the path begins at input zero; as many of these chains as there are arms.
     ///
-    /// Laws are written as tables of driven angles with so many steps of a turn; left out, as few of 90, 180 and so on up to
+    /// Laws are written as tables of driven angles with so many steps of a turn; default: as few of 90, 180 and so on up to
     /// 2,880 as bring the tip within 1e-7 of the maximum distance from the carrier's axis. The path's derivatives of third order
     /// jump where its pieces join, so the error falls with the third power of the steps.
     ///
@@ -116,7 +116,7 @@ impl ReversedMachine {
         fewest_steps(of_steps, |made| made.tip_error.value <= enough)
     }
 
-    /// The machine with obstacles in the places that it shall keep out of, and as goals the clearances of its bodies from them.
+    /// The machine with obstacles where it must not be, and as goals the clearances of its bodies from them.
     #[must_use]
     pub fn with_obstacles(mut self, keep_out: &BTreeMap<String, KeepOut>) -> Self {
         for (name, shape) in keep_out {

@@ -57,7 +57,7 @@ pub trait DesignProblem: Problem {
     /// Numbers of the design at a point that follow from its variables: key in the file, and value as written.
     fn followers(&self, point: &[f64]) -> Vec<(String, f64)>;
 
-    /// Goals at a point, and all other constraints, each with figure, range and margin; none where the point gives no
+    /// Goals at a point, and all other constraints, each with figure, range and margin; `None` if the point gives no
     /// mechanism.
     fn goals(&self, point: &[f64]) -> Option<Vec<Goal>>;
 
@@ -65,7 +65,7 @@ pub trait DesignProblem: Problem {
     /// [`DesignProblem::goals`] but are met only where those are.
     fn guides(&self, point: &[f64]) -> Option<Vec<Goal>>;
 
-    /// Objective at which a point that breaks no constraint is good enough; none where less is always better.
+    /// Objective at which a point that breaks no constraint is good enough; `None` if less is always better.
     fn target(&self) -> Option<f64> {
         None
     }

@@ -127,7 +127,7 @@ impl DesignSearch {
         }
     }
 
-    /// Searches until it is at its end, the evaluations are used up or `observe` breaks off; the best so far is kept in
+    /// Searches until it is at its end, the evaluations are used up or `observe` breaks off; the best found is kept in
     /// every case.
     pub fn run(
         &mut self,

@@ -62,9 +62,9 @@ impl fmt::Display for GuidedStep {
 
 /// Parameter-guided search: goal by goal, each missed goal moves the parameters that influence it most, step by step.
 ///
-/// At each step every free parameter is tried a little either way. The one that brings the goal nearest is moved, as
+/// At each step every free parameter is tried a little in either direction. The one that brings the goal nearest is moved, as
 /// long as all other goals together do not lose more than half of what it gains, and it goes on with twice the
-/// step while that helps. Where several influence the goal alike, moving them together is tried, too. Where nothing helps the
+/// step while that helps. Where several have a similar influence on the goal, moving them together is tried, too. Where nothing helps the
 /// step is halved; a goal that no step helps is left for the next one. So the misses fall with every step, and it
 /// ends. It is deterministic.
 ///
@@ -83,7 +83,7 @@ pub struct GuidedSearch {
     under_way: Option<UnderWay>,
 }
 
-/// Place in a guided search at which it can break off.
+/// Position in a guided search at which it can break off.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 struct UnderWay {
     /// Index of the goal under way; their number where no step helps any more.

@@ -37,11 +37,12 @@ const MIN_MODULE: f64 = 1.0 / 600.0;
 /// Violation of a point of which there is no machine.
 const NONE: f64 = 1e3;
 
-/// Search for the path near a wanted one whose gears are the bluntest: every point may move within its band along the path's
+/// Search for the path near a required one whose gears are the bluntest: every point may move within its band along the path's
 /// normal, and the axis, where it is free, about the best known.
 ///
-/// What is sought is the largest module with which full teeth are surely sound on the four pitch curves of the split by powers, by
-/// their maximum curvatures, [`TwoBar::curvatures`]. The eased path is of degree five: its pitch curves' curvatures do not jump.
+/// What is searched is the largest module with which full teeth are surely sound on the four pitch curves of the split by
+/// powers, by their maximum curvatures, [`TwoBar::curvatures`]. The eased path is of degree five: its pitch curves' curvatures
+/// do not jump.
 #[derive(Clone, Debug)]
 pub struct Easing {
     points: Vec<Point>,
@@ -52,7 +53,7 @@ pub struct Easing {
     bend: f64,
     aim: Aim,
     wishes: Wishes,
-    /// Module wanted, mm: then the search is for the moves that reach it and are the smallest shares of their bands.
+    /// Module required, mm: then the search is for the moves that reach it and are the smallest shares of their bands.
     required: Option<f64>,
     start: Vec<f64>,
     /// Share of the bands within which points are moved.
@@ -66,8 +67,8 @@ impl Easing {
     /// about the path that comes nearest to the wishes, and of several that reach them is the best by its aim.
     ///
     /// # Errors
-    /// [`EasingError`]: the points make no path, a band is none, a wish breaks a rule, or no axis makes a machine for the wanted
-    /// path.
+    /// [`EasingError`]: the points make no path, a band is none, a wish breaks a rule, or no axis makes a machine for the
+    /// required path.
     pub fn new(points: &[Point], spec: &EasingSpec) -> Result<Self, EasingError> {
         Self::through(points, points.len(), spec)
     }
@@ -89,7 +90,7 @@ impl Easing {
             Some(axis) => (TwoBar::new(&path, axis, None)?.axis(), None),
             None => {
                 let (axis, room) = starting_axis(&path, points.len(), spec)?;
-                // The path is eased by another curve, for which that place may be none.
+                // The path is eased by another curve, for which that position may be none.
                 let smooth = RequiredPath::smoothly_through(points)?;
                 let is_possible = TwoBar::new(&smooth, axis, None).is_ok();
                 let again = (!is_possible).then(|| starting_axis(&smooth, points.len(), spec));
@@ -122,8 +123,8 @@ impl Easing {
         Ok(easing)
     }
 
-    /// Searches for the bluntest gears, or, where a module is wanted, mm, for the smallest shares of the bands with which it is
-    /// reached. Where it is out of reach the bluntest are given. `observe` hears of evaluations.
+    /// Searches for the bluntest gears, or, where a module is required, mm, for the smallest shares of the bands with which it
+    /// is reached. Where it is out of reach the bluntest are given. `observe` hears of evaluations.
     ///
     /// # Errors
     /// [`EasingError::Module`], and [`EasingError::Axis`] where no path of degree five within the bands has a machine.
@@ -203,7 +204,7 @@ impl Easing {
         let moved = points.iter().zip(&self.points[..self.given]);
         let axis = found.axis_at(&found.start);
         let eased = TwoBar::new(&self.curve(&points)?, axis, None)?;
-        // A free return was not wanted as it was tried first.
+        // A free return was not required as it was tried first.
         let is_whole = self.given == self.points.len();
         let before = RequiredPath::through(&self.points)?;
         let before = TwoBar::new(&before, axis, None).ok().filter(|_| is_whole);

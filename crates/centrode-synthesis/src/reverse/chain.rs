@@ -50,14 +50,14 @@ pub struct ChainJet {
 }
 
 impl TwoBar {
-    /// The chain with its carrier's axis at a place.
+    /// The chain with its carrier's axis at a position.
     ///
-    /// `direction` is the sense of the carrier as the path is run through: free where the axis lies outside the path; left out,
+    /// `direction` is the sense of the carrier as the path is run through: free where the axis lies outside the path; omitted,
     /// the one whose maximum |ln| of the ratio is less.
     ///
     /// # Errors
-    /// [`AxisFault`] with the rule broken and where on the path: the distance from the axis must have one maximum and one minimum
-    /// place, and the carrier and the arm against it must turn one way.
+    /// [`AxisFault`] with the rule broken and where on the path: the distance from the axis must have one maximum and one
+    /// minimum place, and the carrier and the arm against it must turn in one direction.
     pub fn new(
         path: &RequiredPath,
         axis: Point,
@@ -126,14 +126,14 @@ impl TwoBar {
         Ok(chain)
     }
 
-    /// Finds the extremes of the ratio, and that both bars turn one way.
+    /// Finds the extremes of the ratio, and that both bars turn in one direction.
     fn check(&mut self) -> Result<(), AxisFault> {
         let minimum = MIN_SPEED * TAU / self.path.period();
         let looks = PathSamples::new(&self.path, usize::MAX);
         let mut known = Vec::with_capacity(looks.samples.len());
         for sample in &looks.samples {
             let speeds = self.speeds(sample.at, &sample.jet);
-            // Most places that are no axis are told by the samples at hand; speeds that are no numbers are none.
+            // Most places that are no axis are reported by the samples at hand; speeds that are no numbers are none.
             let turns_on = speeds[0] > minimum;
             if !turns_on {
                 return Err(AxisFault::CarrierTurnsBack {
@@ -171,7 +171,7 @@ impl TwoBar {
         Ok(())
     }
 
-    /// Speeds by the parameter: of the carrier in its sense, of the arm against the carrier the other way.
+    /// Speeds by the parameter: of the carrier in its sense, of the arm against the carrier in the opposite direction.
     pub(super) fn speeds(&self, t: f64, jet: &Jet) -> [f64; 2] {
         self.speed_series::<1>(t, jet).map(|speed| speed.0[0])
     }
@@ -270,7 +270,7 @@ impl TwoBar {
         self.arm
     }
 
-    /// Sense in which the carrier turns as the path is run through.
+    /// Sense of rotation of the carrier while the tip moves along the path.
     #[must_use]
     pub fn direction(&self) -> Direction {
         if self.sense > 0.0 {
@@ -308,7 +308,7 @@ impl TwoBar {
         (-self.minimum_ratio.value.ln()).max(self.maximum_ratio.value.ln())
     }
 
-    /// Axis of the arm where the carrier stands in a direction, rad, mm.
+    /// Axis of the arm for a direction of the carrier, rad; mm.
     #[must_use]
     pub fn knee(&self, carrier: f64) -> Point {
         self.axis() + Vector::new(carrier.cos(), carrier.sin()) * self.carrier
@@ -386,7 +386,7 @@ impl TwoBar {
     }
 }
 
-/// Turns of a path about a place, counter-clockwise positive: how often it crosses the half line from there along x upwards,
+/// Turns of a path about a position, counter-clockwise positive: how often it crosses the half line from there along x upwards,
 /// less how often downwards.
 fn winding(path: &RequiredPath, axis: Point) -> i32 {
     let samples = path.samples();

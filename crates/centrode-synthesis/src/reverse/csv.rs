@@ -38,14 +38,14 @@ const TOLERANCE: usize = 2;
 const DIRECTION: usize = 3;
 const DIRECTION_TOLERANCE: usize = 4;
 
-/// Points that a path is wanted to pass.
+/// Points that a path is required to pass.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RequiredPoints {
     /// The points in order, mm.
     pub points: Vec<Point>,
-    /// Distance within which the path may pass each point, mm; none where the file has no such column.
+    /// Distance within which the path may pass each point, mm; `None` if the file has no such column.
     pub tolerances: Option<Vec<f64>>,
-    /// Directions of the clamp wanted at some of them.
+    /// Directions of the clamp required at some of them.
     pub directions: Vec<RequiredDirection>,
 }
 

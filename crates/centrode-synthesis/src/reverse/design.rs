@@ -1,4 +1,4 @@
-//! A path and what is wanted of its machine, as a design file.
+//! A path and what is required of its machine, as a design file.
 
 use centrode_geometry::{Bounds, Point};
 use schemars::JsonSchema;
@@ -11,7 +11,7 @@ use centrode_spec::rule::{
 };
 use centrode_spec::{DesignSpec, SpecError, degrees};
 
-/// A path wanted of a tip, and what else is wanted of the machine.
+/// A path required of a tip, and what else is required of the machine.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct PathDesign {
@@ -21,11 +21,9 @@ pub struct PathDesign {
     /// One line for drawings and reports.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub title: String,
-    /// Axis of the carrier, mm; left out, it is sought.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// Axis of the carrier, mm; by default it is searched.
     pub axis: Option<[f64; 2]>,
-    /// Two corners of the box in which it is sought, mm; left out, the path's box with a quarter of its size round it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// Two corners of the box in which it is searched, mm; default: the path's box with a quarter of its size round it.
     pub axis_box: Option<[[f64; 2]; 2]>,
     /// Angle from the carrier's first leg, to the intermediate gear, to its second, rad (degrees in the file).
     #[serde(default = "default_bend", rename = "bend_deg", with = "degrees")]
@@ -37,12 +35,10 @@ pub struct PathDesign {
     /// Number of arms.
     #[serde(default = "one")]
     pub arms: u32,
-    /// Steps of the tables in which the laws are written; left out, as few as do.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// Steps of the tables in which the laws are written; default: as few as do.
     pub steps: Option<u32>,
-    /// Figure that is made the most of where something is free; left out, the largest teeth where the path is eased or something is wished, else the
-    /// mildest ratio.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// Figure that is made the most of where something is free; default: the largest teeth where the path is eased or something
+    /// is wished, else the gentlest ratio.
     pub aim: Option<Aim>,
     /// The path.
     pub path: PathSpec,
@@ -51,7 +47,7 @@ pub struct PathDesign {
     pub wishes: Wishes,
 }
 
-/// Path wanted of a tip.
+/// Path required of a tip.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct PathSpec {
@@ -59,25 +55,22 @@ pub struct PathSpec {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub points: Vec<[f64; 2]>,
     /// CSV or SVG file that holds them instead, next to the design file.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
     /// Whether they are the control points of a closed cubic B-spline, which need not pass them.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub control: bool,
     /// Distance within which the path may pass each point, mm: it is eased there.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub band: Option<f64>,
     /// Such a distance for each point, mm.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub tolerance: Vec<f64>,
-    /// Whether the points are the working part alone, and the return is sought.
+    /// Whether the points are the working part alone, and the return is searched.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub open: bool,
     /// Whether the path may cross itself.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub crossing: bool,
     /// Module of full teeth up to which it is eased, and no more, mm.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub module: Option<f64>,
 }
 
@@ -94,24 +87,11 @@ pub enum Aim {
     Small,
 }
 
-impl Aim {
-    /// Every aim by its word.
-    pub const NAMES: [(&'static str, Self); 3] = [
-        ("module", Self::Module),
-        ("mild", Self::Mild),
-        ("small", Self::Small),
-    ];
-
-    /// The word for it.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Module => "module",
-            Self::Mild => "mild",
-            Self::Small => "small",
-        }
-    }
-}
+centrode_spec::words!(Aim {
+    Module = "module",
+    Mild = "mild",
+    Small = "small",
+});
 
 fn default_name() -> String {
     "reversed".into()
@@ -198,7 +178,7 @@ impl PathDesign {
         Ok(())
     }
 
-    /// Axes among which one is sought for a path: of the box given, or about the path.
+    /// Axes among which one is searched for a path: of the box given, or about the path.
     #[must_use]
     pub fn axes(&self, path: &RequiredPath) -> AxisRange {
         let about = AxisRange::about(path);
@@ -211,8 +191,8 @@ impl PathDesign {
         }
     }
 
-    /// Distances within which the path may pass its points, mm, one for all or one for each; none where it is to be followed as
-    /// it is, and nothing else is wanted.
+    /// Distances within which the path may pass its points, mm, one for all or one for each; `None` if it is to be followed as
+    /// it is, and nothing else is required.
     #[must_use]
     pub fn bands(&self) -> Option<Vec<f64>> {
         let path = &self.path;

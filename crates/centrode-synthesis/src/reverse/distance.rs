@@ -10,7 +10,7 @@ pub(super) type Series = Taylor<3>;
 
 /// Share of the maximum distance's square within which of an extreme differences of squares lose digits.
 const NEAR: f64 = 4e-4;
-/// Most breaks between an extreme and a place that is near it: beyond, digits lost are fewer than the path's own.
+/// Most breaks between an extreme and a position that is near it: beyond, digits lost are fewer than the path's own.
 const MAX_BREAKS: usize = 8;
 /// Difference of the maximum and minimum distance, as a share, that is rounding.
 const SAME: f64 = 1e-9;
@@ -189,12 +189,12 @@ impl Distance {
     }
 }
 
-/// Taylor coefficients, as many as are asked for.
+/// Taylor coefficients, as many as are requested.
 pub(super) fn taylor<const N: usize>(all: [f64; 3]) -> Taylor<N> {
     Taylor(std::array::from_fn(|k| all.get(k).copied().unwrap_or(0.0)))
 }
 
-/// Places along a path at which its distance from an axis is greater, or less, than next to them.
+/// Positions along a path at which its distance from an axis is greater, or less, than next to them.
 fn extremes(path: &RequiredPath, axis: Point) -> Vec<Place> {
     let slope_of = |jet: &Jet| (jet.point - axis).dot(&jet.first);
     let slope = |t: f64| slope_of(&path.at(t));

@@ -36,7 +36,7 @@ pub enum PathError {
         limit: f64,
     },
     /// A path that is small next to its distance from the origin.
-    #[error("the path is {} mm across and up to {} mm from the origin of x and y: too few digits are left of it; draw it larger, or nearer to the origin", stated(*size), stated(*far))]
+    #[error("the path is {} mm across and up to {} mm from the origin of x and y: too few digits are left for its shape; draw it larger, or nearer to the origin", stated(*size), stated(*far))]
     TooSmall {
         /// Diagonal of the box round it, mm.
         size: f64,
@@ -73,7 +73,7 @@ pub enum PathError {
     },
     /// The last point is far from the first.
     #[error(
-        "the path is open: its last point is {gap:.4} mm from the first, and no other two neighbours are more than {step:.4} mm apart; add points on the way back"
+        "the path is open: its last point is {gap:.4} mm from the first, and no other two neighbours are more than {step:.4} mm apart; add points of the return"
     )]
     Open {
         /// Distance of the last point from the first, mm.
@@ -84,9 +84,9 @@ pub enum PathError {
     /// The path crosses itself.
     #[error("the path crosses itself at ({x:.4}, {y:.4}) mm: are its points in order?")]
     Crossing {
-        /// Place, mm.
+        /// Position, mm.
         x: f64,
-        /// Place, mm.
+        /// Position, mm.
         y: f64,
     },
     /// A file that is too large.
@@ -145,11 +145,11 @@ pub enum PathError {
     },
 }
 
-/// Reason why no machine with its carrier's axis at a place has a tip that runs along the path.
+/// Reason why no machine with its carrier's axis at a position has a tip that runs along the path.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum AxisFault {
-    /// The place is no point.
+    /// The position is no point.
     #[error("the axis ({}, {}) must be two finite numbers within {limit:e} mm", stated(*x), stated(*y))]
     NotFinite {
         /// Its x, mm.
@@ -167,14 +167,14 @@ pub enum AxisFault {
         /// Maximum allowed, mm.
         limit: f64,
     },
-    /// The distance from the axis has several maximum or minimum places.
+    /// The distance from the axis has several maximum or minimum points.
     #[error(
         "the distance from the axis has {} maxima along the path, at {}, and as many minima; it must have one of each, where the arm is stretched and folded",
         maxima.len(),
         places(maxima)
     )]
     Extremes {
-        /// Places on the path where the distance is greater than next to them, mm.
+        /// Positions on the path where the distance is greater than next to them, mm.
         maxima: Vec<Point>,
     },
     /// The path is a circle about the axis.
@@ -209,24 +209,24 @@ pub enum AxisFault {
     },
     /// The carrier would turn back.
     #[error(
-        "the carrier, {carrier:.4} mm long, would turn back near ({:.4}, {:.4}) mm of the path: its turn must run one way",
+        "the carrier, {carrier:.4} mm long, would turn back near ({:.4}, {:.4}) mm of the path: its turn must run in one direction",
         at.x,
         at.y
     )]
     CarrierTurnsBack {
         /// Length of the carrier, mm.
         carrier: f64,
-        /// Place on the path, mm.
+        /// Position on the path, mm.
         at: Point,
     },
-    /// The arm would stand still on the carrier.
+    /// The arm would not move on the carrier.
     #[error(
-        "the arm would stand still on the carrier at ({:.4}, {:.4}) mm of the path, where the path lies on a circle about the axis",
+        "the arm would stop on the carrier at ({:.4}, {:.4}) mm of the path, where the path lies on a circle about the axis",
         at.x,
         at.y
     )]
     ArmStops {
-        /// Place on the path, mm.
+        /// Position on the path, mm.
         at: Point,
     },
 }

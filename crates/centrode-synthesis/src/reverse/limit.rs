@@ -7,7 +7,7 @@ const TOO_NEAR: f64 = 1e-4;
 /// Share of the period within which a break is the extreme itself.
 const SAME_PLACE: f64 = 1e-8;
 
-/// Means of the derivatives of the square of a distance between one of its extremes and a place next to it, a step h away.
+/// Means of the derivatives of the square of a distance between one of its extremes and a position next to it, a step h away.
 ///
 /// There `u' = h A` and `u = u(extreme) + h^2 V` with `A = integral of u''` and `V = integral of (1 - tau) u''`, at the extreme
 /// plus tau h and over tau from 0 to 1: no digit is lost in them. Derivatives are by h.
@@ -22,7 +22,7 @@ pub(super) struct Limit {
 }
 
 impl Limit {
-    /// Between the parameter `extreme` of the path and a place `h` away, whose derivatives are `jet`.
+    /// Between the parameter `extreme` of the path and a position `h` away, whose derivatives are `jet`.
     pub(super) fn new(path: &RequiredPath, axis: Point, extreme: f64, h: f64, jet: &Jet) -> Self {
         let mut found = Self {
             slope: [0.0; 2],
@@ -57,7 +57,7 @@ impl Limit {
         found
     }
 
-    /// A'' and V'' at a step: very near the extreme by the line through two places farther from it on the same side.
+    /// A'' and V'' at a step: very near the extreme by the line through two points farther from it on the same side.
     pub(super) fn second(
         &self,
         path: &RequiredPath,

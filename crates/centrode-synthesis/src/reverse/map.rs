@@ -11,7 +11,7 @@ const GRID: u32 = 33;
 const HALVINGS: u32 = 24;
 const BESIDE: i32 = 2;
 
-/// Places of a grid at which carrier axes are tried, first and last along x and y included.
+/// Positions of a grid at which carrier axes are tried, first and last along x and y included.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AxisRange {
     /// Minimum and maximum x, mm.
@@ -171,8 +171,8 @@ impl AxisMap {
         Some(self.range.axis((n % columns) as u32, (n / columns) as u32))
     }
 
-    /// The mildest axis: that of the smallest maximum |ln| of the ratio, refined from the best of the grid by ever finer
-    /// grids about it within its bounds; none where no axis of the grid is possible.
+    /// The gentlest axis: that of the smallest maximum |ln| of the ratio, refined from the best of the grid by ever finer
+    /// grids about it within its bounds; `None` if no axis of the grid is possible.
     #[must_use]
     pub fn mildest(&self, path: &RequiredPath) -> Option<TwoBar> {
         let axis = self.minimum(PossibleAxis::unevenness)?;

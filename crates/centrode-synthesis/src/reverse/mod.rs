@@ -1,10 +1,10 @@
-//! Synthesis of a machine from the path wanted of its tip.
+//! Synthesis of a machine from the path required of its tip.
 //!
-//! A carrier turns about a fixed axis and bears an arm, whose tip runs along the path. The carrier turns once for one run
-//! of the path, and the arm turns once against it the other way, as the planet of a train does whose sun stands still and
-//! whose mean ratio is 1. Stretched once and folded once, the two bars follow from the path and the axis alone.
+//! A carrier turns about a fixed axis and supports an arm, whose tip runs along the path. The carrier turns once for one run
+//! of the path, and the arm turns once against it in the opposite direction, as the planet of a train does whose sun is fixed
+//! and whose mean ratio is 1. Stretched once and folded once, the two bars follow from the path and the axis alone.
 //!
-//! And of the law of a crank from what is wanted of the output of the machine it drives: [`Timing`].
+//! And of the law of a crank from what is required of the output of the machine it drives: [`Timing`].
 
 mod chain;
 mod csv;

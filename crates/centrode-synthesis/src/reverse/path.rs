@@ -28,10 +28,10 @@ const MIN_SAMPLES: f64 = 2.0;
 const MAX_PARTS: usize = 64;
 /// Even parts of a turn, in each of which an analytic path has few extremes.
 const EVEN_PARTS: u32 = 16;
-/// Sides of the polygon on which crossings are sought.
+/// Sides of the polygon on which crossings are searched.
 const SIDES: usize = 2000;
 
-/// A closed path, wanted of the tip of a machine.
+/// A closed path, required of the tip of a machine.
 ///
 /// The order of its points is the order in time; the speed along it is free.
 #[derive(Clone, Debug)]
@@ -226,7 +226,7 @@ impl RequiredPath {
     /// Checks that the path does not cross itself, on a polygon of 2,000 sides.
     ///
     /// # Errors
-    /// [`PathError::Crossing`] with the place.
+    /// [`PathError::Crossing`] with the position.
     pub fn check_simple(&self) -> Result<(), PathError> {
         let at = |i: usize| {
             let share = (i % SIDES) as f64 / SIDES as f64;

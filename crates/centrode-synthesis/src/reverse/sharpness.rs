@@ -50,8 +50,8 @@ impl TwoBar {
 
     /// The sharpness at samples of as many pieces of the path as a map looks at, averaged over a step of a table.
     ///
-    /// Where two pieces of the path join near a place at which the bars are stretched or folded, the law has a peak of curvature:
-    /// the nearer, the higher and narrower. A table of the law does not have it, nor do the gears.
+    /// Where two pieces of the path join near a position at which the bars are stretched or folded, the law has a peak of
+    /// curvature: the nearer, the higher and narrower. A table of the law does not have it, nor do the gears.
     pub(super) fn sharpness_sampled(&self) -> f64 {
         let looks = PathSamples::new(self.path(), MAX_PIECES);
         let speeds = self.speeds_of(&looks);

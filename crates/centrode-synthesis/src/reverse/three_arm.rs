@@ -15,7 +15,7 @@ use centrode_spec::degrees;
 pub enum NotPosed {
     /// A clamp that points back at the planet's axis.
     #[error(
-        "the clamp stands {clamp:.2} deg from the arm; in a three-arm mechanism it must be less than 90 deg either way: give other poses"
+        "the clamp is {clamp:.2} deg from the arm; in a three-arm mechanism it must be less than 90 deg in either direction: give other poses"
     )]
     Clamp {
         /// Angle found, degrees.
@@ -34,7 +34,7 @@ pub enum NotPosed {
 impl KeyPoses {
     /// The three-arm mechanism whose clamps take the key poses: the first is where they pick, the last where they plant.
     ///
-    /// Its axis is the origin of its frame; the poses stand about [`TwoBar::axis`](crate::reverse::TwoBar::axis). It starts in
+    /// Its axis is the origin of its frame; the poses are about [`TwoBar::axis`](crate::reverse::TwoBar::axis). It starts in
     /// the first pose. The law of its pair is a sum of harmonics that comes as near to the amplitudes of `bias` as the poses
     /// leave room for. The pusher's axis is S sin(clamp) from the planet's, S the arm's length.
     ///
@@ -56,7 +56,7 @@ impl KeyPoses {
             ..Transmission::expression(law.formula())
         });
         let sun = principal(carrier - 0.5 * bend);
-        // As `Train` has it where it is left out.
+        // As `Train` has it where it is omitted.
         let reference = -law.at(chain.sense() * bend.abs());
         let spec = ArmSpec::new(
             principal(arm - (sun + bend - reference)),
@@ -77,7 +77,7 @@ impl KeyPoses {
     }
 }
 
-/// An angle between half a turn either way.
+/// An angle between half a turn in either direction.
 fn principal(angle: f64) -> f64 {
     angle - TAU * (angle / TAU).round()
 }

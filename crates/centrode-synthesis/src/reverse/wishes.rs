@@ -13,7 +13,7 @@ use centrode_spec::{SpecError, degrees};
 
 /// Maximum coordinate of a shape, mm.
 const FARTHEST: f64 = 1e6;
-/// Most directions that are wanted along a path.
+/// Most directions that are required along a path.
 const MAX_DIRECTIONS: usize = 200;
 
 /// Wishes about a machine besides the path of its tip.
@@ -32,7 +32,7 @@ pub struct Wishes {
     /// Ratio of planet to carrier.
     #[serde(skip_serializing_if = "RequiredRange::is_free")]
     pub ratio: RequiredRange,
-    /// Direction of the clamp less that of the arm, rad (degrees in the file); left out, the one that suits the directions best.
+    /// Direction of the clamp less that of the arm, rad (degrees in the file); default: the one that suits the directions best.
     #[serde(
         rename = "clamp_deg",
         with = "degrees",
@@ -46,12 +46,12 @@ pub struct Wishes {
     /// Turn of the carrier between two points of the path.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub turn: Option<RequiredTurn>,
-    /// Shapes that the machine keeps out of, by name.
+    /// Shapes that the machine must not enter, by name.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]
     pub keep_out: BTreeMap<String, KeepOut>,
 }
 
-/// Minimum and maximum value wanted of a figure.
+/// Minimum and maximum value required of a figure.
 #[derive(Clone, Copy, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct RequiredRange {
@@ -63,7 +63,7 @@ pub struct RequiredRange {
     pub maximum: Option<f64>,
 }
 
-/// Direction of the clamp wanted at a point.
+/// Direction of the clamp required at a point.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct RequiredDirection {
@@ -83,7 +83,7 @@ pub struct RequiredDirection {
     pub tolerance: f64,
 }
 
-/// Turn of the carrier wanted between two points of the path.
+/// Turn of the carrier required between two points of the path.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct RequiredTurn {
@@ -97,7 +97,7 @@ pub struct RequiredTurn {
     pub between: [f64; 2],
 }
 
-/// Shape that the machine keeps out of: a polygon, a circle or the ground.
+/// Shape that the machine must not enter: a polygon, a circle or the ground.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct KeepOut {
@@ -119,7 +119,7 @@ pub struct KeepOut {
 }
 
 impl RequiredRange {
-    /// Whether nothing is wanted.
+    /// Whether nothing is required.
     #[must_use]
     pub fn is_free(&self) -> bool {
         *self == Self::default()
@@ -156,7 +156,7 @@ impl RequiredDirection {
 }
 
 impl Wishes {
-    /// Whether nothing is wanted.
+    /// Whether nothing is required.
     #[must_use]
     pub fn is_free(&self) -> bool {
         *self == Self::default()

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 use crate::family::{FAMILIES, PartName};
 use crate::geometry::Tolerance;
+use centrode_spec::SheetSize;
 use centrode_synthesis::optimise::Strategy;
 use clap::builder::{
     NonEmptyStringValueParser, PossibleValue, PossibleValuesParser, TypedValueParser,
@@ -13,10 +14,10 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 pub(crate) use required::{Drive, Reverse};
 
-/// Tolerance of an export that asks for none, mm.
+/// Tolerance of an export by default, mm.
 pub(crate) const TOLERANCE: &str = "0.001";
 
-/// Finest tolerance that can be asked for, mm: below it lie the rounding errors of the outlines.
+/// Finest tolerance that can be requested, mm: below it lie the rounding errors of the outlines.
 const FINEST: f64 = 1e-7;
 
 /// Design, prove and export non-circular gears.
@@ -41,11 +42,11 @@ pub(crate) enum Command {
     Export(Export),
     /// Search for a design that reaches its goals
     Optimise(Optimise),
-    /// Tell how the figures answer one number of a design
+    /// Vary one parameter and print the results
     Response(Response),
-    /// Make a machine from the path wanted of its tip
+    /// Make a machine from the path required of its tip
     Reverse(Reverse),
-    /// Find the gears that drive a machine's crank so that its output does what its goals ask for
+    /// Find the gears that drive a machine's crank so that its output does what its goals require
     Drive(Drive),
     /// Design in the browser: a page of this computer alone, until Ctrl-C
     Studio(Studio),
@@ -82,7 +83,7 @@ pub(crate) struct Check {
     /// Print the figures that goals of this design can name, with their extremes over the cycle, instead of checking
     #[arg(long)]
     pub(crate) figures: bool,
-    /// Print changed designs that mend what the check finds, worked out: for gear pairs, from how many teeth on the flanks
+    /// Print changed designs that fix the findings of the check: for gear pairs, from how many teeth on the flanks
     /// alone carry the motion
     #[arg(long, conflicts_with = "figures")]
     pub(crate) remedy: bool,
@@ -101,7 +102,7 @@ pub(crate) struct Export {
     /// Replace files in the folder that no export wrote, or that were changed since
     #[arg(long)]
     pub(crate) force: bool,
-    /// Kinds of file, separated by commas; left out, all
+    /// Kinds of file, separated by commas; default: all
     #[arg(long, value_enum, value_delimiter = ',', value_name = "KINDS")]
     pub(crate) format: Vec<File>,
     /// Maximum distance of what is written from the exact curve, mm
@@ -110,19 +111,19 @@ pub(crate) struct Export {
     /// Flavour of the DXF files
     #[arg(long, value_enum, default_value_t = Dxf::R2010)]
     pub(crate) dxf: Dxf,
-    /// Parts to write files of, separated by commas: of these, or those that the design names; left out, all
+    /// Parts to write files of, separated by commas: of these, or those that the design names; default: all
     #[arg(long, value_parser = PartWord, value_delimiter = ',', value_name = "PARTS")]
     pub(crate) part: Vec<String>,
-    /// Size of the drawing sheets; left out, the design's, or the smallest that takes the part
-    #[arg(long, value_enum, ignore_case = true, value_name = "SIZE")]
-    pub(crate) sheet: Option<Size>,
-    /// How views lie to each other on the drawing sheets; left out, as the design says
+    /// Size of the drawing sheets; default: the design's, or the smallest that takes the part
+    #[arg(long, value_parser = sheet_size(), ignore_case = true, value_name = "SIZE")]
+    pub(crate) sheet: Option<SheetSize>,
+    /// How views lie to each other on the drawing sheets; default: as in the design
     #[arg(long, value_enum, value_name = "METHOD")]
     pub(crate) projection: Option<Method>,
 }
 
 impl Export {
-    /// Whether this kind of file is asked for.
+    /// Whether this kind of file is requested.
     pub(crate) fn wants(&self, file: File) -> bool {
         self.format.is_empty() || self.format.contains(&file)
     }
@@ -131,7 +132,7 @@ impl Export {
 /// A kind of file.
 #[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
 pub(crate) enum File {
-    /// Cutting files: each gear, and both in place
+    /// Cutting files: each gear, and both assembled
     Dxf,
     /// Pictures of the same
     Svg,
@@ -186,32 +187,22 @@ impl TypedValueParser for PartWord {
     }
 }
 
-/// A size of sheet, ISO 5457.
-#[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
-pub(crate) enum Size {
-    /// 210 x 297 mm
-    #[value(name = "A4")]
-    A4,
-    /// 420 x 297 mm
-    #[value(name = "A3")]
-    A3,
-    /// 594 x 420 mm
-    #[value(name = "A2")]
-    A2,
-    /// 841 x 594 mm
-    #[value(name = "A1")]
-    A1,
-    /// 1189 x 841 mm
-    #[value(name = "A0")]
-    A0,
+/// The sizes of sheets, ISO 5457, by their names.
+fn sheet_size() -> impl TypedValueParser<Value = SheetSize> {
+    let named = SheetSize::ALL.map(|size| {
+        let [across, up] = size.size();
+        PossibleValue::new(size.name()).help(format!("{across} x {up} mm"))
+    });
+    let size = |word: String| SheetSize::named(&word.to_uppercase());
+    PossibleValuesParser::new(named).try_map(move |word| size(word).ok_or("no size of sheet"))
 }
 
 /// A method of projection, ISO 5456-2.
 #[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
 pub(crate) enum Method {
-    /// A view stands on the far side of what it looks at
+    /// First-angle projection, ISO 5456-2
     FirstAngle,
-    /// A view stands on the side it is looked at from
+    /// Third-angle projection, ISO 5456-2
     ThirdAngle,
 }
 
@@ -239,24 +230,24 @@ pub(crate) fn tolerance(word: &str) -> Result<Tolerance, String> {
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example: centrode optimise arms.toml --method de --seed 1 --evaluations 20000 -o better.toml\n\nA table of the design says what may move and how far: [optimise] of a three-arm, [bounds] of a feeder, [vary] of a machine. Ctrl-C ends the search and keeps the best so far; --resume goes on from the search stored next to the output. Where the bounds allow no design that reaches the goals, the search says how near they let it come; --widen then writes the design with the minimum widening.\n\nExit status: 0 every goal is reached; 1 some are not (the file is written all the same); 2 no search, a bad design file, or the file cannot be written."
+    after_help = "Example: centrode optimise arms.toml --method de --seed 1 --evaluations 20000 -o better.toml\n\nA table of the design says what may move and how far: [optimise] of a three-arm, [bounds] of a feeder, [vary] of a machine. Ctrl-C ends the search and saves the best design found; --resume goes on from the search stored next to the output. If the bounds allow no design that reaches the goals, the search prints the nearest figures; --widen then writes the design with the minimum widening.\n\nExit status: 0 every goal is reached; 1 some are not (the file is written all the same); 2 no search, a bad design file, or the file cannot be written."
 )]
 pub(crate) struct Optimise {
     /// Design file, or - for standard input
     pub(crate) design: PathBuf,
-    /// How to search; left out, guided, or as the search gone on with began
+    /// Search method; default: guided, or that of the resumed search
     #[arg(long, value_parser = PossibleValuesParser::new(Strategy::NAMES.map(|(name, _)| name)))]
     pub(crate) method: Option<String>,
-    /// Same seed, same answer, on any number of cores; left out, 1, or that of the search gone on with
+    /// Seed of the search; the same result on any number of cores; default: 1, or that of the resumed search
     #[arg(long)]
     pub(crate) seed: Option<u64>,
-    /// Most evaluations, the generation under way is finished; left out, 20000, or what the search gone on with had
+    /// Maximum number of evaluations; the current generation is finished; default: 20000, or that of the resumed search
     #[arg(long, value_parser = clap::value_parser!(u64).range(1..))]
     pub(crate) evaluations: Option<u64>,
-    /// Points a generation; left out, by the method and the number of parameters
+    /// Points per generation; default: by the method and the number of parameters
     #[arg(long)]
     pub(crate) population: Option<usize>,
-    /// File for the better design: the design's text with the new numbers, comments kept
+    /// File for the better design: the design's text with the new numbers and the same comments
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: PathBuf,
     /// Go on with the search that is stored next to the output
@@ -296,7 +287,7 @@ pub(crate) struct Response {
     /// Number of values
     #[arg(long, default_value_t = 9, value_parser = clap::value_parser!(u16).range(2..=10_000))]
     pub(crate) count: u16,
-    /// Goals or figures to tell, separated by commas; left out, the goals
+    /// Goals or figures to print, separated by commas; default: the goals
     #[arg(long, value_delimiter = ',', value_name = "NAMES")]
     pub(crate) of: Vec<String>,
     /// Check every value as a whole, teeth and cams too, for --csv and --json
@@ -312,17 +303,17 @@ pub(crate) struct Response {
 
 #[derive(Debug, Args)]
 pub(crate) struct Schema {
-    /// Family of mechanism, a path for `reverse`, or a file that is exported; left out, the design file of all families
+    /// Family of mechanism, a path for `reverse`, or a file that is exported; default: the design file of all families
     #[arg(value_parser = PossibleValuesParser::new(FAMILIES.words().into_iter().chain(crate::cli::schema::FILES)))]
     pub(crate) family: Option<String>,
 }
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Prints the address of the page. Nothing but the design file and its autosaves is written (from the start page, those of the files opened or made there), and the page answers only who knows its address."
+    after_help = "Prints the address of the page. Nothing but the design file and its autosaves is written (from the start page, those of the files opened or made there), and the page opens only with its secret address."
 )]
 pub(crate) struct Studio {
-    /// Design file; left out, a start page with every shipped design, templates, and the files of this folder
+    /// Design file; default: a start page with every shipped design, templates, and the files of this folder
     pub(crate) design: Option<PathBuf>,
     /// Open the page in the browser
     #[arg(long)]
@@ -346,12 +337,12 @@ pub(crate) struct Report {
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Examples: centrode prove pair.toml -o pair.proof\n          centrode prove machine.toml --pair drive -o drive.proof\n\nA machine with several pairs gets one file a pair, each with the pair's name in its own. A certificate claims; python tools/proof_checker.py pair.proof proves or refuses it, from contours and law alone.\n\nExit status: 0 written; 2 no mechanism, no certificate of this mesh, or the file cannot be written."
+    after_help = "Examples: centrode prove pair.toml -o pair.proof\n          centrode prove machine.toml --pair drive -o drive.proof\n\nA machine with several pairs gets one file a pair, each with the pair's name in its own. A certificate claims; python tools/proof_checker.py pair.proof proves or refuses it, from contours and law alone.\n\nExit status: 0 written; 2 invalid design, this mesh cannot be certified, or the file cannot be written."
 )]
 pub(crate) struct Prove {
     /// Design file, or - for standard input
     pub(crate) design: PathBuf,
-    /// Pair of a machine; left out, all of its pairs
+    /// Pair of a machine; default: all of its pairs
     #[arg(long, value_name = "NAME")]
     pub(crate) pair: Option<String>,
     /// Certificate, a JSON file
@@ -368,6 +359,6 @@ pub(crate) struct Completions {
 
 #[derive(Debug, Args)]
 pub(crate) struct Man {
-    /// Command to describe; left out, the program
+    /// Command to describe; default: the program
     pub(crate) command: Option<String>,
 }

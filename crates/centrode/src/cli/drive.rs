@@ -35,7 +35,7 @@ pub(crate) fn run(command: &Drive, out: &mut impl Write) -> Result<Status, Failu
         ))
     })?;
     let made = made.map_err(|error| source.refused(&error))?;
-    // It is told before teeth are sought, and even where there are none.
+    // It is reported before teeth are searched, and even where there are none.
     found(&made, out)?;
     out.flush()?;
     let Some(output) = &command.output else {

@@ -1,5 +1,5 @@
 use crate::analysis::Report;
-use crate::cli::args::{Dxf, Export, File, Method, Size, TOLERANCE, tolerance};
+use crate::cli::args::{Dxf, Export, File, Method, TOLERANCE, tolerance};
 use crate::cli::failure::Failure;
 use crate::cli::input::Source;
 use crate::cli::progress::Progress;
@@ -8,7 +8,7 @@ use crate::export::{ExportError, Options, SheetOptions};
 use crate::family::{Family, Mechanism, PartName};
 use crate::formats::{Bundle, Format, dxf};
 use crate::page::words::summary;
-use centrode_spec::{Projection, SheetSize};
+use centrode_spec::Projection;
 use std::io::Write;
 
 /// Resolves a design, checks it and writes its files.
@@ -52,13 +52,13 @@ pub(crate) fn zip(text: &str, command: Option<&Export>, page: bool) -> Result<Ve
     Ok(files.zip()?)
 }
 
-/// Parts of a design whose files can be asked for alone: the name of each, and what it is.
+/// Parts of a design whose files can be requested alone: the name of each, and what it is.
 pub(crate) fn parts(mechanism: &dyn Mechanism, family: &Family) -> Vec<[String; 2]> {
     let Ok(tolerance) = tolerance(TOLERANCE) else {
         return Vec::new();
     };
     let mut options = Options::new(tolerance);
-    // Asked for a part of no name, the exporter makes nothing and tells those that it knows.
+    // For an unknown part the exporter makes nothing and lists those that it knows.
     options.parts = Some(vec![String::new()]);
     let Err(ExportError::UnknownPart { known, .. }) = mechanism.files(&Format::ALL, &options)
     else {
@@ -81,7 +81,7 @@ fn bundle(
 ) -> Result<Bundle, Failure> {
     let known: Vec<&str> = family.parts.iter().map(|part| part.name).collect();
     let mut requested = command.part.iter();
-    // Parts that the design names are told when it is drawn.
+    // Parts that the design names are reported when it is drawn.
     if !known.is_empty()
         && let Some(lost) = requested.find(|part| !known.contains(&part.as_str()))
     {
@@ -100,7 +100,7 @@ fn bundle(
             parts => format!(" of {}", parts.join(", ")),
         };
         let message =
-            format!("nothing to write: there are no files{parts} in the formats asked for");
+            format!("nothing to write: there are no files{parts} in the requested formats");
         return Err(Failure::Usage(message));
     }
     Ok(bundle)
@@ -117,7 +117,7 @@ fn summarise(found: &crate::analysis::Report, files: usize, command: &Export) {
     } else {
         writeln!(
             err,
-            "{files} files written, but the mechanism does not do its job: {summary}; see centrode check {design}"
+            "{files} files written; the check found {summary}; see centrode check {design}"
         )
     };
 }
@@ -139,7 +139,7 @@ fn formats(command: &Export) -> Vec<Format> {
     required.map(|(_, format)| format).collect()
 }
 
-/// Refuses options that have no effect on any of the files asked for.
+/// Refuses options that have no effect on any of the files requested.
 fn refuse_useless(command: &Export) -> Result<(), Failure> {
     let sheets = command.wants(File::Sheet) || command.wants(File::Pdf);
     let refused = |option: &str, files: &str| {
@@ -159,7 +159,7 @@ fn refuse_useless(command: &Export) -> Result<(), Failure> {
         return Ok(());
     }
     if command.part == [PartName::ASSEMBLY.name] && !command.wants(File::ThreeMf) {
-        let files = "drawings and the whole in place: dxf, svg, sheet, pdf and 3mf";
+        let files = "drawings and the assembly: dxf, svg, sheet, pdf and 3mf";
         return refused("--part assembly", files);
     }
     if !any(&solid) {
@@ -179,13 +179,7 @@ fn options(command: &Export, found: &Report) -> Options {
         options.parts = Some(command.part.clone());
     }
     options.sheet = SheetOptions {
-        size: command.sheet.map(|size| match size {
-            Size::A4 => SheetSize::A4,
-            Size::A3 => SheetSize::A3,
-            Size::A2 => SheetSize::A2,
-            Size::A1 => SheetSize::A1,
-            Size::A0 => SheetSize::A0,
-        }),
+        size: command.sheet,
         projection: command.projection.map(|method| match method {
             Method::FirstAngle => Projection::FirstAngle,
             Method::ThirdAngle => Projection::ThirdAngle,

@@ -96,7 +96,7 @@ fn at_line(out: &mut impl Write, name: &str, text: &str, error: &DesignError) ->
     let Some(written) = text.lines().nth(line - 1) else {
         return Ok(());
     };
-    // A long line is shown from a little before the place.
+    // A long line is shown from a little before the position.
     let first = if *column > WIDEST - 20 {
         column - 20
     } else {

@@ -35,7 +35,7 @@ fn is_pipe(_: fs::FileType) -> bool {
     false
 }
 
-/// Text of a design file, kept for its errors.
+/// Text of a design file, stored for its errors.
 #[derive(Clone)]
 pub(crate) struct Source {
     name: String,
@@ -77,7 +77,7 @@ impl Source {
         &self.name
     }
 
-    /// Failure of an error that tells its place in the file itself.
+    /// Failure of an error that shows its position in the file itself.
     pub(crate) fn refused(&self, error: &dyn std::error::Error) -> Failure {
         Failure::Usage(format!("{}: {}", self.name, shortened(&error.to_string())))
     }

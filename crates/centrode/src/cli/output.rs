@@ -23,7 +23,7 @@ pub(crate) fn write_one(path: &Path, bytes: Vec<u8>, out: &mut impl Write) -> Re
     Ok(())
 }
 
-/// Writes one file, whole or not at all, and tells where it is.
+/// Writes one file, whole or not at all, and shows where it is.
 pub(crate) fn put(path: &Path, bytes: Vec<u8>) -> Result<Vec<PathBuf>, Failure> {
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,

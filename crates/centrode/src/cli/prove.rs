@@ -33,7 +33,7 @@ pub(crate) fn run(command: &Prove, out: &mut impl Write) -> Result<Status, Failu
                 continue;
             }
         };
-        // The file as it stands, so that a checker can tell that it is this design's.
+        // The unchanged file, so that a checker can verify that it is of this design.
         proof.design = source.text()?;
         let bytes = proof.file().map_err(std::io::Error::from)?;
         let path = match is_alone {

@@ -71,7 +71,7 @@ pub(crate) fn run(command: &Response, out: &mut impl Write) -> Result<Status, Fa
     Ok(Status::Good)
 }
 
-/// Answers asked for; where none is, all goals, or of a family without goals the figures that change.
+/// Requested figures; by default all goals, or of a family without goals the figures that change.
 fn requested<'a>(
     command: &Response,
     response: &Found,

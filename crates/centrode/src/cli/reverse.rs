@@ -5,11 +5,11 @@ use std::io::Write;
 use std::ops::ControlFlow;
 use std::path::Path;
 
-use crate::analysis::{Finding, Severity, SoundTeeth, Unit};
+use crate::analysis::{Severity, SoundTeeth, Unit};
 use centrode_spec::DesignSpec as _;
 use centrode_synthesis::optimise::EasingError;
 use centrode_synthesis::reverse::{
-    AxisMap, KeyPose, PathDesign, RequiredPath, ReversedMachine, Split, SplitKind, TwoBar,
+    AxisMap, KeyPose, PathDesign, RequiredPath, ReversedMachine, Split,
 };
 
 use crate::cli::args::Reverse;
@@ -19,7 +19,7 @@ use crate::cli::interrupt::Interrupt;
 use crate::cli::progress::Progress;
 use crate::cli::{Status, output};
 
-use crate::page::reverse::{Found, NotFound, Toothed, rolled, sharpest, words};
+use crate::page::reverse::{Found, NotFound, Toothed, rolled, words};
 use request::Request;
 
 /// Width of the names of figures.
@@ -35,11 +35,11 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
         return posed::run(command, out);
     }
     let progress = Progress::new(4);
-    // Kept to the end, so that a second Ctrl-C ends what comes after the search.
+    // Held to the end, so that a second Ctrl-C ends the steps after the search.
     let (requested, found, _interrupt) = match command.poses {
         true => {
             let source = source(command)?;
-            progress.step("trying places of the arm's axis");
+            progress.step("trying positions of the arm's axis");
             let poses =
                 KeyPose::from_csv(source.bytes()).map_err(|error| source.refused(&error))?;
             let found = Found::by_poses(&poses).map_err(|error| source.refused(&error))?;
@@ -69,28 +69,23 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
     if let Some(words) = &requested.drawing {
         line(out, "path", words)?;
     }
-    for (name, words) in &found.stated {
-        line(out, name, words)?;
-    }
-    for goal in &found.goals {
-        let (name, words) = words::goal(goal);
-        line(out, &name, &words)?;
-    }
-    findings(&found.findings, out)?;
+    lines(found.stated.clone(), out)?;
+    lines(found.goals.iter().map(words::goal), out)?;
+    lines(found.findings.iter().map(words::finding), out)?;
     chosen(design.arms, bend_deg, &found, &split, &made, out)?;
     gears(&made, out)?;
     if let Some(map) = map(&requested, &found) {
         possible(&map, out)?;
     }
-    others(chain, kind, bend, out)?;
+    lines(words::other_splits(chain, kind, bend), out)?;
     let (Some(output), Some(toothed)) = (&command.output, toothed) else {
         return Ok(Status::new(found.is_reached));
     };
-    // What was found is told even where there are no teeth.
+    // The result is reported even if there are no teeth.
     out.flush()?;
     let toothed = toothed.map_err(|error| Failure::Files(Box::new(error)))?;
     teeth(&toothed.teeth, out)?;
-    findings(&toothed.findings, out)?;
+    lines(toothed.findings.iter().map(words::finding), out)?;
     let text = toothed.design.to_toml();
     let text = text.map_err(|error| Failure::Files(Box::new(error)))?;
     writeln!(out)?;
@@ -106,7 +101,16 @@ pub(crate) fn line(out: &mut impl Write, name: &str, words: &str) -> std::io::Re
     writeln!(out, "{name:NAME$}{words}")
 }
 
-/// Searches the machine of a path; shows progress, and Ctrl-C ends the search with the best so far.
+/// Prints names and words, each pair at a line.
+fn lines(
+    all: impl IntoIterator<Item = (String, String)>,
+    out: &mut impl Write,
+) -> std::io::Result<()> {
+    let mut all = all.into_iter();
+    all.try_for_each(|(name, words)| line(out, &name, &words))
+}
+
+/// Searches the machine of a path; shows progress, and Ctrl-C ends the search with the best found.
 fn search(
     command: &Reverse,
     requested: &Request,
@@ -232,32 +236,6 @@ fn possible(map: &AxisMap, out: &mut impl Write) -> std::io::Result<()> {
     line(out, "possible axes", &words)
 }
 
-/// Prints what the splits that were not chosen would be.
-fn others(chain: &TwoBar, kind: SplitKind, bend: f64, out: &mut impl Write) -> std::io::Result<()> {
-    for (name, other) in SplitKind::NAMES {
-        if other == kind {
-            continue;
-        }
-        let words = match Split::new(chain, other, bend) {
-            Ok(split) => sharpest(chain, &split),
-            Err(error) => error.to_string(),
-        };
-        line(out, &format!("split {name}"), &words)?;
-    }
-    Ok(())
-}
-
 pub(crate) fn teeth(found: &[SoundTeeth], out: &mut impl Write) -> std::io::Result<()> {
-    found.iter().try_for_each(|teeth| {
-        let (name, words) = words::teeth(teeth);
-        line(out, &name, &words)
-    })
-}
-
-/// Prints findings, each at a line.
-fn findings(found: &[Finding], out: &mut impl Write) -> std::io::Result<()> {
-    found.iter().try_for_each(|finding| {
-        let (name, words) = words::finding(finding);
-        line(out, &name, &words)
-    })
+    lines(found.iter().map(words::teeth), out)
 }

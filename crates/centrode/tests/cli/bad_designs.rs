@@ -205,7 +205,7 @@ fn three_arm_mechanisms_that_cannot_be_are_refused() {
             &["goals.pick_angle_deg: must be a range from less to more"],
             16,
         ),
-        // Gears that do not close at the distance asked for.
+        // Gears that do not close at the distance requested.
         (
             "tooth_count = 37",
             "center_distance = 80",

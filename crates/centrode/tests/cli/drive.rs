@@ -99,9 +99,9 @@ fn angles_of_an_output_are_reported_in_the_degrees_of_the_file() {
         }
     }
     for (band, words) in [
-        ("40", "a rest within 40 of"),
-        ("35", "a rest within 35 of"),
-        ("1e-9", "a rest within 1e-9 of"),
+        ("40", "a band of 40 in"),
+        ("35", "a band of 35 in"),
+        ("1e-9", "a band of 1e-9 in"),
     ] {
         let keys = format!("over = \"span\"\nwithin_deg = [30, 90]\nmaximum = {band}");
         let run = fed(
@@ -122,7 +122,7 @@ fn what_cannot_be_driven_is_refused_with_the_reason_and_nothing_is_written() {
     for (design, words) in [
         (
             SLIDER.replace("[110, 140]", "[110, 150]"),
-            "goals.steady: the output shall go evenly from 110 to 150",
+            "goals.steady: the output must move evenly from 110 to 150",
         ),
         (
             SLIDER.replace("[170, 210]", "[110, 210]"),

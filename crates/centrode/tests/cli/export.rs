@@ -213,7 +213,7 @@ fn an_export_without_any_file_says_so_and_makes_no_folder() {
     assert_eq!(run.status.code(), Some(2));
     let stated = text(&run.stderr);
     assert!(
-        stated.contains("no files of gears in the formats asked for"),
+        stated.contains("no files of gears in the requested formats"),
         "{stated}"
     );
     assert!(!to.exists());
@@ -233,7 +233,7 @@ fn a_bad_pair_is_written_and_ends_with_one() {
     );
     let message = text(&done.stderr);
     assert_eq!(done.status.code(), Some(1), "{message}");
-    assert!(message.contains("4 files written, but"), "{message}");
+    assert!(message.contains("4 files written;"), "{message}");
     let report: serde_json::Value =
         serde_json::from_slice(&files(folder.path())["report.json"]).expect("JSON");
     assert_eq!(report["ok"], false);
@@ -279,7 +279,7 @@ fn a_read_only_folder_is_left_alone() {
     fs::create_dir(&locked).expect("made");
     let mode = |bits| fs::set_permissions(&locked, fs::Permissions::from_mode(bits));
     mode(0o555).expect("locked");
-    // The superuser may write anywhere: the kernel's own read-only folder takes its place.
+    // The superuser may write anywhere: the kernel's own read-only folder serves instead.
     let powerful = fs::write(locked.join("probe"), "").is_ok();
     let target = if powerful {
         Path::new("/proc/self")

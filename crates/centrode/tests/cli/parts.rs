@@ -1,4 +1,4 @@
-//! Parts of a machine asked for by name.
+//! Parts of a machine requested by name.
 
 use std::fs;
 use std::path::Path;
@@ -106,7 +106,7 @@ fn parts_the_machine_has_not_are_refused_and_nothing_is_written() {
         (&["--part", ""], "a value is required"),
         (
             &["--part", "assembly", "--format", "stl"],
-            "--part assembly is for drawings and the whole in place",
+            "--part assembly is for drawings and the assembly",
         ),
         (
             &["--part", "cam", "--format", "urdf"],

@@ -7,7 +7,7 @@ use crate::{centrode, fed, text};
 
 const DRAWN: &str = "x,y\n0,0\n60,70\n150,150\n230,215\n262,262\n235,300\n170,330\n100,330\n40,300\n-5,250\n-30,190\n-38,130\n-30,60\n";
 
-/// Path of a machine that is nearly even: a circle of 60 mm about a place off the axis, a little bent.
+/// Path of a machine that is nearly even: a circle of 60 mm about a position off the axis, a little bent.
 fn mild() -> String {
     let point = |i: u32| {
         let t = f64::from(i) * std::f64::consts::TAU / 40.0;
@@ -34,13 +34,13 @@ fn what_was_chosen_is_printed() {
     let stated = text(&run.stdout);
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
     for line in [
-        "axis of the carrier     260.0000, 160.0000 mm, as asked",
+        "axis of the carrier     260.0000, 160.0000 mm, as given",
         "carrier                 125.6121 mm, turns counter-clockwise",
         "arm                     186.5937 mm",
         "ratio                   0.5155 to 2.1793",
         "tip passes the shaft at 60.9816 mm",
         "split                   powers, bend 40 deg, 1 arm",
-        "split one-pair          with one pair twice the planet must lag by 0.611111 turns, 11/18,",
+        "split one-pair          the same pair twice does not work for this path: the planet must lag by 0.611111 turns, 11/18,",
     ] {
         assert!(stated.contains(line), "{line}\n{stated}");
     }
@@ -83,7 +83,7 @@ fn key_poses_are_met_and_bad_ones_refused() {
             "2 key poses are given; a machine is found for 3 to 7",
         ),
         ("0,0,0\n10,0\n20,5,1\n", "line 2 has 2 values"),
-        ("1,1,0\n1,1,5\n1,1,9\n", "all key poses are at one place"),
+        ("1,1,0\n1,1,5\n1,1,9\n", "all key poses are at one position"),
     ] {
         let run = fed(&["reverse", "-", "--poses"], csv.as_bytes());
         assert_eq!(run.status.code(), Some(2), "{csv}");
@@ -309,10 +309,10 @@ fn a_column_of_tolerances_bounds_each_point_and_a_module_is_asked_for() {
     let stated = text(&run.stdout);
     assert_eq!(run.status.code(), Some(0), "{}", text(&run.stderr));
     assert!(
-        stated.contains("surely sound up to module 0.5000 mm, 0.1127 mm before"),
+        stated.contains("guaranteed up to module 0.5000 mm, 0.1127 mm before"),
         "{stated}"
     );
-    // What is out of reach is told, and the exit status is that of a finding.
+    // What is out of reach is reported, and the exit status is that of a finding.
     let requested = [&axis[..], &["--module", "20"]].concat();
     let run = fed(&requested, csv.as_bytes());
     assert_eq!(run.status.code(), Some(1), "{}", text(&run.stderr));
@@ -433,7 +433,7 @@ fn wishes_are_reported_with_their_figures_and_what_is_out_of_reach_with_the_miss
     let stated = text(&run.stdout);
     assert_eq!(run.status.code(), Some(1), "{stated}{}", text(&run.stderr));
     assert!(
-        stated.contains("2 arms") && stated.contains("260.0000, 160.0000 mm, as asked"),
+        stated.contains("2 arms") && stated.contains("260.0000, 160.0000 mm, as given"),
         "{stated}"
     );
     let figure = |name: &str, before: &str| figure(&stated, name, before);
@@ -593,7 +593,7 @@ fn an_axis_at_the_border_of_its_box_is_told_with_the_side() {
     let wide = text(&wide.stdout);
     let unevenness = |stated: &str| figure(stated, "ratio", "factor of ");
     assert!(unevenness(&wide) < unevenness(&stated), "{wide}");
-    // The search that eases a path tells it, too.
+    // The search that eases a path shows it, too.
     let design = wished("").replace(
         "[path]",
         "aim = \"mild\"\naxis_box = [[200, 100], [240, 150]]\n[path]",

@@ -264,7 +264,7 @@ fn a_response_without_goals_tells_what_changes_and_why_there_is_no_mechanism() {
     fs::write(&design, text_of("")).expect("written");
     let stated = ask(&[]);
     let lines: Vec<&str> = stated.lines().collect();
-    // Figures by lines: there are more of them than values. What does not change is left out.
+    // Figures by lines: there are more of them than values. What does not change is omitted.
     assert!(
         lines[0]
             .trim_start()
@@ -455,7 +455,7 @@ fn ctrl_c_ends_a_search_and_keeps_the_best_so_far() {
         stated.contains("; stopped") && stated.contains("infeasible"),
         "{stated}"
     );
-    // The best so far is better than the start, a design, and a search to go on with.
+    // The best found is better than the start, a design, and a search to go on with.
     let json = centrode(&["check", &to, "--json"]);
     let report: serde_json::Value = serde_json::from_slice(&json.stdout).expect("JSON");
     let angle = report["values"]["transmission_angle_min"]

@@ -37,7 +37,7 @@ fn machines() -> Vec<(String, LinkedMachine)> {
     found
 }
 
-/// Whether every place of a way is within a distance of another way.
+/// Whether every position of a way is within a distance of another way.
 fn along(one: &page::Path, other: &page::Path, within: f64) -> bool {
     let places = |path: &page::Path| -> Vec<Point3<f64>> {
         path.vertices
@@ -157,7 +157,7 @@ fn links_keep_the_same_clearance_in_the_machine_read_back_from_its_plain_file() 
                     off < 1e-10 * (1.0 + minimum.abs()),
                     "{name}: {links}: {a:?} {b:?}"
                 );
-                // Where the search stops hangs on rounding.
+                // Where the search stops depends on rounding.
                 let off = (bound - bound_again).abs();
                 assert!(off < 1e-3 * tolerance.mm(), "{name}: {links}: {a:?} {b:?}");
                 assert!(
@@ -455,7 +455,7 @@ fn the_torque_of_every_machine_is_that_of_virtual_work_and_feeds_its_energy() {
         heavy += usize::from(size > 1e-3);
         let worst = looks.iter().map(|(off, _)| *off).fold(0.0, f64::max);
         assert!(worst <= 1e-10 * size, "{name}: {worst} of {size}");
-        // Where an acceleration jumps the slope is none; that is at few places.
+        // Where an acceleration jumps the slope is none; that is at few samples.
         let far = looks.iter().filter(|(_, off)| *off > 1e-6 * size).count();
         assert!(far <= 6, "{name}: {far} of 60 inputs, {size}");
     }

@@ -2,22 +2,20 @@
 //!
 //! Read it in this order:
 //!
-//! 1. `curve_bounds`: proven bounds of tangents, sagitta and curvature of a segment between two parameters.
-//! 2. `circle_tree`: circles around groups of neighbouring parts, and the search for near parts of two gears.
-//! 3. `outline`: the parts of one gear with their bounds, corners and circles.
-//! 4. `pose`: position of the driven gear relative to the driver.
-//! 5. `near_parts`: cached pairs of parts that are near each other in similar poses.
-//! 6. `stretch`: an interval of a part in polar view from the driven axis, and its halves.
+//! 1. `near_search`: the search for near parts of two gears, by discs around groups of neighbouring parts.
+//! 2. `outline`: the parts of one gear with their bounds, corners and circles.
+//! 3. `pose`: position of the driven gear relative to the driver.
+//! 4. `near_parts`: cached pairs of parts that are near each other in similar poses.
+//! 5. `stretch`: an interval of a part in polar view from the driven axis, and its halves.
 
-mod circle_tree;
-mod curve_bounds;
 mod near_parts;
+mod near_search;
 mod outline;
 mod pose;
 mod stretch;
 
-pub(super) use circle_tree::PartGroup;
 pub(super) use near_parts::{PairCache, PoseTolerance, Reference};
+pub(super) use near_search::deepest;
 pub(super) use outline::{Corner, GearOutline, NormalCone, OutlinePart};
 pub(super) use pose::Pose;
 pub(super) use stretch::{ContourPoint, DividedStretch, PosedContour, SETTLED, Stretch};

@@ -4,7 +4,7 @@ use centrode_gear::GearPair;
 use centrode_geometry::{Point, Vector};
 
 use super::{
-    circle_tree::NearSearch,
+    near_search::NearSearch,
     outline::{GearOutline, OutlinePart},
     pose::Pose,
 };

@@ -1,11 +1,8 @@
 use std::cell::OnceCell;
 
 use centrode_gear::{Gear, Role};
-use centrode_geometry::{Outline, Point, Segment, SegmentJet, Vector};
-
-use super::{
-    circle_tree::{CircleTree, PartGroup},
-    curve_bounds::{self, CurveBounds},
+use centrode_geometry::{
+    BoundTree, Disc, Outline, Point, Run, Segment, SegmentJet, Span, SpanBounds, Vector,
 };
 
 /// Change of direction at a joint above which it is a corner, rad. The rounding of a fitted joint is far below it, a tip edge far
@@ -67,7 +64,8 @@ impl NormalCone {
 /// Smooth part of an outline with bounds that show quickly whether it can touch another.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::contact) struct OutlinePart<'a> {
-    pub(in crate::contact) segment: &'a Segment,
+    /// The whole segment.
+    pub(in crate::contact) span: Span<'a>,
     pub(in crate::contact) role: Role,
     pub(in crate::contact) tooth: u32,
     /// The corner at its start.
@@ -76,43 +74,33 @@ pub(in crate::contact) struct OutlinePart<'a> {
     pub(in crate::contact) center: Point,
     pub(in crate::contact) radius: f64,
     pub(in crate::contact) normals: NormalCone,
-    pub(in crate::contact) ends: [Point; 2],
-    pub(in crate::contact) bounds: CurveBounds,
 }
 
-/// Number of crossings of an interval of a segment with the ray from a point towards +x; only its parity is correct.
+impl OutlinePart<'_> {
+    fn disc(&self) -> Disc {
+        Disc {
+            center: self.center,
+            radius: self.radius,
+        }
+    }
+}
+
+/// Number of crossings of a part of a segment with the ray from a point towards +x; only its parity is correct.
 ///
 /// The curve and its chord form a loop. A point farther from the chord than the curve's sagitta lies outside the loop: the ray
-/// crosses curve and chord equally often, to parity. Other intervals are halved, which divides the sagitta by four.
-fn curve_crossings(
-    segment: &Segment,
-    (u0, u1): (f64, f64),
-    (start, end): (Point, Point),
-    bounds: &CurveBounds,
-    point: Point,
-) -> usize {
-    let side = |p: &Point| p.y > point.y;
-    let (chord, from) = (end - start, point - start);
-    let share = (from.dot(&chord) / chord.norm_squared()).clamp(0.0, 1.0);
-    let off = (from - chord * share).norm();
-    let middle = 0.5 * (u0 + u1);
+/// crosses curve and chord equally often, to parity. Other parts are halved, which divides the sagitta by four.
+fn curve_crossings(span: &Span<'_>, point: Point) -> usize {
+    let ([u0, u1], [start, end]) = (span.u, span.ends);
+    let away = span.min_distance(&point);
     // A point on the contour itself may count as inside or outside.
-    if off > bounds.sagitta || u1 - u0 < 1e-9 || off.is_nan() {
+    if away > 0.0 || u1 - u0 < 1e-9 || away.is_nan() {
+        let side = |p: &Point| p.y > point.y;
         let share = (point.y - start.y) / (end.y - start.y);
         let crosses = side(&start) != side(&end);
-        return usize::from(crosses && start.x + share * chord.x > point.x);
+        return usize::from(crosses && start.x + share * (end.x - start.x) > point.x);
     }
-    let between = segment.at(middle).point;
-    [
-        ((u0, middle), (start, between)),
-        ((middle, u1), (between, end)),
-    ]
-    .into_iter()
-    .map(|(u, ends)| {
-        let bounds = CurveBounds::new(segment, u.0, u.1);
-        curve_crossings(segment, u, ends, &bounds, point)
-    })
-    .sum()
+    let halves = span.halves();
+    halves.iter().map(|half| curve_crossings(half, point)).sum()
 }
 
 /// A corner of an outline: an edge of the gear.
@@ -128,7 +116,7 @@ pub(in crate::contact) struct Corner {
 #[derive(Clone, Debug)]
 pub(super) struct Halves {
     pub(in crate::contact) middle: SegmentJet,
-    pub(super) bounds: [CurveBounds; 2],
+    pub(super) bounds: [SpanBounds; 2],
 }
 
 /// Outline of a finished gear with bounds for the contact analysis.
@@ -136,7 +124,7 @@ pub(super) struct Halves {
 pub(in crate::contact) struct GearOutline<'a> {
     pub(in crate::contact) parts: Vec<OutlinePart<'a>>,
     /// Circles around groups of parts.
-    pub(in crate::contact) tree: CircleTree,
+    pub(in crate::contact) tree: BoundTree<Disc>,
     /// Bounds of the parts' curvatures, computed when first needed.
     curvatures: Vec<OnceCell<(f64, f64)>>,
     /// Halves of the parts, computed when first needed.
@@ -177,21 +165,20 @@ impl<'a> GearOutline<'a> {
     }
 
     /// Number of crossings of a group of parts with the ray from a point to the right; only its parity is correct.
-    fn crossings(&self, group: &PartGroup, point: Point) -> usize {
-        let (center, radius) = (group.center, group.radius);
+    fn crossings(&self, group: &Run<Disc>, point: Point) -> usize {
+        let Disc { center, radius } = group.bound;
         if (center.y - point.y).abs() > radius || center.x + radius < point.x {
             0
         } else if center.x - radius > point.x {
             // The group lies to the right: its ends determine the parity.
             let ends = [
-                self.parts[group.first()].ends[0],
-                self.parts[group.last()].ends[1],
+                self.parts[group.first()].span.ends[0],
+                self.parts[group.last()].span.ends[1],
             ];
             let [start, end] = ends.map(|p| p.y > point.y);
             usize::from(start != end)
         } else if let Some(part) = group.single().map(|part| &self.parts[part]) {
-            let [start, end] = part.ends;
-            curve_crossings(part.segment, (-1.0, 1.0), (start, end), &part.bounds, point)
+            curve_crossings(&part.span, point)
         } else {
             let halves = self.tree.halves(group);
             halves.iter().map(|half| self.crossings(half, point)).sum()
@@ -207,15 +194,13 @@ impl<'a> GearOutline<'a> {
             curvatures: vec![OnceCell::new(); parts.len()],
             halves: vec![OnceCell::new(); parts.len()],
             inner_point: vec![OnceCell::new(); parts.len()],
-            tree: CircleTree::new(
-                &parts
-                    .iter()
-                    .map(|p| (p.center, p.radius))
-                    .collect::<Vec<_>>(),
+            tree: BoundTree::new(
+                &parts.iter().map(OutlinePart::disc).collect::<Vec<_>>(),
+                Disc::around_discs,
             ),
             core: parts
                 .iter()
-                .map(|part| part.min_distance(&Point::origin()))
+                .map(|part| part.span.min_distance(&Point::origin()))
                 .fold(f64::INFINITY, f64::min),
             sector_radii: sector_radii(&parts, margin),
             parts,
@@ -246,7 +231,7 @@ impl<'a> GearOutline<'a> {
 
     /// Bounds of a part's curvature, 1/mm.
     pub(in crate::contact) fn curvature(&self, part: usize) -> (f64, f64) {
-        let bounds = || curve_bounds::curvature(self.parts[part].segment, -1.0, 1.0);
+        let bounds = || self.parts[part].span.segment.curvature_range([-1.0, 1.0]);
         *self.curvatures[part].get_or_init(bounds)
     }
 
@@ -254,8 +239,8 @@ impl<'a> GearOutline<'a> {
     pub(in crate::contact) fn inner_point(&self, part: usize, depth: f64) -> Option<Point> {
         *self.inner_point[part].get_or_init(|| {
             let start = &self.parts[part];
-            let along = start.bounds.tangents[0].normalize();
-            let point = start.ends[0] + Vector::new(-along.y, along.x) * depth;
+            let along = start.span.bounds.tangents[0].normalize();
+            let point = start.span.ends[0] + Vector::new(-along.y, along.x) * depth;
             self.contains(point).then_some(point)
         })
     }
@@ -263,22 +248,12 @@ impl<'a> GearOutline<'a> {
     /// Middle of a part and bounds of its halves.
     pub(super) fn halves(&self, part: usize) -> &Halves {
         self.halves[part].get_or_init(|| {
-            let segment = self.parts[part].segment;
+            let segment = self.parts[part].span.segment;
             Halves {
                 middle: segment.at(0.0),
-                bounds: [(-1.0, 0.0), (0.0, 1.0)].map(|(u0, u1)| CurveBounds::new(segment, u0, u1)),
+                bounds: [[-1.0, 0.0], [0.0, 1.0]].map(|u| SpanBounds::new(segment, u)),
             }
         })
-    }
-}
-
-impl OutlinePart<'_> {
-    /// Lower bound of its distance from a point, mm.
-    pub(in crate::contact) fn min_distance(&self, point: &Point) -> f64 {
-        let [start, end] = self.ends;
-        let (chord, from) = (end - start, point - start);
-        let along = (from.dot(&chord) / chord.norm_squared()).clamp(0.0, 1.0);
-        (from - chord * along).norm() - self.bounds.sagitta
     }
 }
 
@@ -338,20 +313,23 @@ fn parts(gear: &Gear) -> Vec<OutlinePart<'_>> {
 ///
 /// A re-entrant corner is none: its neighbours touch first.
 fn corner(before: &OutlinePart<'_>, after: &OutlinePart<'_>) -> Option<Corner> {
-    let (end, start) = (before.bounds.tangents[1], after.bounds.tangents[0]);
+    let (end, start) = (
+        before.span.bounds.tangents[1],
+        after.span.bounds.tangents[0],
+    );
     let (turn, along) = (end.perp(&start), end.dot(&start));
     (turn > CORNER * along && turn > 0.0).then(|| Corner {
-        point: after.ends[0],
+        point: after.span.ends[0],
         on_flank: before.role == Role::Flank || after.role == Role::Flank,
         normals: NormalCone::between(end, start),
     })
 }
 
 fn part(segment: &Segment, role: Role, tooth: u32) -> OutlinePart<'_> {
-    let bounds = CurveBounds::new(segment, -1.0, 1.0);
-    let ends = [segment.start(), segment.end()];
-    let chord = ends[1] - ends[0];
-    let (low, high) = bounds.slopes;
+    let span = Span::whole(segment);
+    let [start, end] = span.ends;
+    let chord = end - start;
+    let (low, high) = span.bounds.slopes;
     let normals = if high - low < f64::INFINITY {
         let across = Vector::new(-chord.y, chord.x);
         NormalCone::between(chord + across * low, chord + across * high)
@@ -359,14 +337,12 @@ fn part(segment: &Segment, role: Role, tooth: u32) -> OutlinePart<'_> {
         NormalCone::all()
     };
     OutlinePart {
-        segment,
         role,
         tooth,
         corner: None,
-        center: nalgebra::center(&ends[0], &ends[1]),
-        radius: 0.5 * chord.norm() + bounds.sagitta,
+        center: nalgebra::center(&start, &end),
+        radius: 0.5 * chord.norm() + span.bounds.sagitta,
         normals,
-        ends,
-        bounds,
+        span,
     }
 }

@@ -2,10 +2,9 @@
 
 use std::cell::OnceCell;
 
-use centrode_geometry::{COMPUTED, Point, SegmentJet, Vector};
+use centrode_geometry::{COMPUTED, Point, SegmentJet, SpanBounds, Vector};
 
 use super::{
-    curve_bounds::{self, CurveBounds, TangentAngle},
     outline::{GearOutline, OutlinePart},
     pose::Pose,
 };
@@ -25,7 +24,7 @@ pub(in crate::contact) struct Stretch {
     pub(in crate::contact) u: [f64; 2],
     pub(in crate::contact) point: [Vector; 2],
     pub(in crate::contact) tangent: [Vector; 2],
-    pub(in crate::contact) bounds: CurveBounds,
+    pub(in crate::contact) bounds: SpanBounds,
     /// Circle around the stretch.
     pub(in crate::contact) center: Vector,
     pub(in crate::contact) radius: f64,
@@ -41,7 +40,7 @@ impl Stretch {
         u: [f64; 2],
         point: [Vector; 2],
         tangent: [Vector; 2],
-        bounds: CurveBounds,
+        bounds: SpanBounds,
     ) -> Self {
         let chord = point[1] - point[0];
         let center = 0.5 * (point[0] + point[1]);
@@ -58,7 +57,7 @@ impl Stretch {
             sense: 0.0,
             squared: [distance - radius, distance + radius].map(|d| d.max(0.0).powi(2)),
         };
-        let TangentAngle { cos, sin } = bounds.tangent_angle;
+        let SpanBounds { cos, sin, .. } = bounds;
         let away = center.dot(&chord);
         let slowest = away.abs() * cos - center.perp(&chord).abs() * sin;
         if slowest > radius * chord.norm() {
@@ -91,7 +90,7 @@ impl Stretch {
     pub(in crate::contact) fn max_lever(&self) -> f64 {
         let chord = self.point[1] - self.point[0];
         let lever = self.center.dot(&chord).abs() / chord.norm();
-        lever + self.center.norm() * self.bounds.tangent_angle.sin + self.radius
+        lever + self.center.norm() * self.bounds.sin + self.radius
     }
 
     pub(in crate::contact) fn is_whole(&self) -> bool {
@@ -120,10 +119,8 @@ impl Stretch {
         let size = chord.norm();
         let along = (point - self.point[0]).dot(&chord) / size;
         // If tangents are oblique to the chord, points beyond its ends may be faced too.
-        let off = self.bounds.tangent_angle.sin * within + COMPUTED * size;
-        !self.bounds.slopes.1.is_finite()
-            || (-off <= along && along <= size + off)
-            || along.is_nan()
+        let off = self.bounds.sin * within + COMPUTED * size;
+        !self.bounds.is_forward() || (-off <= along && along <= size + off) || along.is_nan()
     }
 
     /// Whether a point may be at most `outside` mm outside of the stretch, or at most `inside` mm inside, along a normal.
@@ -136,7 +133,7 @@ impl Stretch {
         let chord = self.point[1] - self.point[0];
         let right = (point - self.point[0]).perp(&chord) / chord.norm();
         let (low, high) = self.bounds.sagitta_range;
-        !self.bounds.slopes.1.is_finite()
+        !self.bounds.is_forward()
             || right.is_nan()
             || (low - inside <= right && right <= high + outside)
     }
@@ -155,9 +152,9 @@ impl Stretch {
         point: impl Fn(&Point) -> Point,
         vector: impl Fn(&Vector) -> Vector,
     ) -> Self {
-        let ends = part.ends.each_ref().map(|p| point(p).coords);
-        let tangents = part.bounds.tangents.each_ref().map(vector);
-        Self::new(index, [-1.0, 1.0], ends, tangents, part.bounds)
+        let ends = part.span.ends.each_ref().map(|p| point(p).coords);
+        let tangents = part.span.bounds.tangents.each_ref().map(vector);
+        Self::new(index, [-1.0, 1.0], ends, tangents, part.span.bounds)
     }
 }
 
@@ -217,7 +214,7 @@ pub(in crate::contact) struct PosedContour<'a> {
 
 impl PosedContour<'_> {
     pub(in crate::contact) fn at(&self, part: usize, u: f64) -> SegmentJet {
-        self.jet_to_driven(&self.body.parts[part].segment.at(u))
+        self.jet_to_driven(&self.body.parts[part].span.segment.at(u))
     }
 
     fn jet_to_driven(&self, jet: &SegmentJet) -> SegmentJet {
@@ -233,9 +230,9 @@ impl PosedContour<'_> {
 
     /// Bounds of the distance of the axis from the normals, positive where the stretch leads away.
     fn levers(&self, stretch: &Stretch) -> (f64, f64) {
-        let [u0, u1] = stretch.u;
         let axis = self.pose.map_or(Point::origin(), |pose| pose.axis);
-        curve_bounds::levers(self.body.parts[stretch.part].segment, u0, u1, axis)
+        let segment = self.body.parts[stretch.part].span.segment;
+        segment.lever_range(stretch.u, axis)
     }
 
     /// Point of a monotone stretch at a squared distance from the axis, to within a step that `MeetingPoints::angle` corrects.
@@ -278,11 +275,11 @@ impl PosedContour<'_> {
 
     /// Bounds of a stretch's curvature.
     pub(in crate::contact) fn curvature(&self, stretch: &Stretch) -> (f64, f64) {
-        let [u0, u1] = stretch.u;
         if stretch.is_whole() {
             self.body.curvature(stretch.part)
         } else {
-            curve_bounds::curvature(self.body.parts[stretch.part].segment, u0, u1)
+            let segment = self.body.parts[stretch.part].span.segment;
+            segment.curvature_range(stretch.u)
         }
     }
 
@@ -299,7 +296,7 @@ impl PosedContour<'_> {
         if u == stretch.u {
             return *stretch;
         }
-        let bounds = CurveBounds::new(self.body.parts[stretch.part].segment, u[0], u[1]);
+        let bounds = SpanBounds::new(self.body.parts[stretch.part].span.segment, u);
         let [point, tangent] = [ends.map(|e| e.point), ends.map(|e| e.tangent)];
         Stretch::new(stretch.part, u, point, tangent, bounds).part_of(stretch)
     }
@@ -308,13 +305,12 @@ impl PosedContour<'_> {
     pub(super) fn halves(&self, stretch: &Stretch) -> [Stretch; 2] {
         let [u0, u1] = stretch.u;
         let middle = 0.5 * (u0 + u1);
-        let segment = self.body.parts[stretch.part].segment;
+        let segment = self.body.parts[stretch.part].span.segment;
         let (jet, bounds) = if stretch.is_whole() {
             let halves = self.body.halves(stretch.part);
             (self.jet_to_driven(&halves.middle), halves.bounds)
         } else {
-            let bounds =
-                [(u0, middle), (middle, u1)].map(|(u0, u1)| CurveBounds::new(segment, u0, u1));
+            let bounds = [[u0, middle], [middle, u1]].map(|u| SpanBounds::new(segment, u));
             (self.at(stretch.part, middle), bounds)
         };
         [0, 1].map(|k| {

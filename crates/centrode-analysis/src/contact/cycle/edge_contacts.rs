@@ -1,12 +1,12 @@
 //! Driver angles at which a contact reaches the end of a flank.
 
 use centrode_gear::{Member, PitchContact, Role};
-use centrode_geometry::{Point, Vector};
+use centrode_geometry::{Disc, Point, Run, Vector};
 
 use super::{
     backlash_position::BacklashPosition, cycle_samples::period, pose_sampling::PoseSampling,
 };
-use crate::contact::contour::{GearOutline, OutlinePart, PartGroup, Pose};
+use crate::contact::contour::{GearOutline, OutlinePart, Pose};
 use crate::contact::seat::{Foot, Meshing, ProximityKind, foot};
 
 /// Distance of a point from a flank's bounds within which the flank is a candidate for contact, modules.
@@ -74,10 +74,15 @@ fn flank_ends(body: &GearOutline<'_>, sign: f64) -> Vec<FlankEnd> {
     for (k, after) in body.parts.iter().enumerate() {
         let before = &body.parts[(k + count - 1) % count];
         let is_end = after.corner.is_some() || before.role != after.role;
-        let point = after.ends[0];
+        let point = after.span.ends[0];
         if is_end {
-            found.extend(flank_end(before, point, before.bounds.tangents[1], -1.0));
-            found.extend(flank_end(after, point, after.bounds.tangents[0], 1.0));
+            found.extend(flank_end(
+                before,
+                point,
+                before.span.bounds.tangents[1],
+                -1.0,
+            ));
+            found.extend(flank_end(after, point, after.span.bounds.tangents[0], 1.0));
         }
     }
     found.retain(drives);
@@ -156,7 +161,7 @@ impl Meshing<'_> {
         };
         let mate = self.mate_tooth(contact, |part, point| {
             let at_end = |end: &Point| (end - point).norm() < off;
-            foot(part, point).is_some_and(faces) || part.ends.iter().any(at_end)
+            foot(part, point).is_some_and(faces) || part.span.ends.iter().any(at_end)
         })?;
         Some(match contact.member {
             Member::Driver => (contact.edge.tooth, mate),
@@ -220,14 +225,14 @@ impl Meshing<'_> {
             Member::Driven => (&self.driver, pose.point_to_driver(&contact_point)),
         };
         let near = MATE_DISTANCE * self.module;
-        let is_near = |group: &PartGroup| {
-            (group.center - point).norm_squared() < (group.radius + near).powi(2)
+        let is_near = |group: &Run<Disc>| {
+            (group.bound.center - point).norm_squared() < (group.bound.radius + near).powi(2)
         };
         let mut found = None;
         mate.tree.any(&is_near, &mut |part| {
             let part = &mate.parts[part];
             let is_mate = part.role == Role::Flank
-                && part.min_distance(&point) < near
+                && part.span.min_distance(&point) < near
                 && touches(part, &point);
             if is_mate {
                 found = Some(part.tooth);

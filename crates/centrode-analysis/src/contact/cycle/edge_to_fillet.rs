@@ -272,7 +272,10 @@ impl EdgeApproach<'_> {
             let reach = |p: &EdgePosition| (p.point - middle).norm() + p.reach;
             let reach = positions.iter().map(reach).fold(0.0, f64::max);
             self.fillets.alone.tree.each(
-                &|group| (group.center - middle).norm_squared() < (group.radius + reach).powi(2),
+                &|group| {
+                    (group.bound.center - middle).norm_squared()
+                        < (group.bound.radius + reach).powi(2)
+                },
                 |k| {
                     let part = self.fillets.parts[k];
                     let fillet = self.fillets.first[part];
@@ -297,7 +300,7 @@ impl EdgeApproach<'_> {
                 if (part.center - point).norm_squared() >= (part.radius + reach).powi(2) {
                     continue;
                 }
-                let is_close = part.min_distance(&point) < self.within;
+                let is_close = part.span.min_distance(&point) < self.within;
                 let gap = is_close.then(|| self.gap(i, pose)).flatten();
                 match found[start..].iter_mut().find(|s| s.fillet == fillet) {
                     Some(known) => known.gap = known.gap.into_iter().chain(gap).reduce(f64::min),
@@ -311,7 +314,7 @@ impl EdgeApproach<'_> {
 
     /// A point of a part with its derivatives.
     fn end(&self, part: usize, u: f64) -> SegmentJet {
-        self.mate().parts[part].segment.at(u)
+        self.mate().parts[part].span.segment.at(u)
     }
 
     /// Minima at which the edge passes the normals at the ends of a fillet.

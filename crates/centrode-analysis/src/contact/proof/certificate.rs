@@ -104,7 +104,7 @@ pub enum ProofError {
     },
     /// The gears have no room for each other.
     #[error(
-        "at the driver angle {phi:.6} rad the gears penetrate each other however the driven gear stands: pushed on it would stand {overlap:.3e} rad beyond where it stands pushed back; take more backlash, a pitch curve of gentler curvature, or more teeth of a smaller module"
+        "at the driver angle {phi:.6} rad the gears penetrate each other at every angle of the driven gear: pushed on, it would be {overlap:.3e} rad beyond its angle when pushed back; take more backlash, a pitch curve of gentler curvature, or more teeth of a smaller module"
     )]
     NoRoom {
         /// Driver angle, rad.
@@ -114,7 +114,7 @@ pub enum ProofError {
     },
     /// Holding features change too often to be told apart.
     #[error(
-        "what holds the driven gear at the driver angle {phi:.9} rad cannot be decided within {SHORTEST} rad"
+        "the contact that holds the driven gear at the driver angle {phi:.9} rad cannot be determined, even over only {SHORTEST} rad"
     )]
     Unresolved {
         /// Driver angle, rad.

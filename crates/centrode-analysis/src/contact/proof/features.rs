@@ -125,8 +125,8 @@ impl Meshing<'_> {
         for _ in 0..20 {
             let pose = Pose::new(phi, angle, a);
             let (p, q) = (
-                first.segment.at(u),
-                pose.jet_to_driver(&second.segment.at(v)),
+                first.span.segment.at(u),
+                pose.jet_to_driver(&second.span.segment.at(v)),
             );
             let apart = q.point - p.point;
             let arm = q.point - pose.axis;

@@ -27,8 +27,8 @@ impl Prover<'_> {
     pub(super) fn parabolas(&self, track: &FeatureTrack) -> Option<Vec<f64>> {
         let Feature { parts, corner } = track.feature;
         let (driver, driven) = (
-            self.meshing.driver.parts[parts.0].segment,
-            self.meshing.driven.parts[parts.1].segment,
+            self.meshing.driver.parts[parts.0].span.segment,
+            self.meshing.driven.parts[parts.1].span.segment,
         );
         let curvature = |jet: &SegmentJet| jet.first.perp(&jet.second) / jet.first.norm().powi(3);
         let curvatures =
@@ -44,8 +44,9 @@ impl Prover<'_> {
         let here = curvatures(at);
         let margins = CORNER_MARGINS.map(|margin| margin / self.meshing.module);
         // Beyond a joint close to the meeting the curvature of the next piece counts.
-        let at_joint =
-            |parts: &[OutlinePart<'_>], p: PiecePoint| curvature(&parts[p.piece].segment.at(p.u));
+        let at_joint = |parts: &[OutlinePart<'_>], p: PiecePoint| {
+            curvature(&parts[p.piece].span.segment.at(p.u))
+        };
         let [first, second] = self.pieces_beyond(parts, at);
         let next = [
             first.map(|p| at_joint(&self.meshing.driver.parts, p)),

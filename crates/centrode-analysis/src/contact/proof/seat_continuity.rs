@@ -49,7 +49,7 @@ impl Prover<'_> {
             },
             turn,
             teeth: (part.tooth, self.meshing.driven.parts[driven].tooth),
-            point: part.segment.at(at).point,
+            point: part.span.segment.at(at).point,
         }
     }
 }

@@ -103,8 +103,8 @@ fn newton(
 ) -> Option<FacingPoints> {
     let (mut u, mut v) = at;
     for _ in 0..8 {
-        let p = a.segment.at(u);
-        let q = pose.jet_to_driver(&b.segment.at(v));
+        let p = a.span.segment.at(u);
+        let q = pose.jet_to_driver(&b.span.segment.at(v));
         let apart = p.point - q.point;
         let f = p.first.perp(&q.first);
         let g = apart.dot(&p.first);
@@ -186,11 +186,11 @@ pub(in crate::contact) struct Foot {
 
 /// Foot of the normal from a point to a part, by Newton's method.
 pub(in crate::contact) fn foot(part: &OutlinePart<'_>, point: &Point) -> Option<Foot> {
-    let chord = part.segment.end() - part.segment.start();
-    let mut u = 2.0 * (point - part.segment.start()).dot(&chord) / chord.norm_squared() - 1.0;
+    let chord = part.span.segment.end() - part.span.segment.start();
+    let mut u = 2.0 * (point - part.span.segment.start()).dot(&chord) / chord.norm_squared() - 1.0;
     u = u.clamp(-1.0, 1.0);
     for _ in 0..12 {
-        let jet = part.segment.at(u);
+        let jet = part.span.segment.at(u);
         let apart = jet.point - point;
         let square = jet.first.norm_squared();
         let slope = square + apart.dot(&jet.second);

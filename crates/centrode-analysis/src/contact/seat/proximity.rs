@@ -8,7 +8,7 @@ use super::{
     meshing::Meshing,
 };
 use crate::contact::contour::{
-    Corner, DividedStretch, NormalCone, OutlinePart, Pose, Reference, Stretch,
+    Corner, DividedStretch, NormalCone, OutlinePart, Pose, Reference, Stretch, deepest,
 };
 
 /// Depth, modules, up to which a penetration is accepted without a second test: below it a point may lie on either side of a
@@ -69,7 +69,7 @@ impl Meshing<'_> {
         let mut out = Candidates {
             driver: Vec::with_capacity(64),
             pairs: Vec::with_capacity(512),
-            core_penetration: self.driver.tree.deepest(&pose.axis, self.driven.core),
+            core_penetration: deepest(&self.driver.tree, &pose.axis, self.driven.core),
         };
         let mut cache = self.pair_cache.borrow_mut();
         if !cache.holds(pose, near, self.pose_tolerance) {

@@ -1,4 +1,4 @@
-use centrode_geometry::{Point, Vector, checkpoint};
+use centrode_geometry::{Disc, Point, Run, Vector, checkpoint};
 
 use super::{
     angular_contact::{AngularContact, ContactNormal},
@@ -6,7 +6,7 @@ use super::{
     proximity::Candidates,
     turn_search::{TurnLimits, TurnSearch},
 };
-use crate::contact::contour::{PartGroup, Pose};
+use crate::contact::contour::Pose;
 
 /// Backlash or penetration, modules, above which the search for a seat ends without one.
 const MAX_TURN: f64 = 2.0;
@@ -134,13 +134,13 @@ impl Meshing<'_> {
         let pose = Pose::new(phi, angle, self.pair.center_distance());
         let (driver, driven) = (&self.driver, &self.driven);
         let depth = TEST_DEPTH * self.module;
-        let on_driver = |group: &PartGroup| {
-            let center = pose.point_to_driven(&group.center).coords;
-            driven.is_near(&center, group.radius + depth)
+        let on_driver = |group: &Run<Disc>| {
+            let center = pose.point_to_driven(&group.bound.center).coords;
+            driven.is_near(&center, group.bound.radius + depth)
         };
-        let on_driven = |group: &PartGroup| {
-            let center = pose.point_to_driver(&group.center).coords;
-            driver.is_near(&center, group.radius + depth)
+        let on_driven = |group: &Run<Disc>| {
+            let center = pose.point_to_driver(&group.bound.center).coords;
+            driver.is_near(&center, group.bound.radius + depth)
         };
         driver.tree.any(&on_driver, &mut |i| {
             driver.inner_point(i, depth).is_some_and(|p| {

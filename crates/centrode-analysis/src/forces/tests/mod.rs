@@ -25,7 +25,7 @@ fn law(f: impl Fn(f64) -> MotionJet + Send + Sync + 'static) -> Law {
 }
 
 fn turning(slope: f64) -> Law {
-    Arc::new(Linear { start: 0.0, slope })
+    Arc::new(Linear::new(0.0, slope))
 }
 
 fn number(value: f64) -> Quantity {
@@ -42,10 +42,7 @@ fn machine(names: &[&str]) -> LinkedMachine {
         ..LinkedMachine::default()
     };
     for name in names {
-        machine.link(Link {
-            name: (*name).into(),
-            ..Link::default()
-        });
+        machine.link(Link::new(*name));
     }
     machine
 }
@@ -149,14 +146,9 @@ fn gears(load: f64) -> LinkedMachine {
     let mut found = machine(&["frame", "pinion", "wheel"]);
     found.joint(Joint::turning(0, 1, turning(1.0)));
     found.joint(Joint::turning(0, 2, turning(-0.5)).at([60.0, 0.0, 0.0]));
-    found.meshes.push(GearMesh {
-        links: [1, 2],
-        joint: 1,
-        copy: 0,
-        pressure_angle: Some(20_f64.to_radians()),
-        axes: Default::default(),
-        pitch: None,
-    });
+    found
+        .meshes
+        .push(GearMesh::new([1, 2], 1, 20_f64.to_radians()));
     found.loads.push(torque(2, load));
     found
 }
@@ -168,10 +160,7 @@ fn what_has_no_single_answer_is_refused_by_name() {
         found.expect_err("refused").to_string()
     };
     let mut twice = gears(1.0);
-    let third = twice.link(Link {
-        name: "idler".into(),
-        ..Link::default()
-    });
+    let third = twice.link(Link::new("idler"));
     twice.joint(Joint::turning(0, third, turning(1.0)).at([60.0, 60.0, 0.0]));
     twice.meshes.push(GearMesh {
         links: [third, 2],

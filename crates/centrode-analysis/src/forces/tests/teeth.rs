@@ -42,14 +42,7 @@ fn teeth_of_an_elliptic_pair_push_square_to_its_pitch_curves() {
     });
     pair.joint(Joint::turning(0, 2, driven).at([2.0 * a, 0.0, 0.0]));
     let alpha = 20_f64.to_radians();
-    pair.meshes.push(GearMesh {
-        links: [1, 2],
-        joint: 1,
-        copy: 0,
-        pressure_angle: Some(alpha),
-        axes: Default::default(),
-        pitch: None,
-    });
+    pair.meshes.push(GearMesh::new([1, 2], 1, alpha));
     pair.loads.push(torque(2, -500.0));
     let balance = Balance::new(pair).expect("a machine");
     for i in 1..30 {
@@ -83,7 +76,7 @@ fn teeth_of_an_elliptic_pair_push_square_to_its_pitch_curves() {
 
 #[test]
 fn teeth_of_gears_that_rest_hold_their_load_along_the_normal_of_their_pitch_curves() {
-    // An ellipse on its mate about a focus of each, turned in and out by a law that stands still at zero.
+    // An ellipse on its mate about a focus of each, turned in and out by a law that is fixed at zero.
     let (k, a) = (0.3_f64, 50.0);
     let driven = move |t: f64| {
         let below = 1.0 + k * k - 2.0 * k * t.cos();

@@ -137,7 +137,7 @@ fn plates_of_one_layer_that_collide_are_found_with_the_depth_and_others_are_not(
     assert_eq!(found.place.part.as_deref(), Some("disc"));
 }
 
-/// A shaft in the frame, a lever on it that is joined with a link three layers higher, and a plate between them that stands still.
+/// A shaft in the frame, a lever on it that is joined with a link three layers higher, and a plate between them that is fixed.
 const BETWEEN: &str = r#"
 family = "machine"
 [frame.points]

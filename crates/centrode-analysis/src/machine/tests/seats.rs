@@ -22,7 +22,7 @@ fn forces(text: &str) -> impl Fn(f64) -> Forces + use<> {
     move |input| balance.at(input, made.speed()).expect("it turns")
 }
 
-/// A sun that stands still at a place of the frame, a carrier about it, an idler and a planet with a torque.
+/// A sun that is fixed at a position of the frame, a carrier about it, an idler and a planet with a torque.
 fn train([x, y]: [f64; 2], speed_rpm: f64) -> String {
     format!(
         r#"family = "machine"

@@ -17,12 +17,12 @@ use crate::side_by_side::both;
 /// intermediate gear stays next to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ArmClearance {
-    /// Clearance of one arm from another, by their numbers; none for a single arm.
+    /// Clearance of one arm from another, by their numbers; `None` for a single arm.
     pub arms: Option<Clearance>,
     /// Clearance of the first arm's housing from the tray, a plate behind the surface in which the tip picks; the
     /// clamp goes into it and does not count.
     pub tray: Option<Clearance>,
-    /// Clearance of the first arm from the stems of the rows still in the tray; none where there is no such row.
+    /// Clearance of the first arm from the stems of the rows still in the tray; `None` if there is no such row.
     pub unpicked: Option<Clearance>,
     /// Clearance of the first arm from the stems planted before its own: the second of the pair counts them back.
     /// Its own, which its open clamp leaves behind, does not count.

@@ -78,15 +78,14 @@ pub(crate) fn check_gear_train(mechanism: &ThreeArm, teeth: &TrainTeeth, report:
     let (off, input) = phase_error(mechanism, pair);
     report.values.insert("mesh_phase_error_max", off);
     if off > PHASE {
-        report.findings.push(
-            Finding::new(
-                "tooth-phase",
-                Severity::Error,
-                "the teeth of a mesh do not meet those of its mate",
-            )
-            .measured(off, PHASE, Unit::Angle)
-            .at(input),
-        );
+        Finding::new(
+            "tooth-phase",
+            Severity::Error,
+            "the teeth of a gear do not meet the tooth spaces of its mating gear",
+        )
+        .measured(off, PHASE, Unit::Angle)
+        .at(input)
+        .add_to(report);
     }
     for name in [
         "transmission_error_max",
@@ -160,20 +159,19 @@ fn apart(mechanism: &ThreeArm, pair: &GearPair, report: &mut Report) {
     let Some(found) = minimum.found.filter(|found| found.minimum <= 0.0) else {
         return;
     };
-    report.findings.push(
-        Finding::new(
-            "gears-collide",
-            Severity::of_overlap(-found.minimum),
-            format!(
-                "{} and {} run into each other",
-                minimum.pair[0], minimum.pair[1]
-            ),
-        )
-        .measured(found.minimum, 0.0, Unit::Millimetre)
-        .remedy("a smaller bend, fewer arms, or a pitch curve of a smaller maximum radius")
-        .on("gears")
-        .at(found.input),
-    );
+    Finding::new(
+        "gears-collide",
+        Severity::of_overlap(-found.minimum),
+        format!(
+            "{} and {} run into each other",
+            minimum.pair[0], minimum.pair[1]
+        ),
+    )
+    .measured(found.minimum, 0.0, Unit::Millimetre)
+    .remedy("a smaller bend, fewer arms, or a pitch curve of a smaller maximum radius")
+    .on("gears")
+    .at(found.input)
+    .add_to(report);
 }
 
 /// Nearest two gears that are not in mesh.

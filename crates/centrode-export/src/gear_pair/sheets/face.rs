@@ -153,7 +153,7 @@ fn notes(part: &SheetGear<'_>, k: f64) -> Vec<(Point, Vec<NoteLine>)> {
 /// Minimum width on a sheet of what is drawn behind a section, mm.
 const SEEN: f64 = 0.7;
 
-/// Where a number may stand, mm outwards and along the pitch curve, the best first.
+/// Possible positions of a number, mm outwards and along the pitch curve, the best first.
 const PLACES: [(f64, f64); 9] = [
     (0.0, 0.0),
     (0.0, 1.5),
@@ -277,7 +277,7 @@ fn section(part: &SheetGear<'_>, scale: Scale) -> Draft {
 pub(super) fn bore(part: &SheetGear<'_>) -> Option<Draft> {
     let body = part.gear.body();
     let key = body.keyway?;
-    // Drawn as if along x: the notes tell where it is.
+    // Drawn as if along x: the notes name its position.
     let upright = Isometry2::rotation(-body.keyway_angle);
     let outline = &part.bore.as_ref()?.transformed(&upright);
     let scale = Scale::largest(body.bore + key.depth, 45.0);

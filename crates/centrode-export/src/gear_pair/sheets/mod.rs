@@ -14,7 +14,7 @@ use centrode_formats::sheet::{
 };
 use centrode_gear::{GearPair, Member, OverPins};
 use centrode_geometry::Tolerance;
-use centrode_kinematics::machine::{Fit, Keyway};
+use centrode_kinematics::machine::Keyway;
 use centrode_spec::{DrawingSpec, SheetSize};
 pub(super) use part::middle;
 use part::{Likeness, SheetGear, likeness};
@@ -27,31 +27,24 @@ pub enum Subject {
     Driver,
     /// The driven gear.
     Driven,
-    /// Both in place.
+    /// Both assembled.
     Assembly,
 }
 
-impl Subject {
-    /// All of them.
-    pub const ALL: [Self; 3] = [Self::Driver, Self::Driven, Self::Assembly];
+centrode_spec::words!(Subject {
+    Driver = "driver",
+    Driven = "driven",
+    Assembly = "assembly",
+});
 
-    /// The gear; none of both in place.
+impl Subject {
+    /// The gear; `None` for both assembled.
     #[must_use]
     pub fn member(self) -> Option<Member> {
         match self {
             Self::Driver => Some(Member::Driver),
             Self::Driven => Some(Member::Driven),
             Self::Assembly => None,
-        }
-    }
-
-    /// The name its files have.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Driver => "driver",
-            Self::Driven => "driven",
-            Self::Assembly => "assembly",
         }
     }
 }
@@ -82,10 +75,10 @@ pub(crate) struct Label<'a> {
     pub(crate) quantity: usize,
 }
 
-/// The sheets of one gear, or of both in place: views, dimensions, data, tables.
+/// The sheets of one gear, or of both assembled: views, dimensions, data, tables.
 ///
 /// # Errors
-/// [`ExportError::Sheet`] if the size asked for is too small.
+/// [`ExportError::Sheet`] if the requested size is too small.
 pub fn sheets(
     pair: &GearPair,
     subject: Subject,
@@ -193,7 +186,7 @@ fn notes(part: &SheetGear<'_>) -> Vec<String> {
         ),
     ];
     lines.push(format!("Teeth and spaces are numbered {},", part.sense()));
-    lines.push("tooth k before space k; numbers stand at the spaces.".to_owned());
+    lines.push("tooth k before space k; numbers are at the spaces.".to_owned());
     lines.push("Dimensions of the teeth are auxiliary: the profile holds.".to_owned());
     let body = part.gear.body();
     if let Some(key) = body.keyway {
@@ -202,7 +195,7 @@ fn notes(part: &SheetGear<'_>) -> Vec<String> {
     }
     if part.label.is_none() && body.bore > 0.0 {
         // Of a pair alone the shaft belongs to the machine around it: its sheet is not here.
-        let shaft = Fit::new("", body.bore, [&body.bore_fit, &body.shaft_fit]);
+        let shaft = body.seat("");
         let seat = format!("To sit on a shaft {}", fit::shaft(&shaft));
         if let Some(key) = body.keyway.map(Keyway::of_shaft) {
             let width = fit::keyway(key.width, fit::SHAFT_KEYWAY);

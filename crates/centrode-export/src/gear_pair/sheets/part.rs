@@ -8,7 +8,7 @@ use centrode_spec::DrawingSpec;
 use nalgebra::Rotation2;
 use std::f64::consts::TAU;
 
-/// A gear with what its sheets ask of it, millimetres of the part.
+/// A gear with the input of its sheets, millimetres of the part.
 pub(super) struct SheetGear<'a> {
     pub(super) pair: &'a GearPair,
     pub(super) gear: &'a Gear,
@@ -36,7 +36,7 @@ pub(super) enum Likeness {
     All,
 }
 
-/// How far the two gears of a pair are one part; none where their teeth differ.
+/// How far the two gears of a pair are one part; `None` if their teeth differ.
 pub(super) fn likeness(pair: &GearPair) -> Option<Likeness> {
     if !pair.congruent() {
         return None;

@@ -29,7 +29,7 @@ pub(super) fn extremes(part: &SheetGear<'_>) -> Vec<(u32, &'static str)> {
         return Vec::new();
     };
     if most.1 - minimum.1 < 1e-9 / part.pair.module() {
-        return vec![(0, "every tooth alike")];
+        return vec![(0, "every tooth equal")];
     }
     let gentlest = if minimum.1 < 0.0 {
         "nearest to where the curve is most concave"
@@ -88,7 +88,7 @@ pub(super) fn detail(part: &SheetGear<'_>, letter: char, tooth: u32, place: &str
     let thick = (foot[1] - foot[0]).norm() / k;
     let above = p(0.0, heights(&profile, f64::max, high) + 9.0);
     let words = format!("{thick:.3}");
-    // Where the thickness stands next to its arrows the heights keep clear of it.
+    // If the thickness is next to its arrows, the heights are clear of it.
     let beyond = foot[0].x.max(foot[1].x) + lettering::width(&words, LETTERS) + 13.0;
     draft.dimension(foot, foot[1] - foot[0], above, &words);
     let right = (reach + 9.0).max(beyond);

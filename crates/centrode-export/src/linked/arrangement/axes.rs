@@ -15,7 +15,7 @@ pub(super) struct Axis {
     pub(super) at: Point,
     /// The links that it joins, each by the first of those it is fixed to: the one that carries, and the one carried.
     pub(super) links: [usize; 2],
-    /// The joint of the tree; none for a pin next to it.
+    /// The joint of the tree; `None` for a pin next to it.
     pub(super) joint: Option<usize>,
     /// Name: that of the mark there, or of the link carried.
     pub(super) name: String,
@@ -24,13 +24,13 @@ pub(super) struct Axis {
 }
 
 impl Axis {
-    /// Whether it stands still.
+    /// Whether it is fixed.
     pub(super) fn stands(&self) -> bool {
         self.links[0] == 0
     }
 }
 
-/// A distance that one link keeps.
+/// A constant distance on one link.
 pub(super) struct Length {
     pub(super) link: String,
     pub(super) between: String,
@@ -49,7 +49,7 @@ pub(super) fn words(name: &str) -> String {
     name.replace(['_', '-'], " ")
 }
 
-/// Name of a place: that of the mark there, on a link or on any, or another one in words; whether a mark names it.
+/// Name of a position: that of the mark there, on a link or on any, or another one in words; whether a mark names it.
 fn named(scene: &Scene<'_>, at: Point, on: Option<usize>, other: &str) -> (String, bool) {
     let machine = scene.machine;
     let mark = machine.marks.iter().find(|mark| {
@@ -67,7 +67,7 @@ fn named(scene: &Scene<'_>, at: Point, on: Option<usize>, other: &str) -> (Strin
     (name, mark.is_some())
 }
 
-/// All axes of links that are drawn where they stand.
+/// All axes of links that are drawn at their positions.
 pub(super) fn axes(scene: &Scene<'_>) -> Vec<Axis> {
     let machine = scene.machine;
     let turning = machine
@@ -112,7 +112,7 @@ pub(super) fn axes(scene: &Scene<'_>) -> Vec<Axis> {
     turning.chain(pins).collect()
 }
 
-/// Distances from the axis on which each link turns to its others and to the points followed; links alike are told once.
+/// Distances from the axis on which each link turns to its others and to the points followed; equal links are listed once.
 pub(super) fn lengths(scene: &Scene<'_>, axes: &[Axis]) -> Vec<Length> {
     let machine = scene.machine;
     let mut all: Vec<Length> = Vec::new();

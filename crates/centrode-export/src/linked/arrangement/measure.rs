@@ -5,11 +5,11 @@ use centrode_formats::sheet::number;
 use centrode_geometry::{Extreme, Point, Vector, maximum_of_each, piece_ends};
 use centrode_kinematics::machine::{Axis as Along, LinkedMachine};
 
-/// Pieces of a period, among which each extreme of a way is bracketed.
+/// Pieces of a period, among which each extreme of a path is bracketed.
 const PIECES: u32 = 12;
 /// Minimum distance worth a dimension, mm.
 const MINIMUM: f64 = 1e-6;
-/// Places of a dimension: a micrometre.
+/// Decimals of a dimension: a micrometre.
 const PLACES: usize = 3;
 
 /// A dimension at full size.
@@ -38,7 +38,7 @@ impl Measured {
     }
 }
 
-/// Distances of the axes that stand still, travel of the points followed, and what the machine itself wants told.
+/// Distances of the axes that are fixed, travel of the points followed, and further dimensions of the machine.
 pub(super) fn dimensions(scene: &Scene<'_>, axes: &[Axis]) -> Vec<Measured> {
     let mut all: Vec<Measured> = Vec::new();
     let mut add = |ends: [Point; 2], along: Along| {
@@ -73,7 +73,7 @@ pub(super) fn dimensions(scene: &Scene<'_>, axes: &[Axis]) -> Vec<Measured> {
     all
 }
 
-/// Places of a point's way that are farthest left, right, down and up.
+/// Positions of a point's path that are farthest left, right, down and up.
 fn travel(machine: &LinkedMachine, point: usize) -> [Point; 4] {
     let laws = machine.joints.iter().map(|joint| joint.law.as_ref());
     let breaks: Vec<f64> = laws.flat_map(|law| within(law, machine)).collect();

@@ -1,4 +1,4 @@
-//! The general arrangement of any machine: drawn where it stands, with its dimensions, numbers of its parts, and data.
+//! The general arrangement of any machine: drawn at its position, with its dimensions, numbers of its parts, and data.
 
 mod axes;
 mod fits;
@@ -32,17 +32,17 @@ const SMALL: f64 = 420.0;
 const LARGE: SheetSize = SheetSize::A2;
 /// Step of the table of motion, degrees.
 const STEP: u32 = 10;
-/// Most rows of a table of motion next to the view; longer ones go on to further sheets.
+/// Maximum number of rows of a table of motion next to the view; longer ones continue on further sheets.
 const BESIDE: usize = 40;
 
-/// The general arrangement of a machine: its figures where they stand at the input that it says, axes, dimensions, parts list
-/// and data.
+/// The general arrangement of a machine: its figures in their positions at the input of the arrangement, axes, dimensions, parts
+/// list and data.
 ///
-/// Dimensions are the distances of shafts that stand still, the travel of the points followed, and those of
-/// [`LinkedMachine::arrangement`]; a table has the distances that each link keeps between its axes.
+/// Dimensions are the distances of shafts that are fixed, the travel of the points followed, and those of
+/// [`LinkedMachine::arrangement`]; a table has the distances between the axes of each link.
 ///
 /// # Errors
-/// [`SheetError`] where the sheet asked for is too small.
+/// [`SheetError`] where the requested sheet is too small.
 pub fn arrangement(
     machine: &LinkedMachine,
     options: &SheetOptions,
@@ -121,7 +121,7 @@ pub fn arrangement(
     compose(size, &block, extent, &pieces, &flowing)
 }
 
-/// Numbers of the parts list by the place they point to; parts seen at one place share it.
+/// Numbers of the parts list by the position they point to; parts seen at one position share it.
 fn balloons(machine: &LinkedMachine) -> Vec<(Place, String)> {
     let mut all: Vec<(Place, String)> = Vec::new();
     for (index, part) in machine.parts.iter().enumerate() {
@@ -164,7 +164,7 @@ fn lengths(all: Vec<Length>) -> Table {
     }
 }
 
-/// The columns of motion that the machine wants told, over one period; none where it wants none.
+/// The columns of motion of the machine, over one period; `None` if it has none.
 fn motion(machine: &LinkedMachine) -> Option<Table> {
     let stated = &machine.arrangement.columns;
     if stated.is_empty() {

@@ -7,15 +7,15 @@ use nalgebra::{Isometry2, Isometry3};
 
 use super::super::picture::{placed, pose};
 
-/// Parts of a period in which the way of a point is drawn.
+/// Parts of a period in which the path of a point is drawn.
 const STEPS: u32 = 720;
-/// Distance within which a way runs along itself, as a share of its size.
+/// Distance within which a path runs along itself, as a share of its size.
 const ALONG: f64 = 2e-4;
 
 /// Air round the ends of dimensions, as a share of the machine's size.
 const AIR: f64 = 0.01;
 
-/// A line of the machine where it stands, at full size.
+/// A line of the machine at its position, at full size.
 pub(super) enum Drawn {
     /// A closed contour, and the mean length of its segments.
     Closed(Outline, f64),
@@ -23,7 +23,7 @@ pub(super) enum Drawn {
     Open(Vec<Point>),
 }
 
-/// The machine as it is drawn: every figure where it stands.
+/// The machine as it is drawn: every figure at its position.
 pub(super) struct Scene<'a> {
     pub(super) machine: &'a LinkedMachine,
     /// Of each figure.
@@ -35,7 +35,7 @@ pub(super) struct Scene<'a> {
     pub(super) whole: Bounds,
 }
 
-/// How a line looks on a sheet, ISO 128-2; none for one that helps in designing and is no part of the machine.
+/// How a line looks on a sheet, ISO 128-2; `None` for one that helps in designing and is no part of the machine.
 fn pen(role: LineRole, seen_through: bool) -> Option<Pen> {
     match role {
         LineRole::Body | LineRole::Hole if seen_through => Some(Pen::Adjacent),
@@ -71,7 +71,7 @@ impl<'a> Scene<'a> {
                 };
                 let surrounds = line.role == LineRole::Ground;
                 let drawn: Vec<Drawn> = match &line.path {
-                    // Arcs first: turned polynomials would be fitted anew for every place.
+                    // Arcs first: turned polynomials would be fitted anew for every position.
                     LinePath::Contour(outline) if !surrounds => {
                         let mean = perimeter(outline) / outline.segments().len() as f64;
                         vec![Drawn::Closed(
@@ -94,7 +94,7 @@ impl<'a> Scene<'a> {
                         once(&way).into_iter().map(Drawn::Open).collect()
                     }
                 };
-                // Only ways are dash-dotted: of short edges dashes would leave nothing.
+                // Only paths are dash-dotted: of short edges dashes would leave nothing.
                 let pen = match line.path {
                     LinePath::Chain(_) if pen == Pen::Axis => Pen::Thin,
                     _ => pen,
@@ -123,12 +123,12 @@ impl<'a> Scene<'a> {
         scene
     }
 
-    /// Where a place of the picture is.
+    /// Position of a point of the picture.
     pub(super) fn at(&self, place: &Place) -> Point {
         self.poses[place.figure] * Point::from(place.at)
     }
 
-    /// Centres about which figures turn that are not drawn where their links stand.
+    /// Centres about which figures turn that are not drawn at the positions of their links.
     pub(super) fn centers(&self) -> impl Iterator<Item = Point> {
         let turns = |figure: &Figure| match &figure.seat {
             Seat::Free(by) => !matches!(by[2], Quantity::Law(_)),
@@ -145,13 +145,13 @@ impl<'a> Scene<'a> {
             })
     }
 
-    /// Whether a link is drawn where it stands.
+    /// Whether a link is drawn at its position.
     pub(super) fn shows(&self, link: usize) -> bool {
         let mut figures = self.machine.figures.iter();
         figures.any(|figure| matches!(figure.seat, Seat::Link(own) if own == link))
     }
 
-    /// Indices of the points whose ways are drawn.
+    /// Indices of the points whose paths are drawn.
     pub(super) fn followed(&self) -> Vec<usize> {
         let drawn = |point: &usize| {
             self.machine.figures.iter().any(|figure| {
@@ -182,7 +182,7 @@ fn perimeter(outline: &Outline) -> f64 {
     outline.segments().iter().map(chord).sum()
 }
 
-/// The way of a point over one period, as seen from a figure.
+/// The path of a point over one period, as seen from a figure.
 fn way(machine: &LinkedMachine, figure: &Figure, point: &LinkPoint) -> Vec<Point> {
     let mut required = vec![false; machine.links.len()];
     // A free seat's quantities find their links themselves.
@@ -206,7 +206,7 @@ fn way(machine: &LinkedMachine, figure: &Figure, point: &LinkPoint) -> Vec<Point
     (0..=STEPS).map(at).collect()
 }
 
-/// A way with the stretches along which it goes back left out: dashes drawn twice fill each other's gaps.
+/// A path with the stretches along which it goes back omitted: dashes drawn twice fill each other's gaps.
 fn once(way: &[Point]) -> Vec<Vec<Point>> {
     let near = ALONG * way.iter().copied().collect::<Bounds>().diagonal();
     let mut runs: Vec<Vec<Point>> = Vec::new();

@@ -30,7 +30,7 @@ pub(super) struct Stack {
     cuts: Vec<Cut>,
     /// Half of the width, mm.
     half: f64,
-    /// Item in the parts list and a place on it.
+    /// Item in the parts list and a position on it.
     items: Vec<(usize, Point)>,
 }
 
@@ -48,7 +48,7 @@ struct Plane {
     across: Vector,
 }
 
-/// A body in the place that it has at the arrangement's input.
+/// A body in the position that it has at the arrangement's input.
 struct Placed<'a> {
     link: usize,
     shape: &'a Shape,
@@ -56,7 +56,7 @@ struct Placed<'a> {
 }
 
 impl Stack {
-    /// The sections of a machine: one through every kind of turned part that stands upright, less those of which another one shows
+    /// The sections of a machine: one through every kind of upright turned part, less those of which another one shows
     /// all parts.
     pub(super) fn all(
         machine: &LinkedMachine,
@@ -143,7 +143,7 @@ impl Stack {
         (stack.items.len() > 1).then_some(stack)
     }
 
-    /// Draws it, with a heading and the numbers of the parts list.
+    /// Draws the section, with a heading and the item numbers of the parts list.
     pub(super) fn draft(&self, tolerance: Tolerance) -> Draft {
         let cuts = self.cuts.iter().map(|cut| cut.bounds);
         let whole = cuts.fold(Bounds::EMPTY, Bounds::union);
@@ -200,7 +200,7 @@ impl Stack {
 
 impl Placed<'_> {
     /// Its number in the parts list: by the name of its files, by the standard it is bought by, or by its link and thickness; of
-    /// bodies alike in these by the diameter about the axis, mm.
+    /// bodies equal in these by the diameter about the axis, mm.
     fn item(&self, machine: &LinkedMachine, [thickness, diameter]: [f64; 2]) -> Option<usize> {
         let find = |is: &dyn Fn(&Part) -> bool| machine.parts.iter().position(is);
         let shape = self.shape;
@@ -368,7 +368,7 @@ impl Placed<'_> {
         crossings.sort_by(f64::total_cmp);
         let pairs = crossings.chunks_exact(2);
         let cut = pairs.map(|pair| [pair[0].max(-half), pair[1].min(half)]);
-        // What stands about the axis is shown however thin it is.
+        // Parts about the axis are shown even if they are thin.
         let about = solid.holes().iter().any(|hole| hole.contains(at));
         let whole = |[left, right]: &[f64; 2]| -half < *left && *right < half;
         cut.filter(|span| span[1] - span[0] > MINIMUM * half || (about && whole(span)))

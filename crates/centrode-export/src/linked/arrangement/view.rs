@@ -17,7 +17,7 @@ const NEXT: f64 = 9.0;
 const CROSS: f64 = 3.0;
 /// Minimum mean length of a contour's segments on paper that a thick line leaves apart, mm.
 const FINE: f64 = 1.0;
-/// Directions in which room for words is looked for, and distances, mm.
+/// Directions in which room for words is searched, and distances, mm.
 const DIRECTIONS: u32 = 16;
 const ROOM: [f64; 6] = [1.2, 2.5, 4.0, 6.0, 8.5, 12.0];
 /// Advance over a period from which on a shaft turns round, rad.
@@ -35,7 +35,7 @@ const MORE: f64 = 1.5;
 const LEANS: u32 = 24;
 /// Distance of points on a sheet that are one, mm.
 const ONE_PLACE: f64 = 0.1;
-/// Most dimensions whose order is looked for among all orders.
+/// Most dimensions whose order is searched among all orders.
 const ORDERED: usize = 6;
 
 /// Lines of words and the point they are about.
@@ -46,7 +46,7 @@ pub(super) struct View<'a> {
     pub(super) scene: Scene<'a>,
     pub(super) axes: Vec<Axis>,
     pub(super) dimensions: Vec<Measured>,
-    /// Numbers of the parts list by their places.
+    /// Numbers of the parts list by their positions.
     pub(super) balloons: Vec<(Place, String)>,
 }
 

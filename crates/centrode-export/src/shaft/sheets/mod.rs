@@ -26,7 +26,7 @@ const SECTION: char = 'C';
 /// The sheets of a spiral shaft: side view and development with dimensions, sections, data and the file of the lead table.
 ///
 /// # Errors
-/// [`ExportError`] if the size asked for is too small.
+/// [`ExportError`] if the requested size is too small.
 pub fn shaft_sheets(shaft: &SpiralShaft, options: &Options) -> Result<Vec<Sheet>, ExportError> {
     let tolerance = options.tolerance;
     let mut block = block(shaft, "shaft", "Spiral shaft", options);
@@ -61,7 +61,7 @@ pub fn shaft_sheets(shaft: &SpiralShaft, options: &Options) -> Result<Vec<Sheet>
 /// The sheet of the slider.
 ///
 /// # Errors
-/// [`ExportError`] if the size asked for is too small.
+/// [`ExportError`] if the requested size is too small.
 pub fn slider_sheets(shaft: &SpiralShaft, options: &Options) -> Result<Vec<Sheet>, ExportError> {
     let mut block = block(shaft, "slider", "Slider", options);
     let spec = shaft.slider();
@@ -99,7 +99,7 @@ fn notes(shaft: &SpiralShaft) -> Vec<String> {
         "Groove angle θ = 0 where the slider is at the first hole;".to_owned(),
         "it faces the viewer in the side view.".to_owned(),
         "Outline of the side view cut in the plane of the paper.".to_owned(),
-        "Walls stand on the surface's offset and point to the axis.".to_owned(),
+        "Walls begin at the surface's offset and point to the axis.".to_owned(),
         "Exact groove: groove.dxf, tool-path.csv, program groove.ngc.".to_owned(),
     ];
     if let Some(centre) = centre(shaft.body().journal_diameter) {

@@ -45,7 +45,7 @@ impl<'a> Views<'a> {
         let mut draft = self.side(scale, letters);
         let below = self.development(scale, letters);
         let (own, other) = (draft.bounds(), below.bounds());
-        // The unrolled surface is no view: it stands below, whatever the projection.
+        // The unrolled surface is no view: it is below in either projection.
         draft.add(&below, Vector::new(0.0, own.min.y - APART - other.max.y));
         draft
     }
@@ -156,7 +156,7 @@ impl<'a> Views<'a> {
         draft.dimension([p(low, -around), p(low, 0.0)], Vector::y(), left, &words);
         let below = |row: f64| Point::new(0.0, -k * around - 8.0 - 8.0 * row);
         let (near, far) = groove.traverse().reach();
-        let words = format!("{} (way of the slider)", number(far - near, 4));
+        let words = format!("{} (slider travel)", number(far - near, 4));
         draft.dimension(
             [p(near, -around), p(far, -around)],
             Vector::x(),

@@ -44,14 +44,9 @@ pub struct Travel {
     #[schemars(with = "f64")]
     pub span: f64,
     /// Stroke of a sliding follower, mm, greater than 0 for a return too.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub lift: Option<f64>,
     /// Stroke of a swinging follower, rad (degrees in the file).
-    #[serde(
-        rename = "swing_deg",
-        with = "degrees",
-        skip_serializing_if = "Option::is_none"
-    )]
+    #[serde(rename = "swing_deg", with = "degrees")]
     #[schemars(with = "Option<f64>")]
     pub swing: Option<f64>,
     /// Motion law over the span.
@@ -79,14 +74,9 @@ pub struct Transition {
     #[schemars(with = "f64")]
     pub span: f64,
     /// Change of a sliding follower's position, mm; may be zero or negative.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub lift: Option<f64>,
     /// Change of a swinging follower's angle, rad (degrees in the file).
-    #[serde(
-        rename = "swing_deg",
-        with = "degrees",
-        skip_serializing_if = "Option::is_none"
-    )]
+    #[serde(rename = "swing_deg", with = "degrees")]
     #[schemars(with = "Option<f64>")]
     pub swing: Option<f64>,
     /// Velocity at the start.
@@ -121,7 +111,7 @@ impl SegmentSpec {
         }
     }
 
-    /// Lift and swing as written; none for a dwell.
+    /// Lift and swing as written; `None` for a dwell.
     fn strokes(&self) -> Option<(Option<f64>, Option<f64>)> {
         match self {
             Self::Rise(travel) | Self::Return(travel) => Some((travel.lift, travel.swing)),

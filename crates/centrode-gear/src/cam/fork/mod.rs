@@ -121,7 +121,7 @@ impl Fork {
         })
     }
 
-    /// Makes the cam that retracts the rod as wanted, given by the angle of the arm relative to the cam.
+    /// Makes the cam that retracts the rod as required, given by the angle of the arm relative to the cam.
     ///
     /// `retraction` is mm, zero with the rod thrown out; `rotation` is the cam's, seen from the arm.
     ///
@@ -155,9 +155,9 @@ impl Fork {
         DiscCam::new(Arc::new(swing), self.follower(), base_radius, rotation)
     }
 
-    /// Makes the cam that retracts the rod as wanted, given by the machine's input.
+    /// Makes the cam that retracts the rod as required, given by the machine's input.
     ///
-    /// `arm_angle` is the angle of the arm less that of the carrier, by the same input: it runs one way
+    /// `arm_angle` is the angle of the arm less that of the carrier, by the same input: it runs in one direction
     /// and makes one whole turn while `retraction` runs through its period. In the carrier's frame the
     /// cam's x axis points from the planet's axis to where the fork's pivot is at the input zero, and the
     /// cam angle is the turn the arm has made since.
@@ -177,10 +177,8 @@ impl Fork {
         } else {
             Turn::CounterClockwise
         };
-        let since = FromFn::new(TAU, way * TAU, Vec::new(), move |turn: f64| MotionJet {
-            position: start + way * turn,
-            velocity: way,
-            ..MotionJet::default()
+        let since = FromFn::new(TAU, way * TAU, Vec::new(), move |turn: f64| {
+            MotionJet::uniform(start + way * turn, way)
         });
         let input = Chain::cycle_for_cycle(Arc::new(Inverse::new(arm_angle)?), Arc::new(since))?;
         let retraction = Chain::cycle_for_cycle(retraction, Arc::new(input))?;

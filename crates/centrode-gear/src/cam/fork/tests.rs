@@ -77,10 +77,7 @@ fn swing_and_retraction_undo_each_other() {
         }
     }
     // 40 (tan b - tan b0) and 40 (sin b - sin b0) by hand.
-    let swing = MotionJet {
-        position: 0.25,
-        ..MotionJet::default()
-    };
+    let swing = MotionJet::at_rest(0.25);
     let by = |joint: RodJoint| joint.retraction(&swing).position;
     let tan = 40.0 * (0.1_f64.tan() + 0.15_f64.tan());
     assert!((by(RodJoint::PinOnRod(lever())) - tan).abs() < 1e-13);
@@ -113,10 +110,7 @@ fn the_rod_moves_as_wanted_by_the_machines_input() {
                 let angle = to_axis
                     .perp(&arm_direction)
                     .atan2(to_axis.dot(&arm_direction));
-                let swing = MotionJet {
-                    position: lifts.sign() * angle - cam.start_angle(),
-                    ..MotionJet::default()
-                };
+                let swing = MotionJet::at_rest(lifts.sign() * angle - cam.start_angle());
                 let rod = fork.rod.retraction(&swing).position;
                 let required = retraction.at(input).position;
                 assert!((rod - required).abs() < 1e-9, "{input}: {rod} {required}");
@@ -190,12 +184,9 @@ fn forks_that_cannot_work_are_refused() {
             .map(|_| ()),
         Err(CamError::Retraction { .. })
     ));
-    let still: Arc<dyn Transmission> =
-        Arc::new(FromFn::new(TAU, TAU, Vec::new(), |t: f64| MotionJet {
-            position: t - 1.2 * t.sin(),
-            velocity: 1.0 - 1.2 * t.cos(),
-            ..MotionJet::default()
-        }));
+    let still: Arc<dyn Transmission> = Arc::new(FromFn::new(TAU, TAU, Vec::new(), |t: f64| {
+        MotionJet::uniform(t - 1.2 * t.sin(), 1.0 - 1.2 * t.cos())
+    }));
     assert!(matches!(
         usual
             .cam_by_input(throw(60.0, 9.0), still, 22.0)
@@ -204,11 +195,7 @@ fn forks_that_cannot_work_are_refused() {
     ));
     let twice: Arc<dyn Transmission> =
         Arc::new(FromFn::new(TAU, 2.0 * TAU, Vec::new(), |t: f64| {
-            MotionJet {
-                position: 2.0 * t,
-                velocity: 2.0,
-                ..MotionJet::default()
-            }
+            MotionJet::uniform(2.0 * t, 2.0)
         }));
     assert!(matches!(
         usual

@@ -178,7 +178,7 @@ trait Form: fmt::Debug + Send + Sync {
     /// Taylor series of the law: derivatives are exact by Taylor arithmetic.
     fn of(&self, x: Taylor) -> Taylor;
 
-    /// Places inside (0, 1) where a derivative jumps, ascending.
+    /// Positions inside (0, 1) where a derivative jumps, ascending.
     fn breaks(&self) -> Vec<f64> {
         Vec::new()
     }
@@ -233,7 +233,7 @@ impl Law {
         MotionJet::from_series(&self.form.of(Taylor::variable(x)))
     }
 
-    /// Places inside (0, 1) where a derivative jumps, ascending.
+    /// Positions inside (0, 1) where a derivative jumps, ascending.
     #[must_use]
     pub fn breaks(&self) -> Vec<f64> {
         self.form.breaks()

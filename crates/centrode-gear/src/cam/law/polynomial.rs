@@ -6,7 +6,7 @@ use centrode_kinematics::formula::Taylor;
 use centrode_spec::SpecError;
 use centrode_spec::rule::{finite, in_range};
 
-/// Derivatives that can be asked for at one end: velocity, acceleration, jerk and the next.
+/// Derivatives that can be requested at one end: velocity, acceleration, jerk and the next.
 const MOST: usize = 4;
 
 /// The polynomial of lowest degree with the required derivatives at both ends; it goes from 0 to 1.

@@ -54,11 +54,11 @@ pub struct Join {
 pub struct Peaks {
     /// Maximum position, mm or rad.
     pub lift: Extreme,
-    /// Maximum velocity either way, per radian.
+    /// Maximum velocity in either direction, per radian.
     pub velocity: Extreme,
-    /// Maximum acceleration either way, per radian squared.
+    /// Maximum acceleration in either direction, per radian squared.
     pub acceleration: Extreme,
-    /// Maximum jerk either way between jumps of the acceleration, per radian cubed.
+    /// Maximum jerk in either direction between jumps of the acceleration, per radian cubed.
     pub jerk: Extreme,
 }
 
@@ -193,7 +193,7 @@ impl Motion {
         })
     }
 
-    /// The places where segments meet, in order from the start of the cycle.
+    /// The angles at which segments meet, in order from the start of the cycle.
     #[must_use]
     pub fn joins(&self) -> Vec<Join> {
         self.meetings()

@@ -1,8 +1,31 @@
 use super::*;
-use crate::curve::PolySegment;
+use crate::curve::{PolySegment, Segment};
 
 fn fine() -> Tolerance {
     Tolerance::new(1e-13).expect("positive")
+}
+
+fn crossings(
+    a: &Segment,
+    b: &Segment,
+    joined: bool,
+    tolerance: Tolerance,
+) -> Result<Vec<(f64, f64)>, CrossingError> {
+    meetings(
+        &Span::whole(a),
+        &Span::whole(b),
+        joined,
+        Resolution::of_crossings(tolerance),
+    )
+    .map(|met| met.crossings)
+}
+
+fn self_crossings(
+    segment: &Segment,
+    tolerance: Tolerance,
+) -> Result<Vec<(f64, f64)>, CrossingError> {
+    self_meetings(&Span::whole(segment), Resolution::of_crossings(tolerance))
+        .map(|met| met.crossings)
 }
 
 fn polys(f: impl Fn(f64) -> Point, a: f64, b: f64) -> Vec<Segment> {

@@ -5,14 +5,13 @@ use std::{cmp::Ordering, collections::BTreeMap};
 use super::LoopError;
 use crate::{
     Point, Vector,
-    curve::{Bounds, CrossingError, Segment, SegmentRange, crossings, self_crossings, winding},
-    numeric::Tolerance,
+    curve::{
+        Bounds, CrossingError, Meetings, Resolution, Segment, SegmentRange, Span, meetings,
+        self_meetings, winding,
+    },
+    numeric::{COMPUTED, ITERATED, Tolerance},
     region::Position,
 };
-
-/// Difference of the parameter of a segment below which two crossings are the same, or a crossing is at the end. Ten times
-/// smaller, rounding makes two crossings of one; ten times larger joins crossings of very small loops.
-const SAME: f64 = 1e-11;
 
 /// Number of stretches between crossings, the longest ones, whose winding number is also counted directly. More only cost
 /// time; with too few, a missed crossing may go unnoticed.
@@ -33,7 +32,7 @@ pub(crate) struct Passage {
 }
 
 fn are_same(u: f64, v: f64) -> bool {
-    (u - v).abs() <= SAME
+    (u - v).abs() <= ITERATED
 }
 
 /// For each passage the other passage of its crossing.
@@ -64,15 +63,18 @@ pub(crate) struct Passages {
 /// A closed chain of segments.
 pub(crate) struct Chain<'a> {
     segments: &'a [Segment],
+    spans: Vec<Span<'a>>,
     boxes: Vec<Bounds>,
     tolerance: Tolerance,
 }
 
 impl<'a> Chain<'a> {
     pub(crate) fn new(segments: &'a [Segment], tolerance: Tolerance) -> Self {
+        let spans: Vec<Span<'a>> = segments.iter().map(Span::whole).collect();
         Self {
             segments,
-            boxes: segments.iter().map(|s| s.enclosure(-1.0, 1.0)).collect(),
+            boxes: spans.iter().map(Span::bounding_box).collect(),
+            spans,
             tolerance,
         }
     }
@@ -135,38 +137,85 @@ impl<'a> Chain<'a> {
     /// The passages, except those from which the chain returns to their crossing within a very small loop.
     fn without_small_loops(&self, passages: &[Passage], others: &[usize]) -> Vec<Passage> {
         let size = SMALL_LOOP * self.tolerance.mm();
+        let pairs = passages.iter().zip(others);
+        pairs
+            .filter(|&(passage, &other)| {
+                !self.is_small_loop([passage.position, passages[other].position], size)
+            })
+            .map(|(passage, _)| *passage)
+            .collect()
+    }
+
+    /// Whether the chain, from one of two positions to the other, stays nearer to the first than `size`, mm.
+    fn is_small_loop(&self, [one, other]: [Position; 2], size: f64) -> bool {
         let is_small = |from: Position, to: Position| {
             let point = self.segments[from.segment].at(from.u).point;
             from.ranges_to(to, self.segments.len())
                 .all(|part| self.segments[part.index].stays_near(point, size, part.from, part.to))
         };
-        let is_loop = |passage: &Passage, other: &Passage| {
-            !is_small(passage.position, other.position)
-                && !is_small(other.position, passage.position)
+        is_small(one, other) || is_small(other, one)
+    }
+
+    /// A point at which the chain crosses or touches itself, and the two segments, except in loops smaller than `size`, mm.
+    pub(crate) fn meeting(&self, resolution: Resolution, size: f64) -> Option<(Point, [usize; 2])> {
+        self.candidates().into_iter().find_map(|pair| {
+            let ([i, j], met) = self.meetings(pair, resolution);
+            let met = match met {
+                Ok(met) => met,
+                Err(CrossingError::Overlap { near }) => return Some((near, [i, j])),
+                Err(CrossingError::NotFinite) => return None,
+            };
+            let mut places = met.crossings.into_iter().chain(met.touches);
+            let (u, _) = places.find(|&place| {
+                self.positions([i, j], place)
+                    .is_some_and(|both| !self.is_small_loop(both, size))
+            })?;
+            Some((self.segments[i].at(u).point, [i, j]))
+        })
+    }
+
+    /// The meetings of two segments, the second of which follows the first if they are neighbours, or of one with itself.
+    fn meetings(
+        &self,
+        (i, j): (usize, usize),
+        resolution: Resolution,
+    ) -> ([usize; 2], Result<Meetings, CrossingError>) {
+        let count = self.segments.len();
+        let follows = |i: usize, j: usize| (i + 1) % count == j;
+        let (i, j) = if follows(j, i) { (j, i) } else { (i, j) };
+        let met = if i == j {
+            self_meetings(&self.spans[i], resolution)
+        } else {
+            let [a, b] = [i, j].map(|k| &self.spans[k]);
+            meetings(a, b, follows(i, j), resolution)
         };
-        let pairs = passages.iter().zip(others);
-        pairs
-            .filter(|&(passage, &other)| is_loop(passage, &passages[other]))
-            .map(|(passage, _)| *passage)
-            .collect()
+        ([i, j], met)
+    }
+
+    /// The two positions of a meeting of segments `i` and `j`; `None` if it is the joint at which `j` follows `i`.
+    fn positions(&self, [i, j]: [usize; 2], (u, v): (f64, f64)) -> Option<[Position; 2]> {
+        let (p, q) = (self.position(i, u), self.position(j, v));
+        // After a cut, ends meet only within rounding.
+        let apart = (self.segments[i].at(u).point - self.segments[i].end()).norm();
+        let joined = (i + 1) % self.segments.len() == j && apart <= 0.1 * self.tolerance.mm();
+        let is_joint = joined || p.segment == q.segment && are_same(p.u, q.u);
+        (!is_joint).then_some([p, q])
     }
 
     /// All passages through the crossings found, in order along the chain.
     fn found(&self) -> Result<Vec<Passage>, LoopError> {
-        let count = self.segments.len();
         // Key: the two segments. Value: the parameters on them, and the rise at the first passage.
         let mut found: BTreeMap<[usize; 2], Vec<([f64; 2], i32)>> = BTreeMap::new();
-        let mut add = |i: usize, j: usize, list: Result<Vec<(f64, f64)>, CrossingError>| {
+        let resolution = Resolution::of_crossings(self.tolerance);
+        for pair in self.candidates() {
+            let ([i, j], met) = self.meetings(pair, resolution);
             let segments = [i.min(j), i.max(j)];
-            for (u, v) in list.map_err(|cause| LoopError::Unresolved { segments, cause })? {
-                let (p, q) = (self.position(i, u), self.position(j, v));
-                let (one, other) = (self.segments[i].at(u), self.segments[j].at(v));
-                // After a cut, ends meet only within rounding.
-                let apart = (one.point - self.segments[i].end()).norm();
-                let joined = (i + 1) % count == j && apart <= 0.1 * self.tolerance.mm();
-                if joined || p.segment == q.segment && are_same(p.u, q.u) {
+            let met = met.map_err(|cause| LoopError::Unresolved { segments, cause })?;
+            for (u, v) in met.crossings {
+                let Some([p, q]) = self.positions([i, j], (u, v)) else {
                     continue;
-                }
+                };
+                let [one, other] = [self.segments[i].at(u), self.segments[j].at(v)];
                 let rise = if one.first.perp(&other.first) < 0.0 {
                     1
                 } else {
@@ -187,17 +236,6 @@ impl<'a> Chain<'a> {
                     None => known.push(([first.u, second.u], rise)),
                 }
             }
-            Ok(())
-        };
-        for (i, j) in self.candidates() {
-            if i == j {
-                add(i, i, self_crossings(&self.segments[i], self.tolerance))?;
-                continue;
-            }
-            let (i, j) = if (j + 1) % count == i { (j, i) } else { (i, j) };
-            let joined = (i + 1) % count == j;
-            let list = crossings(&self.segments[i], &self.segments[j], joined, self.tolerance);
-            add(i, j, list)?;
         }
         let found = found.into_iter().flat_map(|([i, j], known)| {
             known.into_iter().map(move |([u, v], rise)| {
@@ -245,13 +283,13 @@ impl<'a> Chain<'a> {
 
     /// A position with a parameter below 1: the end of a segment is the start of the next.
     fn position(&self, segment: usize, u: f64) -> Position {
-        if u >= 1.0 - SAME {
+        if u >= 1.0 - ITERATED {
             Position {
                 segment: (segment + 1) % self.segments.len(),
                 u: -1.0,
             }
         } else {
-            let u = if u <= -1.0 + SAME { -1.0 } else { u };
+            let u = if u <= -1.0 + ITERATED { -1.0 } else { u };
             Position { segment, u }
         }
     }
@@ -322,7 +360,7 @@ impl<'a> Chain<'a> {
         let step = Vector::new(-tangent.y, tangent.x) * (side * self.side_step());
         let point = segment.at(u).point + step;
         let level = |b: &Bounds| b.min.y <= point.y && b.max.y >= point.y && b.max.x >= point.x;
-        let boxed = self.segments.iter().zip(&self.boxes);
+        let boxed = self.spans.iter().zip(&self.boxes);
         boxed
             .filter(|(_, b)| level(b))
             .map(|(s, _)| winding(s, point))
@@ -350,7 +388,7 @@ impl<'a> Chain<'a> {
     /// Distance from the chain, mm, at which its winding number is counted: far above rounding and the tolerance.
     fn side_step(&self) -> f64 {
         let whole = self.boxes.iter().fold(Bounds::EMPTY, |b, o| b.union(*o));
-        (10.0 * self.tolerance.mm()).max(1e-9 * whole.diagonal())
+        (10.0 * self.tolerance.mm()).max(COMPUTED * whole.diagonal())
     }
 
     /// Approximate area, mm², inside parts that form a closed chain.

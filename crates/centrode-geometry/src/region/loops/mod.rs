@@ -6,7 +6,7 @@ use crate::{
     curve::{CrossingError, Segment, SegmentRange},
     numeric::Tolerance,
 };
-use chain::Chain;
+pub(crate) use chain::Chain;
 
 /// Maximum number of passes. Each may find loops that the previous pass uncovered: with fewer, contours with nested loops are
 /// refused; more only delay the error.

@@ -5,7 +5,7 @@ use crate::curve::BezierFit;
 use crate::solid::triangulation::triangulate;
 use crate::{
     Point,
-    numeric::Tolerance,
+    numeric::{COMPUTED, Tolerance},
     solid::{Mesh, ShellCurve, ShellFace, ShellSide, ShellSurface, SolidError},
 };
 
@@ -13,9 +13,6 @@ use crate::{
 const MIN_CHORDS: f64 = 3.0;
 /// Maximum number of chords per quarter turn: limits the size of a mesh at a very small tolerance.
 const MAX_CHORDS: f64 = 2048.0;
-/// Fraction of the maximum radius by which the ends of a plane edge may differ in y: rounding. Much larger, short round edges
-/// become straight.
-const PLANE_ERROR: f64 = 1e-9;
 /// Maximum number of parts of a slotted cone; in each the edges of the slot are straight. It limits the size of a mesh at a very
 /// small tolerance.
 const MAX_PARTS: f64 = 256.0;
@@ -45,7 +42,7 @@ pub(super) fn mesh(body: &Turned, tolerance: Tolerance) -> Result<Mesh, SolidErr
             let radius = match &edge.curve {
                 ShellCurve::Circle { radius } => *radius,
                 // A quarter of a half round end. Other polynomial edges are straight here.
-                ShellCurve::Bezier(points) if (from[1] - to[1]).abs() > PLANE_ERROR * widest => {
+                ShellCurve::Bezier(points) if (from[1] - to[1]).abs() > COMPUTED * widest => {
                     let between = (1..chords).map(|i| {
                         let x = f64::from(i) / f64::from(chords);
                         mesh.vertices.push(BezierFit::at(points, x));

@@ -21,7 +21,7 @@ impl Level {
     }
 }
 
-/// Foot of the wall, and the fillet down to the floor within `limit`, mm.
+/// Levels from the foot of the wall along the fillet down to the floor; chords between them are within `limit` (mm) of the fillet.
 pub(super) fn levels(groove: &Groove, fillet: f64, limit: f64) -> Vec<Level> {
     let (half, floor) = (0.5 * groove.width(), groove.radius() - groove.depth());
     if fillet == 0.0 {
@@ -47,7 +47,7 @@ pub(in crate::solid) fn columns(radius: f64, limit: f64) -> u32 {
 pub(super) fn rises(groove: &Groove) -> Vec<Option<f64>> {
     let traverse = groove.traverse();
     let (stroke, reversal) = (traverse.stroke(), traverse.reversal());
-    // A wall belongs to a place of the centre line that lies this much farther round at most.
+    // A wall belongs to a position of the centre line that lies this much farther round at most.
     let aside = 0.5 * groove.width() / groove.radius();
     let back = stroke + reversal;
     let rise = |turn: u32| {

@@ -213,7 +213,7 @@ impl<'a> Plan<'a> {
 
     /// Crest of two turns whose walls meet at an angle round the shaft below the level at which they do not yet, and
     /// above the next: between `above` and `above + 1`. `low` is a left edge, `high` a right one, both of the latter
-    /// level. Height and radius; none where they do not meet.
+    /// level. Height and radius; `None` if they do not meet.
     pub(super) fn ridge(&self, [low, high]: [usize; 2], line: usize) -> Option<(f64, f64)> {
         // The line after the last is the first, a turn later.
         let (phi, low, high) = match self.lines.get(line) {
@@ -335,7 +335,7 @@ impl<'a> Plan<'a> {
     }
 
     /// Height of an edge, if the groove were `half` wide to each side, at an angle round the shaft, and the shaft
-    /// angle of the groove it belongs to, sought from a near one.
+    /// angle of the groove it belongs to, searched from a near one.
     fn found(&self, edge: usize, half: f64, phi: f64, near: Option<f64>) -> (f64, f64) {
         checkpoint();
         let Edge { turn, wall, .. } = self.edge(edge);

@@ -1,5 +1,9 @@
+use std::sync::LazyLock;
+
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
+
+use super::StandardTable;
 
 /// A keyway in the bore, along the body's x axis unless its body says otherwise.
 #[derive(Clone, Copy, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -11,35 +15,24 @@ pub struct Keyway {
     pub depth: f64,
 }
 
-/// Width and height of a parallel key, depth left to the hub beyond that of the shaft, minimum and maximum length, mm; DIN 6885-1.
-const KEYS: [(f64, f64, f64, [f64; 2]); 15] = [
-    (2.0, 2.0, 0.2, [6.0, 20.0]),
-    (3.0, 3.0, 0.2, [6.0, 36.0]),
-    (4.0, 4.0, 0.3, [8.0, 45.0]),
-    (5.0, 5.0, 0.3, [10.0, 56.0]),
-    (6.0, 6.0, 0.3, [14.0, 70.0]),
-    (8.0, 7.0, 0.3, [18.0, 90.0]),
-    (10.0, 8.0, 0.3, [22.0, 110.0]),
-    (12.0, 8.0, 0.3, [28.0, 140.0]),
-    (14.0, 9.0, 0.3, [36.0, 160.0]),
-    (16.0, 10.0, 0.3, [45.0, 180.0]),
-    (18.0, 11.0, 0.4, [50.0, 200.0]),
-    (20.0, 12.0, 0.4, [56.0, 220.0]),
-    (22.0, 14.0, 0.4, [63.0, 250.0]),
-    (25.0, 14.0, 0.4, [70.0, 280.0]),
-    (28.0, 16.0, 0.4, [80.0, 320.0]),
-];
+/// Width and height of a parallel key, depth left to the hub beyond that of the shaft, minimum and maximum length, mm.
+static KEYS: LazyLock<StandardTable<5>> =
+    LazyLock::new(|| StandardTable::read(include_str!("../../../data/din-6885-keys.csv")));
+
+/// Diameters of shafts up to which, width of the key, depth in the hub, mm.
+static HUBS: LazyLock<StandardTable<3>> =
+    LazyLock::new(|| StandardTable::read(include_str!("../../../data/din-6885-hubs.csv")));
 
 impl Keyway {
     /// Minimum and maximum length of the standard keys as wide as this keyway, mm; `None` where there are none. Source: DIN 6885-1.
     #[must_use]
     pub fn key_lengths(self) -> Option<[f64; 2]> {
-        self.standard().map(|(.., lengths)| lengths)
+        self.standard().map(|[.., short, long]| [short, long])
     }
 
     /// The standard keys as wide as this keyway.
-    fn standard(self) -> Option<(f64, f64, f64, [f64; 2])> {
-        KEYS.into_iter().find(|(b, ..)| *b == self.width)
+    fn standard(self) -> Option<[f64; 5]> {
+        KEYS.of(self.width)
     }
 
     /// Pressure between a hub and the key in this keyway of it, N/mm², for a torque (N mm) on a shaft of a diameter and a key that
@@ -52,30 +45,11 @@ impl Keyway {
         2.0 * torque / (diameter * (self.depth - room) * length)
     }
 
-    /// The keyway of a hub on a shaft of a diameter (mm), as ISO/R 773 and DIN 6885-1 ask for parallel keys; `None` below 6 mm,
-    /// and beyond 110 mm.
+    /// The keyway of a hub on a shaft of a diameter (mm), for parallel keys to ISO/R 773 and DIN 6885-1; `None` up to 6 mm and
+    /// beyond 110 mm.
     #[must_use]
     pub fn of_bore(diameter: f64) -> Option<Self> {
-        // Diameters over which and up to which, width of the key, depth in the hub.
-        const HUBS: [(f64, f64, f64); 15] = [
-            (8.0, 2.0, 1.0),
-            (10.0, 3.0, 1.4),
-            (12.0, 4.0, 1.8),
-            (17.0, 5.0, 2.3),
-            (22.0, 6.0, 2.8),
-            (30.0, 8.0, 3.3),
-            (38.0, 10.0, 3.3),
-            (44.0, 12.0, 3.3),
-            (50.0, 14.0, 3.8),
-            (58.0, 16.0, 4.3),
-            (65.0, 18.0, 4.4),
-            (75.0, 20.0, 4.9),
-            (85.0, 22.0, 5.4),
-            (95.0, 25.0, 5.4),
-            (110.0, 28.0, 6.4),
-        ];
-        let row = HUBS.into_iter().find(|(end, ..)| diameter <= *end);
-        let (_, width, depth) = row.filter(|_| diameter > 6.0)?;
+        let [_, width, depth] = *HUBS.up_to(diameter).filter(|_| diameter > 6.0)?;
         Some(Self { width, depth })
     }
 
@@ -83,12 +57,12 @@ impl Keyway {
     /// other widths. Source: DIN 6885-1.
     #[must_use]
     pub fn depth_tolerance(self) -> Option<f64> {
-        let (width, ..) = self.standard()?;
+        let [width, ..] = self.standard()?;
         Some(if width <= 6.0 { 0.1 } else { 0.2 })
     }
 
-    /// The keyway of a hub whose parallel key lies in this one of a shaft: as wide, and as deep as DIN 6885-1 asks for
-    /// keys of its widths; for others, a square key with room above it.
+    /// The keyway of a hub whose parallel key lies in this one of a shaft: as wide, and as deep as DIN 6885-1 requires
+    /// for keys of its widths; for others, a square key with room above it.
     #[must_use]
     pub fn of_hub(self) -> Self {
         self.mate()
@@ -109,7 +83,7 @@ impl Keyway {
     fn sizes(self) -> (f64, f64, f64) {
         self.standard().map_or(
             (self.width, self.width, 0.06 * self.width),
-            |(width, height, room, _)| (width, height, room),
+            |[width, height, room, ..]| (width, height, room),
         )
     }
 

@@ -5,6 +5,9 @@ mod key;
 mod keyway;
 mod rule;
 mod screw;
+mod table;
+
+use std::sync::LazyLock;
 
 use centrode_geometry::{Arc, Outline, Point, Segment, Solid};
 use schemars::JsonSchema;
@@ -16,6 +19,7 @@ pub use key::{Key, allowed_pressure};
 pub use keyway::Keyway;
 pub use rule::{hole_class, screw_size, shaft_class};
 pub use screw::Screw;
+pub use table::StandardTable;
 
 /// Diameters of parallel pins of hardened steel, mm; ISO 8734:1997.
 const DOWELS: [f64; 14] = [
@@ -84,45 +88,15 @@ pub struct Circlip {
     pub radial: f64,
 }
 
-/// Shaft, thickness, groove, width, land, radial width of the ring, mm; DIN 471, normal rings.
-#[rustfmt::skip]
-const CIRCLIPS: [[f64; 6]; 28] = [
-    [3.0, 0.4, 2.8, 0.5, 0.3, 0.8],
-    [4.0, 0.4, 3.8, 0.5, 0.3, 0.9],
-    [5.0, 0.6, 4.8, 0.7, 0.3, 1.1],
-    [6.0, 0.7, 5.7, 0.8, 0.5, 1.3],
-    [7.0, 0.8, 6.7, 0.9, 0.5, 1.4],
-    [8.0, 0.8, 7.6, 0.9, 0.6, 1.5],
-    [9.0, 1.0, 8.6, 1.1, 0.6, 1.7],
-    [10.0, 1.0, 9.6, 1.1, 0.6, 1.8],
-    [11.0, 1.0, 10.5, 1.1, 0.8, 1.8],
-    [12.0, 1.0, 11.5, 1.1, 0.8, 1.8],
-    [13.0, 1.0, 12.4, 1.1, 0.9, 2.0],
-    [14.0, 1.0, 13.4, 1.1, 0.9, 2.1],
-    [15.0, 1.0, 14.3, 1.1, 1.1, 2.2],
-    [16.0, 1.0, 15.2, 1.1, 1.2, 2.2],
-    [17.0, 1.0, 16.2, 1.1, 1.2, 2.3],
-    [18.0, 1.2, 17.0, 1.3, 1.5, 2.4],
-    [19.0, 1.2, 18.0, 1.3, 1.5, 2.5],
-    [20.0, 1.2, 19.0, 1.3, 1.5, 2.6],
-    [22.0, 1.2, 21.0, 1.3, 1.5, 2.8],
-    [24.0, 1.2, 22.9, 1.3, 1.7, 3.0],
-    [25.0, 1.2, 23.9, 1.3, 1.7, 3.0],
-    [26.0, 1.2, 24.9, 1.3, 1.7, 3.1],
-    [28.0, 1.5, 26.6, 1.6, 2.1, 3.2],
-    [30.0, 1.5, 28.6, 1.6, 2.1, 3.5],
-    [32.0, 1.5, 30.3, 1.6, 2.6, 3.6],
-    [35.0, 1.5, 33.0, 1.6, 3.0, 3.9],
-    [40.0, 1.75, 37.5, 1.85, 3.8, 4.4],
-    [50.0, 2.0, 47.0, 2.15, 4.5, 5.1],
-];
+/// Shaft, thickness, groove, width, land, radial width of the ring, mm.
+static CIRCLIPS: LazyLock<StandardTable<6>> =
+    LazyLock::new(|| StandardTable::read(include_str!("../../../data/din-471.csv")));
 
 impl Circlip {
     /// The ring of a shaft of a diameter, mm; `None` where there is no such ring.
     #[must_use]
     pub fn of_shaft(diameter: f64) -> Option<Self> {
-        let row = CIRCLIPS.into_iter().find(|row| row[0] == diameter)?;
-        let [shaft, thickness, groove, width, land, radial] = row;
+        let [shaft, thickness, groove, width, land, radial] = CIRCLIPS.of(diameter)?;
         Some(Self {
             shaft,
             thickness,
@@ -206,7 +180,7 @@ mod tests {
 
     #[test]
     fn a_ring_lies_in_its_groove_and_the_groove_in_the_shaft() {
-        for [shaft, thickness, groove, width, land, radial] in CIRCLIPS {
+        for [shaft, thickness, groove, width, land, radial] in CIRCLIPS.rows.iter().copied() {
             assert!(groove < shaft && groove > 0.9 * shaft, "{shaft}");
             assert!(thickness < width && width < thickness + 0.2, "{shaft}");
             // DIN 471 asks for a land of three times the groove's depth, rounded.

@@ -1,4 +1,7 @@
+use std::sync::LazyLock;
+
 use super::super::{TurnedPart, TurnedStep};
+use super::StandardTable;
 
 /// Socket head cap screw, ISO 4762, of strength class 8.8, with the holes that belong to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -13,19 +16,8 @@ pub struct Screw {
 ///
 /// Source: ISO 4762:2004 (head and lengths), ISO 273:1979, medium series (clearance holes), ISO 2306:1972 (drills for the coarse
 /// threads of ISO 261).
-#[rustfmt::skip]
-const SCREWS: [[f64; 6]; 10] = [
-    [1.6, 3.0, 1.8, 1.25, 2.5, 16.0],
-    [2.0, 3.8, 2.4, 1.6, 3.0, 20.0],
-    [2.5, 4.5, 2.9, 2.05, 4.0, 25.0],
-    [3.0, 5.5, 3.4, 2.5, 5.0, 30.0],
-    [4.0, 7.0, 4.5, 3.3, 6.0, 40.0],
-    [5.0, 8.5, 5.5, 4.2, 8.0, 50.0],
-    [6.0, 10.0, 6.6, 5.0, 10.0, 60.0],
-    [8.0, 13.0, 9.0, 6.8, 12.0, 80.0],
-    [10.0, 16.0, 11.0, 8.5, 16.0, 100.0],
-    [12.0, 18.0, 13.5, 10.2, 20.0, 120.0],
-];
+static SCREWS: LazyLock<StandardTable<6>> =
+    LazyLock::new(|| StandardTable::read(include_str!("../../../data/iso-4762.csv")));
 
 /// Lengths, mm; ISO 4762:2004.
 const LENGTHS: [f64; 27] = [
@@ -41,13 +33,13 @@ impl Screw {
 
     /// Nominal diameters, mm, ascending.
     pub fn sizes() -> impl DoubleEndedIterator<Item = f64> {
-        SCREWS.into_iter().map(|row| row[0])
+        SCREWS.rows.iter().map(|row| row[0])
     }
 
     /// The longest screw of a nominal diameter that is no longer than a room, mm; `None` where there is no such screw.
     #[must_use]
     pub fn for_diameter(diameter: f64, room: f64) -> Option<Self> {
-        let [.., minimum, most] = *SCREWS.iter().find(|row| row[0] == diameter)?;
+        let [.., minimum, most] = SCREWS.of(diameter)?;
         // A length of whole layers differs from it by rounding.
         let fits =
             |length: &f64| (minimum..=most).contains(length) && *length <= room * (1.0 + 1e-9);
@@ -56,8 +48,7 @@ impl Screw {
     }
 
     fn row(self) -> [f64; 6] {
-        let own = SCREWS.into_iter().find(|row| row[0] == self.diameter);
-        own.unwrap_or([self.diameter; 6])
+        SCREWS.of(self.diameter).unwrap_or([self.diameter; 6])
     }
 
     /// Diameter of its head, mm.
@@ -139,7 +130,8 @@ mod tests {
     fn holes_leave_play_and_threads_their_depth() {
         // Pitches of the coarse series, ISO 261.
         let pitches = [0.35, 0.4, 0.45, 0.5, 0.7, 0.8, 1.0, 1.25, 1.5, 1.75];
-        for ([diameter, head, hole, drill, minimum, most], pitch) in SCREWS.into_iter().zip(pitches)
+        for ([diameter, head, hole, drill, minimum, most], pitch) in
+            SCREWS.rows.iter().copied().zip(pitches)
         {
             // The core of a nut's thread is 1.0825 pitches below the nominal diameter, its widest limit a fifth of a pitch more.
             let core = diameter - 1.0825 * pitch;

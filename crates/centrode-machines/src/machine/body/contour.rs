@@ -133,10 +133,7 @@ impl Drawn<'_> {
 
     /// The contour, counter-clockwise; `key` is that of the table it is written in.
     pub(in crate::machine) fn contour(&self, key: &str) -> Result<Option<Outline>, MachineError> {
-        let wrong = |of: &str, why: String| MachineError::Refused {
-            key: format!("{key}.{of}"),
-            why,
-        };
+        let wrong = |of: &str, why: String| MachineError::refused(format!("{key}.{of}"), why);
         if let Some(circle) = self.circle {
             return Ok(Some(Outline::circle(circle.center.into(), circle.radius)));
         }

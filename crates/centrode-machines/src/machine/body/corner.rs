@@ -24,13 +24,10 @@ pub struct MachinePointsSpec {
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub outline: Vec<MachineCornerSpec>,
     /// Radius of the corners of the contour, mm.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub corner_radius: Option<f64>,
     /// Contour of a round plate.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub circle: Option<MachineCircleSpec>,
     /// Thickness of its plate, mm; that of the other plates by default.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub thickness: Option<f64>,
 }
 
@@ -42,7 +39,7 @@ pub struct CornerSpec {
     pub from: [String; 2],
     /// Distances from them, mm.
     pub lengths: [f64; 2],
-    /// Side of the way from the first to the second on which it lies, left or right.
+    /// Side of the line from the first to the second on which it lies, left or right.
     pub side: Side,
 }
 
@@ -50,7 +47,7 @@ pub struct CornerSpec {
 #[derive(Clone, Copy, Debug, Deserialize, Eq, JsonSchema, PartialEq, Serialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Side {
-    /// To the left of the way from the first point to the second.
+    /// To the left of the line from the first point to the second.
     Left,
     /// To the right of it.
     Right,

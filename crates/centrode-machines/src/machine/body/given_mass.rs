@@ -43,7 +43,7 @@ impl GivenMass {
 
     /// Mass of a body with such a plate, its middle at a height: that of the plate but for what is given.
     ///
-    /// About the axes in the plane a given inertia counts half, as that of a disc; no planar motion asks for it.
+    /// About the axes in the plane a given inertia counts half, as that of a disc; no planar motion requires it.
     pub(in crate::machine) fn of(
         &self,
         plate: Option<MassProperties>,

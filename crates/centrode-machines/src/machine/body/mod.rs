@@ -25,63 +25,42 @@ use centrode_spec::{SpecError, degrees};
 #[serde(default, deny_unknown_fields)]
 pub struct MachineBodySpec {
     /// Point of another body on which it turns, or from which it slides: `frame.O`; with a mesh, the body that carries it.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub on: Option<String>,
-    /// Direction in which it slides, in the axes of the body that carries it, rad (degrees in the file); left out, it turns.
-    #[serde(
-        rename = "slides_deg",
-        with = "degrees",
-        skip_serializing_if = "Option::is_none"
-    )]
+    /// Direction in which it slides, in the axes of the body that carries it, rad (degrees in the file); by default it turns.
+    #[serde(rename = "slides_deg", with = "degrees")]
     #[schemars(with = "Option<f64>")]
     pub slides: Option<f64>,
     /// Body, or point of a body, to which it is fixed: its origin.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub fixed_to: Option<String>,
     /// Turn of its axes against those of the body it is fixed to, rad (degrees in the file).
-    #[serde(
-        rename = "turned_deg",
-        with = "degrees",
-        skip_serializing_if = "Option::is_none"
-    )]
+    #[serde(rename = "turned_deg", with = "degrees")]
     #[schemars(with = "Option<f64>")]
     pub turned: Option<f64>,
-    /// Place of its plate along the shafts, counted from the one next to the frame, which is in layer -1: below it are the gears; left out, plates
-    /// stack in order.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Position of its plate along the shafts, counted from the one next to the frame, which is in layer -1: below it are the
+    /// gears; default: plates stack in order.
     pub layer: Option<i32>,
-    /// Whether it is drawn as a plate; left out, it is.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Whether it is drawn as a plate; by default it is.
     pub plate: Option<bool>,
-    /// Corners of its plate in order, in the body's axes, mm; left out, the plate is drawn round its points.
+    /// Corners of its plate in order, in the body's axes, mm; default: the plate is drawn round its points.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub outline: Vec<MachineCornerSpec>,
     /// Radius to which the corners of its outline are rounded, mm.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub corner_radius: Option<f64>,
     /// Circle that its plate is.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub circle: Option<MachineCircleSpec>,
-    /// Width of its plate round its points, mm; left out, that of all plates.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Width of its plate round its points, mm; default: that of all plates.
     pub width: Option<f64>,
-    /// Thickness of its plate, mm; left out, that of all plates.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Thickness of its plate, mm; default: that of all plates.
     pub thickness: Option<f64>,
-    /// Mass without its gears, kg; left out, that of its plate.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Mass without its gears, kg; default: that of its plate.
     pub mass_kg: Option<f64>,
-    /// Centre of mass of a given mass: x and y in the body's axes, mm; left out, that of its plate, or the origin.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Centre of mass of a given mass: x and y in the body's axes, mm; default: that of its plate, or the origin.
     pub center: Option<[f64; 2]>,
-    /// Moment of inertia of a given mass about its centre, kg mm²; left out, that of the plate at the given mass.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Moment of inertia of a given mass about its centre, kg mm²; default: that of the plate at the given mass.
     pub inertia_kg_mm2: Option<f64>,
     /// Motion of a body that turns or slides.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub law: Option<MachineLawSpec>,
     /// Mesh that turns it on its carrier, and places it there.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub mesh: Option<MachineMeshSpec>,
     /// Points by name: x and y in the body's axes, mm.
     #[serde(skip_serializing_if = "BTreeMap::is_empty")]

@@ -25,7 +25,7 @@ pub(in crate::machine) type BodyPoints = BTreeMap<String, BTreeMap<String, Local
 /// A point of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::machine) struct LocalPoint {
-    /// Place in the body's axes, mm.
+    /// Position in the body's axes, mm.
     pub(in crate::machine) at: Point,
     /// Whether it has its name from this body, not from the one it is pinned to.
     pub(in crate::machine) own: bool,
@@ -36,7 +36,7 @@ pub(in crate::machine) struct LocalPoint {
 pub struct BodyPoint {
     /// Index of the body.
     pub body: usize,
-    /// Place in the body's axes, mm.
+    /// Position in the body's axes, mm.
     pub at: Point,
 }
 
@@ -52,7 +52,7 @@ impl BodyPoint {
 pub(in crate::machine) struct Reference {
     /// The body.
     pub(in crate::machine) body: String,
-    /// The point; none for the origin.
+    /// The point; `None` for the origin.
     pub(in crate::machine) point: Option<String>,
 }
 
@@ -83,18 +83,19 @@ impl Reference {
         }
     }
 
-    /// Finds the place in the body's axes.
+    /// Finds the position in the body's axes.
     pub(in crate::machine) fn find(
         &self,
         key: &str,
         bodies: &BodyPoints,
     ) -> Result<Point, MachineError> {
         let Some(points) = bodies.get(&self.body) else {
-            return Err(MachineError::NoBody {
-                key: key.into(),
-                body: self.body.clone(),
-                known: bodies.keys().cloned().collect(),
-            });
+            return Err(MachineError::unknown(
+                key,
+                "body",
+                self.body.clone(),
+                bodies.keys().cloned(),
+            ));
         };
         let Some(name) = &self.point else {
             return Ok(Point::origin());
@@ -123,12 +124,12 @@ pub(in crate::machine) fn followed_cam<'a>(
     let key = format!("bodies.{name}.law.follows");
     match design.cams.get(cam) {
         Some(spec) => Ok(Some((key, spec))),
-        None => Err(MachineError::NoGear {
+        None => Err(MachineError::unknown(
             key,
-            what: "cam",
-            name: cam.clone(),
-            known: design.cams.keys().cloned().collect(),
-        }),
+            "cam",
+            cam.clone(),
+            design.cams.keys().cloned(),
+        )),
     }
 }
 

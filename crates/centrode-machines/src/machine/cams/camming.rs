@@ -1,4 +1,4 @@
-//! Cams in their places, and the motions of what follows them.
+//! Cams in their positions, and the motions of what follows them.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -27,7 +27,7 @@ pub struct MachineCam {
     pub(in crate::machine) body_name: String,
     /// The finished cam.
     pub part: Arc<Cam>,
-    /// Place of its axis in the body's axes, mm.
+    /// Position of its axis in the body's axes, mm.
     pub at: Point,
     /// Angle of its own axes against the body's, rad.
     pub mount: f64,
@@ -65,7 +65,7 @@ impl MachineCam {
         format!("{}-profile", self.name)
     }
 
-    /// Place of the cam's axes in those of its body.
+    /// Position of the cam's axes in those of its body.
     fn place(&self) -> Isometry2<f64> {
         Isometry2::new(self.at.coords, self.mount)
     }
@@ -84,13 +84,7 @@ impl MachineCam {
 
     /// Its contour to touch with.
     pub(in crate::machine) fn surface(&self, solid: &Solid) -> Surface {
-        Surface {
-            name: self.surface_name(),
-            outline: solid.outline().clone(),
-            span: [solid.bottom(), solid.top()],
-            teeth: Vec::new(),
-            coarseness: 1.0,
-        }
+        Surface::of_solid(self.surface_name(), solid)
     }
 
     /// Contour, bore and path of the roller's centre in its body's axes.
@@ -122,7 +116,7 @@ impl Machine {
         self.gears_bottom() - depth.sum::<f64>()
     }
 
-    /// Roller of a body that follows a cam, in the body's axes; none for a flat face or a point.
+    /// Roller of a body that follows a cam, in the body's axes; `None` for a flat face or a point.
     pub(in crate::machine) fn roller(&self, body: &str) -> Option<Outline> {
         let follows = |cam: &&MachineCam| cam.followers.iter().any(|name| name == body);
         let disc = self.cams.iter().find(follows)?.disc();
@@ -135,7 +129,7 @@ impl Machine {
 impl Builder<'_> {
     /// Motion of a body that follows a cam.
     ///
-    /// With gamma the angle of the cam, delta that of the slide or of the way from the cam's axis to the body's pin, both
+    /// With gamma the angle of the cam, delta that of the slide or of the line from the cam's axis to the body's pin, both
     /// against the carrier, and s the cam's sense of rotation, the cam has turned by s (gamma - delta).
     pub(in crate::machine) fn following(
         &mut self,
@@ -195,7 +189,7 @@ impl Builder<'_> {
         made.followers.push(follower.into());
     }
 
-    /// The cam for a follower: that of those before it, whose follower must be held alike.
+    /// The cam for a follower: that of those before it, whose follower must be held in the same manner.
     fn cut(
         &self,
         name: &str,
@@ -211,7 +205,7 @@ impl Builder<'_> {
             if off || disc.rotation() != rotation {
                 let why = match off {
                     true => format!("is held {own} mm from the axis of cam {cam}"),
-                    false => format!("sees cam {cam} turn the other way"),
+                    false => format!("sees cam {cam} turn in the opposite direction"),
                 };
                 let first = &made.followers[0];
                 let but = if off {

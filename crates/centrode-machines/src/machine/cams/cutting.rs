@@ -31,7 +31,7 @@ struct Moved<'a> {
     sense: f64,
     /// Where the body is on the base circle.
     low: Extreme,
-    /// Distance or angle from there to the highest place.
+    /// Distance or angle from there to the highest point.
     stroke: f64,
     /// Inputs of a period at which a derivative may jump.
     breaks: Vec<f64>,
@@ -54,11 +54,7 @@ impl Builder<'_> {
         let key = format!("cams.{cam}.cut_to");
         let Some(body) = self.body_named(name) else {
             let known = self.bodies.iter().map(|body| body.name.clone());
-            return Err(MachineError::NoBody {
-                body: name.into(),
-                known: known.collect(),
-                key,
-            });
+            return Err(MachineError::unknown(key, "body", name, known));
         };
         let moving = self.bodies[body].mount.clone();
         let Some(mount) = moving.filter(|mount| mount.kind != JointKind::Fixed) else {
@@ -73,10 +69,7 @@ impl Builder<'_> {
             None => FACE,
         };
         let blame = |error: CamError| match error.key().as_str() {
-            "motion" => MachineError::NoFollower {
-                key: key.clone(),
-                why: error.to_string(),
-            },
+            "motion" => MachineError::refused(key.clone(), error.to_string()),
             _ => {
                 let cam = cam.into();
                 MachineError::Cam { cam, error }
@@ -143,7 +136,7 @@ impl Builder<'_> {
         let [low, high] = extremes(|input| sense * law.at(input).position, &ends);
         let stroke = high.value - low.value;
         if stroke <= COMPUTED {
-            let why = format!("body {body} stands still: there is no cam to cut");
+            let why = format!("body {body} is fixed: there is no cam to cut");
             return wrong(key, why);
         }
         let rate = maximum(|input| law.at(input).velocity.abs(), &ends).value;
@@ -183,7 +176,7 @@ impl Builder<'_> {
 }
 
 impl Moved<'_> {
-    /// The lift by the turn of the cam, which must run one way and bring the body back with every turn.
+    /// The lift by the turn of the cam, which must run in one direction and bring the body back with every turn.
     fn by_turn(
         &self,
         key: &str,
@@ -205,7 +198,7 @@ impl Moved<'_> {
             Ok(inverse) => inverse,
             Err(TransmissionError::StandsStill { input, velocity }) => {
                 let why = format!(
-                    "cam {cam} must turn one way against body {carrier}, on which {body} follows it, but at an input of {:.4} deg it turns with {velocity:.6} of the input's speed",
+                    "cam {cam} must turn in one direction against body {carrier}, on which {body} follows it, but at an input of {:.4} deg it turns with {velocity:.6} of the input's speed",
                     input.to_degrees()
                 );
                 return wrong(key, why);
@@ -233,7 +226,7 @@ impl Moved<'_> {
                 let at = |angle: f64| inverse.at(angle).position.rem_euclid(self.period);
                 let [first, then] = [off.input, off.input + later].map(at);
                 let why = format!(
-                    "the motion of body {body} does not repeat with every turn of cam {cam} against body {carrier}, of which there are {turns} in a period: at inputs of {:.4} and {:.4} deg the cam is in one place, but the body is {:.9} (mm or rad) elsewhere",
+                    "the motion of body {body} does not repeat with every turn of cam {cam} against body {carrier} ({turns} turns in a period): at inputs of {:.4} and {:.4} deg the cam is in the same position, but the body is {:.9} (mm or rad) off",
                     first.to_degrees(),
                     then.to_degrees(),
                     off.value
@@ -246,7 +239,7 @@ impl Moved<'_> {
     }
 }
 
-/// Place, in the axes of a body, of its roller's centre, or of the place of its face that touches the base circle when the
+/// Position, in the axes of a body, of its roller's centre, or of the position of its face that touches the base circle when the
 /// cam has turned by an angle and the body is at its lowest.
 fn touching(disc: &DiscCam, seat: &Seat, mount: &Mount, moved: &Moved<'_>, turned: f64) -> Point {
     let place = match disc.roller_center(turned) {

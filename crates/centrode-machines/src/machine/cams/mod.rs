@@ -24,7 +24,6 @@ pub struct MachineCamSpec {
     pub on: String,
     /// Body, or a point of one, at which the axis is where that body is carried: `arm` for a cam about the pin of an arm; left
     /// out, the axis is where `on` says.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub about: Option<String>,
     /// Angle at which it is mounted, of its own axes against the body's, rad (degrees in the file): where its motion begins,
     /// its x axis points along the slide of its follower, or to the follower's pin.
@@ -33,20 +32,17 @@ pub struct MachineCamSpec {
     pub mount: f64,
     /// Radius of the base circle, mm.
     pub base_radius: f64,
-    /// Sense in which it turns, seen from the follower; left out, as its body turns, or counter-clockwise for one that comes
+    /// Sense in which it turns, seen from the follower; default: as its body turns, or counter-clockwise for one that comes
     /// back.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub rotation: Option<Turn>,
     /// Follower that rides on it.
     pub follower: MachineFollowerSpec,
     /// Motion of the follower by the turn of the cam against the body that carries the follower.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub motion: Option<MotionSpec>,
-    /// Body that moves already, by its own law or by others, to whose motion the cam is cut: in place of `motion`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// Body that moves already, by its own law or by others, to whose motion the cam is cut: instead of `motion`.
     pub cut_to: Option<String>,
-    /// Place along the shafts, counted in plates from the one next to the frame; left out, cams lie one below the other behind the gears.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// Position along the shafts, counted in plates from the one next to the frame; default: cams lie one below the other
+    /// behind the gears.
     pub layer: Option<i32>,
     /// Width, bore and material.
     #[serde(default)]
@@ -74,8 +70,7 @@ pub enum MachineFollowerSpec {
 pub struct MachineSlidingRoller {
     /// Radius of the roller, mm; 0 for a point.
     pub roller_radius: f64,
-    /// Distance of the slide from the cam's axis, mm, positive to the left of its direction; left out, as the bodies have it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// Distance of the slide from the cam's axis, mm, positive to the left of its direction; default: taken from the positions of the bodies.
     pub offset: Option<f64>,
 }
 
@@ -85,8 +80,7 @@ pub struct MachineSlidingRoller {
 pub struct MachineSwingingRoller {
     /// Radius of the roller, mm; 0 for a point.
     pub roller_radius: f64,
-    /// Distance of the body's pin from the cam's axis, mm; left out, as the bodies have it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// Distance of the body's pin from the cam's axis, mm; default: taken from the positions of the bodies.
     pub center_distance: Option<f64>,
     /// Distance of the roller's centre from the body's pin, mm.
     pub arm_length: f64,
@@ -99,8 +93,7 @@ pub struct MachineSwingingRoller {
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct MachineSwingingFlat {
-    /// Distance of the body's pin from the cam's axis, mm; left out, as the bodies have it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// Distance of the body's pin from the cam's axis, mm; default: taken from the positions of the bodies.
     pub center_distance: Option<f64>,
     /// Distance of the face before the pin, towards the cam, mm; may be negative.
     #[serde(default)]

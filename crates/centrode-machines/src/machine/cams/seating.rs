@@ -1,4 +1,4 @@
-//! Cams and followers in their places against each other.
+//! Cams and followers in their positions against each other.
 
 use std::f64::consts::{PI, TAU};
 
@@ -13,14 +13,14 @@ use centrode_kinematics::transmission::{MotionJet, Transmission, crossings, sort
 
 /// Parts of a turn of the input in each of which the turn of a cam has few extremes.
 const PARTS: u32 = 24;
-/// Movement of an axis, as a share of the base radius, below which it stands still.
+/// Movement of an axis, as a share of the base radius, below which it is fixed.
 const SAME: f64 = 1e-12;
 
 /// A cam and the body that carries its follower.
 pub(in crate::machine) struct Seat {
     /// The axis, as a point of the body of the cam.
     pub(in crate::machine) cam: BodyPoint,
-    /// The carrier, and the place of the axis there, mm.
+    /// The carrier, and the position of the axis there, mm.
     pub(in crate::machine) carrier: usize,
     pub(in crate::machine) axis: Point,
     /// Direction on the carrier of the slide, or to the pin, rad.
@@ -76,7 +76,7 @@ impl Turned {
 }
 
 impl Builder<'_> {
-    /// Where a body that is held at a place of its carrier, and slides in a direction or turns, has the axis of its cam.
+    /// Where a body that is held at a position of its carrier, and slides in a direction or turns, has the axis of its cam.
     pub(in crate::machine) fn seat(
         &self,
         key: &str,
@@ -186,7 +186,7 @@ impl Builder<'_> {
             (None, _) => Turn::CounterClockwise,
             (Some(rotation), turns) if turns * rotation.sign() < 0.0 => {
                 let why = format!(
-                    "cam {cam} makes {turns} turns (counter-clockwise positive) against body {carrier}, on which {name} follows it: it turns the other way"
+                    "cam {cam} makes {turns} turns (counter-clockwise positive) against body {carrier}, on which {name} follows it: it turns in the opposite direction"
                 );
                 return wrong(&format!("cams.{cam}.rotation"), why);
             }
@@ -200,8 +200,7 @@ impl Builder<'_> {
 
 /// A cam that cannot be followed.
 pub(in crate::machine) fn wrong<T>(key: &str, why: String) -> Result<T, MachineError> {
-    let key = key.into();
-    Err(MachineError::NoFollower { key, why })
+    Err(MachineError::refused(key, why))
 }
 
 /// An angle less whole turns, from -pi to pi.

@@ -42,7 +42,7 @@ impl Machine {
         let first = self.pushed(cam, [curve, follower], 0.0).0;
         let near =
             move |angle: f64| first + (angle - first) - TAU * ((angle - first) / TAU).round();
-        // Both laws of a line are asked for at the same inputs.
+        // Both laws of a line are requested at the same inputs.
         let last: Arc<Recent<u64, (f64, f64)>> = Arc::new(Recent::new());
         let law = |of: fn((f64, f64)) -> f64| -> Arc<dyn Transmission> {
             let (own, last) = (Arc::clone(own), Arc::clone(&last));
@@ -51,10 +51,7 @@ impl Machine {
                     let pushed = own.pushed(&own.cams[index], [curve, follower], input);
                     (near(pushed.0), pushed.1)
                 });
-                MotionJet {
-                    position: of(line),
-                    ..MotionJet::default()
-                }
+                MotionJet::at_rest(of(line))
             };
             Arc::new(FromFn::new(self.period(), 0.0, mount.law.breaks(), at))
         };

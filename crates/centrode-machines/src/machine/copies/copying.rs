@@ -22,7 +22,7 @@ const ROUNDING: f64 = 1e-8;
 /// Change of a rate, as a share of it, below which a body turns evenly.
 const EVEN: f64 = 1e-12;
 
-/// How a copy stands against its original.
+/// Pose of a copy relative to its original.
 #[derive(Clone, Copy)]
 struct CopyTurn {
     /// Index of the body in the middle.
@@ -63,7 +63,7 @@ impl Machine {
         };
         let none = Expansion::default();
         let mut first = Builder::assembled(&bare, &none, None)?;
-        // Loads of copies may stand on the followers of cams that are cut.
+        // Loads of copies may act on the followers of cams that are cut.
         let cut_before = !design.loads.is_empty();
         if cut_before {
             first.cut_cams()?;
@@ -107,25 +107,16 @@ impl Machine {
         key: &str,
         spec: &MachineCopiesSpec,
     ) -> Result<(), MachineError> {
-        let known = || self.bodies.iter().map(|body| body.name.clone()).collect();
         let named = spec.bodies.iter().map(|body| (body, "bodies"));
         for (body, word) in named.chain([(&spec.about, "about")]) {
-            if self.body_named(body).is_none() {
-                return Err(MachineError::NoBody {
-                    key: format!("{key}.{word}"),
-                    body: body.clone(),
-                    known: known(),
-                });
-            }
+            self.body_of(&format!("{key}.{word}"), body)?;
         }
         let times = |body: &String| {
             let all = design.copies.values().flat_map(|copies| &copies.bodies);
             all.filter(|other| *other == body).count()
         };
-        let wrong = |word: &str, why: String| {
-            let key = format!("{key}.{word}");
-            Err(MachineError::NoCopies { key, why })
-        };
+        let wrong =
+            |word: &str, why: String| Err(MachineError::refused(format!("{key}.{word}"), why));
         if let Some(body) = spec.bodies.iter().find(|body| times(body) > 1) {
             return wrong("bodies", format!("body {body} would be copied twice"));
         }
@@ -134,7 +125,7 @@ impl Machine {
             .iter()
             .find(|body| *body == crate::machine::design::FRAME)
         {
-            return wrong("bodies", format!("the {body} stands still: there is one"));
+            return wrong("bodies", format!("the {body} is fixed: there is one"));
         }
         match times(&spec.about) {
             0 => Ok(()),
@@ -164,14 +155,14 @@ impl Machine {
         } else {
             high
         };
-        Err(MachineError::NoCopies {
-            key: format!("{key}.about"),
-            why: format!(
-                "body {about} turns to and fro, at an input of {:.4} deg with {:.6} of the input's speed: copies about it need one that stands still or turns one way",
+        Err(MachineError::refused(
+            format!("{key}.about"),
+            format!(
+                "body {about} turns to and fro, at an input of {:.4} deg with {:.6} of the input's speed: copies about it need one that is fixed or turns in one direction",
                 back.input.to_degrees(),
                 back.value
             ),
-        })
+        ))
     }
 
     /// Ends of the parts of a cycle between which all motion is smooth.
@@ -180,7 +171,7 @@ impl Machine {
         piece_ends(0.0, self.period(), parts, self.linkage.breaks())
     }
 
-    /// Checks that each copy stands as its original does where the body in the middle has turned on.
+    /// Checks that each copy has the pose of its original when the body in the middle has turned on.
     fn check_copies(&self, key: &str, spec: &MachineCopiesSpec) -> Result<(), MachineError> {
         let about = self.body_named(&spec.about).unwrap_or(0);
         let spin = self.spin(key, &spec.about)?;
@@ -213,10 +204,10 @@ impl Machine {
             let off = |input: f64| self.off(CopyTurn { about, spin, turn }, body, copy, input);
             let [length, angle] = [0, 1].map(|i| maximum(|input| off(input)[i], &self.parts()));
             if length.value > ROUNDING * size || angle.value > ROUNDING {
-                return Err(MachineError::NoCopies {
-                    key: key.into(),
-                    why: repeats(name, &copied, &spec.about, turn, [length, angle]),
-                });
+                return Err(MachineError::refused(
+                    key,
+                    repeats(name, &copied, &spec.about, turn, [length, angle]),
+                ));
             }
         }
         Ok(())
@@ -253,7 +244,7 @@ impl Machine {
         maximum
     }
 
-    /// Distance and angle by which a copy is off where its original stands when the body in the middle has turned on.
+    /// Distance and angle by which a copy is off its original when the body in the middle has turned on.
     fn off(&self, by: CopyTurn, body: usize, copy: usize, input: f64) -> [f64; 2] {
         let pose = |body: usize, input: f64| Pose {
             at: self.place(body, Point::origin(), input),
@@ -263,7 +254,7 @@ impl Machine {
         self.apart(by, input, from, pose(copy, input))
     }
 
-    /// Distance and angle between where an original is to stand and where its copy stands.
+    /// Distance and angle between the required pose of an original and that of its copy.
     fn apart(&self, by: CopyTurn, input: f64, mut from: Pose, found: Pose) -> [f64; 2] {
         if by.spin == Spin::Still {
             let middle = self.place(by.about, Point::origin(), input);
@@ -289,7 +280,7 @@ impl Machine {
     }
 }
 
-/// An error of the design written out, told of what is copied.
+/// An error of the design with its copies written out, by the names of the originals.
 fn of_copy(error: MachineError, expansion: &Expansion) -> MachineError {
     match expansion.written(&error.key()) {
         key if key == error.key() => error,
@@ -305,11 +296,11 @@ fn repeats(name: &str, copy: &str, about: &str, turn: f64, off: [Extreme; 2]) ->
     let [length, angle] = off;
     let degrees = turn.to_degrees();
     let what = match about {
-        crate::machine::design::FRAME => format!("as {name} does, turned by {degrees:.4} deg"),
-        _ => format!("where {name} does when {about} has turned {degrees:.4} deg further"),
+        crate::machine::design::FRAME => format!("as {name}, turned by {degrees:.4} deg"),
+        _ => format!("where {name} is when {about} has turned {degrees:.4} deg further"),
     };
     format!(
-        "the train does not repeat: {copy} does not stand {what}, but is up to {:.6} mm off (at an input of {:.4} deg) and {:.6} deg (at {:.4} deg)",
+        "the train does not repeat: {copy} is not {what}, but up to {:.6} mm off (at an input of {:.4} deg) and {:.6} deg (at {:.4} deg)",
         length.value,
         length.input.to_degrees(),
         angle.value.to_degrees(),

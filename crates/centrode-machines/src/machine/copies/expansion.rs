@@ -9,7 +9,7 @@ use crate::machine::body::points::Reference;
 pub(in crate::machine) struct Expansion {
     /// Originals of bodies, dyads, gears, cams and meshes, by the names of their copies.
     pub(in crate::machine) originals: BTreeMap<String, String>,
-    /// Pins' names by the points, `body.point`, that stand for them on the body about which copies are spaced.
+    /// Pins' names by the points, `body.point`, that represent them on the body about which copies are spaced.
     pub(in crate::machine) pins: BTreeMap<String, String>,
     /// Inputs by which laws and loads run ahead of those of the originals, by `body` and `loads.load`, rad.
     pub(in crate::machine) ahead: BTreeMap<String, f64>,
@@ -28,7 +28,7 @@ impl Expansion {
         self.originals.get(name).map_or(name, String::as_str)
     }
 
-    /// Key of the original in place of that of a copy.
+    /// Key of the original instead of that of a copy.
     pub(in crate::machine) fn written(&self, key: &str) -> String {
         let parts = key.split('.').enumerate();
         let parts = parts.map(|(i, part)| if i == 1 { self.original(part) } else { part });

@@ -8,7 +8,7 @@ use crate::machine::{LoadAxes, MachineDesign, MachineError};
 
 impl ChainCopy<'_> {
     /// Adds the loads on the bodies that are copied: turned with a copy that is the original turned, ahead by the input where
-    /// a copy stands as the original does later.
+    /// a copy has the pose that the original has later.
     pub(super) fn loads(&mut self, design: &MachineDesign) -> Result<(), MachineError> {
         for (name, load) in &design.loads {
             if !self.bodies.contains(&Reference::to_body(&load.on).body) {

@@ -31,7 +31,7 @@ pub struct MachineCopiesSpec {
     pub bodies: Vec<String>,
     /// Number of pieces in all.
     pub count: u32,
-    /// Body about whose origin they are spaced; the frame where left out.
+    /// Body about whose origin they are spaced; the frame where omitted.
     #[serde(default = "frame")]
     pub about: String,
 }
@@ -58,11 +58,11 @@ impl MachineCopiesSpec {
 /// Motion of the body about which copies are spaced.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Spin {
-    /// It stands still.
+    /// It is fixed.
     Still,
     /// It turns evenly: its rate, rad per rad of the input.
     Even(f64),
-    /// It turns one way, unevenly: the sign.
+    /// It turns in one direction, unevenly: the sign.
     Uneven(f64),
 }
 
@@ -110,8 +110,7 @@ pub(super) fn add(
 
 impl ChainCopy<'_> {
     fn wrong(&self, why: String) -> MachineError {
-        let key = self.key.clone();
-        MachineError::NoCopies { key, why }
+        MachineError::refused(&self.key, why)
     }
 
     /// Name of the copy of something.
@@ -364,8 +363,7 @@ impl ChainCopy<'_> {
                 let about = self.about;
                 let why =
                     format!("body {about} turns unevenly: of {what}, there are no copies about it");
-                let key = key.into();
-                Err(MachineError::NoCopies { key, why })
+                Err(MachineError::refused(key, why))
             }
         }
     }

@@ -32,7 +32,7 @@ pub struct MachineGear {
     pub pair: Arc<GearPair>,
     /// Which of the pair it is.
     pub member: Member,
-    /// Place of its axis in the body's axes, mm.
+    /// Position of its axis in the body's axes, mm.
     pub at: Point,
     /// Angle of its own axes against the body's, rad.
     pub mount: f64,
@@ -57,7 +57,7 @@ impl MachineGear {
         format!("{}-teeth", self.name)
     }
 
-    /// Place of the gear's axes in those of its body.
+    /// Position of the gear's axes in those of its body.
     fn place(&self) -> Isometry2<f64> {
         Isometry2::new(self.at.coords, self.mount)
     }
@@ -82,11 +82,8 @@ impl MachineGear {
         };
         let segments = self.gear().roles().iter().zip(self.gear().owners());
         Surface {
-            name: self.surface_name(),
-            outline: solid.outline().clone(),
-            span: [solid.bottom(), solid.top()],
             teeth: segments.map(touches).collect(),
-            coarseness: 1.0,
+            ..Surface::of_solid(self.surface_name(), solid)
         }
     }
 
@@ -149,19 +146,21 @@ pub(in crate::machine) fn gears_of(
     }
     let gear = |(name, spec): (&String, &crate::machine::MachineGearSpec)| {
         if points.contains_key(name) {
-            return Err(MachineError::NoMesh {
-                key: format!("gears.{name}"),
-                why: format!("a body is named {name}, too: their files would be one"),
-            });
+            return Err(MachineError::refused(
+                format!("gears.{name}"),
+                format!("a body is named {name}, too: their files would be one"),
+            ));
         }
         let key = format!("gears.{name}.on");
         let on = Reference::to_body(&spec.on);
         let at = on.find(&key, points)?;
-        let pair = pairs.get(&spec.pair).ok_or_else(|| MachineError::NoGear {
-            key: format!("gears.{name}.pair"),
-            what: "pair",
-            name: spec.pair.clone(),
-            known: design.pairs.keys().cloned().collect(),
+        let pair = pairs.get(&spec.pair).ok_or_else(|| {
+            MachineError::unknown(
+                format!("gears.{name}.pair"),
+                "pair",
+                spec.pair.clone(),
+                design.pairs.keys().cloned(),
+            )
         })?;
         Ok(MachineGear {
             name: name.clone(),
@@ -182,11 +181,13 @@ impl Builder<'_> {
     /// A gear by its name.
     pub(in crate::machine) fn gear(&self, key: &str, name: &str) -> Result<usize, MachineError> {
         let found = self.gears.iter().position(|gear| gear.name == name);
-        found.ok_or_else(|| MachineError::NoGear {
-            key: key.into(),
-            what: "gear",
-            name: name.into(),
-            known: self.gears.iter().map(|gear| gear.name.clone()).collect(),
+        found.ok_or_else(|| {
+            MachineError::unknown(
+                key,
+                "gear",
+                name,
+                self.gears.iter().map(|gear| gear.name.clone()),
+            )
         })
     }
 
@@ -203,14 +204,14 @@ impl Builder<'_> {
                     gear.pair.name()
                 )
             };
-            return Err(MachineError::NoMesh {
-                key: key.into(),
-                why: format!(
+            return Err(MachineError::refused(
+                key,
+                format!(
                     "{} and {}: only the driver and the driven gear of one pair mesh",
                     words(a),
                     words(b)
                 ),
-            });
+            ));
         }
         Ok([one, other])
     }
@@ -236,10 +237,7 @@ impl Builder<'_> {
         let base = self.place(&format!("bodies.{name}.on"), on)?;
         let [own, with] = self.both(&key, [&mesh.gear, &mesh.with])?;
         let gear = &self.gears[own];
-        let wrong = |why: String| MachineError::NoMesh {
-            key: key.clone(),
-            why,
-        };
+        let wrong = |why: String| MachineError::refused(key.clone(), why);
         if gear.body_name != name || gear.at != Point::origin() || base.at != Point::origin() {
             return Err(wrong(format!(
                 "gear {} must be on body {name} at its origin, and the body on another body without a point: the mesh places it",
@@ -318,14 +316,14 @@ impl Builder<'_> {
             let (mismatch, input) = self.mismatch(&key, [driver, driven])?;
             if mismatch > COMPUTED {
                 let [one, other] = [driver, driven].map(|gear| self.gears[gear].name.clone());
-                return Err(MachineError::NoMesh {
+                return Err(MachineError::refused(
                     key,
-                    why: format!(
+                    format!(
                         "the loop of meshes does not close: held by others, gears {one} and {other} are {:.6} deg off their mesh at an input of {:.4} deg",
                         mismatch.to_degrees(),
                         input.to_degrees()
                     ),
-                });
+                ));
             }
         }
         Ok(())
@@ -362,15 +360,15 @@ impl Builder<'_> {
             let way = to - from;
             let (apart, distance) = (way.norm(), pair.center_distance());
             if (apart - distance).abs() > COMPUTED * distance {
-                return Err(MachineError::NoMesh {
-                    key: key.into(),
-                    why: format!(
+                return Err(MachineError::refused(
+                    key,
+                    format!(
                         "the axes of gears {} and {} are {apart:.6} mm apart at an input of {:.4} deg, not the pair's {distance:.6} mm",
                         self.gears[driver].name,
                         self.gears[driven].name,
                         input.to_degrees()
                     ),
-                });
+                ));
             }
             let mesh = RollingMesh {
                 rolling: Arc::clone(&rolling),

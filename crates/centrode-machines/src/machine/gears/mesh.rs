@@ -8,7 +8,7 @@ use centrode_kinematics::transmission::{
     FromFn, MotionJet, Remembered, Transmission, crossings, repeated, sorted,
 };
 
-/// Laws of meshed bodies that are kept: a machine has some, each for every copy.
+/// Maximum number of cached laws of meshed bodies: a machine has some, each for every copy.
 const CACHED: usize = 32;
 
 /// Sum of a constant and joint coordinates: the angle of a body, or of a gear on it, without jumps.
@@ -41,10 +41,7 @@ impl Angle {
 
     /// Angle by the input.
     pub(in crate::machine) fn at(&self, input: f64) -> MotionJet {
-        let start = MotionJet {
-            position: self.start,
-            ..MotionJet::default()
-        };
+        let start = MotionJet::at_rest(self.start);
         let sum = |sum: MotionJet, law: &Arc<dyn Transmission>| sum.plus(1.0, &law.at(input));
         self.terms.iter().fold(start, sum)
     }
@@ -138,7 +135,7 @@ impl MeshedBody {
 
     /// The coordinate by the input, from within half a turn of zero on, and the turns by which it grows over a period.
     ///
-    /// Kept with the values it remembers: most changes of a machine leave its trains as they are.
+    /// Cached with its values: most changes of a machine do not change its trains.
     pub(in crate::machine) fn law(self, period: f64) -> (Arc<dyn Transmission>, f64) {
         static LAWS: Recent<(MeshedBody, f64), (Arc<dyn Transmission>, f64), CACHED> =
             Recent::new();
@@ -152,7 +149,7 @@ impl MeshedBody {
         let whole = TAU * (advance / TAU).round();
         let breaks = self.breaks(period);
         let law = FromFn::new(period, whole, breaks, move |input| self.at(input));
-        // Trains and dyads beyond ask for it again and again.
+        // Trains and dyads beyond require it again and again.
         (Arc::new(Remembered::new(law)), advance / TAU)
     }
 }

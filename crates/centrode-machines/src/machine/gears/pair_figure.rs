@@ -55,10 +55,7 @@ impl Machine {
         words: &str,
     ) -> Option<Result<MachineFigure, MachineError>> {
         let (name, word) = words.strip_prefix("pair(")?.split_once(").")?;
-        let refused = |why: String| MachineError::Refused {
-            key: key.into(),
-            why,
-        };
+        let refused = |why: String| MachineError::refused(key, why);
         let pairs = self.pairs();
         let name = name.trim();
         let Some(pair) = pairs.iter().position(|pair| pair.name() == name) else {

@@ -15,7 +15,7 @@ impl Machine {
     /// Bodies or obstacles that a key names, for their clearance.
     ///
     /// # Errors
-    /// [`MachineError`] for a name that is neither's, and for two that stand on one body.
+    /// [`MachineError`] for a name that is neither's, and for two on one body.
     pub fn clearance_ends(
         &self,
         key: &str,
@@ -32,23 +32,23 @@ impl Machine {
         let [one, other] = ends.map(|end| self.body_of_end(end));
         if one == other {
             let [first, second] = names;
-            return Err(MachineError::Refused {
-                key: key.into(),
-                why: format!(
+            return Err(MachineError::refused(
+                key,
+                format!(
                     "{first} and {second} are both on {}: their clearance stays what it is",
                     self.bodies[one].name
                 ),
-            });
+            ));
         }
         let is_in = |[block, guide]: [usize; 2]| self.slotted(block) == Some(guide);
         if is_in([one, other]) || is_in([other, one]) {
             let [first, second] = names;
-            return Err(MachineError::Refused {
-                key: key.into(),
-                why: format!(
+            return Err(MachineError::refused(
+                key,
+                format!(
                     "{first} and {second} slide on each other in a slot: their clearance is that of the fit"
                 ),
-            });
+            ));
         }
         Ok(ends)
     }

@@ -40,7 +40,7 @@ pub const FIGURE_FORMS: [[&str; 3]; 15] = [
     ],
     [
         "body.travel",
-        "place of a body along the one that carries it, on a slide",
+        "position of a body along the one that carries it, on a slide",
         "mm",
     ],
     ["transmission(dyad)", "transmission angle of a dyad", "deg"],
@@ -114,7 +114,7 @@ pub enum MachineFigure {
 }
 
 impl MachineFigure {
-    /// Whether it is of forces, which the motion alone does not tell.
+    /// Whether it is of forces, which do not follow from the motion alone.
     #[must_use]
     pub fn is_of_forces(&self) -> bool {
         matches!(
@@ -138,18 +138,15 @@ pub enum PointPart {
 }
 
 impl Machine {
-    /// Finds a figure by its words, as [`FIGURE_FORMS`] tells; `key` is that of the design which names it.
+    /// Finds a figure by its words, as [`FIGURE_FORMS`] shows; `key` is that of the design which names it.
     ///
     /// # Errors
     /// [`MachineError`] where there is no such figure.
     pub fn figure(&self, key: &str, words: &str) -> Result<MachineFigure, MachineError> {
-        let none = || MachineError::NoFigure {
-            key: key.into(),
-            words: words.into(),
-            known: FIGURE_FORMS
-                .iter()
-                .map(|[form, ..]| (*form).into())
-                .collect(),
+        let none = || {
+            let forms = FIGURE_FORMS.map(|[form, ..]| form).join(", ");
+            let why = format!("there is no figure {words:?}; its forms are {forms}");
+            MachineError::refused(key, why)
         };
         if let Some(found) = self.figure_of_forces(key, words) {
             return found?.ok_or_else(none);
@@ -162,14 +159,10 @@ impl Machine {
             let names: Vec<&str> = inside.split(',').map(str::trim).collect();
             return match (function.trim(), &names[..]) {
                 ("transmission", [dyad]) => {
-                    let found = self.dyads.iter().position(|d| d.name == *dyad);
-                    found
-                        .map(MachineFigure::Transmission)
-                        .ok_or_else(|| MachineError::NoDyad {
-                            key: key.into(),
-                            dyad: (*dyad).into(),
-                            known: self.dyads.iter().map(|d| d.name.clone()).collect(),
-                        })
+                    let names = || self.dyads.iter().map(|own| own.name.clone());
+                    let found = names().position(|name| name == *dyad);
+                    let unknown = || MachineError::unknown(key, "dyad", *dyad, names());
+                    found.map(MachineFigure::Transmission).ok_or_else(unknown)
                 }
                 ("distance", [one, other]) => Ok(MachineFigure::Distance([
                     self.point_of(key, one)?,
@@ -281,15 +274,18 @@ impl Machine {
     }
 
     /// Index of a body that a key names.
-    pub(super) fn body_of(&self, key: &str, name: &str) -> Result<usize, MachineError> {
-        self.body_named(name).ok_or_else(|| MachineError::NoBody {
-            key: key.into(),
-            body: name.into(),
-            known: self.bodies.iter().map(|body| body.name.clone()).collect(),
+    pub(in crate::machine) fn body_of(&self, key: &str, name: &str) -> Result<usize, MachineError> {
+        self.body_named(name).ok_or_else(|| {
+            MachineError::unknown(
+                key,
+                "body",
+                name,
+                self.bodies.iter().map(|body| body.name.clone()),
+            )
         })
     }
 
-    /// Body and place of a point that a key names.
+    /// Body and position of a point that a key names.
     fn point_of(&self, key: &str, word: &str) -> Result<BodyPoint, MachineError> {
         if let Some(found) = self.point_named(word) {
             return Ok(found);
@@ -302,7 +298,7 @@ impl Machine {
         })
     }
 
-    /// Value of a figure at an input, in mm, rad, mm/s, m/s² or rad/s; none for a clearance, which is of the whole cycle, for a
+    /// Value of a figure at an input, in mm, rad, mm/s, m/s² or rad/s; `None` for a clearance, which is of the whole cycle, for a
     /// force, nor for a figure of a pair.
     #[must_use]
     pub fn value(&self, figure: &MachineFigure, input: f64) -> Option<f64> {

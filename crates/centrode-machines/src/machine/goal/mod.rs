@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 use centrode_spec::rule::{Rule, broken, finite, positive, single_line};
 use centrode_spec::{SpecError, degrees};
 
-/// A goal: a figure, where in the cycle it counts, and the range in which it is wanted, in the figure's unit: mm, deg, mm/s.
+/// A goal: a figure, where in the cycle it counts, and the range in which it is required, in the figure's unit: mm, deg, mm/s.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(deny_unknown_fields)]
 pub struct MachineGoalSpec {
@@ -19,19 +19,13 @@ pub struct MachineGoalSpec {
     /// Goal in a few words, for reports.
     #[serde(default, skip_serializing_if = "String::is_empty")]
     pub title: String,
-    /// Extreme over the cycle that counts; left out, the figure counts at an input.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// Extreme over the cycle that counts; default: the figure counts at an input.
     pub over: Option<Over>,
     /// Input at which it counts, rad (degrees in the file).
-    #[serde(
-        default,
-        rename = "at_deg",
-        with = "degrees",
-        skip_serializing_if = "Option::is_none"
-    )]
+    #[serde(default, rename = "at_deg", with = "degrees")]
     #[schemars(with = "Option<f64>")]
     pub at: Option<f64>,
-    /// Inputs between which the extreme is looked for, rad (degrees in the file); left out, the cycle.
+    /// Inputs between which the extreme is searched, rad (degrees in the file); default: the cycle.
     #[serde(
         default,
         rename = "within_deg",
@@ -40,21 +34,16 @@ pub struct MachineGoalSpec {
     )]
     #[schemars(with = "Vec<f64>")]
     pub within: Vec<f64>,
-    /// Figure wanted at the first and at the last of these inputs, between which it shall change evenly: what a departure
+    /// Figure required at the first and at the last of these inputs, between which it must change evenly: what a departure
     /// counts from.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub uniform: Option<[f64; 2]>,
-    /// Minimum figure wanted.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// Minimum required figure.
     pub minimum: Option<f64>,
-    /// Maximum figure wanted.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// Maximum required figure.
     pub maximum: Option<f64>,
-    /// Minimum and maximum figure wanted.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// Minimum and maximum required figure.
     pub between: Option<[f64; 2]>,
-    /// Miss that is half way to the goal, for a search; left out, the size of what is wanted.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// Miss that is halfway to the goal, for a search; default: the size of what is required.
     pub scale: Option<f64>,
 }
 
@@ -102,7 +91,7 @@ impl MachineGoalSpec {
         }
     }
 
-    /// Minimum and maximum figure wanted, in the unit shown.
+    /// Minimum and maximum required figure, in the unit shown.
     #[must_use]
     pub fn required(&self) -> [Option<f64>; 2] {
         match self.between {

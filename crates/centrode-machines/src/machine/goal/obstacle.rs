@@ -14,30 +14,25 @@ use centrode_spec::rule::{Rule, broken, finite};
 
 /// Size of a half plane against that of the machine.
 const WIDE: f64 = 4.0;
-/// Places at which the width of the ground in the picture is measured.
+/// Positions at which the width of the ground in the picture is measured.
 const SAMPLES: u32 = 90;
 
-/// Scenery that stands on the frame or travels with a body: ground, a tray, a wall.
+/// Scenery that is fixed to the frame or moves with a body: ground, a tray, a wall.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct MachineObstacleSpec {
-    /// Body it travels with, or a point of one, `tray.corner`, from which its shape is measured; left out, the frame.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Body it moves with, or a point of one, `tray.corner`, from which its shape is measured; default: the frame.
     pub on: Option<String>,
     /// Corners of its shape in order, in the body's axes, mm.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub outline: Vec<MachineCornerSpec>,
     /// Radius to which its corners are rounded, mm.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub corner_radius: Option<f64>,
     /// Circle that it is.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub circle: Option<MachineCircleSpec>,
     /// Height of the ground, which fills all below it: y in the body's axes, mm.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub below: Option<f64>,
-    /// Lower and upper end along the shafts, mm, the plate next to the frame from 0 on; left out, it is in the way of all.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Lower and upper end along the shafts, mm, the plate next to the frame from 0 on; default: all heights.
     pub heights: Option<[f64; 2]>,
 }
 
@@ -46,7 +41,7 @@ pub struct MachineObstacleSpec {
 pub struct MachineObstacle {
     /// Name.
     pub name: String,
-    /// Index of the body it travels with.
+    /// Index of the body it moves with.
     pub body: usize,
     /// Its shape in the body's axes, as far as the machine can reach.
     pub outline: Outline,
@@ -91,13 +86,7 @@ impl MachineObstacle {
     /// Surface with which it is in the way.
     #[must_use]
     pub fn surface(&self) -> Surface {
-        Surface {
-            name: self.name.clone(),
-            outline: self.outline.clone(),
-            span: self.span,
-            teeth: Vec::new(),
-            coarseness: 1.0,
-        }
+        Surface::new(self.name.clone(), self.outline.clone(), self.span)
     }
 }
 
@@ -115,10 +104,10 @@ impl Machine {
         let obstacle = |(name, spec): (&String, &MachineObstacleSpec)| {
             let key = format!("obstacles.{name}");
             if self.body_named(name).is_some() {
-                return Err(MachineError::Refused {
+                return Err(MachineError::refused(
                     key,
-                    why: format!("a body is named {name}, too: a clearance could be of either"),
-                });
+                    format!("a body is named {name}, too: a clearance could be of either"),
+                ));
             }
             let on = format!("{key}.on");
             let word = spec.on.as_deref().unwrap_or(crate::machine::design::FRAME);

@@ -19,7 +19,7 @@ const ON_AXIS: [&str; 5] = ["height, mm", "part", "size", "how", "supply"];
 /// Headings of the table of the frame.
 const IN_FRAME: [&str; 5] = ["for", "x, mm", "y, mm", "size", "remark"];
 
-/// A part on an axis: lower and upper face, and its cells but the first.
+/// A part on an axis: heights of its lower and upper face, mm, and the cells of its table row except the first.
 type Row = ([f64; 2], [String; 4]);
 
 impl Machine {
@@ -43,12 +43,8 @@ impl Machine {
                 .filter_map(|piece| machine.link_named(&piece.link))
                 .collect();
             machine.part(Part {
-                name: pieces.part.title.clone(),
-                links: links.clone(),
                 material: pieces.part.material.clone(),
-                supply: Supply::Given,
-                remark: size.clone(),
-                ..Part::default()
+                ..Part::given(&pieces.part.title, links.clone(), size.clone())
             });
             for fastener in pieces.fasteners() {
                 let bought = Part::bought(fastener.name, links.clone());
@@ -87,7 +83,7 @@ impl Machine {
         self.list_drives(machine);
         let mut held = self.bores();
         for index in 1..self.bodies.len() {
-            // A copy is a further piece of what its original has.
+            // The guide of a copy is a further piece of its original's guide.
             let name = self.original(&self.bodies[index].name);
             let original = self.body_named(name).unwrap_or(index);
             let guided = self
@@ -101,17 +97,12 @@ impl Machine {
             let angle = rounded(mount.angle.to_degrees(), 3);
             let size = format!("{size} {}", Self::GUIDE_FIT[0]);
             let along = format!("along {angle}°, {travel} mm of travel");
-            machine.part(Part {
-                name: format!("Guide of {name}"),
-                links: self.bodies[index]
-                    .mount
-                    .iter()
-                    .map(|own| own.carrier)
-                    .collect(),
-                supply: Supply::Given,
-                remark: format!("{size} on {carrier}, {along}"),
-                ..Part::default()
-            });
+            let own = self.bodies[index].mount.iter();
+            machine.part(Part::given(
+                &format!("Guide of {name}"),
+                own.map(|own| own.carrier).collect(),
+                format!("{size} on {carrier}, {along}"),
+            ));
             if mount.carrier == 0 && index == original {
                 let [x, y] = [mount.at.x, mount.at.y].map(thousandths);
                 held.push([format!("guide of {name}"), x, y, size, along]);
@@ -120,32 +111,20 @@ impl Machine {
         for cam in &self.cams {
             for follower in &cam.followers {
                 let name = self.original(follower);
-                machine.part(Part {
-                    name: format!("Spring of {name}"),
-                    links: self.body_named(follower).into_iter().collect(),
-                    supply: Supply::Given,
-                    remark: format!("or a groove: holds {name} on {}", self.original(&cam.name)),
-                    ..Part::default()
-                });
+                machine.part(Part::given(
+                    &format!("Spring of {name}"),
+                    self.body_named(follower).into_iter().collect(),
+                    format!("or a groove: holds {name} on {}", self.original(&cam.name)),
+                ));
             }
         }
         if let Some(screws) = self.frame_screws() {
-            machine.part(Part {
-                name: "Foot".into(),
-                links: vec![0; screws.at.len()],
-                supply: Supply::Given,
-                remark: "under the lower plate of the frame, at the posts".into(),
-                ..Part::default()
-            });
+            let remark = "under the lower plate of the frame, at the posts";
+            machine.part(Part::given("Foot", vec![0; screws.at.len()], remark.into()));
         }
         if !self.has_plate(0) && !held.is_empty() {
-            machine.part(Part {
-                name: FRAME.into(),
-                links: vec![0],
-                supply: Supply::Given,
-                remark: "holds what the table Frame lists".into(),
-                ..Part::default()
-            });
+            let remark = "holds what the table Frame lists";
+            machine.part(Part::given(FRAME, vec![0], remark.into()));
             machine.arrangement.tables.push(ArrangementTable {
                 title: "Frame (given): what it holds".into(),
                 headings: IN_FRAME.map(String::from).into(),
@@ -196,7 +175,7 @@ impl Machine {
         let holes = self.pin_holes(0).into_iter().flatten();
         let bottom = self.bottom(0);
         let heights = [bottom, bottom + self.thickness(0)].map(thousandths);
-        let row = |hole: crate::machine::PinHole| {
+        let row = |hole: crate::PinHole| {
             let [x, y] = [hole.at.x, hole.at.y].map(thousandths);
             let size = format!("Ø{} {}", thousandths(hole.hub.bore), hole.hub.bore_fit);
             let remark = format!("taken as from {} to {}", heights[0], heights[1]);

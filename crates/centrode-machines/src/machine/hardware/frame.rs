@@ -2,17 +2,14 @@
 
 use centrode_geometry::{Bounds, Outline, Point, Solid, SolidError, Vector};
 
+use crate::PinHole;
 use crate::machine::design::FRAME;
 use crate::machine::hardware::pins::SPARE;
 use crate::machine::hardware::plates::ONE;
 use crate::machine::hardware::spacing::Passing;
-use crate::machine::{
-    BodyPoint, Hardware, Hold, Machine, MachineError, MachineShaft, PinHole, ShaftPart,
-};
+use crate::machine::{BodyPoint, Hardware, Hold, Machine, MachineError, MachineShaft, ShaftPart};
 use centrode_gear::design::BodySpec;
-use centrode_kinematics::machine::{
-    Bar, Circlip, Fastening, Fit, JointKind, Stock, TurnedPiece, TurnedPieces,
-};
+use centrode_kinematics::machine::{Bar, Circlip, Fastening, Fit, JointKind, Stock, TurnedPieces};
 use centrode_spec::digits::thousandths;
 
 /// Distance of the posts from what moves, mm. Ten times less leaves no room for deviations; ten times more wastes plate.
@@ -246,20 +243,16 @@ impl Machine {
         let diameter = POST * screws.screw.diameter;
         let stock = Stock::new(&spec.material, spec.density);
         let general = &self.design.drawing.general_tolerance;
-        let bar = Bar::new(diameter, "", [low, high]);
-        let mut post = bar.part(Self::POSTS, "Post", stock, general);
+        let bar = Bar::new(Fit::new("", diameter, ["", ""]), [low, high]);
+        let mut posts = bar.turned(Self::POSTS, "Post", stock, general);
         let thread = screws.screw.thread();
-        post.notes.push(match screws.thread_depth() {
+        posts.part.notes.push(match screws.thread_depth() {
             Some(depth) => format!("{thread}, {} deep, in both ends.", thousandths(depth)),
             None => format!("{thread} through."),
         });
         let at = screws.at.iter();
-        let pieces = at.map(|at| TurnedPiece::upright(FRAME, [at.x, at.y, low]));
-        let posts = TurnedPieces {
-            role: format!("{thread} in both ends"),
-            pieces: pieces.collect(),
-            ..TurnedPieces::new(post, Fit::new("", diameter, ["", ""]))
-        };
+        posts.pieces = at.map(|at| bar.piece(FRAME, *at)).collect();
+        posts.role = format!("{thread} in both ends");
         vec![
             posts,
             screws.screws(&[FRAME.to_owned()], "of the frame's posts"),

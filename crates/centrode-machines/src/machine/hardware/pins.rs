@@ -188,17 +188,15 @@ impl Machine {
         let [low, high] = axis.span;
         let room = [(low, false), (high, true)]
             .map(|(wall, is_above)| self.room_at(own, axis.size, wall, is_above, &is_free));
-        let held = |room: [f64; 2]| {
-            let bar = Bar::new(spec.pin_diameter, &spec.pin_fit, [0.0, length]);
-            bar.held(room).through(&on_it)
-        };
+        let fit = Fit::new("", spec.pin_diameter, [&spec.hole_fit, &spec.pin_fit]);
+        let bar = Bar::new(fit, [0.0, length]).through(&on_it);
+        let held = |room: [f64; 2]| bar.clone().held(room);
         // Play between the rings moves each by half of it.
         let needed = Circlip::of_shaft(axis.size).map_or(0.0, Circlip::room);
         let moved = 0.5 * held(room).growth(general);
         let bar = held(room.map(|room| if needed + moved > room { 0.0 } else { room }));
         let bottom = axis.span[0] + bar.bottom() - 0.5 * bar.growth(general);
         let title = format!("Pin through {} mm", thousandths(length));
-        let part = bar.part("pin", &title, spec.pin_stock(), general);
         let role = match bar.rings() {
             [true, true] => "",
             [false, false] => "no room for rings",
@@ -210,12 +208,11 @@ impl Machine {
             is_counted: given.is_some_and(|given| given.mass.is_some()),
             ..TurnedPiece::upright(name, [own.at.x, own.at.y, bottom])
         };
-        let fit = Fit::new("", spec.pin_diameter, [&spec.hole_fit, &spec.pin_fit]);
         TurnedPieces {
             role: role.into(),
             spacers: rings.map(|(ring, at)| (*ring, at - bottom)).collect(),
             pieces: vec![piece],
-            ..TurnedPieces::new(part, fit)
+            ..bar.turned("pin", &title, spec.pin_stock(), general)
         }
     }
 

@@ -1,13 +1,12 @@
 use std::collections::BTreeMap;
 
 use centrode_geometry::{Outline, Point, Solid, SolidError, Tolerance};
-use nalgebra::Isometry2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::PinHole;
 use crate::machine::design::FRAME;
 use crate::machine::{Hardware, Machine, MachineBodySpec, MachineDesign, MachineError};
-use centrode_gear::design::BodySpec;
 use centrode_kinematics::machine::{Fastening, JointKind, Stock, hole_class, shaft_class};
 use centrode_spec::SpecError;
 use centrode_spec::digits::thousandths;
@@ -37,16 +36,16 @@ const CHECKED: f64 = 1e-6;
 #[serde(default, deny_unknown_fields)]
 #[schemars(extend("x-detail" = true))]
 pub struct MachinePlatesSpec {
-    /// Thickness of a plate, mm; default 5, or less by the shortest distance of two holes.
+    /// Thickness of a plate, mm; default 5, or less in proportion if two holes are closer than 8 mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub thickness: Option<f64>,
-    /// Distance of neighbouring plates, mm; default 1, or less by the shortest distance of two holes.
+    /// Distance of neighbouring plates, mm; default 1, or less in proportion if two holes are closer than 8 mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub gap: Option<f64>,
-    /// Width of a plate, mm: it ends in half circles about its points; default 8, or less by the shortest distance of two holes.
+    /// Width of a plate, mm: it ends in half circles about its points; default 8, or less in proportion if two holes are closer than 8 mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub width: Option<f64>,
-    /// Diameter of the pins, mm; default 3, or less by the shortest distance of two holes.
+    /// Diameter of the pins, mm; default 3, or less in proportion if two holes are closer than 8 mm.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub pin_diameter: Option<f64>,
     /// Tolerance class of the holes, ISO 286, for the drawing.
@@ -106,29 +105,6 @@ impl MachinePlatesSpec {
         single_line("material", &self.material)?;
         single_line("heat_treatment", &self.heat_treatment)?;
         single_line("pin_heat_treatment", &self.pin_heat_treatment)
-    }
-}
-
-/// Hole of a plate for a pin or a shaft.
-#[derive(Clone, Debug, PartialEq)]
-pub struct PinHole {
-    /// Name of the point.
-    pub name: String,
-    /// Place in the body's axes, mm.
-    pub at: Point,
-    /// Diameter, keyway with its direction in the body's axes, and classes.
-    pub hub: BodySpec,
-}
-
-impl PinHole {
-    /// Its contour in the body's axes.
-    #[must_use]
-    pub fn outline(&self) -> Outline {
-        let keyed = self.hub.keyway.and_then(|_| self.hub.bore_outline());
-        match keyed {
-            Some(keyed) => keyed.transformed(&Isometry2::translation(self.at.x, self.at.y)),
-            None => Outline::circle(self.at, 0.5 * self.hub.bore),
-        }
     }
 }
 

@@ -3,7 +3,7 @@
 use crate::machine::{BodyPoint, Hardware, Hold, Machine, MachineShaft, ShaftPart};
 use centrode_geometry::COMPUTED;
 use centrode_kinematics::machine::{
-    Bar, Fit, JointKind, Keyway, LinkedMachine, Part, SeatedKey, Supply, TurnedPiece, TurnedPieces,
+    Bar, JointKind, Keyway, LinkedMachine, Part, TurnedPiece, TurnedPieces,
 };
 use centrode_spec::digits::thousandths;
 
@@ -63,20 +63,18 @@ impl Machine {
             &hub.shaft_fit
         };
         let above = beyond(high, true, is_highest);
-        let mut bar = Bar::new(hub.bore, class, [low - end, high])
+        let mut bar = Bar::new(hub.seat(""), [low - end, high])
+            .of_class(class)
             .ring(low, false, beyond(low, false, is_lowest))
             .ring(high, true, above);
         let spans: Vec<[f64; 2]> = on_it.iter().map(|part| part.span).collect();
         let spacers = self.spacers(own, hub.bore, &spans);
-        let rings = spacers.iter().map(|(ring, at)| [*at, at + ring.length]);
         let general = &self.design.drawing.general_tolerance;
-        bar = bar.through(&spans).through(&rings.collect::<Vec<_>>());
-        bar = bar.within(above, general);
+        bar = bar.through(&spans).spaced(spacers).within(above, general);
         let mut seats = Vec::new();
         if end > 0.0 {
             seats.push([low - end, low]);
         }
-        let mut keys = Vec::new();
         for part in on_it.iter().filter(|part| part.hold.is_fixed()) {
             let mut span = part.span;
             if let Hold::Keyed(key) = part.hold {
@@ -87,7 +85,7 @@ impl Machine {
                     true => bar.keyed_square(hub.keyway, span),
                     false => bar.keyed(hub.keyway, span),
                 };
-                keys.push((key, middle - 0.5 * key.length));
+                bar = bar.key(Some(key), part.span);
                 if let Some([past, beyond]) = bar.last_keyway() {
                     seats.extend([[past, span[0]], [span[1], beyond]]);
                 }
@@ -103,36 +101,21 @@ impl Machine {
         }
         let title = format!("Shaft of {}", self.original(&shaft.name));
         let name = format!("shaft-{}", self.original(&shaft.name));
-        let mut part = bar.part(&name, &title, hub.shaft_stock(), general);
-        part.notes.extend(notes(&on_it, end > 0.0));
+        let mut made = bar.turned(&name, &title, hub.shaft_stock(), general);
+        made.part.notes.extend(notes(&on_it, end > 0.0));
+        made.role = match (shaft.body, end > 0.0) {
+            (0, _) => "fixed in the frame".into(),
+            (_, true) => "driven at its free end".into(),
+            (_, false) => String::new(),
+        };
         let owner = &self.bodies[shaft.body].name;
         let given = self.design.bodies.get(owner).map(|body| body.given_mass());
-        let piece = TurnedPiece {
+        made.pieces = vec![TurnedPiece {
             turn: [0.0, 0.0, hub.keyway.map_or(0.0, |_| hub.keyway_angle)],
             is_counted: given.is_some_and(|given| given.mass.is_some()),
-            ..TurnedPiece::upright(owner, [shaft.at.x, shaft.at.y, bar.bottom()])
-        };
-        let seat = |(key, at)| SeatedKey {
-            key,
-            at: at - bar.bottom(),
-        };
-        TurnedPieces {
-            role: match (shaft.body, end > 0.0) {
-                (0, _) => "fixed in the frame".into(),
-                (_, true) => "driven at its free end".into(),
-                (_, false) => String::new(),
-            },
-            keys: keys.into_iter().map(seat).collect(),
-            spacers: spacers
-                .into_iter()
-                .map(|(ring, at)| (ring, at - bar.bottom()))
-                .collect(),
-            pieces: vec![piece],
-            ..TurnedPieces::new(
-                part,
-                Fit::new("", hub.bore, [&hub.bore_fit, &hub.shaft_fit]),
-            )
-        }
+            ..bar.piece(owner, shaft.at)
+        }];
+        made
     }
 
     /// Note of the parts list on how a gear or cam is held, where that is not by its shaft alone.
@@ -162,13 +145,11 @@ impl Machine {
                 false if is_fixed => ("Joint", format!("fixes it to {carrier}")),
                 false => continue,
             };
-            machine.part(Part {
-                name: format!("{what} of {name}"),
-                links: vec![index],
-                supply: Supply::Given,
+            machine.part(Part::given(
+                &format!("{what} of {name}"),
+                vec![index],
                 remark,
-                ..Part::default()
-            });
+            ));
         }
     }
 
@@ -211,17 +192,11 @@ impl Machine {
                 }
                 None => "kept from turning".into(),
             };
-            machine.part(Part {
-                name,
-                links: link.into_iter().collect(),
-                supply: Supply::Given,
-                remark: format!(
-                    "holds it on {}: Ø{bore} {} in its bore, clear of Ø{inside} inside, {kept}",
-                    self.original(body),
-                    hub.shaft_fit
-                ),
-                ..Part::default()
-            });
+            let (on, class) = (self.original(body), &hub.shaft_fit);
+            let remark = format!(
+                "holds it on {on}: Ø{bore} {class} in its bore, clear of Ø{inside} inside, {kept}"
+            );
+            machine.part(Part::given(&name, link.into_iter().collect(), remark));
         }
     }
 

@@ -5,9 +5,10 @@ use std::f64::consts::TAU;
 use centrode_geometry::{COMPUTED, Point};
 use nalgebra::Isometry2;
 
+use crate::PinHole;
 use crate::machine::gears::gearing::Meshing;
 use crate::machine::hardware::pins::Axis;
-use crate::machine::{BodyPoint, Machine, PinHole};
+use crate::machine::{BodyPoint, Machine};
 use centrode_gear::design::BodySpec;
 use centrode_kinematics::machine::{JointKind, Key, Keyway};
 

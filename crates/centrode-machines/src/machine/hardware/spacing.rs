@@ -31,7 +31,7 @@ pub(in crate::machine) struct Passage {
 /// Positions of all bodies at several inputs.
 #[derive(Clone, Debug)]
 pub struct Frames {
-    /// Origin of every body and the point at 1 mm on its first axis, mm, input by input.
+    /// Two points per body, its origin and the point 1 mm along its x axis, mm: all bodies at the first input, then at the next.
     places: Vec<[f64; 2]>,
     bodies: usize,
 }

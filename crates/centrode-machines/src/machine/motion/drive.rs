@@ -40,7 +40,7 @@ pub struct IntermittentSpec {
 pub struct TraverseSpec {
     /// Lead, mm a turn of the shaft.
     pub lead: f64,
-    /// Places a lead apart from one end of a stroke to the other.
+    /// Positions a lead apart from one end of a stroke to the other.
     pub holes: u32,
     /// Radius of the shaft, mm, which a law along the helix needs.
     pub radius: f64,

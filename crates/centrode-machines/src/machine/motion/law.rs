@@ -18,10 +18,10 @@ use centrode_spec::{SpecError, degrees};
 
 /// Maximum speed of a body, rad or mm per rad of the input; only at a pole is one faster.
 const FASTEST: f64 = 1e4;
-/// Inputs a turn at which the speed is looked at: within half a step of a pole like that of tan(phi) it is above the limit.
+/// Inputs a turn at which the speed is sampled: within half a step of a pole like that of tan(phi) it is above the limit.
 const SAMPLES: u32 = 720;
 
-/// Laws that are kept: a machine has some.
+/// Maximum number of cached laws: a machine has some.
 const CACHED: usize = 32;
 
 /// A law, or why there is none.
@@ -34,23 +34,16 @@ type Made = Result<Arc<dyn Transmission>, MachineLawError>;
 #[serde(default, deny_unknown_fields)]
 pub struct MachineLawSpec {
     /// Angle at the start of a body that turns, rad (degrees in the file).
-    #[serde(
-        rename = "start_deg",
-        with = "degrees",
-        skip_serializing_if = "Option::is_none"
-    )]
+    #[serde(rename = "start_deg", with = "degrees")]
     #[schemars(with = "Option<f64>")]
     pub start_angle: Option<f64>,
-    /// Place at the start of a body that slides, mm.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Position at the start of a body that slides, mm.
     pub start: Option<f64>,
-    /// Turns of the body for one of the input: a belt, a chain, round gears; below zero it turns the other way.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Turns of the body for one of the input: a belt, a chain, round gears; below zero it turns in the opposite direction.
     pub ratio: Option<f64>,
-    /// Formula of the input `phi` in rad: of an angle in rad for a body that turns and of a place in mm for one that slides.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Formula of the input `phi` in rad: of an angle in rad for a body that turns and of a position in mm for one that slides.
     pub expression: Option<String>,
-    /// Angles at equal steps of the period, between which a smooth curve runs, rad (degrees in the file).
+    /// Angles at equal steps of the period, interpolated by a smooth curve, rad (degrees in the file).
     #[serde(
         rename = "table_deg",
         with = "degrees",
@@ -60,25 +53,19 @@ pub struct MachineLawSpec {
     pub table_angles: Vec<f64>,
     /// Whole turns of the body over `table_deg`: 1 turns on through 360 degrees, 0 swings back, -1 turns clockwise. By default
     /// those that make the last step small, at most twice the largest step of the table.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub turns: Option<i32>,
-    /// Places at equal steps of the period, between which a smooth curve runs, mm.
+    /// Positions at equal steps of the period, interpolated by a smooth curve, mm.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub table: Vec<f64>,
     /// Rises, returns and dwells over one turn of the input, as for a cam.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub cam: Option<MotionSpec>,
     /// Cam that moves the body as its follower.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub follows: Option<String>,
     /// Turning and rest, as of a gear that an intermittent gear drives.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub intermittent: Option<IntermittentSpec>,
     /// Strokes out and back, as of a slider in the groove of a spiral shaft.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub traverse: Option<TraverseSpec>,
-    /// Body whose turn on its own pin takes the place of the input.
-    #[serde(skip_serializing_if = "Option::is_none")]
+    /// Body whose turn on its own pin replaces the input.
     pub by: Option<String>,
 }
 
@@ -123,7 +110,7 @@ pub enum MachineLawError {
     /// A motion that never comes back as the body it follows does.
     #[error(transparent)]
     By(#[from] TransmissionError),
-    /// A turning body that is not back in place after a period.
+    /// A turning body that is not back at its first position after a period.
     #[error(
         "turns the body by {turns} turns in the period of {period} turns of the input, and is not back: {}",
         match minimum {
@@ -136,7 +123,7 @@ pub enum MachineLawError {
         turns: f64,
         /// Turns of the input.
         period: u32,
-        /// Minimum turns of the input after which it is back.
+        /// Minimum turns of the input after which the body is back at its first position.
         minimum: Option<u32>,
         /// Key of the law.
         key: &'static str,
@@ -150,7 +137,7 @@ pub enum MachineLawError {
         key: &'static str,
         /// The speed.
         speed: f64,
-        /// Unit of the body's place.
+        /// Unit of the body's position.
         unit: &'static str,
         /// Input, deg.
         degrees: f64,
@@ -297,9 +284,9 @@ impl MachineLawSpec {
 
     /// The law over a period of so many turns of the input, of a body that slides or turns and follows no
     /// cam; `by` is the turn of the body that
-    /// takes the place of the input.
+    /// replaces the input.
     ///
-    /// A law of the input alone is kept, so that what is kept of the trains it moves is found by it.
+    /// A law of the input alone is cached, so that the cached trains that it moves are found by it.
     ///
     /// # Errors
     /// [`MachineLawError`] where it cannot be read, or does not come back.
@@ -386,7 +373,7 @@ impl MachineLawSpec {
             groove.resolve().map_err(drive("traverse"))?
         } else {
             let slope = self.ratio.unwrap_or(0.0);
-            return Ok(Arc::new(Linear { start, slope }));
+            return Ok(Arc::new(Linear::new(start, slope)));
         };
         if start == 0.0 {
             return Ok(moved);

@@ -84,11 +84,7 @@ pub(in crate::machine) fn through(
     let jumps = curve.breaks().into_iter().map(|b| b / scale).collect();
     let at = move |input: f64| {
         let rest = MotionJet::from_series(&curve.at(input * scale));
-        let even = MotionJet {
-            position: advance * input / period,
-            velocity: advance / period,
-            ..MotionJet::default()
-        };
+        let even = MotionJet::uniform(advance * input / period, advance / period);
         even.plus(1.0, &stretched(&rest, scale))
     };
     Ok(Arc::new(FromFn::new(period, advance, jumps, at)))
@@ -96,9 +92,5 @@ pub(in crate::machine) fn through(
 
 /// A jet by an input of which its own is `scale` times.
 fn stretched(jet: &MotionJet, scale: f64) -> MotionJet {
-    jet.after(&MotionJet {
-        position: 0.0,
-        velocity: scale,
-        ..MotionJet::default()
-    })
+    jet.after(&MotionJet::uniform(0.0, scale))
 }

@@ -98,7 +98,7 @@ fn offset() -> f64 {
     9.660_254_037_844_386 * 30.0_f64.to_radians().cos() - 9.0 * 0.5
 }
 
-/// Place of a body.
+/// Position of a body.
 fn frame(machine: &Machine, body: usize, input: f64) -> Isometry2<f64> {
     let at = machine.place(body, Point::origin(), input);
     Isometry2::new(at.coords, machine.angle(body, input).position)
@@ -292,7 +292,7 @@ fn bad_cams_are_told_by_their_key_with_both_numbers() {
             &sliding,
             "base_radius = 25".into(),
             "base_radius = 25\nrotation = \"counter-clockwise\"".into(),
-            "cams.push.rotation: cam push makes -2 turns (counter-clockwise positive) against body frame, on which lever follows it: it turns the other way",
+            "cams.push.rotation: cam push makes -2 turns (counter-clockwise positive) against body frame, on which lever follows it: it turns in the opposite direction",
         ),
         (
             &swinging,

@@ -22,7 +22,7 @@ fn copied(count: u32) -> String {
     )
 }
 
-/// Place of a point and angle of its body.
+/// Position of a point and angle of its body.
 fn pose(machine: &Machine, name: &str, at: Point, input: f64) -> (Point, f64) {
     let body = machine.body_named(name).expect(name);
     let angle = machine.angle(body, input).position;
@@ -220,12 +220,12 @@ fn a_train_that_does_not_repeat_is_refused_with_the_mismatch() {
         )
         .replace("on = \"frame.O\", mount_deg = 86", "on = \"hub\"");
     let found = refused(&text);
-    let stated = "copies.arms: the train does not repeat: idler-1-2 does not stand where idler-1 does when carrier has turned 120.0000 deg further, but is up to 0.000000 mm off";
+    let stated = "copies.arms: the train does not repeat: idler-1-2 is not where idler-1 is when carrier has turned 120.0000 deg further, but up to 0.000000 mm off";
     assert!(
         found.contains(stated) && found.contains("120.000000 deg (at"),
         "{found}"
     );
-    // A rod to a point of the frame repeats, wherever it is: all that turns about it stands still. One to a point of a hub that
+    // A rod to a point of the frame repeats, wherever it is: all that turns about it is fixed. One to a point of a hub that
     // turns is off by a chord of 120 degrees about the hub's axis, 2 mm away.
     let rod = copied(3).replace(
         "\"arm-1\"]\ncount",
@@ -238,7 +238,7 @@ fn a_train_that_does_not_repeat_is_refused_with_the_mismatch() {
     let rod = rod.replace("O = [0, 0]", "O = [0, 0]\nZ = [2, 0]");
     assert_eq!(made(&rod).dyads().len(), 3);
     let found = refused(&rod.replace("to = \"frame.Z\"", "to = \"hub.Z\""));
-    let stated = "guide-2 does not stand where guide does when carrier has turned 120.0000 deg further, but is up to 3.464102 mm off";
+    let stated = "guide-2 is not where guide is when carrier has turned 120.0000 deg further, but up to 3.464102 mm off";
     assert!(found.contains(stated), "{found}");
 }
 
@@ -260,7 +260,7 @@ fn bad_copies_are_told_by_their_key() {
         (
             "\"arm-1\"]\ncount",
             "\"arm-1\", \"frame\"]\ncount",
-            "copies.arms.bodies: the frame stands still",
+            "copies.arms.bodies: the frame is fixed",
         ),
         (
             "[copies.arms]",
@@ -270,7 +270,7 @@ fn bad_copies_are_told_by_their_key() {
         (
             "\"idler-1\", \"planet-1\"",
             "\"planet-1\"",
-            "copies.arms: the train does not repeat: planet-1-2 does not stand",
+            "copies.arms: the train does not repeat: planet-1-2 is not",
         ),
     ] {
         let text = good.replacen(from, to, 1);

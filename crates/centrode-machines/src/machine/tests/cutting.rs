@@ -30,7 +30,8 @@ const FOLLOWERS: [(&str, &str); 5] = [
     ),
 ];
 
-/// Cams that turn twice, that turn unevenly either way, and that stand still while the carrier turns: bodies, cam, carrier.
+/// Cams that turn twice, that turn unevenly in either direction, and that are fixed while the carrier turns: bodies, cam,
+/// carrier.
 const DRIVES: [[&str; 3]; 3] = [
     [
         "[bodies.shaft]\non = \"frame.O\"\nlaw = { ratio = -2, start_deg = 11 }",
@@ -206,19 +207,19 @@ fn cams_that_cannot_be_cut_are_told_with_their_numbers() {
             &sliding,
             "cos(2*phi - 0.4)",
             "cos(phi)",
-            "cams.push.cut_to: the motion of body lever does not repeat with every turn of cam push against body frame, of which there are 2 in a period: at inputs of ",
+            "cams.push.cut_to: the motion of body lever does not repeat with every turn of cam push against body frame (2 turns in a period): at inputs of ",
         ),
         (
             &sliding,
             "expression = \"3 - 3*cos(2*phi - 0.4)\"",
             "expression = \"0*phi\"",
-            "cams.push.cut_to: body lever stands still",
+            "cams.push.cut_to: body lever is fixed",
         ),
         (
             &swinging,
             "phi + 0.4*sin(phi)",
             "phi + 1.4*sin(phi)",
-            "cams.push.cut_to: cam push must turn one way against body frame, on which lever follows it, but at an input of 135.",
+            "cams.push.cut_to: cam push must turn in one direction against body frame, on which lever follows it, but at an input of 135.",
         ),
         (
             &swinging,

@@ -33,7 +33,7 @@ fn pitch_curves_touch_and_roll_on_each_other() {
     let pair = &pinion.pair;
     for i in 0..40 {
         let input = 0.31 * f64::from(i);
-        // The point of the pinion's curve on the line of centres is the wheel's, too, and both move alike.
+        // The point of the pinion's curve on the line of centres is the wheel's, too, and both move in the same manner.
         let own = pair.rolling().driven_jet(input).velocity;
         let radius = pair.center_distance() * own / (1.0 + own);
         let contact = centrode_geometry::Point::new(radius, 0.0);

@@ -212,7 +212,7 @@ pub(super) fn agrees(composed: &Machine, machine: &LinkedMachine) {
         for closure in &machine.closures {
             let [a, b] = closure.links;
             let at = frames[a].point(closure.at).position;
-            // The pin keeps its place in the other link.
+            // The pin keeps its position in the other link.
             let there = |input: f64| {
                 let frames = machine.pose(input);
                 let place = frames[a].point(closure.at).position;

@@ -206,7 +206,7 @@ fn without_keyways_the_customer_fixes_parts_and_other_bores_are_listed() {
     };
     assert_eq!(names(given), ["pinion", "crank", "arm", "wheel"]);
     assert_eq!(names(turning), ["frame", "frame"]);
-    // A gear without a bore is told, and leaves the pins as they are.
+    // A gear without a bore is reported, and leaves the pins as they are.
     let solid = made(&TRAIN.replace("bore = 10KEY", "bore = 0"));
     let parts = solid.machine().expect("a machine").parts;
     let wheel = parts

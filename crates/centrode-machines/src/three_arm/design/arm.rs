@@ -25,9 +25,8 @@ pub struct ArmSpec {
     /// Length of the clamp back from the tip along the pusher's axis, mm: the part that passes between seedlings.
     #[serde(default = "default_clamp_length")]
     pub clamp_length: f64,
-    /// Housing, clamp, push rod and spring; left out, the usual sizes in proportion to `tip_distance`, or smaller
+    /// Housing, clamp, push rod and spring; default: the usual sizes in proportion to `tip_distance`, or smaller
     /// where clamp and pusher's axis leave less room.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub body: Option<ArmBodySpec>,
 }
 
@@ -83,9 +82,8 @@ pub struct GearboxSpec {
     /// Whether the shafts turn in ball bearings in the plates, where bearings of their bores are as narrow as these are thick.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub bearings: bool,
-    /// Nominal diameter of the screws of the plates, ISO 4762, mm: 6 for M6, 0 for none; left out, the largest no thicker than a
+    /// Nominal diameter of the screws of the plates, ISO 4762, mm: 6 for M6, 0 for none; default: the largest no thicker than a
     /// plate that finds room.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub screw: Option<f64>,
     /// Heat treatment of its plates, for the drawing; left empty, none.
     #[serde(skip_serializing_if = "String::is_empty")]

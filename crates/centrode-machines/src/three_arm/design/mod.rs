@@ -49,24 +49,17 @@ pub struct ThreeArmDesign {
     #[serde(rename = "bend_deg", with = "degrees")]
     #[schemars(with = "f64", extend("x-symbol" = "gamma_0"))]
     pub bend: f64,
-    /// Angle of the planet's zero behind the chain's second leg at the start, rad (degrees in the file); left
-    /// out, the intermediate's turn over the first |bend| of carrier turn.
-    #[serde(
-        default,
-        rename = "planet_reference_deg",
-        with = "degrees",
-        skip_serializing_if = "Option::is_none"
-    )]
+    /// Angle from the planet's zero to the chain's second leg at the start, rad (degrees in the file); default:
+    /// the intermediate's turn over the first |bend| of carrier turn.
+    #[serde(default, rename = "planet_reference_deg", with = "degrees")]
     #[schemars(with = "Option<f64>", extend("x-symbol" = "phi_30"))]
     pub planet_reference: Option<f64>,
-    /// Teeth of every gear; left out, there are no teeth to check.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// Teeth of every gear; default: there are no teeth to check.
     pub tooth_count: Option<u32>,
-    /// Centre distance of each mesh, mm; left out, it follows from the pitch curve.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// Centre distance of each mesh, mm; by default it follows from the pitch curve.
     #[schemars(extend("x-symbol" = "a"))]
     pub center_distance: Option<f64>,
-    /// Pitch curve of the sun, which starts in the direction of `carrier_start_deg`; the planets are alike.
+    /// Pitch curve of the sun, which starts in the direction of `carrier_start_deg`; the planets are equal.
     pub pitch: PitchSpec,
     /// The tool that cuts every gear.
     #[serde(default)]
@@ -80,17 +73,15 @@ pub struct ThreeArmDesign {
     pub teeth: TeethSpec,
     /// The arms.
     pub arm: ArmSpec,
-    /// The cams on the carrier that move the push rods; left out, the usual one in proportion to
+    /// The cams on the carrier that move the push rods; default: the usual one in proportion to
     /// the usual arm.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub cam: Option<PusherCamSpec>,
-    /// The forks between cams and push rods; left out, the usual one in proportion to the usual arm.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
+    /// The forks between cams and push rods; default: the usual one in proportion to the usual arm.
     pub fork: Option<ForkSpec>,
     /// The gearbox around the gears.
     #[serde(default)]
     pub gearbox: GearboxSpec,
-    /// Picking, planting and travel.
+    /// Picking, planting and feed.
     #[serde(default)]
     pub work: WorkSpec,
     /// The tray the seedlings are picked from.
@@ -228,7 +219,7 @@ impl ThreeArmDesign {
         self.tooth_count.or(self.pitch.tooth_count())
     }
 
-    /// The gear pair of sun and intermediate, alone; intermediate and planet are the same pair turned round.
+    /// The gear pair of sun and intermediate gear. Planet and intermediate gear are the same pair, with the planet as its driver.
     #[must_use]
     pub fn pair(&self) -> GearPairDesign {
         GearPairDesign {
@@ -311,7 +302,7 @@ impl ThreeArmDesign {
     }
 }
 
-/// Checks an angle within a turn either way.
+/// Checks an angle within a turn in either direction.
 fn angle(key: &str, radians: f64) -> Result<(), SpecError> {
     finite(key, radians)?;
     in_range(key, degrees::rounded(radians), [-360.0, 360.0], " deg")

@@ -19,13 +19,13 @@ pub struct OptimiseSpec {
     /// the working points that are given.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub hold: Vec<Parameter>,
-    /// Minimum and maximum value of parameters, rad and mm (degrees in the file). The others move either way: radii of
+    /// Minimum and maximum value of parameters, rad and mm (degrees in the file). The others move in either direction: radii of
     /// control points by 65 % of their mean, their angles by 15 degrees, sizes of the arm by 25 %, other angles by 40
     /// degrees.
     #[serde(with = "bounds", skip_serializing_if = "BTreeMap::is_empty")]
     #[schemars(with = "BTreeMap<Parameter, [f64; 2]>")]
     pub bounds: BTreeMap<Parameter, [f64; 2]>,
-    /// Whether gears keep their tooth count; else they have as many teeth as leave the module wanted.
+    /// Whether gears keep their tooth count; else they have as many teeth as leave the required module.
     pub hold_tooth_count: bool,
     /// Minimum depth of the tip's loop beyond the point of picking, into the tray, mm.
     pub picking_depth: f64,

@@ -5,30 +5,22 @@ use super::angle;
 use centrode_spec::rule::{count_in_range, finite, in_range, not_negative, positive};
 use centrode_spec::{SpecError, degrees};
 
-/// Picking, planting and travel.
+/// Picking, planting and feed.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
 #[serde(default, deny_unknown_fields)]
 pub struct WorkSpec {
-    /// Carrier turn at which the first arm picks, rad (degrees in the file); left out, where its tip enters the tray,
+    /// Carrier turn at which the first arm picks, rad (degrees in the file); default: where its tip enters the tray,
     /// or without a tray's distance where it reaches farthest towards it.
-    #[serde(
-        rename = "picking_deg",
-        with = "degrees",
-        skip_serializing_if = "Option::is_none"
-    )]
+    #[serde(rename = "picking_deg", with = "degrees")]
     #[schemars(with = "Option<f64>")]
     pub picking: Option<f64>,
-    /// Carrier turn at which the first arm plants, rad (degrees in the file); left out, where its tip is lowest.
-    #[serde(
-        rename = "planting_deg",
-        with = "degrees",
-        skip_serializing_if = "Option::is_none"
-    )]
+    /// Carrier turn at which the first arm plants, rad (degrees in the file); default: where its tip is lowest.
+    #[serde(rename = "planting_deg", with = "degrees")]
     #[schemars(with = "Option<f64>")]
     pub planting: Option<f64>,
     /// Seedlings planted in a minute.
     pub rate_per_minute: f64,
-    /// Distance of the plants along the row, mm; the machine travels towards the tray's side, by this much from plant
+    /// Distance of the plants along the row, mm; the machine moves towards the tray's side, by this much from plant
     /// to plant.
     pub plant_spacing: f64,
     /// Depth below the ground that the tip reaches at its lowest, mm.
@@ -72,7 +64,6 @@ impl WorkSpec {
 #[serde(default, deny_unknown_fields)]
 pub struct TraySpec {
     /// Distance of the tray's surface from the carrier's axis, mm, along the direction in which the arms enter it.
-    #[serde(skip_serializing_if = "Option::is_none")]
     pub distance: Option<f64>,
     /// Elevation of the direction in which the arms enter the tray, rad (degrees in the file).
     #[serde(rename = "inclination_deg", with = "degrees")]

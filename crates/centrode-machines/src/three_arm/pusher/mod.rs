@@ -233,10 +233,7 @@ impl Pusher {
     /// The roller's axis in the arm's frame with the rod drawn back by a length, mm.
     #[must_use]
     pub fn roller(&self, retraction: f64) -> Point {
-        let jet = MotionJet {
-            position: retraction,
-            ..MotionJet::default()
-        };
+        let jet = MotionJet::at_rest(retraction);
         let (sin, cos) = self.fork_angle(&jet).position.sin_cos();
         self.pivot() + Vector::new(cos, sin) * self.spec.arm_length
     }

@@ -92,8 +92,8 @@ fn spline_of(design: &ThreeArmDesign) -> Result<&Bspline, SweepError> {
 }
 
 impl Sweep {
-    /// Makes a sweep for designs like this one: as many points, the same degree. The tip's path is sampled at so many
-    /// inputs a turn, at least 32, rounded up to a multiple of four.
+    /// Makes a sweep for designs with as many control points as this one and the same degree. The tip's path is sampled at
+    /// `inputs` inputs per turn, at least 32, rounded up to a multiple of four.
     ///
     /// # Errors
     /// [`SweepError`] where the pitch curve is of another kind.

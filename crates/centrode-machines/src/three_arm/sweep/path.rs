@@ -201,7 +201,7 @@ impl Path {
         })
     }
 
-    /// Polar angle of the sun at an input, in its first turn, and the place of the path nearest to it.
+    /// Polar angle of the sun at an input, in its first turn, and the point of the path nearest to it.
     fn place(&self, input: f64) -> (f64, usize) {
         let psi = (self.sign * input).rem_euclid(TAU);
         (psi, (psi / self.step()) as usize % self.x.len())
@@ -214,7 +214,7 @@ impl Path {
         machine.arm(psi, stage.angle(planet).value)
     }
 
-    /// The tip near a known place of the path.
+    /// The tip near a known point of the path.
     fn near(&self, stage: &Stage, machine: &Machine, place: usize, psi: f64) -> Tip {
         let (sun, planet) = (self.sun.param(place), self.planet.param(place));
         let (sun, planet) = machine.mesh(stage, psi, sun, planet);
@@ -272,7 +272,7 @@ impl Path {
         }
     }
 
-    /// The crest near a place, at a polar angle of the sun, by secants of the slope from the crest of a parabola
+    /// The crest near a position, at a polar angle of the sun, by secants of the slope from the crest of a parabola
     /// through three points.
     fn crest(
         &self,

@@ -77,7 +77,7 @@ impl SplinePair {
         self.degree
     }
 
-    /// Angle and radius of a piece in powers of s, where `middle + half s` is the place on the piece.
+    /// Angle and radius of a piece in powers of s, where `middle + half s` is the position on the piece.
     #[inline]
     pub(super) fn part(&self, piece: usize, middle: f64, half: f64) -> [Polynomial; 2] {
         if self.degree <= 2 {
@@ -88,7 +88,7 @@ impl SplinePair {
     }
 }
 
-/// Two polynomials of at most a degree in powers of s, where `middle + half s` is the place.
+/// Two polynomials of at most a degree in powers of s, where `middle + half s` is the position.
 fn part<const DEGREE: usize>(pair: &[Polynomial; 2], middle: f64, half: f64) -> [Polynomial; 2] {
     pair.map(|mut c| {
         // Taylor's shift to the middle, then the scale.

@@ -15,7 +15,7 @@ const PANELS: usize = 3;
 /// Halley step at which iteration stops; the remaining error is below step^3/100.
 pub(super) const LAST: f64 = 1e-3;
 
-/// Parameter on the pitch curve: panel, place in it, and whole turns before.
+/// Parameter on the pitch curve: panel, position in it, and whole turns before.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Param {
     pub(super) panel: usize,
@@ -286,7 +286,7 @@ impl Stage {
     #[inline]
     pub(super) fn moved(&self, from: Param, by: f64) -> Param {
         let mut param = from;
-        // No step is longer than a turn, whatever a curve that turns back may ask for.
+        // No step is longer than a turn, whatever a curve that turns back may require.
         let most = 2.0 * self.panels.len() as f64;
         param.s += by.clamp(-most, most);
         while param.s > 1.0 {
@@ -309,7 +309,7 @@ impl Stage {
     }
 
     /// Number of coefficients to compute with, from the degree of the spline: the sums of a low degree are those of
-    /// any, with the zeros left out.
+    /// any, with the zeros omitted.
     pub(super) fn coefficients(&self) -> usize {
         self.spline.degree() + 1
     }

@@ -19,7 +19,7 @@ pub struct Edit {
 }
 
 impl Edit {
-    /// A number for a key; whole numbers are written as such.
+    /// A number for a key; whole numbers are written without a fraction.
     pub fn number(key: &str, value: f64, whole: bool) -> Self {
         Self {
             key: key.into(),
@@ -93,7 +93,7 @@ impl Step {
         Self::Name(name.into())
     }
 
-    /// Name of the key; none for the index in a list.
+    /// Name of the key; `None` for the index in a list.
     pub(super) fn name(&self) -> Option<&str> {
         match self {
             Self::Name(name) => Some(name),
@@ -104,8 +104,9 @@ impl Step {
 
 /// Text with the edits made; comments, order and all other values stay as they are.
 ///
-/// A new `kind` changes its table, a new `type` its dyad, and a new `family` the whole design, so that it stays a mechanism; a new `plane` leaves points where they
-/// are. A table that is new gets its required keys, with the values that hold while the table is left out.
+/// A new `kind` changes its table, a new `type` its dyad, and a new `family` the whole design, so that it stays a mechanism; a
+/// new `plane` leaves points where they are. A table that is new gets its required keys, with the values that hold while the
+/// table is omitted.
 ///
 /// # Errors
 /// [`EditError`] if the text is no TOML, or a key or value cannot be written.
@@ -268,7 +269,7 @@ pub(super) fn set(parent: &mut Item, last: &Step, value: Value) -> Option<()> {
     Some(())
 }
 
-/// Puts a value in the place of another, with the blanks and comments around that.
+/// Puts a value instead of another, with the blanks and comments around that.
 pub(super) fn replace(old: &mut Value, mut new: Value) {
     if let (Value::Array(old), Value::Array(new)) = (&mut *old, &new) {
         while old.len() > new.len() {
@@ -300,7 +301,7 @@ fn append(list: &mut Array, mut value: Value) {
     }
 }
 
-/// Value as it is written in a design file; none for a table and for numbers that are not finite.
+/// Value as it is written in a design file; `None` for a table and for numbers that are not finite.
 pub(super) fn written(value: &Json) -> Option<Value> {
     Some(match value {
         Json::Bool(b) => (*b).into(),

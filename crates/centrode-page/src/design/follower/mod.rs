@@ -11,7 +11,7 @@ use super::field::keys_next_to;
 use super::kind::mechanism;
 use super::machine::put_point;
 
-/// Base radii that are tried, as shares of the old one: a flat face asks for a blunter cam.
+/// Base radii that are tried, as shares of the old one: a flat face requires a blunter cam.
 const BASES: [f64; 7] = [1.0, 1.25, 1.6, 2.0, 2.5, 3.0, 4.0];
 /// Lengths of a new arm that are tried, as shares of twice the base radius.
 const ARMS: [f64; 4] = [0.75, 1.0, 0.5, 1.5];
@@ -26,13 +26,14 @@ const RATES: [&str; 4] = [
 ];
 /// Directions of a new slide that are tried, deg apart.
 const APART: i64 = 30;
-/// Place of a new pin, as a share of the base radius.
+/// Position of a new pin, as a share of the base radius.
 const PIN: f64 = 3.0;
 
-/// Changes the kind of the follower at a path; none for anything but the follower of a cam on a body, or where it is of this kind.
+/// Changes the kind of the follower at a path; `None` for anything but the follower of a cam on a body, or where it is of this
+/// kind.
 ///
-/// What both kinds know stays. Where a slide becomes an arm or the other way round, strokes become turns of the arm by the same length, and bodies that
-/// follow the cam slide or turn in their places.
+/// What both kinds know stays. Where a slide becomes an arm or vice versa, strokes become turns of the arm by the same length,
+/// and bodies that follow the cam slide or turn in their positions.
 pub(super) fn refollowed(
     document: &DocumentMut,
     steps: &[Step],
@@ -109,7 +110,7 @@ struct Change<'a> {
     /// Keys of the new kind.
     keys: &'a Map<String, Json>,
     base: f64,
-    /// Whether a slide becomes an arm, or the other way round.
+    /// Whether a slide becomes an arm, or vice versa.
     turns: bool,
     bodies: Vec<(String, Option<String>)>,
 }
@@ -200,7 +201,7 @@ impl Change<'_> {
         Some(made)
     }
 
-    /// The keys of the new kind in the place of the old ones; how far it is from the axis the bodies say.
+    /// The keys of the new kind instead of the old ones; how far it is from the axis the bodies say.
     fn refill(&self, follower: &mut dyn TableLike, one: Try) -> Option<()> {
         let away = ["offset", "center_distance"];
         for key in self.old.keys().filter(|key| *key != "kind") {
@@ -234,7 +235,7 @@ impl Change<'_> {
         Some(())
     }
 
-    /// Strokes of a slide become turns of an arm by the same length, or the other way round.
+    /// Strokes of a slide become turns of an arm by the same length, or vice versa.
     fn stroke(&self, cam: &mut Item, arm: f64) {
         let Some(segments) = cam
             .get_mut("motion")
@@ -268,7 +269,7 @@ impl Change<'_> {
         }
     }
 
-    /// Bodies that follow the cam slide in the place of turning, or the other way round.
+    /// Bodies that follow the cam slide instead of turning, or vice versa.
     fn hold(&self, made: &mut DocumentMut, one: Try) -> Option<()> {
         for (body, on) in &self.bodies {
             let steps = [Step::named("bodies"), Step::named(body)];

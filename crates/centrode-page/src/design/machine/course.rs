@@ -4,7 +4,7 @@ use centrode_geometry::{Point, Vector};
 use centrode_machines::machine::{BodyPoint, Machine};
 use serde_json::Value as Json;
 
-/// Inputs of a period at which the old dyad is looked at.
+/// Inputs of a period at which the old dyad is sampled.
 const SAMPLES: u32 = 48;
 
 /// Words of a key of the dyad as written.
@@ -26,9 +26,9 @@ pub(super) fn ends(spec: &Json) -> Option<[String; 2]> {
 pub(super) struct Course {
     /// The ends, in the axes of the frame, at every input.
     pub(super) ends: [Vec<Point>; 2],
-    /// The bodies that hold them.
+    /// Poses of the bodies that hold the ends, at every input.
     pub(super) holders: [Vec<Frame>; 2],
-    /// The joint, where it has one.
+    /// Position of the dyad's joint at every input, if it has one.
     pub(super) joint: Option<Vec<Point>>,
     /// The points that the type gives its two bodies, with their names.
     pub(super) given: [Vec<(String, Vec<Point>)>; 2],
@@ -70,7 +70,7 @@ impl Course {
             places.next()
         });
         let joint = joint.or_else(|| {
-            // A yoke's own place where its slot crosses its line.
+            // The position of a yoke where its slot crosses its line.
             (spec.get("type")? == "RPP").then(|| origin(dyad.bodies[1]))
         });
         let names = ["from", "to", "joint"].map(|key| written(spec, key));
@@ -141,13 +141,13 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    /// Axes at a place, the first one along a way.
+    /// Axes at a position, the first one along a way.
     pub(super) fn along(origin: Point, way: Vector) -> Self {
         let angle = way.y.atan2(way.x);
         Self { origin, angle }
     }
 
-    /// A place as it is seen from these axes.
+    /// A position relative to these axes.
     pub(super) fn seen(&self, place: Point) -> Point {
         let (way, along) = (place - self.origin, unit(self.angle));
         Point::new(along.dot(&way), along.perp(&way))

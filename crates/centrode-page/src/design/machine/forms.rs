@@ -1,4 +1,4 @@
-//! Forms that a new dyad can take where the old one stood.
+//! Forms of a new dyad in the position of the old one.
 
 use std::f64::consts::{FRAC_PI_2, FRAC_PI_4};
 
@@ -8,13 +8,13 @@ use super::course::{Course, Frame, unit, written};
 use super::{Form, Retype, short};
 use centrode_geometry::{Point, Vector};
 
-/// Inputs of a period at which the new dyad may stand as the old.
+/// Inputs of a period at which the new dyad may have the pose of the old one.
 const SAMPLES: usize = 6;
 /// Directions of a line that are tried.
 const DIRECTIONS: u32 = 4;
 /// Room of a bar beyond what it must reach, as a share of that.
 const ROOM: f64 = 1.02;
-/// Distance below which two points are one, and that of a point next to another in its place, mm.
+/// Distance below which two points are one, and that of a point next to another in its position, mm.
 const NEAR: f64 = 1e-3;
 const BESIDE: f64 = 20.0;
 /// Sine of the angle of two lines below which they hold badly.
@@ -132,7 +132,7 @@ impl Retype<'_> {
         found
     }
 
-    /// The new form with its joint at a place where it stands, on a line on the holder of the second end.
+    /// The new form with its joint at a given position, unmoved, on a line on the holder of the second end.
     fn on_line(
         &self,
         course: &Course,

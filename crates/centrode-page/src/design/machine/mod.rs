@@ -20,9 +20,9 @@ use toml_edit::DocumentMut;
 /// Most designs that are tried.
 const TRIES: usize = 64;
 
-/// Changes the type of the dyad at a path; none where there is no such dyad, or it is of this type.
+/// Changes the type of the dyad at a path; `None` if there is no such dyad, or it is of this type.
 ///
-/// Its bodies, and what they are held by, stay. Where there is such a machine, all stands at some input as it did; points that the old type gave
+/// Its bodies, and what they are held by, stay. Where there is such a machine, all is unmoved at some input; points that the old type gave
 /// its bodies, and others are held by, are written out.
 pub(super) fn retyped(document: &DocumentMut, steps: &[Step], word: &str) -> Option<DocumentMut> {
     let [Step::Name(dyads), Step::Name(name)] = steps else {
@@ -63,8 +63,8 @@ pub(super) fn retyped(document: &DocumentMut, steps: &[Step], word: &str) -> Opt
         .or(Some(first))
 }
 
-/// The design as a mechanism, and whether one of at most so many tables went for that: goals of figures that are no more, and cams cut to a body that now slides
-/// in the place of turning.
+/// The design as a mechanism, and whether one of at most so many tables went for that: goals of figures that are no more, and
+/// cams cut to a body that now slides instead of turning.
 fn fitted(mut document: DocumentMut, most: usize) -> Option<(DocumentMut, bool)> {
     for gone in 0..=most {
         let error = match mechanism(&document.to_string()) {
@@ -87,7 +87,8 @@ fn machine(text: &str) -> Option<Arc<Machine>> {
     mechanism.downcast::<Machine>()
 }
 
-/// A new form of the dyad: its keys, the point of a line that its holder gets, and the frames of both bodies where it stands as before.
+/// A new form of the dyad: its keys, the point of a line that its holder gets, and the frames of both bodies where it does
+/// not move.
 struct Form {
     keys: Map<String, Json>,
     point: Option<[f64; 2]>,

@@ -48,7 +48,7 @@ fn every_dyad(stride: usize) {
                     assert!(types.contains(&(name.clone(), then.to_owned())), "{two}");
                     ways += 1;
                     if let Err(error) = mechanism(&two) {
-                        // Of two changes the second may leave no place at which all dyads close: that is told.
+                        // Of two changes the second may leave no position at which all dyads close: that is reported.
                         let stated = error.to_string();
                         assert!(
                             first != own && stated.contains("closes"),

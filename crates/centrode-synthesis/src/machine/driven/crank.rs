@@ -20,7 +20,7 @@ const WHEEL: &str = "drive-wheel";
 /// Parts of a turn in each of which the output's distance from its law has few extremes.
 const PARTS: u32 = 64;
 
-/// The crank of a machine, and where its drive shall be.
+/// The crank of a machine, and where its drive must be.
 pub(super) struct Crank<'a> {
     design: &'a MachineDesign,
     spec: &'a GearDriveSpec,

@@ -8,10 +8,10 @@ use centrode_machines::machine::{
     BodyPoint, Machine, MachineFigure, MachineGoalSpec, Over, PointPart,
 };
 
-/// An output over a turn of the crank, whether it is an angle, and what is wanted of it.
+/// An output over a turn of the crank, whether it is an angle, and the requirements on it.
 type Output = (Arc<dyn Transmission>, bool, Vec<Section>);
 
-/// The output that goals name, over a turn of the crank, and what they want of it.
+/// The output that goals name, over a turn of the crank, and its requirements.
 pub(super) fn required(composed: &Machine) -> Result<Output, GearDriveError> {
     let mut found: Option<(MachineFigure, &str)> = None;
     let mut sections = Vec::new();
@@ -31,7 +31,7 @@ pub(super) fn required(composed: &Machine) -> Result<Output, GearDriveError> {
         match found {
             Some((other, words)) if other != *figure => {
                 return Err(refused(format!(
-                    "another goal is of {words}, and all that say what the output shall do must be of one figure"
+                    "another goal is of {words}, and all goals of the output must be of one figure"
                 )));
             }
             _ => found = Some((*figure, &goal.figure)),
@@ -53,7 +53,7 @@ pub(super) fn required(composed: &Machine) -> Result<Output, GearDriveError> {
     Ok((Arc::new(output), is_angle(&figure), sections))
 }
 
-/// Names of the goals that say nothing of how the output shall go.
+/// Names of the goals that say nothing of how the output must go.
 pub(super) fn left_alone(composed: &Machine) -> Vec<String> {
     let goals = composed.design().goals.iter().zip(composed.figures());
     let left = goals.filter(|((_, goal), figure)| section(goal, figure).is_none());
@@ -70,7 +70,7 @@ pub(super) fn is_of_angle(composed: &Machine) -> bool {
     goals.any(|(goal, figure)| is_angle(figure) && section(goal, figure).is_some())
 }
 
-/// Section of the input over which a goal wants something of the output.
+/// Section of the input over which a goal requires something of the output.
 fn section(goal: &MachineGoalSpec, figure: &MachineFigure) -> Option<([f64; 2], Required)> {
     let [from, to] = goal.within[..] else {
         return None;
@@ -87,7 +87,7 @@ fn section(goal: &MachineGoalSpec, figure: &MachineFigure) -> Option<([f64; 2], 
     Some(([from, to], required))
 }
 
-/// Motion of a place or an angle by the input; none of another figure.
+/// Motion of a position or an angle by the input; none of another figure.
 fn motion(composed: &Machine, figure: &MachineFigure, input: f64) -> Option<MotionJet> {
     Some(match *figure {
         MachineFigure::Point(BodyPoint { body, at }, part) => {

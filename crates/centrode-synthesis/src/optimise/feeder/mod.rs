@@ -1,4 +1,4 @@
-//! Search for a feeder whose effector swings by the angle wanted.
+//! Search for a feeder whose effector swings by the required angle.
 
 mod widened;
 

@@ -9,8 +9,8 @@ const STEPS: f64 = 1e3;
 /// Maximum number of steps by which rounded bounds are moved outwards again.
 const MOST: u32 = 10;
 
-/// Feeder's design with its bounds widened by as little as lets a crank-rocker within them have the minimum transmission
-/// angle wanted, its lengths there, and its pivot in the middle of the places that give the swing wanted.
+/// Feeder's design with its bounds widened until a crank-rocker within them has the required minimum transmission angle, and no
+/// further; with the lengths of this crank-rocker, and its pivot in the middle of the positions that give the required swing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Widened {
     /// Share by which every minimum length is made smaller and every maximum one greater, before rounding.
@@ -23,26 +23,26 @@ pub struct Widened {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum NotWidened {
-    /// The bounds hold the angle wanted.
+    /// The bounds contain lengths with the required angle.
     #[error(
         "the bounds hold lengths with a minimum transmission angle of {:.4} deg, and {:.4} deg is required: they need not be widened", .attainable.to_degrees(), .required.to_degrees()
     )]
     Needless {
         /// Largest minimum transmission angle within the bounds, rad.
         attainable: f64,
-        /// Angle wanted, rad.
+        /// Required angle, rad.
         required: f64,
     },
-    /// No widening below nine tenths helps.
-    #[error("bounds widened by 90 % hold no crank-rocker with a minimum transmission angle of {:.4} deg", .required.to_degrees())]
+    /// Not even bounds widened by 90 % give the required angle.
+    #[error("even bounds widened by 90 % contain no crank-rocker with a minimum transmission angle of {:.4} deg", .required.to_degrees())]
     NoUse {
-        /// Angle wanted, rad.
+        /// Required angle, rad.
         required: f64,
     },
-    /// The slider's arc is seen under the angle wanted from no point.
-    #[error("the lengths found have no place of the pivot that gives a swing of {:.4} deg", .swing.to_degrees())]
+    /// No position of the pivot gives the required swing.
+    #[error("for the lengths found, no position of the pivot gives a swing of {:.4} deg", .swing.to_degrees())]
     NoPivot {
-        /// Angle wanted, rad.
+        /// Required angle, rad.
         swing: f64,
     },
 }

@@ -5,7 +5,7 @@ use centrode_analysis::{Finding, Severity, Unit};
 /// Distance from a side of the box that is none, as a share of the box's diagonal: a search ends so near to a bound.
 const NEAR: f64 = 1e-3;
 
-/// The finding on an axis at the border of the box in which it was sought: beyond it there may be a better one.
+/// The finding on an axis at the border of the box in which it was searched: beyond it there may be a better one.
 #[must_use]
 pub fn axis_at_border(axis: Point, room: &Bounds) -> Option<Finding> {
     let near = NEAR * room.diagonal();

@@ -34,7 +34,7 @@ pub enum EasingError {
     },
     /// No return closes the working part.
     #[error(
-        "no machine of this kind has a tip that runs along the points: of {returns} returns tried from the last to the first, with {axis}, none is possible"
+        "no machine of this kind can move its tip along the points: with {axis}, none of the {returns} returns tried from the last point to the first is possible"
     )]
     NoReturn {
         /// Returns tried.
@@ -51,12 +51,12 @@ pub enum EasingError {
         /// Module given, mm.
         module: f64,
     },
-    /// The axis given makes no machine for the wanted path.
+    /// The axis given makes no machine for the required path.
     #[error(transparent)]
     Axis(#[from] AxisFault),
-    /// No axis tried makes a machine for the wanted path.
+    /// No axis tried makes a machine for the required path.
     #[error(
-        "no machine of this kind has a tip that runs along the path: of {tried} axes tried on and about it none is possible"
+        "no machine of this kind can move its tip along the path: none of the {tried} axes tried on and around the path is possible"
     )]
     NoAxis {
         /// Axes tried.

@@ -57,7 +57,7 @@ impl Easing {
             fault.unwrap_or(EasingError::NoReturn {
                 returns: RETURNS.len(),
                 axis: match spec.axis {
-                    Some(_) => "the axis asked for",
+                    Some(_) => "the given axis",
                     None => "axes on and about each path",
                 },
             })

@@ -1,4 +1,4 @@
-//! How far a machine made from its path is what else is wanted of it.
+//! How far a machine made from its path is what else is required of it.
 
 use std::f64::consts::{PI, TAU};
 
@@ -7,12 +7,13 @@ use centrode_geometry::{Outline, Point, SampledPiece, maximum_of_samples, roundi
 
 use centrode_analysis::{Goal, Unit};
 
-/// Looks at the arm in a turn, between which its minimum distance from a shape is followed.
+/// Poses of the arm per turn, between which its minimum distance from a shape is followed.
 const SAMPLES: usize = 192;
 /// Size of a miss that leaves half the progress, as a share of the reach of the machine, and of ratios.
 const SCALE: f64 = 0.1;
-/// Names of goals that are distances from shapes, and what is spared of these, mm.
+/// Names of goals that are distances from shapes.
 const KEEP_OUT: &str = "keep-out-";
+/// Margin of distances from shapes, mm: ten times smaller, the check of the bodies may still find a collision.
 const SPARE: f64 = 5e-3;
 /// That of a turn, rad.
 const TURN: f64 = 0.2;
@@ -24,8 +25,8 @@ pub fn reached(wishes: &Wishes, chain: &TwoBar, bend: f64, points: usize) -> Vec
     goals(wishes, chain, bend, points).0
 }
 
-/// Goals of a machine with its points along the path at equal steps of the parameter; and the direction of its clamp less that of
-/// its arm, rad, where directions are wanted.
+/// Goals of a machine with its points along the path at equal steps of the parameter; and the direction of its clamp less that
+/// of its arm, rad, where directions are required.
 pub(super) fn goals(
     wishes: &Wishes,
     chain: &TwoBar,
@@ -167,7 +168,7 @@ pub(super) fn goals(
     )
 }
 
-/// Violations of goals, each by its own scale; of a distance a little is spared for what a check of the bodies loses.
+/// Violations of goals, each by its own scale. Distances get a margin, because the check of the bodies is less exact.
 pub(super) fn violations(goals: &[Goal]) -> Vec<f64> {
     let violation = |goal: &Goal| {
         let is_distance = goal.name.starts_with(KEEP_OUT);
@@ -177,7 +178,7 @@ pub(super) fn violations(goals: &[Goal]) -> Vec<f64> {
     goals.iter().map(violation).collect()
 }
 
-/// An angle within half a turn either way.
+/// An angle within half a turn in either direction.
 fn wrapped(angle: f64) -> f64 {
     (angle + PI).rem_euclid(TAU) - PI
 }
@@ -221,7 +222,7 @@ impl Room {
         }
     }
 
-    /// Minimum distance of the arm's plate in a turn, mm; negative where the plate stands in the shape.
+    /// Minimum distance of the arm's plate in a turn, mm; negative where the plate penetrates the shape.
     fn clearance(&self, chain: &TwoBar, bend: f64) -> f64 {
         let half = 0.5 * ReversedMachine::plate_width(chain.carrier(), bend);
         let nearness = |t: f64| {
@@ -239,7 +240,7 @@ impl Room {
         -maximum_of_samples(&samples, nearness, rounding, &[piece]).value
     }
 
-    /// Distance of a bar, mm; where it stands in the shape, less how long a part of it does, or how deep.
+    /// Distance of a bar, mm; inside the shape, less the length of its part there, or its depth.
     fn distance(&self, [p, q]: [Point; 2]) -> f64 {
         match self {
             Self::Below(below) => p.y.min(q.y) - below,

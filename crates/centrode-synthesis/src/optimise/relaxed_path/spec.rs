@@ -12,7 +12,7 @@ pub struct EasingSpec {
     pub bands: Vec<f64>,
     /// Axis of the carrier, mm, if it is given.
     pub axis: Option<Point>,
-    /// Axes among which it is sought otherwise; left out, those about the path.
+    /// Axes among which it is searched otherwise; default: those about the path.
     pub axes: Option<AxisRange>,
     /// Angle from the carrier's first leg to its second, rad.
     pub bend: f64,
@@ -40,18 +40,18 @@ impl EasingSpec {
 /// A path eased within its bands, and its machine.
 #[derive(Clone, Debug)]
 pub struct EasedPath {
-    /// Points of the path; after those given stand those of a free return.
+    /// Points of the path: those given, then those of a free return.
     pub points: Vec<Point>,
-    /// Distance of each point given from where it was wanted, mm.
+    /// Distance of each point given from where it was required, mm.
     pub moved: Vec<f64>,
     /// Carrier and arm.
     pub chain: TwoBar,
-    /// Module up to which full teeth are surely sound, mm: on the pitch curves of the wanted path, where the axis found makes a
-    /// machine for it, and on those of the eased one.
+    /// Module up to which full teeth are surely sound, mm: on the pitch curves of the required path, where the axis found makes
+    /// a machine for it, and on those of the eased one.
     pub module: (Option<f64>, f64),
     /// Further wishes, and how far they are reached.
     pub goals: Vec<Goal>,
-    /// Direction of the clamp less that of the arm, rad, where directions were wanted.
+    /// Direction of the clamp less that of the arm, rad, where directions were required.
     pub clamp: Option<f64>,
     /// Evaluations of the search.
     pub evaluations: u64,

@@ -9,9 +9,9 @@ const FLANK: f64 = 1e-3;
 /// Violation charged for each goal skipped because a cheaper one already failed.
 const UNSEEN: f64 = 1.0;
 
-/// Constraints of a mechanism as far as they were looked at.
+/// Constraints of a mechanism as far as they were evaluated.
 pub(super) struct Judged {
-    /// Miss of each, as a share of its scale; what was not looked at counts as missed.
+    /// Miss of each, as a share of its scale; one that was not evaluated counts as missed.
     pub(super) constraints: Vec<f64>,
     /// The mechanism and its goals, where all are met.
     pub(super) reached: Option<(ThreeArm, Vec<Goal>)>,
@@ -58,7 +58,7 @@ pub(super) fn judge(
     })
 }
 
-/// Goals of a mechanism, and what is kept besides.
+/// Goals of a mechanism, and its other limits.
 pub(super) fn exact(mechanism: &ThreeArm) -> Option<Vec<Goal>> {
     let (mut goals, arms) = three_arm_reached(mechanism);
     // Arms of which no body can be made reach nothing.
@@ -104,7 +104,7 @@ fn kept(mechanism: &ThreeArm, arms: Option<&ArmClearance>) -> Vec<Goal> {
     ]
 }
 
-/// Gives the gears as many teeth as leave the module wanted, unless their count is held.
+/// Gives the gears as many teeth as leave the required module, unless their count is held.
 pub(super) fn follow(design: &mut ThreeArmDesign, length: f64) {
     if design.optimise.hold_tooth_count || design.goals.module <= 0.0 {
         return;

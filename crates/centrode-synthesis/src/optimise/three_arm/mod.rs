@@ -25,7 +25,7 @@ const INPUTS: usize = 120;
 /// Three-arm mechanism as a problem: its free parameters, its goals as constraints, and the design's objective.
 ///
 /// A point is evaluated in steps. The figures of a [`Sweep`], in some microseconds: angles, heights, and the curvatures
-/// of the pitch curves, which give the module they bear. Only where those are met the exact mechanism is resolved, and
+/// of the pitch curves, which give the module they allow. Only where those are met the exact mechanism is resolved, and
 /// clearances and flanks are computed as in a check; and only where those are met, too, full teeth are cut and their contact
 /// is followed over a cycle. Goals met so are met in the check.
 #[derive(Debug)]
@@ -41,7 +41,7 @@ pub struct ThreeArmProblem {
 struct Quick {
     design: ThreeArmDesign,
     goals: Vec<Goal>,
-    /// Share by which the module exceeds what the pitch curves bear everywhere; zero or less where they do.
+    /// Share by which the module exceeds what the pitch curves allow everywhere; zero or less where they do.
     overload: f64,
 }
 
@@ -213,9 +213,9 @@ impl DesignProblem for ThreeArmProblem {
         let quick = self.quick(point)?;
         let mut goals = evaluation::exact(&ThreeArm::resolve(&quick.design).ok()?)?;
         for goal in &mut goals {
-            // A count of flanks has no slope; the module that every place of the curves bears has.
+            // A count of flanks has no slope; the module that every point of the curves allows has.
             if goal.name == "sound-teeth" && goal.met() == Some(false) {
-                let title = "module over what the curves bear";
+                let title = "module exceeds the largest module without undercut";
                 *goal = Goal::new(goal.number, goal.name.clone(), title, Unit::Count)
                     .maximum(1.0, 1.0)
                     .with(1.0 + quick.overload.max(1e-3));

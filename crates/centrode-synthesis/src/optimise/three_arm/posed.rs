@@ -10,7 +10,7 @@ use super::evaluation;
 use centrode_analysis::{Goal, three_arm_goals};
 use centrode_optimise::{Evaluation, Method, Problem, Settings, minimise};
 
-/// Bends tried with the mildest law, in steps, and the step, degrees; how far the search may go from the best of them, steps.
+/// Bends tried with the gentlest law, in steps, and the step, degrees; how far the search may go from the best of them, steps.
 const BENDS: std::ops::RangeInclusive<i32> = -8..=8;
 const STEP: f64 = 12.0;
 const ROOM: f64 = 2.0;
@@ -25,9 +25,9 @@ const EVALUATIONS: u64 = 500;
 const NONE: f64 = 1e3;
 
 /// Search for a three-arm mechanism whose clamps take key poses and that reaches its goals: over the bend, and over the
-/// amplitudes near which the law of its pair is kept.
+/// amplitudes near which the law of its pair stays.
 ///
-/// Every point takes the poses, so they are no constraint. The objective is how far the law is from the mildest one.
+/// Every point takes the poses, so they are no constraint. The objective is how far the law is from the gentlest one.
 #[derive(Clone, Copy, Debug)]
 pub struct PosedProblem<'a> {
     poses: &'a KeyPoses,
@@ -43,7 +43,7 @@ pub struct Posed {
     pub poses: KeyPoses,
     /// The design.
     pub design: ThreeArmDesign,
-    /// Its goals, as far as they were looked at, and what was kept besides; all are met where `is_reached`.
+    /// Its goals, as far as they were evaluated, and its other limits; all are met where `is_reached`.
     pub goals: Vec<Goal>,
     /// Distance of the tip from each pose, mm, and turn of the clamp from its direction there, rad.
     pub misses: Vec<[f64; 2]>,
@@ -65,9 +65,9 @@ impl<'a> PosedProblem<'a> {
         Ok(design)
     }
 
-    /// Searches for a mechanism that reaches every goal: first the mildest law of every chain at bends all over their range,
+    /// Searches for a mechanism that reaches every goal: first the gentlest law of every chain at bends all over their range,
     /// then from the best of them. The best is given where none reaches all. `observe` hears of evaluations and of the minimum
-    /// violation so far.
+    /// violation found.
     ///
     /// # Errors
     /// [`NotPosed`] where no chain has a law at any bend.
@@ -178,7 +178,7 @@ impl PosedProblem<'_> {
     }
 }
 
-/// Quick goals of a design, which gets its teeth, and the share by which its module exceeds what the pitch curves bear.
+/// Quick goals of a design, which gets its teeth, and the share by which its module exceeds what the pitch curves allow.
 fn quick(design: &mut ThreeArmDesign) -> Option<(Vec<Goal>, f64)> {
     let mechanism = ThreeArm::resolve(design).ok()?;
     let rolling = mechanism.train().rolling();

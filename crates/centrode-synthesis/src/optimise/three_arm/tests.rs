@@ -63,7 +63,7 @@ fn what_is_met_in_the_search_is_met_in_the_check() {
     for (ours, checked) in goals.iter().zip(&report.goals) {
         assert_eq!((&ours.name, ours.value), (&checked.name, checked.value));
     }
-    // As many teeth as leave the module wanted, and not one more.
+    // As many teeth as leave the required module, and not one more.
     let module = mechanism.module().expect("teeth");
     let z = f64::from(settled.tooth_count.expect("follows"));
     assert!(module >= 2.5 && module * z / (z + 1.0) < 2.5, "{module}");

@@ -25,12 +25,12 @@ const ROUNDINGS: f64 = 16.0;
 pub struct DrawnPath {
     /// The points, mm: x to the right and y up from the drawing's lower left corner.
     pub points: Vec<Point>,
-    /// Maximum distance of the drawing from the spline through the points, mm, and the place along the drawing, mm.
+    /// Maximum distance of the drawing from the spline through the points, mm, and the position along the drawing, mm.
     pub deviation: Extreme,
 }
 
 impl DrawnPath {
-    /// Reads the one path of a drawing whose root tells its size (`width="210mm" viewBox="0 0 210 297"`); `within` is the
+    /// Reads the one path of a drawing whose root shows its size (`width="210mm" viewBox="0 0 210 297"`); `within` is the
     /// maximum distance allowed between drawing and spline, mm.
     ///
     /// Groups and transforms are followed. Shapes that are no paths (circles, texts), and what is only defined or not shown, are
@@ -170,7 +170,7 @@ pub enum DrawingError {
         /// Name of the root.
         root: String,
     },
-    /// A root that does not tell the size of the drawing.
+    /// A root without the size of the drawing.
     #[error(
         "the drawing does not state its size: {why}; write it at the root as width=\"210mm\" height=\"297mm\" viewBox=\"0 0 210 297\""
     )]
@@ -258,9 +258,9 @@ pub enum DrawingError {
         count: usize,
         /// Angle of the sharpest joint, degrees.
         angle: f64,
-        /// Its place, mm.
+        /// Its position, mm.
         x: f64,
-        /// Its place, mm.
+        /// Its position, mm.
         y: f64,
     },
     /// A distance allowed that is none.

@@ -16,10 +16,10 @@ const MAX_NODES: u32 = 1_000_000;
 const MAX_ATTRIBUTES: usize = 1000;
 /// Share of its radius within which cubics follow an arc.
 const ARC: f64 = 1e-10;
-/// Share of the drawing within which height and width may tell other scales, and a path is closed.
+/// Share of the drawing within which the scales by height and width may differ, and a path is closed.
 const LOOSE: f64 = 1e-3;
 const CLOSED: f64 = 1e-6;
-/// Characters of data that are told.
+/// Maximum number of characters of data that a message quotes.
 const TOLD: usize = 40;
 
 /// Pieces of the path, mm, y up from the lower edge.
@@ -121,7 +121,7 @@ fn is_point(segment: &PathSeg) -> bool {
         .all(|p| *p == cubic.p0)
 }
 
-/// Whether a node is drawn where it stands, and neither only defined nor hidden.
+/// Whether a node is drawn at its position, and neither only defined nor hidden.
 fn is_shown(node: Node<'_, '_>) -> bool {
     let defined = ["defs", "clipPath", "marker", "mask", "pattern", "symbol"];
     !node.ancestors().any(|outer| {

@@ -6,13 +6,13 @@ use nalgebra::{DMatrix, DVector};
 /// Harmonics of the law.
 const ORDERS: usize = 8;
 const TERMS: usize = 2 * ORDERS;
-/// Parts in which the turns wanted grow from those of even motion.
+/// Parts in which the turns required grow from those of even motion.
 const GROWTH: usize = 8;
 /// Newton steps of a part, the maximum change of an amplitude in one, and the change at which they end.
 const STEPS: usize = 40;
 const MAXIMUM: f64 = 0.1;
 const SETTLED: f64 = 1e-13;
-/// Minimum ratio of a law, at so many places of a turn.
+/// Minimum ratio of a law, at so many samples of a turn.
 const MIN_RATIO: f64 = 0.05;
 const PLACES: u32 = 180;
 
@@ -110,7 +110,7 @@ impl Harmonics {
         1.0 + (0..TERMS).map(slope).sum::<f64>()
     }
 
-    /// Whether the driven gear always advances, as far as some places show.
+    /// Whether the driven gear always advances, as far as some samples show.
     fn advances(&self) -> bool {
         let at = |i: u32| TAU * f64::from(i) / f64::from(PLACES);
         (0..PLACES).all(|i| self.ratio(at(i)) > MIN_RATIO)

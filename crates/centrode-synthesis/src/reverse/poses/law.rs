@@ -8,7 +8,7 @@ use super::{Circle, KeyPose};
 /// Harmonics of the logarithm of the ratio.
 const HARMONICS: usize = 12;
 const TERMS: usize = 2 * HARMONICS + 1;
-/// Parts in which the turns wanted grow from those of even motion.
+/// Parts in which the turns required grow from those of even motion.
 const GROWTH: usize = 8;
 /// Newton steps, and the error at which they end, rad.
 const STEPS: usize = 30;
@@ -61,7 +61,7 @@ impl PoseLaw {
         let turns = angles.iter().zip(next).map(|(one, other)| {
             let carrier = sense * (other[0] - one[0]);
             let arm = sense * (other[1] - one[1]);
-            // The planet turns as the arm does against the carrier, the other way.
+            // The planet turns as the arm does against the carrier, in the opposite direction.
             [carrier.rem_euclid(TAU), (carrier - arm).rem_euclid(TAU)]
         });
         Self {
@@ -86,7 +86,7 @@ impl PoseLaw {
         self.passed() == self.turns.len()
     }
 
-    /// The law of minimum mean square of ln(ratio) and of its second derivative; none where it does not come out.
+    /// The law of minimum mean square of ln(ratio) and of its second derivative; `None` if it does not come out.
     pub(super) fn mildest(&self) -> Option<MildLaw> {
         let count = self.turns.len();
         let mut amplitudes = [0.0; TERMS];
@@ -160,13 +160,13 @@ impl MildLaw {
         self.law.turns.iter().map(before).collect()
     }
 
-    /// Maximum |ln| of the ratio at 360 places: it ranks laws, no more.
+    /// Maximum |ln| of the ratio at 360 samples: it ranks laws, no more.
     pub(super) fn unevenness(&self) -> f64 {
         let at = |i: u32| ratio(&self.amplitudes, &waves(f64::from(i).to_radians()));
         (0..360).map(|i| at(i).ln().abs()).fold(0.0, f64::max)
     }
 
-    /// Directions of carrier and arm at even places of the carrier from the first pose on, rad.
+    /// Directions of carrier and arm at even samples of the carrier from the first pose on, rad.
     pub(super) fn places(&self, count: usize) -> Vec<[f64; 2]> {
         let [carrier, arm] = self.law.start;
         let step = TAU / count as f64;

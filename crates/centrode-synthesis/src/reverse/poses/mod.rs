@@ -1,4 +1,4 @@
-//! Synthesis from key poses: places and directions that the arm must take in order, with the path between free.
+//! Synthesis from key poses: positions and directions that the arm must take in order, with the path between free.
 
 mod harmonics;
 mod law;
@@ -23,7 +23,7 @@ const FEWEST: usize = 3;
 const MOST: usize = 7;
 /// Distance of the tip from a pose, with the arm in the pose's direction, at which the pose is met, mm.
 const TOLERANCE: f64 = 0.1;
-/// Places of the arm's axis along each side of a square round the tip, from which circles are sought.
+/// Positions of the arm's axis along each side of a square round the tip, from which circles are searched.
 const GRID: usize = 48;
 /// Half side of the square, and maximum length of a bar, as a multiple of the size of the poses.
 const REACH: f64 = 2.0;
@@ -35,13 +35,13 @@ const MIN_DIFFERENCE: f64 = 0.002;
 const APART: f64 = 0.02;
 /// Gauss-Newton steps to a circle.
 const STEPS: usize = 40;
-/// Places of the carrier in a turn through which the path is laid.
+/// Positions of the carrier in a turn through which the path is laid.
 const PLACES: usize = 720;
 
-/// Place of the tip and direction of the arm's clamp there.
+/// Position of the tip and direction of the arm's clamp there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct KeyPose {
-    /// Place of the tip, mm.
+    /// Position of the tip, mm.
     pub point: Point,
     /// Direction of the clamp, rad.
     pub direction: f64,
@@ -60,25 +60,25 @@ pub enum PoseError {
         /// Number of poses.
         count: usize,
     },
-    /// Poses at one place.
-    #[error("all key poses are at one place: two of them must differ")]
+    /// Poses at one position.
+    #[error("all key poses are at one position: two of them must differ")]
     OnePlace,
-    /// No point of the arm whose places lie on a circle.
-    #[error("no point of the arm has its places in all {count} key poses on one circle: the nearest misses a pose by {} mm, {TOLERANCE} mm is allowed; move the poses, or give fewer", stated(*miss))]
+    /// No point of the arm whose positions lie on a circle.
+    #[error("no point of the arm has its positions in all {count} key poses on one circle: the nearest misses a pose by {} mm, {TOLERANCE} mm is allowed; move the poses, or give fewer", stated(*miss))]
     NoCircle {
         /// Number of poses.
         count: usize,
         /// Minimum distance found of a tip from its pose, mm.
         miss: f64,
     },
-    /// Circles, on none of which carrier and arm turn one way.
+    /// Circles, on none of which carrier and arm turn in one direction.
     #[error(
-        "{circles} places of the arm's axis were tried; at each carrier or arm would turn back between key poses, or turn more than once: the best passes {passed} of {count} poses in order"
+        "{circles} positions of the arm's axis were tried; at each carrier or arm would turn back between key poses, or turn more than once: the best passes {passed} of {count} poses in order"
     )]
     Order {
         /// Number of poses.
         count: usize,
-        /// Places of the arm's axis on a circle.
+        /// Positions of the arm's axis on a circle.
         circles: usize,
         /// Most poses passed in order.
         passed: usize,
@@ -88,12 +88,12 @@ pub enum PoseError {
     Chain(#[from] AxisFault),
 }
 
-/// Carrier and arm that meet key poses, the path between as mild as found.
+/// Carrier and arm that meet key poses, the path between as gentle as found.
 ///
-/// In the arm's frame its axis is a fixed point. The places of this point in the poses must lie on one circle, whose middle is
-/// the carrier's axis: Burmester's circle points, any point for three poses, a curve for four, four points at most for five.
-/// The angles of carrier and arm at the poses then follow. Between them the law is that of minimum square of the logarithm of the
-/// ratio and of its second derivative.
+/// In the arm's frame its axis is a fixed point. The positions of this point in the poses must lie on one circle, whose middle
+/// is the carrier's axis: Burmester's circle points, any point for three poses, a curve for four, four points at most for five.
+/// The angles of carrier and arm at the poses then follow. Between them the law is that of minimum square of the logarithm of
+/// the ratio and of its second derivative.
 #[derive(Clone, Debug)]
 pub struct KeyPoses {
     /// Carrier and arm, with the path of the tip.
@@ -115,7 +115,7 @@ pub struct KeyPoses {
 /// Circle on which the arm's axis passes the poses.
 #[derive(Clone, Copy, Debug)]
 struct Circle {
-    /// Place of the arm's axis from the tip, in the clamp's frame.
+    /// Position of the arm's axis from the tip, in the clamp's frame.
     arm: Vector,
     axis: Point,
     carrier: f64,
@@ -270,7 +270,7 @@ impl KeyPoses {
 }
 
 impl Circle {
-    /// The circle reached by Gauss-Newton steps of minimum length from a place of the arm's axis.
+    /// The circle reached by Gauss-Newton steps of minimum length from a position of the arm's axis.
     fn near(poses: &[KeyPose], start: Vector, size: f64) -> Option<Self> {
         let places = poses.iter().map(|pose| place(pose, start));
         let mut circle = Self::fitted(&places.collect::<Vec<_>>(), start)?;
@@ -308,7 +308,7 @@ impl Circle {
         (is_good(circle.carrier) && is_good(arm) && differ).then_some(circle)
     }
 
-    /// The circle through the first three places.
+    /// The circle through the first three positions.
     fn fitted(places: &[Point], arm: Vector) -> Option<Self> {
         let [a, b, c] = [places[0], places[1], places[2]];
         let (one, other) = (b - a, c - a);
@@ -341,7 +341,7 @@ impl Circle {
     }
 }
 
-/// Place of the arm's axis in a pose.
+/// Position of the arm's axis in a pose.
 fn place(pose: &KeyPose, arm: Vector) -> Point {
     pose.point + turned(arm, pose.direction)
 }

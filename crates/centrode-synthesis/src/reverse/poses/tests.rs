@@ -19,7 +19,7 @@ fn at(shares: &[f64]) -> Vec<KeyPose> {
 
 fn assert_met(poses: &[KeyPose], found: &KeyPoses) {
     let chain = &found.chain;
-    // Independent of what was found: the path by brute force, its nearest place to each pose, and the arm there.
+    // Independent of what was found: the path by brute force, its nearest position to each pose, and the arm there.
     let period = chain.path().period();
     for (i, pose) in poses.iter().enumerate() {
         let tip = |t: f64| {

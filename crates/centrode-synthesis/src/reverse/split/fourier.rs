@@ -22,7 +22,7 @@ impl Fourier {
         Self { count, roots }
     }
 
-    /// Harmonic of a coefficient by its place: below zero in the second half.
+    /// Harmonic of a coefficient by its position: below zero in the second half.
     pub(super) fn harmonic(&self, place: usize) -> f64 {
         if place < self.count / 2 {
             place as f64
@@ -31,7 +31,7 @@ impl Fourier {
         }
     }
 
-    /// Coefficients of real values, the mean at place zero; that of the highest harmonic, whose phase is unknown, is left out.
+    /// Coefficients of real values, the mean at place zero; that of the highest harmonic, whose phase is unknown, is omitted.
     pub(super) fn coefficients(&self, values: &[f64]) -> Vec<Complex<f64>> {
         let mut data: Vec<Complex<f64>> = values.iter().map(|v| Complex::new(*v, 0.0)).collect();
         self.transform(&mut data);

@@ -9,7 +9,7 @@ use crate::reverse::sharpness::AVERAGED;
 use crate::reverse::{ReversedMachine, TwoBar};
 use centrode_kinematics::transmission::Transmission as _;
 
-/// Places of a turn at which the curvatures are looked at.
+/// Samples per turn of the curvatures.
 const PLACES: usize = 1024;
 /// Harmonics of the bow.
 const HARMONICS: usize = 8;
@@ -105,7 +105,7 @@ struct Curves {
 }
 
 impl Curves {
-    /// Logarithm of the first stage's ratio with two derivatives at each place.
+    /// Logarithm of the first stage's ratio with two derivatives at each position.
     fn shares(&self, bow: &Amplitudes) -> Vec<[f64; 3]> {
         let mut shares: Vec<[f64; 3]> = self
             .places
@@ -128,7 +128,7 @@ impl Curves {
         shares
     }
 
-    /// The four curvatures at a place, each with its derivatives by the share and its two derivatives.
+    /// The four curvatures at a position, each with its derivatives by the share and its two derivatives.
     fn at(place: &Place, u: [f64; 3]) -> [(f64, [f64; 3]); 4] {
         let [v, v1, v2] = place.total;
         // The second stage by its own driver's angle, G.
@@ -177,7 +177,7 @@ impl Curves {
                 *slope += by[0] * wave[0] + by[1] * wave[1] + by[2] * wave[2];
             }
         }
-        // What keeps the mean ratio at one moves all shares alike.
+        // A correction of the mean ratio changes all shares equally.
         for (i, slope) in slope.iter_mut().enumerate() {
             let mean = self.places.iter().zip(&shares);
             let mean: f64 = mean.map(|(place, u)| place.waves[i][0] * u[0].exp()).sum();

@@ -24,37 +24,24 @@ const MAX_BEND: f64 = 170.0 / 180.0 * PI;
 /// Distance from a fraction that is rounding.
 const EXACT: f64 = 1e-12;
 
-/// Way in which the total law is split into two stages.
+/// Method by which the total law is split into two stages.
 #[derive(Clone, Copy, Debug, Default, Deserialize, Eq, Hash, JsonSchema, PartialEq, Serialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum SplitKind {
     /// Two different pairs, each of which takes half of the logarithm of the ratio; the intermediate carries two gears.
     #[default]
     Powers,
-    /// Two different pairs that share the ratio so that the sharpest of their four pitch curves is as mild as it can be.
+    /// Two different pairs that share the ratio so that the sharpest of their four pitch curves is as gentle as it can be.
     Mildest,
     /// One pair twice: sun and planet are one part, and a single intermediate gear meets both.
     OnePair,
 }
 
-impl SplitKind {
-    /// Every kind by its word.
-    pub const NAMES: [(&'static str, Self); 3] = [
-        ("powers", Self::Powers),
-        ("mildest", Self::Mildest),
-        ("one-pair", Self::OnePair),
-    ];
-
-    /// The word for it.
-    #[must_use]
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Powers => "powers",
-            Self::Mildest => "mildest",
-            Self::OnePair => "one-pair",
-        }
-    }
-}
+centrode_spec::words!(SplitKind {
+    Powers = "powers",
+    Mildest = "mildest",
+    OnePair = "one-pair",
+});
 
 /// Driven angle of a stage by its driver's polar angle, rad: grows by one turn with each.
 pub(super) type StageLaw = Arc<dyn Fn(f64) -> f64 + Send + Sync>;
@@ -91,7 +78,7 @@ impl fmt::Debug for Split {
 #[non_exhaustive]
 pub enum SplitError {
     /// A bend that leaves no room for the gears.
-    #[error("the bend must be at most {maximum:.4} deg either way, not {bend:.4} deg")]
+    #[error("the bend must be at most {maximum:.4} deg in either direction, not {bend:.4} deg")]
     Bend {
         /// Bend given, degrees.
         bend: f64,
@@ -100,11 +87,11 @@ pub enum SplitError {
     },
     /// The rotation number is at or near a fraction, so that no single pair follows.
     #[error(
-        "with one pair twice the planet must lag by {turns:.6} turns, {}{numerator}/{denominator}, where no single pair follows from the path: take another bend, or split by powers",
+        "the same pair twice does not work for this path: the planet must lag by {turns:.6} turns, {}{numerator}/{denominator}, where no single pair follows from the path: take another bend, or split by powers",
         if *miss < EXACT { String::new() } else { format!("{miss:.1e} from ") }
     )]
     Resonance {
-        /// Rotation number wanted, turns.
+        /// Rotation number required, turns.
         turns: f64,
         /// Numerator of the fraction.
         numerator: i64,
@@ -115,11 +102,11 @@ pub enum SplitError {
     },
     /// The law of one pair does not come out within its limit.
     #[error(
-        "with one pair twice the planet must lag by {turns:.6} turns, near {numerator}/{denominator}, and {}: take another bend, or split by powers",
+        "the same pair twice does not work for this path: the planet must lag by {turns:.6} turns, near {numerator}/{denominator}, and {}: take another bend, or split by powers",
         if miss.is_finite() { format!("the law found misses its equation by {miss:.1e} rad") } else { "no law that always advances was found".to_owned() }
     )]
     Inexact {
-        /// Rotation number wanted, turns.
+        /// Rotation number required, turns.
         turns: f64,
         /// Maximum miss, rad; infinite where the law found turns back.
         miss: f64,
@@ -128,7 +115,7 @@ pub enum SplitError {
         /// Its denominator.
         denominator: i64,
     },
-    /// Carrier or arm stand still within rounding.
+    /// Carrier or arm do not move within rounding.
     #[error(transparent)]
     Law(#[from] TransmissionError),
 }
@@ -154,7 +141,7 @@ impl Split {
         }
     }
 
-    /// Way in which it was split.
+    /// Method by which it was split.
     #[must_use]
     pub fn kind(&self) -> SplitKind {
         self.kind
@@ -190,7 +177,7 @@ impl Split {
         self.idler_offset
     }
 
-    /// Maximum miss of the equation of one pair twice among 2,000 places, rad; zero of two pairs, which solve theirs.
+    /// Maximum miss of the equation of one pair twice among 2,000 samples, rad; zero of two pairs, which solve theirs.
     #[must_use]
     pub fn miss(&self) -> f64 {
         self.miss

@@ -14,13 +14,13 @@ const MAX_DENOMINATOR: i64 = 11;
 const NEAREST: f64 = 1e-3;
 /// Maximum denominator of a fraction at which no law is searched for: of such a period harmonics that matter are not determined.
 const CLOSED: u32 = 314;
-/// Steps of the orbits by which the offset is sought, and of the one that is the first guess of the law.
+/// Steps of the orbits by which the offset is searched, and of the one that is the first guess of the law.
 const SAMPLES: u32 = 4_000;
-/// Steps of the grids on which the law is sought, each from the one before; the last is for rough laws only.
+/// Steps of the grids on which the law is searched, each from the one before; the last is for rough laws only.
 const GRIDS: [usize; 4] = [1 << 10, 1 << 13, 1 << 15, 1 << 17];
 /// Nodes of an interpolating polynomial.
 const LOCAL: usize = 6;
-/// Places at which the law is checked, its maximum miss, and the one at which no finer grid is tried, rad.
+/// Positions at which the law is checked, its maximum miss, and the one at which no finer grid is tried, rad.
 const CHECKS: u32 = 2_000;
 const MAX_MISS: f64 = 1e-7;
 const FINE: f64 = 1e-11;
@@ -28,7 +28,7 @@ const FINE: f64 = 1e-11;
 /// Splits into one pair twice: `f(G(psi) + offset) = f(psi) - c` with c = bend + pi, an equation of Abel.
 ///
 /// f turns the map G + offset of the circle into the turn by -c, so the offset is the one at which the rotation number is -c;
-/// it grows with the offset, and a first one is sought by averages along orbits, weighted by exp(-1/(t (1 - t))) (Das, Saiki,
+/// it grows with the offset, and a first one is searched by averages along orbits, weighted by exp(-1/(t (1 - t))) (Das, Saiki,
 /// Sander and Yorke, Nonlinearity 30, 2017). Along an orbit f falls by c each step: its points are a first guess of the inverse
 /// of f, which Newton steps on its harmonics and the offset then bring to rounding. They divide by `e^(i k c) - 1`: near a
 /// fraction with the denominator k digits are lost, and none but the smoothest law is known at one.
@@ -164,7 +164,7 @@ impl CircleMap {
         (0..count).map(at).collect()
     }
 
-    /// Offset at which the rotation number is the one wanted, rad.
+    /// Offset at which the rotation number is the one required, rad.
     fn offset_for(&self, required: f64) -> f64 {
         let shift = |i: u32| {
             let x = TAU * f64::from(i) / f64::from(CHECKS);
@@ -174,7 +174,7 @@ impl CircleMap {
         let (low, high) = shifts.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), s| {
             (low.min(s), high.max(s))
         });
-        // At the ends every step is at most, or at least, the one wanted.
+        // At the ends every step is at most, or at least, the one required.
         let room = 1e-3 * TAU;
         let [low, high] = [required - high - room, required - low + room];
         let miss = |offset: f64| {
@@ -188,16 +188,16 @@ impl CircleMap {
     }
 }
 
-/// Law at places of the turn.
+/// Law at samples of the turn.
 struct Nodes {
-    /// Places, with some repeated a turn before and after.
+    /// Positions, with some repeated a turn before and after.
     places: Vec<f64>,
     /// Law less its argument there.
     rests: Vec<f64>,
 }
 
 impl Nodes {
-    /// From the inverse of the law less its argument at equal steps of a turn; none where it turns back.
+    /// From the inverse of the law less its argument at equal steps of a turn; `None` if it turns back.
     fn new(inverse: &[f64]) -> Option<Self> {
         let count = inverse.len();
         let theta = |i: usize| TAU * i as f64 / count as f64;

@@ -216,7 +216,7 @@ fn the_map_of_the_drawn_path_has_both_kinds_of_axes() {
             turns_one_way(&path, range.axis(n as u32 % 33, n as u32 / 33));
         }
     }
-    // In the map nearly as at the place itself: there averaged over a step of a table.
+    // In the map nearly as at the position itself: there averaged over a step of a table.
     for (x, y) in [(15, 20), (30, 18), (32, 18)] {
         let axis = range.axis(x, y);
         let found = &map.found()[(y * 33 + x) as usize];
@@ -243,7 +243,7 @@ fn the_map_of_the_drawn_path_has_both_kinds_of_axes() {
     }
 }
 
-/// Both bars turn one way at many places, and put the tip on the path.
+/// Both bars turn in one direction at many samples, and put the tip on the path.
 fn turns_one_way(path: &RequiredPath, axis: Point) {
     let chain = TwoBar::new(path, axis, None).expect("a chain");
     let sense = chain.direction().sign();

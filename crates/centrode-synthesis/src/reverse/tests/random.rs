@@ -12,7 +12,7 @@ use centrode_machines::three_arm::ThreeArm;
 use centrode_machines::three_arm::design::ThreeArmDesign;
 use centrode_spec::{Design as _, DesignSpec as _};
 
-/// Machines tried where no other number is asked for by `PROPTEST_CASES`.
+/// Machines tried where no other number is requested by `PROPTEST_CASES`.
 const MACHINES: u32 = 4;
 
 /// A mechanism of one arm, one pair twice: pitch curve, bend, bars and sense of any kind.

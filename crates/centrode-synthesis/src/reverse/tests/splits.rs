@@ -223,7 +223,7 @@ fn rolled_radius(made: &ReversedMachine) -> f64 {
     1.0 / sharpest
 }
 
-/// Near the place where its bars are stretched a spline through points has a law with a peak of curvature, which no gear has.
+/// Near the position where its bars are stretched a spline through points has a law with a peak of curvature, which no gear has.
 #[test]
 fn the_radius_is_that_of_the_gears_written_and_no_mildest_split_is_sharper() {
     // Points, bars, swing of the arm, its direction, the carrier's, and the bend, deg.

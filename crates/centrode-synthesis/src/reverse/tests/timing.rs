@@ -14,7 +14,7 @@ use centrode_spec::DesignSpec as _;
 const CRANK: f64 = 30.0;
 const ROD: f64 = 120.0;
 
-/// Place of the ram of a slider-crank by the crank's angle, in closed form with three derivatives.
+/// Position of the ram of a slider-crank by the crank's angle, in closed form with three derivatives.
 fn ram() -> Arc<dyn Transmission> {
     Arc::new(FromFn::new(TAU, 0.0, Vec::new(), |t: f64| {
         let (s, c) = t.sin_cos();
@@ -125,16 +125,13 @@ fn what_no_crank_can_do_is_refused_by_name() {
     is(error(&[]), "nothing is required");
     is(
         error(&[even([0.0, 90.0], [100.0, 150.0])]),
-        "it moves from 90 to 150",
+        "its stroke is from 90 to 150",
     );
-    is(
-        error(&[even([0.0, 90.0], [100.0, 100.0])]),
-        "never stand still",
-    );
-    is(error(&[rest([0.0, 90.0], 0.0)]), "a rest within 0");
+    is(error(&[even([0.0, 90.0], [100.0, 100.0])]), "never stop");
+    is(error(&[rest([0.0, 90.0], 0.0)]), "a band of 0 in");
     is(
         error(&[rest([0.0, 90.0], 1e-12)]),
-        "a rest within 1e-12 of a stroke of 60: take a band above 6e-8",
+        "a band of 1e-12 in a stroke of 60; the band must be above 6e-8",
     );
     is(
         error(&[rest([0.0, 90.0], 31.0)]),
@@ -163,10 +160,8 @@ fn what_no_crank_can_do_is_refused_by_name() {
         error(&[even([0.0, 359.9], [100.0, 100.1])]),
         "leave more room",
     );
-    let twice = FromFn::new(TAU, 0.0, Vec::new(), |t: f64| MotionJet {
-        position: (2.0 * t).sin(),
-        velocity: 2.0 * (2.0 * t).cos(),
-        ..MotionJet::default()
+    let twice = FromFn::new(TAU, 0.0, Vec::new(), |t: f64| {
+        MotionJet::uniform((2.0 * t).sin(), 2.0 * (2.0 * t).cos())
     });
     is(
         Timing::new(Arc::new(twice), &[rest([0.0, 9.0], 0.1)]).expect_err("no law"),
@@ -309,7 +304,7 @@ fn machines_that_cannot_be_driven_so_are_refused_with_the_reason() {
             },
             "crank",
         ),
-        "no goal says",
+        "no goal defines the output",
     );
     is(
         error(&|t| t.replacen("ram.travel", "rod.angle", 1), "crank"),

@@ -26,7 +26,7 @@ struct LogSpeed {
 }
 
 impl Free {
-    /// The motion over an interval between jets at both ends, faster in the second half by a skew; none where it would be too
+    /// The motion over an interval between jets at both ends, faster in the second half by a skew; `None` if it would be too
     /// abrupt.
     pub(super) fn between([from, to]: [f64; 2], ends: &[MotionJet; 2], skew: f64) -> Option<Self> {
         let span = to - from;

@@ -1,4 +1,4 @@
-//! When the crank of a machine has to be where, so that its output does what is wanted.
+//! When the crank of a machine has to be where, so that its output does what is required.
 
 mod free;
 mod order;
@@ -20,33 +20,33 @@ use centrode_spec::digits::stated;
 /// Even parts of a turn, in each of which the ratio has few extremes.
 const PARTS: u32 = 32;
 
-/// Part of a turn over which something is wanted of an output.
+/// Part of a turn over which something is required of an output.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Section {
     /// Name, for messages.
     pub name: String,
     /// First and last input, rad.
     pub within: [f64; 2],
-    /// Motion wanted there.
+    /// Motion required there.
     pub required: Required,
 }
 
 /// Motion of an output over a section.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Required {
-    /// It goes evenly from one place to another, mm or rad.
+    /// It goes evenly from one position to another, mm or rad.
     Even([f64; 2]),
     /// It stays within a band of an end of its stroke, mm or rad: as near as gears, whose ratio is never zero, come to a rest.
     Rest(f64),
 }
 
-/// Law of a crank by the input with which the output of a machine does what is wanted.
+/// Law of a crank by the input with which the output of a machine does what is required.
 ///
-/// The output q is known by the angle tau of the crank, with one maximum and one minimum place in a turn. Where q shall be w(phi),
-/// tau solves `q(tau) = w(phi)`. Over a rest the crank runs evenly through the end of the stroke. In between `ln(d tau/d phi)` is
-/// a polynomial that joins both sides with two derivatives and makes the turn whole, so the crank never turns back. What is free,
-/// how far into the band of a rest the crank goes outside its section and where between sections it is faster, is chosen such that
-/// the sharpest convex place of both pitch curves is as blunt as it can be.
+/// The output q is known by the angle tau of the crank, with one maximum and one minimum in a turn. Where q must be
+/// w(phi), tau solves `q(tau) = w(phi)`. Over a rest the crank runs evenly through the end of the stroke. In between
+/// `ln(d tau/d phi)` is a polynomial that joins both sides with two derivatives and makes the turn whole, so the crank never
+/// turns back. What is free, how far into the band of a rest the crank goes outside its section and where between sections it
+/// is faster, is chosen such that the sharpest convex point of both pitch curves is as blunt as it can be.
 #[derive(Clone, Debug)]
 pub struct Timing {
     output: Arc<dyn Transmission>,
@@ -67,18 +67,18 @@ struct Stretch {
 
 #[derive(Clone, Debug)]
 enum Course {
-    /// The output goes evenly from one place to another.
+    /// The output goes evenly from one position to another.
     Even([f64; 2]),
     /// The crank turns evenly.
     Turn,
     Free(Free),
 }
 
-/// Reason why no law of the crank does what is wanted.
+/// Reason why no law of the crank does what is required.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum TimingError {
-    /// Nothing wanted.
+    /// Nothing required.
     #[error("nothing is required of the output")]
     Nothing,
     /// An output that does not come back.
@@ -95,37 +95,37 @@ pub enum TimingError {
         /// Times.
         count: usize,
     },
-    /// A course that reaches an end of the stroke or goes beyond.
+    /// A section of uniform motion that reaches an end of the stroke or goes beyond.
     #[error(
-        "{name}: the output shall go evenly from {} to {}, but it moves from {} to {}, and at both ends it stands: stay between them",
+        "{name}: the output must move evenly from {} to {}, but its stroke is from {} to {}, and it stops at both ends: require positions between them",
         stated(*from), stated(*to), stated(*minimum), stated(*maximum)
     )]
     Beyond {
         /// Section.
         name: String,
-        /// First place wanted.
+        /// First required position.
         from: f64,
         /// Last.
         to: f64,
-        /// Minimum place of the output.
+        /// Minimum position of the output.
         minimum: f64,
         /// Maximum.
         maximum: f64,
     },
-    /// A course that goes nowhere.
+    /// A rest that is not at an end of the stroke.
     #[error(
-        "{name}: the output shall stay at {}: gears never stand still; ask for a rest at an end of the stroke instead",
+        "{name}: the output is required to rest at {}, but the gears never stop; require a rest at an end of the stroke instead",
         stated(*place)
     )]
     Stationary {
         /// Section.
         name: String,
-        /// The place.
+        /// The position.
         place: f64,
     },
-    /// A band that is no part of the stroke.
+    /// A rest whose band is too small, or half of the stroke or more.
     #[error(
-        "{name}: a rest within {} of a stroke of {}: take a band above {} and below half of the stroke",
+        "{name}: the rest has a band of {} in a stroke of {}; the band must be above {} and below half of the stroke",
         stated(*band), stated(*stroke), stated(*minimum)
     )]
     Band {
@@ -135,7 +135,7 @@ pub enum TimingError {
         band: f64,
         /// Stroke.
         stroke: f64,
-        /// Minimum band: below it the gears would stand within rounding.
+        /// Minimum band: below it the gears would be fixed within rounding.
         minimum: f64,
     },
     /// Sections of the input that touch, overlap or are none.
@@ -207,10 +207,10 @@ impl TimingError {
 }
 
 impl Timing {
-    /// Finds the law of the crank; `output` is the output's place by the crank's angle, over one turn.
+    /// Finds the law of the crank; `output` is the output's position by the crank's angle, over one turn.
     ///
     /// # Errors
-    /// [`TimingError`] with the section and the numbers: an output that turns back more than twice, places beyond its stroke,
+    /// [`TimingError`] with the section and the numbers: an output that turns back more than twice, positions beyond its stroke,
     /// sections that overlap or that it cannot pass in their order.
     pub fn new(output: Arc<dyn Transmission>, sections: &[Section]) -> Result<Self, TimingError> {
         if sections.is_empty() {
@@ -290,20 +290,12 @@ impl Timing {
                 } else {
                     bracketed_root(miss, first, last, before, after)
                 };
-                let even = MotionJet {
-                    position: place,
-                    velocity: rate,
-                    ..MotionJet::default()
-                };
+                let even = MotionJet::uniform(place, rate);
                 self.output.at(angle).inverse(angle).after(&even)
             }
             Course::Turn => {
                 let rate = (last - first) / (to - from);
-                MotionJet {
-                    position: first + rate * (input - from),
-                    velocity: rate,
-                    ..MotionJet::default()
-                }
+                MotionJet::uniform(first + rate * (input - from), rate)
             }
             Course::Free(free) => free.at(first, input),
         }
@@ -315,7 +307,7 @@ impl Timing {
         &self.output
     }
 
-    /// Minimum and maximum place of the output, mm or rad.
+    /// Minimum and maximum position of the output, mm or rad.
     #[must_use]
     pub fn places(&self) -> [f64; 2] {
         self.swing.places()

@@ -13,12 +13,12 @@ const SLACK: f64 = 1e-6;
 /// Minimum band of a rest, as a share of the stroke: the crank turns by the root of it, and a law in a table has digits left.
 const MIN_BAND: f64 = 1e-9;
 
-/// An output with one maximum and one minimum place in a turn.
+/// An output with one maximum and one minimum in a turn.
 #[derive(Clone, Debug)]
 pub(super) struct Swing {
-    /// Angles of the crank at the minimum and at the maximum place, rad.
+    /// Angles of the crank at the minimum and at the maximum position, rad.
     angles: [f64; 2],
-    /// Minimum and maximum place, mm or rad.
+    /// Minimum and maximum position, mm or rad.
     places: [f64; 2],
 }
 
@@ -63,7 +63,7 @@ impl Swing {
         self.places
     }
 
-    /// Angle at which the output is at a place on its way up, or down, within a turn of the end it comes from.
+    /// Angle at which the output is at a position on its way up, or down, within a turn of the end it comes from.
     fn angle(&self, output: &dyn Transmission, place: f64, rises: bool) -> f64 {
         let [minimum, maximum] = self.angles;
         let [from, to] = if rises {

@@ -14,7 +14,7 @@ const STEPS: [f64; 2] = [0.25, 1e-3];
 const ROUNDS: u32 = 200;
 /// Maximum share of a rest's half that is left to the stretch next to it.
 const MAX_SHARE: f64 = 0.95;
-/// Maximum skew either way.
+/// Maximum skew in either direction.
 const MAX_SKEW: f64 = 4.0;
 
 /// Numbers that are free of a section and of the stretch after it.

@@ -1,4 +1,4 @@
-//! Commands that start from what is wanted.
+//! Commands that start from what is required.
 
 use std::path::PathBuf;
 
@@ -9,7 +9,7 @@ use centrode_synthesis::reverse::{Aim, SplitKind};
 
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Example: centrode reverse path.csv --axis 260,160 --bend 40 --arms 3 -o arms.toml\n\nThe path is closed: a point a line, x and y in mm, in the order in which the tip passes them. A design file of family path holds it with what else is wanted: bounds on the bars, directions, shapes to keep out of (centrode reverse --template prints one). With --poses: centrode reverse poses.csv --poses -o arms.toml\n\nExit status: 0 good; 1 something wanted is out of reach; 2 no machine, a bad path, or the file cannot be written."
+    after_help = "Example: centrode reverse path.csv --axis 260,160 --bend 40 --arms 3 -o arms.toml\n\nThe path is closed: a point a line, x and y in mm, in the order in which the tip passes them. A design file of family path holds it with all other requirements: bounds on the bars, directions, shapes not to enter (centrode reverse --template prints one). With --poses: centrode reverse poses.csv --poses -o arms.toml\n\nExit status: 0 good; 1 a requirement is out of reach; 2 no machine, a bad path, or the file cannot be written."
 )]
 pub(crate) struct Reverse {
     /// File of the path: CSV (x, y in mm), SVG (its one path) or a design file of family path; or - for standard input
@@ -21,17 +21,17 @@ pub(crate) struct Reverse {
     /// Maximum distance of the machine's path from a drawn one, of an SVG file, mm; default: 0.01
     #[arg(long, allow_negative_numbers = true, value_name = "MM")]
     pub(crate) within: Option<f64>,
-    /// Where something is free, make the most of it: the largest teeth, the ratio nearest to 1, or the minimum reach of the tip; left
-    /// out, the largest teeth where the path is eased or more is wanted of the machine, else the mildest ratio
-    #[arg(long, conflicts_with = "poses", value_parser = PossibleValuesParser::new(Aim::NAMES.map(|(name, _)| name)))]
+    /// Where something is free, make the most of it: the largest teeth, the ratio nearest to 1, or the minimum reach of the
+    /// tip; default: the largest teeth where the path is eased or more is required of the machine, else the gentlest ratio
+    #[arg(long, conflicts_with = "poses", value_parser = PossibleValuesParser::new(Aim::ALL.map(Aim::name)))]
     pub(crate) aim: Option<String>,
-    /// Axis of the carrier, mm; left out, it is sought on and about the path: the mildest, or the best by --aim
+    /// Axis of the carrier, mm; by default it is searched on and about the path: the gentlest, or the best by --aim
     #[arg(long, value_parser = place, allow_hyphen_values = true, value_name = "X,Y")]
     pub(crate) axis: Option<[f64; 2]>,
-    /// Box in which the axis is sought, by two corners, mm; left out, the path's box with a quarter of its size round it
+    /// Box in which the axis is searched, by two corners, mm; default: the path's box with a quarter of its size round it
     #[arg(long, value_parser = corners, allow_hyphen_values = true, value_name = "X,Y,X,Y", conflicts_with_all = ["axis", "poses"])]
     pub(crate) axis_box: Option<[[f64; 2]; 2]>,
-    /// Let the path pass within so far of its points, and ease it there until its gears are as blunt as can be; a column headed
+    /// Let the path pass within this distance of its points, mm, and ease it there until its gears are as blunt as can be; a column headed
     /// `tolerance` in the file gives each point its own
     #[arg(
         long,
@@ -43,7 +43,7 @@ pub(crate) struct Reverse {
     /// The points are the control points of a closed cubic B-spline, which need not pass them
     #[arg(long, conflicts_with_all = ["poses", "open"])]
     pub(crate) control: bool,
-    /// The points are the working part alone: the return from the last to the first is free, and sought for blunt gears
+    /// The points are the working part alone: the return from the last to the first is free, and searched for blunt gears
     #[arg(long, conflicts_with = "poses")]
     pub(crate) open: bool,
     /// Ease the path no more than full teeth of this module need
@@ -59,29 +59,29 @@ pub(crate) struct Reverse {
     #[arg(long, conflicts_with_all = ["axis", "crossing", "within"])]
     pub(crate) poses: bool,
     /// Make a three-arm transplanting mechanism that takes the key poses, picks in the first, plants in the last and reaches
-    /// its goals with sound full teeth: bend and law of its gears are sought
+    /// its goals with sound full teeth: bend and law of its gears are searched
     #[arg(long, requires = "poses", conflicts_with_all = ["split", "bend", "steps"])]
     pub(crate) three_arm: bool,
     /// Folder for the files of the three-arm mechanism, as `centrode export` writes them
     #[arg(long, requires_all = ["three_arm", "output"], value_name = "DIR")]
     pub(crate) to: Option<PathBuf>,
-    /// How two stages of gears share the motion; left out, powers
-    #[arg(long, value_parser = PossibleValuesParser::new(SplitKind::NAMES.map(|(name, _)| name)))]
+    /// How two stages of gears share the motion; default: powers
+    #[arg(long, value_parser = PossibleValuesParser::new(SplitKind::ALL.map(SplitKind::name)))]
     pub(crate) split: Option<String>,
-    /// Angle from the carrier's first leg, to the intermediate gear, to its second, degrees; left out, 60
+    /// Angle from the carrier's first leg, to the intermediate gear, to its second, degrees; default: 60
     #[arg(long, allow_negative_numbers = true, value_name = "DEG")]
     pub(crate) bend: Option<f64>,
-    /// Number of arms; left out, 1
+    /// Number of arms; default: 1
     #[arg(long, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=12))]
     pub(crate) arms: Option<u32>,
-    /// Steps of the tables in which the laws of the gears are written; left out, as few as bring the tip within 1e-7 of its
+    /// Steps of the tables in which the laws of the gears are written; default: as few as bring the tip within 1e-7 of its
     /// maximum distance from the axis
     #[arg(long, allow_negative_numbers = true, value_name = "N")]
     pub(crate) steps: Option<u32>,
     /// Take a path that crosses itself, too
     #[arg(long)]
     pub(crate) crossing: bool,
-    /// Design file to write; left out, nothing is written and no teeth are sought
+    /// Design file to write; default: nothing is written and no teeth are searched
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
 }
@@ -107,12 +107,12 @@ pub(crate) struct Drive {
         value_name = "DEG"
     )]
     pub(crate) direction: f64,
-    /// Design file to write; left out, nothing is written and no teeth are sought
+    /// Design file to write; default: nothing is written and no teeth are searched
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
 }
 
-/// Reads a place in the plane.
+/// Reads a position in the plane.
 fn place(word: &str) -> Result<[f64; 2], String> {
     match numbers(word)[..] {
         [Some(x), Some(y)] => Ok([x, y]),

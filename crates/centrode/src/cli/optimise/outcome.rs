@@ -80,7 +80,7 @@ impl<'a> Outcome<'a> {
         }
         let how = match self.ended {
             Ended::Target if self.reached() => "every goal is reached",
-            Ended::Target => "as good as asked for",
+            Ended::Target => "as good as requested",
             Ended::Evaluations => "the evaluations are used up",
             Ended::Stopped => "stopped",
             Ended::Stuck => "no step helps any more",

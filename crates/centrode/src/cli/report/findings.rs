@@ -4,7 +4,7 @@ use crate::analysis::{Finding, Report, Severity};
 use crate::page::words::{finding_words, summary};
 use anstyle::{AnsiColor, Style};
 
-/// Writes the number of findings, then each: severity, rule, place, figures, remedy.
+/// Writes the number of findings, then each: severity, rule, position, figures, remedy.
 pub(super) fn write(report: &Report, out: &mut impl Write) -> Result<()> {
     writeln!(out, "{}", summary(report))?;
     for finding in &report.findings {

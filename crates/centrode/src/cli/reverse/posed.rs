@@ -8,20 +8,20 @@ use centrode_spec::Design as _;
 use centrode_synthesis::optimise::three_arm::PosedProblem;
 use centrode_synthesis::reverse::{KeyPose, KeyPoses};
 
-use super::{line, words};
+use super::{line, lines, words};
 use crate::cli::args::{Arguments, Command, Reverse};
 use crate::cli::failure::Failure;
 use crate::cli::progress::Progress;
 use crate::cli::{Status, export, output};
 
-/// Makes a three-arm mechanism from key poses, prints what was found, and writes its design and, where asked, its files.
+/// Makes a three-arm mechanism from key poses, prints what was found, and writes its design and, if requested, its files.
 pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Failure> {
     let source = super::source(command)?;
     if let Some(output) = &command.output {
         source.keep(output, "the poses")?;
     }
     let progress = Progress::new(2);
-    progress.step("trying places of the arm's axis");
+    progress.step("trying positions of the arm's axis");
     let required = KeyPose::from_csv(source.bytes()).map_err(|error| source.refused(&error))?;
     let chains = KeyPoses::mildest(&required, PosedProblem::CHAINS)
         .map_err(|error| source.refused(&error))?;
@@ -34,9 +34,7 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
     let mm = |x: f64| Unit::Millimetre.with_unit(x);
     let (found, design) = (&posed.poses, &posed.design);
     let chain = &found.chain;
-    for (name, words) in words::poses(found.clamp, &posed.misses) {
-        line(out, &name, &words)?;
-    }
+    lines(words::poses(found.clamp, &posed.misses), out)?;
     let axis = chain.axis();
     line(
         out,

@@ -8,7 +8,7 @@ use centrode_spec::{DesignFamily, DesignFile, MechanismError, SpecError};
 use centrode_synthesis::reverse::{Aim, PathDesign, RequiredPath, RequiredPoints, SplitKind};
 use std::path::Path;
 
-/// A path and what is wanted of its machine, on the command line and in files.
+/// A path and what is required of its machine, on the command line and in files.
 pub(super) struct Request {
     /// The wishes; their points are those below.
     pub(super) design: PathDesign,
@@ -49,7 +49,7 @@ impl Request {
                 requested.source = Source::open_up_to(&path, RequiredPath::LARGEST)?;
                 let wishes = requested.design.wishes.clone();
                 requested.take_points(command)?;
-                // A number of a point stands in the design, and not in the file that holds too few of them.
+                // A number of a point is in the design, and not in the file that holds too few of them.
                 let count = requested.points.len();
                 let is_closed = count > 1 && requested.points.first() == requested.points.last();
                 let checked = wishes.validate(count - usize::from(is_closed));
@@ -146,12 +146,13 @@ impl Request {
         if let Some(bend) = command.bend {
             design.bend = bend.to_radians();
         }
-        if let Some(kind) = named(&SplitKind::NAMES, command.split.as_deref()) {
+        if let Some(kind) = command.split.as_deref().and_then(SplitKind::named) {
             design.split = kind;
         }
         design.arms = command.arms.unwrap_or(design.arms);
         design.steps = command.steps.or(design.steps);
-        design.aim = named(&Aim::NAMES, command.aim.as_deref()).or(design.aim);
+        let aim = command.aim.as_deref().and_then(Aim::named);
+        design.aim = aim.or(design.aim);
         if let Some(band) = command.band {
             design.path.tolerance.clear();
             design.path.band = Some(band);
@@ -189,13 +190,6 @@ impl Request {
         let degrees = self.design.bend.to_degrees();
         command.bend.unwrap_or((degrees * 1e9).round() / 1e9)
     }
-}
-
-/// Value of a word.
-fn named<T: Copy>(names: &[(&str, T)], word: Option<&str>) -> Option<T> {
-    let word = word?;
-    let found = names.iter().find(|(name, _)| *name == word);
-    found.map(|(_, value)| *value)
 }
 
 /// Design of a path, if a file is one.

@@ -84,7 +84,7 @@ impl Document {
         &self.name
     }
 
-    /// Place of the file.
+    /// Position of the file.
     pub(crate) fn path(&self) -> PathBuf {
         self.folder.join(&self.name)
     }

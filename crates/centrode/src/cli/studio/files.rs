@@ -41,12 +41,12 @@ pub(super) struct Files {
 }
 
 impl Files {
-    /// Whether the page is asked for, too.
+    /// Whether the page is requested, too.
     fn page(&self) -> bool {
         self.formats.iter().any(|word| word == PAGE)
     }
 
-    /// Export command with these options, if more than the page is asked for; the folder is not used.
+    /// Export command with these options, if more than the page is requested; the folder is not used.
     fn command(&self) -> Result<Option<Export>, String> {
         let words: Vec<&str> = self.formats.iter().map(String::as_str).collect();
         let kinds: Vec<&str> = words.into_iter().filter(|word| *word != PAGE).collect();

@@ -7,7 +7,7 @@ use axum::http::{HeaderMap, HeaderName, HeaderValue, Method, StatusCode, header}
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
-/// Guard that lets only this page ask, by its secret address, through this computer's own name.
+/// Guard that admits only requests of this page, by its secret address, through this computer's own name.
 #[derive(Clone)]
 pub(crate) struct Guard {
     port: u16,
@@ -77,7 +77,7 @@ impl Guard {
             origin.is_some_and(|origin| names.iter().any(|name| name == origin))
         };
         match headers.get(header::ORIGIN) {
-            Some(origin) if !own(origin) => return Some("another site must not ask"),
+            Some(origin) if !own(origin) => return Some("requests of another site are refused"),
             // Browsers name the origin of every request that is not a plain read.
             None if *method != Method::GET => return Some("the origin is missing"),
             _ => {}

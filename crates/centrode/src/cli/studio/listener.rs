@@ -18,7 +18,7 @@ const STRANGERS: usize = 128;
 
 /// Answers connections for ever.
 ///
-/// Of those that have not shown the secret only so many are kept, the oldest go first: however many slow
+/// Of those that have not shown the secret only so many are stored, the oldest go first: however many slow
 /// clients there are, the page gets in.
 pub(crate) async fn serve(listener: TcpListener, page: Router) {
     let mut strangers: VecDeque<(Known, AbortHandle)> = VecDeque::new();
@@ -44,7 +44,7 @@ pub(crate) async fn serve(listener: TcpListener, page: Router) {
 }
 
 async fn connection(stream: TcpStream, page: Router, known: Known) {
-    // Answers are small and asked for one by one: waiting to fill a packet only costs time.
+    // Answers are small and requested one by one: waiting to fill a packet only costs time.
     let _ = stream.set_nodelay(true);
     let service = tower_service(page, known);
     let served = hyper::server::conn::http1::Builder::new()

@@ -7,7 +7,7 @@ use super::routes::{Refused, Text, computed};
 use crate::cli::args::{TOLERANCE, tolerance};
 use crate::page;
 
-/// Meshes of a design as `export` writes them by default, and where they stand at the picture's inputs.
+/// Meshes of a design as `export` writes them by default, and their poses at the picture's inputs.
 pub(crate) async fn answer(Json(ask): Json<Text>) -> Result<Response, Refused> {
     let made = computed(move || page::meshes(&ask.text, tolerance(TOLERANCE)?)).await?;
     let bytes =

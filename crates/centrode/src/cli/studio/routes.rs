@@ -64,7 +64,7 @@ pub(crate) fn limited<S: Clone + Send + Sync + 'static>(page: Router<S>) -> Rout
 pub(crate) fn guarded(index: &'static str, page: Router, guard: Guard) -> Router {
     let base = guard.base();
     Router::new()
-        // A nest has no place for the bare slash that the page's own address ends with.
+        // A nest has no route for the bare slash that the page's own address ends with.
         .route(&format!("{base}/"), get(async move || Html(index)))
         .nest(&base, page)
         .layer(axum::middleware::from_fn_with_state(guard, guard::pass))
@@ -145,7 +145,7 @@ fn unsearchable(text: &str) -> Option<String> {
 
 #[derive(Deserialize)]
 struct Solve {
-    /// Page, of those that are open, that asks: its next request takes the place of this one.
+    /// Page, of those that are open, that made the request: its next one replaces this one.
     #[serde(default)]
     page: String,
     /// How many requests the page has made before.

@@ -1,100 +1,40 @@
 //! Designs that the program brings with it.
 
+macro_rules! designs {
+    ($($name:literal),+ $(,)?) => {
+        [$(($name, include_str!(concat!("../../../designs/", $name, ".toml")))),+]
+    };
+}
+
 /// Name and text of every shipped design, by family.
-pub(crate) const SHIPPED: [(&str, &str); 26] = [
-    (
-        "circular-pair",
-        include_str!("../../../designs/circular-pair.toml"),
-    ),
-    (
-        "cubic-pair",
-        include_str!("../../../designs/cubic-pair.toml"),
-    ),
-    (
-        "elliptic-pair-2018",
-        include_str!("../../../designs/elliptic-pair-2018.toml"),
-    ),
-    ("law-pair", include_str!("../../../designs/law-pair.toml")),
-    (
-        "lobed-pair-2-1",
-        include_str!("../../../designs/lobed-pair-2-1.toml"),
-    ),
-    (
-        "lobed-pair-3-2",
-        include_str!("../../../designs/lobed-pair-3-2.toml"),
-    ),
-    (
-        "lobed-pair-5-2",
-        include_str!("../../../designs/lobed-pair-5-2.toml"),
-    ),
-    (
-        "quintic-pair",
-        include_str!("../../../designs/quintic-pair.toml"),
-    ),
-    (
-        "shifted-pair",
-        include_str!("../../../designs/shifted-pair.toml"),
-    ),
-    (
-        "transplanter-pair-2021",
-        include_str!("../../../designs/transplanter-pair-2021.toml"),
-    ),
-    (
-        "three-arm-2021",
-        include_str!("../../../designs/three-arm-2021.toml"),
-    ),
-    (
-        "three-arm-all-goals",
-        include_str!("../../../designs/three-arm-all-goals.toml"),
-    ),
-    (
-        "three-arm-from-poses",
-        include_str!("../../../designs/three-arm-from-poses.toml"),
-    ),
-    (
-        "spiral-shaft-2018",
-        include_str!("../../../designs/spiral-shaft-2018.toml"),
-    ),
-    (
-        "moving-box-2018",
-        include_str!("../../../designs/moving-box-2018.toml"),
-    ),
-    (
-        "feeder-2022",
-        include_str!("../../../designs/feeder-2022.toml"),
-    ),
-    (
-        "feeder-widened",
-        include_str!("../../../designs/feeder-widened.toml"),
-    ),
-    (
-        "composed-box",
-        include_str!("../../../designs/composed-box.toml"),
-    ),
-    (
-        "composed-feeder",
-        include_str!("../../../designs/composed-feeder.toml"),
-    ),
-    (
-        "composed-three-arm",
-        include_str!("../../../designs/composed-three-arm.toml"),
-    ),
-    (
-        "index-table",
-        include_str!("../../../designs/index-table.toml"),
-    ),
-    (
-        "jansen-leg",
-        include_str!("../../../designs/jansen-leg.toml"),
-    ),
-    (
-        "peaucellier-cell",
-        include_str!("../../../designs/peaucellier-cell.toml"),
-    ),
-    ("press", include_str!("../../../designs/press.toml")),
-    ("two-arm", include_str!("../../../designs/two-arm.toml")),
-    ("two-stage", include_str!("../../../designs/two-stage.toml")),
-];
+pub(crate) const SHIPPED: [(&str, &str); 26] = designs!(
+    "circular-pair",
+    "cubic-pair",
+    "elliptic-pair-2018",
+    "law-pair",
+    "lobed-pair-2-1",
+    "lobed-pair-3-2",
+    "lobed-pair-5-2",
+    "quintic-pair",
+    "shifted-pair",
+    "transplanter-pair-2021",
+    "three-arm-2021",
+    "three-arm-all-goals",
+    "three-arm-from-poses",
+    "spiral-shaft-2018",
+    "moving-box-2018",
+    "feeder-2022",
+    "feeder-widened",
+    "composed-box",
+    "composed-feeder",
+    "composed-three-arm",
+    "index-table",
+    "jansen-leg",
+    "peaucellier-cell",
+    "press",
+    "two-arm",
+    "two-stage",
+);
 
 /// Text of the shipped design with a name.
 pub(crate) fn shipped(name: &str) -> Option<&'static str> {

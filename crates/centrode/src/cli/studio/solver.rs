@@ -10,14 +10,14 @@ use tokio::sync::mpsc::{UnboundedReceiver, unbounded_channel};
 
 use crate::page::{Snapshot, Subject};
 
-/// Solves the designs of the pages that are open, for each page the latest asked for.
+/// Solves the designs of the pages that are open, for each page the latest requested.
 ///
-/// A solve ends early once its page asks for another, or nobody waits for its answer any more.
+/// A solve ends early once its page requests another, or nobody waits for its answer any more.
 #[derive(Default)]
 pub(crate) struct Solver {
     /// Request being solved for each page.
     under_way: Mutex<HashMap<String, UnderWay>>,
-    /// Last design solved: after its picture its checks are asked for.
+    /// Last design solved: after its picture its checks are requested.
     last: Mutex<Option<Arc<Subject>>>,
 }
 
@@ -48,7 +48,7 @@ pub(crate) enum Depth {
 /// Reason why a design has no answer.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Unsolved {
-    #[error("a later change has taken the place of this one")]
+    #[error("a later change has replaced this one")]
     Overtaken,
     #[error("solving this design has failed: {0}")]
     Fault(String),
@@ -56,7 +56,7 @@ pub(crate) enum Unsolved {
     Internal(#[from] InternalFault),
 }
 
-/// Answer to a page, whose parts are told as soon as they are known: one JSON value in all.
+/// Answer to a page, whose parts are reported as soon as they are known: one JSON value in all.
 pub(crate) struct Answer {
     first: Option<String>,
     later: UnboundedReceiver<Result<String, Unsolved>>,
@@ -88,7 +88,7 @@ struct Wait {
 }
 
 impl Wait {
-    /// Takes the place of the request being solved for the page; none for one that comes after a later one.
+    /// Replaces the request being solved for the page; `None` for one that comes after a later one.
     fn begin(solver: &Arc<Solver>, page: &str, turn: u64) -> Option<Self> {
         let (cancel, progress) = (Cancel::default(), Progress::default());
         let mut under_way = held(&solver.under_way);
@@ -274,7 +274,7 @@ mod tests {
             let overtaken = ours.await.expect("no panic");
             assert!(matches!(overtaken, Err(Unsolved::Overtaken)));
             assert!(requested.elapsed() < Duration::from_secs(10));
-            // A request that was held up on its way takes nobody's place.
+            // A delayed request replaces no later one.
             let latest = slow(PAGE);
             tokio::time::sleep(Duration::from_millis(50)).await;
             let late = solved(&solver, PAGE, 0, "family = 1".into(), Depth::Picture).await;

@@ -43,7 +43,7 @@ pub(crate) enum Pattern {
 }
 
 impl Pattern {
-    /// The text; none where nothing has the name.
+    /// The text; `None` if nothing has the name.
     pub(crate) fn text(&self) -> Option<&str> {
         match self {
             Self::Shipped(name) => shipped(name),

@@ -1,4 +1,4 @@
-//! The page on which a machine is made from a path: what it asks for, and the answers.
+//! The page on which a machine is made from a path: its requests, and the answers.
 
 mod stream;
 
@@ -32,7 +32,7 @@ async fn solve(Json(ask): Json<Wish>) -> Result<Response, Refused> {
     answered(move || Answer::new(&ask)).await
 }
 
-/// Machine that is sought: of key poses, of the working part of a path, or of a path with more wishes.
+/// Machine to search: of key poses, of the working part of a path, or of a path with more wishes.
 async fn find(State(kept): State<Cached>, Json(ask): Json<Wish>) -> Response {
     streamed(move |observe| Answer::found(&ask, &kept, observe))
 }
@@ -47,7 +47,7 @@ async fn axis(Json(ask): Json<field::Best>) -> Result<Response, Refused> {
     answered(move || stated(field::best(&ask))).await
 }
 
-/// Points of a file, or all that it wants.
+/// Points of a file, or all its requirements.
 async fn open(Json(ask): Json<super::routes::Text>) -> Result<Response, Refused> {
     answered(move || stated(path::opened(&ask.text))).await
 }

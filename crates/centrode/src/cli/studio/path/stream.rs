@@ -16,7 +16,7 @@ use crate::InternalFault;
 use super::super::routes::Wait;
 use super::stated;
 
-/// Interval at which progress is told.
+/// Interval at which progress is reported.
 const EVERY: Duration = Duration::from_millis(200);
 
 /// Does a job for as long as somebody listens: lines of JSON, `{"evaluations": 300}`, and the answer as `{"answer": ...}`.
