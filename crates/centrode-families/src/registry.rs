@@ -187,6 +187,12 @@ impl Families {
         centrode_spec::json_schema(self.0)
     }
 
+    /// Every mistake of a design file, as [`DesignFile::mistakes`] finds them.
+    #[must_use]
+    pub fn mistakes(&self, bytes: &[u8]) -> Vec<DesignError> {
+        DesignFile::mistakes(bytes, self.0)
+    }
+
     /// Reads a design file of one of the families and checks every rule that needs no geometry.
     ///
     /// # Errors

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{AmplitudeFor, Load, Mill, Reversal, ShaftBody, ShaftError, SliderSpec, SpeedLaw};
 use centrode_spec::rule::{
-    Rule, broken, count_in_range, file_name, finite, in_range, positive, single_line,
+    Rule, broken, count_in_range, design_name, finite, in_range, positive, single_line,
 };
 use centrode_spec::{DesignSpec, DrawingSpec, SpecError, degrees};
 
@@ -125,7 +125,7 @@ impl SpiralShaftDesign {
     /// # Errors
     /// [`SpecError`] with the key at fault.
     pub fn validate(&self) -> Result<(), SpecError> {
-        file_name("name", &self.name)?;
+        design_name(&self.name)?;
         single_line("title", &self.title)?;
         positive("lead", self.lead)?;
         count_in_range("holes", self.holes, 2, 1000)?;

@@ -11,7 +11,7 @@ use centrode_gear::pitch::{Ellipse, PitchSpec};
 use centrode_kinematics::machine::{GuideForce, Keyway};
 use centrode_kinematics::transmission::{MotionJet, Transmission};
 use centrode_spec::rule::{
-    Rule, broken, count_in_range, file_name, in_range, is_zero, positive, single_line,
+    Rule, broken, count_in_range, design_name, in_range, is_zero, positive, single_line,
 };
 use centrode_spec::{DesignSpec, SpecError};
 
@@ -181,7 +181,7 @@ impl MovingBoxDesign {
     /// # Errors
     /// [`SpecError`] with the key at fault.
     pub fn validate(&self) -> Result<(), SpecError> {
-        file_name("name", &self.name)?;
+        design_name(&self.name)?;
         single_line("title", &self.title)?;
         match (self.scheme, &self.gears) {
             (Scheme::Shaft, Some(_)) => {

@@ -51,6 +51,59 @@ fn the_template_is_a_good_pair() {
 }
 
 #[test]
+fn every_mistake_of_a_file_is_reported_at_once() {
+    let families = [DesignFamily::new::<GearPairDesign>()];
+    let mistakes = |text: &str| -> Vec<String> {
+        let found = DesignFile::mistakes(text.as_bytes(), &families);
+        found.iter().map(ToString::to_string).collect()
+    };
+    assert!(mistakes(GOOD).is_empty());
+    let bad = GOOD
+        .replace("name = \"pair\"", "name = \"a/b\"")
+        .replace("\"rack\"", "\"rak\"")
+        .replace("backlash = 0.05", "backlsh = 0.05")
+        .replace("width = 10", "width = -10");
+    let starts = [
+        "line 12, column 8: tool.kind: unknown word \"rak\"",
+        "line 16, column 1: teeth.backlsh: unknown key",
+        "line 2, column 1: name: must be",
+        "line 19, column 1: driver.width: must be",
+    ];
+    let found = mistakes(&bad);
+    for start in starts {
+        assert!(
+            found.iter().any(|one| one.starts_with(start)),
+            "{start}: {found:#?}"
+        );
+    }
+    assert_eq!(found.len(), starts.len(), "{found:#?}");
+    assert_eq!(mistakes("family = \"gear-pair\"\n[pitch\n").len(), 1);
+}
+
+#[test]
+fn names_have_letters_of_any_script_and_dates_are_dates_or_text() {
+    let named = |name: &str| read(GOOD.replace("\"pair\"", &format!("{name:?}")));
+    for name in ["齿轮-2", "Zahnräder", "шестерня_1"] {
+        assert_eq!(named(name).expect(name).design().name(), name);
+    }
+    for name in ["", "a b", "a.b", "..", "名/称", "a\u{202e}b"] {
+        assert!(named(name).is_err(), "{name}");
+    }
+    for date in ["2026-11-30", "\"2026-11-30\""] {
+        let file = read(format!("{GOOD}[drawing]\ndate = {date}\n")).expect(date);
+        let design: &GearPairDesign = file.design().downcast_ref().expect("a pair");
+        assert_eq!(design.drawing.date, "2026-11-30");
+    }
+    let error = read(format!("{GOOD}[drawing]\ndate = 2026\n")).expect_err("a number");
+    assert!(
+        error
+            .to_string()
+            .contains("drawing.date: must be a date or text"),
+        "{error}"
+    );
+}
+
+#[test]
 fn only_the_families_asked_for_are_read() {
     let error = ThreeArmDesign::from_toml(GOOD).expect_err("another family");
     let message = error.to_string();

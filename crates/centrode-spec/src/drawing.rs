@@ -1,6 +1,6 @@
 use crate::words;
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use crate::SpecError;
 use crate::rule::single_line;
@@ -18,8 +18,8 @@ pub struct DrawingSpec {
     /// Revision.
     #[serde(skip_serializing_if = "String::is_empty")]
     pub revision: String,
-    /// Date of issue, as it is to be printed.
-    #[serde(skip_serializing_if = "String::is_empty")]
+    /// Date of issue, as it is to be printed; a date of TOML as `2026-11-30`.
+    #[serde(skip_serializing_if = "String::is_empty", deserialize_with = "date")]
     pub date: String,
     /// Legal owner.
     #[serde(skip_serializing_if = "String::is_empty")]
@@ -42,6 +42,20 @@ pub struct DrawingSpec {
     pub surface: String,
     /// Texture of the surfaces with a tolerance class up to grade 8, and of flanks and profiles, ISO 21920; empty, that of the others.
     pub fitted_surface: String,
+}
+
+/// Text of a date, written as text or as a date.
+fn date<'de, D: Deserializer<'de>>(from: D) -> Result<String, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(untagged, expecting = "must be a date or text")]
+    enum Written {
+        Text(String),
+        Date(toml::value::Datetime),
+    }
+    Ok(match Written::deserialize(from)? {
+        Written::Text(text) => text,
+        Written::Date(date) => date.to_string(),
+    })
 }
 
 /// Size of a drawing sheet, ISO 5457.

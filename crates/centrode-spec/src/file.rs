@@ -1,8 +1,13 @@
 use std::sync::Arc;
 
+use toml::de::DeTable;
+
 use super::keys::{Keys, line_and_column};
 use super::reader::Reader;
 use super::{Design, DesignError, DesignFamily, DesignFault, MechanismError};
+
+/// Maximum number of mistakes of a file that are reported at once: ten times more hide the first.
+const MOST_MISTAKES: usize = 10;
 
 /// A design together with the positions of its keys, so that later errors find their line.
 #[derive(Clone, Debug)]
@@ -33,6 +38,51 @@ impl DesignFile {
             keys: reader.into_keys(),
         };
         Ok((file, family))
+    }
+
+    /// Every mistake of a design file, as far as one can be seen behind another: a wrong word counts as the one meant, any
+    /// other wrong value as not written.
+    #[must_use]
+    pub fn mistakes<F: AsRef<DesignFamily>>(bytes: &[u8], families: &[F]) -> Vec<DesignError> {
+        let mut text = String::from_utf8_lossy(bytes).into_owned();
+        let mut found: Vec<DesignError> = Vec::new();
+        while found.len() < MOST_MISTAKES {
+            // Of bytes that are no text the first error says so.
+            let read = if found.is_empty() {
+                bytes
+            } else {
+                text.as_bytes()
+            };
+            let Err(error) = Self::read(read, families) else {
+                break;
+            };
+            // A file that is mended badly is no mistake of its writer.
+            let mended = |key: &str| found.iter().any(|one| one.key == key);
+            if !found.is_empty()
+                && (matches!(error.fault, DesignFault::Syntax(_)) || mended(&error.key))
+            {
+                break;
+            }
+            let keys = DeTable::parse(&text).map(|root| Keys::new(root.get_ref()));
+            let line = keys.ok().and_then(|keys| keys.line(&error.key, &text));
+            let word = match &error.fault {
+                DesignFault::UnknownWord { near, .. } => near.clone(),
+                _ => None,
+            };
+            found.push(error);
+            match (line, word) {
+                (None, _) => break,
+                (Some([_, value]), Some(word)) => text.replace_range(value, &format!("{word:?}")),
+                (Some([key, value]), None) => {
+                    let blank: String = text[key.start..value.end]
+                        .chars()
+                        .map(|c| if c == '\n' { c } else { ' ' })
+                        .collect();
+                    text.replace_range(key.start..value.end, &blank);
+                }
+            }
+        }
+        found
     }
 
     pub(super) fn text_of(bytes: &[u8]) -> Result<&str, DesignError> {

@@ -175,6 +175,13 @@ impl Keys {
         }
     }
 
+    /// Byte ranges of the name and the value of a key that is written as `name = value`.
+    pub(super) fn line(&self, path: &str, text: &str) -> Option<[Range<usize>; 2]> {
+        let entry = self.0.iter().find(|e| e.path == path)?;
+        let between = text.get(entry.key.end..entry.value.start)?;
+        (between.trim() == "=").then(|| [entry.key.clone(), entry.value.clone()])
+    }
+
     /// The first list that is longer than what was read of it: its key, its length, and how much was read.
     ///
     /// Serde reads a list of fixed length and leaves the rest.

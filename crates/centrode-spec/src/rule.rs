@@ -64,9 +64,12 @@ pub enum Rule {
     /// A screw that there is none of.
     #[error("must be 0 or the size of a screw, 1.6, 2, 2.5, 3, 4, 5, 6, 8, 10 or 12 mm, not {}", stated(*.0))]
     NoScrew(f64),
-    /// A name that cannot name a file.
+    /// A name of a design that cannot name a file.
     #[error("must be 1 to 64 letters, digits, '-' or '_', not {0:?}")]
     Name(String),
+    /// A name of a part of a design that cannot be written everywhere.
+    #[error("must be 1 to 64 letters a to z, digits, '-' or '_', not {0:?}")]
+    PartName(String),
     /// Words that do not fit one line of a drawing.
     #[error(
         "must be one line of at most {most} characters, not {count} with {controls} control characters (U+FFFE and U+FFFF count, too)"
@@ -205,16 +208,31 @@ fn not_too_great(key: &str, value: f64) -> Result<(), SpecError> {
     in_range(key, value, [0.0, MAXIMUM], "")
 }
 
-/// Checks a name that can name a file.
+/// Checks the name of a design, which names files: letters of any script.
+///
+/// # Errors
+/// [`SpecError`] at the key `name`.
+pub fn design_name(name: &str) -> Result<(), SpecError> {
+    if is_name(name, char::is_alphanumeric) {
+        return Ok(());
+    }
+    broken("name", Rule::Name(name.chars().take(80).collect()))
+}
+
+/// Checks the name of a part of a design, which formulas and simulators read too: letters a to z.
 ///
 /// # Errors
 /// [`SpecError`] with the key.
-pub fn file_name(key: &str, name: &str) -> Result<(), SpecError> {
-    let safe = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
-    if name.is_empty() || name.len() > 64 || !name.chars().all(safe) {
-        return broken(key, Rule::Name(name.chars().take(80).collect()));
+pub fn part_name(key: &str, name: &str) -> Result<(), SpecError> {
+    if is_name(name, |c| c.is_ascii_alphanumeric()) {
+        return Ok(());
     }
-    Ok(())
+    broken(key, Rule::PartName(name.chars().take(80).collect()))
+}
+
+fn is_name(name: &str, is_letter: impl Fn(char) -> bool) -> bool {
+    let safe = |c: char| is_letter(c) || c == '-' || c == '_';
+    (1..=64).contains(&name.chars().count()) && name.chars().all(safe)
 }
 
 /// Checks words for a drawing: one line, not endless.

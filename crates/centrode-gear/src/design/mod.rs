@@ -18,7 +18,7 @@ pub use teeth::{Addendum, Fit, Phase, TeethSpec, TipShortening};
 pub use tool::{Rack, Shaper, ToolSpec};
 
 use centrode_spec::rule::{
-    Rule, SpecError, broken, count_in_range, file_name, positive, single_line,
+    Rule, SpecError, broken, count_in_range, design_name, positive, single_line,
 };
 
 /// A non-circular gear pair.
@@ -111,7 +111,7 @@ impl GearPairDesign {
     /// [`SpecError`] with the key at fault and the rule it breaks. The pitch curve's own rules are
     /// those of [`PitchSpec::resolve`].
     pub fn validate(&self) -> Result<(), SpecError> {
-        file_name("name", &self.name)?;
+        design_name(&self.name)?;
         single_line("title", &self.title)?;
         let [n1, n2] = self.mean_ratio;
         count_in_range("mean_ratio", n1, 1, MAX_TURNS)?;

@@ -6,7 +6,8 @@ use serde::{Deserialize, Serialize};
 use super::{Dimension, DimensionSearchSpec, GearsSpec, PlatesSpec};
 use centrode_kinematics::linkage::Branch;
 use centrode_spec::rule::{
-    Rule, broken, count_in_range, file_name, finite, in_range, not_negative, positive, single_line,
+    Rule, broken, count_in_range, design_name, finite, in_range, not_negative, positive,
+    single_line,
 };
 use centrode_spec::{DesignSpec, DrawingSpec, SpecError, degrees};
 
@@ -267,7 +268,7 @@ impl FeederDesign {
     /// # Errors
     /// [`SpecError`] with the key at fault.
     pub fn validate(&self) -> Result<(), SpecError> {
-        file_name("name", &self.name)?;
+        design_name(&self.name)?;
         single_line("title", &self.title)?;
         let LinkageSpec {
             crank,

@@ -12,7 +12,7 @@ use super::{
 };
 use centrode_gear::design::GearPairDesign;
 use centrode_spec::rule::{
-    Rule, broken, count_in_range, file_name, finite, in_range, positive, single_line,
+    Rule, broken, count_in_range, design_name, finite, in_range, part_name, positive, single_line,
 };
 use centrode_spec::{DesignSpec, DrawingSpec, SpecError};
 
@@ -158,7 +158,7 @@ impl MachineDesign {
     /// # Errors
     /// [`SpecError`] with the key at fault.
     pub fn validate(&self) -> Result<(), SpecError> {
-        file_name("name", &self.name)?;
+        design_name(&self.name)?;
         single_line("title", &self.title)?;
         positive("input.speed_rpm", self.input.speed_rpm)?;
         count_in_range("input.turns", self.input.turns, 1, MAX_TURNS)?;
@@ -168,7 +168,7 @@ impl MachineDesign {
         let has_plates = self.hardware() != Hardware::None;
         for (name, body) in &self.bodies {
             let key = format!("bodies.{name}");
-            file_name(&key, name)?;
+            part_name(&key, name)?;
             if name == FRAME {
                 return broken(
                     &key,
@@ -181,27 +181,27 @@ impl MachineDesign {
         }
         for (name, dyad) in &self.dyads {
             let key = format!("dyads.{name}");
-            file_name(&key, name)?;
+            part_name(&key, name)?;
             dyad.validate().map_err(|e| e.inside(&key))?;
         }
         for (name, pair) in &self.pairs {
             let key = format!("pairs.{name}");
-            file_name(&key, name)?;
+            part_name(&key, name)?;
             pair.validate().map_err(|e| e.inside(&key))?;
         }
         for (name, gear) in &self.gears {
             let key = format!("gears.{name}");
-            file_name(&key, name)?;
+            part_name(&key, name)?;
             finite(&format!("{key}.mount_deg"), gear.mount)?;
         }
         for (name, cam) in &self.cams {
             let key = format!("cams.{name}");
-            file_name(&key, name)?;
+            part_name(&key, name)?;
             cam.validate().map_err(|e| e.inside(&key))?;
         }
         for (name, copies) in &self.copies {
             let key = format!("copies.{name}");
-            file_name(&key, name)?;
+            part_name(&key, name)?;
             copies.validate().map_err(|e| e.inside(&key))?;
         }
         for x in self.gravity.iter().flatten() {
@@ -209,17 +209,17 @@ impl MachineDesign {
         }
         for (name, load) in &self.loads {
             let key = format!("loads.{name}");
-            file_name(&key, name)?;
+            part_name(&key, name)?;
             load.validate().map_err(|e| e.inside(&key))?;
         }
         for (name, obstacle) in &self.obstacles {
             let key = format!("obstacles.{name}");
-            file_name(&key, name)?;
+            part_name(&key, name)?;
             obstacle.validate().map_err(|e| e.inside(&key))?;
         }
         for (name, goal) in &self.goals {
             let key = format!("goals.{name}");
-            file_name(&key, name)?;
+            part_name(&key, name)?;
             goal.validate().map_err(|e| e.inside(&key))?;
         }
         for (name, [low, high]) in &self.vary {

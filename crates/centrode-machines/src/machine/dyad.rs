@@ -2,7 +2,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Side;
-use centrode_spec::rule::{Rule, broken, file_name, finite, positive};
+use centrode_spec::rule::{Rule, broken, finite, part_name, positive};
 use centrode_spec::{SpecError, degrees};
 
 /// Kind of a dyad: two bodies and three joints, R a pin and P a slide, in the order in which they follow each other.
@@ -147,7 +147,7 @@ impl MachineDyadSpec {
     /// Checks the values of the keys that are given.
     fn values(&self) -> Result<(), SpecError> {
         for name in self.bodies.iter().chain(&self.joint) {
-            file_name(
+            part_name(
                 if self.joint.as_ref() == Some(name) {
                     "joint"
                 } else {

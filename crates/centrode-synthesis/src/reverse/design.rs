@@ -7,7 +7,8 @@ use serde::{Deserialize, Serialize};
 use super::path::{FARTHEST, FARTHEST_AXIS};
 use super::{AxisRange, RequiredPath, SplitKind, Wishes};
 use centrode_spec::rule::{
-    Rule, broken, count_in_range, file_name, finite, in_range, not_negative, positive, single_line,
+    Rule, broken, count_in_range, design_name, finite, in_range, not_negative, positive,
+    single_line,
 };
 use centrode_spec::{DesignSpec, SpecError, degrees};
 
@@ -116,7 +117,7 @@ impl DesignSpec for PathDesign {
     }
 
     fn rules(&self) -> Result<(), SpecError> {
-        file_name("name", &self.name)?;
+        design_name(&self.name)?;
         single_line("title", &self.title)?;
         let points: Vec<Point> = self.path.points.iter().map(|&p| p.into()).collect();
         self.check_axes(&points)?;

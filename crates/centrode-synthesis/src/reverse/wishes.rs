@@ -7,7 +7,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use centrode_spec::rule::{
-    Rule, broken, file_name, finite, in_range, is_zero, not_negative, positive,
+    Rule, broken, finite, in_range, is_zero, not_negative, part_name, positive,
 };
 use centrode_spec::{SpecError, degrees};
 
@@ -215,7 +215,7 @@ impl Wishes {
         }
         self.keep_out.iter().try_for_each(|(name, shape)| {
             let key = format!("keep_out.{name}");
-            file_name(&key, name)?;
+            part_name(&key, name)?;
             let is_body = |body: &&str| name.split('-').next() == Some(*body);
             if name == "frame" || KeepOut::BODIES.iter().any(is_body) {
                 return broken(&key, Rule::Excludes("a body of that name"));

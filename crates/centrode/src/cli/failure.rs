@@ -14,11 +14,11 @@ const MARGIN: Style = AnsiColor::Blue.on_default().bold();
 /// Reason why a command could not do its job.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// The design is bad: its error, and the text it is in.
+    /// The design is bad: its errors, and the text they are in.
     Design {
         name: String,
         text: String,
-        error: Box<DesignError>,
+        errors: Vec<DesignError>,
     },
     /// A file cannot be read.
     Input { name: String, error: io::Error },
@@ -57,19 +57,25 @@ impl From<BundleError> for Failure {
 impl Failure {
     /// Writes the failure for a person, with the line of the file where there is one.
     pub(crate) fn write(&self, out: &mut impl Write) -> io::Result<()> {
-        write!(out, "{ERROR}error{ERROR:#}: ")?;
-        match self {
-            Self::Design { name, text, error } => at_line(out, name, text, error),
-            other => writeln!(out, "{}", shown(&without_code(&other.to_string()))),
+        if let Self::Design { name, text, errors } = self {
+            return errors
+                .iter()
+                .try_for_each(|error| at_line(out, name, text, error));
         }
+        let words = shown(&without_code(&self.to_string()));
+        writeln!(out, "{ERROR}error{ERROR:#}: {words}")
     }
 }
 
 impl std::fmt::Display for Failure {
-    /// Failure in one line.
+    /// Failure in one line, of a design one for each mistake.
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::Design { error, .. } => write!(out, "{error}"),
+            Self::Design { errors, .. } => {
+                let mut lines = errors.iter().map(ToString::to_string);
+                write!(out, "{}", lines.next().unwrap_or_default())?;
+                lines.try_for_each(|line| write!(out, "\n{line}"))
+            }
             Self::Input { name, error } => write!(out, "cannot read {name}: {error}"),
             Self::Output(error) => write!(out, "cannot write the output: {error}"),
             Self::Serve(error) => write!(out, "cannot serve the page: {error}"),
@@ -85,7 +91,7 @@ fn at_line(out: &mut impl Write, name: &str, text: &str, error: &DesignError) ->
     let DesignError {
         key, line, column, ..
     } = error;
-    writeln!(out, "{}", shown(&error.message()))?;
+    writeln!(out, "{ERROR}error{ERROR:#}: {}", shown(&error.message()))?;
     let gutter = line.to_string().len();
     writeln!(
         out,
@@ -174,7 +180,7 @@ mod tests {
         let failure = Failure::Design {
             name: "pair.toml".into(),
             text: text.into(),
-            error: Box::new(error),
+            errors: vec![error],
         };
         let mut out = anstream::StripStream::new(Vec::new());
         failure.write(&mut out).expect("written");

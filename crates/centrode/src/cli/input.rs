@@ -120,17 +120,22 @@ impl Source {
 
     /// Design of the file.
     pub(crate) fn design(&self) -> Result<OpenDesign, Failure> {
-        FAMILIES
-            .read(&self.bytes)
-            .map_err(|error| self.blame(error))
+        FAMILIES.read(&self.bytes).map_err(|_| {
+            let errors = FAMILIES.mistakes(&self.bytes);
+            self.failure(errors)
+        })
     }
 
     /// Failure of an error, shown at its line of this file.
     pub(crate) fn blame(&self, error: DesignError) -> Failure {
+        self.failure(vec![error])
+    }
+
+    fn failure(&self, errors: Vec<DesignError>) -> Failure {
         Failure::Design {
             name: self.name.clone(),
             text: String::from_utf8_lossy(&self.bytes).into_owned(),
-            error: Box::new(error),
+            errors,
         }
     }
 }

@@ -13,7 +13,7 @@ pub use motion::{Dwell, MotionSpec, SegmentSpec, Transition, Travel};
 
 use crate::design::BodySpec;
 use centrode_spec::SpecError;
-use centrode_spec::rule::{Rule, broken, positive};
+use centrode_spec::rule::{Rule, broken, design_name, positive};
 
 /// A disc cam and its follower.
 #[derive(Clone, Debug, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -63,11 +63,7 @@ impl CamSpec {
     /// # Errors
     /// [`SpecError`] with the key at fault and the rule it breaks.
     pub fn validate(&self) -> Result<(), SpecError> {
-        let safe = |c: char| c.is_ascii_alphanumeric() || c == '-' || c == '_';
-        if self.name.is_empty() || self.name.len() > 64 || !self.name.chars().all(safe) {
-            let name = self.name.chars().take(80).collect();
-            return broken("name", Rule::Name(name));
-        }
+        design_name(&self.name)?;
         positive("base_radius", self.base_radius)?;
         self.follower.validate().map_err(|e| e.inside("follower"))?;
         self.motion.validate().map_err(|e| e.inside("motion"))?;

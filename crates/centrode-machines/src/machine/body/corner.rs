@@ -8,7 +8,7 @@ use serde::{Deserialize, Serialize};
 use crate::machine::body::contour::Drawn;
 use crate::machine::{MachineCircleSpec, MachineCornerSpec};
 use centrode_spec::SpecError;
-use centrode_spec::rule::{Rule, broken, file_name, finite, positive};
+use centrode_spec::rule::{Rule, broken, finite, part_name, positive};
 
 /// The frame: its points by name, and its contour if it is a plate.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema, PartialEq, Serialize)]
@@ -111,14 +111,14 @@ pub(in crate::machine) fn points(
 ) -> Result<(), SpecError> {
     for (name, at) in points {
         let key = format!("points.{name}");
-        file_name(&key, name)?;
+        part_name(&key, name)?;
         for coordinate in at {
             finite(&key, *coordinate)?;
         }
     }
     for (name, corner) in corners {
         let key = format!("corners.{name}");
-        file_name(&key, name)?;
+        part_name(&key, name)?;
         if points.contains_key(name) {
             return broken(&key, Rule::Excludes("a point of the same name"));
         }

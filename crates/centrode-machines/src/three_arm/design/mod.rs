@@ -7,7 +7,7 @@ use super::Parameter;
 use centrode_gear::design::{BodySpec, GearPairDesign, GearSpec, SHIFTS, TeethSpec, ToolSpec};
 use centrode_gear::pitch::PitchSpec;
 use centrode_spec::rule::{
-    broken, count_in_range, file_name, finite, in_range, is_zero, positive, single_line,
+    broken, count_in_range, design_name, finite, in_range, is_zero, positive, single_line,
 };
 use centrode_spec::{DesignSpec, DrawingSpec, Rule, SpecError, degrees};
 
@@ -250,7 +250,7 @@ impl ThreeArmDesign {
     /// [`SpecError`] with the key at fault and the rule it breaks. The pitch curve's own rules are
     /// those of [`PitchSpec::resolve`].
     pub fn validate(&self) -> Result<(), SpecError> {
-        file_name("name", &self.name)?;
+        design_name(&self.name)?;
         single_line("title", &self.title)?;
         count_in_range("arms", self.arms, 1, Self::MAX_ARMS)?;
         angle("carrier_start_deg", self.carrier_start)?;
