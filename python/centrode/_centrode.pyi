@@ -91,6 +91,7 @@ _Real: TypeAlias = float | SupportsFloat
 _Plane: TypeAlias = Literal["polar", "cartesian"]
 _Interpolation: TypeAlias = Literal["cubic", "quintic", "trigonometric"]
 _Phase: TypeAlias = _Real | Literal["auto", "tooth", "space", "congruent"]
+_Receiver: TypeAlias = Literal["all", "laser", "print", "cad", "drawing", "simulation"]
 _Format: TypeAlias = Literal["dxf", "svg", "sheet", "pdf", "stl", "step", "3mf", "csv", "urdf", "mjcf"]
 _MotionLaw: TypeAlias = Literal[
     "constant-velocity",
@@ -117,7 +118,8 @@ _LawName: TypeAlias = Literal[
     "polynomial-4567",
 ]
 _DxfVersion: TypeAlias = Literal["R2010", "R12"]
-_DxfCurves: TypeAlias = Literal["arcs", "splines"]
+_DxfCurves: TypeAlias = Literal["arcs", "splines", "chords"]
+_Layers: TypeAlias = Literal["cut", "all"]
 
 __version__: str
 _LARGEST_DESIGN: int
@@ -408,8 +410,8 @@ class DiscCam:
     def files(
         self,
         *,
-        formats: Sequence[_CamFormat] | None = None,
-        tolerance: _Real = 1e-3,
+        formats: Sequence[_CamFormat] | _Receiver | None = None,
+        tolerance: _Real | None = None,
     ) -> dict[str, bytes]: ...
     def solid(self, tolerance: _Real = 1e-6) -> Solid: ...
 
@@ -498,21 +500,23 @@ class Mechanism:
     def files(
         self,
         *,
-        formats: Sequence[_Format] | None = None,
+        formats: Sequence[_Format] | _Receiver | None = None,
         parts: Sequence[str] | None = None,
-        tolerance: _Real = 1e-3,
+        tolerance: _Real | None = None,
         dxf_version: _DxfVersion = "R2010",
         dxf_curves: _DxfCurves = "arcs",
+        layers: _Layers = "cut",
     ) -> dict[str, bytes]: ...
     def export(
         self,
         directory: str | PathLike[str],
         *,
-        formats: Sequence[_Format] | None = None,
+        formats: Sequence[_Format] | _Receiver | None = None,
         parts: Sequence[str] | None = None,
-        tolerance: _Real = 1e-3,
+        tolerance: _Real | None = None,
         dxf_version: _DxfVersion = "R2010",
         dxf_curves: _DxfCurves = "arcs",
+        layers: _Layers = "cut",
         force: bool = False,
     ) -> list[Path]: ...
     def __eq__(self, other: object, /) -> bool: ...

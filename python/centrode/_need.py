@@ -9,7 +9,7 @@ def need(package: str, extra: str, provider: str = "") -> Any:
 
     Args:
         package: Module to import.
-        extra: Extra of centrode that installs it.
+        extra: Package that installs it, and the name of the extra of centrode.
         provider: The top-level module that is looked for; that of the package if left out.
     """
     top = provider or package.partition(".")[0]
@@ -18,4 +18,4 @@ def need(package: str, extra: str, provider: str = "") -> Any:
     except ModuleNotFoundError as error:
         if (error.name or "").partition(".")[0] != top:
             raise
-        raise ModuleNotFoundError(f"{top} is not installed: pip install centrode[{extra}]", name=error.name) from error
+        raise ModuleNotFoundError(f"{top} is not installed: pip install {extra}", name=error.name) from error

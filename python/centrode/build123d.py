@@ -1,4 +1,4 @@
-"""Parts and assemblies for build123d; needs it: ``pip install centrode[build123d]``.
+"""Parts and assemblies for build123d; needs it: ``pip install build123d``.
 
 Edges are exact: lines, arcs and Bézier curves of the library's own polynomials, so nothing is fitted again.
 """

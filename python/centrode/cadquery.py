@@ -1,4 +1,4 @@
-"""Parts and assemblies for CadQuery; needs it: ``pip install centrode[cadquery]``.
+"""Parts and assemblies for CadQuery; needs it: ``pip install cadquery``.
 
 Edges are exact: lines, arcs and Bézier curves of the library's own polynomials, so nothing is fitted again.
 """

@@ -1,4 +1,4 @@
-"""Models for MuJoCo that follow the laws of a machine; needs it: ``pip install centrode[mujoco]``.
+"""Models for MuJoCo that follow the laws of a machine; needs it: ``pip install mujoco``.
 
 The model is the one that `export` writes, and the laws are those of its `motion.json` and `motion.csv`.
 """

@@ -1,4 +1,4 @@
-"""Pictures of gear pairs and machines; needs matplotlib: ``pip install centrode[plot]``.
+"""Pictures of gear pairs and machines; needs matplotlib: ``pip install matplotlib``.
 
 Every function draws into the given axes, or into new ones, and gives back what it drew in.
 """
@@ -462,4 +462,4 @@ def _matplotlib() -> Iterator[None]:
     try:
         yield
     except ModuleNotFoundError as missing:
-        raise ModuleNotFoundError("plots need matplotlib: pip install centrode[plot]", name=missing.name) from missing
+        raise ModuleNotFoundError("plots need matplotlib: pip install matplotlib", name=missing.name) from missing

@@ -4,19 +4,37 @@ use std::path::PathBuf;
 
 use centrode::family::PartName;
 use centrode_export::Options;
-use centrode_formats::{Bundle, Format, write_file};
+use centrode_formats::{Bundle, Format, Purpose, write_file};
 use centrode_geometry::Tolerance;
-use pyo3::prelude::{Bound, PyResult, Python, pyfunction};
+use pyo3::prelude::{Bound, FromPyObject, PyResult, Python, pyfunction};
 use pyo3::types::{PyBytes, PyDict, PyDictMethods};
 
 use crate::error::{Answer, Raised};
 use crate::wait::wait;
 use crate::word::Word;
 
-/// Formats by their names, all that are known if none are named.
-pub(crate) fn formats(names: Option<Vec<String>>, known: &[Format]) -> Answer<Vec<Format>> {
-    let Some(names) = names else {
-        return Ok(known.to_vec());
+/// Formats as a call names them: one by one, or by who receives them, or all.
+#[derive(Debug, FromPyObject)]
+pub(crate) enum Named {
+    Word(String),
+    Formats(Vec<String>),
+}
+
+/// Formats by their names, and the tolerance of an export that states none, mm.
+pub(crate) fn formats(named: Option<Named>, known: &[Format]) -> Answer<(Vec<Format>, f64)> {
+    let usual = Purpose::Cad.tolerance();
+    let among = |formats: &[Format]| {
+        let formats = formats.iter().copied();
+        formats.filter(|format| known.contains(format)).collect()
+    };
+    let names = match named {
+        None => return Ok((among(&Format::USUAL), usual)),
+        Some(Named::Word(word)) if word == "all" => return Ok((known.to_vec(), usual)),
+        Some(Named::Word(word)) => {
+            let purpose: Purpose = Word::of("formats", &word)?;
+            return Ok((among(purpose.formats()), purpose.tolerance()));
+        }
+        Some(Named::Formats(names)) => names,
     };
     let format = |name: &String| {
         name.parse().map_err(|_| {
@@ -24,7 +42,8 @@ pub(crate) fn formats(names: Option<Vec<String>>, known: &[Format]) -> Answer<Ve
             Raised::word("formats", name, &known)
         })
     };
-    names.iter().map(format).collect()
+    let formats: Answer<Vec<Format>> = names.iter().map(format).collect();
+    Ok((formats?, usual))
 }
 
 /// Parts by their names, if they are parts of the family; one that lists none names them after its design.
@@ -43,12 +62,12 @@ pub(crate) fn parts(names: Option<Vec<String>>, known: &[PartName]) -> Answer<Op
 /// How files are written.
 pub(crate) fn options(
     tolerance: Tolerance,
-    dxf_version: &str,
-    dxf_curves: &str,
+    [dxf_version, dxf_curves, layers]: [&str; 3],
 ) -> Answer<Options> {
     let mut options = Options::new(tolerance);
     options.dxf_version = Word::of("dxf_version", dxf_version)?;
     options.dxf_curves = Word::of("dxf_curves", dxf_curves)?;
+    options.layers = Word::of("layers", layers)?;
     Ok(options)
 }
 

@@ -1,6 +1,8 @@
 //! Words of design files and calls, and what each represents.
 
 use crate::error::{Answer, Raised};
+use centrode_export::Layers;
+use centrode_formats::Purpose;
 use centrode_formats::dxf::{Curves, Version};
 use centrode_gear::cam::design::Turn;
 use centrode_gear::design::{Addendum, Fit, Phase, TipShortening};
@@ -123,13 +125,10 @@ macro_rules! own_words {
     };
 }
 
-own_words!(Aim, Projection, SheetSize, SplitKind, Strategy);
+own_words!(
+    Aim, Curves, Layers, Projection, Purpose, SheetSize, SplitKind, Strategy
+);
 
 impl Word for Version {
     const WORDS: &'static [(&'static str, Self)] = &[("R2010", Self::R2010), ("R12", Self::R12)];
-}
-
-impl Word for Curves {
-    const WORDS: &'static [(&'static str, Self)] =
-        &[("arcs", Self::Arcs), ("splines", Self::Splines)];
 }

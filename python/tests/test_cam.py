@@ -109,7 +109,7 @@ def test_the_least_base_radius_meets_the_limit():
 
 
 def test_files_are_named_after_the_cam_and_repeat():
-    files = cam(name="drop", body=ct.Body(bore=12)).files()
+    files = cam(name="drop", body=ct.Body(bore=12)).files(formats="all")
     assert sorted(files) == [
         "drop-assembly.dxf",
         "drop-assembly.svg",
@@ -120,7 +120,7 @@ def test_files_are_named_after_the_cam_and_repeat():
         "drop.stl",
         "drop.svg",
     ]
-    assert files == cam(name="drop", body=ct.Body(bore=12)).files()
+    assert files == cam(name="drop", body=ct.Body(bore=12)).files(formats="all")
     assert list(cam().files(formats=["csv"])) == ["cam.csv"]
 
 

@@ -18,7 +18,7 @@ def test_export_writes_the_files_and_names_them(pair, tmp_path):
     assert sorted(path.name for path in out.iterdir()) == sorted([".centrode-files", *files])
     for path in paths:
         assert path.read_bytes() == files[path.name]
-    names = list(pair.files(tolerance=0.1))
+    names = list(pair.files(formats="all", tolerance=0.1))
     assert {name.rpartition(".")[2] for name in names} >= {"dxf", "svg", "stl", "step", "3mf", "csv", "urdf"}
 
 
@@ -29,6 +29,7 @@ def test_options_reach_the_writers(pair):
     assert "LWPOLYLINE" in dxf()
     assert "AC1009" in dxf(dxf_version="R12")
     assert "SPLINE" in dxf(dxf_curves="splines")
+    assert "PITCH_CURVE" in dxf(layers="all")
     assert len(pair.files(formats=["stl"], tolerance=0.1)["driver.stl"]) < len(
         pair.files(formats=["stl"])["driver.stl"]
     )
@@ -40,6 +41,7 @@ def test_options_reach_the_writers(pair):
         ({"formats": ["dwg"]}, "formats"),
         ({"dxf_version": "R14"}, "dxf_version"),
         ({"dxf_curves": "lines"}, "dxf_curves"),
+        ({"layers": "some"}, "layers"),
         ({"tolerance": 0}, "tolerance"),
     ],
 )
@@ -52,8 +54,22 @@ def test_unknown_words_write_nothing(pair, tmp_path, options, text):
 def test_what_cannot_be_made_is_an_export_error(pair):
     with pytest.raises(ct.ExportError, match="R12"):
         pair.files(formats=["dxf"], dxf_version="R12", dxf_curves="splines")
-    with pytest.raises(TypeError):
-        pair.files(formats="dxf")
+    with pytest.raises(ct.DesignError, match="formats must be one of"):
+        pair.files(formats="paper")
+
+
+def test_a_receiver_decides_formats_and_tolerance(pair):
+    def kinds(**options):
+        return {name.rpartition(".")[2] for name in pair.files(**options)}
+
+    assert kinds() == {"dxf", "svg", "pdf", "csv", "step", "3mf"}
+    assert kinds(formats="laser") == {"dxf", "svg"}
+    assert kinds(formats="cad") == {"dxf", "step"}
+    assert kinds(formats="drawing") >= {"dxf", "svg", "pdf"}
+    assert kinds(formats="simulation") >= {"csv", "urdf", "xml"}
+    printed = pair.files(formats="print")
+    assert printed == pair.files(formats=["stl", "3mf"], tolerance=0.01)
+    assert printed != pair.files(formats=["stl", "3mf"], tolerance=0.001)
 
 
 def test_the_system_s_refusal_is_the_cause(pair, tmp_path):

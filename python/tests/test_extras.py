@@ -47,7 +47,7 @@ def test_importing_the_package_imports_numpy_alone():
 )
 def test_a_missing_package_is_named_with_its_extra(missing, call, extra):
     told = run(missing, f"try:\n    {call}\nexcept ModuleNotFoundError as error:\n    print(error, error.name)")
-    assert told == f"{extra} is not installed: pip install centrode[{extra}] {extra}\n"
+    assert told == f"{extra} is not installed: pip install {extra} {extra}\n"
     project = tomllib.loads((ROOT / "python" / "pyproject.toml").read_text())["project"]
     assert any(line.startswith(extra) for line in project["optional-dependencies"][extra])
 

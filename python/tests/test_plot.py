@@ -133,4 +133,4 @@ for draw in (ct.plot.pair, ct.plot.motion, ct.plot.contact, ct.plot.animate):
         print(missing)
 """
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=60)
-    assert done.stdout == 4 * "plots need matplotlib: pip install centrode[plot]\n", done.stderr
+    assert done.stdout == 4 * "plots need matplotlib: pip install matplotlib\n", done.stderr

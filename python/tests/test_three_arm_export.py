@@ -22,7 +22,7 @@ def arms():
 @pytest.fixture(scope="module")
 def folder(arms, tmp_path_factory):
     folder = tmp_path_factory.mktemp("arms")
-    arms.export(folder)
+    arms.export(folder, formats="all")
     return folder
 
 

@@ -88,7 +88,7 @@ def exports(tmp_path_factory):
         folder = tmp_path_factory.mktemp(name)
         design = folder / "pair.toml"
         design.write_text(DESIGNS[name])
-        centrode("export", design, "--to", folder / "out", "--tolerance", "0.001")
+        centrode("export", design, "--to", folder / "out", "--tolerance", "0.001", "--format", "all")
         return Export(name, design, folder / "out")
 
     return export

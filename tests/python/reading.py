@@ -47,6 +47,8 @@ def contours(file, layer="profile"):
 
 def polygon(entity):
     """A closed entity as a polygon; the reader's first and last point differ by rounding."""
+    if entity.dxftype() == "CIRCLE":
+        return Polygon([(p.x, p.y) for p in entity.flattening(1e-6)])
     points = np.array([(p.x, p.y) for p in path.make_path(entity).flattening(1e-5)])
     assert np.hypot(*(points[0] - points[-1])) < 1e-9
     return Polygon(points[:-1])

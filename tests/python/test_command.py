@@ -63,7 +63,7 @@ def test_an_export_cut_short_leaves_the_old_files(exported, tmp_path, action):
     old = {path.name: path.read_bytes() for path in exported.folder.iterdir() if path.is_file()}
     for name, contents in old.items():
         (tmp_path / name).write_bytes(contents)
-    command = [BINARY, "export", exported.design, "--to", tmp_path, "--tolerance", "0.01"]
+    command = [BINARY, "export", exported.design, "--to", tmp_path, "--tolerance", "0.01", "--format", "all"]
     # The first files fit, the solids do not.
     done = subprocess.run(command, capture_output=True, text=True, timeout=60, preexec_fn=limited(100_000, action))
     assert done.returncode == 2
@@ -85,7 +85,7 @@ def writing(folder):
 
 
 def test_what_a_killed_export_left_is_cleared_by_the_next(exported, tmp_path):
-    command = [BINARY, "export", exported.design, "--to", tmp_path, "--tolerance", "0.01"]
+    command = [BINARY, "export", exported.design, "--to", tmp_path, "--tolerance", "0.01", "--format", "all"]
     subprocess.run(command, check=True, capture_output=True, timeout=60)
     whole = everything(tmp_path)
     (tmp_path / ".notes.part").write_text("mine")
@@ -111,7 +111,7 @@ def test_what_a_killed_export_left_is_cleared_by_the_next(exported, tmp_path):
 
 
 def test_ctrl_c_while_files_are_written_leaves_nothing_half_written(exported, tmp_path):
-    command = [BINARY, "export", exported.design, "--to", tmp_path, "--tolerance", "0.01"]
+    command = [BINARY, "export", exported.design, "--to", tmp_path, "--tolerance", "0.01", "--format", "all"]
     subprocess.run(command, check=True, capture_output=True, timeout=60)
     whole = everything(tmp_path)
     codes = set()

@@ -38,6 +38,8 @@ def feeder(request, run, tmp_path_factory):
         folder,
         "--tolerance",
         "0.001",
+        "--format",
+        "all",
         check=False,
     )
     # The published feeder misses a goal of its own; its files are written all the same.

@@ -59,7 +59,7 @@ width = {width!r}
 
 def export(design, folder):
     """Every file; whether the pair does its job or not, but not what is no pair."""
-    command = [BINARY, "export", "-", "--to", folder, "--tolerance", "0.003"]
+    command = [BINARY, "export", "-", "--to", folder, "--tolerance", "0.003", "--format", "all"]
     done = subprocess.run(command, input=design, capture_output=True, text=True, timeout=60, check=False)
     assume(done.returncode != 2)
     return {path.relative_to(folder): path.read_bytes() for path in folder.rglob("*") if path.is_file()}

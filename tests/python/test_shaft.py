@@ -40,7 +40,7 @@ def machines(tmp_path_factory):
     folder = tmp_path_factory.mktemp("machines")
     for name in MACHINES:
         design = ROOT / "tests" / "designs" / f"{name}-2018.toml"
-        command = [BINARY, "export", design, "--to", folder / name, "--tolerance", "0.01"]
+        command = [BINARY, "export", design, "--to", folder / name, "--tolerance", "0.01", "--format", "all"]
         subprocess.run(command, check=True, capture_output=True)
     return folder
 

@@ -43,7 +43,7 @@ def test_outline_normals_are_unit_and_point_outwards(exported, gear):
 
 
 def test_every_file_is_the_same_bytes_again(exported, run, tmp_path):
-    run("export", exported.design, "--to", tmp_path, "--tolerance", "0.001")
+    run("export", exported.design, "--to", tmp_path, "--tolerance", "0.001", "--format", "all")
     files = sorted(p.relative_to(exported.folder) for p in exported.folder.rglob("*") if p.is_file())
     assert files
     for file in files:

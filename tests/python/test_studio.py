@@ -205,7 +205,7 @@ def test_a_text_is_read_and_its_fault_told(served, text, fault):
 
 
 def test_the_zip_holds_the_files_of_export(served, tmp_path):
-    request = {"text": DESIGN, "formats": [], "tolerance": "0.01", "dxf": "r2010"}
+    request = {"text": DESIGN, "formats": [], "tolerance": "0.01", "dxf": "r2010", "layers": "cut"}
     status, archive = served.ask("POST", "export", request)
     assert status == 200
     out = tmp_path / "out"
@@ -428,7 +428,7 @@ def test_a_later_change_stops_a_slow_solve_at_once(served):
     [
         ("solve", {"text": SLOW, "depth": "checks"}),
         ("response", {"text": SLOW, "key": "pitch.module", "from": 1, "to": 2}),
-        ("export", {"text": SLOW, "formats": [], "tolerance": "0.001", "dxf": "r2010"}),
+        ("export", {"text": SLOW, "formats": [], "tolerance": "0.001", "dxf": "r2010", "layers": "cut"}),
     ],
     ids=lambda value: value if isinstance(value, str) else "",
 )

@@ -2,6 +2,8 @@
 
 use centrode_formats::drawing::{Color, Drawing, LineType};
 
+use crate::Layers;
+
 /// Layer of the outer contour that is cut.
 pub(crate) const PROFILE: &str = "PROFILE";
 /// Layer of the contours that are cut out of it.
@@ -15,4 +17,18 @@ pub(crate) fn drawing() -> Drawing {
         .layer(CENTER, Color::Red, LineType::Center, 0.13)
         .layer(HOLE, Color::Foreground, LineType::Continuous, 0.35)
         .layer(PROFILE, Color::Foreground, LineType::Continuous, 0.35)
+}
+
+/// A part's drawing as a cutting file: what is cut alone, or all, with the rest on layers that do not plot.
+pub(crate) fn file(mut drawing: Drawing, layers: Layers) -> Drawing {
+    let cut = [PROFILE, HOLE];
+    match layers {
+        Layers::Cut => drawing.keep(&cut),
+        Layers::All => {
+            for layer in &mut drawing.layers {
+                layer.plots = cut.contains(&&*layer.name);
+            }
+        }
+    }
+    drawing
 }

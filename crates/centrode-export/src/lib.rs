@@ -25,5 +25,5 @@ mod treatment;
 mod turned;
 
 pub use error::ExportError;
-pub use options::{Options, SheetOptions};
+pub use options::{Layers, Options, SheetOptions};
 pub use package::Package;

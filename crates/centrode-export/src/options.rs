@@ -12,6 +12,8 @@ pub struct Options {
     pub dxf_version: dxf::Version,
     /// Arcs or splines in the DXF.
     pub dxf_curves: dxf::Curves,
+    /// Layers of the cutting files.
+    pub layers: Layers,
     /// How the drawing sheets are laid out.
     pub sheet: SheetOptions,
     /// Parts that drawings, sheets, solids and tables are of, by the names of their files; default: all.
@@ -29,6 +31,7 @@ impl Options {
             tolerance,
             dxf_version: dxf::Version::default(),
             dxf_curves: dxf::Curves::default(),
+            layers: Layers::default(),
             sheet: SheetOptions::default(),
             parts: None,
             keep_solids: false,
@@ -41,6 +44,18 @@ impl Options {
         named.is_none_or(|parts| parts.iter().any(|name| name == part))
     }
 }
+
+/// Layers of the cutting files of parts, DXF and SVG.
+#[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
+pub enum Layers {
+    /// Contour and holes: what is cut.
+    #[default]
+    Cut,
+    /// Pitch curve, tip and root curves, and centre lines too, on layers that do not plot (R12 has no such layers).
+    All,
+}
+
+centrode_spec::words!(Layers { Cut = "cut", All = "all" });
 
 /// How sheets are laid out where it is not to be as the design says.
 #[derive(Clone, Debug, Default, PartialEq)]

@@ -13,7 +13,7 @@ use centrode_geometry::Tolerance;
 use centrode_kinematics::machine::LinkedMachine;
 
 use crate::{
-    ExportError, Options,
+    ExportError, Options, cutting,
     linked::{self, ARRANGEMENT},
 };
 
@@ -176,6 +176,19 @@ impl<'a> Package<'a> {
             self.file(&format!("{part}.svg"), picture.into_bytes())?;
         }
         Ok(())
+    }
+
+    /// Offers the cutting file of a part: its drawing with the layers that the options name.
+    ///
+    /// # Errors
+    /// [`ExportError`] where it cannot be made or written.
+    pub fn cutting(
+        &mut self,
+        part: &str,
+        make: impl Fn(Curves) -> Result<Drawing, ExportError>,
+    ) -> Result<(), ExportError> {
+        let layers = self.options.layers;
+        self.drawing(part, |curves| Ok(cutting::file(make(curves)?, layers)))
     }
 
     /// Offers the drawing sheets of a part.

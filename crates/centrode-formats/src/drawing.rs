@@ -27,6 +27,8 @@ pub struct Layer {
     pub line_type: LineType,
     /// Width of the lines, mm.
     pub line_width: f64,
+    /// Whether the layer is plotted or cut; one that is not is for reference.
+    pub plots: bool,
 }
 
 /// One of the colors with the same number in every drawing program.
@@ -206,6 +208,7 @@ impl Drawing {
             color,
             line_type,
             line_width,
+            plots: true,
         });
         self
     }
@@ -216,6 +219,13 @@ impl Drawing {
             layer: layer.to_owned(),
             shape,
         });
+    }
+
+    /// Drops every layer that is not among these, and what lies on it.
+    pub fn keep(&mut self, layers: &[&str]) {
+        self.layers.retain(|layer| layers.contains(&&*layer.name));
+        self.entities
+            .retain(|entity| layers.contains(&&*entity.layer));
     }
 
     /// All entities in drawing order, each group by what is drawn for it.

@@ -40,6 +40,58 @@ centrode_spec::words!(Format {
     Mjcf = "mjcf",
 });
 
+/// Receiver of a design's files, who decides formats and tolerance.
+#[derive(Clone, Copy, Debug, Eq, PartialEq)]
+#[non_exhaustive]
+pub enum Purpose {
+    /// A machine that cuts flat parts.
+    Laser,
+    /// A printer.
+    Print,
+    /// A CAD program.
+    Cad,
+    /// A shop that makes parts from drawings.
+    Drawing,
+    /// A simulator.
+    Simulation,
+}
+
+centrode_spec::words!(Purpose {
+    Laser = "laser",
+    Print = "print",
+    Cad = "cad",
+    Drawing = "drawing",
+    Simulation = "simulation",
+});
+
+impl Format {
+    /// Those written where none is named: for a cutter, CAD, a shop and a printer.
+    pub const USUAL: [Self; 5] = [Self::Dxf, Self::Svg, Self::Pdf, Self::Step, Self::ThreeMf];
+}
+
+impl Purpose {
+    /// Formats for it, in the order files are written.
+    #[must_use]
+    pub fn formats(self) -> &'static [Format] {
+        match self {
+            Self::Laser => &[Format::Dxf, Format::Svg],
+            Self::Print => &[Format::Stl, Format::ThreeMf],
+            Self::Cad => &[Format::Dxf, Format::Step],
+            Self::Drawing => &[Format::Sheet, Format::Pdf],
+            Self::Simulation => &[Format::Csv, Format::Urdf, Format::Mjcf],
+        }
+    }
+
+    /// Tolerance for it, mm: a tenth of a nozzle's steps for a printer, finer than any machine cuts for the others.
+    #[must_use]
+    pub fn tolerance(self) -> f64 {
+        match self {
+            Self::Print => 0.01,
+            _ => 0.001,
+        }
+    }
+}
+
 impl fmt::Display for Format {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(self.name())

@@ -24,4 +24,4 @@ pub mod urdf;
 mod xml;
 
 pub use bundle::{Bundle, BundleError, write_file, write_new_file};
-pub use format::{Format, UnknownFormat};
+pub use format::{Format, Purpose, UnknownFormat};

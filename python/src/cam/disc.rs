@@ -235,20 +235,21 @@ impl DiscCam {
     /// The cam's files by name, not written.
     ///
     /// Args:
-    ///     formats: Any of "dxf", "svg", "stl", "step", "3mf" and "csv"; all of these by default.
-    ///     tolerance: Maximum distance of every arc and mesh from the exact curve, mm.
+    ///     formats: Any of "dxf", "svg", "stl", "step", "3mf" and "csv", or "all", or the word of a receiver: "laser", "print",
+    ///         "cad"; by default "dxf", "svg", "step" and "3mf".
+    ///     tolerance: Maximum distance of every arc and mesh from the exact curve, mm; by default 1e-3, for "print" 0.01.
     ///
     /// Raises:
     ///     ExportError: A file cannot be made.
-    #[pyo3(signature = (*, formats=None, tolerance=1e-3))]
+    #[pyo3(signature = (*, formats=None, tolerance=None))]
     fn files<'py>(
         &self,
         py: Python<'py>,
-        formats: Option<Vec<String>>,
-        tolerance: f64,
+        formats: Option<files::Named>,
+        tolerance: Option<f64>,
     ) -> Answer<Bound<'py, PyDict>> {
-        let formats = files::formats(formats, &export::FORMATS)?;
-        let options = Options::new(plain_tolerance(tolerance)?);
+        let (formats, usual) = files::formats(formats, &export::FORMATS)?;
+        let options = Options::new(plain_tolerance(tolerance.unwrap_or(usual))?);
         let cam = self.cam.clone();
         let bundle = wait(py, move || export::files(&cam, &formats, &options))??;
         Ok(files::contents(py, &bundle)?)

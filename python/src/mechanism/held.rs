@@ -85,14 +85,14 @@ impl Mechanism {
     pub(super) fn bundle(
         &self,
         py: Python<'_>,
-        formats: Option<Vec<String>>,
+        formats: Option<files::Named>,
         parts: Option<Vec<String>>,
-        tolerance: f64,
-        [dxf_version, dxf_curves]: [&str; 2],
+        tolerance: Option<f64>,
+        written: [&str; 3],
     ) -> Answer<Bundle> {
-        let tolerance = within(tolerance, self.0.accuracy())?;
-        let formats = files::formats(formats, &Format::ALL)?;
-        let mut options = files::options(tolerance, dxf_version, dxf_curves)?;
+        let (formats, usual) = files::formats(formats, &Format::ALL)?;
+        let tolerance = within(tolerance.unwrap_or(usual), self.0.accuracy())?;
+        let mut options = files::options(tolerance, written)?;
         options.parts = files::parts(parts, self.family()?.parts)?;
         Ok(self.ask(py, move |machine| {
             if formats.contains(&Format::Sheet) || formats.contains(&Format::Pdf) {

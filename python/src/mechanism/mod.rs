@@ -322,17 +322,19 @@ impl Mechanism {
     /// ['pin.stl', 'shaft.stl', 'slider.stl']
     /// >>> sorted(ct.Feeder.from_toml(ct.template("feeder")).files(formats=["stl"]))[:2]
     /// ['coupler.stl', 'crank.stl']
-    #[pyo3(signature = (*, formats=None, parts=None, tolerance=1e-3, dxf_version="R2010", dxf_curves="arcs"))]
+    #[pyo3(signature = (*, formats=None, parts=None, tolerance=None, dxf_version="R2010", dxf_curves="arcs", layers="cut"))]
+    #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn files<'py>(
         &self,
         py: Python<'py>,
-        formats: Option<Vec<String>>,
+        formats: Option<files::Named>,
         parts: Option<Vec<String>>,
-        tolerance: f64,
+        tolerance: Option<f64>,
         dxf_version: &str,
         dxf_curves: &str,
+        layers: &str,
     ) -> Answer<Bound<'py, PyDict>> {
-        let written = [dxf_version, dxf_curves];
+        let written = [dxf_version, dxf_curves, layers];
         let bundle = self.bundle(py, formats, parts, tolerance, written)?;
         Ok(files::contents(py, &bundle)?)
     }
@@ -343,12 +345,15 @@ impl Mechanism {
     ///
     /// Args:
     ///     directory: Where to.
-    ///     formats: Any of "dxf", "svg", "sheet", "pdf", "stl", "step", "3mf", "csv", "urdf" and "mjcf"; all by default.
+    ///     formats: Any of "dxf", "svg", "sheet", "pdf", "stl", "step", "3mf", "csv", "urdf" and "mjcf", or the word of a
+    ///         receiver: "laser", "print", "cad", "drawing" or "simulation", or "all"; by default "dxf", "svg", "pdf", "step" and "3mf".
     ///     parts: Names of parts, as their files have them, or "assembly"; all by default. Motion and models are of the
     ///         whole. A family whose parts have no names takes none.
-    ///     tolerance: Maximum distance of every arc, point sequence and mesh from the exact curve or surface, mm.
+    ///     tolerance: Maximum distance of every arc, point sequence and mesh from the exact curve or surface, mm; by default
+    ///         1e-3, for "print" 0.01.
     ///     dxf_version: "R2010" or "R12".
-    ///     dxf_curves: "arcs" or "splines".
+    ///     dxf_curves: "arcs", "splines" or "chords" (straight lines within the tolerance).
+    ///     layers: "cut", what is cut alone, or "all", with reference curves that do not plot, in drawings of parts.
     ///     force: Whether to replace files that no export wrote into the directory, or that were changed since.
     ///
     /// Raises:
@@ -359,20 +364,21 @@ impl Mechanism {
     /// >>> with tempfile.TemporaryDirectory() as directory:
     /// ...     [path.name for path in pair.export(directory, formats=["dxf"])]
     /// ['driver.dxf', 'driven.dxf', 'assembly.dxf']
-    #[pyo3(signature = (directory, *, formats=None, parts=None, tolerance=1e-3, dxf_version="R2010", dxf_curves="arcs", force=false))]
+    #[pyo3(signature = (directory, *, formats=None, parts=None, tolerance=None, dxf_version="R2010", dxf_curves="arcs", layers="cut", force=false))]
     #[expect(clippy::too_many_arguments, reason = "keyword arguments")]
     fn export(
         &self,
         py: Python<'_>,
         directory: PathBuf,
-        formats: Option<Vec<String>>,
+        formats: Option<files::Named>,
         parts: Option<Vec<String>>,
-        tolerance: f64,
+        tolerance: Option<f64>,
         dxf_version: &str,
         dxf_curves: &str,
+        layers: &str,
         force: bool,
     ) -> Answer<Vec<PathBuf>> {
-        let written = [dxf_version, dxf_curves];
+        let written = [dxf_version, dxf_curves, layers];
         let bundle = self.bundle(py, formats, parts, tolerance, written)?;
         files::written(py, bundle, directory, force)
     }

@@ -4,7 +4,7 @@ use centrode_geometry::{Recent, Tolerance};
 use centrode_kinematics::machine::limits_of_size;
 use centrode_machines::feeder::{Feeder, GearsSpec};
 
-use crate::gear_pair::negative_backlash;
+use crate::gear_pair::tight_backlash;
 use crate::rounding::exceeds;
 use crate::{Finding, IntermittentContact, Report, Severity, Unit};
 
@@ -38,7 +38,7 @@ pub(super) fn gears(feeder: &Feeder, report: &mut Report) {
     let Ok(tolerance) = Tolerance::new(CONTOUR * spec.module) else {
         return;
     };
-    let overlap = negative_backlash(pair.pair(), spec.backlash).map(|finding| finding.on("gears"));
+    let overlap = tight_backlash(pair.pair(), spec.backlash).map(|finding| finding.on("gears"));
     report.findings.extend(overlap);
     let contact = PROVEN.get(spec, || {
         Arc::new(IntermittentContact::analyse(&pair, GEAR_SAMPLES, tolerance))

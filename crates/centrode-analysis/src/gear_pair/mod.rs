@@ -354,16 +354,30 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
     }
     report
         .findings
-        .extend(negative_backlash(pair, pair.backlash()));
+        .extend(tight_backlash(pair, pair.backlash()));
     report.findings.extend(seat_jump(pair, contact));
     report.findings.extend(oscillations(pair, contact));
 }
 
-/// Finding about teeth of a normal backlash, mm, that overlap where the deviations of thickness make them thickest.
-pub(crate) fn negative_backlash(pair: &GearPair, backlash: f64) -> Option<Finding> {
+/// Finding about teeth of a normal backlash, mm, that overlap where the deviations of thickness make them thickest, or that
+/// have no backlash on gears with a bore, which are to be made.
+pub(crate) fn tight_backlash(pair: &GearPair, backlash: f64) -> Option<Finding> {
     let [minimum, _] = pair.backlash_limits(backlash);
-    let unit = Unit::Millimetre;
-    if -minimum <= PENETRATION * pair.module() {
+    let (unit, rounding) = (Unit::Millimetre, PENETRATION * pair.module());
+    if minimum.abs() <= rounding
+        && [pair.driver(), pair.driven()]
+            .iter()
+            .all(|g| g.bore().is_some())
+    {
+        let message =
+            "the teeth have no backlash: any error of thickness or centre distance jams them";
+        return Some(
+            Finding::new("zero-backlash", Severity::Note, message)
+                .measured(minimum, 0.0, unit)
+                .remedy(remedy("zero-backlash")),
+        );
+    }
+    if minimum >= 0.0 {
         return None;
     }
     let message = format!(

@@ -44,6 +44,9 @@ pub(crate) fn remedy(rule: &str) -> Option<&'static str> {
         }
         "interference" => "more backlash, or a smaller module",
         "negative-backlash" => "more backlash, or a smaller upper deviation of tooth thickness",
+        "zero-backlash" => {
+            "teeth.backlash of 0.02 to 0.05 modules, and of what the process leaves on"
+        }
         "tip-interference" => "more tip clearance, or a smaller module",
         "pitch-curve-corner" => "samples that go round the corner over a pitch or more",
         "pressure-angle" => {

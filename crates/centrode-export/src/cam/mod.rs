@@ -61,10 +61,10 @@ pub(crate) fn add(
         let exact = Contours::new(cam, tolerance)?;
         Ok::<_, CamError>(match curves {
             Curves::Arcs => exact.with_arcs(tolerance),
-            Curves::Splines => exact,
+            Curves::Splines | Curves::Chords => exact,
         })
     };
-    package.drawing(name, |curves| Ok(sheet::cam(&contours(curves)?)))?;
+    package.cutting(name, |curves| Ok(sheet::cam(&contours(curves)?)))?;
     package.drawing(&format!("{name}-assembly"), |curves| {
         Ok(sheet::assembly(cam, &contours(curves)?))
     })?;

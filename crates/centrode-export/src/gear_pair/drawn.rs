@@ -1,4 +1,3 @@
-use super::Subject;
 use super::sheet::{self, Contours};
 use centrode_formats::drawing::Drawing;
 use centrode_formats::dxf::Curves;
@@ -24,21 +23,19 @@ impl<'a> Drawn<'a> {
         }
     }
 
-    /// A gear, or both assembled at phi = 0.
-    pub(super) fn drawing(&self, subject: Subject, curves: Curves) -> Drawing {
-        if let Some(member) = subject.member() {
-            return sheet::gear(self.contours(member, curves));
-        }
+    /// Both gears in place at phi = 0.
+    pub(super) fn assembly(&self, curves: Curves) -> Drawing {
         let both = [Member::Driver, Member::Driven];
         sheet::assembly(self.pair, both.map(|member| self.contours(member, curves)))
     }
 
-    fn contours(&self, member: Member, curves: Curves) -> &Contours {
+    /// Contours of a gear, as arcs where they are written as such.
+    pub(super) fn contours(&self, member: Member, curves: Curves) -> &Contours {
         let index = usize::from(member == Member::Driven);
         let exact = || Contours::new(self.pair, member, self.tolerance);
         let exact = || self.exact[index].get_or_init(exact);
         match curves {
-            Curves::Splines => exact(),
+            Curves::Splines | Curves::Chords => exact(),
             // Fitting what is arcs already leaves it as it is.
             Curves::Arcs => {
                 self.fitted[index].get_or_init(|| exact().clone().with_arcs(self.tolerance))

@@ -108,10 +108,12 @@ fn add(
     );
     package.coarser_than(pair.center_distance(), "centre distance")?;
     let name = label.map_or(subject.name(), |label| label.name);
-    package.drawing(name, |curves| Ok(drawn.drawing(subject, curves)))?;
     let Some(member) = subject.member() else {
-        return Ok(());
+        return package.drawing(name, |curves| Ok(drawn.assembly(curves)));
     };
+    package.cutting(name, |curves| {
+        Ok(sheet::gear(drawn.contours(member, curves)))
+    })?;
     let file = package.name_of(name);
     package.sheets(name, || {
         sheets::labelled(pair, subject, label, &file, &sheet, tolerance)

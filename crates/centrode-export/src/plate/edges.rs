@@ -4,7 +4,6 @@ use centrode_formats::sheet::{Draft, Pen, number, steady};
 use centrode_geometry::{Bounds, Point, Vector};
 use centrode_spec::Projection;
 
-use super::hole::circle;
 use super::{Exactness, Plate};
 use crate::fit;
 
@@ -16,7 +15,7 @@ const PLACES: usize = 3;
 impl Plate {
     /// Diameter of a round one, mm.
     pub(super) fn round(&self) -> Option<f64> {
-        let (_, radius) = circle(&self.outline)?;
+        let (_, radius) = self.outline.as_circle()?;
         Some(2.0 * radius)
     }
 

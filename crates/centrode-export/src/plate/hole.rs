@@ -1,7 +1,7 @@
 use crate::fit;
 use centrode_formats::sheet::number;
 use centrode_gear::design::BodySpec;
-use centrode_geometry::{COMPUTED, Outline, Point, Segment};
+use centrode_geometry::{Outline, Point, Segment};
 use centrode_kinematics::machine::{Fastening, Screw};
 use centrode_machines::PinHole;
 use std::f64::consts::TAU;
@@ -175,7 +175,7 @@ impl Hole {
     }
 
     pub(super) fn kind(&self) -> HoleKind {
-        if let Some((center, radius)) = circle(&self.outline) {
+        if let Some((center, radius)) = self.outline.as_circle() {
             return HoleKind::Round(center, radius);
         }
         match slot(&self.outline) {
@@ -206,27 +206,6 @@ impl Hole {
             HoleKind::Free => String::new(),
         }
     }
-}
-
-/// Centre and radius of a contour that is a full circle.
-pub(super) fn circle(contour: &Outline) -> Option<(Point, f64)> {
-    let mut found: Option<(Point, f64)> = None;
-    let mut turned = 0.0;
-    for segment in contour.segments() {
-        let Segment::Arc(arc) = segment else {
-            return None;
-        };
-        let (center, radius) = (arc.center(), arc.radius());
-        let same = found.is_none_or(|(c, r)| {
-            (center - c).norm() < COMPUTED * radius && (r - radius).abs() < COMPUTED * radius
-        });
-        if !same {
-            return None;
-        }
-        found = Some((center, radius));
-        turned += arc.sweep().abs();
-    }
-    found.filter(|_| (turned - TAU).abs() < 1e-6)
 }
 
 /// Centres of the ends and their radius, of a contour of two half circles and two lines.

@@ -217,7 +217,7 @@ impl Plate {
         spec: &DrawingSpec,
     ) -> Result<(), ExportError> {
         let (name, tolerance) = (&*self.name, package.tolerance());
-        package.drawing(name, |curves| Ok(self.drawing(curves, tolerance)))?;
+        package.cutting(name, |curves| Ok(self.drawing(curves, tolerance)))?;
         self.add_sheets(package, spec)?;
         let title = package.titled(name);
         package.solid(name, &title, || {
@@ -243,7 +243,7 @@ impl Plate {
     pub(crate) fn drawing(&self, curves: Curves, tolerance: Tolerance) -> Drawing {
         let plain = |outline: &Outline| match curves {
             Curves::Arcs => outline.arcs(tolerance),
-            Curves::Splines => outline.clone(),
+            Curves::Splines | Curves::Chords => outline.clone(),
         };
         let mut drawing = cutting::drawing();
         drawing.draw(PROFILE, EntityShape::Contour(plain(&self.outline)));

@@ -7,7 +7,6 @@ use centrode_formats::sheet::{
 use centrode_geometry::{Arc, Bounds, COMPUTED, Outline, Point, Segment, Tolerance, Vector};
 use centrode_spec::{DrawingSpec, Projection, SheetSize};
 
-use super::hole::circle;
 use super::{Exactness, Hole, HoleKind, Plate, ScrewHole};
 use crate::SheetOptions;
 use crate::{number::fixed, treatment::treatment_note};
@@ -151,7 +150,10 @@ impl Plate {
         if let Some((frame, words)) = self.contour_frame() {
             let corners = self.outline.segments().iter().map(|side| side.start());
             // A circle has no corner at its top.
-            let top = circle(&self.outline).map(|(at, radius)| at + Vector::new(0.0, radius));
+            let top = self
+                .outline
+                .as_circle()
+                .map(|(at, radius)| at + Vector::new(0.0, radius));
             let highest = corners.max_by(|a, b| steady(a.y).total_cmp(&steady(b.y)));
             if let Some(top) = top.or(highest) {
                 let at = top * k + Vector::new(5.0, 9.0);

@@ -105,7 +105,7 @@ fn all(
     package.finer_than(shaft.groove().depth(), "groove's depth")?;
     package.drawing("groove", |_| Ok(developed(shaft, tolerance)?))?;
     package.drawing("shaft", |_| Ok(side_view(shaft, tolerance)?))?;
-    package.drawing("slider", |_| Ok(slider(shaft)))?;
+    package.cutting("slider", |_| Ok(slider(shaft)))?;
     // The title block has the shaft's own title, and so have the pages.
     let design = shaft.design();
     package.within("", &design.name, &design.title, |package| {

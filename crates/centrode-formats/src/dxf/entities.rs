@@ -76,8 +76,11 @@ impl Writer<'_> {
 
     fn shape(&mut self, layer: &str, shape: &EntityShape) {
         match shape {
-            EntityShape::Contour(outline) => match self.curves {
-                Curves::Arcs => {
+            EntityShape::Contour(outline) => match (outline.as_circle(), self.curves) {
+                (Some((center, radius)), _) => {
+                    self.shape(layer, &EntityShape::Circle { center, radius });
+                }
+                (None, Curves::Arcs) => {
                     let arcs = outline.arcs(self.tolerance);
                     let bulges = arcs.segments().iter().map(|segment| match segment {
                         Segment::Arc(arc) => (arc.start, arc.bulge),
@@ -85,7 +88,11 @@ impl Writer<'_> {
                     });
                     self.polyline(layer, true, bulges);
                 }
-                Curves::Splines => self.spline(layer, &outline.cubics(self.tolerance)),
+                (None, Curves::Splines) => self.spline(layer, &outline.cubics(self.tolerance)),
+                (None, Curves::Chords) => {
+                    let corners = outline.flatten(self.tolerance);
+                    self.polyline(layer, true, corners.into_iter().map(|p| (p, 0.0)));
+                }
             },
             EntityShape::Polyline(points) => {
                 self.polyline(layer, false, points.iter().map(|p| (*p, 0.0)));

@@ -28,7 +28,15 @@ pub enum Curves {
     Arcs,
     /// One closed cubic spline.
     Splines,
+    /// One closed polyline of straight lines, for programs that do not read arcs within polylines.
+    Chords,
 }
+
+centrode_spec::words!(Curves {
+    Arcs = "arcs",
+    Splines = "splines",
+    Chords = "chords",
+});
 
 /// Reason why a drawing could not be written as DXF.
 #[derive(Debug, Error)]
@@ -45,7 +53,7 @@ pub enum DxfError {
     },
 }
 
-/// Writes a drawing as DXF text in millimetres (`$INSUNITS` 4), each contour one closed entity within the tolerance.
+/// Writes a drawing as DXF text in millimetres (`$INSUNITS` 4), each contour one closed entity within the tolerance, a circle as such.
 /// Equal drawings give equal bytes: dates and identifiers are fixed.
 ///
 /// # Errors
@@ -93,18 +101,34 @@ const STYLE_FONT: &str = "isocp.shx";
 mod tests {
     use super::*;
     use crate::drawing::{Anchor, Color, EntityShape, LineType, Text};
-    use centrode_geometry::{Arc, Outline, Point};
+    use centrode_geometry::{Arc, Outline, Point, Segment};
     use std::collections::HashSet;
+
+    /// Two half circles and two lines.
+    fn slot() -> Outline {
+        let p = Point::new;
+        let half = |start, end| {
+            Segment::Arc(Arc {
+                start,
+                end,
+                bulge: 1.0,
+            })
+        };
+        Outline::new(vec![
+            Segment::Line(p(0.0, -10.0), p(5.0, -10.0)),
+            half(p(5.0, -10.0), p(5.0, 10.0)),
+            Segment::Line(p(5.0, 10.0), p(0.0, 10.0)),
+            half(p(0.0, 10.0), p(0.0, -10.0)),
+        ])
+        .expect("closed")
+    }
 
     fn sample() -> Drawing {
         let p = Point::new;
         let mut drawing = Drawing::default()
             .layer("PROFILE", Color::Foreground, LineType::Continuous, 0.35)
             .layer("AXES", Color::Red, LineType::Center, 0.18);
-        drawing.draw(
-            "PROFILE",
-            EntityShape::Contour(Outline::circle(p(1.0, 2.0), 10.0)),
-        );
+        drawing.draw("PROFILE", EntityShape::Contour(slot()));
         drawing.draw(
             "PROFILE",
             EntityShape::Polyline(vec![p(0.0, 0.0), p(1.0, 5.0), p(4.0, 4.0)]),
@@ -135,9 +159,13 @@ mod tests {
         Tolerance::new(1e-3).expect("positive")
     }
 
-    /// Pairs of code and value of a drawing of release 2010.
+    /// Pairs of code and value of the sample in release 2010.
     fn pairs(curves: Curves) -> Vec<(u16, String)> {
-        let bytes = write(&sample(), Version::R2010, curves, tolerance()).expect("written");
+        pairs_of(&sample(), curves)
+    }
+
+    fn pairs_of(drawing: &Drawing, curves: Curves) -> Vec<(u16, String)> {
+        let bytes = write(drawing, Version::R2010, curves, tolerance()).expect("written");
         let text = String::from_utf8(bytes).expect("text");
         let lines: Vec<&str> = text.lines().map(str::trim).collect();
         lines
@@ -184,12 +212,28 @@ mod tests {
             .collect();
         assert_eq!((closed.len(), entities.len()), (1, 7));
         assert_eq!(values(8, closed[0]), ["PROFILE"]);
-        assert_eq!(values(90, closed[0]), ["2"]);
+        assert_eq!(values(90, closed[0]), ["4"]);
         let bulges = values(42, closed[0]);
         assert_eq!(bulges.len(), 2);
         for bulge in bulges {
             let bulge: f64 = bulge.parse().expect("a number");
             assert!((bulge - 1.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn a_contour_reads_back_as_chords_and_a_circle_as_such_in_every_form() {
+        let mut drawing = sample();
+        drawing.draw(
+            "PROFILE",
+            EntityShape::Contour(Outline::circle(Point::new(2.0, 1.0), 5.0)),
+        );
+        for curves in Curves::ALL {
+            let entities = entities(&pairs_of(&drawing, curves));
+            let of = |kind: &str| entities.iter().filter(|e| e[0].1 == kind).count();
+            assert_eq!(of("CIRCLE"), 2, "{curves:?}");
+            let bent = entities.iter().any(|e| !values(42, e).is_empty());
+            assert_eq!(bent, curves == Curves::Arcs, "{curves:?}");
         }
     }
 

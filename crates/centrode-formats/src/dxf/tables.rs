@@ -180,6 +180,9 @@ fn layers(file: &mut Pairs, drawing: &Drawing) {
         file.whole(62, u32::from(color_index(layer.color)));
         file.word(6, line_type_name(layer.line_type));
         if file.is_newer() {
+            if !layer.plots {
+                file.whole(290, 0);
+            }
             file.whole(370, weight(layer.line_width));
         }
     }

@@ -1,9 +1,11 @@
 use crate::{
     Point, Vector,
     curve::{Arc, Segment},
+    numeric::COMPUTED,
     region::Outline,
 };
 use nalgebra::Isometry2;
+use std::f64::consts::TAU;
 
 impl Segment {
     /// Applies one map to every point; `vector` is its linear part. The map must preserve circles and their sense.
@@ -68,6 +70,28 @@ impl Outline {
             })
         };
         Self::from_closed(vec![half(right, left), half(left, right)])
+    }
+
+    /// Centre and radius, mm, of an outline that is a full circle.
+    #[must_use]
+    pub fn as_circle(&self) -> Option<(Point, f64)> {
+        let mut found: Option<(Point, f64)> = None;
+        let mut turned = 0.0;
+        for segment in self.segments() {
+            let Segment::Arc(arc) = segment else {
+                return None;
+            };
+            let (center, radius) = (arc.center(), arc.radius());
+            let same = found.is_none_or(|(c, r)| {
+                (center - c).norm() < COMPUTED * radius && (r - radius).abs() < COMPUTED * radius
+            });
+            if !same {
+                return None;
+            }
+            found = Some((center, radius));
+            turned += arc.sweep().abs();
+        }
+        found.filter(|_| (turned - TAU).abs() < COMPUTED)
     }
 
     /// Polygon with the given corners.

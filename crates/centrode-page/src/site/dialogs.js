@@ -27,8 +27,8 @@ export function ask(title, content, buttons, sound) {
   });
 }
 
-/** What to export, of kinds and parts given as word and description, with choices of the drawing's keys; resolves to the options, or to null. */
-export async function files(formats, parts, sheets) {
+/** What to export, of kinds and parts given as word and description, for receivers given as word, kinds and tolerance, with choices of the drawing's keys; resolves to the options, or to null. */
+export async function files(formats, purposes, parts, sheets) {
   const boxes = formats.map(([name]) => {
     const box = element("input", { type: "checkbox", value: name });
     box.checked = true;
@@ -41,16 +41,22 @@ export async function files(formats, parts, sheets) {
   });
   const tick = (words, on) => element("button", { type: "button", onclick: () => named.forEach((box) => Object.assign(box, { checked: on })) }, words);
   const tolerance = element("input", { type: "text", inputmode: "decimal", class: "number", value: "0.001", id: "export-tolerance" });
-  const dxf = element("select", { id: "export-dxf" },
-    ...[["r2010", "R2010, lines and arcs"], ["r12", "R12, for old controllers"], ["spline", "R2010, splines"]]
-      .map(([value, words]) => element("option", { value }, words)));
+  const select = (id, ...choices) => element("select", { id }, ...choices.map(([value, words]) => element("option", { value }, words)));
+  const dxf = select("export-dxf", ["r2010", "R2010, lines and arcs"], ["r12", "R12, for old controllers"], ["spline", "R2010, splines"], ["chords", "R2010, straight lines"]);
+  const layers = select("export-layers", ["cut", "contour and holes"], ["all", "with reference curves"]);
+  const receiver = select("export-for", ["", "all kinds"], ...purposes.map(([name]) => [name, name]));
+  receiver.addEventListener("change", () => {
+    const [, kinds, mm] = purposes.find(([name]) => name === receiver.value) ?? ["", formats.map(([name]) => name), 0.001];
+    for (const box of boxes) box.checked = kinds.includes(box.value);
+    tolerance.value = String(mm);
+  });
   const keys = sheets.map(({ key, words, value, choices }) => {
-    const select = element("select", { id: `export-${key.split(".").pop()}` },
-      ...(value === null ? [element("option", { value: "" }, "as needed")] : []), ...choices.map(({ word }) => element("option", { value: word }, word)));
-    select.value = value ?? "";
-    return { key, words, value: select.value, select };
+    const list = select(`export-${key.split(".").pop()}`, ...(value === null ? [["", "as needed"]] : []), ...choices.map(({ word }) => [word, word]));
+    list.value = value ?? "";
+    return { key, words, value: list.value, select: list };
   });
   const answer = await ask("Export", [
+    element("p", { class: "option" }, element("label", { for: receiver.id }, "For"), receiver),
     element("fieldset", {}, element("legend", {}, "Files"),
       ...boxes.map((box, i) => element("label", {}, box, ` ${box.value.toUpperCase()} `, element("span", { class: "quiet" }, formats[i][1])))),
     ...(parts.length > 1 ? [element("details", {}, element("summary", {}, "Parts"),
@@ -60,6 +66,7 @@ export async function files(formats, parts, sheets) {
         element("span", { class: "quiet" }, "Models and motion are of the whole machine.")))] : []),
     element("p", { class: "option" }, element("label", { for: "export-tolerance" }, "Tolerance"), tolerance, element("span", {}, "mm")),
     element("p", { class: "option" }, element("label", { for: "export-dxf" }, "DXF"), dxf),
+    element("p", { class: "option" }, element("label", { for: layers.id }, "Layers"), layers),
     ...keys.map(({ words, select }) => element("p", { class: "option" }, element("label", { for: select.id }, words), select)),
   ], [["", "Cancel"], ["export", "Export zip", "main"]]);
   if (answer !== "export") return null;
@@ -67,7 +74,7 @@ export async function files(formats, parts, sheets) {
   const edits = keys.filter(({ value, select }) => select.value !== value).map(({ key, select }) => ({ key, value: select.value }));
   const some = named.filter((box) => box.checked).map((box) => box.value);
   // All of them are what is written without a choice.
-  return { options: { formats: chosen, parts: some.length === named.length ? [] : some, none: named.length > 0 && some.length === 0, tolerance: tolerance.value, dxf: dxf.value }, edits };
+  return { options: { formats: chosen, parts: some.length === named.length ? [] : some, none: named.length > 0 && some.length === 0, tolerance: tolerance.value, dxf: dxf.value, layers: layers.value }, edits };
 }
 
 /** A line below the bar; `key` names it, so that the next of its kind replaces it. */

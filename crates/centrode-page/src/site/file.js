@@ -14,9 +14,10 @@ export class DesignFile {
    * `page.settled()` waits for the changes on their way, `page.replace(text)` takes another text, `page.saved()` is called
    * a new state of the file, `page.complain(key, error)` of what goes wrong.
    */
-  constructor(name, formats, history, page) {
+  constructor(name, formats, purposes, history, page) {
     this.name = name;
     this.formats = formats;
+    this.purposes = purposes;
     this.history = history;
     this.page = page;
     this.keeping = 0;
@@ -125,7 +126,7 @@ export class DesignFile {
       this.page.complain("export", error);
       return;
     }
-    const asked = await dialogs.files(this.formats, parts, sheets);
+    const asked = await dialogs.files(this.formats, this.purposes, parts, sheets);
     if (!asked) return;
     const { options: { none, ...options }, edits } = asked;
     if (options.formats.length === 0 || none) {

@@ -274,13 +274,13 @@ async function start() {
     link.listen((text) => link.offer(text, snapshot.text), wrong);
     return;
   }
-  const { file: name, text, recovered, formats, methods, unsearched, started } = await server.design();
+  const { file: name, text, recovered, formats, purposes, methods, unsearched, started } = await server.design();
   byId("start").hidden = !started;
   const usual = byId("optimise").title;
   searchable = (reason) => Object.assign(byId("optimise"), { disabled: Boolean(reason), title: reason ?? usual });
   searchable(unsearched);
   state.history = new History(text);
-  file = new DesignFile(name, formats, state.history, { settled, replace, complain, saved: buttons });
+  file = new DesignFile(name, formats, purposes, state.history, { settled, replace, complain, saved: buttons });
   search = new Search(methods, {
     text: () => state.history.text,
     preview: (best, goals) => request({ text: best, goals, final: false, wanted: () => search.showing }),

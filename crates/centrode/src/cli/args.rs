@@ -3,7 +3,9 @@ mod required;
 use std::ffi::OsStr;
 use std::path::PathBuf;
 
+use crate::cli::shipped::SHIPPED;
 use crate::family::{FAMILIES, PartName};
+use crate::formats::{Format, Purpose};
 use crate::geometry::Tolerance;
 use centrode_spec::SheetSize;
 use centrode_synthesis::optimise::Strategy;
@@ -13,9 +15,6 @@ use clap::builder::{
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 pub(crate) use required::{Drive, Reverse};
-
-/// Tolerance of an export by default, mm.
-pub(crate) const TOLERANCE: &str = "0.001";
 
 /// Finest tolerance that can be requested, mm: below it lie the rounding errors of the outlines.
 const FINEST: f64 = 1e-7;
@@ -34,7 +33,7 @@ pub(crate) struct Arguments {
 
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
-    /// Print a commented design file to edit
+    /// List what a design can start from, or print one as a commented file to edit
     New(New),
     /// Resolve a design and report its figures and findings
     Check(Check),
@@ -63,11 +62,16 @@ pub(crate) enum Command {
 }
 
 #[derive(Debug, Args)]
-#[command(after_help = "Example: centrode new gear-pair > pair.toml")]
+#[command(after_help = "Examples: centrode new\n          centrode new gear-pair -o pair.toml")]
 pub(crate) struct New {
-    /// Family of mechanism
-    #[arg(value_parser = PossibleValuesParser::new(FAMILIES.words()))]
-    pub(crate) family: String,
+    /// Family of mechanism, or shipped design [default: list all]
+    #[arg(hide_possible_values = true, value_parser = PossibleValuesParser::new(
+        FAMILIES.words().into_iter().chain(SHIPPED.map(|(name, _)| name))
+    ))]
+    pub(crate) name: Option<String>,
+    /// File for the design instead of standard output; one that exists is not replaced
+    #[arg(short, long, value_name = "FILE", requires = "name")]
+    pub(crate) output: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]
@@ -97,20 +101,31 @@ pub(crate) struct Export {
     /// Design file, or - for standard input
     pub(crate) design: PathBuf,
     /// Folder for the files, made if it is missing
-    #[arg(long, value_name = "DIR")]
+    #[arg(short = 'o', long = "to", visible_alias = "output", value_name = "DIR")]
     pub(crate) to: PathBuf,
     /// Replace files in the folder that no export wrote, or that were changed since
     #[arg(long)]
     pub(crate) force: bool,
-    /// Kinds of file, separated by commas; default: all
+    /// Kinds of file, separated by commas [default: dxf, svg, pdf, step, 3mf, json]
     #[arg(long, value_enum, value_delimiter = ',', value_name = "KINDS")]
     pub(crate) format: Vec<File>,
-    /// Maximum distance of what is written from the exact curve, mm
-    #[arg(long, default_value = TOLERANCE, value_parser = tolerance, allow_negative_numbers = true, value_name = "MM")]
-    pub(crate) tolerance: Tolerance,
+    /// Kinds of file for a receiver, instead of --format
+    #[arg(
+        long = "for",
+        value_enum,
+        value_name = "RECEIVER",
+        conflicts_with = "format"
+    )]
+    pub(crate) purpose: Option<For>,
+    /// Maximum distance of what is written from the exact curve, mm [default: 0.001; for print 0.01]
+    #[arg(long, value_parser = tolerance, allow_negative_numbers = true, value_name = "MM")]
+    pub(crate) tolerance: Option<Tolerance>,
     /// Flavour of the DXF files
     #[arg(long, value_enum, default_value_t = Dxf::R2010)]
     pub(crate) dxf: Dxf,
+    /// Layers of the cutting files: contour and holes alone, or all, the rest not plotting
+    #[arg(long, value_enum, default_value_t = Layers::Cut)]
+    pub(crate) layers: Layers,
     /// Parts to write files of, separated by commas: of these, or those that the design names; default: all
     #[arg(long, value_parser = PartWord, value_delimiter = ',', value_name = "PARTS")]
     pub(crate) part: Vec<String>,
@@ -123,9 +138,51 @@ pub(crate) struct Export {
 }
 
 impl Export {
-    /// Whether this kind of file is requested.
+    /// Whether this kind of file is to be written.
     pub(crate) fn wants(&self, file: File) -> bool {
-        self.format.is_empty() || self.format.contains(&file)
+        let among = |formats: &[Format]| file.format().is_some_and(|one| formats.contains(&one));
+        match (self.purpose, &self.format[..]) {
+            (Some(purpose), _) => among(purpose.0.formats()),
+            (None, []) => file == File::Json || among(&Format::USUAL),
+            (None, named) => named.contains(&File::All) || named.contains(&file),
+        }
+    }
+
+    /// Formats to be written, in their order.
+    pub(crate) fn formats(&self) -> Vec<Format> {
+        let files = File::value_variants().iter();
+        let files = files.filter(|file| self.wants(**file));
+        files.filter_map(|file| file.format()).collect()
+    }
+
+    /// Tolerance, as given or as the receiver needs it.
+    pub(crate) fn tolerance(&self) -> Result<Tolerance, String> {
+        let needed = self.purpose.unwrap_or(For(Purpose::Laser)).0.tolerance();
+        let usual = || Tolerance::new(needed).map_err(|error| error.to_string());
+        self.tolerance.map_or_else(usual, Ok)
+    }
+}
+
+/// Receiver of the files.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct For(pub(crate) Purpose);
+
+impl ValueEnum for For {
+    fn value_variants<'a>() -> &'a [Self] {
+        const {
+            &[
+                Self(Purpose::Laser),
+                Self(Purpose::Print),
+                Self(Purpose::Cad),
+                Self(Purpose::Drawing),
+                Self(Purpose::Simulation),
+            ]
+        }
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        let formats: Vec<&str> = self.0.formats().iter().map(|one| one.name()).collect();
+        Some(PossibleValue::new(self.0.name()).help(formats.join(", ")))
     }
 }
 
@@ -155,6 +212,27 @@ pub(crate) enum File {
     Mjcf,
     /// Report: every figure and finding
     Json,
+    /// All of them
+    All,
+}
+
+impl File {
+    /// The format, of the kinds that are one.
+    fn format(self) -> Option<Format> {
+        Some(match self {
+            Self::Dxf => Format::Dxf,
+            Self::Svg => Format::Svg,
+            Self::Sheet => Format::Sheet,
+            Self::Pdf => Format::Pdf,
+            Self::Stl => Format::Stl,
+            Self::Step => Format::Step,
+            Self::ThreeMf => Format::ThreeMf,
+            Self::Csv => Format::Csv,
+            Self::Urdf => Format::Urdf,
+            Self::Mjcf => Format::Mjcf,
+            Self::Json | Self::All => return None,
+        })
+    }
 }
 
 /// Name of a part: a machine may have others than are listed.
@@ -215,6 +293,17 @@ pub(crate) enum Dxf {
     R12,
     /// Release 2010, splines
     Spline,
+    /// Release 2010, straight lines within the tolerance, for programs that do not read arcs in polylines
+    Chords,
+}
+
+/// Layers of a cutting file.
+#[derive(Clone, Copy, Debug, Eq, PartialEq, ValueEnum)]
+pub(crate) enum Layers {
+    /// Contour and holes
+    Cut,
+    /// Pitch curve, tip and root curves and centre lines too
+    All,
 }
 
 pub(crate) fn tolerance(word: &str) -> Result<Tolerance, String> {

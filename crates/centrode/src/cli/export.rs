@@ -1,12 +1,13 @@
 use crate::analysis::Report;
-use crate::cli::args::{Dxf, Export, File, Method, TOLERANCE, tolerance};
+use crate::cli::args::{self, Dxf, Export, File, Method};
 use crate::cli::failure::Failure;
 use crate::cli::input::Source;
 use crate::cli::progress::Progress;
 use crate::cli::{Status, output, report, sheet};
-use crate::export::{ExportError, Options, SheetOptions};
+use crate::export::{ExportError, Layers, Options, SheetOptions};
 use crate::family::{Family, Mechanism, PartName};
-use crate::formats::{Bundle, Format, dxf};
+use crate::formats::{Bundle, Format, Purpose, dxf};
+use crate::geometry::Tolerance;
 use crate::page::words::summary;
 use centrode_spec::Projection;
 use std::io::Write;
@@ -54,7 +55,7 @@ pub(crate) fn zip(text: &str, command: Option<&Export>, page: bool) -> Result<Ve
 
 /// Parts of a design whose files can be requested alone: the name of each, and what it is.
 pub(crate) fn parts(mechanism: &dyn Mechanism, family: &Family) -> Vec<[String; 2]> {
-    let Ok(tolerance) = tolerance(TOLERANCE) else {
+    let Ok(tolerance) = Tolerance::new(Purpose::Cad.tolerance()) else {
         return Vec::new();
     };
     let mut options = Options::new(tolerance);
@@ -89,7 +90,7 @@ fn bundle(
         let message = format!("{noun} has no part named {lost}; there are {known}");
         return Err(Failure::Usage(message));
     }
-    let (formats, options) = (formats(command), options(command, found));
+    let (formats, options) = (command.formats(), options(command, found)?);
     let mut bundle = mechanism.files(&formats, &options)?;
     if command.wants(File::Json) {
         bundle.add("report.json", report::json(found)?.into_bytes())?;
@@ -122,23 +123,6 @@ fn summarise(found: &crate::analysis::Report, files: usize, command: &Export) {
     };
 }
 
-fn formats(command: &Export) -> Vec<Format> {
-    let pairs = [
-        (File::Dxf, Format::Dxf),
-        (File::Svg, Format::Svg),
-        (File::Sheet, Format::Sheet),
-        (File::Pdf, Format::Pdf),
-        (File::Stl, Format::Stl),
-        (File::Step, Format::Step),
-        (File::ThreeMf, Format::ThreeMf),
-        (File::Csv, Format::Csv),
-        (File::Urdf, Format::Urdf),
-        (File::Mjcf, Format::Mjcf),
-    ];
-    let required = pairs.into_iter().filter(|(file, _)| command.wants(*file));
-    required.map(|(_, format)| format).collect()
-}
-
 /// Refuses options that have no effect on any of the files requested.
 fn refuse_useless(command: &Export) -> Result<(), Failure> {
     let sheets = command.wants(File::Sheet) || command.wants(File::Pdf);
@@ -151,6 +135,10 @@ fn refuse_useless(command: &Export) -> Result<(), Failure> {
     }
     if command.projection.is_some() && !sheets {
         return refused("--projection", "the formats sheet and pdf");
+    }
+    let cut = command.wants(File::Dxf) || command.wants(File::Svg);
+    if command.layers == args::Layers::All && !cut {
+        return refused("--layers", "the formats dxf and svg");
     }
     let drawn = [File::Dxf, File::Svg, File::Sheet, File::Pdf];
     let solid = [File::Stl, File::Step, File::ThreeMf, File::Csv];
@@ -168,12 +156,16 @@ fn refuse_useless(command: &Export) -> Result<(), Failure> {
     Ok(())
 }
 
-fn options(command: &Export, found: &Report) -> Options {
-    let mut options = Options::new(command.tolerance);
+fn options(command: &Export, found: &Report) -> Result<Options, Failure> {
+    let mut options = Options::new(command.tolerance().map_err(Failure::Usage)?);
     match command.dxf {
         Dxf::R2010 => {}
         Dxf::R12 => options.dxf_version = dxf::Version::R12,
         Dxf::Spline => options.dxf_curves = dxf::Curves::Splines,
+        Dxf::Chords => options.dxf_curves = dxf::Curves::Chords,
+    }
+    if command.layers == args::Layers::All {
+        options.layers = Layers::All;
     }
     if !command.part.is_empty() {
         options.parts = Some(command.part.clone());
@@ -186,5 +178,5 @@ fn options(command: &Export, found: &Report) -> Options {
         }),
         found: crate::sheet_data(found),
     };
-    options
+    Ok(options)
 }

@@ -22,6 +22,7 @@ mod response;
 mod reverse;
 mod schema;
 mod sheet;
+mod shipped;
 mod studio;
 
 use std::ffi::OsString;

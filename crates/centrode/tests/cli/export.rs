@@ -81,22 +81,24 @@ fn names(files: &BTreeMap<String, Vec<u8>>) -> (Vec<&str>, usize) {
 #[test]
 fn every_kind_is_written_named_and_the_same_twice() {
     for more in [
-        &[][..],
+        &["--format", "all"][..],
         &["--dxf", "r12", "--format", "dxf"],
         &["--dxf", "spline", "--format", "dxf"],
+        &["--dxf", "chords", "--for", "laser"],
+        &["--for", "simulation", "--tolerance", "0.1"],
     ] {
         let folder = tempfile::tempdir().expect("a place to write");
         let [first, second] = ["new/first", "second"].map(|name| folder.path().join(name));
         let done = export(&first, more);
         assert_eq!(done.status.code(), Some(0), "{}", text(&done.stderr));
-        assert!(text(&done.stderr).contains("files written; no findings"));
+        assert!(text(&done.stderr).contains("files written; 1 note"));
         let written = files(&first);
         let printed = text(&done.stdout);
         assert_eq!(printed.lines().count(), written.len());
         for line in printed.lines() {
             assert!(Path::new(line).is_file(), "{line}");
         }
-        if more.is_empty() {
+        if more[1] == "all" {
             // A body a tooth, 23 a gear, and two hubs.
             assert_eq!(names(&written), (ALL.to_vec(), 48));
         }
@@ -192,6 +194,8 @@ fn bad_options_write_nothing_and_end_with_two() {
         (["--format", "png"], "png"),
         (["--format", ""], "possible values"),
         (["--dxf", "r9"], "r9"),
+        (["--for", "paper"], "paper"),
+        (["--layers", "some"], "some"),
     ] {
         let folder = tempfile::tempdir().expect("a place to write");
         let out = folder.path().join("out");
@@ -300,7 +304,7 @@ fn a_read_only_folder_is_left_alone() {
 /// Kills the program while it writes: a file is then there whole or not at all.
 #[test]
 fn a_killed_export_leaves_no_half_file() {
-    let more = ["--tolerance", "0.0001"];
+    let more = ["--tolerance", "0.0001", "--format", "all"];
     let folder = tempfile::tempdir().expect("a place to write");
     let whole = folder.path().join("whole");
     assert_eq!(export(&whole, &more).status.code(), Some(0));

@@ -42,6 +42,32 @@ fn shipped(name: &str) -> String {
 }
 
 #[test]
+fn what_a_design_can_start_from_is_listed_and_written_once() {
+    let listed = text(&centrode(&["new"]).stdout);
+    for line in ["gear-pair ", "  press ", "  elliptic-pair-2018 ", "feeder "] {
+        assert!(
+            listed.lines().any(|found| found.starts_with(line)),
+            "{line}: {listed}"
+        );
+    }
+    assert!(listed.lines().all(|line| line.len() > 24), "{listed}");
+    let folder = tempfile::tempdir().expect("a place to write");
+    let file = folder.path().join("press.toml").display().to_string();
+    let write = ["new", "press", "-o", &file];
+    assert_eq!(text(&centrode(&write).stdout).trim(), file);
+    let shipped = std::fs::read(shipped("press.toml")).expect("there");
+    assert_eq!(std::fs::read(&file).expect("written"), shipped);
+    let again = centrode(&write);
+    assert_eq!(again.status.code(), Some(2));
+    assert!(
+        text(&again.stderr).contains("press.toml"),
+        "{}",
+        text(&again.stderr)
+    );
+    assert_eq!(centrode(&["new", "press"]).stdout, shipped);
+}
+
+#[test]
 fn a_new_design_checks() {
     let new = centrode(&["new", "gear-pair"]);
     assert_eq!(new.status.code(), Some(0));

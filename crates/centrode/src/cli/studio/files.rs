@@ -10,14 +10,25 @@ use serde::Deserialize;
 use super::routes::{Refused, computed};
 use crate::cli::args::{Arguments, Command, Export, File};
 use crate::cli::export;
+use crate::formats::Purpose;
 
 /// Word for the page as one file among the kinds of file.
 const PAGE: &str = "report";
+
+/// Receivers of files: the word for each, the formats for it and their tolerance, mm.
+pub(super) fn purposes() -> Vec<(&'static str, Vec<&'static str>, f64)> {
+    let of = |purpose: Purpose| {
+        let formats = purpose.formats().iter().map(|format| format.name());
+        (purpose.name(), formats.collect(), purpose.tolerance())
+    };
+    Purpose::ALL.map(of).to_vec()
+}
 
 /// Kinds of file that can be exported: the word for each, and its description.
 pub(super) fn formats() -> Vec<[String; 2]> {
     let values = File::value_variants()
         .iter()
+        .filter(|file| **file != File::All)
         .filter_map(File::to_possible_value);
     values
         .map(|value| {
@@ -35,6 +46,7 @@ pub(super) struct Files {
     formats: Vec<String>,
     tolerance: String,
     dxf: String,
+    layers: String,
     /// Names of parts; none for all.
     #[serde(default)]
     parts: Vec<String>,
@@ -53,13 +65,17 @@ impl Files {
         if kinds.is_empty() && self.page() {
             return Ok(None);
         }
-        let (formats, tolerance, dxf) = (
+        let (formats, tolerance, dxf, layers) = (
             format!("--format={}", kinds.join(",")),
             format!("--tolerance={}", self.tolerance),
             format!("--dxf={}", self.dxf),
+            format!("--layers={}", self.layers),
         );
         let words = ["centrode", "export", "-", "--to=."];
-        let mut words: Vec<&str> = words.into_iter().chain([&*tolerance, &*dxf]).collect();
+        let mut words: Vec<&str> = words
+            .into_iter()
+            .chain([&*tolerance, &*dxf, &*layers])
+            .collect();
         if !kinds.is_empty() {
             words.push(&formats);
         }

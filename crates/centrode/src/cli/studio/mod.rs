@@ -7,7 +7,6 @@ mod listener;
 mod meshes;
 mod path;
 mod routes;
-mod shipped;
 mod solver;
 mod start;
 mod start_routes;

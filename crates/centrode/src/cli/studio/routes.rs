@@ -127,6 +127,7 @@ async fn design(State(state): Shared) -> Response {
         "text": document.text(),
         "recovered": document.recovered(),
         "formats": files::formats(),
+        "purposes": files::purposes(),
         "methods": Strategy::NAMES.map(|(name, _)| name),
         "unsearched": unsearchable(&document.text()),
         "started": state.started,

@@ -1,8 +1,8 @@
 use super::StudioState;
 use super::document::Document;
-use super::shipped::{SHIPPED, shipped};
 use crate::FAMILIES;
 use crate::cli::failure::Failure;
+use crate::cli::shipped::{shipped, shipped_of};
 use crate::formats::{BundleError, write_new_file};
 use axum::Router;
 use centrode_spec::DesignFile;
@@ -124,7 +124,9 @@ impl StartPage {
             word: family.design.word,
             noun: family.noun,
             about: family.design.about,
-            shipped: designs_of(family.design.word),
+            shipped: shipped_of(family.design.word)
+                .map(|(name, title)| OfferedDesign { name, title })
+                .collect(),
         });
         Offer {
             folder: self.folder.display().to_string(),
@@ -230,14 +232,4 @@ fn design_in(folder: &Path, file: String) -> Option<Found> {
         title,
         family,
     })
-}
-
-/// Shipped designs of a family.
-fn designs_of(family: &str) -> Vec<OfferedDesign> {
-    let designs = SHIPPED.iter().filter_map(|(name, text)| {
-        let file = FAMILIES.read(text.as_bytes()).ok()?;
-        let title = file.design().title().to_owned();
-        (file.family().design.word == family).then_some(OfferedDesign { name, title })
-    });
-    designs.collect()
 }

@@ -1,8 +1,10 @@
 //! Designs that the program brings with it.
 
+use crate::FAMILIES;
+
 macro_rules! designs {
     ($($name:literal),+ $(,)?) => {
-        [$(($name, include_str!(concat!("../../../designs/", $name, ".toml")))),+]
+        [$(($name, include_str!(concat!("../../designs/", $name, ".toml")))),+]
     };
 }
 
@@ -35,6 +37,15 @@ pub(crate) const SHIPPED: [(&str, &str); 26] = designs!(
     "two-arm",
     "two-stage",
 );
+
+/// Name and title of each shipped design of a family.
+pub(crate) fn shipped_of(family: &str) -> impl Iterator<Item = (&'static str, String)> {
+    SHIPPED.iter().filter_map(move |(name, text)| {
+        let file = FAMILIES.read(text.as_bytes()).ok()?;
+        let title = file.design().title().to_owned();
+        (file.family().design.word == family).then_some((*name, title))
+    })
+}
 
 /// Text of the shipped design with a name.
 pub(crate) fn shipped(name: &str) -> Option<&'static str> {
