@@ -5,24 +5,25 @@ use centrode_gear::cam::Limits;
 use crate::rounding::exceeds;
 use crate::{Finding, Report, Severity, Unit};
 
-/// A cam of a machine and the words in which its findings are reported.
+/// A cam of a machine and the texts of its findings.
 pub(crate) struct CheckedCam<'a> {
     /// Name of the part.
     pub(crate) part: &'a str,
-    /// Pressure angle up to which its follower runs well while it is lifted, rad.
+    /// Maximum pressure angle while the cam lifts its follower, rad.
     pub(crate) pressure_angle: f64,
-    /// Message where the cam is undercut.
+    /// Message if the cam is undercut.
     pub(crate) undercut: String,
-    /// Message where it pushes aside: before and behind the angle in degrees.
+    /// Message if the pressure angle is too large: the text before and after the angle in degrees.
     pub(crate) pushes: [String; 2],
-    /// Remedies of an undercut and of too great a pressure angle.
+    /// Remedies of an undercut and of too large a pressure angle.
     pub(crate) remedies: [&'static str; 2],
-    /// Input of the machine by the angle of the cam, rad.
+    /// Maps the angle of the cam, rad, to the input of the machine, rad.
     pub(crate) input: &'a dyn Fn(f64) -> Option<f64>,
 }
 
 impl CheckedCam<'_> {
-    /// Reports undercut and pressure angle. The return is left to a spring, which no pressure angle hinders.
+    /// Reports undercut and the pressure angle of the rise. On the return a spring moves the follower, whatever the pressure
+    /// angle.
     pub(crate) fn report(self, limits: &Limits, report: &mut Report) {
         let pressure = limits.rise_pressure_angle;
         if limits.regularity.value <= 0.0 {

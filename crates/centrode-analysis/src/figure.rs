@@ -11,18 +11,19 @@ use crate::Unit;
 pub struct FigureGroup {
     /// Heading of the rows.
     pub heading: &'static str,
-    /// Headings of the columns; empty for a single column that needs none.
+    /// Headings of the columns; empty for a single column without a heading.
     pub columns: &'static [&'static str],
     /// The rows.
     pub rows: &'static [FigureRow],
 }
 
-/// Figures of one kind in a row: a figure a column.
+/// Figures of one kind in a row: one figure per column.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FigureRow {
     /// Title for a person.
     pub title: &'static str,
-    /// Keys of the figures in [`Report::values`](crate::Report::values); empty where a column has none.
+    /// Key of the figure in [`Report::values`](crate::Report::values), per column; an empty string if the column has no
+    /// figure.
     pub keys: &'static [&'static str],
     /// Unit of the figures.
     pub unit: Unit,
@@ -36,8 +37,8 @@ pub(crate) const fn row(
     FigureRow { title, keys, unit }
 }
 
-/// Number in JSON, or, for those JSON has no number for, one of the strings `"Infinity"`, `"-Infinity"` and
-/// `"NaN"`, which `float` of Python and `Number` of JavaScript read.
+/// A number in JSON. Infinities and NaN, which JSON does not have, are the strings `"Infinity"`, `"-Infinity"` and `"NaN"`,
+/// which `float` of Python and `Number` of JavaScript read.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JsonNumber(pub f64);
 

@@ -41,7 +41,7 @@ pub struct Goal {
 }
 
 impl Goal {
-    /// Makes a goal without a range or figure, to be completed by what follows.
+    /// A goal without a range or figure. The methods below add them.
     #[must_use]
     pub fn new(
         number: u32,
@@ -63,19 +63,19 @@ impl Goal {
         }
     }
 
-    /// Goal with a minimum, of which `scale` is the size: positive, in the unit. A miss by it is halfway.
+    /// Goal with a minimum. `scale` is the size of a miss that leaves half the progress: positive, in the goal's unit.
     #[must_use]
     pub fn minimum(self, minimum: f64, scale: f64) -> Self {
         self.range([Some(minimum), None], scale)
     }
 
-    /// Goal with a maximum; `scale` as of [`minimum`](Self::minimum).
+    /// Goal with a maximum; `scale` as in [`minimum`](Self::minimum).
     #[must_use]
     pub fn maximum(self, maximum: f64, scale: f64) -> Self {
         self.range([None, Some(maximum)], scale)
     }
 
-    /// Goal with a range, open where an end is none; `scale` as of [`minimum`](Self::minimum).
+    /// Goal with a range; an end that is `None` is open. `scale` as in [`minimum`](Self::minimum).
     #[must_use]
     pub fn range(self, required: [Option<f64>; 2], scale: f64) -> Self {
         Self {
@@ -85,7 +85,7 @@ impl Goal {
         }
     }
 
-    /// Goals of a paper, numbered as they are listed.
+    /// The goals of a paper, numbered in the order of the list. A different number in the paper is stored in `paper`.
     pub(crate) fn listed(mut goals: Vec<Self>) -> Vec<Self> {
         for (number, goal) in (1..).zip(&mut goals) {
             goal.paper = (goal.number != number).then_some(goal.number);
@@ -94,7 +94,7 @@ impl Goal {
         goals
     }
 
-    /// Goal with a figure for its range; without one if it is not known.
+    /// The goal with its figure, or without one if the figure is not known.
     #[must_use]
     pub fn with(self, value: impl Into<Option<f64>>) -> Self {
         let Some(value) = value.into() else {
@@ -108,7 +108,7 @@ impl Goal {
         let above = self.required[0].map_or(f64::INFINITY, |minimum| value - minimum);
         let below = self.required[1].map_or(f64::INFINITY, |maximum| maximum - value);
         let margin = match above.min(below) {
-            // At its limit but for rounding: the goal is met.
+            // At the limit within rounding: the goal is met.
             margin if margin.abs() <= COMPUTED * value.abs().min(f64::MAX).max(self.scale) => 0.0,
             margin => margin,
         };
@@ -121,7 +121,7 @@ impl Goal {
         }
     }
 
-    /// Whether it is reached; `None` if it was not checked.
+    /// Whether the goal is met; `None` if it was not checked.
     #[must_use]
     pub fn met(&self) -> Option<bool> {
         self.margin.map(|margin| margin >= 0.0)

@@ -10,28 +10,29 @@ use nalgebra::Isometry2;
 
 use crate::progress::Steps;
 
-/// Maximum turn of the driven gear searched, rad.
+/// Maximum turn of the driven gear that is searched, rad.
 const FREE: f64 = 0.5;
-/// Corners of a pin.
+/// Number of corners of the polygon of a pin.
 const PIN_CORNERS: u32 = 240;
-/// Steps in which the path of a pin along its cam is sampled, per step of the free angle: a distance is quick to compute.
+/// Number of steps in which the path of a pin along its cam is sampled, per step of the free angle: a distance is quick to
+/// compute.
 const PIN_STEPS: usize = 6;
 
 /// Contact analysis of a finished intermittent gear pair: the free angle of the driven gear in either direction at each input.
 ///
-/// Works on the finished contours alone: every corner of either gear is turned about the driven gear's axis until it
-/// meets an edge of the other.
+/// The analysis uses only the finished contours: every corner of either gear is turned about the driven gear's axis until it
+/// meets an edge of the other gear.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct IntermittentContact {
-    /// Driver's turn, rad.
+    /// Driver angle, rad.
     pub input: Vec<f64>,
     /// Whether the driven gear moves.
     pub moving: Vec<bool>,
-    /// Angle by which the driven gear can turn on from its law, rad; negative where it must go back to be free.
+    /// Angle by which the driven gear can turn on from its law, rad; negative if it must turn back to be free.
     pub ahead: Vec<f64>,
-    /// Angle by which it can turn back, rad.
+    /// Angle by which the driven gear can turn back, rad.
     pub back: Vec<f64>,
-    /// Deepest penetration along the driven gear's turning, mm.
+    /// Maximum penetration along the path of the driven gear's rotation, mm.
     pub penetration: Vec<f64>,
     /// Maximum free angle in either direction while the driven gear moves and while it rests, rad, each with its input: local
     /// maxima of the columns are followed between the samples, and at the start and end of the motion both sides count.
@@ -46,7 +47,7 @@ impl IntermittentContact {
     /// Analyses one turn of the driver at `count` inputs or a few more, never in step with the teeth, and follows the maxima
     /// between them.
     ///
-    /// Contours are taken as polygons nowhere farther off than the tolerance.
+    /// Contours are replaced by polygons within the tolerance.
     #[must_use]
     pub fn analyse(pair: &IntermittentPair, count: u32, tolerance: Tolerance) -> Self {
         let mut layers = vec![(
@@ -59,7 +60,7 @@ impl IntermittentContact {
         }
         let room = |input: f64| {
             let turned = pair.law().at(input).position;
-            // The driver's axes seen from the driven gear's.
+            // Pose of the driver in the driven gear's axes.
             let placed = Isometry2::new(Vector::new(pair.center_distance(), 0.0), turned);
             let driver = placed.inverse() * Isometry2::rotation(-input);
             let mut room = Room::default();
@@ -87,7 +88,7 @@ impl IntermittentContact {
                 out.penetration.push(room.penetration);
             }
         }
-        // A peak by less than the contours are off is none.
+        // A peak lower than the accuracy of the contours does not count.
         let exact = pair.accuracy().mm() * TAU / pair.pair().rolling().pitch_length(Member::Driven);
         let (moves, rests): (Vec<_>, Vec<_>) = parts.iter().partition(|part| part.from < motion);
         let start_of_rest = out.moving.iter().filter(|moving| **moving).count();
@@ -125,7 +126,7 @@ impl IntermittentContact {
         out
     }
 
-    /// Maximum of a column where the driven gear moves, or where it rests.
+    /// Maximum of a column while the driven gear moves, or while it rests.
     #[must_use]
     pub fn maximum(&self, column: &[f64], moving: bool) -> f64 {
         let of = column.iter().zip(&self.moving).filter(|c| *c.1 == moving);
@@ -134,7 +135,7 @@ impl IntermittentContact {
 }
 
 /// Pieces of a driver turn in which the law is smooth, with `count` steps or a few more in all: whole pitches and one step, so
-/// that the samples of a row of teeth are never in step with it.
+/// that the samples are never in step with the teeth.
 fn parts(pair: &IntermittentPair, count: usize) -> Vec<SampledPiece> {
     let mut ends = pair.law().breaks();
     ends.push(TAU);
@@ -167,7 +168,7 @@ fn maximum(samples: &[f64], f: impl Fn(f64) -> f64, exact: f64, parts: &[Sampled
             .enumerate()
             .map(|(i, &value)| (part.at(i), value))
             .collect();
-        // An end is no peak to both sides: a point next to it shows whether the function rises from there.
+        // An end has no neighbour on one side: the middle of the adjacent step shows whether the function rises from the end.
         let [first, .., last] = [&sampled[..2], &sampled[sampled.len() - 2..]].map(|ends| {
             let middle = 0.5 * (ends[0].0 + ends[1].0);
             [ends[0], (middle, f(middle)), ends[1]]
@@ -193,7 +194,7 @@ fn maximum(samples: &[f64], f: impl Fn(f64) -> f64, exact: f64, parts: &[Sampled
     }
 }
 
-/// Minimum distance of a pin from its cam, mm, negative where they overlap, with its input.
+/// Minimum distance of a pin from its cam, mm, negative if they overlap, with its input.
 fn pin_clearance(
     pair: &IntermittentPair,
     cam: &Cam,
@@ -220,7 +221,7 @@ fn pin_clearance(
         .iter()
         .flat_map(|part| (0..=part.steps).map(|i| part.at(i)));
     let samples: Vec<f64> = inputs.map(overlap).collect();
-    // A thousandth of what the contours are off: a distance is quick to compute.
+    // A thousandth of the accuracy of the contours: a distance is quick to compute.
     let exact = 1e-3 * pair.accuracy().mm();
     let Extreme { input, value } = maximum(&samples, overlap, exact, &parts);
     Extreme {
@@ -229,11 +230,11 @@ fn pin_clearance(
     }
 }
 
-/// Polygon with an index of what lies in it.
+/// Polygon with an index for the test whether a point lies inside.
 struct Wheel {
     corners: Vec<Point>,
     reach: f64,
-    /// A pin about this centre; a star about its own origin otherwise.
+    /// Centre and radius of a pin; `None` for a polygon that is star-shaped about its origin.
     pin: Option<(Point, f64)>,
     /// Directions of the corners, ascending, with their indices.
     directions: Vec<(f64, usize)>,
@@ -281,8 +282,8 @@ impl Wheel {
         (b - a).perp(&(point - a)) > 0.0
     }
 
-    /// Distance of a point from the polygon, negative inside; of a point farther off than the polygon reaches from its origin, a
-    /// lower bound.
+    /// Distance of a point from the polygon, negative inside. For a point farther off than the polygon reaches from its origin
+    /// it is a lower bound.
     fn distance(&self, point: Point) -> f64 {
         let beyond = point.coords.norm() - self.reach;
         if beyond > self.reach {
@@ -299,7 +300,7 @@ impl Wheel {
     }
 }
 
-/// Free angle of the driven gear.
+/// Free angles of the driven gear, rad, and the penetration, mm.
 struct Room {
     ahead: f64,
     back: f64,
@@ -317,13 +318,14 @@ impl Default for Room {
 }
 
 impl Room {
-    /// Narrows the room by a driver, its axes given in the driven gear's, and the mate it meets there.
+    /// Narrows the room by a driver, whose pose is given in the driven gear's axes, and the part of the driven gear that it
+    /// meets.
     fn narrow(&mut self, driver: &Wheel, place: &Isometry2<f64>, mate: &Wheel) {
         let axis = Point::from(place.translation.vector);
         let driver_points: Vec<Point> = driver.corners.iter().map(|p| place * p).collect();
         let near_driver = near_edges(&driver_points, Point::origin(), mate.reach);
         let near_mate = near_edges(&mate.corners, axis, driver.reach);
-        // The driven gear going on turns the driver back, in its axes.
+        // In the axes of the driven gear the driver turns back when the driven gear turns on.
         for edge in &near_driver {
             self.corner(edge.from, &near_mate, 1.0, mate.holds(edge.from));
         }
@@ -333,8 +335,8 @@ impl Room {
         }
     }
 
-    /// Narrows the room by a corner that turns about the origin until it meets an edge; `sense` is 1 for one of the
-    /// driver.
+    /// Narrows the room by a corner that turns about the origin until it meets an edge; `sense` is 1 for a corner of the
+    /// driver, -1 for one of the driven gear.
     fn corner(&mut self, corner: Point, edges: &[Edge], sense: f64, inside: bool) {
         let squared = corner.coords.norm_squared();
         let (mut less, mut more) = (FREE, FREE);
@@ -359,7 +361,8 @@ impl Room {
                 }
             }
         }
-        // A corner of the driver is met from ahead when it turns back, one of the driven gear when it turns on.
+        // When the driven gear turns on, a corner of the driver turns back in these axes, and a corner of the driven gear
+        // turns on.
         let (ahead, back) = if sense > 0.0 {
             (less, more)
         } else {
@@ -402,7 +405,7 @@ impl Edge {
         }
     }
 
-    /// Whether a circle about the axis, of a squared radius, can meet it.
+    /// Whether a circle about the axis, with a squared radius, can meet the edge.
     fn meets(&self, squared: f64) -> bool {
         (self.low..=self.high).contains(&squared)
     }

@@ -4,7 +4,7 @@ use centrode_kinematics::machine::{Key, Keyway, allowed_pressure};
 use crate::rounding::exceeds;
 use crate::{Finding, Report, Severity, Unit};
 
-/// A key that carries a torque from a shaft to a hub.
+/// A key that transmits a torque from a shaft to a hub.
 pub(crate) struct LoadedKey<'a> {
     pub(crate) key: Key,
     /// Keyway of the hub.
@@ -13,22 +13,22 @@ pub(crate) struct LoadedKey<'a> {
     pub(crate) face: f64,
     /// Diameter of the shaft, mm.
     pub(crate) diameter: f64,
-    /// Materials of shaft and hub; one of which the design says nothing is omitted.
+    /// Materials of shaft and hub; a material that the design does not give is omitted.
     pub(crate) materials: &'a [&'a str],
-    /// Maximum torque, N mm, and the input at which it comes.
+    /// Maximum torque, N mm, and the input at which it occurs.
     pub(crate) torque: Extreme,
     /// Part with the hub.
     pub(crate) part: &'a str,
 }
 
 impl LoadedKey<'_> {
-    /// Maximum pressure on its sides, N/mm²; DIN 6892, method C.
+    /// Maximum pressure on the key's sides, N/mm²; DIN 6892, method C.
     pub(crate) fn pressure(&self) -> f64 {
         let long = self.key.bearing_length().min(self.face);
         self.hub.pressure(self.torque.value, self.diameter, long)
     }
 
-    /// Reports a key that is pressed harder than the weakest material next to it allows.
+    /// Reports a pressure above the limit of the weakest material. Nothing is checked if the limit of a material is unknown.
     pub(crate) fn check(&self, report: &mut Report) {
         let allowed = self
             .materials

@@ -2,7 +2,7 @@ use centrode_kinematics::machine::{Fastening, FasteningError};
 
 use crate::{Finding, Severity, Unit};
 
-/// Finding of plates, by the part and in words, for which screws are requested and none are found; `None` otherwise.
+/// Finding if screws are requested for plates and none are found; `None` otherwise. `plates` names the plates in the message.
 pub(crate) fn no_screws(
     part: &str,
     plates: &str,

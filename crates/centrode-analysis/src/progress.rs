@@ -6,12 +6,13 @@ thread_local! {
     static CURRENT: RefCell<Option<Part>> = const { RefCell::new(None) };
 }
 
-/// Parts of the whole in which a share is reported.
+/// Number of steps in which a share is stored.
 const WHOLE: f64 = 1e6;
 
 /// Share of a check that is done, reported by the check to its listener. A clone belongs to the same check.
 ///
-/// Contact analyses, which take longest, report each of their inputs; other steps count for what they take in most designs.
+/// Contact analyses take longest and report every input. Other steps have fixed shares: the time that they take in most
+/// designs.
 ///
 /// ```
 /// use centrode_analysis::Progress;
@@ -34,7 +35,7 @@ pub(crate) struct Part {
     to: f64,
 }
 
-/// Guard that has a thread fill a part; when it is dropped the part before it is filled again.
+/// Guard while a thread fills a part. When it is dropped, the thread fills the previous part again.
 struct Filling(Option<Part>);
 
 impl Progress {
@@ -58,7 +59,7 @@ impl Progress {
 }
 
 impl Part {
-    /// The part that the calling thread fills; `None` if nobody waits.
+    /// The part that the calling thread fills; `None` without a listener.
     pub(crate) fn current() -> Option<Self> {
         CURRENT.with_borrow(Clone::clone)
     }
@@ -83,7 +84,7 @@ impl Drop for Filling {
     }
 }
 
-/// Result of a job that fills a part of what the calling thread fills, from one share of it to another.
+/// Result of a job that fills the shares `from` to `to` of the part that the calling thread fills.
 pub(crate) fn filling<T>([from, to]: [f64; 2], job: impl FnOnce() -> T) -> T {
     let Some(part) = Part::current() else {
         return job();
@@ -99,7 +100,7 @@ pub(crate) fn filling<T>([from, to]: [f64; 2], job: impl FnOnce() -> T) -> T {
     result
 }
 
-/// Equal steps of a computation, by whichever threads they are done.
+/// Counter of equal steps of a computation on any number of threads.
 pub(crate) struct Steps {
     part: Option<Part>,
     count: usize,
@@ -107,7 +108,7 @@ pub(crate) struct Steps {
 }
 
 impl Steps {
-    /// So many steps of the part that the calling thread fills.
+    /// A number of steps of the part that the calling thread fills.
     pub(crate) fn new(count: usize) -> Self {
         Self {
             part: Part::current(),
@@ -116,7 +117,7 @@ impl Steps {
         }
     }
 
-    /// Reports that one more is done.
+    /// Reports that one more step is done.
     pub(crate) fn step(&self) {
         let Some(part) = &self.part else { return };
         let done = 1 + self.done.fetch_add(1, Ordering::Relaxed);

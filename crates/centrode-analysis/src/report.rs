@@ -69,7 +69,7 @@ pub struct Finding {
 }
 
 impl Finding {
-    /// A finding of a rule, in one sentence for a person; figures, remedy and position follow if there are any.
+    /// A finding of a rule, with its message for a person. The methods below add figures, remedy and position.
     #[must_use]
     pub fn new(rule: &'static str, severity: Severity, message: impl Into<String>) -> Self {
         Self {
@@ -116,7 +116,7 @@ impl Finding {
         self
     }
 
-    /// On teeth of the part, and the sides of them that it is about.
+    /// On teeth of the part, with the flanks concerned.
     #[must_use]
     pub fn teeth(mut self, teeth: Vec<u32>, flanks: Vec<FlankPlace>) -> Self {
         self.place.teeth = teeth;
@@ -124,7 +124,7 @@ impl Finding {
         self
     }
 
-    /// Adds it to a report.
+    /// Adds the finding to a report.
     pub(crate) fn add_to(self, report: &mut Report) {
         report.findings.push(self);
     }
@@ -238,8 +238,7 @@ impl Report {
         severity::worst_first(&mut self.findings);
     }
 
-    /// A finding for each goal that is missed: the mechanism does not do what is required. `about` has the position, the
-    /// remedy and what else there is to say of a goal.
+    /// Adds an error for each goal that is missed. `about` gives the position, the remedy and further words for a goal.
     pub(crate) fn blame_goals(&mut self, about: impl Fn(&Goal) -> Missed) {
         let missed = self.goals.iter().filter(|goal| goal.met() == Some(false));
         let findings = missed.filter_map(|goal| {
@@ -258,7 +257,7 @@ impl Report {
             let [value_stated, margin_stated] =
                 [value, -margin].map(|figure| unit.with_unit(figure));
             Some(Finding {
-                // A goal that a design names has no rule of its own.
+                // Goals that a design names share the rule `goal`.
                 rule: match &goal.name {
                     Cow::Borrowed(name) => name,
                     Cow::Owned(_) => "goal",
@@ -318,14 +317,14 @@ impl<'a> ReportFile<'a> {
     }
 }
 
-/// Words of a goal that is missed, next to its figures.
+/// Additions to the finding of a missed goal.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Missed {
     /// Input angle at which the figure is found, rad.
     pub(crate) input: Option<f64>,
     /// Usual remedy.
     pub(crate) remedy: Option<&'static str>,
-    /// Further words, after the miss.
+    /// Further words at the end of the message.
     pub(crate) words: String,
 }
 

@@ -13,9 +13,9 @@ use crate::{Report, Unit, figure};
 pub struct Response {
     /// Key of the number in the design file.
     pub key: String,
-    /// Values of the number with which it was checked, in the file's unit: of a count, whole ones.
+    /// Values of the number with which the design was checked, in the file's unit; whole numbers for a count.
     pub values: Vec<f64>,
-    /// Report at each value, or the reason why it gives no mechanism.
+    /// Report at each value, or the reason why the value gives no mechanism.
     pub reports: Vec<Result<Report, String>>,
 }
 
@@ -26,18 +26,18 @@ pub struct Answer {
     pub name: Cow<'static, str>,
     /// Unit of the figures.
     pub unit: Unit,
-    /// The figure at each value; none where there is none.
+    /// The figure at each value; `None` if there is none.
     #[serde(serialize_with = "figure::options")]
     pub figures: Vec<Option<f64>>,
 }
 
 impl Response {
-    /// Checks a design with each of the values, in the file's unit, at a key; all other numbers stay. `report` checks one
-    /// such design.
+    /// Checks a design with each of the values, in the file's unit, at the key `key`; all other numbers stay. `report` checks
+    /// one such design.
     ///
     /// # Errors
-    /// [`DesignError`] where the key is no number of the design. A value that gives no mechanism is no error: it has its
-    /// reason instead of a report.
+    /// [`DesignError`] if the key does not name a number of the design. A value that gives no mechanism is not an error: it
+    /// has the reason instead of a report.
     pub fn evaluate(
         design: &dyn Design,
         key: &str,
@@ -58,7 +58,7 @@ impl Response {
         })
     }
 
-    /// The goals' figures, then all others, by name.
+    /// The figures of the goals, then all other figures by name.
     #[must_use]
     pub fn answers(&self) -> Vec<Answer> {
         let mut found: Vec<Answer> = Vec::new();
@@ -83,7 +83,7 @@ impl Response {
         for (at, report) in self.reports.iter().enumerate() {
             let Ok(report) = report else { continue };
             for (name, value) in &report.values {
-                // A goal's own figure has been listed.
+                // The figure of a goal is already listed.
                 if !found
                     .iter()
                     .any(|a| a.name == *name && a.figures[at].is_some())

@@ -2,7 +2,7 @@ use centrode_geometry::COMPUTED;
 
 /// Whether a figure is above its limit by more than rounding, both in the same unit.
 ///
-/// A limit of 0 has no size to round by: there every figure above 0 exceeds it.
+/// A limit of 0 has no size to which rounding could be relative: every figure above 0 exceeds it.
 pub(crate) fn exceeds(measured: f64, limit: f64) -> bool {
     measured - limit > COMPUTED * measured.abs().max(limit.abs()).min(f64::MAX)
 }

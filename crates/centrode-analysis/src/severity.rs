@@ -19,12 +19,12 @@ pub enum Severity {
     Error,
 }
 
-/// Length that nobody can make or measure, mm: half the default tolerance of the files. Ten times more hides overlaps that
-/// are felt in a mesh; ten times less reports rounding of the files as faults.
+/// Maximum length that is too small to make or to measure, mm: half the default tolerance of the files. Ten times more hides
+/// overlaps that are felt in a mesh; ten times less reports rounding of the files as faults.
 const MEASURABLE: f64 = 0.005;
 
 impl Severity {
-    /// Of bodies or flanks that overlap by a depth, mm.
+    /// Severity of bodies or flanks that overlap by a depth, mm.
     pub(crate) fn of_overlap(depth: f64) -> Self {
         if depth > MEASURABLE {
             Self::Error
@@ -33,7 +33,7 @@ impl Severity {
         }
     }
 
-    /// Of a length that is off by so much, mm, where the part still works.
+    /// Severity of a deviation of a length, mm, if the part still works.
     pub(crate) fn of_deviation(length: f64) -> Self {
         if length > MEASURABLE {
             Self::Warning
@@ -42,7 +42,7 @@ impl Severity {
         }
     }
 
-    /// Of a pressure angle above its usual limit, rad: from a right angle on the force no longer drives.
+    /// Severity of a pressure angle above its usual limit, rad: from 90 degrees on the force no longer drives.
     pub(crate) fn of_pressure_angle(angle: f64) -> Self {
         if angle >= std::f64::consts::FRAC_PI_2 {
             Self::Error
@@ -52,7 +52,7 @@ impl Severity {
     }
 }
 
-/// Every rule whose findings cause others, before the rules of its consequences; rules that are not listed come after these.
+/// Rules whose findings cause others, each before the rules of its consequences. All other rules come last.
 const CAUSES: [&str; 25] = [
     "detail",
     "pitch-curves-overlap",

@@ -3,11 +3,11 @@ use rayon::ThreadPoolBuilder;
 
 use crate::progress::Part;
 
-/// Prepares all computations for a system that starts no threads: then the calling thread does everything.
+/// Prepares all computations for a system that cannot start threads: then the calling thread does everything.
 ///
-/// A program calls it once, on its main thread, and not if its other threads wait for computations.
+/// A program calls it once, on its main thread, and must not call it if its other threads wait for computations.
 pub fn prepare_threads() {
-    // The threads of the program cannot be tried twice: others are, as many of them.
+    // The global thread pool can be built only once: another pool of the same size is tried instead.
     if ThreadPoolBuilder::new().build().is_err() {
         let one = ThreadPoolBuilder::new().num_threads(1).use_current_thread();
         if one.build_global().is_ok() {
@@ -16,8 +16,8 @@ pub fn prepare_threads() {
     }
 }
 
-/// Results of two jobs that run side by side where a core is free, both under the token of the calling thread; what either
-/// shows of its progress is reported as there.
+/// Results of two jobs that run in parallel if a core is free. Both use the cancellation token of the calling thread, and
+/// report their progress to the part that this thread fills.
 pub(crate) fn both<A: Send, B: Send>(
     one: impl FnOnce() -> A + Send,
     other: impl FnOnce() -> B + Send,

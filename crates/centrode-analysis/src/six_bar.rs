@@ -22,14 +22,14 @@ fn four_bar(point: &[f64], branch: Branch) -> Option<FourBar> {
     FourBar::new(crank, coupler, rocker, frame, branch).ok()
 }
 
-/// Violation of the crank-rocker condition, in lengths of the frame; zero or less where it holds.
+/// Violation of the crank-rocker condition, as a share of the frame length; zero or less if the condition holds.
 fn not_crank_rocker(point: &[f64]) -> f64 {
     let &[crank, coupler, rocker, frame, ..] = point else {
         return f64::INFINITY;
     };
     let longest = coupler.max(rocker).max(frame);
     let others = coupler + rocker + frame - longest;
-    // A change point is no crank-rocker.
+    // A linkage at a change point is not a crank-rocker.
     (crank + longest - others) / frame + 1e-9
 }
 
@@ -39,14 +39,14 @@ fn not_crank_rocker(point: &[f64]) -> f64 {
 pub struct RequiredSwing {
     /// Bounds of the lengths, mm.
     pub bounds: Lengths,
-    /// The effector's pivot, mm. Left free it makes the objective vacuous: on the chord between the
-    /// slider's dead centres any lengths swing the effector half a turn.
+    /// The effector's pivot, mm. It must not be a variable: with the pivot on the chord between the slider's dead centres any
+    /// lengths swing the effector by half a turn, so that the objective means nothing.
     pub pivot: Point,
     /// Assembly branch of the four-bar.
     pub branch: Branch,
     /// Required swing, rad.
     pub swing: f64,
-    /// Required minimum transmission angle, rad; none leaves constraint (16) out.
+    /// Required minimum transmission angle, rad; `None` omits constraint (16).
     pub minimum_transmission_angle: Option<f64>,
 }
 
@@ -59,7 +59,7 @@ impl RequiredSwing {
             // Lengths that are a crank-rocker fail only with the pivot on the slider's path.
             constraints[0] = 1.0 + constraints[0].max(0.0);
             let nothing = Evaluation {
-                // Greater than any deviation of a swing; a number, so that a search can be stored.
+                // Greater than any deviation of a swing; a finite number, so that a search can be stored.
                 objective: TAU,
                 constraints,
             };
@@ -94,7 +94,7 @@ impl Problem for RequiredSwing {
 /// Problem of the crank-rocker with the largest minimum transmission angle: variables are crank, coupler,
 /// rocker and frame, mm.
 ///
-/// It stays below 90 degrees less half the rocker's swing, whatever the lengths.
+/// This angle is always below 90 degrees minus half the rocker's swing.
 #[derive(Clone, Debug)]
 pub struct BestTransmissionAngle {
     /// Bounds of the lengths, mm.
@@ -106,7 +106,7 @@ impl Problem for BestTransmissionAngle {
         self.bounds.to_vec()
     }
 
-    /// Evaluates a point: the objective is a right angle less the minimum transmission angle, rad.
+    /// Evaluates a point: the objective is a right angle minus the minimum transmission angle, rad.
     fn evaluate(&self, point: &[f64]) -> Evaluation {
         let minimum =
             four_bar(point, Branch::Upper).map_or(0.0, |f| f.minimum_transmission_angle());
@@ -121,7 +121,7 @@ impl Problem for BestTransmissionAngle {
     }
 }
 
-/// Problem of the smallest common widening of all bounds with which they hold a crank-rocker with a required minimum
+/// Problem of the smallest common widening of all bounds with which they contain a crank-rocker with a required minimum
 /// transmission angle: variables are the widening and each length's position within its widened bounds, from 0 to 1.
 #[derive(Clone, Debug)]
 pub struct MinimumWidening {
@@ -132,7 +132,7 @@ pub struct MinimumWidening {
 }
 
 impl MinimumWidening {
-    /// Bounds with every minimum value made smaller and every maximum value made greater by a share.
+    /// Bounds with every minimum reduced and every maximum increased by a share.
     #[must_use]
     pub fn widened(&self, share: f64) -> Lengths {
         self.bounds

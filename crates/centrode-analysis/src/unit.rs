@@ -5,13 +5,13 @@ use std::fmt;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Serialize, Serializer};
 
-/// Figures below it, in the unit shown, are rounding of larger ones: those of a machine are not so small.
+/// Figures below this value, in the shown unit, are rounding of larger figures: figures of a machine are not so small.
 const ROUNDING: f64 = 1e-9;
 
-/// Unit of a figure, which settles how the figure is shown.
+/// Unit of a figure, which determines how the figure is shown.
 ///
-/// Figures are stored in mm, rad, s and N; [`Unit::symbol`] names that unit, and JSON has it. A person reads angles in
-/// degrees: [`Unit::shown`] and [`Unit::show`].
+/// Figures are stored in mm, rad, s and N; [`Unit::symbol`] names that unit, also in JSON. A person reads angles in degrees:
+/// [`Unit::shown`] and [`Unit::show`].
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 #[non_exhaustive]
 pub enum Unit {
@@ -92,8 +92,8 @@ impl Unit {
         }
     }
 
-    /// The figure in the unit shown, in few enough digits to read; a small one keeps its leading digits, and one below 1e-9 is 0.
-    /// Errors in rad keep theirs, however small.
+    /// The figure in the shown unit, with few digits. A small figure keeps its leading digits, and a figure below 1e-9 is 0.
+    /// Errors in rad keep their leading digits, however small.
     #[must_use]
     pub fn show(self, value: f64) -> String {
         if self != Self::Radian && (value * self.factor()).abs() < ROUNDING {
@@ -117,7 +117,8 @@ impl Unit {
         decimal(value * self.factor(), decimals)
     }
 
-    /// The figure as [`Unit::show`] has it, with its unit; one below 1e-9 keeps its leading digits, for nothing is missed by 0.
+    /// The figure as shown by [`Unit::show`], with its unit. A figure below 1e-9 keeps its leading digits: a goal is not
+    /// missed by 0.
     #[must_use]
     pub fn with_unit(self, value: f64) -> String {
         format!("{} {}", self.digits(value), self.shown())
@@ -151,8 +152,7 @@ impl JsonSchema for Unit {
     }
 }
 
-/// Number with so many decimals, or in powers of ten where they would hide it; without decimals, always in powers of
-/// ten.
+/// Number with `decimals` decimals, or in powers of ten if it is below 50 units of the last decimal or at least 1e9.
 fn decimal(value: f64, decimals: i32) -> String {
     let hidden = 50.0 * 0.1_f64.powi(decimals);
     if value == 0.0 {

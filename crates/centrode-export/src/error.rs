@@ -18,9 +18,9 @@ pub enum ExportError {
     Tolerance {
         /// The tolerance, mm.
         tolerance: f64,
-        /// The coarsest one possible, mm.
+        /// The coarsest possible tolerance, mm.
         largest: f64,
-        /// The smallest size of the machine that counts.
+        /// Name of the smallest size of the machine, which limits the tolerance.
         of: &'static str,
     },
     /// The tolerance is so fine that a part would take more pieces than anyone can use.
@@ -30,9 +30,9 @@ pub enum ExportError {
     FineTolerance {
         /// The tolerance, mm.
         tolerance: f64,
-        /// The finest one possible, mm.
+        /// The finest possible tolerance, mm.
         minimum: f64,
-        /// The size of the machine that counts.
+        /// Name of the size of the machine that limits the tolerance.
         of: &'static str,
     },
     /// A machine as designed lacks a part that its files need.
@@ -40,7 +40,7 @@ pub enum ExportError {
     Missing {
         /// Key of the design file at fault, where the reason does not name it.
         key: Option<String>,
-        /// Why, as the mechanism says it.
+        /// The error of the mechanism.
         source: Box<dyn Error + Send + Sync>,
     },
     /// No part of the machine has the requested name.
@@ -48,12 +48,12 @@ pub enum ExportError {
     UnknownPart {
         /// Kind of machine, with its article.
         machine: &'static str,
-        /// The name.
+        /// The requested name.
         part: String,
-        /// Names it could be.
+        /// Names of the parts that exist.
         known: Vec<String>,
     },
-    /// A format of whole machines for a cam alone.
+    /// A format for whole machines was requested for a cam alone.
     #[error("a cam alone is no machine: it cannot be written as {0}")]
     NoModel(Format),
     /// A part is no solid at this tolerance.
@@ -107,13 +107,13 @@ pub enum ExportError {
 }
 
 impl ExportError {
-    /// A part that the machine lacks, for a reason that names the key of the design.
+    /// Error for a part that the machine lacks; its reason names the key of the design.
     pub(crate) fn missing(source: impl Into<Box<dyn Error + Send + Sync>>) -> Self {
         let source = source.into();
         Self::Missing { key: None, source }
     }
 
-    /// A part that the machine lacks, by a key of the design.
+    /// Error for a part that the machine lacks, with the key of the design.
     pub(crate) fn missing_at(
         key: impl Into<String>,
         source: impl Into<Box<dyn Error + Send + Sync>>,
@@ -124,13 +124,13 @@ impl ExportError {
         }
     }
 
-    /// Names the part that is no solid.
+    /// Adds the name of the part to the error of its solid.
     pub(crate) fn no_solid(part: &str) -> impl FnOnce(SolidError) -> Self {
         let part = part.to_owned();
         |source| Self::Solid { part, source }
     }
 
-    /// Names the part whose sheets cannot be laid out.
+    /// Adds the name of the part to the error of its sheets.
     pub(crate) fn no_sheet(part: &str) -> impl FnOnce(SheetError) -> Self {
         let part = part.to_owned();
         |source| Self::Sheet { part, source }

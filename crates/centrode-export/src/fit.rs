@@ -12,12 +12,12 @@ pub(crate) fn bore(diameter: f64, class: &str) -> String {
     fitted(&format!("Ø{}", number(diameter, 4)), diameter, class)
 }
 
-/// Width of a keyway, of a slot or of what runs in it as written on a drawing.
+/// Width of a keyway, of a slot or of a part that runs in it, as written on a drawing.
 pub(crate) fn keyway(width: f64, class: &str) -> String {
     fitted(&number(width, 3), width, class)
 }
 
-/// Polar angle of a keyway in a bore, rad, in degrees with what its symmetry lets it turn about the middle.
+/// Polar angle of a keyway in a bore (`angle` in rad), written in degrees with the deviation that its symmetry tolerance permits.
 pub(crate) fn keyway_angle(angle: f64, bore: f64, width: f64) -> String {
     let stated = number(angle.to_degrees(), 4);
     let off = grade(width, SYMMETRY).map(|zone| (zone / bore).to_degrees());
@@ -27,13 +27,13 @@ pub(crate) fn keyway_angle(angle: f64, bore: f64, width: f64) -> String {
     }
 }
 
-/// Diameter and depth of a keyway in a hub as written on a drawing.
+/// Bore diameter plus depth of a keyway in a hub, as written on a drawing.
 pub(crate) fn hub_depth(bore: f64, key: Keyway) -> String {
     let deeper = key.depth_tolerance().map(|most| [0.0, most]);
     limited(&number(bore + key.depth, 3), deeper)
 }
 
-/// Rest of a shaft's diameter under a keyway as written on a drawing.
+/// Diameter of a shaft less the depth of its keyway, as written on a drawing.
 pub(crate) fn shaft_depth(diameter: f64, key: Keyway) -> String {
     let deeper = key.depth_tolerance().map(|most| [-most, 0.0]);
     limited(&number(diameter - key.depth, 3), deeper)
@@ -44,7 +44,7 @@ pub(crate) fn length(mm: f64, deviations: [f64; 2]) -> String {
     limited(&number(mm, 3), Some(deviations))
 }
 
-/// Size of what is in a hole or slot as written on a drawing.
+/// Size of the shaft or slider of a fit with its class, as written on a drawing.
 pub(crate) fn shaft(fit: &Fit) -> String {
     fitted(&size(fit), fit.size, &fit.shaft)
 }
@@ -63,9 +63,9 @@ fn fitted(size: &str, nominal: f64, class: &str) -> String {
     limited(&size, limits_of_size(nominal, class))
 }
 
-/// A size with its limits, upper one first, where there are any, mm.
+/// A size with its limits in mm, if there are any, the upper limit first.
 fn limited(size: &str, limits: Option<[f64; 2]>) -> String {
-    // Half of an odd grade is written to the half micrometre.
+    // Half of an odd tolerance ends in half a micrometre: it needs a fourth decimal.
     let signed = |mm: f64| match (mm * 1e4).round() {
         0.0 => "0".to_owned(),
         tenths if tenths % 10.0 == 0.0 => format!("{mm:+.3}"),

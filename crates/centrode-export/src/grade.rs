@@ -4,52 +4,52 @@ use centrode_formats::sheet::geometrical::{Characteristic, Frame};
 use centrode_formats::sheet::number;
 use centrode_kinematics::machine::limits_of_size;
 
-/// Class whose width is the symmetry of a keyway, by the width of that.
+/// Tolerance class for the symmetry of a keyway; its size is the width of the keyway.
 pub(crate) const SYMMETRY: &str = "H9";
 
-/// Width of a tolerance grade for a size, mm, ISO 286-1, by a class of holes of that grade.
+/// Width of a tolerance grade for a size, mm, ISO 286-1; `class` is a class of holes with that grade.
 pub(crate) fn grade(size: f64, class: &str) -> Option<f64> {
     limits_of_size(size, class).map(|[low, high]| high - low)
 }
 
-/// Position of an axis at a distance from its datum: within the eighth grade of that distance, or twice what it may be off
-/// in either direction. None beyond the grades of ISO 286-1.
+/// Position tolerance of an axis: grade IT8 of its distance from the datum, or 2 `off` if its permitted deviation `off` is
+/// positive (mm). `None` beyond the grades of ISO 286-1.
 pub(crate) fn position(distance: f64, off: f64, apart: Option<f64>, datums: &str) -> Option<Frame> {
     let width = match off > 0.0 {
         true => 2.0 * off,
         false => grade(distance, "H8")?,
     };
-    // Two holes that each are off by half of it are so far off their distance.
+    // If two holes are each off by half of `apart`, their distance is off by `apart`: the width is limited to it.
     let width = apart.map_or(width, |apart| width.min((apart * 1e3).floor() / 1e3));
     let value = format!("Ø{}", number(width, 3));
     Some(Frame::new(Characteristic::Position, value, datums))
 }
 
-/// Position of the median plane of a slot at a distance from its datum: within the eighth grade of that distance. None beyond the
-/// grades of ISO 286-1.
+/// Position tolerance of the median plane of a slot: grade IT8 of its distance from the datum. `None` beyond the grades of ISO
+/// 286-1.
 pub(crate) fn position_of_slot(distance: f64, datums: &str) -> Option<Frame> {
     let value = number(grade(distance, "H8")?, 3);
     Some(Frame::new(Characteristic::Position, value, datums))
 }
 
-/// Symmetry of a keyway of a width: within the ninth grade of that, as the width itself. None beyond the grades of ISO 286-1.
+/// Symmetry tolerance of a keyway: grade IT9 of its width, as for the width itself. `None` beyond the grades of ISO 286-1.
 pub(crate) fn symmetry(width: f64, datums: &str) -> Option<Frame> {
     let value = number(grade(width, SYMMETRY)?, 3);
     Some(Frame::new(Characteristic::Symmetry, value, datums))
 }
 
-/// Runout of a feature of a diameter: within the seventh grade of that. None beyond the grades of ISO 286-1.
+/// Runout tolerance of a feature: grade IT7 of its diameter. `None` beyond the grades of ISO 286-1.
 pub(crate) fn runout(diameter: f64, datums: &str) -> Option<Frame> {
     Some(runout_within(grade(diameter, "H7")?, datums))
 }
 
-/// Runout within a width, mm.
+/// Runout tolerance of a given width, mm.
 pub(crate) fn runout_within(width: f64, datums: &str) -> Frame {
     Frame::new(Characteristic::Runout, number(width, 4), datums)
 }
 
-/// Profile of a contour that reaches so far from its datum, mm: within the eighth grade of that. None beyond the grades of
-/// ISO 286-1.
+/// Profile tolerance of a contour: grade IT8 of its maximum distance `reach` from the datum, mm. `None` beyond the grades of ISO
+/// 286-1.
 pub(crate) fn profile(reach: f64, datums: &str) -> Option<Frame> {
     let value = number(grade(reach, "H8")?, 3);
     Some(Frame::new(Characteristic::Profile, value, datums))

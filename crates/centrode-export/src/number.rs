@@ -1,8 +1,8 @@
-//! Numbers and names as sheets and tables have them.
+//! Numbers and names in the form that sheets and tables use.
 
 use centrode_formats::sheet::number;
 
-/// Number to so many decimals, zeros and all, without a sign to a zero.
+/// Number with exactly `places` decimals; a zero has no sign.
 pub(crate) fn fixed(x: f64, places: usize) -> String {
     let text = format!("{x:.places$}");
     let bare = text.trim_start_matches('-');
@@ -12,7 +12,7 @@ pub(crate) fn fixed(x: f64, places: usize) -> String {
     }
 }
 
-/// Minimum and maximum number to so many decimals; one where both are the same.
+/// Minimum and maximum with at most `places` decimals; one number if both are equal.
 pub(crate) fn range([low, high]: [f64; 2], places: usize) -> String {
     let [low, high] = [low, high].map(|x| number(x, places));
     if low == high {
@@ -27,7 +27,7 @@ pub(crate) fn mass(grams: f64) -> String {
     if grams >= 1000.0 {
         format!("{} kg", number(grams / 1000.0, 3))
     } else {
-        // Of a circlip of 3 mm a tenth of a gram would be none.
+        // A circlip of 3 mm weighs so little that one decimal would show 0 g.
         let places = if grams < 0.1 { 3 } else { 1 };
         format!("{} g", number(grams, places))
     }

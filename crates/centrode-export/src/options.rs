@@ -8,7 +8,7 @@ use centrode_spec::{Projection, SheetSize};
 pub struct Options {
     /// Maximum distance of every arc, point sequence and mesh from the exact curve.
     pub tolerance: Tolerance,
-    /// Which DXF.
+    /// Version of the DXF files.
     pub dxf_version: dxf::Version,
     /// Arcs or splines in the DXF.
     pub dxf_curves: dxf::Curves,
@@ -16,15 +16,15 @@ pub struct Options {
     pub layers: Layers,
     /// How the drawing sheets are laid out.
     pub sheet: SheetOptions,
-    /// Parts that drawings, sheets, solids and tables are of, by the names of their files; default: all.
-    /// Models and motion are of the whole machine.
+    /// Parts for which drawings, sheets, solids and tables are written, by the names of their files; default: all. Models and
+    /// motion always contain the whole machine.
     pub parts: Option<Vec<String>>,
-    /// Whether straight extrusions stay in the bundle as they are, instead of their STEP files.
+    /// Whether the bundle contains straight extrusions as solids instead of their files.
     pub keep_solids: bool,
 }
 
 impl Options {
-    /// DXF R2010 with arcs, of everything.
+    /// DXF R2010 with arcs, for all parts.
     #[must_use]
     pub fn new(tolerance: Tolerance) -> Self {
         Self {
@@ -38,7 +38,7 @@ impl Options {
         }
     }
 
-    /// Whether a part is to be written.
+    /// Whether a part is requested.
     pub(crate) fn wants(&self, part: &str) -> bool {
         let named = self.parts.as_ref();
         named.is_none_or(|parts| parts.iter().any(|name| name == part))
@@ -48,7 +48,7 @@ impl Options {
 /// Layers of the cutting files of parts, DXF and SVG.
 #[derive(Clone, Copy, Debug, Default, Eq, PartialEq)]
 pub enum Layers {
-    /// Contour and holes: what is cut.
+    /// Contour and holes: the lines to cut.
     #[default]
     Cut,
     /// Pitch curve, tip and root curves, and centre lines too, on layers that do not plot (R12 has no such layers).
@@ -57,10 +57,10 @@ pub enum Layers {
 
 centrode_spec::words!(Layers { Cut = "cut", All = "all" });
 
-/// How sheets are laid out where it is not to be as the design says.
+/// Layout of sheets where it differs from the design.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct SheetOptions {
-    /// Size; default: the design's, and without one there the smallest that takes the part.
+    /// Size; default: that of the design, otherwise the smallest size on which the part fits.
     pub size: Option<SheetSize>,
     /// How views lie to each other; default: as in the design.
     pub projection: Option<Projection>,

@@ -20,7 +20,7 @@ use crate::{
 /// Formats of drawing sheets.
 const SHEETS: [Format; 2] = [Format::Sheet, Format::Pdf];
 
-/// Finest tolerance, as a share of the size of a machine: contours of a gear still take some ten thousands of pieces.
+/// Finest tolerance, relative to the size of a machine: contours of a gear then have some ten thousand pieces.
 const FINEST: f64 = 1e-9;
 
 /// The title of a design, or its name where it has none.
@@ -36,7 +36,7 @@ pub struct Package<'a> {
     machine: &'static str,
     /// The design's title, or its name.
     design: &'a str,
-    /// Begins the names of parts and files.
+    /// Prefix of the names of parts and files.
     prefix: &'static str,
     formats: Vec<Format>,
     options: &'a Options,
@@ -97,12 +97,12 @@ impl<'a> Package<'a> {
         format!("{}{part}", self.prefix)
     }
 
-    /// The design and one of its parts in words.
+    /// Title of a part: the design and the part.
     pub(crate) fn titled(&self, part: &str) -> String {
         format!("{}: {part}", self.design)
     }
 
-    /// Whether a part is requested, and in one of these formats.
+    /// Registers a part; returns whether it is requested in one of these formats.
     fn takes(&mut self, part: &str, formats: &[Format]) -> bool {
         let part = self.name_of(part);
         let required = self.options.wants(&part) && self.wants(formats);
@@ -130,8 +130,8 @@ impl<'a> Package<'a> {
         Ok(())
     }
 
-    /// Refuses a tolerance of less than a billionth of a size of the machine, mm, for files that take more pieces for it; in STEP
-    /// curves are as they are.
+    /// Refuses a tolerance of less than a billionth of a size of the machine, mm, unless only STEP is requested, whose curves are
+    /// exact.
     pub(crate) fn coarser_than(&self, size: f64, of: &'static str) -> Result<(), ExportError> {
         let (tolerance, minimum) = (self.tolerance().mm(), FINEST * size);
         let is_exact = self.formats.iter().all(|format| *format == Format::Step);
@@ -238,7 +238,7 @@ impl<'a> Package<'a> {
         self.columns(part, name, &[Format::Csv], columns)
     }
 
-    /// Offers points that the sheets of a part name: they go with those sheets, too.
+    /// Offers a table of points that the sheets of a part refer to: it is also written with those sheets.
     pub(crate) fn points(
         &mut self,
         part: &str,
@@ -284,7 +284,7 @@ impl<'a> Package<'a> {
         &mut self,
         make: impl FnOnce() -> Result<LinkedMachine, ExportError>,
     ) -> Result<(), ExportError> {
-        // A smaller machine within this one is in its models.
+        // The models of a larger machine contain the smaller machine within it.
         let own = self.prefix.is_empty();
         let models = own && self.wants(&[Format::Csv, Format::Urdf, Format::Mjcf]);
         let sheets = self.takes(ARRANGEMENT, &SHEETS);
@@ -307,7 +307,7 @@ impl<'a> Package<'a> {
         Ok(())
     }
 
-    /// Offers the general arrangement of a machine, unless nothing is drawn of it.
+    /// Offers the general arrangement of a machine, unless it has no figures.
     pub(crate) fn arrangement(&mut self, machine: &LinkedMachine) -> Result<(), ExportError> {
         if machine.figures.is_empty() {
             return Ok(());
@@ -319,7 +319,7 @@ impl<'a> Package<'a> {
         })
     }
 
-    /// Adds the files of a smaller machine within this one, models aside, with a prefix to their names.
+    /// Adds the files of a smaller machine within this one, without simulator models, with a prefix to their names.
     pub(crate) fn within(
         &mut self,
         prefix: &'static str,
@@ -339,7 +339,7 @@ impl<'a> Package<'a> {
         Ok(self.bundle.append(inner.bundle)?)
     }
 
-    /// Adds the PDF of all sheets, the general arrangement first, where there are several parts.
+    /// Adds the PDF of all sheets, the general arrangement first, if there are several parts.
     fn bind(&mut self) -> Result<(), ExportError> {
         let mut book = std::mem::take(&mut self.book);
         if book.len() < 2 {
@@ -357,8 +357,8 @@ impl<'a> Package<'a> {
     /// The files, not yet on disk.
     ///
     /// # Errors
-    /// [`ExportError::UnknownPart`] where a requested part was never offered; [`ExportError::Pdf`] where the sheets of all
-    /// parts make no file.
+    /// [`ExportError::UnknownPart`] where a requested part was never offered; [`ExportError::Pdf`] where the sheets of all parts
+    /// cannot be written.
     pub fn finish(mut self) -> Result<Bundle, ExportError> {
         self.bind()?;
         let required = self.options.parts.iter().flatten();

@@ -1,4 +1,4 @@
-//! Heat treatment of a part as sheets have it.
+//! Heat treatment of a part as written on sheets.
 
 /// Heat treatment in words: as stated, or that there is none.
 pub(crate) fn treatment(stated: &str) -> &str {

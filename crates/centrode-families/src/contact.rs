@@ -1,7 +1,7 @@
 use centrode_analysis::Contact;
 use centrode_export::picture::Curve;
 
-/// Findings of running finished gears together, along the cycle.
+/// Curves of the contact of the finished gears along the cycle.
 pub(super) fn contact_curves(contact: &Contact) -> Vec<Curve> {
     let curve = |chart, name, unit, value: &[f64]| {
         Curve::new([chart, name, unit], &contact.input, value.to_vec())

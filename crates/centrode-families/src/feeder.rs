@@ -14,12 +14,12 @@ use centrode_synthesis::optimise::{DesignProblem, NotSearched};
 use serde_json::json;
 use std::f64::consts::TAU;
 
-/// Points of a cycle at which the torque is computed.
+/// Intervals of a cycle, at whose ends the torque is computed.
 const SAMPLES: u32 = 360;
 
-/// Tolerance of the picture, as a share of the frame.
+/// Tolerance of the picture, as a share of the frame's length.
 const DRAWN: f64 = 1e-4;
-/// Times that tolerance while no teeth are cut, for a picture quick enough to follow a hand that drags a handle.
+/// Factor on that tolerance as long as no teeth are cut: the picture is then fast enough to follow a handle that is dragged.
 const COARSE: f64 = 10.0;
 
 impl Mechanism for Feeder {
@@ -51,7 +51,7 @@ impl Mechanism for Feeder {
         (check_feeder(self), torques(self))
     }
 
-    /// The angle of coupler and rocker is wanted as far from a straight line as from none.
+    /// The goal bounds the angle of coupler and rocker on both sides: above its minimum, below 180 degrees less that minimum.
     fn limits(&self, report: &Report) -> Vec<Limit> {
         let mut all = Limit::of_goal(report, "transmission-angle", "Angle of coupler and rocker");
         if let Some(minimum) = all.first() {
@@ -73,8 +73,8 @@ impl Mechanism for Feeder {
         feeder::curves(self)
     }
 
-    /// Picture of the moving six-bar, with the path of its tip. The gears are plain: cutting their teeth takes longer
-    /// than an eye waits.
+    /// Picture of the moving six-bar, with the path of its tip. The gears are drawn without teeth, because cutting the teeth
+    /// takes too long for a first picture.
     fn picture(&self) -> Picture {
         drawn(self, None)
     }
@@ -140,7 +140,7 @@ impl Resolved for Feeder {
     }
 }
 
-/// Torque of the crank along the cycle; none where a link makes no plate.
+/// Torque of the crank along the cycle; an empty list if a link has no plate.
 fn torques(machine: &Feeder) -> Vec<Curve> {
     let Ok(system) = FeederForces::analyse(machine) else {
         return Vec::new();
@@ -175,11 +175,11 @@ fn drawn(machine: &Feeder, gears: Option<&IntermittentPair>) -> Picture {
     picture
 }
 
-/// Handle on each part, a point that sets one of the linkage's numbers.
+/// Handles, one on each part: a point that sets a length of the linkage.
 fn joints(machine: &Feeder) -> [(FeederPart, Handle); 6] {
     let spec = &machine.design().linkage;
-    // A length reaches along its own link, at whatever angle that is. Coupler and rocker end in one joint: each is held in its middle.
-    // The pivot is on top: a coupler that passes over it must not keep it from being reached.
+    // A length is set along its own link, at any angle. Coupler and rocker end in one joint: each has its handle in its middle.
+    // The pivot is on top, so that it can be reached even if a coupler passes over it.
     use FeederPart::{Coupler, Crank, Effector, Frame, Rocker};
     use HandlePlane::{Cartesian, Polar};
     #[rustfmt::skip]

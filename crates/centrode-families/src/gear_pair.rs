@@ -14,10 +14,10 @@ use centrode_kinematics::machine::LinkedMachine;
 use centrode_spec::{Design, MechanismError};
 use std::sync::Arc;
 
-/// Tolerance of the picture, as a share of the module: a tenth of a pixel when a tooth is as high as a hand.
+/// Tolerance of the picture, as a share of the module: a tenth of a pixel if a tooth is drawn as high as a hand.
 const DRAWN: f64 = 2e-3;
 
-/// A remedy in words.
+/// Description of a remedy.
 fn words(pair: &GearPair, remedy: &PairRemedy) -> String {
     let mut teeth = match remedy.addendum {
         Addendum::Full => "full teeth".to_owned(),
@@ -34,7 +34,7 @@ fn words(pair: &GearPair, remedy: &PairRemedy) -> String {
         );
     }
     let (minimum, written) = (remedy.minimum_tooth_count, pair.driver().tooth_count());
-    // The driven gear has a whole number of teeth.
+    // The tooth counts of the driver go in such steps that the driven gear has a whole number of teeth.
     let fewer = minimum - pair.mean_ratio().1;
     let below = match fewer {
         0 => String::new(),

@@ -2,10 +2,10 @@ use centrode_export::picture::{Handle, HandlePlane};
 use centrode_gear::pitch::{PitchSpec, Plane};
 use std::f64::consts::{PI, TAU};
 
-/// Maximum number of points of a pitch curve that get a handle each: more would hide the curve.
+/// Maximum number of points of a pitch curve for which handles are drawn: more handles would hide the curve.
 const MAX_HANDLES: usize = 60;
 
-/// Handles at the points of a pitch curve whose length is `length` mm in the picture, on a link.
+/// Handles at the points of a pitch curve on a link; `length` is the length of the curve in the picture, mm.
 pub(super) fn handles(pitch: &PitchSpec, length: f64, link: usize) -> Vec<Handle> {
     let (plane, first, second): (_, &[f64], &[f64]) = match pitch {
         PitchSpec::Bspline(s) if s.plane == Plane::Polar => {
@@ -27,7 +27,7 @@ pub(super) fn handles(pitch: &PitchSpec, length: f64, link: usize) -> Vec<Handle
     let handle = |(i, &a): (usize, &f64)| {
         let (keys, b) = match plane {
             HandlePlane::Cartesian => (["x", "y"], second.get(i).copied()),
-            // A table without angles has equal steps.
+            // A table without angles has points at equal angular steps.
             HandlePlane::Polar if second.is_empty() => (["radius", ""], Some(turn * i as f64)),
             HandlePlane::Polar => (["radius", "angle_deg"], second.get(i).copied()),
         };
@@ -55,12 +55,12 @@ pub(super) fn handles(pitch: &PitchSpec, length: f64, link: usize) -> Vec<Handle
     first.iter().enumerate().filter_map(handle).collect()
 }
 
-/// The angle in degrees, without the noise of its way through radians.
+/// The angle in degrees, without the rounding error of the conversion from radians.
 pub(super) fn degrees(radians: f64) -> f64 {
     (radians.to_degrees() * 1e10).round() / 1e10
 }
 
-/// Factor by which module and tooth count scale the curve as written.
+/// Factor by which module and tooth count scale the curve of the design file.
 fn scale(pitch: &PitchSpec, length: f64) -> f64 {
     let mut unscaled = pitch.clone();
     let (module, tooth_count) = match &mut unscaled {

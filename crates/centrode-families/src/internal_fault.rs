@@ -10,8 +10,8 @@ pub struct InternalFault;
 impl InternalFault {
     /// Result of a job; a panic in it becomes this error.
     ///
-    /// What the job was changing stays as it was at the panic. A job that runs within a [`Cancel`](centrode_geometry::Cancel) must not
-    /// call this: cancelling unwinds, too.
+    /// Data that the job was changing stays in its state at the panic. A job that runs within a
+    /// [`Cancel`](centrode_geometry::Cancel) must not call this: cancelling unwinds, too.
     ///
     /// # Errors
     /// [`InternalFault`] if the job panics.

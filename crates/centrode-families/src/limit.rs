@@ -3,19 +3,19 @@ use std::borrow::Cow;
 use centrode_analysis::Report;
 use serde::Serialize;
 
-/// Value that a goal or a finding requires of the figure of a chart, in the unit shown.
+/// Value that a goal or a finding requires of the figure that a chart shows, in the unit of the chart.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Limit {
-    /// Chart whose figure it is.
+    /// Chart that shows the figure.
     pub chart: Cow<'static, str>,
     /// Minimum or maximum required figure.
     pub value: f64,
-    /// Whether the figure is to be no less.
+    /// Whether `value` is the minimum; otherwise it is the maximum.
     pub minimum: bool,
 }
 
 impl Limit {
-    /// Ends of the range in which a goal of the report requires a figure; `None` without that goal.
+    /// Ends of the range that a goal of the report requires for a figure; empty if the report has no such goal.
     #[must_use]
     pub fn of_goal(
         report: &Report,
@@ -39,7 +39,7 @@ impl Limit {
         .collect()
     }
 
-    /// Figure that the findings of a rule require; none without such a finding.
+    /// Values that the findings of a rule require of a figure; empty if there is no such finding.
     #[must_use]
     pub fn of_rule(report: &Report, rule: &str, chart: &'static str) -> Vec<Self> {
         let findings = report.findings.iter().filter(|found| found.rule == rule);

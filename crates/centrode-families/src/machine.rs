@@ -75,7 +75,7 @@ impl Mechanism for Machine {
         machine_figures(self)
     }
 
-    /// Goals of a dyad's minimum transmission angle are drawn where the minimum of all dyads is.
+    /// Goals of the minimum transmission angle of one dyad are drawn in the chart of the minimum of all dyads.
     fn limits(&self, report: &Report) -> Vec<Limit> {
         let goals = self.design().goals.iter();
         let of_dyads = goals.filter(|(_, goal)| {
@@ -153,7 +153,7 @@ fn handles(composed: &Machine) -> Vec<Handle> {
     let bars = composed.dyads().iter().flat_map(|dyad| {
         let lengths = design.dyads.get(&dyad.name).map(|spec| &spec.lengths[..]);
         let lengths = lengths.unwrap_or_default().iter().enumerate();
-        // Both bars end in one joint: each is held in its middle.
+        // Both bars end in one joint: each has its handle in its middle.
         let scale = if dyad.kind == DyadKind::TwoBars {
             0.5
         } else {

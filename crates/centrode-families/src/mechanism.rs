@@ -11,10 +11,10 @@ use std::any::Any;
 use std::fmt::Debug;
 use std::sync::Arc;
 
-/// Finest tolerance that has a meaning for curves without a step of their own, mm.
+/// Finest useful tolerance, mm, for curves that do not have a step of their own.
 pub const FINEST: f64 = 1e-9;
 
-/// A resolved mechanism of whatever family.
+/// A resolved mechanism of any family.
 pub trait Mechanism: Any + Debug + Send + Sync {
     /// Design of the mechanism.
     fn design(&self) -> &dyn Design;
@@ -25,60 +25,60 @@ pub trait Mechanism: Any + Debug + Send + Sync {
     /// Checks everything.
     fn check(&self) -> Report;
 
-    /// Checks the motion alone: goals, figures and findings without any tooth or cam, some ten times quicker.
+    /// Checks the motion alone: goals, figures and findings without any tooth or cam, about ten times faster.
     fn check_motion(&self) -> Report {
         self.check()
     }
 
-    /// Checks the goals alone: those of [`Mechanism::check_motion`], whose report may hold more.
+    /// Checks the goals alone: those of [`Mechanism::check_motion`]. The report may hold more.
     fn check_goals(&self) -> Report {
         self.check_motion()
     }
 
-    /// Whether it has goals that [`Mechanism::check_goals`] shows much sooner than [`Mechanism::check`].
+    /// Whether the mechanism has goals that [`Mechanism::check_goals`] checks much sooner than [`Mechanism::check`].
     fn goals_come_first(&self) -> bool {
         false
     }
 
-    /// Report of [`Mechanism::check`] with the curves along the cycle that it yields.
+    /// Report of [`Mechanism::check`] with the curves along the cycle that this check computes.
     fn check_with_curves(&self) -> (Report, Vec<Curve>) {
         (self.check(), Vec::new())
     }
 
-    /// Figures that a design of its family can name in goals, with their extremes over the cycle; empty where its goals are given.
+    /// Figures that the goals of a design can name, with their extremes over the cycle; empty if the family fixes its goals.
     fn figures(&self) -> Vec<Table> {
         Vec::new()
     }
 
-    /// Changed designs that fix the findings of the check, each with its effect in words; empty if none is known.
+    /// Changed designs that fix the findings of the check, each with a description of its effect; empty if none is known.
     fn remedies(&self) -> Vec<(String, Box<dyn Design>)> {
         Vec::new()
     }
 
-    /// Why no change of its teeth mends it; `None` where that is not known.
+    /// Reason why no change of the teeth fixes the findings; `None` if no reason is known.
     fn no_remedy(&self) -> Option<String> {
         None
     }
 
-    /// Pairs of gears that mesh all along the cycle, each once with its name; empty in a family without.
+    /// Pairs of gears that mesh all along the cycle, each once with its name; empty in a family without such pairs.
     ///
     /// # Errors
-    /// [`GearPairError`] where no teeth can be cut.
+    /// [`GearPairError`] if the teeth cannot be cut.
     fn pairs(&self) -> Result<Vec<(String, Arc<GearPair>)>, GearPairError> {
         Ok(Vec::new())
     }
 
-    /// Machine with its crank driven by gears, so that its output does what its goals require; `None` in a family without.
+    /// Machine whose crank is driven by gears so that its output meets its goals; `None` in a family without such a drive.
     fn gear_drive(&self, _spec: &GearDriveSpec) -> Option<Result<GearDrive, GearDriveError>> {
         None
     }
 
-    /// Values that its report requires of figures that are drawn along the cycle.
+    /// Values that the report requires of figures that are drawn along the cycle.
     fn limits(&self, _report: &Report) -> Vec<Limit> {
         Vec::new()
     }
 
-    /// Speed of the input, rad/s; `None` in a family whose design has none.
+    /// Speed of the input, rad/s; `None` if designs of the family give no speed.
     fn input_speed(&self) -> Option<f64> {
         None
     }
@@ -86,10 +86,10 @@ pub trait Mechanism: Any + Debug + Send + Sync {
     /// Curves that are available at once.
     fn curves(&self) -> Vec<Curve>;
 
-    /// Picture that is available at once, with the handles of its numbers.
+    /// Picture that is available at once, with the handles of the design's numbers.
     fn picture(&self) -> Picture;
 
-    /// Whether that picture lacks details that take longer to make.
+    /// Whether [`Mechanism::picture`] lacks details that take longer to make.
     fn is_coarse(&self) -> bool {
         false
     }
@@ -102,10 +102,10 @@ pub trait Mechanism: Any + Debug + Send + Sync {
     /// Model of the machine as links and joints.
     ///
     /// # Errors
-    /// [`ExportError`] where a part cannot be made.
+    /// [`ExportError`] if a part cannot be made.
     fn machine(&self) -> Result<LinkedMachine, ExportError>;
 
-    /// Finest tolerance of its files that has a meaning, mm.
+    /// Finest useful tolerance of the files, mm.
     fn accuracy(&self) -> f64 {
         FINEST
     }
@@ -113,7 +113,7 @@ pub trait Mechanism: Any + Debug + Send + Sync {
     /// The files in the requested formats, not yet on disk.
     ///
     /// # Errors
-    /// [`ExportError`], for instance where the tolerance is too coarse.
+    /// [`ExportError`], for instance if the tolerance is too coarse.
     fn files(&self, formats: &[Format], options: &Options) -> Result<Bundle, ExportError>;
 }
 

@@ -39,7 +39,7 @@ impl Mechanism for MovingBox {
         shaft::box_curves(self).unwrap_or_default()
     }
 
-    /// The developed groove with its slider, by the input of the machine.
+    /// The developed groove with its slider, as a function of the input of the machine.
     fn picture(&self) -> Picture {
         let mut picture = drawn(self.shaft(), shaft::moving_box_drawn(self));
         picture.handles = window(self.shaft(), "shaft.", |input| self.shaft_turn(input));

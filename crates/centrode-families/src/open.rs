@@ -31,7 +31,7 @@ impl OpenDesign {
     /// Mechanism of the design.
     ///
     /// # Errors
-    /// [`DesignError`] at the key to blame.
+    /// [`DesignError`] with the key at fault.
     pub fn mechanism(&self) -> Result<Arc<dyn Mechanism>, DesignError> {
         let found = self.family.resolve(self.design());
         found.map_err(|error| self.file.blame(error))

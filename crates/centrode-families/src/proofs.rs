@@ -7,7 +7,7 @@ use super::Mechanism;
 /// Reason why there is no certificate of a machine's gears.
 #[derive(Debug, thiserror::Error)]
 pub enum NotProved {
-    /// No gears mesh all along its cycle.
+    /// No gears of the machine mesh all along the cycle.
     #[error(
         "there is no certificate for family {family:?} as designed: no pair of its gears meshes all along the cycle"
     )]
@@ -15,7 +15,7 @@ pub enum NotProved {
         /// Family of the design.
         family: &'static str,
     },
-    /// It has no pair of that name.
+    /// The machine has no pair of that name.
     #[error("there is no pair {name:?}; there are {}", .known.join(", "))]
     Unknown {
         /// The requested name.
@@ -23,7 +23,7 @@ pub enum NotProved {
         /// Names of its pairs.
         known: Vec<String>,
     },
-    /// It has several pairs where one is requested.
+    /// The machine has several pairs, but a single one is requested.
     #[error("there are several pairs: name one of {}", .known.join(", "))]
     Several {
         /// Names of its pairs.
@@ -35,25 +35,26 @@ pub enum NotProved {
     /// The design cannot be written.
     #[error(transparent)]
     Design(#[from] DesignError),
-    /// A pair has none.
+    /// A pair has no certificate.
     #[error("pair {name}: {error}")]
     Pair {
         /// Name of the pair.
         name: String,
-        /// Why.
+        /// Reason.
         #[source]
         error: Box<ProofError>,
     },
 }
 
-/// Certificate of a pair, or why it has none.
+/// Certificate of a pair, or the reason why it has none.
 pub type Proved = Result<Proof, NotProved>;
 
 impl dyn Mechanism {
-    /// Certificates of the contact of its gear pairs at every driver angle: of that named, or of all; each by the pair's name.
+    /// Certificates of the contact of gear pairs at every driver angle, each with the name of its pair: of the named pair, or
+    /// of all.
     ///
     /// # Errors
-    /// [`NotProved`] where there is no such pair, or no teeth can be cut; in the list, of a pair that has no certificate.
+    /// [`NotProved`] if there is no such pair, or its teeth cannot be cut; in the list, for each pair without a certificate.
     pub fn proofs(&self, pair: Option<&str>) -> Result<Vec<(String, Proved)>, NotProved> {
         let mut pairs = self.pairs()?;
         if pairs.is_empty() {
@@ -85,10 +86,10 @@ impl dyn Mechanism {
         Ok(proved.collect())
     }
 
-    /// The certificate of the pair named, or of its only one.
+    /// The certificate of the named pair, or of the only pair.
     ///
     /// # Errors
-    /// [`NotProved`], as for all its proofs; where there are several pairs and none is named, their names.
+    /// [`NotProved`], as for the certificates of all pairs; [`NotProved::Several`] if there are several pairs and none is named.
     pub fn proof(&self, pair: Option<&str>) -> Proved {
         let pairs = self.pairs()?;
         if pair.is_none() && pairs.len() > 1 {

@@ -8,12 +8,12 @@ use centrode_synthesis::optimise::{DesignProblem, NotSearched};
 
 use super::{Depth, Mechanism, OpenDesign, Widening, WideningError};
 
-/// Mechanism of one family: all that the registry reads of it next to the mechanism itself.
+/// Mechanism of one family, with all that the registry needs in addition to the mechanism itself.
 pub trait Resolved: Mechanism + Sized {
     /// Design of the family.
     type Design: DesignSpec;
 
-    /// One machine of the family in a sentence, `a gear pair`.
+    /// Noun for one machine of the family, for use in sentences: `a gear pair`.
     const NOUN: &'static str;
 
     /// Parts whose files can be requested by name.
@@ -22,10 +22,10 @@ pub trait Resolved: Mechanism + Sized {
     /// Resolves a design.
     ///
     /// # Errors
-    /// [`MechanismError`] naming the key at fault.
+    /// [`MechanismError`] with the key at fault.
     fn resolve(design: &Self::Design) -> Result<Self, MechanismError>;
 
-    /// Search problem around a design.
+    /// Search problem that starts from a design.
     ///
     /// # Errors
     /// [`NotSearched`] for a design that no search accepts.
@@ -33,10 +33,10 @@ pub trait Resolved: Mechanism + Sized {
         Err(NotSearched::Family)
     }
 
-    /// Minimum widening of a design's bounds that lets all its goals be reached.
+    /// Minimum widening of a design's bounds with which all its goals can be reached.
     ///
     /// # Errors
-    /// A sentence that says why there is none.
+    /// A sentence with the reason why there is none.
     fn widen(_design: &Self::Design) -> Result<Widening, WideningError> {
         Err(format!("the bounds of {} cannot be widened", Self::NOUN).into())
     }
@@ -45,9 +45,9 @@ pub trait Resolved: Mechanism + Sized {
 /// A part of a machine, or the assembly, by its name.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub struct PartName {
-    /// Name, which its files have too.
+    /// Name of the part and of its files.
     pub name: &'static str,
-    /// Description in words.
+    /// Description.
     pub about: &'static str,
 }
 
@@ -55,7 +55,7 @@ impl PartName {
     /// The whole machine, as drawings show it.
     pub const ASSEMBLY: Self = Self::new("assembly", "The assembly");
 
-    /// Makes a part by its name, and in words.
+    /// Makes a part from its name and its description.
     #[must_use]
     pub const fn new(name: &'static str, about: &'static str) -> Self {
         Self { name, about }
@@ -68,11 +68,11 @@ type SetProblem = fn(&dyn Design) -> Result<Box<dyn DesignProblem + Send>, NotSe
 /// One family of machine.
 #[derive(Clone, Copy, Debug)]
 pub struct Family {
-    /// Design files of the family.
+    /// Name, template and reader of the family's design files.
     pub design: DesignFamily,
-    /// One machine of the family in a sentence, `a gear pair`.
+    /// Noun for one machine of the family, for use in sentences: `a gear pair`.
     pub noun: &'static str,
-    /// Parts whose files can be requested by name; none where the design names them.
+    /// Parts whose files can be requested by name; empty if the design names its parts.
     pub parts: &'static [PartName],
     resolve: Resolve,
     problem: SetProblem,
@@ -99,12 +99,12 @@ impl Family {
     /// Resolves a design.
     ///
     /// # Errors
-    /// [`MechanismError`] naming the key at fault, `family` where the design is of another.
+    /// [`MechanismError`] with the key at fault: `family` if the design is of another family.
     pub fn resolve(&self, design: &dyn Design) -> Result<Arc<dyn Mechanism>, MechanismError> {
         (self.resolve)(design)
     }
 
-    /// Search problem around a design.
+    /// Search problem that starts from a design.
     ///
     /// # Errors
     /// [`NotSearched`] for a design that no search accepts.
@@ -115,18 +115,18 @@ impl Family {
         (self.problem)(design)
     }
 
-    /// Minimum widening of a design's bounds that lets all its goals be reached.
+    /// Minimum widening of a design's bounds with which all its goals can be reached.
     ///
     /// # Errors
-    /// A sentence that says why there is none.
+    /// A sentence with the reason why there is none.
     pub fn widen(&self, design: &dyn Design) -> Result<Widening, WideningError> {
         (self.widen)(design)
     }
 
-    /// Response of the figures of a design to one of its numbers, at values in the file's unit.
+    /// Response of the figures of a design to one of its numbers, at the values given in the file's unit.
     ///
     /// # Errors
-    /// [`DesignError`] where the key is no number of the design.
+    /// [`DesignError`] if the key is not that of a number of the design.
     pub fn response(
         &self,
         design: &dyn Design,
@@ -146,7 +146,7 @@ impl AsRef<DesignFamily> for Family {
     }
 }
 
-/// Casts to a design of its own family.
+/// Casts to the design type of a family.
 fn own<D: DesignSpec>(design: &dyn Design) -> Result<&D, MechanismError> {
     design.downcast_ref().ok_or_else(|| MechanismError {
         key: "family".into(),
@@ -158,7 +158,7 @@ fn own<D: DesignSpec>(design: &dyn Design) -> Result<&D, MechanismError> {
     })
 }
 
-/// Families to choose from, by the word at the key `family`.
+/// Families that the key `family` of a design file can name.
 #[derive(Clone, Copy, Debug)]
 pub struct Families(pub &'static [Family]);
 
@@ -169,19 +169,19 @@ impl Families {
         self.0.iter().map(|family| family.design.word).collect()
     }
 
-    /// The family of a word.
+    /// The family with a name.
     #[must_use]
     pub fn named(&self, word: &str) -> Option<&'static Family> {
         self.0.iter().find(|family| family.design.word == word)
     }
 
-    /// A commented design file of a family to start from, itself a good design.
+    /// A commented design file of a family to start from, which is a valid design.
     #[must_use]
     pub fn template(&self, word: &str) -> Option<&'static str> {
         self.named(word).map(|family| family.design.template)
     }
 
-    /// The JSON schema of the design file, of whatever family.
+    /// The JSON schema of the design files of all families.
     #[must_use]
     pub fn json_schema(&self) -> serde_json::Value {
         centrode_spec::json_schema(self.0)
@@ -196,7 +196,7 @@ impl Families {
     /// Reads a design file of one of the families and checks every rule that needs no geometry.
     ///
     /// # Errors
-    /// [`DesignError`] naming key, line and column.
+    /// [`DesignError`] with key, line and column.
     pub fn read(&self, bytes: &[u8]) -> Result<OpenDesign, DesignError> {
         let (file, family) = DesignFile::read(bytes, self.0)?;
         Ok(OpenDesign::new(*family, file))

@@ -61,7 +61,7 @@ impl Resolved for SpiralShaft {
     }
 }
 
-/// The picture of a machine round a shaft; an empty one where there is none.
+/// The picture of a machine with a spiral shaft; an empty one if the machine cannot be made.
 pub(super) fn drawn(shaft: &SpiralShaft, machine: Result<LinkedMachine, ExportError>) -> Picture {
     let tolerance = Tolerance::new(DRAWN * shaft.groove().width());
     match (machine, tolerance) {
@@ -82,8 +82,8 @@ pub(super) fn in_words(shaft: &SpiralShaft) -> String {
     )
 }
 
-/// Middle and end of the window in which a seedling is picked, at the near and the far end of the development:
-/// side by side they would lie on one another.
+/// Handles at the middle and the end of the window in which a seedling is picked. They are at the near and the far end of the
+/// development, because next to each other they would overlap.
 pub(super) fn window(
     part: &SpiralShaft,
     table: &str,
@@ -95,7 +95,7 @@ pub(super) fn window(
     let (design, radius) = (part.design(), part.groove().radius());
     let handle = |name: &str, key: &str, value: f64, input: f64, [x, share]: [f64; 2]| {
         let at = turn(input);
-        // One degree of the number moves the point so far; the turned surface runs downwards.
+        // `scale` is the distance, mm, by which one degree of the number moves the point; the turned surface runs downwards.
         let scale = -radius * at.velocity * share * 1.0_f64.to_radians();
         let place = -radius * at.position.rem_euclid(TAU);
         Handle {

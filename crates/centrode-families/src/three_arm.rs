@@ -18,15 +18,15 @@ use centrode_synthesis::optimise::three_arm::ThreeArmProblem;
 use centrode_synthesis::optimise::{DesignProblem, NotSearched};
 use std::sync::Arc;
 
-/// Chart of the arms' clearance from one another and from the tray.
+/// Chart of the clearances: between the arms, and between the arms and the tray.
 const ARM_CLEARANCE: &str = "Clearance of the arms";
 
-/// Parts of a carrier turn in which the arms' clearance is shown.
+/// Number of intervals of a carrier turn, at whose ends the clearance is shown.
 const PARTS: u32 = 120;
 
 /// Tolerance of the picture, as a share of the distance between two axes.
 const DRAWN: f64 = 1e-4;
-/// Times that tolerance while no teeth are cut, for a picture quick enough to follow a hand that drags a handle.
+/// Factor on that tolerance as long as no teeth are cut: the picture is then fast enough to follow a handle that is dragged.
 const COARSE: f64 = 10.0;
 
 impl Mechanism for ThreeArm {
@@ -61,7 +61,7 @@ impl Mechanism for ThreeArm {
         (found, checked_curves(self, teeth.ok().flatten().as_ref()))
     }
 
-    /// Sun and intermediate gear represent every mesh: a planet is the sun's part again.
+    /// Sun and intermediate gear represent every mesh, because a planet is the same part as the sun.
     fn pairs(&self) -> Result<Vec<(String, Arc<GearPair>)>, GearPairError> {
         if self.design().gear_tooth_count().is_none() {
             return Ok(Vec::new());
@@ -77,7 +77,7 @@ impl Mechanism for ThreeArm {
         three_arm::curves(self)
     }
 
-    /// Picture of the mechanism with plain gears: cutting teeth takes longer than an eye waits.
+    /// Picture of the mechanism. Its gears have no teeth, because cutting the teeth takes too long for a first picture.
     fn picture(&self) -> Picture {
         drawn(self, None)
     }
@@ -143,7 +143,8 @@ impl Resolved for ThreeArm {
     }
 }
 
-/// Motion of all arms, their clearances, and contact of the flanks of sun and first intermediate gear, by the carrier's turn.
+/// Curves over the carrier's turn: motion of all arms, their clearances, and contact of the flanks of sun and first
+/// intermediate gear.
 fn checked_curves(mechanism: &ThreeArm, teeth: Option<&TrainTeeth>) -> Vec<Curve> {
     let mut curves = three_arm::arm_curves(mechanism);
     if let Some(course) = arm_clearance_course(mechanism, PARTS) {

@@ -54,9 +54,9 @@ pub enum BundleError {
     /// The system refused an action.
     #[error("cannot {action} {}: {source}", path.display())]
     Disk {
-        /// Action tried.
+        /// Action that failed.
         action: &'static str,
-        /// Path of it.
+        /// Path of the file or folder.
         path: PathBuf,
         /// The system's reason.
         source: io::Error,
@@ -67,8 +67,8 @@ impl Bundle {
     /// Adds a file; its name may begin with folders, such as `collision/hub.stl`.
     ///
     /// # Errors
-    /// [`BundleError::Name`] unless folders and file have plain names,
-    /// [`BundleError::Twice`] if a file of that name (letter case aside) is there already.
+    /// [`BundleError::Name`] unless folders and file have plain names, [`BundleError::Twice`] if the bundle has a file of that
+    /// name already (letter case is ignored).
     pub fn add(&mut self, name: &str, bytes: Vec<u8>) -> Result<(), BundleError> {
         if !name.split('/').all(is_plain) {
             return Err(BundleError::Name {
@@ -91,7 +91,7 @@ impl Bundle {
     /// Adds the files of another bundle.
     ///
     /// # Errors
-    /// [`BundleError::Twice`] if a file of one of these names is there already.
+    /// [`BundleError::Twice`] if this bundle has a file of one of these names already.
     pub fn append(&mut self, mut other: Self) -> Result<(), BundleError> {
         self.solids.append(&mut other.solids);
         for (name, bytes) in other.into_files() {
@@ -107,7 +107,7 @@ impl Bundle {
             .map(|(name, bytes)| (name.as_str(), bytes.as_slice()))
     }
 
-    /// Names and contents, in order, no longer in a bundle.
+    /// Names and contents, in order; consumes the bundle.
     pub fn into_files(self) -> impl Iterator<Item = (String, Vec<u8>)> {
         self.files.into_iter()
     }
@@ -131,8 +131,8 @@ impl Bundle {
         Ok(archive.finish()?.into_inner())
     }
 
-    /// Writes every file as [`write_to`](Self::write_to), but replaces no file that no export wrote into this directory, or that
-    /// was changed since, unless `force` is set. The hidden file `.centrode-files` there lists the written files.
+    /// Writes every file like [`write_to`](Self::write_to). Unless `force` is set, it refuses to replace a file that no export
+    /// wrote into this directory, or that was changed since. The hidden file `.centrode-files` there lists the written files.
     ///
     /// # Errors
     /// [`BundleError::Foreign`] if such a file would be replaced, [`BundleError::Disk`] with the path and the system's reason.
@@ -145,14 +145,12 @@ impl Bundle {
         Ok(written)
     }
 
-    /// Writes every file into a directory, which is made if it is missing, as are folders in it.
-    /// Returns the paths.
+    /// Writes every file into a directory and returns the paths. The directory and folders in it are created if they are missing.
     ///
-    /// All contents are first written and flushed in hidden folders, then renamed: a file is there whole or, after an
-    /// error, as it was before; nothing else is left behind. Remains of a killed program are cleared by the next one that
-    /// writes there; several may write at the same time. A file written over keeps its permissions, and links to it still
-    /// lead there; what is no regular file, or read-only, is not written over. Cancelled by [`Cancel`](centrode_geometry::Cancel) it leaves
-    /// no new file.
+    /// All contents are first written and flushed in hidden folders, then renamed: a file is complete or, after an error, as it
+    /// was before; nothing else remains. The next program that writes there removes the remains of a killed one; several may
+    /// write at the same time. A replaced file keeps its permissions and the links to it; a target that is read-only or no
+    /// regular file is not replaced. Cancelled by [`Cancel`](centrode_geometry::Cancel), the export leaves no new file.
     ///
     /// # Errors
     /// [`BundleError::Disk`] with the path and the system's reason.
@@ -192,7 +190,7 @@ fn write_all(files: &[(&str, &[u8])], directory: &Path) -> Result<Vec<PathBuf>, 
     Ok(written)
 }
 
-/// Writes one file whole or, after an error, leaves the old one; its folder is made if it is missing.
+/// Writes one complete file or, after an error, leaves the old one; its folder is created if it is missing.
 ///
 /// # Errors
 /// [`BundleError::Name`] if the path does not end in a plain file name, [`BundleError::Disk`] with the
@@ -205,7 +203,7 @@ pub fn write_file(path: &Path, bytes: Vec<u8>) -> Result<(), BundleError> {
     Ok(())
 }
 
-/// Writes a new file whole or, after an error, none; a file that is there stays as it is.
+/// Writes a new complete file or, after an error, none; an existing file is not changed.
 ///
 /// # Errors
 /// [`BundleError::Name`] if the path does not end in a plain file name, [`BundleError::Disk`] with the
@@ -217,7 +215,7 @@ pub fn write_new_file(path: &Path, bytes: &[u8]) -> Result<(), BundleError> {
         let place = stage.place(name);
         put(bytes, &place, path)?;
         match fs::hard_link(&place, path) {
-            // A file system without links: only another program could take the name in between.
+            // A file system without links: rename instead. Only another program could take the name in between.
             Err(error)
                 if error.kind() != io::ErrorKind::AlreadyExists
                     && fs::symlink_metadata(path).is_err() =>

@@ -88,7 +88,7 @@ impl Column {
 /// apostrophe before it. So does the part after a semicolon or a tab, which some spreadsheets take for the next cell.
 ///
 /// # Errors
-/// [`TableError`] where columns differ in length, a number is not finite or a word holds a separator.
+/// [`TableError`] where columns differ in length, a number is not finite or a word contains a separator.
 pub fn write(columns: &[Column]) -> Result<Vec<u8>, TableError> {
     let rows = columns.first().map_or(0, Column::len);
     for column in columns {
@@ -114,7 +114,7 @@ pub fn write(columns: &[Column]) -> Result<Vec<u8>, TableError> {
     Ok(text.into_bytes())
 }
 
-/// A word as a spreadsheet reads it without running it.
+/// A word in a form that a spreadsheet does not run as a formula.
 fn inert(word: &str) -> String {
     if word.parse::<f64>().is_ok_and(f64::is_finite) {
         return word.to_owned();

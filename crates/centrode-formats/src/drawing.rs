@@ -6,8 +6,7 @@ use centrode_geometry::{Arc, Bounds, Outline, Point, Vector};
 pub use group::{Dimension, Group, Hatch, Object};
 use nalgebra::Isometry2;
 
-/// Lines, arcs, contours and texts on named layers, in millimetres: what every drawing format is
-/// written from.
+/// Lines, arcs, contours and texts on named layers, in millimetres: the input for every drawing format.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Drawing {
     /// The layers, in the order a program should list them.
@@ -16,10 +15,10 @@ pub struct Drawing {
     pub entities: Vec<Entity>,
 }
 
-/// A named layer; its entities look as it says.
+/// A named layer; it determines the appearance of its entities.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Layer {
-    /// Name, upper-case letters and digits by habit.
+    /// Name, by convention of upper-case letters and digits.
     pub name: String,
     /// Color.
     pub color: Color,
@@ -53,7 +52,7 @@ pub enum Color {
 /// Pattern of a line.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum LineType {
-    /// Drawn through.
+    /// Solid line.
     Continuous,
     /// Long dash, dot: axes and reference curves.
     Center,
@@ -64,7 +63,7 @@ pub enum LineType {
 }
 
 impl LineType {
-    /// All of them.
+    /// All patterns.
     pub const ALL: [Self; 4] = [Self::Continuous, Self::Center, Self::Hidden, Self::Phantom];
 
     /// Dashes (positive) and gaps (negative), mm; a dot is a dash of no length.
@@ -112,7 +111,7 @@ pub enum EntityShape {
     Mark(Point),
     /// One line of text.
     Text(Text),
-    /// Entities that are one object together; its layer is that of this entity.
+    /// Entities that form one object, on the layer of this entity.
     Group(Group),
 }
 
@@ -149,13 +148,12 @@ pub struct Text {
     pub anchor: Anchor,
     /// Direction of the baseline, rad.
     pub rotation: f64,
-    /// Length of the baseline, mm, to which a reader with another font is to fit the words; `None` where
-    /// it does not matter.
+    /// Length of the baseline, mm, to which a reader with another font must fit the words; `None` if any length is good.
     pub width: Option<f64>,
 }
 
 impl Text {
-    /// A level line of text of no set length.
+    /// A horizontal line of text without a set length.
     #[must_use]
     pub fn new(at: Point, height: f64, words: impl Into<String>, anchor: Anchor) -> Self {
         Self {
@@ -221,14 +219,14 @@ impl Drawing {
         });
     }
 
-    /// Drops every layer that is not among these, and what lies on it.
+    /// Removes every layer that is not among these, and its entities.
     pub fn keep(&mut self, layers: &[&str]) {
         self.layers.retain(|layer| layers.contains(&&*layer.name));
         self.entities
             .retain(|entity| layers.contains(&&*entity.layer));
     }
 
-    /// All entities in drawing order, each group by what is drawn for it.
+    /// All entities in drawing order, each group replaced by its drawn entities.
     pub fn plain(&self) -> impl Iterator<Item = &Entity> {
         self.entities.iter().flat_map(Entity::plain)
     }
@@ -287,7 +285,7 @@ impl EntityShape {
             Self::Line(start, end) => of(&[*start, *end]),
             Self::Circle { center, radius } => Outline::circle(*center, *radius).bounds(),
             Self::Arc(arc) => {
-                // The full circle for arcs of more than a half turn, chord and middle below.
+                // For arcs over half a turn the full circle, otherwise chord and middle.
                 let middle = centrode_geometry::Segment::Arc(*arc).at(0.0).point;
                 if arc.bulge.abs() > 1.0 {
                     Outline::circle(arc.center(), arc.radius()).bounds()

@@ -40,7 +40,7 @@ centrode_spec::words!(Format {
     Mjcf = "mjcf",
 });
 
-/// Receiver of a design's files, who decides formats and tolerance.
+/// Purpose of a design's files, which determines formats and tolerance.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 #[non_exhaustive]
 pub enum Purpose {
@@ -50,7 +50,7 @@ pub enum Purpose {
     Print,
     /// A CAD program.
     Cad,
-    /// A shop that makes parts from drawings.
+    /// A workshop that makes parts from drawings.
     Drawing,
     /// A simulator.
     Simulation,
@@ -65,12 +65,12 @@ centrode_spec::words!(Purpose {
 });
 
 impl Format {
-    /// Those written where none is named: for a cutter, CAD, a shop and a printer.
+    /// Default formats: for a cutter, CAD, a workshop and a printer.
     pub const USUAL: [Self; 5] = [Self::Dxf, Self::Svg, Self::Pdf, Self::Step, Self::ThreeMf];
 }
 
 impl Purpose {
-    /// Formats for it, in the order files are written.
+    /// Formats for the purpose, in the order files are written.
     #[must_use]
     pub fn formats(self) -> &'static [Format] {
         match self {
@@ -82,7 +82,7 @@ impl Purpose {
         }
     }
 
-    /// Tolerance for it, mm: a tenth of a nozzle's steps for a printer, finer than any machine cuts for the others.
+    /// Tolerance for the purpose, mm: for a printer a tenth of its steps, for the others finer than any machine cuts.
     #[must_use]
     pub fn tolerance(self) -> f64 {
         match self {

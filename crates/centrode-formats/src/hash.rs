@@ -1,4 +1,5 @@
-//! SHA-256 hashes: the manifest of a folder names by them which files were written, the policy of a page what may run in it.
+//! SHA-256 hashes: the manifest of a folder identifies written files by them, the policy of a page the scripts that may run in
+//! it.
 
 /// First 32 bits of the fractional parts of the square roots of the first 8 primes.
 const START: [u32; 8] = [

@@ -3,7 +3,7 @@
 use centrode_geometry::{MassProperties, Mesh};
 use nalgebra::{Rotation3, Unit, Vector3};
 
-/// Most triangles of a mesh that a model shows. `MuJoCo` reads no STL file of more than 200 000.
+/// Maximum number of triangles of a visible mesh. `MuJoCo` reads no STL file of more than 200 000.
 pub const MAX_FACES: usize = 100_000;
 
 /// Rigid links joined by joints, as simulators require them; lengths in mm here, whatever a format uses.
@@ -26,20 +26,20 @@ pub struct ModelLink {
     pub name: String,
     /// Mass and inertia in the link's frame; `None` for a link without a body.
     pub mass: Option<MassProperties>,
-    /// Meshes it is seen as.
+    /// Visible meshes.
     pub meshes: Vec<Seen>,
-    /// Convex bodies it touches other links with; together they need not be the whole link.
+    /// Convex bodies for contact with other links; together they need not fill the whole link.
     pub collision: Vec<Convex>,
 }
 
-/// A mesh that a link is seen as.
+/// A visible mesh of a link.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Seen {
     /// Name of its file in mm, next to the model file.
     pub file: String,
     /// Its origin in the link's frame, mm.
     pub at: [f64; 3],
-    /// Its turn there as roll, pitch and yaw, rad.
+    /// Its turn in the link's frame as roll, pitch and yaw, rad.
     pub turn: [f64; 3],
 }
 
@@ -58,7 +58,7 @@ impl Seen {
 /// A convex body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Convex {
-    /// Name: bodies of one name are the same body, which several links may have.
+    /// Name: bodies with the same name are one body, which several links may share.
     pub name: String,
     /// Its surface in the link's frame, mm.
     pub mesh: Mesh,
@@ -86,7 +86,7 @@ pub struct ModelJoint {
 }
 
 impl ModelJoint {
-    /// The joint with its zero at a former value, rad or mm; its link is there at rest.
+    /// The joint with its zero moved to `value` (rad or mm): at rest its link is at this value.
     #[must_use]
     pub fn starting_at(mut self, value: f64) -> Self {
         let [x, y, z] = self.turn;
@@ -116,9 +116,9 @@ impl ModelJoint {
 /// How a joint may move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum JointKind {
-    /// Not at all.
+    /// Does not move.
     Fixed,
-    /// Turns without end.
+    /// Turns without limits.
     Continuous,
     /// Slides between two positions, mm.
     Sliding([f64; 2]),

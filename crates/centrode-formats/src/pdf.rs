@@ -21,7 +21,7 @@ use krilla::{
 };
 use thiserror::Error;
 
-/// Points a millimetre.
+/// Points per millimetre.
 const POINT: f64 = 72.0 / 25.4;
 
 /// Reason why sheets could not be written as PDF.
@@ -38,7 +38,7 @@ pub enum PdfError {
 
 /// Writes sheets as the pages of one PDF/A-2b: exact sizes, strokes of true width, the font embedded.
 ///
-/// Equal sheets give equal bytes: its date is a fixed one.
+/// Equal sheets give equal bytes: the date is fixed.
 ///
 /// # Errors
 /// [`PdfError`] if the library refuses.
@@ -149,7 +149,7 @@ impl Writer {
                 vec![self.curve(&circle.cubics(self.tolerance), true)]
             }
             EntityShape::Arc(arc) => {
-                // Quarters of an arc are cubics to a few parts in ten thousand of the radius at most.
+                // Cubics for pieces of at most 0.4 rad differ from the arc by less than 1e-4 of its radius.
                 let parts = (arc.sweep().abs() / 0.4).ceil().max(1.0);
                 let segment = Segment::Arc(*arc);
                 let at = |i: f64| segment.at(-1.0 + 2.0 * i / parts);
@@ -223,7 +223,7 @@ impl Writer {
             .map_or(0, |blank| blank.glyph);
         let glyphs: Vec<KrillaGlyph> = lettering::letters(&text.words)
             .map(|letter| {
-                // The archive format has no letter that its font has not: a box is drawn there.
+                // The archive format forbids letters that the font lacks: a box is drawn instead.
                 let missing = letter.empty_box().is_some();
                 let glyph = GlyphId::new(if missing { blank } else { letter.glyph });
                 let advance = letter.advance as f32;
@@ -260,7 +260,7 @@ impl Writer {
     }
 }
 
-/// Boxes instead of letters that the font has not, from the start of a text.
+/// Boxes instead of letters that the font lacks, measured from the start of a text.
 fn boxes(text: &Text) -> impl Iterator<Item = Path> {
     let em = lettering::em(text.height) * POINT;
     let mut x = 0.0;

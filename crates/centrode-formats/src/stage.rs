@@ -3,16 +3,16 @@ use std::hash::{BuildHasher as _, Hasher as _, RandomState};
 use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
-/// Beginning and end of a stage's name, about a number of its own.
+/// Beginning and end of a stage's name, with its own number between them.
 const NAME: [&str; 2] = [".centrode-", ".part"];
 
 /// File of a stage that is locked as long as its writer lives.
 const LOCK: &str = "lock";
 
-/// Hidden folder in which files are written whole before they are renamed into the folder around it.
+/// Hidden folder in which files are written completely before they are renamed into the folder around it.
 ///
-/// Each has a name of its own and a lock, which the system lifts when the writer ends, however it ends. So a stage
-/// that can be locked by others is dead, and the next one in the same folder clears it away.
+/// Each has its own name and a lock, which the system releases when the writer ends for any reason. So a stage that others can
+/// lock is dead, and the next stage in the same folder removes it.
 #[derive(Debug)]
 pub(crate) struct Stage {
     path: PathBuf,
@@ -21,7 +21,7 @@ pub(crate) struct Stage {
 }
 
 impl Stage {
-    /// Opens a new stage in a folder, which is cleared of dead ones.
+    /// Removes the dead stages of a folder and opens a new one.
     pub(crate) fn open(folder: &Path) -> io::Result<Self> {
         clear(folder);
         loop {
@@ -31,12 +31,12 @@ impl Stage {
                 Err(taken) if taken.kind() == io::ErrorKind::AlreadyExists => continue,
                 made => made?,
             }
-            // Until it is locked it looks dead: where another writer clears it away, the next name is tried.
+            // Until the stage is locked it looks dead: if another writer removes it, the next name is tried.
             let lock = match lock_of(&path) {
                 Err(cleared) if cleared.kind() == io::ErrorKind::NotFound => continue,
                 lock => lock?,
             };
-            // Where nothing can be locked no stage is ever taken for dead either.
+            // On a system without locks no stage counts as dead.
             if !matches!(lock.try_lock(), Err(TryLockError::WouldBlock)) && path.join(LOCK).exists()
             {
                 return Ok(Self { path, _lock: lock });
@@ -46,7 +46,7 @@ impl Stage {
 
     /// Path of a file of that name while it is written.
     pub(crate) fn place(&self, name: &str) -> PathBuf {
-        // With its own name a file could be taken for the lock.
+        // Without the suffix a file could have the name of the lock.
         self.path.join(format!("{name}.part"))
     }
 }
@@ -58,9 +58,9 @@ impl Drop for Stage {
     }
 }
 
-/// Where a file of that name is written: itself, or where its links lead.
+/// Path to which a file is written: `target` itself, or the end of its links.
 pub(crate) fn destination(target: &Path) -> io::Result<PathBuf> {
-    /// Most links in a row, as on Linux.
+    /// Maximum number of links in a chain, as on Linux.
     const LINKS: u32 = 40;
     match fs::metadata(target) {
         Ok(there) if there.is_dir() => Err(io::ErrorKind::IsADirectory.into()),
@@ -70,7 +70,7 @@ pub(crate) fn destination(target: &Path) -> io::Result<PathBuf> {
             "it is read-only",
         )),
         Ok(_) if target.is_symlink() => target.canonicalize(),
-        // Links to what is still to be made.
+        // Links to a file that does not exist yet.
         Err(error) if error.kind() == io::ErrorKind::NotFound && target.is_symlink() => {
             let mut path = target.to_owned();
             for _ in 0..LINKS {
@@ -97,7 +97,7 @@ pub(crate) fn put(bytes: &[u8], place: &Path, target: &Path) -> io::Result<()> {
     file.sync_all()
 }
 
-/// File by which a stage is locked; made if it is missing, but never through a symbolic link.
+/// Lock file of a stage; created if it is missing, but never through a symbolic link.
 fn lock_of(stage: &Path) -> io::Result<File> {
     let path = stage.join(LOCK);
     match File::create_new(&path) {
@@ -111,7 +111,7 @@ fn lock_of(stage: &Path) -> io::Result<File> {
     }
 }
 
-/// Removes the stages in a folder whose writers have ended without doing so.
+/// Removes the stages in a folder whose writers ended without removing them.
 fn clear(folder: &Path) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let name = entry.file_name();

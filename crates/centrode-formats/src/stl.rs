@@ -4,8 +4,8 @@ use centrode_geometry::{Mesh, checkpoint};
 
 /// Writes a mesh as binary STL, in the mesh's own units (mm).
 ///
-/// Coordinates are single precision, as the format requires; a triangle that rounding to it makes
-/// degenerate is omitted, which leaves the rest closed.
+/// Coordinates are single precision, as the format requires; a triangle that becomes degenerate by rounding is omitted, and the
+/// rest stays closed.
 #[must_use]
 pub fn write(mesh: &Mesh) -> Vec<u8> {
     let rounded: Vec<[f32; 3]> = mesh

@@ -8,9 +8,9 @@ use crate::{
 use centrode_geometry::{Arc, Outline, Point, Segment, Tolerance, Vector};
 use std::{collections::BTreeSet, fmt::Write};
 
-/// Writes a drawing as an SVG picture, one user unit to the millimetre, with lines and true arcs.
+/// Writes a drawing as an SVG picture, one user unit per millimetre, with lines and true arcs.
 ///
-/// Curved contours become arcs within the tolerance. Numbers keep a millionth of a millimetre.
+/// Curved contours become arcs within the tolerance. Numbers are rounded to a millionth of a millimetre.
 #[must_use]
 pub fn write(drawing: &Drawing, tolerance: Tolerance) -> String {
     let mut bounds = drawing.bounds();
@@ -36,8 +36,8 @@ pub fn write(drawing: &Drawing, tolerance: Tolerance) -> String {
     out
 }
 
-/// Writes a drawing sheet as an SVG picture of its size. Words are drawn with the outlines of the sheet's own
-/// font, each line a group that carries its words as a label, so that every viewer shows the same.
+/// Writes a drawing sheet as an SVG picture of its size. Words are drawn with the outlines of the sheet's own font, so that every
+/// viewer shows the same; each line is a group with its words as a label.
 #[must_use]
 pub fn sheet(sheet: &Sheet, tolerance: Tolerance) -> String {
     let [width, height] = sheet.size.size().map(number);
@@ -100,7 +100,7 @@ fn layers(out: &mut String, drawing: &Drawing, tolerance: Tolerance, outlined: b
         let dashes = match layer.line_type {
             LineType::Continuous => String::new(),
             _ => {
-                // The round caps make a dot of a dash of next to no length; of none, not everywhere.
+                // Round caps turn a very short dash into a dot; not every viewer draws a dash of length zero.
                 let dashes: Vec<String> = layer
                     .line_type
                     .pattern()

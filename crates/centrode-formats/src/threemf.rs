@@ -43,8 +43,8 @@ const RELATIONS: &str = concat!(
 
 /// Writes a mesh as a 3MF package in millimetres, its object called `name`, the model `title`.
 ///
-/// Coordinates are single precision, as readers take them; vertices which that makes one are written
-/// once, which leaves the mesh closed.
+/// Coordinates are single precision, as in readers; vertices that rounding makes equal are written once, so that the mesh stays
+/// closed.
 ///
 /// # Errors
 /// [`PackageError`] if the package would be larger than the format holds.
@@ -78,7 +78,7 @@ pub struct Object<'a> {
     pub items: Vec<(String, Isometry3<f64>)>,
 }
 
-/// Writes bodies in their positions as one 3MF package in millimetres, as [`write()`] does one.
+/// Writes bodies in their positions as one 3MF package in millimetres, each as in [`write()`].
 ///
 /// # Errors
 /// [`PackageError`] if the package would be larger than the format holds.
@@ -108,7 +108,7 @@ fn model(objects: &[Object<'_>], title: &str) -> String {
          <resources>\n",
         escaped(title),
     );
-    // Colours have a number of their own after those of the objects.
+    // The list of colours has its own id after those of the objects.
     let colors = objects.len() + 1;
     let bases = objects.iter().filter_map(|object| {
         let [r, g, b] = object.color?;
@@ -183,7 +183,7 @@ fn item(object: usize, name: &str, place: &Isometry3<f64>) -> String {
     words + "/>\n"
 }
 
-/// Vertices rounded to single precision, equal ones merged, and the faces that are left.
+/// Vertices rounded to single precision, equal ones merged, and the remaining faces.
 fn single_precision(mesh: &Mesh) -> (Vec<[f32; 3]>, Vec<[u32; 3]>) {
     let mut numbers = HashMap::new();
     let mut vertices = Vec::with_capacity(mesh.vertices.len());

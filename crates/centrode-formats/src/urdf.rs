@@ -8,14 +8,14 @@ use urdf_rs::{
     Mimic, Pose, Robot, Vec3, Visual,
 };
 
-/// Metres to the millimetre.
+/// Metres per millimetre.
 const METRE: f64 = 1e-3;
 
 /// Reason why a model could not be written.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum UrdfError {
-    /// A joint names a link that is not there.
+    /// A joint names a link that the model lacks.
     #[error("joint {joint:?} names link {link:?}, which is not in the model")]
     Link {
         /// The joint.
@@ -28,22 +28,22 @@ pub enum UrdfError {
     Library(#[from] urdf_rs::UrdfError),
 }
 
-/// Note to `MuJoCo` to search meshes in the folders they are named with; other readers skip it.
+/// Setting for `MuJoCo` to search meshes in the folders of their file names; other readers ignore it.
 const FOLDERS: &str = "\n  <mujoco><compiler strippath=\"false\"/></mujoco>";
 
 /// Name of the STL file of a model's convex body, in a folder next to the URDF file.
 ///
-/// One file a body: several in one file, as in OBJ, are one hull to `MuJoCo` and one trimesh to others.
+/// One file per body: several bodies in one file, as in OBJ, become one hull in `MuJoCo` and one triangle mesh in others.
 #[must_use]
 pub fn collision_file(body: &str) -> String {
     format!("collision/{body}.stl")
 }
 
-/// Writes a model as URDF: metres, kilograms, radians; meshes by file name next to it, scaled from mm, the convex bodies
-/// to touch with under the names of [`collision_file`].
+/// Writes a model as URDF: metres, kilograms, radians; visible meshes by the names of files next to it, scaled from mm; convex
+/// collision bodies by the names of [`collision_file`].
 ///
 /// # Errors
-/// [`UrdfError`] where a joint names a link the model has not.
+/// [`UrdfError`] if a joint names a link that the model lacks.
 pub fn write(model: &Model) -> Result<Vec<u8>, UrdfError> {
     for joint in &model.joints {
         for end in [&joint.parent, &joint.child] {
@@ -66,8 +66,7 @@ pub fn write(model: &Model) -> Result<Vec<u8>, UrdfError> {
     Ok(with_note(&xml, &model.note).into_bytes())
 }
 
-/// Adds the note as a comment, and a word to one reader, inside the outermost element, where every reader
-/// allows it.
+/// Adds the note as a comment, and the setting for `MuJoCo`, inside the outermost element, where every reader permits them.
 fn with_note(xml: &str, note: &str) -> String {
     let end = xml
         .find("<robot")

@@ -1,6 +1,7 @@
 //! Text within XML files: SVG, 3MF, URDF and MJCF.
 
-/// Text for an element or an attribute in double quotes: reserved characters become entities, those that XML cannot hold a space.
+/// Text for an element or an attribute in double quotes: reserved characters become entities, characters that XML forbids become
+/// a space.
 pub(crate) fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
@@ -27,7 +28,7 @@ pub(crate) fn comment(text: &str) -> String {
     out
 }
 
-/// A character, or a space where XML cannot hold it.
+/// A character, or a space if XML forbids it.
 fn held(c: char) -> char {
     match c {
         '\u{fffe}' | '\u{ffff}' => ' ',

@@ -4,8 +4,8 @@ use super::rolling::Rolling;
 
 /// Driven pitch curve as a curve of its own, from which a further gear, or a drawing, is made.
 ///
-/// Turned so that its point in mesh at phi = 0 lies on the x axis and walked counter-clockwise, as a
-/// driver's is: the conjugate of this curve, at the turned-round mean ratio, is the original.
+/// Turned so that its point in mesh at phi = 0 lies on the x axis, and traversed counter-clockwise like a driver's curve. The
+/// conjugate of this curve, at the inverse mean ratio, is the original.
 #[derive(Clone, Debug)]
 pub struct ConjugateCurve {
     rolling: Rolling,
@@ -27,7 +27,7 @@ impl Curve for ConjugateCurve {
 
     fn breaks(&self) -> Vec<f64> {
         let period = self.period();
-        // Walked backwards: a break sits where its left limit becomes the right one.
+        // The curve is traversed backwards: a jump at b is a break at -b.
         let mut out: Vec<f64> = self
             .rolling
             .jumps_in(-period, 0.0)

@@ -1,10 +1,11 @@
-//! Phase, thickness and pressure angle at which fitted teeth work deepest.
+//! Phase, thickness and pressure angle at which fitted teeth have the largest minimum contact ratio.
 //!
-//! Along the pitch curve a flank works from its mate's tip to its own, by the sum of both tips' rolls. Where one flank ends the
-//! next has begun if what is left of the one and what there is of the other are more than a pitch together; over the pitch that
-//! is the contact ratio there. Where the minimum of them is above one, the flanks alone carry the motion. What is free is
-//! chosen for the largest minimum: from a grid of points on, by ever smaller steps along each number, first by the layout
-//! alone, then by the teeth that are cut, whose flanks may end before.
+//! Along the pitch curve a flank works from its mate's tip to its own; the length is the sum of the rolls of both tips. The next
+//! flank begins before this one ends if the roll of this flank after its crossing of the pitch curve and the roll of the next
+//! flank before its crossing are together more than a pitch. Their sum over the pitch is the contact ratio there. Where the
+//! minimum of these ratios is above one, the flanks alone transmit the motion. The free parameters are chosen for the largest
+//! minimum: from a grid of points on, by ever smaller steps along each parameter, first by the layout alone, then by the teeth
+//! that are cut, whose flanks may end earlier.
 
 use centrode_geometry::checkpoint;
 
@@ -17,18 +18,18 @@ use super::{
     teeth::{Counts, Layout, layout},
 };
 
-/// Share of the mean contact ratio that counts next to the minimum, so that flanks with room to spare are made deeper too.
+/// Weight of the mean contact ratio next to the minimum, so that flanks above the minimum are made deeper too.
 const MEAN: f64 = 1e-3;
 
-/// Number that is free.
+/// Parameter that is free.
 struct Free {
     fit: Fit,
-    /// Values tried first, next to the one written.
+    /// Values tried first, in addition to the written one.
     first: &'static [f64],
     range: [f64; 2],
     /// First step, a power of two times the last.
     step: f64,
-    /// Parts of a unit to which it is rounded, so that a file can hold it.
+    /// Values are rounded to multiples of 1 / `parts`, so that a file can hold them.
     parts: f64,
 }
 
@@ -56,17 +57,17 @@ const FREE: [Free; 3] = [
     },
 ];
 
-/// Choices by the layout of which gears are cut.
+/// Maximum number of choices by the layout whose gears are cut.
 const CUT: usize = 12;
 
-/// Halvings of the first steps, and how many of them are omitted where gears are cut.
+/// Number of halvings of the first steps, and how many of them are omitted where gears are cut.
 const HALVINGS: u32 = 5;
 const LEFT_OUT: u32 = 2;
 
-/// Contact ratio up to which two choices are as good as each other.
+/// Difference of the contact ratio up to which two choices count as equal.
 const TIE: f64 = 1e-9;
 
-/// Contact ratio by which a choice must be better than what is written.
+/// Minimum gain of the contact ratio over that of the written values for which a choice replaces them.
 const BETTER: f64 = 1e-6;
 
 impl Free {
@@ -105,9 +106,10 @@ pub(super) struct Fits<'a> {
 }
 
 impl Fits<'_> {
-    /// The design with what it leaves free chosen and nothing free. `cut` gives the teeth of both gears, where they can be cut.
+    /// The design with its free parameters chosen and fixed. `cut` returns the teeth of both gears, or `None` if they cannot be
+    /// cut.
     ///
-    /// Where no choice carries the motion, or none is better, what is written stays.
+    /// The written values stay if with no choice the flanks alone transmit the motion, or if no choice is better.
     pub(super) fn settled(
         &self,
         design: &GearPairDesign,
@@ -117,7 +119,7 @@ impl Fits<'_> {
         let fits = std::mem::take(&mut base.teeth.fit);
         let free: Vec<&Free> = FREE.iter().filter(|f| fits.contains(&f.fit)).collect();
         if !fits.is_empty() {
-            // What is chosen is chosen for fitted teeth.
+            // The choice is made for fitted teeth.
             base.teeth.addendum = Addendum::Fitted;
         }
         if free.is_empty() {
@@ -169,7 +171,7 @@ impl Fits<'_> {
         layout(self.rolling, self.counts, &teeth).ok()
     }
 
-    /// The minimum contact ratio from a flank to the next, and a little of their mean; without limit below where there are no teeth.
+    /// The minimum contact ratio from a flank to the next, plus a small share of the mean; minus infinity without teeth.
     fn merit(&self, design: &GearPairDesign) -> f64 {
         checkpoint();
         let is_valid = design.tool.validate().is_ok() && design.teeth.validate().is_ok();
@@ -179,7 +181,7 @@ impl Fits<'_> {
         let flanks = |tooth: &ToothPlan| [tooth.leading, tooth.trailing];
         let [driver, driven] = [&layout.driver, &layout.driven]
             .map(|teeth| teeth.iter().map(flanks).collect::<Vec<_>>());
-        // Up to a flank's tip, as far as the mate's flank goes: deeper the tip cuts into the fillet.
+        // Up to the flank's tip, and at most as far as the mate's flank extends: a deeper tip cuts into the fillet.
         let above = |flank: &FlankPlan, _: Side, mate: &FlankPlan| match flank.top {
             Top::Reach(reach) if reach <= mate.corner.end => reach,
             _ => f64::NEG_INFINITY,
@@ -191,7 +193,7 @@ impl Fits<'_> {
     fn worked(&self, teeth: &[Vec<Tooth>; 2]) -> (f64, f64) {
         let flanks = |tooth: &Tooth| [tooth.leading, tooth.trailing];
         let [driver, driven] = [0, 1].map(|k| teeth[k].iter().map(flanks).collect::<Vec<_>>());
-        // Rolls of what is left of a flank above its crossing of the pitch curve, and below.
+        // Rolls of the remaining flank above its crossing of the pitch curve, and below.
         let rolls = |flank: &ToothSide, side: Side| {
             let (low, high) = flank.active.unwrap_or((flank.crossing, flank.crossing));
             let (before, after) = (flank.crossing - low, high - flank.crossing);
@@ -206,8 +208,8 @@ impl Fits<'_> {
         self.contact_ratios([&driver, &driven], above)
     }
 
-    /// Minimum and mean contact ratio from one flank to the next, of the leading and trailing flanks of both gears, by the roll above
-    /// the crossing over which a flank of some side works with a mate.
+    /// Minimum and mean contact ratio from one flank to the next, of the leading and trailing flanks of both gears. `above`
+    /// returns the roll above the crossing over which a flank of a side works with its mate.
     fn contact_ratios<F>(
         &self,
         [driver, driven]: [&[[F; 2]]; 2],
@@ -245,20 +247,20 @@ impl Fits<'_> {
     }
 }
 
-/// The minimum contact ratio, and a little of the mean.
+/// The minimum contact ratio, plus a small share of the mean.
 fn weighed((minimum, mean): (f64, f64)) -> f64 {
     minimum + MEAN * mean
 }
 
-/// Values of what is free.
+/// Values of the free parameters, and their merit.
 #[derive(Clone)]
 struct Choice {
     merit: f64,
     values: Vec<f64>,
 }
 
-/// All choices that were tried, the best first: those given and, from the best of them on, by steps along each number that are
-/// halved where none is better, the first of them some halvings smaller.
+/// All choices that were tried, the best first: the given ones, and those found from the best of them by steps along each
+/// parameter. The steps are halved where none is better; the first steps are already halved `halvings` times.
 fn climb(
     free: &[&Free],
     mut tried: Vec<Choice>,
@@ -269,7 +271,7 @@ fn climb(
         true => b.clone(),
         false => a,
     };
-    // Of those that are as good the first.
+    // Of equally good choices, the first.
     let Some(first) = tried.first().cloned() else {
         return tried;
     };
@@ -297,7 +299,7 @@ fn climb(
     tried
 }
 
-/// All combinations of the first values and those written, these first.
+/// All combinations of the first values and the written ones, the written ones first.
 fn grid(free: &[&Free], start: &[f64]) -> Vec<Vec<f64>> {
     let mut all = vec![Vec::new()];
     for (free, &written) in free.iter().zip(start) {

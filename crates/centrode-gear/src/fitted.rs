@@ -1,4 +1,4 @@
-//! Addenda trimmed flank by flank to what the pitch curves let mesh.
+//! Addenda trimmed flank by flank to the height at which the teeth can mesh on these pitch curves.
 
 use std::collections::HashSet;
 
@@ -15,8 +15,8 @@ use super::{
     tooth_passage::{Candidate, Poses, Reaches, ToothPassage},
 };
 
-/// Minimum share of a straight rack's flank speed at the end of a trimmed flank: below it the
-/// flank ends in a knife edge of no radius of curvature.
+/// Minimum share of a straight rack's flank speed at the end of a trimmed flank: below it the flank ends in a knife edge whose
+/// radius of curvature is zero.
 const MIN_SPEED: f64 = 0.05;
 
 /// Data of the trimming.
@@ -28,7 +28,7 @@ pub(crate) struct Fitting<'a> {
     pub(crate) minimum_tip_width: f64,
 }
 
-/// Teeth whose passages are held against each other at a time.
+/// Number of driver teeth whose passages are computed at a time.
 const BLOCK: usize = 32;
 
 /// Passage of a driver tooth and a driven tooth, by their numbers, with the crossings of their flanks.
@@ -39,7 +39,7 @@ struct Meeting<'a> {
 }
 
 impl Meeting<'_> {
-    /// Both teeth. A flank is needed as far down as any mate reaches; the mates' own reach bounds it.
+    /// Both teeth. Each flank is needed down to the depth that the tips of its mate reach.
     fn candidates(&self, [driver, driven]: [Reaches; 2]) -> [Candidate; 2] {
         let candidate = |member, reaches, mates: Reaches| Candidate {
             member,
@@ -60,8 +60,8 @@ pub(super) type Tip = (f64, f64);
 impl Fitting<'_> {
     /// Trims every tip of both gears and fits every space to the tips that enter it.
     ///
-    /// A tip is as high as both flanks stay regular, as mating flanks stay clear of each other away from
-    /// their contact, and as the top land stays wide enough. Teeth that are others turned are fitted with these.
+    /// A tip is as high as both flanks stay regular, as mating flanks stay clear of each other away from their contact, and as
+    /// the top land stays wide enough. Teeth that are copies of others, turned, get the same heights.
     pub(crate) fn fit(
         &self,
         all: [&mut [ToothPlan]; 2],
@@ -118,8 +118,8 @@ impl Fitting<'_> {
             ([i, j], [one, crossings(&driven[j], turns * lengths[1])])
         };
         let middle = |[one, two]: [[f64; 2]; 2]| 0.25 * (one[0] + one[1] + two[0] + two[1]);
-        // The two driven teeth next to it mesh with it; those beyond can still be met where the
-        // pitch curve is concave.
+        // The two driven teeth next to the driver tooth mesh with it. Those beyond can still touch it where the pitch curve is
+        // concave.
         const BESIDE: [isize; 8] = [-4, -3, -2, -1, 0, 1, 2, 3];
         let cycle = counts[0] / gcd(counts[0] as u32, counts[1] as u32) as usize * counts[1];
         let mut changed = 0;
@@ -162,11 +162,11 @@ impl Fitting<'_> {
                 .filter_map(|(meeting, is_foul)| is_foul.then_some(meeting))
                 .collect();
             while !left.is_empty() {
-                // Side by side go those of which no tooth is in one before.
+                // Meetings without a common tooth are cleared in parallel.
                 let mut busy = HashSet::new();
                 let (first, later): (Vec<&Meeting>, _) = left.into_iter().partition(|meeting| {
                     let [driver, driven] = meeting.teeth;
-                    // Both are busy from here on, whichever was before.
+                    // Both teeth are busy from here on, even if one of them was busy before.
                     let is_free = [(Member::Driver, driver), (Member::Driven, driven)]
                         .map(|tooth| busy.insert(tooth));
                     is_free == [true, true]
@@ -222,11 +222,12 @@ impl Fitting<'_> {
         })
     }
 
-    /// Shortens the higher flank of teeth whose tip leans so far that no root of one depth has room for both sides; says whether
-    /// there are any.
+    /// Shortens the higher flank of teeth whose tip is so oblique that no root of one depth has room for both sides. Returns
+    /// whether there are any.
     ///
-    /// Where that depth would cut into the flank that the lower side works on, the root has a step; the tip goes to and fro above it,
-    /// and is clear of it at any position if its higher side would be clear of the lower root.
+    /// Where that depth would cut into the flank that the lower side works on, the root has a step. The tip moves to and fro
+    /// above this step. It is clear at every position if its higher side would also be clear of the root that the lower side
+    /// needs.
     fn level(
         &self,
         member: Member,
@@ -269,13 +270,13 @@ impl Fitting<'_> {
         }
     }
 
-    /// Height up to which a flank and its mate are both regular, at most its full height.
+    /// Roll length up to which a flank and its mate are both regular, at most that of its full height.
     fn regular(&self, member: Member, side: Side, plan: &FlankPlan) -> f64 {
         let Top::Height(height) = plan.top else {
             return 0.0;
         };
         let flank = self.flank(member, side, plan.crossing);
-        // A full tooth keeps its full height, exactly.
+        // A full tooth has its full height, exactly.
         let end = flank
             .at_height(height)
             .map_or_else(|| flank.farthest(height), |(t, _)| t);
@@ -283,7 +284,7 @@ impl Fitting<'_> {
         reach(&flank, rolled.max(0.0))
     }
 
-    /// Settles every tip of a gear, wide enough at the top.
+    /// Final tips of the teeth of a gear, with top lands of at least the minimum width.
     fn tops(&self, member: Member, teeth: &mut [ToothPlan], reaches: &[Reaches]) -> Vec<[Tip; 2]> {
         let known: Vec<_> = teeth.iter().zip(reaches).collect();
         let found = parallel_map(
@@ -313,7 +314,7 @@ impl Fitting<'_> {
 
 /// Roll length, in arc, up to which a flank can work above the pitch curve together with its mate, at most `limit`.
 ///
-/// A roll v above the crossing both flanks are regular while sin alpha + kappa v cos alpha (its own
+/// At a roll v above the crossing both flanks are regular while sin alpha + kappa v cos alpha (its own
 /// curvature) and sin alpha - kappa v cos alpha (its mate's) are positive.
 fn reach(flank: &Flank<'_>, limit: f64) -> f64 {
     const STEPS: u32 = 48;
@@ -338,7 +339,7 @@ fn reach(flank: &Flank<'_>, limit: f64) -> f64 {
     limit
 }
 
-/// Share of both roll lengths a tooth can keep with a top land at least `width` wide.
+/// Share of both roll lengths at which the top land of a tooth is still at least `width` wide.
 fn share_for_width(flanks: [&Flank<'_>; 2], reaches: Reaches, width: f64) -> f64 {
     let [leading, trailing] = flanks;
     let land = |share: f64| {

@@ -32,7 +32,7 @@ impl Side {
     }
 }
 
-/// Maximum length rolled up to a height, by that of a rack.
+/// Maximum length rolled up to a height, relative to that of a rack.
 const FARTHEST: f64 = 4.0;
 
 /// The exact flank, fillet, tip and root curves about one crossing of a pitch curve.
@@ -79,8 +79,8 @@ impl Flank<'_> {
         frame.tangent * sin - frame.normal * (self.side.sign() * cos)
     }
 
-    /// First parameter between `from` and `to` at which the flank moves on more slowly than `minimum`
-    /// times a straight rack's would.
+    /// First parameter between `from` and `to` at which the flank's generation speed is below `minimum` times that of a straight
+    /// rack.
     pub(crate) fn slower(&self, minimum: f64, from: f64, to: f64) -> Option<f64> {
         let mut ends = vec![from];
         ends.extend(self.rolling.breaks_between(from, to));
@@ -89,10 +89,10 @@ impl Flank<'_> {
             .find_map(|pair| self.slower_between(minimum, pair[0], pair[1]))
     }
 
-    /// [`slower`](Self::slower) between breaks of the pitch curve: at steps that are short next to what a tooth rolls, and at
-    /// the minimum speed about a step that is slower than its neighbours.
+    /// [`slower`](Self::slower) between breaks of the pitch curve. Samples the speed at steps that are short compared with the
+    /// length that a tooth rolls, and near a step that is slower than its neighbours also at the minimum speed.
     fn slower_between(&self, minimum: f64, a: f64, b: f64) -> Option<f64> {
-        /// Steps for the length that a rack rolls from the pitch line to its tip, and the fewest.
+        /// Steps per length that a rack rolls from the pitch line to its tip; also the minimum number of steps.
         const STEPS: f64 = 12.0;
         let (sin, cos) = self.tool.pressure_angle.sin_cos();
         let floor = minimum * sin;
@@ -118,7 +118,7 @@ impl Flank<'_> {
             };
             let now = (t, speed(t));
             let [(_, earlier), (middle, slow)] = before;
-            // Between the three the speed may fall below the floor and rise again.
+            // Between these three steps the speed may fall below the floor and rise again.
             let bend = earlier - 2.0 * slow + now.1;
             let lowest = middle + 0.5 * (t - middle) * (earlier - now.1) / bend;
             if i > 1 && slow <= earlier && slow <= now.1 && lowest.is_finite() {
@@ -136,7 +136,7 @@ impl Flank<'_> {
         None
     }
 
-    /// Height of the point generated at arc length `s`, above the pitch point at which it was generated.
+    /// Height of the point generated at an arc length, above the pitch point at which it was generated.
     pub(crate) fn height(&self, arc: f64) -> f64 {
         let (sin, cos) = self.tool.pressure_angle.sin_cos();
         self.side.sign() * (self.crossing - arc) * sin * cos
@@ -155,8 +155,8 @@ impl Flank<'_> {
         frame.tangent * ahead + frame.normal * above
     }
 
-    /// How far the centre of the tool's rounding is ahead and above the pitch point at an arc length, and the angle by which the tool
-    /// is turned there.
+    /// Distances by which the centre of the tool's rounding is ahead of and above the pitch point at an arc length, and the angle
+    /// by which the tool is turned there.
     fn center_offset(&self, corner: &Corner, arc: f64) -> ([f64; 2], f64) {
         let ahead = self.crossing + self.side.sign() * corner.center - arc;
         let straight = corner.depth - corner.radius;
@@ -171,12 +171,12 @@ impl Flank<'_> {
         }
     }
 
-    /// How far a point, so far ahead and above the pitch point, is beyond the rounding of the tool's corner, between the flank and the
-    /// tip of the tool; below nothing elsewhere.
+    /// Distance by which a point is outside the rounding of the tool's corner, between the flank and the tip of the tool;
+    /// negative elsewhere. The point is given by its distances ahead of and above the pitch point.
     pub(crate) fn beyond_corner(&self, corner: &Corner, arc: f64, point: [f64; 2]) -> f64 {
         let (center, turn) = self.center_offset(corner, arc);
         let offset = Vector::new(point[0] - center[0], point[1] - center[1]);
-        // With the tool's centre below its axis, the flank on the left.
+        // In the axes of the tool, with its flank on the left and its tip below.
         let (sin, cos) = turn.sin_cos();
         let across = self.side.sign() * (cos * offset.x + sin * offset.y);
         let below = sin * offset.x - cos * offset.y;
@@ -187,14 +187,15 @@ impl Flank<'_> {
         }
     }
 
-    /// Arc lengths at which the flank of the circle that osculates the pitch curve at the crossing, an involute, reaches a
-    /// height, and of the foot of the normal there: with d rolled, (1 + k d cos sin)^2 + (k d cos^2)^2 = (1 + k h)^2.
+    /// Estimate by the circle that osculates the pitch curve at the crossing, whose flank is an involute: arc lengths at which
+    /// the flank reaches a height, and of the foot of the normal there. With d rolled,
+    /// (1 + k d cos sin)^2 + (k d cos^2)^2 = (1 + k h)^2.
     fn about_height(&self, height: f64) -> (f64, f64) {
         let (sin, cos) = self.tool.pressure_angle.sin_cos();
         let curvature = self.frame(self.rolling.parameter(self.crossing)).curvature;
         let rise = height * (2.0 + curvature * height);
         let root = (sin * sin + curvature * rise).sqrt();
-        // A concave circle's flank may end below the height: then a straight pitch line's.
+        // The flank of a concave circle may end below the height: then a straight pitch line is used.
         let (curvature, rolled) = if root.is_nan() {
             (0.0, height / (sin * cos))
         } else {
@@ -208,8 +209,8 @@ impl Flank<'_> {
         (arc, arc + sign * back)
     }
 
-    /// Parameters at which the flank reaches a normal distance `height` from the pitch curve: of the
-    /// flank and of the foot of that normal. `None` where it turns back before, or does not come so far.
+    /// Parameters at which the flank reaches a normal distance `height` from the pitch curve: of the flank and of the foot of
+    /// that normal. `None` if the flank turns back before or does not reach this height.
     pub(crate) fn at_height(&self, height: f64) -> Option<(f64, f64)> {
         let start = self.rolling.parameter(self.crossing);
         let is_ahead = |t: f64| {
@@ -222,7 +223,7 @@ impl Flank<'_> {
             .or_else(|| self.first_at_height(height, start))
     }
 
-    /// Parameter beyond which the flank is not followed up to a height: at a multiple of the length that a rack's would take.
+    /// Parameter up to which the flank is followed to a height: [`FARTHEST`] times the length that a rack rolls.
     pub(crate) fn farthest(&self, height: f64) -> f64 {
         let (sin, cos) = self.tool.pressure_angle.sin_cos();
         let rolled = FARTHEST * height / (sin * cos);
@@ -230,12 +231,12 @@ impl Flank<'_> {
             .parameter(self.crossing - self.side.sign() * rolled)
     }
 
-    /// [`at_height`](Self::at_height) by the heights along the flank, where Newton's method leads elsewhere.
+    /// [`at_height`](Self::at_height) by samples of the height along the flank, if Newton's method finds no suitable point.
     fn first_at_height(&self, height: f64, start: f64) -> Option<(f64, f64)> {
         const SAMPLES: u32 = 48;
         let far = self.farthest(height);
         let end = self.slower(0.0, start, far).unwrap_or(far);
-        // Of all normals the shortest: its length has no jumps.
+        // By the shortest of all normals: its length has no jumps.
         let short = |t: f64| {
             let above = self.nearest_foot(t).map_or(f64::NAN, |(_, above)| above);
             (height - above) * height.signum()
@@ -244,7 +245,7 @@ impl Flank<'_> {
         for i in 1..=SAMPLES {
             checkpoint();
             let t = start + (end - start) * f64::from(i) / f64::from(SAMPLES);
-            // The shortest normal is no longer than one that is found at once, unless that is far off.
+            // The shortest normal is at most as long as the one that `foot` finds faster, unless that foot is out of reach.
             let (foot, above) = self.foot(t);
             let [at, under] = [t, foot].map(|t| self.rolling.arc_length(t));
             let room = height.abs() - above.abs();
@@ -253,7 +254,7 @@ impl Flank<'_> {
             } else {
                 short(t)
             };
-            // Where there is no normal there is no height.
+            // A point without a normal has no height.
             if now.is_nan() {
                 continue;
             }
@@ -271,7 +272,7 @@ impl Flank<'_> {
         let (sin, cos) = self.tool.pressure_angle.sin_cos();
         let (arc, foot) = self.about_height(height);
         let (mut t, mut tau) = (self.rolling.parameter(arc), self.rolling.parameter(foot));
-        // Half a turn away it would be another tooth's, or this one's once more.
+        // Half a turn away the point would belong to another tooth, or again to this one.
         let turn = self.rolling.pitch_length(self.member);
         let reach = (FARTHEST * height.abs() / (sin * cos)).min(0.5 * turn);
         let mut miss = f64::INFINITY;
@@ -291,7 +292,7 @@ impl Flank<'_> {
             }
             t += dt;
             tau += dtau;
-            // A step after this one is below the rounding of a double.
+            // A further step would be below the rounding of a double.
             miss = gap.norm() / at.point.coords.norm();
             if miss < 1e-14 {
                 break;
@@ -326,14 +327,14 @@ impl Flank<'_> {
             }
         }
         let found = (tau, self.height_over(tau, &point));
-        // Far from the axis rounding keeps the steps from ending: that is no other position.
+        // Far from the axis rounding keeps the steps above the first limit, but the foot is the same.
         if last <= 1e-9 * limit {
             return found;
         }
         self.nearest_foot(t).unwrap_or(found)
     }
 
-    /// Foot of the shortest normal from the flank's point at `t` to the pitch curve thereabouts, and the signed distance.
+    /// Foot of the shortest normal from the flank's point at `t` to the pitch curve near it, and the signed distance.
     pub(crate) fn nearest_foot(&self, t: f64) -> Option<(f64, f64)> {
         let at = self.frame(t);
         let point = self.point_in(&at);
@@ -341,8 +342,8 @@ impl Flank<'_> {
         Some((tau, self.height_over(tau, &point)))
     }
 
-    /// Arc length from the pitch point at which a position was made to the foot of its shortest normal, at most: that pitch
-    /// point is no farther than it rolled, and what is nearer lies thereabouts.
+    /// Maximum arc length from the pitch point at which a flank point is generated to the foot of its shortest normal. The
+    /// distance to that pitch point is at most the length rolled, so that a nearer foot is close to it.
     fn reach(&self, arc: f64) -> f64 {
         let limit = self.tool.addendum + self.tool.dedendum;
         let reach = 2.0 * (limit + (self.crossing - arc).abs());
@@ -355,7 +356,7 @@ impl Flank<'_> {
         (point - under.point).dot(&under.normal)
     }
 
-    /// Foot of the shortest normal from a point to the pitch curve, within a reach of an arc length.
+    /// Foot of the shortest normal from a point to the pitch curve, at most `reach` from an arc length.
     fn nearest(&self, point: &Point, arc: f64, reach: f64) -> Option<f64> {
         const SAMPLES: u32 = 96;
         let ahead = |tau: f64| {

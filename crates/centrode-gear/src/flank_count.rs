@@ -28,8 +28,8 @@ impl FlankCount {
     /// Counts the flanks of both members of a pair without cutting its teeth; the addendum is taken as full whatever
     /// is written.
     ///
-    /// A flank is undercut where its speed of generation falls to zero on the way down to where the tool's straight
-    /// side ends, and short where that happens on the way up to the addendum.
+    /// A flank is undercut if its speed of generation falls to zero below the crossing, before the end of the tool's straight
+    /// side. It is short if it does not reach the addendum, or reaches it only beyond the roll that the tool can generate.
     ///
     /// # Errors
     /// [`GearPairError`] where the driver has no tooth count, or no teeth can be laid out.

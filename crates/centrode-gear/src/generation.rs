@@ -21,7 +21,8 @@ use super::{
 /// Relative difference below which a written centre distance is the computed one: it is written to a micrometre or so.
 const DISTANCE: f64 = 1e-6;
 
-/// Pressure angle above that of any pair, rad: its involute function exceeds the maximum sum of shifts on the fewest teeth.
+/// Pressure angle above that of any pair, rad: its involute function exceeds that of the maximum sum of shifts on the fewest
+/// teeth.
 const STEEPEST: f64 = 1.5;
 
 /// Generation of both gears of a pair.
@@ -108,7 +109,7 @@ impl Generation {
         Ok((made, Arc::new(operating)))
     }
 
-    /// The design with the numbers of its generation written.
+    /// The design with the profile shifts and the tip shortening of its generation written into it.
     pub(crate) fn written(&self, design: &GearPairDesign) -> GearPairDesign {
         let mut written = design.clone();
         let [driver, driven] = self.shifts;
@@ -141,7 +142,7 @@ impl Generation {
         }
     }
 
-    /// The tool that makes the same flanks on the pitch curves of the pair. Its fillets are others.
+    /// The tool that makes the same flanks on the pitch curves of the pair. The fillets differ.
     pub(crate) fn operating_tool(&self, tool: &Tool) -> Tool {
         Tool {
             pressure_angle: self.pressure_angle(tool.pressure_angle),
@@ -171,8 +172,8 @@ impl Generation {
 
     /// A side of a tooth as generated, by the pitch curve of the pair: crossing, rolls and heights.
     ///
-    /// On circular gears a flank point made by a roll u above the crossing is r sin(alpha) + u cos(alpha) from where the line of
-    /// action touches the base circle, for both pitch circles of the gear.
+    /// On circular gears a flank point made by a roll u above the crossing has the distance r sin(alpha) + u cos(alpha) from the
+    /// point where the line of action touches the base circle. This holds for both pitch circles of the gear.
     pub(crate) fn mounted(&self, member: Member, side: Side, made: ToothSide) -> ToothSide {
         if self.is_plain() {
             return made;
@@ -199,7 +200,7 @@ impl Generation {
     }
 }
 
-/// Whether a written centre distance is another than the computed one.
+/// Whether a written centre distance differs from the computed one.
 fn is_other(required: f64, needed: f64) -> bool {
     (required - needed).abs() > DISTANCE * needed
 }
@@ -256,7 +257,7 @@ impl Circles {
         Ok(bracketed_root(miss, 0.0, STEEPEST, ends[0], ends[1]))
     }
 
-    /// The operating circles, so much larger than the reference circles.
+    /// The operating circles: `scale` times the reference circles.
     fn operating(&self, rolling: &Rolling, scale: f64) -> Result<Rolling, GearPairError> {
         let reference = 0.5 * rolling.pitch_length(Member::Driver) / PI;
         let pitch = PitchSpec::Circle(Circle {

@@ -1,6 +1,7 @@
 //! Gears and cams: from a design to exact curves.
 //!
-//! Pitch curves and their conjugates, tools, tooth profiles and pairs of gears at the root; disc cams and their followers in [`cam`]. It knows no machine of several gears, checks nothing and writes no file.
+//! Pitch curves and their conjugates, tools, tooth profiles and pairs of gears at the root; disc cams and their followers in
+//! [`cam`]. The crate has no machines of several gears, no checks and no output of files.
 
 mod base_tangent;
 mod bore;

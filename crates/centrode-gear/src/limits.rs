@@ -156,7 +156,7 @@ impl GearPair {
                     land(&leading, &trailing, h)
                         .map_or(-1.0, |w| w - self.teeth().minimum_tip_width)
                 };
-                // Most teeth are wide enough at the height the others leave.
+                // Most teeth are wide enough at the height that the teeth before them allow.
                 if spare(height) >= 0.0 {
                     continue;
                 }
@@ -193,7 +193,7 @@ impl Limits {
         of(0).min(of(1))
     }
 
-    /// Largest module of full teeth, mm, that are sound wherever they fall, cut by the usual rack on pitch curves whose curvatures
+    /// Largest module, mm, of full teeth that are sound at every position, cut by the usual rack on pitch curves whose curvatures
     /// are at most those given (convex, concave, 1/mm): the rack's rounding cuts into flanks of concave gears, too.
     #[must_use]
     pub fn largest_full_module(curvatures: [f64; 2]) -> f64 {
@@ -240,7 +240,7 @@ fn fillet_module(tool: &Tool, module: f64, shift: f64, concave: f64) -> f64 {
     }
 }
 
-/// Width of the top land of a tooth cut off at a height; negative past its point.
+/// Width of the top land of a tooth cut off at a height; negative above the point where its flanks cross.
 fn land(leading: &Flank<'_>, trailing: &Flank<'_>, height: f64) -> Option<f64> {
     let ((a, foot_a), (b, foot_b)) = (leading.at_height(height)?, trailing.at_height(height)?);
     let width = (trailing.point(b) - leading.point(a)).norm();

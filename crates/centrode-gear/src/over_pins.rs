@@ -34,10 +34,10 @@ pub enum PinFault {
     /// The pin is too small: it goes down past the flanks.
     #[error("the pin is too small for this space: it rests on the fillet or the root")]
     TooSmall,
-    /// The pin is too large: it rests on the tips, or above them on nothing.
+    /// The pin is too large: it rests on the tips, or touches no flank above them.
     #[error("the pin is too large for this space: it rests on the tips of the teeth")]
     TooLarge,
-    /// The gear is in the way before the pin touches both flanks.
+    /// Another part of the gear blocks the pin before it touches both flanks.
     #[error("the pin does not get to the flanks of this space: another tooth blocks it")]
     Blocked,
     /// There is no space: a tooth next to it has been cut off or has no flank.
@@ -86,9 +86,8 @@ impl GearPair {
         Some(limits.map(|deviation| gear.pins_next_to(diameter, normal * deviation)))
     }
 
-    /// Diameter of the measuring pin for a member, mm: as written in the design, or the pin that would
-    /// touch a straight flank on the pitch curve, `space width / cos alpha`, rounded to a pin there is
-    /// (steps of 0.25 mm from 1 mm on, of 0.05 mm below).
+    /// Diameter of the measuring pin for a member, mm: as written in the design, or the pin that would touch a straight flank on
+    /// the pitch curve, `space width / cos alpha`, rounded to an available pin (steps of 0.25 mm from 1 mm on, of 0.05 mm below).
     #[must_use]
     pub fn pin_diameter(&self, member: Member) -> f64 {
         if let Some(written) = self.written_pin_diameter() {
@@ -96,7 +95,7 @@ impl GearPair {
         }
         let gear = self.gear(member);
         let pitch = gear.pitch_length() / f64::from(gear.tooth_count());
-        // Widths are those on the pitch curve; thinned and shifted teeth have their share in the crossings.
+        // Widths on the pitch curve: the crossings already include backlash and profile shift.
         let widths = gear
             .teeth()
             .iter()
@@ -145,14 +144,14 @@ impl Gear {
         }
     }
 
-    /// Whether nothing of the gear reaches into the pin.
+    /// Whether no part of the gear reaches into the pin.
     fn is_clear(&self, pin: &Pin, radius: f64) -> bool {
         const SAMPLES: u32 = 8;
         let clear = radius * (1.0 - 1e-9);
         self.outline().segments().iter().all(|segment| {
             let distance = |u: f64| (segment.at(u).point - pin.center).norm();
             let reach = (segment.end() - segment.start()).norm();
-            // Farther off than its own length and the pin: a segment bends less than that.
+            // Farther away than twice its chord plus the pin's radius: a segment bends less than that.
             if distance(0.0) > 2.0 * reach + radius {
                 return true;
             }

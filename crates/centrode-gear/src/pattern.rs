@@ -12,14 +12,14 @@ use super::{
     teeth::{Counts, Layout},
 };
 
-/// Share of the pitch by which the plans of two teeth that are images of each other may differ: far below what contours are
-/// drawn to.
+/// Share of the pitch by which the plans of two teeth that are images of each other may differ: far below the accuracy of
+/// contours.
 const SAME: f64 = 1e-12;
 
-/// Share of an arc length that is its rounding.
+/// Rounding of an arc length, as a share of it.
 const ROUNDING: f64 = 1e-15;
 
-/// Positions of one gear, its teeth or the spaces after them, that are images of others.
+/// Symmetry of one gear: which positions, its teeth or the spaces after them, are images of others.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Pattern {
     count: u32,
@@ -34,22 +34,22 @@ pub(crate) struct Pattern {
 /// Image of a position: mirrored first about the axis through both shafts, then turned.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Image {
-    /// The position that it is an image of.
+    /// Number of the original position.
     pub(crate) of: u32,
     pub(crate) mirrored: bool,
-    /// Pitches turned by.
+    /// Number of pitches by which the image is turned.
     pub(crate) pitches: i64,
     /// Turn, counter-clockwise.
     pub(crate) turn: UnitComplex<f64>,
 }
 
 impl Pattern {
-    /// Equal parts of a turn after which the gear is as before.
+    /// Number of equal parts of a turn after which the gear is as before.
     pub(crate) fn repeats(&self) -> u32 {
         self.count / self.period
     }
 
-    /// Image that a position is; `None` for a position that others are images of.
+    /// A position as the image of another; `None` for an original position.
     pub(crate) fn image(&self, place: u32) -> Option<Image> {
         let period = i64::from(self.period);
         let first = i64::from(place) % period;
@@ -74,18 +74,18 @@ impl Pattern {
         })
     }
 
-    /// The first teeth, of which all others are images by a turn.
+    /// The first teeth; all others are images of these by a turn.
     pub(crate) fn first<'a>(&self, teeth: &'a mut [ToothPlan]) -> &'a mut [ToothPlan] {
         &mut teeth[..self.period as usize]
     }
 
-    /// Turn, counter-clockwise, that makes one of the first positions the position.
+    /// Counter-clockwise turn that moves one of the first positions to a position.
     pub(crate) fn turn(&self, place: usize) -> UnitComplex<f64> {
         let pitches = (place - place % self.period as usize) as f64;
         UnitComplex::new(self.sense * TAU * pitches / f64::from(self.count))
     }
 
-    /// Plans all teeth as the first ones are, of which they are images.
+    /// Copies the plans of the first teeth to all teeth that are images of them.
     pub(crate) fn repeat(&self, teeth: &mut [ToothPlan], pitch: f64) {
         for k in self.period..self.count {
             let of = k % self.period;
@@ -107,7 +107,7 @@ impl Pattern {
         }
     }
 
-    /// Whether the plans of all teeth are those of the teeth they are images of.
+    /// Whether the plan of every image agrees with that of its original.
     fn holds(&self, teeth: &[ToothPlan], pitch: f64) -> bool {
         (0u32..).zip(teeth).all(|(k, tooth)| {
             self.image(k).is_none_or(|image| {
@@ -147,21 +147,21 @@ impl Image {
     }
 }
 
-/// How the driven gear is the driver, turned.
+/// Relation of the driven gear to a driver of the same form: it is the driver, turned.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Mating {
-    /// The driven tooth `k` is the driver's `last - k`.
+    /// The driven tooth `k` is the driver's tooth `last - k`.
     last: i64,
     count: i64,
-    /// Arc lengths of a point as one of the driver and as one of the driven gear, together.
+    /// Sum of the arc lengths of a point on the driver and of the same point on the driven gear.
     arcs: f64,
     length: f64,
-    /// Turn of the driver that makes it the driven gear, counter-clockwise.
+    /// Counter-clockwise turn of the driver that makes it the driven gear.
     pub(crate) turn: f64,
 }
 
 impl Mating {
-    /// Found where the pitch curve is its own mate and the teeth are each other's.
+    /// `None` unless the pitch curve is its own mate and both gears have the same teeth.
     pub(crate) fn new(rolling: &Rolling, plan: &Layout) -> Option<Self> {
         let symmetry = rolling.symmetry();
         if !symmetry.mates_itself || rolling.mean_ratio() != (1, 1) {
@@ -196,14 +196,14 @@ impl Mating {
         holds.then_some(found)
     }
 
-    /// The tooth of the other gear that a tooth of one is, and the turns before it.
+    /// Tooth of the other gear that is the same as a tooth of one gear, and the whole turns before it.
     pub(crate) fn other(&self, tooth: u32) -> (u32, i64) {
         let index = self.last - i64::from(tooth);
         let (turns, place) = (index.div_euclid(self.count), index.rem_euclid(self.count));
         (place as u32, turns)
     }
 
-    /// Arc length, as a point of the other gear, of a point some turns before.
+    /// Arc length, on the other gear, of a point of one gear some whole turns before.
     pub(crate) fn arc(&self, arc: f64, turns: i64) -> f64 {
         self.arcs - arc - turns as f64 * self.length
     }
@@ -211,7 +211,7 @@ impl Mating {
 
 impl FlankPlan {
     fn is_like(&self, other: &Self, within: f64) -> bool {
-        // Far round the curve a position is no finer.
+        // At a large arc length the rounding of a position exceeds `within`.
         let within = within.max(ROUNDING * self.crossing.abs());
         let top = match (self.top, other.top) {
             (Top::Height(a), Top::Height(b)) | (Top::Reach(a), Top::Reach(b)) => a - b,
@@ -240,7 +240,7 @@ pub(crate) struct Patterns {
 }
 
 impl Patterns {
-    /// The maximum symmetry that pitch curves and teeth have.
+    /// The maximum symmetry that pitch curves and teeth have in common.
     pub(crate) fn new(symmetry: Symmetry, counts: &Counts, plan: &Layout, pitch: f64) -> Self {
         let folds = gcd(symmetry.folds, counts.driver);
         let twice = 2.0 * plan.phase;
@@ -289,28 +289,28 @@ impl Patterns {
         }
     }
 
-    /// Driver pitches after which law and both gears are as before.
+    /// Number of driver pitches after which the law and both gears repeat.
     pub(crate) fn period(&self) -> u32 {
         let [one, two] = [self.driver.period, self.driven.period];
         one / gcd(one, two) * two
     }
 
-    /// Whether the pair run backwards is its mirror image.
+    /// Whether the pair turned backwards is its mirror image.
     pub(crate) fn is_mirrored(&self) -> bool {
         self.driver.mirror.is_some()
     }
 }
 
 impl GearPair {
-    /// Driver pitches after which both gears and the law are as they were: the whole cycle, unless the form of the pitch curve
-    /// shows that it repeats and the teeth repeat with it.
+    /// Number of driver pitches after which both gears and the law are as before: the whole cycle, unless the form of the pitch
+    /// curve shows that it repeats and the teeth repeat with it.
     #[must_use]
     pub fn period(&self) -> u32 {
         self.patterns.period()
     }
 
-    /// Whether the pair run backwards from the driver angle 0 is the mirror image of the pair run on, as far as the form of the
-    /// pitch curve shows.
+    /// Whether the pair turned backwards from the driver angle 0 is the mirror image of the pair turned forwards, as far as the
+    /// form of the pitch curve shows.
     #[must_use]
     pub fn is_mirrored(&self) -> bool {
         self.patterns.is_mirrored()

@@ -10,24 +10,24 @@ use super::{
     tool::{Corner, Tool},
 };
 
-/// Active depth of a flank over its mate's reach, so that the mate's tip edge clears the fillet.
+/// Ratio of a flank's active depth to its mate's reach, so that the mate's tip edge clears the fillet.
 const SPARE: f64 = 1.02;
 
 /// Maximum rounding of a space's corner, as a share of its depth.
 const ROUNDEST: f64 = 0.8;
 
-/// Minimum share of a straight rack's flank speed down to which a flank goes on below where its mate works.
+/// Minimum generation speed, relative to a straight rack, at which a flank is extended below its active part.
 const SLOWEST: f64 = 0.01;
 
-/// Positions of a tip on its path from the flank to the root at which it is held against the corner: at first, and where it is
-/// near.
+/// Number of positions of a tip on its path from the flank to the root that are compared with the corner: at first, and if the
+/// tip comes near it.
 const PLACES: [u32; 2] = [8, 32];
 
 /// Clearance that n samples may miss, relative to depth / n²: smaller values miss contacts, larger ones trim too much.
 const BETWEEN: f64 = 1e-2;
 
-/// Position of a tip on that way: the arc length rolled, and how far the tip is ahead and above the point at which the pitch
-/// curves touch.
+/// Position of a tip on that path: the arc length rolled, and the distances of the tip ahead of and above the point at which the
+/// pitch curves touch.
 type Place = (f64, [f64; 2]);
 
 impl Fitting<'_> {
@@ -44,9 +44,9 @@ impl Fitting<'_> {
         (found.end <= end * (1.0 + 1e-9)).then_some(found)
     }
 
-    /// Fits every space of a gear to the tips that enter it: of `meshes` teeth the driven gear's k enters
-    /// the space after the driver's tooth k, the driver's k + 1 that after the driven gear's. One depth a space, below the
-    /// higher tip, where the flanks allow it; a fillet below each flank. The teeth take up `length` of the pitch curve.
+    /// Fits every space of a gear to the tips that enter it, over `meshes` teeth: driven tooth k enters the space after driver
+    /// tooth k, and driver tooth k + 1 the space after driven tooth k. Each space has one depth, below the higher tip, where the
+    /// flanks allow it, and a fillet below each flank. The teeth take up `length` of the pitch curve.
     pub(super) fn serve(
         &self,
         member: Member,
@@ -95,8 +95,8 @@ impl Fitting<'_> {
         }
     }
 
-    /// A corner with the rounding made as small as the mate's tip needs, which comes by it on its path from the flank to the
-    /// root, as far as the flank goes on above it. The tip works on the flank down to a roll.
+    /// Corner with its rounding reduced until the mate's tip clears it on its path from the flank to the root, but not below the
+    /// radius at which the flank can no longer be extended. The tip works on the flank down to the roll `rolled`.
     fn clear_corner(&self, corner: Corner, flank: &Flank<'_>, rolled: f64) -> Corner {
         let beyond = |path: &[Place], radius: f64| {
             let corner = flank.tool.corner(corner.depth, radius);
@@ -116,7 +116,7 @@ impl Fitting<'_> {
         }
         let beyond = |radius: f64| beyond(&path, radius);
         let sharp = flank.tool.corner(corner.depth, 0.0).end;
-        // The flank goes on as far as it moves on.
+        // The flank is extended until its generation speed is too low.
         let [from, to] = [rolled, sharp].map(|roll| {
             let arc = flank.crossing + flank.side.sign() * roll;
             flank.rolling.parameter(arc)
@@ -152,7 +152,7 @@ fn tip_path(flank: &Flank<'_>, rolled: f64, places: u32) -> Vec<Place> {
     };
     let arc = |share: f64| mate.crossing - mate.side.sign() * rolled * share;
     let tip = mate.point(mate.rolling.parameter(arc(1.0)));
-    // The tip is deepest about where it is above the pitch curve.
+    // The tip is deepest about where it is on the normal of the pitch curve, which is the last position.
     let shares = (1..=places).map(|i| 1.0 - cos * cos * f64::from(i) / f64::from(places));
     shares
         .map(|share| {
@@ -166,8 +166,8 @@ fn tip_path(flank: &Flank<'_>, rolled: f64, places: u32) -> Vec<Place> {
         .collect()
 }
 
-/// The corner of a space whose root is `depth` deep and whose flank is worked down to a roll `end`
-/// below its crossing: the largest rounding that starts there and fits a space `space` wide.
+/// The corner of a space whose root is `depth` deep and whose flank works down to a roll `end` below its crossing: the largest
+/// rounding that starts there and fits a space `space` wide.
 fn corner(tool: &Tool, depth: f64, end: f64, space: f64) -> Corner {
     // A centre on the pitch curve itself would cut the whole fillet in one instant.
     let maximum = tool

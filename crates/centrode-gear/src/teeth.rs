@@ -185,7 +185,7 @@ pub(crate) fn layout(
                 short,
             });
         }
-        // The two roundings may just touch: leave that to rounding.
+        // The two roundings may just touch, with an error within rounding.
         if tool.tip_radius > maximum * (1.0 + 1e-12) {
             return Err(TeethError::TipRadius {
                 member,
@@ -280,7 +280,7 @@ fn phase(
     }
 }
 
-/// Mirror s* for which r(s) + r(s* - s) comes nearest to a, and the maximum deviation left.
+/// Mirror s* for which r(s) + r(s* - s) comes nearest to a, and the maximum remaining deviation.
 fn self_mating_difference(rolling: &Rolling, pitch: f64) -> Option<(f64, f64)> {
     const SAMPLES: u32 = 96;
     if rolling.mean_ratio() != (1, 1) {
@@ -290,7 +290,7 @@ fn self_mating_difference(rolling: &Rolling, pitch: f64) -> Option<(f64, f64)> {
     let radius = |s: f64| rolling.curve().at(rolling.parameter(s)).point.coords.norm();
     let (minimum, maximum) = rolling.radii(Member::Driver);
     if maximum - minimum < 1e-12 * maximum {
-        // A circle mirrors about anything: half a pitch puts tooth 0 at phi = 0.
+        // A circle is symmetric about any point: half a pitch puts tooth 0 at phi = 0.
         return Some((0.5 * pitch, 0.0));
     }
     let (low, high) = rolling.extreme_arcs();

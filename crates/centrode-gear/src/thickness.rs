@@ -7,11 +7,11 @@ use centrode_kinematics::machine::StandardTable;
 use super::design::BodySpec;
 use super::{GearPair, Member};
 
-/// Reference diameters up to which, mm, and tolerances of tooth thickness by series, um.
+/// Tolerances of tooth thickness, um, by series, for reference diameters up to a limit, mm.
 static TOLERANCES: LazyLock<StandardTable<11>> =
     LazyLock::new(|| StandardTable::read(include_str!("../data/din-3967.csv")));
-/// Series less the accuracy class: series 26 for class 8. A tolerance is then at least twice what the thickness of the teeth of
-/// one gear of the class varies by, as DIN 3967 requires.
+/// Series minus the accuracy class: series 26 for class 8. A tolerance is then at least twice the variation of tooth thickness on
+/// one gear of the class, as DIN 3967 requires.
 const ABOVE_CLASS: u32 = 18;
 /// Minimum module of the standard, mm.
 const MIN_MODULE: f64 = 1.0;

@@ -71,7 +71,7 @@ impl Tool {
         }
     }
 
-    /// Angle between the tool's flank where it goes over into the corner and the line to the tool's axis, rad.
+    /// Angle between the tool's flank at its transition to the corner and the line to the tool's axis, rad.
     pub(crate) fn corner_angle(&self, corner: &Corner) -> f64 {
         match self.kind {
             ToolKind::Rack => self.pressure_angle,
@@ -91,7 +91,8 @@ impl Tool {
         }
     }
 
-    /// Depth, at most `deepest`, at which the tool comes to a point without any rounding, for a space of pitch-line width `space`, mm.
+    /// Depth, at most `deepest`, at which the tool comes to a point without rounding, for a space of pitch-line width `space`,
+    /// mm.
     pub(crate) fn pointed_depth(&self, space: f64, deepest: f64) -> f64 {
         match self.kind {
             ToolKind::Rack => (0.5 * space / self.pressure_angle.tan()).min(deepest),
@@ -106,9 +107,8 @@ impl Tool {
         }
     }
 
-    /// Maximum rounding that leaves the tool's tip a flat, for a space of pitch-line width `space`
-    /// and `depth`, mm: the two roundings of a tool tooth meet at its middle. Not positive where the tip is
-    /// pointed without any.
+    /// Maximum rounding that leaves a flat on the tool's tip, for a space of pitch-line width `space` and `depth`, mm: the two
+    /// roundings of a tool tooth meet at its middle. Not positive if the tip is pointed even without rounding.
     pub(crate) fn maximum_tip_radius(&self, depth: f64, space: f64) -> f64 {
         let (sin, cos) = self.pressure_angle.sin_cos();
         match self.kind {

@@ -1,4 +1,4 @@
-//! Teeth as chords, to find how deep points lie below them.
+//! Teeth as chords, to compute the depth of points below their contour.
 
 use std::cell::Cell;
 
@@ -14,7 +14,7 @@ use super::{
 /// Number of chords, each with its bulge, that approximate a flank, and a tip.
 const FLANK_CHORDS: u32 = 24;
 const TIP_CHORDS: u32 = 6;
-/// Chords within one circle that keeps them from being looked at one by one.
+/// Number of chords within one circle, so that distant chords are skipped together.
 const GROUP: usize = 6;
 /// The working part of a tooth as chords: leading flank upwards, tip, trailing flank downwards.
 pub(super) struct ToothChords {
@@ -23,12 +23,12 @@ pub(super) struct ToothChords {
     bulges: Vec<f64>,
     /// Circles around groups of chords.
     groups: Vec<Disc>,
-    /// Sign: +1 where the material lies to the left of the walk.
+    /// Sign: +1 where the material lies to the left of the direction of travel.
     material: f64,
     supports: Option<Supports>,
     pub(super) middle: Point,
     pub(super) radius: f64,
-    /// The chord that was nearest last: the points of a walk are near each other.
+    /// The chord that was nearest in the last call: successive points are near each other.
     last: Cell<usize>,
 }
 
@@ -58,7 +58,7 @@ impl Candidate {
         }
     }
 
-    /// Point along a flank, from its lowest needed place (share 0) up to its tip.
+    /// Point along a flank, from its lowest needed point (share 0) up to its tip.
     fn along(&self, flank: &Flank<'_>, share: f64) -> Point {
         let side = flank.side as usize;
         let (up, down) = (self.reaches[side], self.depths[side]);
@@ -86,7 +86,7 @@ impl ToothChords {
             frame.point + frame.normal * (high_a + share * (high_b - high_a))
         };
         let shares = |count: u32| (0..=count).map(move |i| f64::from(i) / f64::from(count));
-        // The driver is walked counter-clockwise, the driven gear clockwise.
+        // The contour of a driver tooth is traversed counter-clockwise, that of a driven tooth clockwise.
         let material = if candidate.member == Member::Driver {
             1.0
         } else {
@@ -130,7 +130,7 @@ impl ToothChords {
         [self.places[first], self.places[first + TIP_CHORDS as usize]]
     }
 
-    /// Runs of neighbouring places, each place in one of them, with the circle around it.
+    /// Runs of neighbouring points, with the circle around each run; every point is in one run.
     pub(super) fn runs(&self) -> impl Iterator<Item = (&Point, f64, &[Point])> {
         let last = self.groups.len() - 1;
         let runs = self.groups.iter().enumerate();
@@ -145,14 +145,14 @@ impl ToothChords {
         })
     }
 
-    /// Whether a circle lies so that no point in it has a depth below the tooth.
+    /// Whether no point within a circle has a depth below the tooth.
     pub(super) fn is_beyond(&self, center: &Point, radius: f64) -> bool {
         let apart = self.radius + radius;
         (center - self.middle).norm_squared() >= apart * apart || self.is_past(center, radius)
     }
 
-    /// Whether a circle lies beyond a support, nearer to the chord that was nearest last than to a corner of the tip: what is
-    /// nearest to a sharp corner counts by the line of its first chord, on whose inside it may be.
+    /// Whether a circle lies beyond a support line, and nearer to the last nearest chord than to a corner of the tip. At a sharp
+    /// corner the depth is measured from the line of the first chord, and a point outside the tooth may be on its inner side.
     fn is_past(&self, center: &Point, radius: f64) -> bool {
         let supports = self.supports.as_ref();
         if !supports.is_some_and(|supports| supports.are_past(center, radius)) {
@@ -165,12 +165,12 @@ impl ToothChords {
         corners.iter().all(|&corner| away(corner) > near)
     }
 
-    /// Depth of a point below the nearest chord; nothing where an end of the tooth is nearest.
+    /// Depth of a point below the nearest chord; `None` if an end of the tooth is nearest.
     pub(super) fn depth(&self, point: &Point) -> Option<f64> {
         let mut nearest = f64::INFINITY;
         let mut depth = None;
         let last = self.places.len() - 2;
-        // No chord is nearest that is farther than a place.
+        // The nearest chord is at most as far away as any point of the contour.
         let within = (point - self.places[self.last.get()]).norm();
         let mut found = 0;
         for (number, Disc { center, radius }) in self.groups.iter().enumerate() {
@@ -206,10 +206,10 @@ impl ToothChords {
     }
 }
 
-/// Lines that a tooth does not reach over: along its flanks and along its tip, above its lowest places.
+/// Lines that a tooth does not cross, along its flanks and along its tip; they hold above its lowest points.
 ///
-/// There the tooth is a polygon, closed by the line between its ends. A point beyond a line is out of it, and the chord that is
-/// nearest shows it its outside.
+/// There the tooth is a polygon, closed by the line between its ends. A point beyond a line is outside the polygon and on the
+/// outer side of its nearest chord.
 struct Supports {
     /// Outward normals, and how far the tooth reaches along each.
     lines: [(Vector, f64); 3],
@@ -218,7 +218,7 @@ struct Supports {
 }
 
 impl Supports {
-    /// The lines of a tooth; none where it reaches below its ends, or its flanks cross.
+    /// The lines of a tooth; `None` if it reaches below its ends, or its flanks cross.
     fn new(places: &[Point], bulges: &[f64], material: f64) -> Option<Self> {
         let last = places.len() - 1;
         let ends = [0, FLANK_CHORDS as usize, last - FLANK_CHORDS as usize, last];
@@ -253,7 +253,7 @@ impl Supports {
     }
 }
 
-/// Circle around neighbouring places of a curve.
+/// Circle around neighbouring points of a curve.
 fn group(places: &[Point]) -> Disc {
     let center = nalgebra::center(&places[0], &places[places.len() - 1]);
     let away = places.iter().map(|p| (p - center).norm());

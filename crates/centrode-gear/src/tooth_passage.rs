@@ -12,21 +12,21 @@ use super::{
     tooth_chords::ToothChords,
 };
 
-/// Poses a pitch at which two teeth are held against each other.
+/// Number of poses per pitch at which two teeth are compared.
 const POSES: u32 = 20;
-/// Pitches, half of them on either side of the middle of a passage, within which teeth are held against each other: on pitch curves that
-/// are concave in turn they still meet some pitches before they mesh.
+/// Number of pitches, half of them on either side of the middle of a passage, within which teeth are compared. On pitch curves
+/// that are concave in turn, teeth can still touch some pitches before they mesh.
 const PITCHES: u32 = 16;
 /// Maximum path of a corner in its mate's axes, pitches, from one pose to the next where teeth are trimmed.
 const WAY: f64 = 0.02;
-/// Penetration that may be the approximation's own, as a share of the pitch.
+/// Penetration, as a share of the pitch, that may be an error of the approximation.
 const PENETRATION: f64 = 3e-5;
-/// Safety factor on a limiting reach; covers what lies between sampled poses.
+/// Safety factor on a limiting reach; covers penetration between sampled poses.
 const CACHED: f64 = 0.95;
-/// Minimum share of a whole reach that is taken off a limiting one.
+/// Minimum share of a whole reach by which a limiting reach is reduced.
 const SPARE: f64 = 0.02;
 
-/// Parts of which a number of a tooth's reach is kept.
+/// Number of equal parts of a tooth's reach in which trimming is counted.
 const PARTS: u32 = 1024;
 
 /// Roll lengths to the tip of the leading and the trailing flank of a tooth.
@@ -43,7 +43,7 @@ pub(crate) struct Candidate {
     pub(crate) depths: [f64; 2],
 }
 
-/// Poses of both gears, evenly spaced along the pitch curves, found once for all the passages that share them.
+/// Poses of both gears, evenly spaced along the pitch curves, computed once for all the passages that share them.
 #[derive(Debug)]
 pub(crate) struct Poses<'a> {
     rolling: &'a Rolling,
@@ -56,7 +56,7 @@ pub(crate) struct Poses<'a> {
 }
 
 impl<'a> Poses<'a> {
-    /// Poses about the arc length `middle` of a passage, and about all others half pitches from it.
+    /// Poses about the arc length `middle` of a passage, and about all arc lengths a multiple of half a pitch from it.
     pub(crate) fn new(rolling: &'a Rolling, middle: f64, pitch: f64) -> Self {
         Self {
             rolling,
@@ -75,7 +75,7 @@ impl<'a> Poses<'a> {
         ((middle - self.origin) / self.step).round() as i64 - Self::COUNT / 2
     }
 
-    /// Finds the poses about all arc lengths from one to another, and reuses those that are known.
+    /// Computes the poses about all arc lengths between two, and reuses those that are stored.
     pub(crate) fn find(&mut self, [first, last]: [f64; 2]) {
         let (from, to) = (self.from(first), self.from(last) + Self::COUNT);
         let end = self.first + self.kept.len() as i64;
@@ -93,7 +93,7 @@ impl<'a> Poses<'a> {
     fn about(&mut self, middle: f64) -> impl Iterator<Item = &[Frame; 2]> + Clone {
         let (from, count) = (self.from(middle), Self::COUNT);
         self.find([middle; 2]);
-        // The passages of a tooth come in order, those of the next begin seven half pitches back at most.
+        // The passages of a tooth come in order; those of the next tooth begin at most seven half pitches before.
         while from - self.first > count {
             self.kept.pop_front();
             self.first += 1;
@@ -113,7 +113,7 @@ pub(crate) struct ToothPassage<'a> {
     near: Vec<[Frame; 2]>,
 }
 
-/// A tooth of which a share of the reaches is kept, with its shapes as far as they have been requested.
+/// A tooth trimmed to a share of its reaches, with the shapes computed so far.
 struct Trimmed<'a> {
     candidate: &'a Candidate,
     whole: OnceCell<Rc<ToothChords>>,
@@ -159,9 +159,9 @@ impl<'a> Trimmed<'a> {
 }
 
 impl<'a> ToothPassage<'a> {
-    /// Sets up the passage of two teeth about the arc length `middle`, each within a circle; nothing where both
-    /// pitch curves are convex for eight pitches around, for the rack's straight flank then keeps the teeth apart, or where the
-    /// circles do not meet.
+    /// Sets up the passage of two teeth about the arc length `middle`, each within a circle. `None` if both pitch curves are
+    /// convex for eight pitches around, because the rack's straight flank then keeps the teeth apart, or if the circles do not
+    /// meet.
     pub(crate) fn about(
         poses: &mut Poses<'a>,
         tools: &'a [Tool; 2],
@@ -196,7 +196,7 @@ impl<'a> ToothPassage<'a> {
         poses.any(|pose| penetrate(pose, &teeth, self.pitch))
     }
 
-    /// Shortens one tooth or the other, whichever costs less, or both, until they penetrate nowhere.
+    /// Shortens one tooth or the other, whichever loses less reach, or both, until they penetrate nowhere.
     pub(crate) fn clear(&self, teeth: &[Candidate; 2]) -> [Reaches; 2] {
         let [driver, driven] = teeth.each_ref().map(Trimmed::new);
         let shapes = |[first, second]: [f64; 2]| {
@@ -204,7 +204,7 @@ impl<'a> ToothPassage<'a> {
             [driver.shape(self, first), driven.shape(self, second)]
         };
         let whole = shapes([1.0, 1.0]);
-        // A shorter tooth lies within a longer one: where these are clear, all are.
+        // A shorter tooth lies within a longer one: if the whole teeth are clear, all shorter ones are.
         let foul = self.foul(&whole);
         if foul.is_empty() {
             return [driver.candidate.reaches, driven.candidate.reaches];
@@ -236,8 +236,8 @@ impl<'a> ToothPassage<'a> {
         [driver.reaches(first), driven.reaches(second)]
     }
 
-    /// Poses at which two teeth penetrate each other, and more between them and next to them where corners move far from one to the
-    /// next.
+    /// Poses at which two teeth penetrate each other, and further poses between these and their neighbours where corners move far
+    /// from one to the next.
     fn foul(&self, teeth: &[Rc<ToothChords>; 2]) -> Vec<[Frame; 2]> {
         let near = &self.near;
         let is_foul: Vec<bool> = (near.iter())
@@ -291,7 +291,7 @@ fn penetrate([a, b]: &[Frame; 2], teeth: &[Rc<ToothChords>; 2], pitch: f64) -> b
     is_deep(one, carried(a, b), two, pitch) || is_deep(two, carried(b, a), one, pitch)
 }
 
-/// Whether a position of a tooth, carried to where its mate is, lies deep in the mate.
+/// Whether a point of a tooth, moved into the frame of its mate, lies deep in the mate.
 fn is_deep(
     tooth: &ToothChords,
     carried: impl Fn(&Point) -> Point,
@@ -306,24 +306,24 @@ fn is_deep(
                 .is_some_and(|d| d > PENETRATION * pitch && d < 0.5 * pitch)
     };
     let mut near = tooth.runs().filter(|(center, radius, _)| {
-        // Rounding may put a position out of its circle.
+        // Rounding may put a point outside its circle.
         !mate.is_beyond(&carried(center), radius * (1.0 + 1e-9))
     });
     near.any(|(_, _, places)| places.iter().any(is_deep))
 }
 
-/// Share of a number of parts.
+/// Share of the reach of a number of parts.
 fn share(part: u32) -> f64 {
     f64::from(part) / f64::from(PARTS)
 }
 
-/// Share that is kept of a number of parts at which nothing penetrates.
+/// Share of the reach that is used if nothing penetrates at a number of parts.
 fn margined(part: u32) -> f64 {
     let share = share(part);
     (CACHED * share).min(share - SPARE).max(0.0)
 }
 
-/// First number of parts of which something holds that holds of all from some one on; found by bisection.
+/// Minimum number of parts for which a condition holds, by bisection; it must hold for all larger numbers, too.
 fn first_part(holds: impl Fn(u32) -> bool) -> u32 {
     let (mut from, mut to) = (0, PARTS);
     while from < to {
@@ -337,8 +337,8 @@ fn first_part(holds: impl Fn(u32) -> bool) -> u32 {
     from
 }
 
-/// Maximum number of parts that is clear at every one of some poses, if it is one of `minimum` parts at least. Fewer parts are clear wherever
-/// more are.
+/// Maximum number of parts that is clear at all poses; `None` if it is below `minimum`. If a number is clear, all smaller ones
+/// are.
 fn clear_part<P>(poses: &[P], minimum: u32, clear: impl Fn(&P, u32) -> bool) -> Option<u32> {
     let mut part = PARTS;
     for number in scattered(poses.len()) {
@@ -353,7 +353,7 @@ fn clear_part<P>(poses: &[P], minimum: u32, clear: impl Fn(&P, u32) -> bool) -> 
     Some(part)
 }
 
-/// All numbers below a count, far ones first: what holds of the first of them holds most often of those between.
+/// All numbers below a count, the first ones far apart: a limit found at these holds mostly for those between, too.
 fn scattered(count: usize) -> impl Iterator<Item = usize> {
     let bits = count.next_power_of_two().trailing_zeros();
     let mirrored = move |i: usize| {
@@ -366,7 +366,7 @@ fn scattered(count: usize) -> impl Iterator<Item = usize> {
         .filter(move |&i| i < count)
 }
 
-/// The motion from one gear's frame to the other's at one pose: the rolling frames coincide, their
+/// Moves a point from one gear's frame to the other's at one pose: the rolling frames coincide, their
 /// normals opposed.
 fn carry(from: &Frame, to: &Frame, p: &Point) -> Point {
     let v = p - from.point;

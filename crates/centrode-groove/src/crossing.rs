@@ -18,7 +18,7 @@ pub struct Crossing {
     pub angle: f64,
     /// Length without walls, mm: a slider guided through must be longer. `w / sin(angle)`.
     pub gap: f64,
-    /// Whether both are strokes here, not reversals.
+    /// Whether the slider passes it on both strokes, not in a reversal.
     pub of_strokes: bool,
 }
 
@@ -39,8 +39,8 @@ const TRIED: u32 = 64;
 impl Groove {
     /// Crossings of the groove with itself, in the order the slider passes them on its outward stroke.
     ///
-    /// One for every turn of the cycle but one: going out and coming back the slider takes every position
-    /// once each, so at the same angle of the shaft the two meet exactly once a turn between them.
+    /// Their number is that of the turns of the cycle minus one: the slider takes every position once outwards and once back, and
+    /// for each whole number of turns between the two there is exactly one crossing.
     #[must_use]
     pub fn crossings(&self) -> Vec<Crossing> {
         let traverse = self.traverse();
@@ -51,14 +51,14 @@ impl Groove {
             .map(|turns| {
                 let later = TAU * f64::from(turns);
                 let apart = |out: f64| place(out + later) - place(out);
-                // Both on their own strokes: falls from end to end.
+                // Between these ends one motion is outwards and the other back: the distance falls from end to end.
                 let low = (near - period).max(far - later);
                 let high = far.min(near - later);
                 let out = bracketed_root(apart, low, high, apart(low), apart(high));
                 let back = out + later;
                 let angle = self.lead_angle(out) - self.lead_angle(back);
                 let slack = 1e-9 * period;
-                // The slider passes a crossing out before it does back, within one cycle from a near tip.
+                // The slider passes a crossing first outwards, then back, within one cycle from a near tip.
                 let [gone, come] = [out, back].map(|theta| theta - traverse.start());
                 Crossing {
                     out,
@@ -83,12 +83,12 @@ impl Groove {
         longest(&self.crossings(), false)
     }
 
-    /// Minimum shift of the return stroke with which a slider of this length (mm) bridges every crossing
-    /// of the two strokes, or the best there is if none is enough.
+    /// Minimum shift of the return stroke with which a slider of this length (mm) bridges every crossing of the two strokes. If
+    /// no shift is sufficient, the one that needs the shortest slider.
     ///
-    /// Picking the same hole at the same angle of the shaft on both strokes puts a crossing there, whatever
-    /// the law: only by missing the hole a little, half of the offset on each stroke, does the slow point come
-    /// off it. The crossings next to the reversals cannot be moved so.
+    /// If both strokes pick the same hole at the same angle of the shaft, there is a crossing, whatever the law. The slow point
+    /// leaves this crossing only if each stroke misses the hole a little, by half of the offset. The crossings next to the
+    /// reversals cannot be moved so.
     ///
     /// # Errors
     /// [`ShaftError`] where the shifted groove does not exist.

@@ -136,7 +136,7 @@ impl SpiralShaftDesign {
             [1e-6, 360.0],
             " deg",
         )?;
-        // A hundred turns in either direction; of many millions nothing is left of an angle within one.
+        // A hundred turns in either direction: after many millions no digits are left for the angle within a turn.
         in_range("pick_deg", self.pick.to_degrees(), [-36e3, 36e3], " deg")?;
         positive("pot_width", self.pot_width)?;
         finite("return_offset", self.return_offset)?;
@@ -158,7 +158,7 @@ impl SpiralShaftDesign {
         }
     }
 
-    /// Law with its amplitude solved for the required distance where one is given.
+    /// Law with its amplitude solved for the required distance, if one is given.
     ///
     /// # Errors
     /// [`ShaftError`] where no amplitude gives it.

@@ -18,9 +18,8 @@ pub struct EllipticDrive {
 }
 
 impl EllipticDrive {
-    /// Elliptic pair that lets a plain shaft of this lead (mm a turn) move the slider by `moved` (mm) in the
-    /// window (rad) around the slow point: `k = t / (sin h - t cos h)`, `h = W / 2`,
-    /// `t = tan((W - 2 pi d / p) / 4)`.
+    /// Elliptic pair with which a plain shaft of this lead (mm per turn) moves the slider by `moved` (mm) in the window (rad)
+    /// around the slow point: `k = t / (sin h - t cos h)`, `h = W / 2`, `t = tan((W - 2 pi d / p) / 4)`.
     ///
     /// # Errors
     /// [`ShaftError::MovedDistance`] where no eccentricity from 0 to below 1 gives it.

@@ -20,9 +20,9 @@ pub enum ShaftError {
     Amplitude {
         /// Amplitude, mm.
         amplitude: f64,
-        /// Waves a turn.
+        /// Waves per turn.
         harmonic: u32,
-        /// Lead, mm a turn.
+        /// Lead, mm per turn.
         lead: f64,
         /// Amplitude at which the speed falls to zero, mm.
         limit: f64,
@@ -37,7 +37,7 @@ pub enum ShaftError {
         /// Speed there over its mean.
         ratio: f64,
     },
-    /// A distance no amplitude gives.
+    /// A distance that no amplitude gives.
     #[error(
         "moved_distance must lie between {minimum:.6} mm, where the slider stops, and {maximum:.6} mm, where its speed is constant, not {required}"
     )]
@@ -56,7 +56,7 @@ pub enum ShaftError {
     Window {
         /// Width of the window, deg.
         window_deg: f64,
-        /// Waves a turn.
+        /// Waves per turn.
         harmonic: u32,
     },
     /// Reversals after which the groove does not meet its own start.
@@ -64,7 +64,7 @@ pub enum ShaftError {
         "the reversal must take a whole number of half turns, or the groove does not close on the shaft; it is {0}"
     )]
     ReversalAngle(f64),
-    /// A law that does not bring the speed smoothly and evenly from one direction to the other.
+    /// A law that does not change the speed smoothly and symmetrically from one direction to the other.
     #[error(
         "the law {law} does not reverse the slider: its acceleration must vanish at both ends and its halves be equal"
     )]
@@ -75,7 +75,7 @@ pub enum ShaftError {
     /// A slider that reverses more than once in a reversal.
     #[error("the slider turns round {0} times in one reversal: take a larger reversal angle")]
     TurnsRound(usize),
-    /// A groove that leaves no land to the next turn of itself.
+    /// A groove that leaves no land between neighbouring turns.
     #[error(
         "the groove is {width} mm wide, but the next turn of the groove is only {room:.6} mm away along the normal"
     )]
@@ -92,10 +92,10 @@ pub enum ShaftError {
         depth: f64,
         /// Radius of the shaft, mm.
         radius: f64,
-        /// Part in the way.
+        /// Part that the groove reaches.
         limit: &'static str,
     },
-    /// A slider of the groove's width cannot follow the bend.
+    /// A bend that a slider of the groove's width cannot follow.
     #[error(
         "the groove bends with a radius of {radius:.6} mm at {angle_deg:.3} deg, less than half its width of {width} mm: no slider cuts or follows it; take a larger reversal angle"
     )]
@@ -107,7 +107,7 @@ pub enum ShaftError {
         /// Width of the groove, mm.
         width: f64,
     },
-    /// A groove whose edges no smooth surfaces follow.
+    /// A groove whose edges smooth surfaces cannot follow.
     #[error(
         "the groove's edges bend too wildly for smooth surfaces between {0} lines round the shaft"
     )]
@@ -135,7 +135,7 @@ impl ShaftError {
         }
     }
 
-    /// Key of the design to blame.
+    /// Key of the design at fault.
     #[must_use]
     pub fn key(&self) -> String {
         match self {

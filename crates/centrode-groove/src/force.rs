@@ -56,8 +56,8 @@ impl Load {
         self.speed_rpm * TAU / 60.0
     }
 
-    /// Forces on the slider for a motion (mm and rad of what turns at the load's speed) on a groove of this lead angle
-    /// (rad) and radius (mm): those of a [`GuideForce`] for the push `m (x'' + g mu)` along the path of the box.
+    /// Forces on the slider for a motion (mm, by the angle in rad of the part that turns at the load's speed) on a groove of this
+    /// lead angle (rad) and radius (mm): those of a [`GuideForce`] for the push `m (x'' + g mu)` along the path of the box.
     ///
     /// Replaces equations (14) and (15) of Zhou et al. 2018.
     #[must_use]
@@ -68,13 +68,13 @@ impl Load {
         GuideForce::new(push, lead_angle, radius, self.groove_friction)
     }
 
-    /// Friction of the rails on the box in a motion, N: against its motion.
+    /// Friction force of the rails on the box, N: opposite to its motion.
     #[must_use]
     pub fn rail_force(&self, motion: &MotionJet) -> f64 {
         -way(motion) * self.mass * GRAVITY * self.rail_friction
     }
 
-    /// Speed of the shaft, turns a minute, above which a motion whose deceleration along its motion is at most
+    /// Speed of the shaft, turns per minute, above which a motion whose deceleration along its motion is at most
     /// `deceleration` (mm/rad^2) leaves the driving wall: `omega^2 = g mu / deceleration`. A motion that never slows down
     /// stays on its wall at any speed: infinite, with friction on the rails and without.
     #[must_use]
@@ -92,7 +92,7 @@ impl Load {
     }
 }
 
-/// Sense in which the box moves, or is about to move.
+/// Sign of the box's motion, or, at rest, of the motion that begins.
 fn way(motion: &MotionJet) -> f64 {
     if motion.velocity == 0.0 {
         motion.acceleration.signum()

@@ -114,7 +114,7 @@ impl Groove {
         self.depth
     }
 
-    /// Positions between which the motion is smooth and short: its breaks, tips and quarter turns.
+    /// Shaft angles between which the motion is smooth and short: its breaks, tips and quarter turns.
     #[must_use]
     pub(crate) fn ends(&self) -> Vec<f64> {
         let period = self.traverse.period();
@@ -211,7 +211,7 @@ impl Groove {
         [radius * cos, radius * sin, point.y]
     }
 
-    /// Point of the development that a point of the shaft comes from, on the turn around `near` (mm along x).
+    /// Point of the development for a point of the shaft, on the turn around `near` (mm along x).
     #[must_use]
     pub fn unwrapped(&self, [x, y, z]: [f64; 3], near: f64) -> Point {
         let turn = std::f64::consts::TAU;
@@ -223,8 +223,8 @@ impl Groove {
     /// A point of the wall that a cylindrical cutter of the groove's width cuts with its axis square to
     /// the shaft's, at the height `height` (mm from the shaft's axis along the cutter); exact envelope.
     ///
-    /// The cutter touches where its normal is square to its velocity there, `(height, s')`: at the foot of
-    /// the groove the wall lies farther round than the radial wall below its upper edge.
+    /// The cutter touches where its normal is square to its velocity there, `(height, s')`. At the foot of the groove this wall
+    /// is farther round the shaft than a radial wall below the same upper edge.
     #[must_use]
     pub fn cut_wall(&self, theta: f64, wall: Wall, height: f64) -> [f64; 3] {
         let motion = self.traverse.at(theta);
@@ -239,8 +239,8 @@ impl Groove {
         ]
     }
 
-    /// Maximum distance, mm, between a radial wall and the wall an end mill of the groove's width cuts:
-    /// both pass the surface equally, at the foot the mill leaves the groove this much wider on each side.
+    /// Maximum distance, mm, between a radial wall and the wall that an end mill of the groove's width cuts. Both have the same
+    /// edge on the surface; at the foot the mill makes the groove wider by this distance on each side.
     #[must_use]
     pub fn wall_deviation(&self) -> f64 {
         let apart = |theta: f64| {

@@ -15,7 +15,7 @@ use centrode_spec::rule::{
 };
 use centrode_spec::{DesignSpec, SpecError};
 
-/// Even parts of a turn in each of which a stroke has few extremes.
+/// Number of equal parts of a turn in each of which a stroke has few extremes.
 const PARTS: u32 = 16;
 
 /// Scheme by which the box is slowed down while a seedling is picked.
@@ -198,9 +198,9 @@ impl MovingBoxDesign {
 
     /// The gear pair of the scheme, the driver's far apex on the line of centres at the slow point.
     ///
-    /// The driven gear sits on the shaft's near journal: unless its body has a bore, both have the journal's, and the
-    /// hub's keyway for the journal's key. The driven gear's lies where that key is when the shaft turns slowest at
-    /// the drive's phase: half a turn and the phase behind the gear's x axis.
+    /// The driven gear sits on the shaft's near journal. Unless their body has a bore, both gears have the journal's diameter as
+    /// bore, and the hub's keyway for the journal's key. The driven gear's keyway is where that key is when the shaft turns
+    /// slowest at the drive's phase: half a turn and the phase behind the gear's x axis.
     #[must_use]
     pub fn gear_pair(&self, drive: &EllipticDrive) -> Option<GearPairDesign> {
         let gears = self.gears.as_ref()?;
@@ -288,7 +288,7 @@ impl MovingBox {
         &self.shaft
     }
 
-    /// The turn of the shaft by the gears, where there are any.
+    /// The turn of the shaft by the gears; `None` without gears.
     #[must_use]
     pub fn drive(&self) -> Option<&EllipticDrive> {
         self.drive.as_ref()

@@ -4,11 +4,11 @@ use super::SpiralShaft;
 use centrode_kinematics::machine::{Bar, Fit, Stock, TurnedPiece, TurnedPieces};
 use centrode_spec::digits::thousandths;
 
-/// Diameters of its own that the slider's pin is long in the box.
+/// Length of the slider's pin inside the box, in pin diameters.
 const IN_BOX: f64 = 2.0;
 
 impl SpiralShaft {
-    /// The slider's pin, from the slider's foot into the box, in whose frame it lies along x: `link` is the box's name.
+    /// The slider's pin, from the slider's foot into the box. In the box's frame it lies along x; `link` is the box's name.
     #[must_use]
     pub fn pin(&self, link: &str) -> TurnedPieces {
         let slider = self.slider();
@@ -24,7 +24,7 @@ impl SpiralShaft {
             link: link.into(),
             at: [self.groove().radius() - slider.reach, 0.0, 0.0],
             turn: [0.0, FRAC_PI_2, 0.0],
-            // The mass moved is given.
+            // The moved mass that the design states includes the pin.
             is_counted: true,
         }];
         pin

@@ -16,8 +16,8 @@ impl Load {
     /// Normal and transverse force by equations (14) and (15) for an acceleration of the box (m/s^2) and a
     /// lead angle (rad); (17) and (18) are the same with the acceleration of (16).
     ///
-    /// Shown next to [`force`](Self::force), not used: they take load and acceleration for opposed, and (15)
-    /// carries the wrong sign of (11) on.
+    /// Shown next to [`force`](Self::force), not used: the equations assume that load and acceleration are opposed, and (15) has
+    /// the wrong sign of (11).
     #[must_use]
     pub fn published(&self, acceleration: f64, lead_angle: f64) -> PublishedForce {
         let lead = lead_angle.abs();

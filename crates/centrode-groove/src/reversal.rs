@@ -84,12 +84,12 @@ pub(super) struct Ends {
     pub(super) speed: f64,
     /// Acceleration at both, mm/rad^2.
     pub(super) acceleration: f64,
-    /// Position of the end over that of the start, mm.
+    /// Position at the end minus that at the start, mm.
     pub(super) shift: f64,
 }
 
 impl Turnaround {
-    /// Motion after the share `x` of the reversal, from its start.
+    /// Motion after the share `x` of the reversal, relative to its start.
     pub(super) fn at(&self, x: f64, ends: Ends) -> MotionJet {
         let t = self.angle;
         let Ends {

@@ -3,7 +3,7 @@ use std::f64::consts::TAU;
 use super::Traverse;
 use centrode_kinematics::transmission::Transmission;
 
-/// Path of the box while a hole is picked.
+/// Part of the box's cycle in which a hole is picked.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Way {
     /// Forward stroke.
@@ -27,19 +27,19 @@ pub struct Pick {
     pub turn: u32,
     /// Angle of the shaft, or of the drive's input, at the middle of the window, rad.
     pub theta: f64,
-    /// Path of the box.
+    /// Part of the box's cycle.
     pub way: Way,
     /// Position of the box, mm.
     pub position: f64,
     /// Number of the nearest hole, from 0.
     pub hole: u32,
-    /// Position of the box over that of the nearest hole, mm.
+    /// Position of the box minus that of the nearest hole, mm.
     pub misplacement: f64,
     /// Distance the box sweeps in the window, mm.
     pub swept: f64,
 }
 
-/// Holes picked at each turn over a whole cycle out and back, one pick a turn.
+/// Holes picked at each turn over a whole cycle out and back, one pick per turn.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Schedule {
     /// The picks in order.
@@ -51,15 +51,15 @@ pub struct Schedule {
 impl Schedule {
     /// Schedule of picks at `pick + 2 pi k`, each in a window (rad) around that angle.
     ///
-    /// The holes lie a lead apart, the first where the box is at the first pick; with a return offset
-    /// they are half of it nearer, so that both strokes miss them equally.
+    /// The holes are one lead apart. The first is at the box's position at the first pick. With a return offset all holes are
+    /// shifted by half of it towards the near end, so that both strokes miss them equally.
     #[must_use]
     pub fn new(traverse: &Traverse, pick: f64, window: f64) -> Self {
         Self::driven(traverse, pick, window, |input| input)
     }
 
-    /// Schedule of a shaft that a drive turns: angles and windows are those of the drive's input, which has
-    /// turned the shaft to `shaft_turn(input)` and turns it once a turn.
+    /// Schedule of a shaft that a drive turns: angles and windows are those of the drive's input. At an input the shaft has
+    /// turned to `shaft_turn(input)`; it makes one turn per turn of the input.
     pub(super) fn driven(
         traverse: &Traverse,
         pick: f64,

@@ -93,7 +93,7 @@ impl SliderSpec {
         Ok(())
     }
 
-    /// Width for a groove of this width, mm.
+    /// Width of the slider for a groove of the width `groove`, mm.
     #[must_use]
     pub fn width(&self, groove: f64) -> f64 {
         groove - self.clearance

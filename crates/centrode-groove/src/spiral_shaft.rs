@@ -117,7 +117,7 @@ impl SpiralShaft {
         Schedule::new(self.traverse(), self.design.pick, self.design.window)
     }
 
-    /// Distance the box moves while the first seedling on the way is picked in full stroke, mm.
+    /// Distance the box moves while the first seedling is picked, as in full stroke, mm.
     #[must_use]
     pub fn moved_in_window(&self) -> f64 {
         let (pick, half) = (self.design.pick, 0.5 * self.design.window);
@@ -133,7 +133,7 @@ impl SpiralShaft {
     /// The shaft as a closed triangle mesh within the tolerance.
     ///
     /// # Errors
-    /// [`ShaftError`] where body and groove do not go together.
+    /// [`ShaftError`] where body and groove do not fit together.
     pub fn mesh(&self, tolerance: Tolerance) -> Result<Mesh, ShaftError> {
         Ok(ShaftSolid::new(&self.groove, self.body())?.mesh(tolerance))
     }
@@ -141,7 +141,7 @@ impl SpiralShaft {
     /// Mass, center of mass and inertia of the shaft, integrated over its exact surfaces.
     ///
     /// # Errors
-    /// [`ShaftError`] where body and groove do not go together.
+    /// [`ShaftError`] where body and groove do not fit together.
     pub fn mass_properties(&self) -> Result<MassProperties, ShaftError> {
         Ok(ShaftSolid::new(&self.groove, self.body())?.mass_properties())
     }
@@ -149,7 +149,7 @@ impl SpiralShaft {
     /// The shaft's boundary on exact surfaces; the fillet along the groove's floor is omitted.
     ///
     /// # Errors
-    /// [`ShaftError`] where body and groove do not go together, or the law is too wild for smooth surfaces.
+    /// [`ShaftError`] where body and groove do not fit together, or smooth surfaces cannot follow the law.
     pub fn shell(&self) -> Result<Shell, ShaftError> {
         ShaftSolid::new(&self.groove, self.body())?.shell()
     }
@@ -169,7 +169,7 @@ impl SpiralShaft {
     /// round the shaft starts anew.
     ///
     /// # Errors
-    /// [`ShaftError`] where body and groove do not go together.
+    /// [`ShaftError`] where body and groove do not fit together.
     pub fn wall_edges(&self, tolerance: Tolerance) -> Result<Vec<Vec<Point>>, ShaftError> {
         Ok(ShaftSolid::new(&self.groove, self.body())?.wall_edges(tolerance))
     }

@@ -63,10 +63,10 @@ impl Mill {
             .collect()
     }
 
-    /// Closed paths of the mill's axis on the development, mm, each ending where it began but whole turns
-    /// on: one along the middle, or one next to each wall.
+    /// Closed paths of the mill's axis on the development, mm: one along the middle, or one next to each wall. Each ends at its
+    /// start, but whole turns farther round.
     ///
-    /// Between two points the axes move in proportion, and the path is within the tolerance of the exact one.
+    /// Between two points the axes of the machine move in proportion, and the path is within the tolerance of the exact one.
     #[must_use]
     pub fn ways(&self, groove: &Groove, tolerance: Tolerance) -> Vec<Vec<Point>> {
         let beside = 0.5 * (groove.width() - self.diameter.unwrap_or(groove.width()));
@@ -89,7 +89,7 @@ impl Groove {
     pub fn way(&self, beside: f64, tolerance: Tolerance) -> Vec<Point> {
         let mut points = vec![self.beside(0.0, beside)];
         for pair in self.ends().windows(2) {
-            // A chord over the length l leaves a curve of the curvature k by k l^2 / 8.
+            // A chord of the length l deviates from a curve of the curvature k by k l^2 / 8.
             let looks = (0..=8).map(|i| pair[0] + (pair[1] - pair[0]) * f64::from(i) / 8.0);
             let bend = looks
                 .map(|theta| {

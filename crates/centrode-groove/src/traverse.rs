@@ -7,13 +7,13 @@ use super::{Reversal, ShaftError, ShaftLaw};
 use centrode_kinematics::transmission::{MotionJet, Transmission};
 use centrode_spec::rule::{count_in_range, finite};
 
-/// Number of samples of a reversal in the search for where the slider turns round.
+/// Number of samples of a reversal in the search for the slider's turning point.
 const SAMPLES: u32 = 512;
 
 /// The slider's whole cycle out and back: forward stroke, reversal, return stroke, reversal.
 ///
-/// The forward stroke runs from a start, the shaft angle 0 unless said otherwise, where the slider is at 0,
-/// through `holes - 1` turns; the return stroke is its mirror image in time, shifted along the shaft by `-return_offset`.
+/// The forward stroke runs from a start, by default the shaft angle 0, where the slider is at 0, through `holes - 1` turns; the
+/// return stroke is its mirror image in time, shifted along the shaft by `-return_offset`.
 /// Position, speed and acceleration are continuous; the motion repeats after [`period`](Transmission::period).
 #[derive(Clone, Debug)]
 pub struct Traverse {
@@ -29,7 +29,7 @@ pub struct Traverse {
 }
 
 impl Traverse {
-    /// Makes the cycle over `holes` places a lead apart, from the shaft angle 0.
+    /// Makes the cycle over `holes` positions one lead apart, from the shaft angle 0.
     ///
     /// # Errors
     /// [`ShaftError`] naming the violated rule and its numbers.
@@ -42,7 +42,7 @@ impl Traverse {
         Self::starting_at(0.0, law, holes, reversal, return_offset)
     }
 
-    /// Makes the cycle over `holes` places a lead apart, its forward stroke from the shaft angle `start` (rad).
+    /// Makes the cycle over `holes` positions one lead apart, its forward stroke from the shaft angle `start` (rad).
     ///
     /// A shaft that picks at `start` and at every turn from there picks the first and the last hole where the
     /// strokes begin and end, and with a reversal of whole turns the same holes on the return stroke.
@@ -101,7 +101,7 @@ impl Traverse {
         &self.law
     }
 
-    /// Positions to be picked, a lead apart.
+    /// Number of positions to be picked, one lead apart.
     #[must_use]
     pub fn holes(&self) -> u32 {
         self.holes
@@ -158,8 +158,7 @@ impl Traverse {
         [far - length, (-self.return_offset).min(0.0) - near]
     }
 
-    /// Distance the slider sweeps between two shaft angles, mm: the spread of its positions, also where it
-    /// turns round between them.
+    /// Distance the slider sweeps between two shaft angles, mm: the spread of its positions, even if it reverses between them.
     #[must_use]
     pub fn swept(&self, start: f64, stop: f64) -> f64 {
         let period = self.period();

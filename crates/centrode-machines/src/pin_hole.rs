@@ -9,12 +9,12 @@ pub struct PinHole {
     pub name: String,
     /// Position in the plate's axes, mm.
     pub at: Point,
-    /// Diameter, keyway with its direction in the plate's axes, and classes; a bore of 0 for a point without a hole.
+    /// Diameter, keyway with its direction in the plate's axes, and tolerance classes; the bore is 0 for a point without a hole.
     pub hub: BodySpec,
 }
 
 impl PinHole {
-    /// Its contour in the plate's axes.
+    /// Contour of the hole in the plate's axes.
     #[must_use]
     pub fn outline(&self) -> Outline {
         let keyed = self.hub.keyway.and_then(|_| self.hub.bore_outline());

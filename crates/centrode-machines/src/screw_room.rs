@@ -4,13 +4,13 @@ use centrode_kinematics::machine::FasteningError;
 /// Maximum number of positions tried along a segment of a line.
 const MAX_PLACES: f64 = 500.0;
 
-/// Fewest screws that hold a plate.
+/// Minimum number of screws that hold a plate.
 const FEWEST: usize = 3;
 
-/// Where screws may be: on a line, clear of what else is there.
+/// Room for screws: a line on which they may be, and the room that other parts occupy.
 #[derive(Clone, Debug)]
 pub(crate) struct ScrewRoom {
-    /// Line on which their axes lie; `None` if there is none.
+    /// Line on which the axes of the screws lie; `None` if there is none.
     pub(crate) line: Option<Outline>,
     /// Occupied room: circles that move along a straight line between two points, with their radius, mm.
     pub(crate) taken: Vec<([Point; 2], f64)>,
@@ -21,11 +21,11 @@ pub(crate) struct ScrewRoom {
 }
 
 impl ScrewRoom {
-    /// Middles of so many circles of a radius, mm, or of at least three: the first where most room is, every other as far from
-    /// all before it as there is room.
+    /// Centres of circles of a radius, mm: at least `count`, or at least three if there is no room for more. The first is where
+    /// the free circle is largest, each other one as far from all before it as possible.
     ///
     /// # Errors
-    /// [`FasteningError::NoRoom`] for a screw of a diameter.
+    /// [`FasteningError::NoRoom`] for a screw of the given diameter, mm.
     pub(crate) fn places(
         &self,
         diameter: f64,
@@ -41,7 +41,7 @@ impl ScrewRoom {
                 let at = self.stepped(segment.at(2.0 * i as f64 / parts - 1.0).point);
                 let room = self.room(at);
                 if room >= radius {
-                    // Equal positions differ by rounding: the first of them is taken.
+                    // Positions with equal room differ by rounding: rounding the room to 1e-6 mm lets the first of them win.
                     free.push((at, (1e6 * room).round()));
                 }
             }
@@ -76,7 +76,7 @@ impl ScrewRoom {
         Ok(found)
     }
 
-    /// The position nearest to another with coordinates in whole steps.
+    /// Position with coordinates in whole steps that is nearest to another position.
     fn stepped(&self, at: Point) -> Point {
         if self.grid > 0.0 {
             at.map(|x| (x / self.grid).round() * self.grid)

@@ -6,13 +6,13 @@ use super::random::Random;
 
 /// First step, as a share of the bounds.
 const FIRST_STEP: f64 = 0.3;
-/// First step about a point to start from, as a share of the bounds.
+/// First step about a given start, as a share of the bounds.
 const NEAR_STEP: f64 = 0.1;
-/// Step and spread of the distribution at which it starts again, with twice the points.
+/// Step and spread of the distribution below which the search restarts with twice the points.
 const MIN_STEP: f64 = 1e-14;
 
-/// Covariance matrix adaptation (Hansen 2016, arXiv 1604.00772), started again with twice the points
-/// where it has shrunk (IPOP, Auger and Hansen 2005). The bounds are mirrors.
+/// Covariance matrix adaptation (Hansen 2016, arXiv 1604.00772), restarted with twice the points when the distribution has shrunk
+/// (IPOP, Auger and Hansen 2005). Points beyond a bound are mirrored at it.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub(super) struct CmaEs {
     count: usize,
@@ -91,7 +91,7 @@ impl CmaEs {
         self.steps.iter().map(point).collect()
     }
 
-    /// Moves the distribution on by the points evaluated; names of the rates are Hansen's symbols.
+    /// Updates the distribution from evaluated points; names of the rates are Hansen's symbols.
     pub(super) fn update(&mut self, points: &[Candidate]) {
         let n = self.mean.len();
         let dimension = n as f64;

@@ -8,11 +8,11 @@ const MEMORY: usize = 6;
 /// Share of the population that counts as the best to move towards.
 const BEST: f64 = 0.11;
 
-/// Differential evolution, current-to-pbest/1/bin, with parameters learnt from what succeeded: SHADE
-/// (Tanabe and Fukunaga 2013, DOI 10.1109/CEC.2013.6557555), without its archive.
+/// Differential evolution, current-to-pbest/1/bin, with parameters learnt from successful trials: SHADE (Tanabe and Fukunaga
+/// 2013, DOI 10.1109/CEC.2013.6557555), without its archive.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub(super) struct DifferentialEvolution {
-    /// Scale and crossover rate that succeeded.
+    /// Pairs of scale and crossover rate that succeeded.
     memory: Vec<[f64; 2]>,
     next: usize,
     /// Pair with which each trial of this generation was made.

@@ -8,9 +8,9 @@ const MUTATION: (f64, f64) = (0.3, 40.0);
 /// Share of the pairs that are crossed.
 const CROSSED: f64 = 0.9;
 
-/// Children of a real-coded genetic algorithm: tournaments of two, simulated binary crossover (Deb and
-/// Agrawal 1995), and in each child on the average one mutation of any order of size, the greater ones more often, after the
-/// breeder genetic algorithm (Mühlenbein and Schlierkamp-Voosen 1993, DOI 10.1162/evco.1993.1.1.25).
+/// Children of a real-coded genetic algorithm: tournaments of two, simulated binary crossover (Deb and Agrawal 1995), and on
+/// average one mutation per child, of any order of magnitude, large ones more often, after the breeder genetic algorithm
+/// (Mühlenbein and Schlierkamp-Voosen 1993, DOI 10.1162/evco.1993.1.1.25).
 pub(super) fn children(population: &[Candidate], random: &mut Random) -> Vec<Vec<f64>> {
     let mut children = Vec::with_capacity(population.len() + 1);
     while children.len() < population.len() {

@@ -25,8 +25,8 @@ impl Evaluation {
         self.violation() <= 0.0 && !self.objective.is_nan()
     }
 
-    /// Order in which the better one is less: any feasible point before any other, then by objective; among the others
-    /// by violation (Deb 2000, DOI 10.1016/S0045-7825(99)00389-8). Values that are not numbers come last.
+    /// Order in which the better one is less: feasible points before infeasible ones, feasible points by objective, infeasible
+    /// ones by violation (Deb 2000, DOI 10.1016/S0045-7825(99)00389-8). Values that are not numbers come last.
     #[must_use]
     pub fn order(&self, other: &Self) -> Ordering {
         let key = |e: &Self| {
@@ -44,7 +44,7 @@ impl Evaluation {
 pub struct Candidate {
     /// The variables.
     pub point: Vec<f64>,
-    /// Evaluation of them.
+    /// Evaluation of the point.
     pub evaluation: Evaluation,
 }
 
@@ -61,7 +61,7 @@ pub trait Problem: Sync {
     /// The objective and the constraints at a point within the bounds.
     fn evaluate(&self, point: &[f64]) -> Evaluation;
 
-    /// Whether one evaluation costs more than handing it to another core: some 10 microseconds.
+    /// Whether one evaluation takes longer than handing it to another core: some 10 microseconds.
     fn is_costly(&self) -> bool {
         true
     }

@@ -76,7 +76,7 @@ impl Default for Settings {
     }
 }
 
-/// Best found up to the end of a generation.
+/// Best point found up to the end of a generation.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Progress {
     /// Generations done.
@@ -98,11 +98,11 @@ pub enum Ended {
     Evaluations,
     /// The observer requested it.
     Stopped,
-    /// No step helps any more.
+    /// No step improves the result any more.
     Stuck,
 }
 
-/// Reason why there is nothing to search.
+/// Reason why a search cannot start.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum SearchError {
@@ -112,7 +112,7 @@ pub enum SearchError {
     /// No evaluation allowed.
     #[error("a search needs at least 1 evaluation; evaluations is 0")]
     NoEvaluation,
-    /// A variable with no room.
+    /// A variable whose bounds are not finite or not ascending.
     #[error("variable {index} runs from {low} to {high}: the bounds must be finite and ascending")]
     Bounds {
         /// Index of the variable.
@@ -132,7 +132,7 @@ pub enum SearchError {
     },
 }
 
-/// Minimum number of points a generation.
+/// Minimum number of points per generation.
 const MIN_POPULATION: usize = 5;
 
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
@@ -142,7 +142,7 @@ enum State {
     CmaEs(CmaEs),
 }
 
-/// Search under way: keep it, store it, go on with it.
+/// Search in progress: it can be stored and continued.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct Search {
     settings: Settings,
@@ -239,8 +239,8 @@ impl Search {
         }
     }
 
-    /// Searches until the target is reached, the evaluations are used up or `observe` breaks off; the
-    /// best found is stored in every case.
+    /// Searches until the target is reached, the evaluations are used up or `observe` stops the search; the best point found is
+    /// stored in every case.
     pub fn run(
         &mut self,
         problem: &dyn Problem,
@@ -264,7 +264,7 @@ impl Search {
         }
     }
 
-    /// Allows so many evaluations in all, those done among them.
+    /// Sets the maximum total number of evaluations, including those already done.
     pub fn allow(&mut self, evaluations: u64) {
         self.settings.evaluations = evaluations;
     }
@@ -337,7 +337,7 @@ fn inside(bounds: &[(f64, f64)], shares: &[f64]) -> Vec<f64> {
 fn shares(bounds: &[(f64, f64)], point: &[f64]) -> Vec<f64> {
     let share = |(&(low, high), value): (&(f64, f64), &f64)| {
         let share = (value - low) / (high - low);
-        // A variable without room has no share.
+        // A variable with an empty range has no share.
         if share.is_finite() {
             share.clamp(0.0, 1.0)
         } else {
@@ -367,7 +367,7 @@ fn evaluated(
     }
 }
 
-/// Points of which each variable falls once into each of `count` equal parts of its range.
+/// Points such that each variable is once in each of `count` equal parts of its range.
 fn latin_hypercube(dimension: usize, count: usize, random: &mut Random) -> Vec<Vec<f64>> {
     let mut points = vec![vec![0.0; dimension]; count];
     for k in 0..dimension {

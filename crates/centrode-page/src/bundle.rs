@@ -1,4 +1,4 @@
-//! The modules of the page as one script: a policy then names by one hash all that runs.
+//! The modules of the page as one script: one hash in the page's policy then covers all code that runs.
 //!
 //! A module becomes a function that is called once, after those whose names it imports; its result holds the names it exports.
 
@@ -61,7 +61,7 @@ fn import(line: &'static str) -> Option<(String, &'static str)> {
     Some((names, from))
 }
 
-/// Names of an import or, `is_export`, an export, as those of an object: `a as b` is `a: b` or `b: a`.
+/// Names of an import or, if `is_export`, of an export, written as those of an object: `a as b` becomes `a: b` or `b: a`.
 fn renamed(names: &str, is_export: bool) -> String {
     let one = |name: &str| match name.split_once(" as ") {
         Some((inside, outside)) if is_export => format!("{}: {}", outside.trim(), inside.trim()),

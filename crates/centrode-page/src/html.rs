@@ -11,12 +11,12 @@ pub struct Asset {
     pub text: &'static str,
 }
 
-/// A vendored module of the page, packed by gzip: every browser takes it as it is.
+/// A vendored module of the page, packed by gzip: every browser accepts it in this form.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub struct Packed {
     /// File name.
     pub name: &'static str,
-    /// Media type of what is packed.
+    /// Media type of the unpacked content.
     pub media_type: &'static str,
     /// The content, packed by gzip.
     pub gzip: &'static [u8],
@@ -32,7 +32,7 @@ macro_rules! packed {
     };
 }
 
-/// three.js, which draws in space; the page fetches it when that is requested.
+/// three.js, which draws in three dimensions; the page loads it when the view in space is requested.
 const PACKED: [Packed; 2] = packed!("three-0.184.0": "three.module.min.js", "three.core.min.js");
 
 /// The packed module of the page with a name.
@@ -73,7 +73,7 @@ const STYLES: [Asset; 4] = assets!(
     "windows.css",
 );
 
-/// The scripts; `main.js` is the one to start.
+/// The scripts; `main.js` is the first to run.
 const SCRIPTS: [Asset; 43] = assets!(
     "text/javascript; charset=utf-8":
     "uplot.js" = UPLOT,
@@ -151,7 +151,8 @@ pub fn asset(name: &str) -> Option<&'static Asset> {
         .find(|asset| asset.name == name)
 }
 
-/// Only what is in the file: no request leaves a report, and its script and styles are named by their hashes.
+/// Policy of a report: only content of the file is allowed. The report makes no requests, and its script and styles are named by
+/// their hashes.
 fn allowed(script: &str) -> String {
     let styles: Vec<String> = STYLES
         .iter()
@@ -193,7 +194,7 @@ pub fn report(title: &str, snapshot: &str) -> String {
     between(&page, "<!-- scripts -->", "<!-- /scripts -->", &script)
 }
 
-/// The text with the part between two marks replaced; unchanged where a mark is missing.
+/// The text with the part between two marks replaced; unchanged if a mark is missing.
 fn between(text: &str, open: &str, close: &str, new: &str) -> String {
     let Some((before, rest)) = text.split_once(open) else {
         return text.to_owned();

@@ -5,7 +5,7 @@ use centrode_geometry::Tolerance;
 /// Meshes of a design, and their poses at the picture's inputs, as the page reads them.
 ///
 /// # Errors
-/// The reason in words if there is no machine, or a body of it is no solid.
+/// The reason in words if there is no machine, or one of its bodies is not a solid.
 pub fn meshes(text: &str, tolerance: Tolerance) -> Result<Vec<u8>, String> {
     let read = FAMILIES.read(text.as_bytes());
     let mechanism = read.and_then(|file| file.mechanism());

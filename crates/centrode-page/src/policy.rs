@@ -18,7 +18,7 @@ fn base64(bytes: &[u8]) -> String {
     out
 }
 
-/// Word of a page's policy that lets an inline script or style run: the hash of the text in its element.
+/// Source expression of a page's policy that allows an inline script or style: the hash of the text in its element.
 pub(super) fn source(text: &str) -> String {
     format!("'sha256-{}'", base64(&sha256(text.as_bytes())))
 }

@@ -31,7 +31,7 @@ pub struct Answers {
 struct Chart {
     title: String,
     unit: &'static str,
-    /// Figures; none where there is no mechanism.
+    /// Figures; `None` if there is no mechanism.
     figures: Vec<Option<f64>>,
     /// Minimum and maximum required figure.
     required: [Option<f64>; 2],
@@ -40,7 +40,7 @@ struct Chart {
 /// Checks the design at every value.
 ///
 /// # Errors
-/// The reason in words if the design cannot be read, the values do not rise, or the key is no number.
+/// The reason in words if the design cannot be read, the values do not rise, or the key does not hold a number.
 pub fn answers(ask: &Ask) -> Result<Answers, String> {
     let file = FAMILIES
         .read(ask.text.as_bytes())
@@ -56,7 +56,7 @@ pub fn answers(ask: &Ask) -> Result<Answers, String> {
         .response(file.design(), &ask.key, &values, Depth::Motion);
     let response = response.map_err(|error| error.message())?;
     let given = &response.values;
-    // Of a count several may come to one.
+    // For a key of whole numbers several values may round to the same number.
     let kept: Vec<usize> = (0..given.len())
         .filter(|&i| i == 0 || given[i] != given[i - 1])
         .collect();
@@ -102,7 +102,7 @@ pub fn answers(ask: &Ask) -> Result<Answers, String> {
     Ok(Answers { values, charts })
 }
 
-/// Whether a figure changes, so that it is more than a setting.
+/// Whether a figure changes, so that it is not just a setting.
 fn moves(figures: &[Option<f64>]) -> bool {
     let mut known = figures.iter().flatten();
     let first = known.next();

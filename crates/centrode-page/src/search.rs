@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
 use std::time::{Duration, Instant};
 
-/// Interval at which the best design found is written out for the page.
+/// Interval at which the best design found is prepared for the page.
 const SHOW: Duration = Duration::from_millis(400);
 
 /// Maximum number of points of the history that the page draws.
@@ -40,15 +40,15 @@ pub struct State {
     evaluations: u64,
     running: bool,
     ended: Option<Ended>,
-    /// Remark of the problem on the point where it ended.
+    /// Remark of the problem on the point at which the search ended.
     remark: Option<String>,
-    /// The best at the ends of its generations, thinned out.
+    /// Progress at the ends of the generations, thinned out.
     history: Vec<Progress>,
     /// The best design found, as a file.
     text: String,
     /// Goals of that design.
     goals: Vec<GoalWords>,
-    /// Goals and constraints missed at the start, or by the best.
+    /// Goals and constraints missed at the start or by the best design.
     missed: Vec<Missed>,
 }
 
@@ -59,7 +59,7 @@ struct Missed {
     unit: &'static str,
     start: String,
     best: String,
-    /// Range it is required in.
+    /// Required range.
     required: String,
     met: bool,
 }
@@ -104,10 +104,10 @@ impl Searching {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    /// Starts a search; one under way is stopped.
+    /// Starts a search; a search that is running is stopped.
     ///
     /// # Errors
-    /// The reason in words if there is none to start.
+    /// The reason in words if no search can start.
     pub fn start(&self, ask: Ask) -> Result<(), String> {
         let file = FAMILIES
             .read(ask.text.as_bytes())
@@ -183,7 +183,7 @@ impl Searching {
     }
 }
 
-/// The goals of a design; none where there is no mechanism.
+/// The goals of a design; empty if there is no mechanism.
 fn goals(text: &str) -> Vec<GoalWords> {
     let mechanism = FAMILIES
         .read(text.as_bytes())
@@ -226,7 +226,7 @@ fn work(run: &Run, text: &str, problem: &dyn DesignProblem, mut search: DesignSe
     let at = |point: &[f64]| problem.goals(point).unwrap_or_default();
     let start = problem.start().map(|point| at(&point)).unwrap_or_default();
     run.state().missed = missed(&start, &start);
-    // Checks of all constraints may be slow: they take a tenth of the time at most.
+    // Checks of all constraints may be slow: they may take at most a tenth of the time.
     let mut next = Instant::now();
     let ended = loop {
         let due = Instant::now() + SHOW;

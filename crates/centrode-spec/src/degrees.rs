@@ -3,7 +3,7 @@
 use serde::de::DeserializeOwned;
 use serde::{Deserializer, Serialize, Serializer};
 
-/// Degrees that read back as the given radians, the round number where there is one.
+/// Degrees that convert back to exactly these radians: a round number if there is one.
 #[must_use]
 pub fn written(radians: f64) -> f64 {
     let degrees = radians.to_degrees();

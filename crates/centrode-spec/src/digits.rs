@@ -1,6 +1,6 @@
 //! Numbers in messages.
 
-/// A number in as many digits as mean something: ten at most, and in powers of ten where it is very large or small.
+/// A number in at most ten significant digits, in powers of ten if it is very large or small.
 pub fn stated(value: f64) -> String {
     digits(value, 10)
 }
@@ -27,7 +27,7 @@ pub fn shortened(text: &str) -> String {
         let (number, after) = number.split_at(length(number));
         let in_word = before.ends_with(is_word) || after.starts_with(is_word);
         let digits = number.bytes().take_while(|c| *c != b'e').count();
-        // A count is written out, unless nobody could read it.
+        // A whole number of up to 20 digits may be a count and stays as it is.
         let is_long = digits > if number.contains('.') { 10 } else { 20 };
         let value = number.parse().ok().filter(|_| is_long && !in_word);
         short.push_str(before);
@@ -55,7 +55,7 @@ pub fn thousandths(mm: f64) -> String {
     rounded(mm, 3)
 }
 
-/// A number to so many decimals, without zeros at the end.
+/// A number to `decimals` decimals, without zeros at the end.
 pub fn rounded(value: f64, decimals: i32) -> String {
     let scale = 10.0_f64.powi(decimals);
     stated((scale * value).round() / scale)

@@ -13,7 +13,7 @@ use super::reader::Reader;
 use super::{DesignError, DesignFault, DesignFile};
 use crate::SpecError;
 
-/// A mechanism as written: one of the families, by the key `family`.
+/// A design as written in a file: of one of the families, named by the key `family`.
 pub trait Design: Any + Debug + Send + Sync {
     /// Family of the design.
     fn family(&self) -> DesignFamily;
@@ -33,24 +33,24 @@ pub trait Design: Any + Debug + Send + Sync {
     /// The design as a file; reads back as the same design.
     ///
     /// # Errors
-    /// [`DesignFault::NotWritable`] for a number no file can hold, such as a tooth count above the
-    /// maximum whole number of TOML.
+    /// [`DesignFault::NotWritable`] for a number that no file can hold, such as a tooth count above the maximum whole number of
+    /// TOML.
     fn to_toml(&self) -> Result<String, DesignError>;
 
     /// Key in the design file for a word: a parameter's name, `r1`, or the key itself.
     fn key_of(&self, word: &str) -> String;
 
-    /// Opens the number at a key of the design's file, `arm.tip_distance` or `pitch.radius[3]`.
+    /// The design with a replaceable number, at a key of its file: `arm.tip_distance` or `pitch.radius[3]`.
     ///
-    /// A number that is not written, but may be, is opened by [`NumberedDesign::with`] too, if its table is there.
+    /// A number that the file omits, but may have, can be set by [`NumberedDesign::with`] too, if its table is in the file.
     ///
     /// # Errors
-    /// [`DesignFault::UnknownKey`] where there can be no number at the key.
+    /// [`DesignFault::UnknownKey`] if the key cannot have a number.
     fn numbered(&self, key: &str) -> Result<NumberedDesign, DesignError> {
         NumberedDesign::new(self.family(), &self.to_toml()?, key)
     }
 
-    /// Whether another is the same design.
+    /// Whether another design equals this one.
     fn equals(&self, other: &dyn Design) -> bool;
 }
 
@@ -74,9 +74,9 @@ pub trait DesignSpec:
 {
     /// Word of the family, as written at the key `family`.
     const FAMILY: &'static str;
-    /// Sentence that says which mechanism it is.
+    /// Sentence that describes the mechanism.
     const ABOUT: &'static str;
-    /// Commented design file to start from, itself a good design.
+    /// Commented design file to start from, a valid design itself.
     const TEMPLATE: &'static str;
     /// Keys at the root that hold a table.
     const TABLES: &'static [&'static str];
@@ -99,7 +99,7 @@ pub trait DesignSpec:
     /// Reads a design file of this family and checks every rule that needs no geometry.
     ///
     /// # Errors
-    /// [`DesignError`] naming key, line and column.
+    /// [`DesignError`] with key, line and column.
     fn from_toml(text: &str) -> Result<Self, DesignError> {
         let mut reader = Reader::new(DesignFile::text_of(text.as_bytes())?);
         let (root, _) = reader.root(&[DesignFamily::new::<Self>()])?;
@@ -139,14 +139,14 @@ impl<D: DesignSpec> Design for D {
     }
 }
 
-/// Family of mechanism, as readers and writers of its design files need it.
+/// Family of mechanism, as needed to read and write its design files.
 #[derive(Clone, Copy, Debug)]
 pub struct DesignFamily {
     /// Word of the family, as written at the key `family`.
     pub word: &'static str,
-    /// Sentence that says which mechanism it is.
+    /// Sentence that describes the mechanism.
     pub about: &'static str,
-    /// Commented design file to start from, itself a good design.
+    /// Commented design file to start from, a valid design itself.
     pub template: &'static str,
     pub(super) read: Read,
     pub(super) schema: fn(&mut SchemaGenerator) -> Schema,

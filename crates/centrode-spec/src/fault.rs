@@ -13,7 +13,7 @@ pub struct DesignError {
     /// Fault.
     #[source]
     pub fault: DesignFault,
-    /// Key at fault with the tables around it, `teeth.backlash`; empty where no key is to blame.
+    /// Key at fault with the tables around it, `teeth.backlash`; empty if the fault has no key.
     pub key: String,
     /// Line of the key, from one.
     pub line: usize,
@@ -21,14 +21,14 @@ pub struct DesignError {
     pub column: usize,
 }
 
-/// A rule a design file breaks.
+/// Rule that a design file breaks.
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum DesignFault {
-    /// Too large to be a design; it is not read to its end.
+    /// A file above the maximum size; it is not read to its end.
     #[error("the file has at least {bytes} bytes; a design file has at most {limit}")]
     TooLarge {
-        /// Bytes seen of it.
+        /// Number of bytes read so far.
         bytes: usize,
         /// Maximum size read.
         limit: usize,
@@ -45,7 +45,7 @@ pub enum DesignFault {
     /// Not TOML.
     #[error("{0}")]
     Syntax(String),
-    /// A key that means nothing here.
+    /// A key that its table does not have.
     #[error("unknown key{}; known are {}{}", near.as_ref().map_or(String::new(), |n| format!(", did you mean {n:?}?")), known.join(", "), in_words(elsewhere))]
     UnknownKey {
         /// Nearest known key.
@@ -55,7 +55,7 @@ pub enum DesignFault {
         /// Where else the family has a key of this name, at most four, the nearest first.
         elsewhere: Vec<String>,
     },
-    /// A key that must be there.
+    /// A required key that is missing.
     #[error("the key {0:?} is missing")]
     MissingKey(String),
     /// A word that is not allowed.
@@ -71,10 +71,10 @@ pub enum DesignFault {
     /// A value of another type than the key takes.
     #[error("{0}")]
     WrongType(String),
-    /// A value outside its range, or against another key.
+    /// A value outside its range, or in conflict with another key.
     #[error("{0}")]
     Value(Rule),
-    /// The mechanism does not exist: the error that says why.
+    /// The mechanism is not possible: the error that states why.
     #[error("{0}")]
     Mechanism(#[source] Box<dyn error::Error + Send + Sync>),
     /// A design that TOML cannot hold.
@@ -82,7 +82,7 @@ pub enum DesignFault {
     NotWritable(String),
 }
 
-/// Error of a design that gives no mechanism: key and fault.
+/// Error of a design whose mechanism is not possible: key and fault.
 #[derive(Debug, Error)]
 #[error("{fault}")]
 pub struct MechanismError {
@@ -94,7 +94,7 @@ pub struct MechanismError {
 }
 
 impl MechanismError {
-    /// Wraps an error of a mechanism that cannot be.
+    /// Wraps an error of a mechanism that is not possible.
     #[must_use]
     pub fn new(key: String, error: impl error::Error + Send + Sync + 'static) -> Self {
         let fault = DesignFault::Mechanism(Box::new(error));
@@ -116,7 +116,7 @@ impl From<SpecError> for MechanismError {
 }
 
 impl DesignError {
-    /// A fault that no key is to blame for.
+    /// A fault without a key, at the start of the file.
     pub(super) fn at_start(fault: DesignFault) -> Self {
         Self {
             fault,
@@ -133,7 +133,7 @@ impl DesignError {
     }
 }
 
-/// Where else a key is known, in words.
+/// Other keys of the same name, in words.
 fn in_words(keys: &[String]) -> String {
     match keys {
         [] => String::new(),
@@ -152,7 +152,7 @@ fn named(key: &str, fault: &DesignFault) -> String {
         Some(dot) => key.split_at(dot + 1),
         None => ("", key.as_str()),
     };
-    // Some rules begin with their key already.
+    // Some rules already begin with their key.
     let named = fault
         .strip_prefix(last)
         .is_some_and(|rest| rest.starts_with(|c: char| !c.is_alphanumeric() && c != '_'));
@@ -192,7 +192,7 @@ pub(super) fn nearest(word: &str, known: &[String]) -> Option<String> {
     known
         .iter()
         .map(|k| (strsim::damerau_levenshtein(&short, k), k))
-        // A word of the same first letter may be one step farther.
+        // A word with the same first letter may be one edit farther away.
         .filter(|(distance, k)| {
             let starts_alike = k.chars().next() == short.chars().next();
             *distance <= (k.len() / 4).max(1) + usize::from(starts_alike)

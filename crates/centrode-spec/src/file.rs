@@ -6,7 +6,7 @@ use super::keys::{Keys, line_and_column};
 use super::reader::Reader;
 use super::{Design, DesignError, DesignFamily, DesignFault, MechanismError};
 
-/// Maximum number of mistakes of a file that are reported at once: ten times more hide the first.
+/// Maximum number of mistakes of a file that are reported at once: ten times more would hide the first.
 const MOST_MISTAKES: usize = 10;
 
 /// A design together with the positions of its keys, so that later errors find their line.
@@ -21,10 +21,10 @@ impl DesignFile {
     /// Maximum size of a design file, bytes.
     pub const LARGEST: usize = 1 << 20;
 
-    /// Reads a design file of one of the families, returns which, and checks every rule that needs no geometry.
+    /// Reads a design file of one of the families, returns that family, and checks every rule that needs no geometry.
     ///
     /// # Errors
-    /// [`DesignError`] naming key, line and column.
+    /// [`DesignError`] with key, line and column.
     pub fn read<'f, F: AsRef<DesignFamily>>(
         bytes: &[u8],
         families: &'f [F],
@@ -40,14 +40,14 @@ impl DesignFile {
         Ok((file, family))
     }
 
-    /// Every mistake of a design file, as far as one can be seen behind another: a wrong word counts as the one meant, any
-    /// other wrong value as not written.
+    /// Mistakes of a design file, ten at most. To find the next one, a wrong word is replaced by the nearest known word, and any
+    /// other wrong entry is removed.
     #[must_use]
     pub fn mistakes<F: AsRef<DesignFamily>>(bytes: &[u8], families: &[F]) -> Vec<DesignError> {
         let mut text = String::from_utf8_lossy(bytes).into_owned();
         let mut found: Vec<DesignError> = Vec::new();
         while found.len() < MOST_MISTAKES {
-            // Of bytes that are no text the first error says so.
+            // The first pass reads the bytes themselves: if they are no text, the error states this.
             let read = if found.is_empty() {
                 bytes
             } else {
@@ -56,7 +56,7 @@ impl DesignFile {
             let Err(error) = Self::read(read, families) else {
                 break;
             };
-            // A file that is mended badly is no mistake of its writer.
+            // An error that the corrections themselves cause is not reported.
             let mended = |key: &str| found.iter().any(|one| one.key == key);
             if !found.is_empty()
                 && (matches!(error.fault, DesignFault::Syntax(_)) || mended(&error.key))
@@ -110,15 +110,15 @@ impl DesignFile {
         &self.design
     }
 
-    /// Line and column of a key, `teeth.backlash`, or of the innermost table around it that is written;
-    /// the first line where none is.
+    /// Line and column of a key, `teeth.backlash`, or of the innermost table around it that is in the file; the first line if
+    /// there is no such table.
     #[must_use]
     pub fn place(&self, key: &str) -> (usize, usize) {
         let offset = self.keys.offset(key).unwrap_or(0);
         line_and_column(&self.text, offset)
     }
 
-    /// The error of a design that gives no mechanism, at the key to blame.
+    /// The error of a design whose mechanism is not possible, at the position of its key.
     #[must_use]
     pub fn blame(&self, error: MechanismError) -> DesignError {
         let MechanismError { key, fault } = error;

@@ -36,7 +36,7 @@ fn visit<'t>(
     }
 }
 
-/// Visits a value and all in it.
+/// Visits a value and everything in it.
 fn visit_value<'t>(
     value: &'t Spanned<DeValue<'t>>,
     path: &mut Path,
@@ -70,7 +70,7 @@ fn unexpected(value: &DeValue<'_>) -> String {
     }
 }
 
-/// Whether serde's message on a value may be on this one.
+/// Whether serde's message about a value may refer to this one.
 fn is_on(message: &str, value: &DeValue<'_>) -> bool {
     if let Some(length) = message.strip_prefix("invalid length ") {
         let length = length.split(',').next().and_then(|n| n.parse().ok());
@@ -82,9 +82,9 @@ fn is_on(message: &str, value: &DeValue<'_>) -> bool {
     given.is_some_and(|(given, _)| given == unexpected(value))
 }
 
-/// The key of a value on which serde has a message, and its position, if serde names only the table or list around it.
+/// Key and position of the value that a message of serde refers to, if serde names only the table or list around it.
 ///
-/// Serde gathers a table whose `kind` decides its other keys before it looks at them, and loses their positions.
+/// Serde reads a table whose `kind` decides its other keys into a buffer first, and loses the positions of these keys.
 pub(super) fn inside(
     text: &str,
     around: &str,
@@ -124,7 +124,7 @@ pub(super) fn inside(
         return None;
     }
     let Some(name) = name else {
-        // Of equal values one may be as it should: only entries of one list are reported by the first.
+        // One of several equal values may be correct: only if all are entries of one list, the first is reported.
         let list = |path: &str| path[..path.rfind('[').unwrap_or(path.len())].to_owned();
         let first = list(&found.first()?.0);
         let is_one = found.iter().all(|(path, _)| list(path) == first);
@@ -133,7 +133,7 @@ pub(super) fn inside(
     let depth = |path: &str| path.matches('.').count();
     let nearest = found.iter().map(|(path, _)| depth(path)).min()?;
     found.retain(|(path, _)| depth(path) == nearest);
-    // A key that one table of a list knows another may not.
+    // A key may be known in one table of a list and unknown in another.
     match found.len() {
         1 => found.pop(),
         _ => Some((format!("{around}.{name}"), offset)),
@@ -146,7 +146,7 @@ impl Keys {
         let length = |one: &DeValue<'_>| one.as_array().map(|list| list.len());
         visit(root, &mut Path::default(), &mut |path, key, value| {
             let is_entry = path.ends_with(']');
-            // Of lists the tables have keys of their own.
+            // Only those entries of lists that are tables have keys of their own.
             if is_entry && !value.get_ref().is_table() {
                 return;
             }
@@ -164,7 +164,7 @@ impl Keys {
         keys
     }
 
-    /// Byte offset of a key, or of the nearest list or table around it that is there.
+    /// Byte offset of a key, or of the nearest list or table around it that is in the file.
     pub(super) fn offset(&self, path: &str) -> Option<usize> {
         let mut path = path;
         loop {
@@ -182,7 +182,7 @@ impl Keys {
         (between.trim() == "=").then(|| [entry.key.clone(), entry.value.clone()])
     }
 
-    /// The first list that is longer than what was read of it: its key, its length, and how much was read.
+    /// The first list of which only a part was read: its key, its length, and the number of entries read.
     ///
     /// Serde reads a list of fixed length and leaves the rest.
     pub(super) fn cut(&self, read: &toml::Value) -> Option<(String, usize, usize)> {
@@ -200,11 +200,11 @@ impl Keys {
         })
     }
 
-    /// The innermost key whose name or value holds the byte `offset`.
+    /// The innermost key whose name or value contains the byte `offset`.
     pub(super) fn around(&self, offset: usize) -> Option<&str> {
         let holds = |e: &&Entry| e.key.contains(&offset) || e.value.contains(&offset);
         let innermost = self.0.iter().filter(holds).max_by_key(|e| e.path.len())?;
-        // Where a list begins with its first entry, what is wrong may be in any of them.
+        // If a list and its first entry begin at the same byte, the error may be in any entry.
         let list = innermost.path.strip_suffix(']');
         let list = list.and_then(|path| path.rsplit_once('['));
         let list = list.and_then(|(list, _)| self.0.iter().find(|e| e.path == list));

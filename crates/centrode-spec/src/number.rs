@@ -6,7 +6,7 @@ use super::fault::nearest;
 use super::path::{Path, Step, steps};
 use super::{Design, DesignError, DesignFamily, DesignFault, DesignFile};
 
-/// A design with one of its numbers open.
+/// A design in which one number can be replaced.
 #[derive(Clone, Debug)]
 pub struct NumberedDesign {
     family: DesignFamily,
@@ -35,13 +35,13 @@ fn numbers(value: &toml::Value, key: &mut Path, visit: &mut impl FnMut(&str, f64
     }
 }
 
-/// Content of a design's file. All that is written of a design is written by way of it: each other way would be compiled
-/// anew for every table that a design can have.
+/// Content of a design's file. Every output of a design uses this function: any other path would be compiled again for every
+/// table that a design can have.
 pub(super) fn written(design: &impl Serialize) -> Result<toml::Value, toml::ser::Error> {
     toml::Value::try_from(design)
 }
 
-/// Every number of a design by its key, in the file's units; none of what cannot be written.
+/// Every number of a design by its key, in the file's units; empty if the design cannot be written.
 pub fn numbers_of(design: &impl Serialize) -> Vec<(String, f64)> {
     let mut found = Vec::new();
     if let Ok(root) = written(design) {
@@ -53,7 +53,7 @@ pub fn numbers_of(design: &impl Serialize) -> Vec<(String, f64)> {
 }
 
 impl NumberedDesign {
-    /// Opens the number at a key of a design's text.
+    /// Finds the number at a key of a design's text.
     pub(super) fn new(family: DesignFamily, text: &str, key: &str) -> Result<Self, DesignError> {
         let root: toml::Value = toml::from_str(text)
             .map_err(|e| DesignError::at_start(DesignFault::NotWritable(e.to_string())))?;
@@ -86,7 +86,7 @@ impl NumberedDesign {
             toml::Value::Float(_) => false,
             _ => return Err(no_number()),
         };
-        // A key that is not written must be a known key all the same; a count takes no fraction.
+        // A key that the file omits must be a known key, too. If it refuses the float 1.0, it is a count.
         if !known.iter().any(|k| k == key)
             && let Err(error) = numbered.with(1.0)
         {
@@ -141,7 +141,7 @@ impl NumberedDesign {
     /// Sets the number, in the file's unit; a count is rounded.
     ///
     /// # Errors
-    /// [`DesignError`] where the number breaks a rule.
+    /// [`DesignError`] if the number breaks a rule.
     pub fn with(&self, value: f64) -> Result<Arc<dyn Design>, DesignError> {
         let mut copy = self.clone();
         let number = if self.whole {
@@ -160,7 +160,7 @@ impl NumberedDesign {
                 key: self.key.clone(),
                 ..error
             }),
-            // The rule that the number breaks may be another key's.
+            // The rule that the number breaks may belong to another key.
             Err(error) => Err(error),
         }
     }

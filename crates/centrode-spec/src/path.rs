@@ -1,6 +1,6 @@
 use std::fmt::Write;
 
-/// A key while a file is walked through, with the tables and lists around it: `pitch.radius[2]`.
+/// Key of the current position in a traversal of a file, with the tables and lists around it: `pitch.radius[2]`.
 #[derive(Debug, Default)]
 pub(super) struct Path(String);
 
@@ -10,7 +10,7 @@ impl Path {
         &self.0
     }
 
-    /// Goes to a key of the table here, and back.
+    /// Runs `then` at a key of the current table.
     pub(super) fn name(&mut self, name: &str, then: impl FnOnce(&mut Self)) {
         let here = self.0.len();
         if here > 0 {
@@ -21,7 +21,7 @@ impl Path {
         self.0.truncate(here);
     }
 
-    /// Goes to an entry of the list here, and back.
+    /// Runs `then` at an entry of the current list.
     pub(super) fn index(&mut self, index: usize, then: impl FnOnce(&mut Self)) {
         let here = self.0.len();
         // Writing to a string does not fail.
@@ -37,7 +37,7 @@ pub(super) enum Step {
     Index(usize),
 }
 
-/// The steps of a path; `None` where it is none.
+/// The steps of a path; `None` if the text is no path.
 pub(super) fn steps(path: &str) -> Option<Vec<Step>> {
     let mut steps = Vec::new();
     for part in path.split('.') {

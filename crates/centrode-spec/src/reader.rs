@@ -8,7 +8,7 @@ use super::number::written;
 use super::{DesignError, DesignFault};
 use crate::SpecError;
 
-/// Keys of earlier versions and what they are called now, in another table.
+/// Keys of earlier versions, and their present names in another table.
 const RENAMED: [(&str, &str); 1] = [("profile_shift_coefficient", "shift")];
 
 /// State of reading a file.
@@ -72,7 +72,7 @@ impl<'a> Reader<'a> {
         Ok(design)
     }
 
-    /// Refuses anything but a table at the keys; serde would read a list as a table's values in order.
+    /// Refuses any value but a table at the keys; serde would read a list as the values of a table in order.
     fn tables(&self, root: &DeTable<'_>, keys: &[&str]) -> Result<(), DesignError> {
         for &key in keys {
             if root.get(key).is_some_and(|v| !v.get_ref().is_table()) {
@@ -132,7 +132,7 @@ impl<'a> Reader<'a> {
         self.error(fault, String::new(), offset)
     }
 
-    /// Names the key of an error serde has found, in the words of the file rather than of Rust.
+    /// Names the key of an error that serde has found, in the words of the file rather than of Rust.
     fn shape(&self, error: &toml::de::Error, family: DesignFamily) -> DesignError {
         let offset = error.span().map_or(0, |s| s.start);
         let key = self.keys.around(offset).unwrap_or_default().to_owned();
@@ -164,7 +164,7 @@ impl<'a> Reader<'a> {
         }
         if let (true, Some(name)) = (message.starts_with("missing field"), names.first()) {
             let fault = DesignFault::MissingKey(name.clone());
-            // A root without it begins with the text itself: no table has been opened, whatever key comes first.
+            // At offset 0 no table has been opened: the key is missing at the root, whatever key comes first.
             let path = if key.is_empty() || offset == 0 {
                 name.clone()
             } else {
@@ -177,7 +177,7 @@ impl<'a> Reader<'a> {
     }
 }
 
-/// A message of serde on a value of another type, without the names of types.
+/// Rewords a message of serde about a value of the wrong type, without the names of Rust types.
 fn plain(message: &str) -> String {
     let after = |start: &str| message.strip_prefix(start)?.split_once(", expected ");
     if let Some((given, expected)) = after("invalid length ")
@@ -193,7 +193,7 @@ fn plain(message: &str) -> String {
         return message.into();
     };
     let given = match given.split_once(' ') {
-        // The value itself is behind the name of its type, numbers in backticks.
+        // The value itself follows the name of its type, numbers in backticks.
         Some((_, value)) if value.starts_with(['"', '`']) || value.starts_with("point `") => {
             let value = value.trim_start_matches("point ");
             value.trim_end_matches(" as i128").trim_matches('`')

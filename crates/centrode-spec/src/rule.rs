@@ -46,28 +46,28 @@ pub enum Rule {
     /// Two keys that exclude each other.
     #[error("cannot be given together with {0}")]
     Excludes(&'static str),
-    /// None of several keys one of which is needed.
+    /// None of several keys is given, but one is required.
     #[error("is missing: give one of {0}")]
     NeedsOneOf(&'static str),
     /// Strokes of another kind than the follower makes.
     #[error("needs {0} in every segment, for this follower")]
     Stroke(&'static str),
-    /// A number that must not come twice.
+    /// A number that must not occur twice.
     #[error("is {} a second time", stated(*.0))]
     Twice(f64),
     /// A key that must be given.
     #[error("is needed {0}")]
     Needed(&'static str),
-    /// A key where it means nothing.
+    /// A key that has no meaning in this design.
     #[error("has no meaning {0}")]
     Unused(&'static str),
-    /// A screw that there is none of.
+    /// A size for which there is no screw.
     #[error("must be 0 or the size of a screw, 1.6, 2, 2.5, 3, 4, 5, 6, 8, 10 or 12 mm, not {}", stated(*.0))]
     NoScrew(f64),
     /// A name of a design that cannot name a file.
     #[error("must be 1 to 64 letters, digits, '-' or '_', not {0:?}")]
     Name(String),
-    /// A name of a part of a design that cannot be written everywhere.
+    /// A name of a part of a design that not every output can hold.
     #[error("must be 1 to 64 letters a to z, digits, '-' or '_', not {0:?}")]
     PartName(String),
     /// Words that do not fit one line of a drawing.
@@ -79,7 +79,7 @@ pub enum Rule {
         count: usize,
         /// Control characters among them, U+FFFE and U+FFFF: line ends, tabs and the like.
         controls: usize,
-        /// Most characters allowed.
+        /// Maximum number of characters allowed.
         most: usize,
     },
     /// Words that are no tolerance class.
@@ -89,7 +89,7 @@ pub enum Rule {
     NoClass {
         /// Word given.
         word: String,
-        /// Side of the fit it represents.
+        /// Side of the fit: hole or shaft.
         of: &'static str,
         /// A class of that side.
         like: &'static str,
@@ -133,7 +133,7 @@ pub enum Rule {
     },
 }
 
-/// A range in words, one without an end by where it begins.
+/// A range in words; if it has no upper end, by its minimum.
 fn range(minimum: f64, maximum: f64) -> String {
     if maximum <= minimum {
         stated(minimum)
@@ -202,7 +202,7 @@ pub fn not_negative(key: &str, value: f64) -> Result<(), SpecError> {
     }
 }
 
-/// Checks that a size is no greater than any part could be, so that what follows from it is a number.
+/// Checks that a size is at most 1e12, more than any part has: values computed from it are then finite.
 fn not_too_great(key: &str, value: f64) -> Result<(), SpecError> {
     const MAXIMUM: f64 = 1e12;
     in_range(key, value, [0.0, MAXIMUM], "")
@@ -235,7 +235,7 @@ fn is_name(name: &str, is_letter: impl Fn(char) -> bool) -> bool {
     (1..=64).contains(&name.chars().count()) && name.chars().all(safe)
 }
 
-/// Checks words for a drawing: one line, not endless.
+/// Checks words for a drawing: one line of limited length.
 ///
 /// # Errors
 /// [`SpecError`] with the key.

@@ -29,7 +29,7 @@ pub fn json_schema<F: AsRef<DesignFamily>>(families: &[F]) -> Value {
     }))
 }
 
-/// Drops the defaults of keys that are optional: a design file has no word for none.
+/// Drops the null defaults of optional keys: TOML has no null.
 fn without_nulls(mut schema: Value) -> Value {
     match &mut schema {
         Value::Object(keys) => {
@@ -62,10 +62,10 @@ impl DesignFamily {
         without_nulls(schema.to_value())
     }
 
-    /// Keys of a name in the family's design files, the four nearest to a position in a file: `teeth.backlash`,
+    /// Keys of a name in the family's design files, the four nearest to the position `key` in a file: `teeth.backlash`,
     /// `cams.NAME.motion`.
     ///
-    /// Without those at the position of `key` itself, which other kinds of its table may have.
+    /// Keys at the position of `key` itself, which other kinds of its table may have, are omitted.
     pub(super) fn keys_named(&self, name: &str, key: &str) -> Vec<String> {
         let mut found = self.keys(&|found| found == name);
         found.retain(|path| !is_at(path, key));
@@ -95,7 +95,7 @@ impl DesignFamily {
         found.iter().map(name).collect()
     }
 
-    /// All keys of the family's design files whose name is required.
+    /// All keys of the family's design files whose name passes `is_required`.
     fn keys(&self, is_required: &dyn Fn(&str) -> bool) -> Vec<String> {
         let schema = self.json_schema();
         let mut found = Vec::new();
@@ -125,26 +125,26 @@ impl DesignFamily {
     }
 }
 
-/// The names of tables and key that make up a key, without the numbers of entries.
+/// The names of the tables and the key that make up a path, without the numbers of entries.
 fn parts(key: &str) -> Vec<&str> {
     let parts = key.split('.').map(|part| part.split('[').next());
     parts.map(Option::unwrap_or_default).collect()
 }
 
-/// Number of tables that a key with `NAME` and `[]` in it and one written have in common.
+/// Number of leading parts that a key of the schema, with `NAME` and `[]` in it, and a written key have in common.
 fn common(path: &str, key: &str) -> usize {
     let (path, key) = (parts(path), parts(key));
     let pairs = path.iter().zip(&key);
     pairs.take_while(|(p, k)| **p == "NAME" || p == k).count()
 }
 
-/// Whether a key with `NAME` and `[]` in it is the one written.
+/// Whether a key of the schema, with `NAME` and `[]` in it, matches the written key.
 fn is_at(path: &str, key: &str) -> bool {
     let depth = parts(path).len();
     depth == parts(key).len() && common(path, key) == depth
 }
 
-/// Gathers the keys of required names at and below a schema, but not below itself.
+/// Collects the keys whose name passes `is_required` at and below a schema; a schema inside itself is not entered again.
 fn named_in<'s>(
     root: &'s Value,
     here: &'s Value,

@@ -1,6 +1,6 @@
-//! Characters that text of a design may not hold, and those that a message does not show as they are.
+//! Characters that text of a design must not contain, and those that a message shows by their number.
 
-/// Whether a file cannot hold a character in its text: a control character, U+FFFE or U+FFFF, which XML has not.
+/// Whether a file cannot contain a character in its text: a control character, U+FFFE or U+FFFF, which XML does not permit.
 #[must_use]
 pub fn is_control(c: char) -> bool {
     c.is_control() || matches!(c, '\u{fffe}' | '\u{ffff}')
@@ -8,7 +8,7 @@ pub fn is_control(c: char) -> bool {
 
 /// Text as a message shows it: a control character, or one that changes the direction of writing, as its number, `\u{202e}`.
 ///
-/// So a file cannot steer a terminal, and no message reads otherwise than it is written.
+/// So a file cannot control a terminal, and every message is displayed as it is written.
 #[must_use]
 pub fn visible(text: &str) -> String {
     let mut shown = String::with_capacity(text.len());

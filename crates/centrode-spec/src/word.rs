@@ -1,5 +1,5 @@
-/// Gives the variants of an enum their words: constants of them all, in order, and with their words; the word of each; the one
-/// of a word.
+/// Defines the words of an enum's variants: a list of all variants, in order, and one with their words; the word of each variant;
+/// the variant of a word.
 #[macro_export]
 macro_rules! words {
     ($kind:ident { $($variant:ident = $word:literal),+ $(,)? }) => {
@@ -19,7 +19,7 @@ macro_rules! words {
                 }
             }
 
-            /// The one of a word; `None` where there is none.
+            /// The variant with this word; `None` if there is none.
             #[must_use]
             pub fn named(word: &str) -> Option<Self> {
                 Self::ALL.into_iter().find(|one| one.name() == word)

@@ -17,18 +17,18 @@ const WIDENING: u64 = 40_000;
 pub struct Attainable {
     /// Largest minimum transmission angle of any crank-rocker within the bounds, rad.
     pub transmission_angle: f64,
-    /// Its crank, coupler, rocker and frame, mm.
+    /// Lengths of crank, coupler, rocker and frame at that angle, mm.
     pub lengths: [f64; 4],
-    /// Share by which all bounds must be widened for the angle wanted; none where they need not.
+    /// Share by which all bounds must be widened to reach the required angle; `None` if the bounds allow that angle.
     pub widening: Option<f64>,
-    /// Crank, coupler, rocker and frame then, mm.
+    /// Lengths of crank, coupler, rocker and frame within the widened bounds, mm.
     pub widened_lengths: [f64; 4],
 }
 
 impl Attainable {
     /// Searches the bounds of a design's lengths; equal designs give equal results.
     ///
-    /// None where the bounds hold no crank-rocker, or none is found that would do.
+    /// `None` if no crank-rocker is found within the bounds, or none that reaches the required angle within wider bounds.
     #[must_use]
     pub fn search(design: &FeederDesign) -> Option<Self> {
         let bounds: Lengths = design.bounds.named().map(|(_, [a, b])| (a, b));
@@ -70,7 +70,7 @@ fn search(problem: &dyn Problem, evaluations: u64) -> Option<Candidate> {
 }
 
 impl fmt::Display for Attainable {
-    /// Limit that the bounds set to the transmission angle, in words.
+    /// Writes the limit that the bounds set to the transmission angle.
     fn fmt(&self, out: &mut fmt::Formatter<'_>) -> fmt::Result {
         let best = self.transmission_angle.to_degrees();
         let words = |lengths: [f64; 4]| lengths.map(|l| format!("{l:.3}")).join(", ");

@@ -8,7 +8,7 @@ use crate::forces::{Balance, Forces, ForcesError};
 use crate::key_pressure::LoadedKey;
 use crate::{Report, Table, Unit};
 
-/// Figures of a state: the torques of crank and input, and the force in every joint.
+/// Number of figures of a state: the torques of crank and input, and the force in every joint.
 const FIGURES: usize = 2 + FeederForces::CONNECTIONS.len();
 
 /// Reason why there are no forces.
@@ -26,27 +26,28 @@ pub enum FeederForcesError {
         /// Cause.
         source: SolidError,
     },
-    /// The linkage's balance has no answer.
+    /// The balance of forces has no solution.
     #[error(transparent)]
     Balance(#[from] ForcesError),
 }
 
-/// A feeder with the masses of its plates, shafts and pins and of its gears, where these can be cut: the torque its crank needs and the forces in its joints.
+/// Forces of a feeder: the torque that its crank needs, and the forces in its joints. Plates, shafts and pins have mass, and
+/// so have gears that can be cut.
 ///
-/// The y axis points up. The links' inertia at the design's speed is counted or left out; a jump of speed, which has no
-/// finite force, and friction are not.
+/// The y axis points up. The inertia of the links is included in motion and omitted at rest. Friction and jumps of speed,
+/// which have no finite force, are omitted.
 #[derive(Clone, Debug)]
 pub struct FeederForces {
     balance: Balance,
 }
 
 impl FeederForces {
-    /// Joints of the linkage in the order of [`FeederForces::joints`]: the shafts A and D of crank and rocker and the
-    /// pin B, the pin C on the rocker and on the slider, the pivot F, the slot on the slider.
+    /// Joints of the linkage in the order of [`FeederForces::joints`]: shaft A of the crank, pin B, shaft D of the rocker, pin
+    /// C on the rocker and on the slider, pivot F, and the slot on the slider.
     pub const CONNECTIONS: [&'static str; 7] =
         ["A", "B", "D", "C, rocker", "C, slider", "F", "slot"];
 
-    /// Makes a feeder that carries the mass of its design.
+    /// Analyses a feeder that carries the mass given in its design.
     ///
     /// # Errors
     /// [`FeederForcesError`].
@@ -54,7 +55,7 @@ impl FeederForces {
         Self::new(feeder, feeder.design().drive.carried_mass)
     }
 
-    /// Makes a feeder that carries a mass (kg) at the tip of its effector.
+    /// Analyses a feeder that carries a mass (kg) at the tip of its effector.
     ///
     /// # Errors
     /// [`FeederForcesError`].
@@ -79,7 +80,7 @@ impl FeederForces {
             part: "gears",
             source,
         })?;
-        // What stands in the frame weighs on none of the links.
+        // The frame's plate loads no link: no mass is set for it.
         plates.extend(feeder.plate(FeederPart::Frame));
         for pieces in feeder.turned(&plates) {
             machine.add_turned(&pieces, String::new());
@@ -88,7 +89,7 @@ impl FeederForces {
         Ok(Self { balance })
     }
 
-    /// Forces at an input, moving at the design's speed or at rest there.
+    /// Forces at an input angle, rad, with the feeder moving at the design's speed or at rest.
     ///
     /// # Errors
     /// [`FeederForcesError::Balance`].
@@ -97,14 +98,14 @@ impl FeederForces {
         Ok(self.balance.at(input, if moving { speed } else { 0.0 })?)
     }
 
-    /// Torque the crank needs, N mm, counter-clockwise.
+    /// Torque that the crank needs, N mm, positive counter-clockwise.
     #[must_use]
     pub fn torque(forces: &Forces) -> f64 {
         forces.joints[FeederPart::Crank.joint()].drive
     }
 
-    /// Forces in the joints, N, in the order of [`FeederForces::CONNECTIONS`]: on crank, coupler and rocker from what carries
-    /// them, on rocker and slider from the pin C, on the effector from its pivot, and on the slider from the slot.
+    /// Forces in the joints, N, in the order of [`FeederForces::CONNECTIONS`]: on crank, coupler and rocker from the links
+    /// that carry them, on rocker and slider from pin C, on the effector from its pivot, and on the slider from the slot.
     #[must_use]
     pub fn joints(forces: &Forces) -> [Vector; 7] {
         let on = |part: FeederPart| {
@@ -126,7 +127,7 @@ impl FeederForces {
 
 /// Maximum torque and joint forces, at rest and moving.
 pub(super) fn forces(feeder: &Feeder, report: &mut Report) {
-    // A link that cannot be cut is a finding of its own.
+    // A link that cannot be cut has its own finding.
     let Ok(system) = FeederForces::analyse(feeder) else {
         return;
     };
@@ -165,8 +166,8 @@ pub(super) fn forces(feeder: &Feeder, report: &mut Report) {
     });
 }
 
-/// Pressure on the keys of both shafts at the maximum torques, held still or moving, and those that are pressed harder than the
-/// weakest material next to them allows: the crank's shaft carries the torque of the crank, the other that of the input.
+/// Reports the pressure on the keys of both shafts at the maximum torques, at rest and moving, and the keys that are
+/// overloaded. The crank's shaft transmits the torque of the crank, the other shaft that of the input.
 fn keys(feeder: &Feeder, [still, moving]: [&[Extreme]; 2], report: &mut Report) {
     let (body, plates) = (feeder.design().gears.body(), &feeder.design().plates);
     let Some(hub) = body.keyway else {

@@ -8,20 +8,20 @@ use crate::gear_pair::tight_backlash;
 use crate::rounding::exceeds;
 use crate::{Finding, IntermittentContact, Report, Severity, Unit};
 
-/// Number of inputs at which the intermittent gears are held against each other.
+/// Number of inputs at which the contact of the intermittent gears is sampled.
 const GEAR_SAMPLES: u32 = 240;
-/// Distance of their contours from the polygons, in modules.
+/// Tolerance of the polygons that replace the contours of the gears, modules.
 const CONTOUR: f64 = 1e-4;
-/// Penetration above which they do not run, in modules.
+/// Penetration above which the gears do not run, modules.
 const PENETRATION: f64 = 1e-3;
-/// Backlash above which they are loose, as a multiple of the one asked for.
+/// Backlash above which the gears are loose, as a multiple of the requested backlash.
 const LOOSE: f64 = 2.0;
 
-/// Contact of the gears of the designs checked last.
+/// Cached contact of the gears of recently checked designs.
 static PROVEN: Recent<GearsSpec, Arc<IntermittentContact>> = Recent::new();
 
-/// Checks that the intermittent gears can be cut, and hold the crank all the way: nothing penetrates, and the crank is
-/// free by no more than the backlash asked for.
+/// Checks that the intermittent gears can be cut, do not penetrate each other, and hold the crank with at most about twice the
+/// requested backlash.
 pub(super) fn gears(feeder: &Feeder, report: &mut Report) {
     let about = |rule, severity, message: String| Finding::new(rule, severity, message).on("gears");
     let spec = &feeder.design().gears;
@@ -90,7 +90,7 @@ pub(super) fn gears(feeder: &Feeder, report: &mut Report) {
     };
     let pitch = 0.5 * spec.module * f64::from(spec.driven_pitches);
     let requested = 0.5 * spec.backlash / pitch;
-    // Pins on cams hold it as closely as teeth do.
+    // Pins on cams hold the driven gear as closely as teeth do. Without pins the locking arc leaves more backlash.
     let requested = if pair.cams().is_empty() {
         requested.max(pair.locked_backlash())
     } else {

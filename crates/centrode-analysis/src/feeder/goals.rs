@@ -112,7 +112,7 @@ pub(super) fn unmet(feeder: &Feeder, report: &mut Report) {
     });
 }
 
-/// Limit that the bounds set to the transmission angle, in words.
+/// Text on the limit that the bounds set to the transmission angle.
 fn attainable(feeder: &Feeder, report: &mut Report) -> String {
     let Some(found) = Attainable::search(feeder.design()) else {
         return "; no crank-rocker that would do was found".into();

@@ -28,7 +28,8 @@ use crate::{Finding, Report, Severity, Table, Unit};
 
 /// Number of random six-bars, Monte Carlo samples within the tolerances.
 const MADE: u32 = 2000;
-/// Below this distance from the chord (share of the frame) the swing is pi for any lengths: a degenerate design.
+/// Distance of the pivot from the chord, as a share of the frame, up to which the swing is pi for any lengths: a degenerate
+/// design.
 const ON_CHORD: f64 = 1e-3;
 
 /// Checks a feeder: swing, transmission angle, strokes and speeds, dwell and feed rate, each goal with its margin.
@@ -43,7 +44,7 @@ pub fn check_feeder(feeder: &Feeder) -> Report {
     report
 }
 
-/// Checks a feeder without the contact analysis of its intermittent gears, some ten times sooner than [`check_feeder`].
+/// Checks a feeder without the contact analysis of its intermittent gears, about ten times faster than [`check_feeder`].
 #[must_use]
 pub fn check_strokes(feeder: &Feeder) -> Report {
     let mut report = Report {
@@ -62,7 +63,7 @@ pub fn check_strokes(feeder: &Feeder) -> Report {
     report
 }
 
-/// Tells of a frame for whose plates no screws are found.
+/// Reports a frame for whose plates no screws are found.
 fn screws(feeder: &Feeder, report: &mut Report) {
     let found = feeder.frame_screws();
     report.findings.extend(no_screws(
@@ -156,7 +157,7 @@ fn motion(feeder: &Feeder, report: &mut Report) {
     values.insert("crank_turns_a_cycle", turned / TAU);
 }
 
-/// Spread of the swing through the tolerances of making.
+/// Reports the spread of the swing due to manufacturing tolerances.
 fn spread(feeder: &Feeder, report: &mut Report) {
     let making = &feeder.design().making;
     let tolerances = SixBarTolerances {
@@ -186,7 +187,7 @@ fn spread(feeder: &Feeder, report: &mut Report) {
     }
 }
 
-/// Reports where the swing is half a turn whatever the lengths are.
+/// Reports a pivot with which the swing is half a turn for any lengths.
 fn vacuous(feeder: &Feeder, report: &mut Report) {
     let frame = feeder.six_bar().four_bar().lengths()[3];
     let Some(distance) = feeder.distance_from_chord() else {

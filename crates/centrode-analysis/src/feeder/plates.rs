@@ -3,7 +3,7 @@ use centrode_machines::feeder::{Feeder, FeederPart};
 
 use crate::{Finding, Report, Severity, Unit};
 
-/// Checks that the links can be cut from plate, and run clear of the shaft that passes them.
+/// Checks that the links can be cut from plate, and that the effector clears the rocker's shaft.
 pub(super) fn plates(feeder: &Feeder, report: &mut Report) {
     let cut = FeederPart::ALL.map(|part| (part, feeder.plate(part)));
     for (part, plate) in cut {

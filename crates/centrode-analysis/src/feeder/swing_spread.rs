@@ -16,22 +16,22 @@ pub struct SixBarTolerances {
 /// Spread of the swing of six-bars made with tolerances.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 pub struct SwingSpread {
-    /// Number of six-bars tried.
+    /// Number of random six-bars.
     pub count: u32,
-    /// Number of them that are no crank-rocker any more, not counted below.
+    /// Number of these that are not crank-rockers. The figures below omit them.
     pub failed: u32,
     /// Mean of the swing, rad.
     pub mean: f64,
     /// Standard deviation, rad.
     pub deviation: f64,
-    /// Minimum swing met, rad.
+    /// Minimum swing found, rad.
     pub minimum: f64,
-    /// Maximum swing met, rad.
+    /// Maximum swing found, rad.
     pub maximum: f64,
-    /// Standard deviation by the sensitivities alone, rad: the root of the sum of squares of
-    /// sensitivity times tolerance over root three.
+    /// Standard deviation from the sensitivities alone, rad: the root of the sum of squares of sensitivity times tolerance
+    /// over root three.
     pub first_order_deviation: f64,
-    /// Maximum change by the sensitivities alone, rad: all tolerances at their worst.
+    /// Maximum change from the sensitivities alone, rad: all tolerances at their worst.
     pub first_order_maximum: f64,
 }
 

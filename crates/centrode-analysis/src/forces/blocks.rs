@@ -1,5 +1,5 @@
-/// Orders things that need each other: each block can be worked out when those before it are; things of one block need each
-/// other. `needs[i][j]` is whether `i` needs `j`.
+/// Orders things into blocks. Each block can be computed once the blocks before it are known; the things in one block need
+/// each other. `needs[i][j]` is whether `i` needs `j`.
 ///
 /// Source: the transitive closure by Warshall's algorithm.
 pub(super) fn blocks(mut needs: Vec<Vec<bool>>) -> Vec<Vec<usize>> {

@@ -1,13 +1,13 @@
-/// Share of the maximum lever that rounding leaves: below it a force is not determined.
+/// Maximum pivot of the scaled rows that counts as rounding: a force is then not determined.
 const DEAD: f64 = 1e-13;
 
-/// Solution of equations, each a row that ends in its right side; `None` if rounding leaves none.
+/// Solution of linear equations, one per row with its right side last; `None` if the equations are singular within rounding.
 ///
-/// Source: Gauss's elimination with the pivots of scaled rows; ties come in ones and twos.
+/// Source: Gaussian elimination with scaled rows and partial pivoting. Most systems have one or two unknowns.
 pub(super) fn eliminated(mut rows: Vec<Vec<f64>>) -> Option<Vec<f64>> {
     let count = rows.len();
     for row in &mut rows {
-        // Rows of forces and of moments have sizes of their own.
+        // Rows of forces and rows of moments differ in size.
         let size = row[..count]
             .iter()
             .fold(0.0_f64, |most, x| most.max(x.abs()));

@@ -1,8 +1,8 @@
-//! Forces of a machine: the torque its input needs, and what joints, teeth and pins carry.
+//! Forces of a machine: the torque that its input needs, and the forces in joints, teeth and pins.
 //!
-//! Each link's forces and moments balance its inertia (Newton and Euler), link by link from the ends of the tree to the
-//! first one. Where a loop closes, teeth mesh or a roller runs on a curve, the unknown force there is the one that leaves
-//! nothing for the joints that it moves to supply. Lengths are mm, masses kg, forces N, torques N mm.
+//! Each link's forces and moments balance its inertia (Newton and Euler), link by link from the ends of the tree to the first
+//! link. At a closure, a mesh or a roller contact the unknown force is the one for which the joints that it moves need no
+//! drive of their own. Lengths are mm, masses kg, forces N, torques N mm.
 
 mod blocks;
 mod elimination;
@@ -19,9 +19,9 @@ pub use ready::Balance;
 /// Forces of a machine at one input.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Forces {
-    /// Torque the input needs, N mm: positive where it drives.
+    /// Torque that the input needs, N mm: positive if the input drives.
     pub input_torque: f64,
-    /// Force of each joint, in the order of the machine's.
+    /// Force of each joint, in the order of the machine's joints.
     pub joints: Vec<JointForce>,
     /// Force of each closure on its second link, N, in the axes of the first link of the machine.
     pub closures: Vec<Vector3<f64>>,
@@ -31,7 +31,7 @@ pub struct Forces {
     pub contacts: Vec<Vector3<f64>>,
     /// Forces of each guide.
     pub guides: Vec<GuideForce>,
-    /// Largest load on each link, in the order of the machine's.
+    /// Largest load on each link, in the order of the machine's links.
     pub loads: Vec<LinkLoad>,
     /// Kinetic energy, N mm.
     pub kinetic_energy: f64,
@@ -39,7 +39,7 @@ pub struct Forces {
     pub potential_energy: f64,
 }
 
-/// Largest single load on a link: one of the design's, or the weight and inertia of a mass.
+/// Maximum force and torque of a single load on a link: a load of the design, or the weight and inertia of a mass.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LinkLoad {
     /// Force, N.
@@ -49,7 +49,7 @@ pub struct LinkLoad {
 }
 
 impl LinkLoad {
-    /// Takes the larger of this load and another.
+    /// Raises force and torque to those of another load, where these are larger.
     fn raise(&mut self, force: f64, torque: f64) {
         self.force = self.force.max(force);
         self.torque = self.torque.max(torque);
@@ -59,28 +59,29 @@ impl LinkLoad {
 /// Force in a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointForce {
-    /// Torque about the axis (N mm), or force along it (N), of what moves the joint: zero where teeth, a pin or a roller do.
+    /// Torque about the axis (N mm), or force along it (N), of the joint's drive: zero if teeth, a pin or a roller move the
+    /// joint.
     pub drive: f64,
-    /// Force on the link carried; `None` if a cam or groove of which only the law is known takes a part of it.
+    /// Force on the carried link; `None` if an unknown part of it acts on a cam or groove of which only the law is known.
     pub reaction: Option<Reaction>,
 }
 
-/// Force of the link that carries on the one carried, without drive and loads along the joint's axis.
+/// Force of the carrying link on the carried link, without the drive and the loads along the joint's axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reaction {
     /// Force, N, in the axes of the first link of the machine.
     pub force: Vector3<f64>,
-    /// Moment about the origin of the link carried, N mm.
+    /// Moment about the origin of the carried link, N mm.
     pub moment: Vector3<f64>,
 }
 
 /// Force of the teeth of one gear on those of its mate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ToothForce {
-    /// Size along the flanks' normal, N: positive where the flanks carry that drive with a counter-clockwise moment on the
-    /// driven link, negative on the other ones; `None` if the normal is not known.
+    /// Force along the flanks' normal, N: positive on the flanks that turn the driven link counter-clockwise, negative on the
+    /// opposite flanks; `None` if the normal is not known.
     pub normal: Option<f64>,
-    /// Force on the driven link, N, in the axes of the first link of the machine; along the pitch curves' tangent where the
+    /// Force on the driven link, N, in the axes of the first link of the machine; along the pitch curves' tangent if the
     /// normal is not known.
     pub force: Vector3<f64>,
     /// Pitch point, mm.
@@ -103,25 +104,25 @@ pub enum ForcesError {
         /// Minimum moment of inertia as given, kg mm².
         inertia: f64,
     },
-    /// More than one thing holds a link: how they share its load depends on their stiffness.
+    /// More than one part holds a link: how these parts share its load depends on their stiffness.
     #[error(
         "{link} is held in its motion by more than one of {holders}: how they share the load is not determined"
     )]
     Undetermined {
         /// Name of the link.
         link: String,
-        /// Those that hold it, in words.
+        /// Text that lists the parts that hold the link.
         holders: String,
     },
-    /// Something is said to move a joint that it does not reach, or the joint that leads another is led by it.
+    /// A mesh, closure, contact or leader does not reach the joint that it moves, or two joints lead each other.
     #[error("{holder} cannot move {link}: no chain of joints leads from the one to the other")]
     Apart {
-        /// Mesh, closure, contact or leader.
+        /// Name of the mesh, closure, contact or leader.
         holder: String,
         /// Name of the link.
         link: String,
     },
-    /// Forces that are not finite.
+    /// The forces are not finite.
     #[error("at the input {input} rad and {speed} rad/s the forces are not finite")]
     NotFinite {
         /// The input, rad.

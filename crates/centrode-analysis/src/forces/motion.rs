@@ -2,7 +2,7 @@ use centrode_kinematics::machine::{Joint, JointKind};
 use centrode_kinematics::transmission::MotionJet;
 use nalgebra::{Matrix3, Rotation3, Unit, Vector3};
 
-/// Motion of a link by the input, in the axes of the first link: rad and mm.
+/// Motion of a link as a function of the input, in the axes of the first link: rad and mm.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LinkMotion {
     pub(super) turn: Matrix3<f64>,
@@ -13,7 +13,7 @@ pub(super) struct LinkMotion {
     pub(super) way: [Vector3<f64>; 2],
 }
 
-/// A joint's frame on the link that carries it, worked out once.
+/// A joint's frame on the link that carries it, computed once.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Seat {
     turn: Matrix3<f64>,
@@ -52,13 +52,13 @@ impl LinkMotion {
         [first, spin_up.cross(&arm) + spin.cross(&first)]
     }
 
-    /// First and second derivative of the position of a point of the link, given in the axes of the first.
+    /// First and second derivative of the position of a point of the link, given in the axes of the first link.
     pub(super) fn point(&self, at: Vector3<f64>) -> [Vector3<f64>; 2] {
         let [first, second] = self.carried(at - self.place);
         [self.way[0] + first, self.way[1] + second]
     }
 
-    /// The link that a joint carries on this one, and the joint's axis in the axes of the first link.
+    /// Motion of the link that a joint carries on this link, and the joint's axis in the axes of the first link.
     pub(super) fn next(&self, seat: &Seat, by: &MotionJet) -> (Self, Vector3<f64>) {
         let frame = self.turn * seat.turn;
         let axis = frame * seat.axis.into_inner();
@@ -74,7 +74,7 @@ impl LinkMotion {
             JointKind::Sliding(_) => {
                 next.turn = frame;
                 arm += axis * by.position;
-                // Coriolis's part twice.
+                // The Coriolis term has the factor 2.
                 next.way[0] += axis * by.velocity;
                 next.way[1] +=
                     axis * by.acceleration + self.spin[0].cross(&axis) * (2.0 * by.velocity);

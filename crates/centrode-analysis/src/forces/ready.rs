@@ -8,7 +8,7 @@ use super::blocks::blocks;
 use super::motion::Seat;
 use super::tie::{Tie, between};
 
-/// A machine made ready for its forces.
+/// A machine prepared for the computation of its forces.
 #[derive(Clone, Debug)]
 pub struct Balance {
     pub(super) machine: Arc<LinkedMachine>,
@@ -18,11 +18,11 @@ pub struct Balance {
     /// Joint that carries each link.
     pub(super) carrier: Vec<Option<usize>>,
     pub(super) masses: Vec<Mass>,
-    /// Steps that settle forces which the tree does not, in an order in which each can be worked out.
+    /// Steps that determine the forces that the tree alone does not, in the order of computation.
     pub(super) steps: Vec<Step>,
-    /// Whether a force of unknown position passes a joint.
+    /// Whether a force with an unknown line of action passes through a joint, per joint.
     pub(super) hidden: Vec<bool>,
-    /// Whether a joint has a drive that the input feeds at once.
+    /// Whether the input drives a joint directly, per joint.
     pub(super) driven: Vec<bool>,
 }
 
@@ -35,7 +35,7 @@ pub(super) struct Mass {
     pub(super) inertia: Matrix3<f64>,
 }
 
-/// Something that settles forces which the tree alone does not.
+/// A step that determines forces that the tree alone does not.
 #[derive(Clone, Debug)]
 pub(super) enum Step {
     /// Ties whose forces are found together.
@@ -53,14 +53,15 @@ pub(super) struct Follower {
 }
 
 impl Balance {
-    /// Makes a machine ready.
+    /// Prepares a machine.
     ///
-    /// A joint moved by a closure, mesh or contact has no drive of its own. One that another joint leads through a cam or
-    /// groove is driven by that one: with the friction of a guide where there is one, else without loss. Any other joint is
-    /// driven by its law, the drive between the two links that it connects.
+    /// A joint moved by a closure, mesh or contact has no drive of its own. A joint that another joint leads through a cam or
+    /// groove is driven by that joint: with the friction of a guide if there is one, otherwise without loss. Any other joint
+    /// is driven by its law: the drive acts between the two links that it connects.
     ///
     /// # Errors
-    /// [`ForcesError`] for masses that are none, and for links held by more than one thing or by one that cannot reach them.
+    /// [`ForcesError`] for invalid masses, for links held by more than one part, and for a part that does not reach the link
+    /// it holds.
     pub fn new(machine: impl Into<Arc<LinkedMachine>>) -> Result<Self, ForcesError> {
         let machine: Arc<LinkedMachine> = machine.into();
         let masses = masses(&machine)?;
@@ -125,20 +126,20 @@ impl Balance {
         &self.machine
     }
 
-    /// Whether every link stays in the plane of the first.
+    /// Whether every link stays in the plane of the first link.
     #[must_use]
     pub fn is_planar(&self) -> bool {
         self.machine.joints.iter().all(Joint::is_planar)
     }
 
-    /// Whether a joint has a drive that the input feeds at once: no teeth, pin, roller or other joint moves it.
+    /// Whether the input drives a joint directly: no teeth, pin, roller or other joint moves it.
     #[must_use]
     pub fn is_driven(&self, joint: usize) -> bool {
         self.driven[joint]
     }
 }
 
-/// Masses of the links and of what they carry.
+/// Masses of the links and of the loads that they carry.
 fn masses(machine: &LinkedMachine) -> Result<Vec<Mass>, ForcesError> {
     let own = machine.links.iter().enumerate();
     let own = own.filter_map(|(link, about)| {
@@ -174,7 +175,7 @@ fn masses(machine: &LinkedMachine) -> Result<Vec<Mass>, ForcesError> {
     Ok(all)
 }
 
-/// Ties and followers in an order in which each can be worked out.
+/// Ties and followers in an order in which each can be computed.
 fn steps(
     machine: &LinkedMachine,
     ties: Vec<Tie>,
@@ -182,7 +183,7 @@ fn steps(
 ) -> Result<Vec<Step>, ForcesError> {
     let apart = ties.len();
     let count = apart + followers.len();
-    // Whether the first must be known before what a joint supplies is.
+    // Whether step `one` changes the force or torque that a joint must supply.
     let changes = |one: usize, joint: usize| match ties.get(one) {
         Some(tie) => tie.sign(joint) != 0.0,
         None => followers[one - apart].leader == joint,

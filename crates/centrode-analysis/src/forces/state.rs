@@ -8,7 +8,7 @@ use super::ready::{Balance, Follower, Step};
 use super::tie::{Lines, Tie, TieKind};
 use super::{Forces, ForcesError, JointForce, LinkLoad, Reaction, ToothForce};
 
-/// Millimetres in a metre: kg mm/s² are thousandths of a newton.
+/// Millimetres per metre: 1 kg mm/s² is a thousandth of a newton.
 const MM: f64 = 1000.0;
 
 /// A force and its moment about the origin of the first link.
@@ -39,7 +39,7 @@ impl Wrench {
     }
 }
 
-/// Motion of the links, and what each joint must supply to what it carries.
+/// Motion of the links, and the force and moment that each joint must supply to the links that it carries.
 struct State<'a> {
     machine: &'a LinkedMachine,
     input: f64,
@@ -54,14 +54,14 @@ struct State<'a> {
 }
 
 impl Balance {
-    /// Forces at an input (rad) that turns evenly at a speed (rad/s): the design's is that of the machine's input, and zero
-    /// holds it still.
+    /// Forces at an input (rad) with a constant speed (rad/s). The design's speed is that of the machine's input; zero holds
+    /// the machine still.
     ///
-    /// The torque of the input is by virtual work: what drives demand, each times the rate of its joint by the input. It
-    /// equals that of inertia, weight and loads on their ways.
+    /// The torque of the input follows from virtual work: the sum of the forces or torques of the drives, each times the
+    /// derivative of its joint by the input. It equals the torque from the virtual work of inertia, weight and loads.
     ///
     /// # Errors
-    /// [`ForcesError::Dead`] in a dead position, [`ForcesError::NotFinite`] for numbers too large.
+    /// [`ForcesError::Dead`] in a dead position, [`ForcesError::NotFinite`] for forces that are not finite.
     pub fn at(&self, input: f64, speed: f64) -> Result<Forces, ForcesError> {
         let mut state = State::new(self, input, speed);
         let machine = &*self.machine;
@@ -117,7 +117,7 @@ impl Balance {
             let reaction = (!self.hidden[joint]).then(|| state.reaction(joint));
             forces.joints.push(JointForce { drive, reaction });
         }
-        // A sum of what is not finite is not, either.
+        // If any term is not finite, the sum is not finite.
         let sum = forces.joints.iter().map(|joint| joint.drive).sum::<f64>();
         if !(sum + forces.input_torque + forces.kinetic_energy).is_finite() {
             return Err(ForcesError::NotFinite { input, speed });
@@ -170,7 +170,7 @@ impl<'a> State<'a> {
         state
     }
 
-    /// Adds what accelerates and lifts every mass.
+    /// Adds the forces that accelerate and lift every mass.
     fn inertia(&mut self, balance: &Balance, speed: f64) {
         let gravity = Vector3::from(self.machine.gravity);
         for mass in &balance.masses {
@@ -193,7 +193,7 @@ impl<'a> State<'a> {
         }
     }
 
-    /// Takes off what a load supplies.
+    /// Subtracts the force or torque of a load.
     fn load(&mut self, balance: &Balance, load: &Load, input: f64) {
         let values = |of: &[Quantity; 3]| {
             Vector3::from([0, 1, 2].map(|k| self.machine.value(&of[k], input)))
@@ -253,11 +253,11 @@ impl<'a> State<'a> {
         wrench.moment - place.cross(&wrench.force)
     }
 
-    /// Hands the drive of a joint on to the one that leads it.
+    /// Transfers the drive of a joint to the joint that leads it.
     fn lead(&mut self, follower: &Follower, guides: &mut [GuideForce]) {
         let [own, leader] = [follower.joint, follower.leader].map(|joint| {
             let jet = self.jets[joint];
-            // About to move, where it rests.
+            // At rest the accelerations replace the velocities.
             if jet.velocity == 0.0 {
                 jet.acceleration
             } else {
@@ -277,7 +277,7 @@ impl<'a> State<'a> {
         };
     }
 
-    /// Lines and sizes of the forces of ties that leave nothing to supply for the joints that they move.
+    /// Lines and sizes of the forces of ties for which the joints that they move need no drive.
     fn tied(&self, ties: &[Tie]) -> Option<Vec<(Lines, [f64; 2])>> {
         let lines = ties
             .iter()
@@ -287,7 +287,7 @@ impl<'a> State<'a> {
         let mut leans = false;
         for ((tie, lines), size) in ties.iter().zip(&mut lines).zip(&sizes) {
             if let TieKind::Mesh(_) = tie.kind {
-                // Which flanks carry is known by now.
+                // The sign of the force now determines which flanks are loaded.
                 let driver = &self.links[tie.links[0]];
                 *lines = tie.flank(self.machine, lines, driver, size[0]);
                 leans = true;
@@ -325,7 +325,8 @@ impl<'a> State<'a> {
         Some(ties.iter().map(&mut sizes).collect())
     }
 
-    /// Takes the force of a tie off what joints must supply; the force on its second link.
+    /// Subtracts the force of a tie from the forces that joints must supply, and returns it: the force on the tie's second
+    /// link.
     fn apply(&mut self, tie: &Tie, lines: &Lines, sizes: [f64; 2]) -> Vector3<f64> {
         let mut force = Vector3::zeros();
         for (along, size) in lines.along.iter().zip(sizes).take(tie.held.len()) {
@@ -342,7 +343,7 @@ impl<'a> State<'a> {
         force
     }
 
-    /// Force that a joint supplies, but for drive and loads along its axis.
+    /// Force and moment that a joint supplies, without the drive and the loads along its axis.
     fn reaction(&self, joint: usize) -> Reaction {
         let passed = &self.passed[joint];
         let axis = &self.axes[joint];
@@ -362,7 +363,7 @@ impl<'a> State<'a> {
     }
 }
 
-/// Components given in the axes of the world or of a link, in those of the world.
+/// Converts components in the axes of the world or of a link to the axes of the world.
 fn in_world(link: &LinkMotion, components: Vector3<f64>, axes: Axes) -> Vector3<f64> {
     match axes {
         Axes::World => components,

@@ -4,15 +4,15 @@ use nalgebra::Vector3;
 use super::ForcesError;
 use super::motion::LinkMotion;
 
-/// Something next to the tree of joints that holds two links by a force that is not known beforehand.
+/// A closure, mesh or contact: it holds two links by an unknown force, apart from the tree of joints.
 #[derive(Clone, Debug)]
 pub(super) struct Tie {
     pub(super) kind: TieKind,
-    /// The links: its force acts on the second, and back on the first.
+    /// The two links: the force acts on the second link, and its reaction on the first.
     pub(super) links: [usize; 2],
-    /// Joints that it moves, as many as its force has components.
+    /// Joints that the tie moves, one per component of its force.
     pub(super) held: Vec<usize>,
-    /// Joints that carry the second link alone (1) or the first alone (-1).
+    /// Joints that carry only the second link (1) or only the first link (-1).
     pub(super) between: Vec<(usize, f64)>,
     /// Joint that carries the plane of the force; `None` for the frame.
     normal: Option<usize>,
@@ -26,7 +26,7 @@ pub(super) enum TieKind {
     Contact(usize),
 }
 
-/// Position of a tie's force, and unit vectors along its components.
+/// Point at which a tie's force acts, and unit vectors along its components.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Lines {
     pub(super) at: Vector3<f64>,
@@ -37,7 +37,7 @@ impl Tie {
     /// Every closure, mesh and contact of a machine.
     ///
     /// # Errors
-    /// [`ForcesError`] where one moves a joint that it does not reach, or that another one moves, too.
+    /// [`ForcesError`] if a tie moves a joint that it does not reach, or a joint that another tie moves too.
     pub(super) fn all(machine: &LinkedMachine) -> Result<Vec<Self>, ForcesError> {
         let closures = machine.closures.iter().enumerate();
         let closures = closures.map(|(i, c)| (TieKind::Closure(i), c.links, c.joints.to_vec()));
@@ -86,7 +86,7 @@ impl Tie {
         Ok(())
     }
 
-    /// The tie in words, for messages.
+    /// Text that names the tie, for messages.
     pub(super) fn words(&self, machine: &LinkedMachine) -> String {
         let kind = match self.kind {
             TieKind::Closure(_) => "pin",
@@ -97,19 +97,19 @@ impl Tie {
         format!("the {kind} of {one} and {other}")
     }
 
-    /// Sign of its force on what a joint carries; zero where the joint carries both links or neither.
+    /// Sign of the tie's force on the links that a joint carries; zero if the joint carries both links of the tie or neither.
     pub(super) fn sign(&self, joint: usize) -> f64 {
         let own = self.between.iter().find(|(of, _)| *of == joint);
         own.map_or(0.0, |(_, sign)| *sign)
     }
 
-    /// Whether the direction of its force is not known, only its moment.
+    /// Whether only the moment of the tie's force is known, not its direction.
     pub(super) fn is_vague(&self, machine: &LinkedMachine) -> bool {
         matches!(self.kind, TieKind::Mesh(i) if machine.meshes[i].pressure_angle.is_none())
     }
 
-    /// Position and components of the force: of teeth along the tangent of the pitch curves. None where links that mesh are
-    /// still on each other and their pitch curves are not given.
+    /// Point and directions of the force: for teeth, along the tangent of the pitch curves. `None` if two meshing links do not
+    /// move relative to each other and their pitch curves are not given.
     pub(super) fn lines(
         &self,
         machine: &LinkedMachine,
@@ -122,7 +122,7 @@ impl Tie {
         match self.kind {
             TieKind::Closure(i) => {
                 let at = one.place + one.turn * Vector3::from(machine.closures[i].at);
-                // Along the world's axes where it lies in their plane.
+                // Along the projection of a world axis on the plane of the force.
                 let side = if axis.x.abs() < 0.9 {
                     Vector3::x()
                 } else {
@@ -164,8 +164,8 @@ impl Tie {
         }
     }
 
-    /// The lines of a mesh once the size of its force along the tangent is known: the flanks' normal leans from the tangent by
-    /// the pressure angle, so that what pushes pushes the gears apart.
+    /// The lines of a mesh, once the size of its force along the tangent is known. The flanks' normal is inclined to the
+    /// tangent by the pressure angle, so that the force pushes the gears apart.
     pub(super) fn flank(
         &self,
         machine: &LinkedMachine,
@@ -189,10 +189,10 @@ impl Tie {
     }
 }
 
-/// Pitch point of two links, the pole of their motion against each other, and unit vectors along the pitch curves there and
-/// across them: the tangent turns the driven gear counter-clockwise about its centre.
+/// Pitch point of two links (the pole of their relative motion), and unit vectors there along and across the pitch curves: the
+/// tangent turns the driven gear counter-clockwise about its centre.
 ///
-/// The pitch curves roll on each other, so the acceleration of one against the other at the pole is square to them.
+/// The pitch curves roll on each other, so their relative acceleration at the pole is normal to them.
 fn pitch_point(
     [driver, driven]: [&LinkMotion; 2],
     center: Vector3<f64>,
@@ -205,7 +205,7 @@ fn pitch_point(
     along_pitch(at, axis.cross(&rolled), center, axis)
 }
 
-/// Pitch point of two links and unit vectors there, as of [`pitch_point`], by their pitch curves: whether they turn or rest.
+/// Pitch point of two links and unit vectors there, like [`pitch_point`], from their pitch curves: valid at rest too.
 fn known_pitch_point(
     pitch: &PitchCurves,
     driver: &LinkMotion,
@@ -222,7 +222,7 @@ fn known_pitch_point(
     along_pitch(at, out * slope + round * radius, to, axis)
 }
 
-/// Lines of a mesh at its pitch point by a tangent of the pitch curves, in either direction.
+/// Lines of a mesh at its pitch point, from a tangent of the pitch curves in either direction.
 fn along_pitch(
     at: Vector3<f64>,
     tangent: Vector3<f64>,

@@ -1,4 +1,4 @@
-//! Remedies of circular gears: one change of the design that was made and checked.
+//! Remedies for circular gears: a single change of the design, tried and checked.
 
 use centrode_gear::GearPair;
 use centrode_gear::design::{Addendum, GearPairDesign, ToolSpec};
@@ -7,25 +7,27 @@ use centrode_gear::pitch::{Circle, PitchSpec};
 use super::{checked, remedy::is_of_teeth};
 use crate::{Contact, Report, Severity};
 
-/// Difference of the radii of a pitch curve, as a share of them, below which it is a circle.
+/// Relative difference of the radii of a pitch curve up to which it is a circle.
 const ROUND: f64 = 1e-12;
 
-/// Contact ratio from which a changed pair is a remedy: gears with less are sensitive to errors of the centre distance.
+/// Minimum contact ratio of a changed pair that counts as a remedy: with less, gears are sensitive to errors of the centre
+/// distance.
 const CONTACT_RATIO: f64 = 1.1;
 
-/// Values of a key, each with the words that name the change, which all have the same end.
+/// Values of a key, each with the text that names the change: key, value and a common ending.
 macro_rules! values {
     ($key:literal, $end:literal: $($value:literal)*) => {
         [$(($value, concat!($key, " = ", $value, $end))),*]
     };
 }
 
-/// Profile shifts of the driver tried, the smallest first. That of the driven gear is as written, else opposite.
+/// Profile shifts of the driver that are tried, the smallest first. The driven gear has its shift from the design or, by
+/// default, the opposite shift.
 #[rustfmt::skip]
 const SHIFTS: [(f64, &str); 16] = values!("driver.shift", "":
     0.1 -0.1 0.2 -0.2 0.3 -0.3 0.4 -0.4 0.5 -0.5 0.6 -0.6 0.7 -0.7 0.8 -0.8);
 
-/// Equal profile shifts of both gears tried: the centre distance follows.
+/// Equal profile shifts of both gears that are tried: the centre distance follows.
 #[rustfmt::skip]
 const BOTH: [(f64, &str); 8] = values!("driver.shift = driven.shift", ", with the centre distance that follows":
     0.1 0.2 0.3 0.4 0.5 0.6 0.7 0.8);
@@ -34,11 +36,11 @@ const BOTH: [(f64, &str); 8] = values!("driver.shift = driven.shift", ", with th
 const ANGLES: [(f64, &str); 6] =
     values!("tool.pressure_angle_deg", "": 17.5 20.0 22.5 25.0 28.0 30.0);
 
-/// Names in the findings about teeth and mesh of circular gears the first change of the design with which the check finds nothing
-/// more than notes, or nothing if there is none.
+/// Sets the remedy of the findings about teeth and mesh of circular gears: the first change of the design with which the check
+/// finds only notes, or no remedy if there is no such change.
 ///
-/// Tried are opposite profile shifts, a greater pressure angle, equal profile shifts, fitted addenda and more teeth of a smaller
-/// module, in this order.
+/// The changes tried are, in this order: opposite profile shifts, a larger pressure angle, equal profile shifts, fitted
+/// addenda, and more teeth of a smaller module.
 pub(super) fn name_remedy(pair: &GearPair, report: &mut Report) {
     let (low, high) = pair.rolling().radii(pair.driver().member());
     let of_teeth = report
@@ -70,7 +72,7 @@ fn remedy(pair: &GearPair) -> Option<&'static str> {
         design
     };
     let shifted = SHIFTS.map(|(x, words)| (with(&|design| design.driver.shift = Some(x)), words));
-    // With a written centre distance there is no such pair.
+    // If the design gives a centre distance, these pairs are not possible.
     let both = BOTH.map(|(x, words)| {
         let equal = |design: &mut GearPairDesign| {
             (design.driver.shift, design.driven.shift) = (Some(x), Some(x));
@@ -107,7 +109,7 @@ fn remedy(pair: &GearPair) -> Option<&'static str> {
         .map(|(_, words)| words)
 }
 
-/// Whether a design makes gears of which the check finds nothing more than notes, with a good contact ratio.
+/// Whether the check of a design's gears finds only notes, and the contact ratio is large enough.
 fn helps(design: &GearPairDesign) -> bool {
     GearPair::resolve(design).is_ok_and(|pair| {
         let contact = Contact::analyse(&pair);

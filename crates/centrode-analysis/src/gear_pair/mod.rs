@@ -29,13 +29,14 @@ pub(crate) use remedies::{is_carried, minimum_count};
 const PENETRATION: f64 = 1e-6;
 /// Transmission error, rad, above which contact is reported as lost.
 const LOST: f64 = 1e-6;
-/// Transmission error, rad, below which lost contact is less than gears are made to: a micrometre at 50 mm from the axis.
+/// Transmission error, rad, below which lost contact is smaller than the accuracy of manufacture: a micrometre at 50 mm from
+/// the axis.
 pub const SLIGHT_TRANSMISSION_ERROR: f64 = 2e-5;
 
 /// Checks a gear pair: its pitch curves, every tooth, and the mesh along one whole cycle.
 ///
-/// Lengths are mm, angles rad. The figures are named for what they measure; `*_min` and `*_max` are
-/// over the whole cycle.
+/// Lengths are mm, angles rad. The name of a figure states its quantity; `*_min` and `*_max` are extremes over the whole
+/// cycle.
 #[must_use]
 pub fn check(pair: &GearPair) -> Report {
     let mut ready = None;
@@ -47,7 +48,7 @@ pub fn check(pair: &GearPair) -> Report {
     })
 }
 
-/// Checks a gear pair like [`check`], with a contact analysis made before.
+/// Checks a gear pair like [`check`], with a given contact analysis.
 #[must_use]
 pub fn check_contact(pair: &GearPair, contact: &Contact) -> Report {
     let mut report = checked(pair, contact, None);
@@ -55,7 +56,8 @@ pub fn check_contact(pair: &GearPair, contact: &Contact) -> Report {
     report
 }
 
-/// The check of a pair by an analysis of its contact, made ready for it or not, with usual remedies.
+/// The check of a pair with an analysis of its contact, and with the prepared pair if there is one. Remedies are the usual
+/// ones.
 fn checked<'a>(pair: &'a GearPair, contact: &'a Contact, ready: Option<Meshing<'a>>) -> Report {
     let mut report = Report {
         groups: FIGURES.to_vec(),
@@ -89,7 +91,7 @@ fn pitch_curves(pair: &GearPair, limits: &Limits, report: &mut Report) {
     if pair.pressure_angle() != pair.teeth().pressure_angle() {
         values.insert("tool_pressure_angle", pair.teeth().pressure_angle());
     }
-    // Chosen here and written nowhere else.
+    // Values chosen by `teeth.fit` are reported nowhere else.
     for fit in &pair.design().teeth.fit {
         match fit {
             Fit::ThicknessSplit => {
@@ -222,8 +224,8 @@ const CARRIED: f64 = 0.5;
 /// Pressure angle above which friction is commonly considered a danger, rad.
 const PRESSURE_ANGLE: f64 = 50.0 * PI / 180.0;
 
-/// Transmission error due to backlash, rad, at most what gears are made to: it thins the flanks, and edges meet their mates
-/// where they would without it only to the first order of it.
+/// Transmission error due to backlash, rad, at most [`SLIGHT_TRANSMISSION_ERROR`]. Backlash thins the flanks, so that edges
+/// meet their mates as without backlash only to the first order.
 pub(crate) fn thinned(pair: &GearPair) -> f64 {
     let a = pair.center_distance();
     let second = 2.0 * (pair.backlash() / a).powi(2) * a / pair.module();
@@ -257,7 +259,7 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
     values.insert("clearance_min", clearance.value);
     values.insert("fillet_clearance_min", fillet.value);
     values.insert("sliding_max", extremes.sliding.value);
-    // Between samples the extremes find a gap that no sample does.
+    // Extremes between the samples may show a gap that no sample shows.
     let samples = contact.backlash.iter().zip(&contact.input);
     let of_samples = samples.map(|(&value, &input)| Extreme { input, value });
     let loose = of_samples
@@ -291,7 +293,7 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
             .findings
             .push(overlap("interference", penetration, message));
     }
-    // With the driven gear in the middle of its backlash: no turn of it makes room.
+    // The driven gear is in the middle of its backlash, so that no rotation of it makes room.
     let (gap, part) = if clearance.value < fillet.value {
         (clearance, "root")
     } else {
@@ -316,13 +318,13 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
         reverse
     };
     let share = extremes.lost;
-    // Where flanks carry everywhere, edges are early by no more than the backlash thins the teeth.
+    // If flanks carry the motion everywhere, edges deviate by no more than the effect of thinned teeth.
     let allowed = if share == 0.0 {
         LOST.max(thinned(pair))
     } else {
         LOST
     };
-    // Gears that jam carry no motion at all.
+    // Gears that interfere carry no motion at all.
     if worst.value.is_finite() && worst.value > allowed && !interferes {
         let message = format!(
             "for {} % of the cycle contact is on a tooth edge, not on the flanks; the driven gear is {} {} off",
@@ -330,7 +332,7 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
                 percent if percent < 0.1 => "less than 0.1".to_owned(),
                 percent => format!("{percent:.1}"),
             },
-            // Of some gears nothing is followed between the samples.
+            // For some gears figures are not searched between the samples.
             if contact.is_followed(pair) {
                 "up to"
             } else {
@@ -359,8 +361,8 @@ fn mesh(pair: &GearPair, contact: &Contact, extremes: &ContactExtremes, report: 
     report.findings.extend(oscillations(pair, contact));
 }
 
-/// Finding about teeth of a normal backlash, mm, that overlap where the deviations of thickness make them thickest, or that
-/// have no backlash on gears with a bore, which are to be made.
+/// Finding about teeth with a normal backlash, mm: they overlap at their maximum thickness, or they have no backlash although
+/// both gears have a bore and so are to be made.
 pub(crate) fn tight_backlash(pair: &GearPair, backlash: f64) -> Option<Finding> {
     let [minimum, _] = pair.backlash_limits(backlash);
     let (unit, rounding) = (Unit::Millimetre, PENETRATION * pair.module());
@@ -392,7 +394,7 @@ pub(crate) fn tight_backlash(pair: &GearPair, backlash: f64) -> Option<Finding> 
     )
 }
 
-/// Pitch curves that oscillate so often that figures of the mesh are those of the samples, as a finding.
+/// Finding about pitch curves that oscillate so often that the figures of the mesh are those of the samples.
 fn oscillations(pair: &GearPair, contact: &Contact) -> Option<Finding> {
     let (swings, teeth) = (pair.rolling().swings(), pair.driver().tooth_count());
     if !oscillates_per_tooth(pair) {

@@ -14,36 +14,39 @@ pub const MAX_TEETH: u32 = 600;
 /// Overlap of the pitch curves, modules, above which no teeth are searched.
 const OVERLAP: f64 = 0.5;
 
-/// Counts, from one that does not carry the motion to one that does, that are tried one by one.
+/// Maximum range of counts, from one that does not carry the motion to one that does, in which every count is tried.
 const SCANNED: u32 = 16;
 
-/// Tooth count at which teeth of a kind begin to carry the motion of a pair by their flanks alone, and the pair changed to it.
+/// Tooth count from which the flanks of a kind of teeth alone carry the motion of a pair, and the design changed to it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PairRemedy {
     /// Height of the teeth.
     pub addendum: Addendum,
-    /// Numbers chosen next to that height, and written in the design.
+    /// Numbers that are chosen in addition to the height, and written in the design.
     pub fit: Vec<Fit>,
-    /// Tooth count of the driver at which they do: with one step fewer they do not. A greater one may fail again.
+    /// Tooth count of the driver at which the flanks carry the motion: with one step less they do not. A larger count may fail
+    /// again.
     pub minimum_tooth_count: u32,
-    /// The design with such teeth: as many as written where those are enough, else as few as are, on pitch curves of the
-    /// same size.
+    /// The design with such teeth, on pitch curves of the same size: with the given tooth count if that is enough, otherwise
+    /// with the minimum count.
     pub design: GearPairDesign,
 }
 
-/// Finds from which tooth count on full teeth, fitted ones, and fitted ones of chosen phase, thickness and pressure angle carry
-/// the motion of a pair by their flanks alone.
+/// Finds the tooth counts from which the flanks alone carry the motion of a pair: of full teeth, of fitted teeth, and of
+/// fitted teeth with chosen phase, thickness and pressure angle.
 ///
-/// They do where flanks face each other as designed at all samples of [`Contact::analyse`], nothing penetrates, and the
-/// transmission error stays below 1e-9 rad, more only by what the backlash thins the flanks (2e-5 rad at most), by
-/// [`Contact::extremes`]. Counts grow by a quarter from the one written till one does; between that and the first, where they
-/// are few, all are tried, and else they are halved: the count found carries the motion and the one below it does not, but a
-/// greater one may fail again, and a lesser one may carry. A kind of teeth that does not up to [`MAX_TEETH`] is omitted. Each
-/// count tried costs a pair and its contact; a choice (`teeth.fit`) is searched only where as many fitted teeth as written do
-/// not carry, up to the count from which they do and to twice the one written.
+/// The flanks carry the motion if they face each other as designed at all samples of [`Contact::analyse`], nothing penetrates,
+/// and the transmission error by [`Contact::extremes`] is at most 1e-9 rad. For flanks thinned by backlash a larger error is
+/// allowed, up to 2e-5 rad.
+///
+/// The count grows by a quarter from the given one until the flanks carry the motion. Between the last failed count and this
+/// one, every count is tried if there are few; otherwise the interval is halved. The count found carries the motion and the
+/// one below it does not, but a larger count may fail again, and a smaller one may carry. A kind of teeth that fails up to
+/// [`MAX_TEETH`] is omitted. Each count tried costs a pair and its contact. A choice (`teeth.fit`) is searched only if the
+/// given number of fitted teeth fails: up to the count from which fitted teeth carry, and up to twice the given count.
 #[must_use]
 pub fn remedies(pair: &GearPair) -> Vec<PairRemedy> {
-    // Where pitch curves lie in each other by half a tooth or more, no teeth of that size or smaller ones roll.
+    // If pitch curves overlap by more than half a module, teeth of that size or smaller cannot roll.
     let overlap = pair.rolling().overlap();
     if overlap.is_some_and(|overlap| overlap.value > OVERLAP * pair.module()) {
         return Vec::new();
@@ -87,7 +90,7 @@ pub fn remedies(pair: &GearPair) -> Vec<PairRemedy> {
     found
 }
 
-/// The minimum tooth count at which the flanks of a design carry its motion, searched from one on and up to another.
+/// The minimum tooth count at which the flanks of a design carry its motion, searched from `written` on and up to `most`.
 pub(crate) fn minimum_count(design: &GearPairDesign, written: u32, most: u32) -> Option<u32> {
     // The driven gear has a whole number of teeth.
     let step = design.mean_ratio[1];
@@ -102,7 +105,7 @@ pub(crate) fn minimum_count(design: &GearPairDesign, written: u32, most: u32) ->
         low
     } else {
         while low == 0 || !carries(high) {
-            // The last one tried is the maximum there is.
+            // The last count tried was the maximum.
             if high >= most / step {
                 return None;
             }
@@ -110,7 +113,7 @@ pub(crate) fn minimum_count(design: &GearPairDesign, written: u32, most: u32) ->
         }
         first
     };
-    // From some count on all carry, mostly; few are tried one by one.
+    // Mostly all counts above some count carry. If few are left, each is tried.
     if high - failed <= SCANNED {
         return (failed + 1..high)
             .find(|&steps| carries(steps))
@@ -133,7 +136,7 @@ pub(crate) fn is_carried(design: &GearPairDesign) -> bool {
     let Ok(pair) = GearPair::resolve(design) else {
         return false;
     };
-    // Most of those that do not show it at the first few inputs.
+    // Most designs that do not carry fail at the few samples of this first analysis.
     is_sampled(&pair, &Contact::sampled(&pair, 1)) && {
         let found = Contact::analyse(&pair);
         is_sampled(&pair, &found) && is_exact(&pair, &found)
@@ -155,8 +158,8 @@ fn is_exact(pair: &GearPair, found: &Contact) -> bool {
         && found.clearance.value.min(found.fillet_clearance.value) >= -deepest
 }
 
-/// Whether the flanks carry the motion wherever a contact was sampled: flanks that face each other as designed do, but for what
-/// backlash causes, and contacts that leave the driven gear on its law.
+/// Whether the flanks carry the motion at all samples of a contact: the driven gear is on its law, apart from the error that
+/// backlash causes on flanks that face each other as designed.
 fn is_sampled(pair: &GearPair, found: &Contact) -> bool {
     let play = CARRIED.max(thinned(pair));
     let errors = found.transmission_error.iter();

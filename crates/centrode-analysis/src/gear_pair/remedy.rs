@@ -1,6 +1,6 @@
 use centrode_gear::design::Addendum;
 
-/// Remedy against a finding about the teeth, of a pair whose addenda are fitted already or not.
+/// Remedy for a finding about the teeth of a pair with the given addendum.
 pub(super) fn remedy_of_teeth(rule: &str, addendum: Addendum) -> Option<&'static str> {
     match (rule, addendum) {
         ("cut-through" | "undercut" | "short-tooth", Addendum::Fitted) => {
@@ -10,7 +10,7 @@ pub(super) fn remedy_of_teeth(rule: &str, addendum: Addendum) -> Option<&'static
     }
 }
 
-/// Whether a rule is about the teeth or their mesh: of circular gears its remedy is tried.
+/// Whether a rule is about the teeth or their mesh: for circular gears its remedy is searched by trial.
 pub(super) fn is_of_teeth(rule: &str) -> bool {
     let of_teeth = [
         "cut-through",
@@ -30,7 +30,7 @@ pub(super) fn is_of_teeth(rule: &str) -> bool {
     of_teeth.contains(&rule) || of_mesh.contains(&rule)
 }
 
-/// Usual remedy against a finding of a rule.
+/// Usual remedy for a finding of a rule.
 pub(crate) fn remedy(rule: &str) -> Option<&'static str> {
     Some(match rule {
         "cut-through" | "undercut" | "short-tooth" => {

@@ -3,7 +3,7 @@ use centrode_gear::{Gear, GearPair, Limits, Member, Side, Tooth, ToothSide};
 use super::remedy::remedy_of_teeth;
 use crate::{Finding, FlankPlace, Report, Severity, Unit};
 
-/// Flanks of teeth that are not cut off of which `found` holds, with the end at the root or at the tip.
+/// Flanks for which `found` holds, on teeth that are not cut off, each with the radius of its end at the root or at the tip.
 fn flanks(
     pair: &GearPair,
     gear: &Gear,
@@ -34,7 +34,7 @@ fn flanks(
     places
 }
 
-/// Minimum share of a pair's module that is named as a remedy: below it twenty times the teeth would be needed.
+/// Minimum share of a pair's module that a remedy names: below it more than twenty times as many teeth would be needed.
 const USEFUL: f64 = 0.05;
 
 /// Teeth with a fault, and the largest figure of it.
@@ -83,7 +83,7 @@ pub(super) fn teeth(pair: &GearPair, gear: &Gear, limits: &Limits, report: &mut 
             numbers.len(),
             gear.tooth_count()
         );
-        // Of a thin tip the worst is what is missing.
+        // For a thin tip the worst figure is the missing width.
         let measured = match rule {
             "thin-tip" => minimum - worst,
             _ => worst,

@@ -4,9 +4,9 @@ use super::parry::Boundary;
 
 /// Shape of a rigid body of the plane, in its own frame.
 ///
-/// Outlines are flattened to closed polygons; the material is what lies inside an odd number of them,
-/// so a body may be concave, have holes, or be several pieces that move as one. A tree of
-/// circles around the edges makes far parts cheap.
+/// Outlines are flattened to closed polygons; the material is what lies inside an odd number of them, so a body may be
+/// concave, have holes, or be several pieces that move as one. A tree of circles around the edges skips parts that are far
+/// away.
 #[derive(Clone, Debug)]
 pub struct Body {
     edges: Vec<[Point; 2]>,
@@ -26,10 +26,10 @@ const ROUNDING: f64 = 1e-14;
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum BodyError {
-    /// No outline to keep clear of.
+    /// No outline has a segment.
     #[error("a body needs at least one outline with a segment")]
     Empty,
-    /// A point of an outline is no number, or one whose square is not finite.
+    /// A point of an outline is not finite, or its square is not.
     #[error(
         "outline {outline} has a point that is not finite, or with coordinates too large to be squared"
     )]
@@ -51,7 +51,7 @@ impl Body {
         let (mut edges, mut corners) = (Vec::new(), Vec::new());
         let mut straight = true;
         for (index, outline) in outlines.iter().enumerate() {
-            // Lengths are worked out from squares.
+            // Lengths are computed from squares.
             let finite = |p: Point| p.coords.norm_squared().is_finite();
             let segments = outline.segments();
             let ends = segments.iter().all(|s| {
@@ -135,7 +135,7 @@ impl Body {
     /// Edges of a run that a ray from a point along x crosses.
     fn crossings(&self, run: &Run<Disc>, p: Point) -> usize {
         let Disc { center, radius } = run.bound;
-        // A little more, since the circle is rounded.
+        // A margin for the rounding of the circle.
         let reach = radius + ROUNDING * (radius + center.x.abs() + center.y.abs());
         if (p.y - center.y).abs() > reach || p.x > center.x + reach {
             return 0;
@@ -152,7 +152,7 @@ impl Body {
     }
 }
 
-/// Brings edges near each other next to each other: halves along the longer axis, each sorted likewise.
+/// Orders the edges so that near edges follow each other: halves them along the longer axis, and sorts each half likewise.
 fn sort(edges: &[[Point; 2]], order: &mut [u32]) {
     if order.len() < 2 {
         return;

@@ -11,7 +11,7 @@ use super::{InterferenceError, Moving, Patience};
 /// Deepest point found.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Deepest {
-    /// Depth inside, mm; negative if no point ever is; the depth to beat if nothing is deeper.
+    /// Depth inside the other body, mm; negative if no point is inside; the depth to beat if nothing is deeper.
     pub(super) depth: f64,
     /// Upper bound of the depth.
     pub(super) bound: f64,
@@ -22,7 +22,7 @@ pub(super) struct Deepest {
 /// Stretch of one body's boundary during an interval.
 #[derive(Clone, Copy, Debug)]
 struct BoundaryPiece {
-    /// Index of the boundary's body: it is held against the other.
+    /// Index of the body with the boundary; the depth of the boundary in the other body is searched.
     of: usize,
     stretch: Stretch,
     from: f64,
@@ -87,14 +87,14 @@ impl PartialEq for BoundaryPiece {
 
 impl Eq for BoundaryPiece {}
 
-/// Parts of boundaries looked at before the tolerance is doubled.
+/// Number of parts of boundaries that are examined before the tolerance is doubled.
 const MAX_STEPS: u32 = 200_000;
 
-/// Deepest point of either boundary in the other body while the input runs, within `tolerance`, searched only deeper
-/// than `beat`.
+/// Deepest point of either boundary in the other body while the input runs, to within `tolerance`. Only points deeper than
+/// `beat` are searched.
 ///
-/// Bodies that stay in each other as they run are equally deep everywhere: where that would take too long, the bound keeps farther
-/// from the depth.
+/// If two bodies penetrate each other equally deep all along, the search would take too long: then the tolerance grows, and
+/// the bound is farther from the depth.
 pub(super) fn deepest(
     pair: [&Moving<'_>; 2],
     [from, to]: [f64; 2],
@@ -168,18 +168,18 @@ pub(super) fn deepest(
     Ok(best)
 }
 
-/// Point of one body seen from the other.
+/// Motion of a point of one body relative to the other body, within an interval.
 struct Seen {
     /// Position in the common frame, in the middle of the interval.
     point: Point,
     /// Depth inside the other body, mm; negative outside.
     depth: f64,
-    /// Distance it can move against the other body from there to the ends of the interval.
+    /// Distance by which the point can move relative to the other body, from the middle to either end of the interval.
     travel: f64,
-    /// Maximum distance of the whole stretch from the other's edge that is nearest to the point, were
-    /// all to go straight on: nothing inside the other is deeper. Distance from an edge is convex.
+    /// Maximum distance of the whole stretch from the other body's edge nearest to the point, if all points moved straight on:
+    /// an upper bound of the depth. The distance from an edge is convex, so the ends of stretch and interval suffice.
     beside: f64,
-    /// Distance by which it can leave that straight path.
+    /// Distance by which a point can leave that straight path.
     drift: f64,
 }
 

@@ -2,21 +2,22 @@ use nalgebra::Rotation2;
 
 use super::motion::{Bend, Motion, PoseJet, Tabulated};
 
-/// Motion of a body that repeats another's later, turned about the common frame's origin.
+/// Motion of a body that repeats the motion of another body with a delay, turned about the origin of the common frame.
 ///
-/// Arms on one carrier: seen from it, each is a turned copy of the first, late by its share of a cycle.
+/// An example is arms on one carrier. In the carrier's frame each arm is a turned copy of the first, delayed by its share of a
+/// cycle.
 #[derive(Clone, Copy, Debug)]
 pub struct DelayedMotion<'a> {
     /// Motion that is repeated; its inputs are one whole cycle.
     pub first: &'a Tabulated,
     /// Delay of the input, in `[0, cycle]`.
     pub delay: f64,
-    /// Turn, rad.
+    /// Angle of the turn, rad.
     pub turned: f64,
 }
 
 impl DelayedMotion<'_> {
-    /// Input of the first body, in its table.
+    /// Input in the first body's table.
     fn own(&self, input: f64) -> f64 {
         let (start, cycle) = (self.first.start, self.first.length());
         start + (input - self.delay - start).rem_euclid(cycle)

@@ -7,25 +7,25 @@ use super::{
     Body, BodyError, Clearance, InterferenceError, MotionError, Moving, PhaseShifts, PoseJet,
 };
 
-/// Range of the input that counts as one place, rad.
+/// Range of the input that counts as one position, rad.
 const MOMENT: f64 = 1e-9;
 
 /// Reason why the clearance of two links cannot be determined.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LinkClearanceError {
-    /// A link that is not there, or one link twice.
+    /// A link that does not exist, or one link twice.
     #[error("links {links:?} are not two of the machine's {count}")]
     Links {
-        /// The links asked for.
+        /// The requested links.
         links: [usize; 2],
-        /// Links of the machine.
+        /// Number of links of the machine.
         count: usize,
     },
-    /// A joint that leads out of the plane.
+    /// A joint whose motion leaves the plane of the two links.
     #[error("the joint of {link} leads out of the plane of the two links")]
     OutOfPlane {
-        /// Name of the link it carries.
+        /// Name of the link that the joint carries.
         link: String,
     },
     /// A contour makes no body.
@@ -42,8 +42,8 @@ impl From<MotionError> for LinkClearanceError {
     }
 }
 
-/// Minimum clearance, over one period of the input, of the contours with which two links of a machine touch others; none
-/// where no two of them overlap in height.
+/// Minimum clearance, over one period of the input, between the contact surfaces of two links of a machine; `None` if no two
+/// of them overlap in height.
 ///
 /// # Errors
 /// [`LinkClearanceError`] as for [`LinkPair::new`].
@@ -62,11 +62,11 @@ pub fn between_links(
         .transpose()
 }
 
-/// Contours that stand on two links of a machine, made ready for their clearance.
+/// Contours on two links of a machine, prepared for their clearance.
 #[derive(Clone, Debug)]
 pub struct LinkPair {
     links: [usize; 2],
-    /// Joints that carry each link from the nearest one that carries both.
+    /// Joints that carry each link from the nearest link that carries both.
     chains: [Vec<Joint>; 2],
     /// The bodies, each with its link: 0 or 1.
     bodies: Vec<(usize, Body)>,
@@ -76,12 +76,11 @@ pub struct LinkPair {
 }
 
 impl LinkPair {
-    /// Makes contours ready that stand on two links: those of the links themselves or others; none where no two of them
-    /// overlap in height.
+    /// Prepares contours on two links: those of the links themselves or others; `None` if no two of them overlap in height.
     ///
     /// # Errors
-    /// [`LinkClearanceError`] for a link that is not there, and for a joint between the two that turns about another axis
-    /// than z or slides along it.
+    /// [`LinkClearanceError`] for a link that does not exist, and for a joint between the two that turns about another axis
+    /// than z or slides along z.
     pub fn new(
         machine: &LinkedMachine,
         links: [usize; 2],
@@ -95,7 +94,8 @@ impl LinkPair {
         Self::of_any(machine, links, surfaces, tolerance)
     }
 
-    /// Makes contours ready as [`new`](Self::new) does, of two links or of one, on which both stand still; the links are the machine's.
+    /// Prepares contours like [`new`](Self::new), also of a single link, on which both sets of contours are fixed. The links
+    /// must exist.
     pub(crate) fn of_any(
         machine: &LinkedMachine,
         links: [usize; 2],
@@ -146,12 +146,13 @@ impl LinkPair {
 
     /// Minimum clearance while the input runs from the first to the second of `inputs`.
     ///
-    /// Both links are seen from the nearest link that carries them. Clearances are mm, inputs rad, points in that link's
-    /// frame; `pair` is the two links. `minimum` is above the true clearance by no more than the tolerance, `lower_bound`
-    /// below it by no more, as [`clearance`](super::clearance) tells. Teeth in mesh overlap by their penetration.
+    /// Both links are described in the frame of the nearest link that carries them. Clearances are in mm, inputs in rad,
+    /// points in that frame; `pair` has the two links. `minimum` exceeds the true clearance by at most the tolerance, and
+    /// `lower_bound` is below it by at most the tolerance, as described at [`clearance`](super::clearance). Teeth in mesh
+    /// overlap by their penetration.
     ///
     /// # Errors
-    /// [`LinkClearanceError`] where inputs do not ascend or a pose is not finite.
+    /// [`LinkClearanceError`] if inputs do not ascend or a pose is not finite.
     pub fn over(&self, inputs: [f64; 2]) -> Result<Clearance, LinkClearanceError> {
         let motions = each(&self.bodies, |(link, body)| {
             let chain = &self.chains[*link];
@@ -167,7 +168,7 @@ impl LinkPair {
             .map(|((_, body), motion)| Moving { body, motion })
             .collect();
         let minimum = self.shares.minimum(&moving, &self.pairs, inputs)?;
-        // There is a pair: it has a minimum distance.
+        // There is at least one pair, so there is a minimum distance.
         let nowhere = MotionError::NotFinite { input: inputs[0] };
         let found = minimum.ok_or(nowhere)?;
         Ok(Clearance {
@@ -176,10 +177,10 @@ impl LinkPair {
         })
     }
 
-    /// Clearance at an input, as [`over`](Self::over) tells of a range.
+    /// Clearance at one input, like [`over`](Self::over) for a range.
     ///
     /// # Errors
-    /// [`LinkClearanceError`] where a pose is not finite.
+    /// [`LinkClearanceError`] if a pose is not finite.
     pub fn at(&self, input: f64) -> Result<Clearance, LinkClearanceError> {
         self.over([input, input + MOMENT])
     }

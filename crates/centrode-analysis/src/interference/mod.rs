@@ -32,8 +32,8 @@ pub struct Moving<'a> {
 /// Clearance of two bodies while the input runs.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Clearance {
-    /// Minimum distance found, mm. Where the bodies overlap it is negative: the depth of the deepest point of
-    /// one lies inside the other.
+    /// Minimum distance found, mm. If the bodies overlap it is negative: minus the depth of the deepest point of one body
+    /// inside the other.
     pub minimum: f64,
     /// Proven lower bound of the clearance, mm.
     pub lower_bound: f64,
@@ -46,8 +46,8 @@ pub struct Clearance {
     pub pair: [usize; 2],
 }
 
-/// Division of a tolerance: the errors of two bodies, their motions and the search sum up to the tolerance. The minimum
-/// clearance found is then above the true one by no more, nor is the bound farther below.
+/// Division of a tolerance: the errors of two bodies, their motions and the search sum up to the tolerance. Then the minimum
+/// clearance found exceeds the true clearance by at most the tolerance, and the bound is below it by at most the tolerance.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct PhaseShifts {
     body: Tolerance,
@@ -64,12 +64,12 @@ impl PhaseShifts {
         }
     }
 
-    /// Makes a body of such outlines.
+    /// Makes a body of outlines, with the body's part of the tolerance.
     pub(crate) fn body(self, outlines: &[Outline]) -> Result<Body, BodyError> {
         Body::new(outlines, self.body)
     }
 
-    /// Makes a motion of such a body.
+    /// Makes a motion of a body, with the motion's part of the tolerance.
     pub(crate) fn motion(
         self,
         body: &Body,
@@ -79,7 +79,7 @@ impl PhaseShifts {
         Tabulated::within(inputs, body.reach(), motion, self.motion)
     }
 
-    /// Minimum clearance among pairs of such bodies.
+    /// Minimum clearance among pairs of bodies, with the search's part of the tolerance.
     pub(crate) fn minimum(
         self,
         bodies: &[Moving<'_>],
@@ -94,35 +94,35 @@ impl PhaseShifts {
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum InterferenceError {
-    /// Inputs that do not run forward, or a pose that is not finite.
+    /// Inputs that do not ascend, or a pose that is not finite.
     #[error(transparent)]
     Motion(#[from] MotionError),
-    /// A pair that names a body that is not there, or one body twice.
+    /// A pair that names a body that does not exist, or one body twice.
     #[error("the pair {pair:?} does not name two of {bodies} bodies")]
     Pair {
         /// The pair.
         pair: [usize; 2],
-        /// Bodies given.
+        /// Number of bodies.
         bodies: usize,
     },
 }
 
 /// Minimum clearance of two bodies while the input runs from the first to the second of `inputs`.
 ///
-/// The search halves intervals of the input until none can hold a clearance smaller than the minimum one
-/// found less the tolerance: within an interval no point can leave its tangent by more than its maximum
-/// second derivative allows. `lower_bound` is `minimum` less at most the tolerance, the flattening of both
-/// bodies and the deviation of both motions; it is proven where [`Motion::bend`] is. Poses may be given in
-/// any one frame; the search is quickest where the bodies' movement is smallest, for arms on a carrier in
-/// the carrier's frame. Arms that follow one another in equal phases make one curve: one pair is enough.
+/// The search halves intervals of the input until no interval can contain a clearance below the minimum found minus the
+/// tolerance. Within an interval the maximum second derivative limits the distance of every point from its tangent.
+/// `lower_bound` is below `minimum` by at most the tolerance, the flattening of both bodies and the deviation of both motions;
+/// it is proven if [`Motion::bend`] is. Poses may be given in any common frame; the search is fastest in the frame in which
+/// the bodies move least, such as the carrier's frame for arms on a carrier. Arms that follow one another in equal phases move
+/// along one curve: one pair is enough.
 ///
-/// A body inside another, or one that runs through it between two samples, overlaps it. Cost: a few
-/// hundred evaluations of the few edges that come close; bodies that overlap cost more. Where they stay as near or in each
-/// other all along, each 50,000,000 looks at near parts, or 200,000 at parts inside, double the tolerance: `lower_bound` tells
-/// what is left.
+/// A body inside another, or one that passes through it between two samples, overlaps it. Cost: a few hundred evaluations of
+/// the few edges that come close; more for bodies that overlap. If bodies are equally near or deep all along, the tolerance
+/// doubles after every 50,000,000 tests of near parts, or 200,000 tests of parts inside: `lower_bound` is then farther from
+/// `minimum`.
 ///
 /// # Errors
-/// [`InterferenceError::Motion`] where `inputs` do not ascend or a pose is not finite.
+/// [`InterferenceError::Motion`] if `inputs` do not ascend or a pose is not finite.
 pub fn clearance(
     a: &Moving<'_>,
     b: &Moving<'_>,
@@ -135,13 +135,14 @@ pub fn clearance(
     Ok(found.closest.ok_or(nowhere)?)
 }
 
-/// Minimum clearance among pairs of bodies, each given by two places in `bodies`; `None` without pairs.
+/// Minimum clearance among pairs of bodies, each given by two indices into `bodies`; `None` without pairs.
 ///
-/// Quicker than [`clearance`] of every pair: a pair is searched only below the best of those before it.
+/// Faster than [`clearance`] of every pair: each pair is searched only for clearances below the minimum of the pairs before
+/// it.
 /// `lower_bound` holds for all pairs.
 ///
 /// # Errors
-/// [`InterferenceError`] for a pair that is none, and those of [`clearance`].
+/// [`InterferenceError`] for an invalid pair, and the errors of [`clearance`].
 pub fn minimum_clearance(
     bodies: &[Moving<'_>],
     pairs: &[[usize; 2]],
@@ -166,7 +167,7 @@ pub fn minimum_clearance(
     Ok(minimum)
 }
 
-/// Tolerance of a search, mm, which doubles after so many steps as would take too long.
+/// Tolerance of a search, mm. It doubles after every `most` steps, so that the search ends in time.
 #[derive(Debug)]
 struct Patience {
     tolerance: f64,
@@ -195,7 +196,7 @@ impl Patience {
 
 /// Result of the search of a pair.
 struct Search {
-    /// Clearance, if the pair comes closer than the one to beat.
+    /// Clearance, if the pair comes closer than the clearance to beat.
     closest: Option<Clearance>,
     bound: f64,
 }
@@ -208,7 +209,7 @@ fn below(
     tolerance: Tolerance,
 ) -> Result<Search, InterferenceError> {
     ascending(inputs)?;
-    // Nothing finer than rounding can be decided.
+    // The search cannot be finer than rounding.
     let size = both[0].extent(inputs)? + both[1].extent(inputs)?;
     let decided = tolerance.mm().max(1e-13 * size);
     let unsure = both.iter().map(|m| m.unsure()).sum::<f64>() + 1e-14 * size;
@@ -250,7 +251,7 @@ fn gap(both: [&Moving<'_>; 2], input: f64) -> Result<Option<(f64, [Point; 2])>, 
     Ok(Boundary::gap(boundaries, [&poses[0], &poses[1]]))
 }
 
-/// Whether a piece of one body lies in the other: unless boundaries meet, so it stays.
+/// Whether a piece of one body lies inside the other. It stays so unless the boundaries meet.
 fn inside_one_another(both: [&Moving<'_>; 2], input: f64) -> Result<bool, InterferenceError> {
     let frames = [both[0].frame(input)?, both[1].frame(input)?];
     Ok([0, 1].into_iter().any(|own| {
@@ -271,13 +272,13 @@ impl Moving<'_> {
         }
     }
 
-    /// Error of the flattened, tabulated outline: the distance by which a point may be off.
+    /// Maximum error of the position of a point, mm, from the flattened outline and the tabulated motion.
     fn unsure(&self) -> f64 {
         let (far, turned) = self.motion.deviation();
         self.body.flattening() + far + turned * self.body.reach()
     }
 
-    /// Size of its coordinates at either end.
+    /// Maximum size of the body's coordinates at both inputs.
     fn extent(&self, inputs: [f64; 2]) -> Result<f64, MotionError> {
         let mut far: f64 = 0.0;
         for input in inputs {

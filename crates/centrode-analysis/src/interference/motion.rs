@@ -1,7 +1,7 @@
 use centrode_geometry::{Point, Tolerance, Vector};
 use nalgebra::{Isometry2, Rotation2};
 
-/// Pose of a body at an input and its speed there, per radian of the input.
+/// Pose of a body at an input, and its derivative by the input.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PoseJet {
     /// Position of the body frame's origin, mm.
@@ -15,13 +15,13 @@ pub struct PoseJet {
 }
 
 impl PoseJet {
-    /// Rigid motion from the body's frame to the common one.
+    /// Rigid motion from the body's frame to the common frame.
     #[must_use]
     pub fn isometry(&self) -> Isometry2<f64> {
         Isometry2::new(self.position.coords, self.angle)
     }
 
-    /// Whether lengths can be worked out from it.
+    /// Whether lengths computed from the pose are finite.
     pub(super) fn is_finite(&self) -> bool {
         let values = [
             self.position.coords,
@@ -32,7 +32,7 @@ impl PoseJet {
     }
 }
 
-/// Bound of the change of a body's movement within an interval of the input: never too small.
+/// Upper bounds of the derivatives of a body's pose within an interval of the input.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Bend {
     /// Maximum length of the second derivative of the position, mm/rad^2.
@@ -46,7 +46,7 @@ pub struct Bend {
 impl Bend {
     /// Maximum second derivative of the position of a point at a distance from the frame's origin.
     pub(super) fn of_point(&self, distance: f64) -> f64 {
-        // A point at r turns and is drawn inward: p'' + angle'' x r - angle'^2 r.
+        // Second derivative of a point at r: p'' + angle'' x r - angle'^2 r.
         self.acceleration + distance * self.turning_change.hypot(self.turning * self.turning)
     }
 
@@ -64,12 +64,12 @@ pub trait Motion: std::fmt::Debug {
     /// Pose and its exact derivative.
     fn at(&self, input: f64) -> PoseJet;
 
-    /// Bounds of the second derivative between two inputs.
+    /// Bounds of the derivatives between two inputs.
     ///
-    /// The lower bound of a clearance is proven if these are.
+    /// The lower bound of a clearance is proven if these bounds are.
     fn bend(&self, from: f64, to: f64) -> Bend;
 
-    /// Maximum difference of the motion from the one meant: mm of the origin, and rad.
+    /// Maximum deviation from the exact motion: of the origin, mm, and of the angle, rad.
     fn deviation(&self) -> (f64, f64) {
         (0.0, 0.0)
     }
@@ -94,16 +94,16 @@ impl Motion for Rest {
     }
 }
 
-/// A body whose origin moves straight and which turns about it, both at constant speed.
+/// A body that turns about its origin while the origin moves along a straight line, both at constant speed.
 ///
-/// A planted seedling seen from a machine that drives, a bar on a shaft.
+/// Examples are a planted seedling in the frame of a moving machine, and a bar on a shaft.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Uniform {
     /// Pose at the input 0.
     pub start: Isometry2<f64>,
     /// Velocity of the origin, mm/rad.
     pub velocity: Vector,
-    /// Turn for each radian of the input.
+    /// Turn per radian of the input.
     pub turning: f64,
 }
 
@@ -125,11 +125,11 @@ impl Motion for Uniform {
     }
 }
 
-/// Motion read at even inputs and joined by cubics with the same velocities (Hermite).
+/// Motion sampled at equal steps of the input and interpolated by cubics with the same velocities (Hermite).
 ///
-/// Bounds of the cubics are exact, so a clearance is proven for them; how far they are from the motion
-/// itself is measured in the middle of every cell, doubled, and subtracted from the bound. It falls with the
-/// fourth power of the cell where the motion is smooth.
+/// Bounds of the cubics are exact, so a clearance is proven for them. Their deviation from the motion is measured in the
+/// middle of every cell, doubled, and subtracted from the bound. For a smooth motion it falls with the fourth power of the
+/// cell length.
 #[derive(Clone, Debug)]
 pub struct Tabulated {
     pub(super) start: f64,
@@ -140,7 +140,7 @@ pub struct Tabulated {
     deviation: (f64, f64),
 }
 
-/// Number of cells with which a motion within a tolerance is tabulated first, and the maximum number.
+/// Initial number of cells of a table within a tolerance; `MOST` is the maximum number.
 const FEWEST: usize = 360;
 const MOST: usize = 360 << 8;
 
@@ -148,7 +148,7 @@ const MOST: usize = 360 << 8;
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum MotionError {
-    /// An interval that does not run forward.
+    /// Inputs that are not finite or do not ascend.
     #[error("inputs must be finite and ascending, not {from} to {to} rad")]
     Inputs {
         /// First input, rad.
@@ -156,7 +156,7 @@ pub enum MotionError {
         /// Last input, rad.
         to: f64,
     },
-    /// No cells.
+    /// No cells, or more than 1,000,000.
     #[error("a motion needs 1 to 1000000 cells, not {0}")]
     Cells(usize),
     /// A pose that is not finite.
@@ -168,10 +168,10 @@ pub enum MotionError {
 }
 
 impl Tabulated {
-    /// Reads `motion` at the ends of `cells` even parts of the inputs.
+    /// Samples `motion` at the ends of `cells` equal parts of the interval `inputs`.
     ///
     /// # Errors
-    /// [`MotionError`] for an empty interval, no cells, or a pose that is not finite.
+    /// [`MotionError`] for an empty interval, an invalid number of cells, or a pose that is not finite.
     pub fn new(
         inputs: [f64; 2],
         cells: usize,
@@ -186,7 +186,8 @@ impl Tabulated {
         Ok(Self::through(start, cell, jets, &mut read)?.0)
     }
 
-    /// The table of poses at the ends of cells, and the poses in the middle of every cell that it is measured by.
+    /// The table of poses at the ends of cells, and the poses in the middle of every cell, from which its deviation is
+    /// measured.
     fn through(
         start: f64,
         cell: f64,
@@ -213,8 +214,8 @@ impl Tabulated {
         Ok((table, middles))
     }
 
-    /// Reads `motion` at as many even inputs as keep every point of a body that reaches `reach` (mm) from its
-    /// frame's origin within the tolerance of where the motion has it; at the most there may be.
+    /// Samples `motion` at steps so small that every point within `reach` (mm) of the frame's origin deviates by at most the
+    /// tolerance, or at the maximum number of steps.
     ///
     /// # Errors
     /// [`MotionError`] for an empty interval or a pose that is not finite.
@@ -233,7 +234,7 @@ impl Tabulated {
             if far + turned * reach <= tolerance.mm() || middles.len() >= MOST {
                 return Ok(table);
             }
-            // The ends of cells half as long are known.
+            // The middles become ends of cells of half the length.
             let between = middles.into_iter().map(Some).chain([None]);
             let jets = table.jets.into_iter().zip(between);
             let jets = jets.flat_map(|(end, middle)| [Some(end), middle]).flatten();
@@ -253,7 +254,7 @@ impl Tabulated {
     }
 }
 
-/// The motion, which is asked for finite poses.
+/// The motion, with an error for a pose that is not finite.
 fn reader(
     motion: &mut impl FnMut(f64) -> PoseJet,
 ) -> impl FnMut(f64) -> Result<PoseJet, MotionError> {
@@ -267,7 +268,7 @@ fn reader(
     }
 }
 
-/// First input and length of even cells, and the poses at their ends.
+/// First input and length of equal cells, and the poses at their ends.
 fn ends(
     inputs: [f64; 2],
     cells: usize,
@@ -353,7 +354,7 @@ fn windows(cells: Vec<Bend>) -> Vec<Vec<Bend>> {
     levels
 }
 
-/// Pose at one input, ready to move points.
+/// Pose at one input, with its rotation for moving points.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Frame {
     pub(super) rotation: Rotation2<f64>,
@@ -379,7 +380,7 @@ impl Frame {
         self.jet.velocity + Vector::new(-arm.y, arm.x) * self.jet.turning
     }
 
-    /// Map of a point of the common frame into the body's.
+    /// Map of a point of the common frame into the body's frame.
     pub(super) fn inside(&self, p: &Point) -> Point {
         Point::from(self.rotation.inverse() * (p - self.jet.position))
     }

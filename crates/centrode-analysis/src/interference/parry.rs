@@ -1,4 +1,4 @@
-//! Distances at one pose by the library parry, which no other file names.
+//! Distances in one pose, with the library parry. No other file uses parry.
 
 use centrode_geometry::Point;
 use nalgebra::Isometry2;
@@ -37,8 +37,8 @@ impl Boundary {
         Self(Polyline::new(points, Some(pairs.collect())))
     }
 
-    /// Distance of a point of the body's frame from the polygons, mm, whether inside or outside, and
-    /// which edge is nearest.
+    /// Distance of a point of the body's frame from the polygons, mm, positive inside and outside, and the index of the
+    /// nearest edge.
     pub(super) fn nearest(&self, point: Point) -> (f64, u32) {
         let point = to_parry(point);
         let found = self.0.project_local_point(point, false);
@@ -47,7 +47,7 @@ impl Boundary {
 
     /// Minimum distance between two boundaries at their poses, and a closest point of each.
     ///
-    /// Says nothing of overlap: one inside the other has a distance too.
+    /// It does not show overlap: a boundary inside the other has a distance too.
     pub(super) fn gap(
         [a, b]: [&Self; 2],
         [at_a, at_b]: [&Isometry2<f64>; 2],

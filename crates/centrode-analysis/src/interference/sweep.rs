@@ -1,8 +1,8 @@
 //! Minimum distance of two moving boundaries, by branch and bound over input and space at once.
 //!
-//! An interval of the input carries the pairs of circles (and in the end edges) that may come closer in
-//! it than the best distance found. A pair's distance at the middle, moved on by the exact velocity along
-//! the line between them and less what the second derivative can do, bounds it in the whole interval.
+//! Each interval of the input has a list of pairs of circles (finally of edges) that may come closer in it than the minimum
+//! distance found. A lower bound of a pair's distance in the whole interval follows from the distance in the middle, the exact
+//! velocity there along the line between the two, and the maximum second derivative.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -14,13 +14,13 @@ use super::body::Body;
 use super::motion::{Bend, Frame};
 use super::{InterferenceError, Moving, Patience};
 
-/// Pairs of circles or edges looked at before the tolerance is doubled.
+/// Number of pairs of circles or edges that are examined before the tolerance is doubled.
 const MAX_STEPS: u32 = 50_000_000;
 
 /// Result of the search of one pair.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Approach {
-    /// Minimum distance found, and its place; the one to beat if nothing came closer.
+    /// Minimum distance found, with its input; the distance to beat if no pair came closer.
     pub(super) minimum: f64,
     pub(super) input: Option<f64>,
     /// Lower bound of the distance.
@@ -56,10 +56,10 @@ impl PartialEq for Span {
 
 impl Eq for Span {}
 
-/// Minimum distance of two boundaries while the input runs, to within `tolerance`, searched only below `beat`.
+/// Minimum distance of two boundaries while the input runs, to within `tolerance`. Only distances below `beat` are searched.
 ///
-/// Bodies that run next to each other are equally near everywhere: where that would take too long, the bound keeps farther from
-/// the distance.
+/// If two bodies are equally near all along, the search would take too long: then the tolerance grows, and the bound is
+/// farther from the distance.
 pub(super) fn approach(
     [a, b]: [&Moving<'_>; 2],
     [from, to]: [f64; 2],
@@ -112,7 +112,7 @@ pub(super) fn approach(
     Ok(found)
 }
 
-/// Pairs that may still come too close, and the minimum bound among them.
+/// Pairs that may still come closer than the minimum found, and the minimum bound among them.
 struct Rest {
     pairs: Vec<[u32; 2]>,
     bound: f64,
@@ -178,7 +178,7 @@ impl<'a> PairState<'a> {
                         rest.keep(pair, bound);
                     }
                 }
-                // A pair that moves by more than its circles are wide is cut in time, not in space.
+                // If a pair moves by more than the sum of its radii, the interval is halved, not the circles.
                 _ if blur > p.bound.radius + q.bound.radius => rest.keep(pair, bound),
                 [None, Some(_)] => split(0),
                 [Some(_), None] => split(1),
@@ -193,7 +193,7 @@ impl<'a> PairState<'a> {
         [0, 1].map(|k| self.bodies[k].tree().run(pair[k]))
     }
 
-    /// Lower bound of the distance of two circles in the interval, and the share of it owed to their movement.
+    /// Lower bound of the distance of two circles in the interval, and the part that is subtracted in it for their movement.
     fn circles(&self, pair: [u32; 2]) -> (f64, f64) {
         let [p, q] = self.runs(pair).map(|run| run.bound);
         let (at_p, move_p) = self.frames[0].moved(&p.center);
@@ -222,7 +222,7 @@ impl<'a> PairState<'a> {
         }
         let reach = |edge: &[Point; 2]| edge[0].coords.norm().max(edge[1].coords.norm());
         let bend = self.bends[0].of_point(reach(edge)) + self.bends[1].of_point(reach(other));
-        // Along the line between the closest points convex shapes are apart by their ends' gap.
+        // Along the line between the closest points the gap between the ends is a lower bound for convex shapes.
         let along = apart / distance;
         let mut gap = f64::INFINITY;
         for shift in [-self.half, self.half] {

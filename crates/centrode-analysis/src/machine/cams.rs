@@ -6,10 +6,10 @@ use centrode_machines::machine::{Machine, MachineCam};
 use crate::cam::CheckedCam;
 use crate::{Finding, Report, Severity, Table, Unit};
 
-/// Pressure angles up to which a sliding and a swinging follower run well while they are lifted, rad. VDI 2142 part 2.
+/// Maximum pressure angles of a sliding and a swinging follower during the rise, rad. VDI 2142 part 2.
 const PRESSURE_ANGLES: [f64; 2] = [FRAC_PI_6, FRAC_PI_4];
 
-/// Pressure angles and radii of the cams, over the whole of each.
+/// Reports the maximum pressure angles and the radii of every cam, and its findings.
 pub(super) fn cams(composed: &Machine, report: &mut Report) {
     let (mut angles, mut radii) = (Vec::new(), Vec::new());
     for cam in composed.cams() {
@@ -63,7 +63,7 @@ pub(super) fn cams(composed: &Machine, report: &mut Report) {
     );
 }
 
-/// Reports a roller whose wall is too thin for the pins of the design: it has no part and no pin.
+/// Reports a roller whose wall is too thin for the pins of the design: it gets no part and no pin.
 fn thin_roller(composed: &Machine, cam: &MachineCam, report: &mut Report) {
     let pin = composed.plates().pin_diameter;
     let radius = cam.disc().follower().roller_radius().unwrap_or(0.0);

@@ -6,10 +6,10 @@ use super::goals::Found;
 use crate::interference::{LinkClearanceError, LinkPair};
 use crate::{Finding, Report, Severity, Unit};
 
-/// Clearance of two bodies, or of a body and an obstacle, of a composed machine, made ready; none where they lie apart along
-/// the shafts.
+/// Prepares the clearance of two bodies, or of a body and an obstacle, of a machine; `None` if they do not overlap along the
+/// shafts.
 ///
-/// A body counts with its plate and its gears.
+/// The surfaces of a body are those of its plate and its gears.
 ///
 /// # Errors
 /// [`LinkClearanceError`] for a contour that makes no body.
@@ -34,7 +34,7 @@ pub(super) fn surfaces(machine: &LinkedMachine, link: usize) -> impl Iterator<It
     own.map(|&index| &machine.surfaces[index])
 }
 
-/// A note for every goal of a clearance between what shares no height, which is infinite.
+/// Adds a note for every clearance goal whose two ends share no height: the clearance is infinite.
 pub(super) fn apart(composed: &Machine, found: &[Found], report: &mut Report) {
     let figures = composed.figures().iter().zip(found);
     for (figure, found) in figures {

@@ -12,7 +12,7 @@ use crate::{Finding, Report, Severity, Unit};
 /// Accuracy to which collisions of parts are searched, as a share of a plate's width.
 const ACCURACY: f64 = 1e-3;
 
-/// Accuracy to which it is found how near the circles around two parts come, as a share of their distance.
+/// Accuracy of the minimum distance between the circles around two parts, as a share of that distance.
 const SLACK: f64 = 0.05;
 
 /// Maximum number of colliding pairs of parts of a kind that are reported.
@@ -52,8 +52,8 @@ impl<'a> PartSurfaces<'a> {
     }
 }
 
-/// Plates, and gears that are not to mesh, of a machine with copied chains that share a height and collide: the findings
-/// `plates-collide` and `gears-collide` of its check, the deepest first. A design without copies, or of no machine, has none.
+/// Findings of colliding plates, gears, pins and cams of a machine with copied chains, the deepest first: `plates-collide`,
+/// `gears-collide`, `pins-collide` and `parts-collide`. The list is empty for a design without copies or with errors.
 #[must_use]
 pub fn machine_collisions(design: &MachineDesign) -> Vec<Finding> {
     let composed = (!design.copies.is_empty()).then(|| Machine::resolve(design));
@@ -67,7 +67,7 @@ pub fn machine_collisions(design: &MachineDesign) -> Vec<Finding> {
     report.findings
 }
 
-/// Plates, and gears that are not to mesh, that share a height and collide.
+/// Reports plates, and gears that do not mesh, that share a height and collide.
 pub(super) fn collisions(made: &Made<'_>, ends: &[f64], report: &mut Report) {
     let composed = made.composed;
     let tolerance = Tolerance::new(ACCURACY * composed.plates().width);
@@ -101,7 +101,7 @@ pub(super) fn collisions(made: &Made<'_>, ends: &[f64], report: &mut Report) {
     through::collisions(composed, machine, ends, tolerance, report);
 }
 
-/// Parts of a kind that overlap, and how many pairs are not examined since so many do.
+/// Parts of a kind that overlap, and the number of pairs that are not examined because enough overlap.
 pub(super) struct Overlaps<'a> {
     found: Vec<Overlap<'a>>,
     left: usize,
@@ -110,10 +110,11 @@ pub(super) struct Overlaps<'a> {
 /// Two parts that overlap, with their minimum clearance (mm, below zero) and the input there.
 type Overlap<'a> = ([&'a PartSurfaces<'a>; 2], [f64; 2]);
 
-/// Pairs of parts that overlap within the cycle, among those that may collide, until so many do as are reported.
+/// Pairs of parts that overlap within the cycle, among those that may collide. The search ends at the maximum number of
+/// reported pairs.
 ///
-/// What touches, as plates side by side on one line do, does not overlap; parts whose circles keep apart, and parts at other
-/// heights, cost no more than that look.
+/// Parts that only touch, such as plates side by side on one line, do not overlap. Parts whose circles stay apart, and parts
+/// at different heights, are dismissed quickly.
 pub(super) fn overlaps<'a>(
     composed: &Machine,
     machine: &LinkedMachine,
@@ -164,10 +165,11 @@ pub(super) fn overlaps<'a>(
     }
 }
 
-/// Samples of the path of a part's circle between two ends of the parts of a cycle.
+/// Number of samples of the path of a part's circle between two ends of the parts of a cycle.
 const SAMPLES: u32 = 24;
 
-/// Box that each part stays in over the cycle: around the samples of its circle, larger by the longest step between two.
+/// Box that contains each part over the cycle: around the samples of its circle, enlarged by the longest step between two
+/// samples.
 fn swept(
     composed: &Machine,
     pieces: &[PartSurfaces<'_>],
@@ -193,7 +195,7 @@ fn swept(
     own.collect()
 }
 
-/// Pairs of boxes that meet, in the order of their numbers.
+/// Pairs of boxes that meet, in the order of their indices.
 fn meeting(boxes: &[Bounds]) -> Vec<[usize; 2]> {
     let mut order: Vec<usize> = (0..boxes.len()).collect();
     order.sort_by(|&a, &b| boxes[a].min.x.total_cmp(&boxes[b].min.x));
@@ -208,7 +210,7 @@ fn meeting(boxes: &[Bounds]) -> Vec<[usize; 2]> {
     found
 }
 
-/// Findings of parts of a kind that overlap: rule, words for them, and remedy.
+/// Findings for parts of a kind that overlap, with the given rule, words for the kind, and remedy.
 pub(super) fn findings<'a>(
     rule: &'static str,
     kind: &'static str,
@@ -233,7 +235,7 @@ pub(super) fn findings<'a>(
         .chain(left)
 }
 
-/// Two parts of a kind that overlap, by the rule that they break.
+/// Finding for two parts of a kind that overlap.
 fn collision(
     rule: &'static str,
     kind: &str,
@@ -258,7 +260,7 @@ fn collision(
     .at(input)
 }
 
-/// Whether two gears are to mesh, or carry each other.
+/// Whether two gears are designed to mesh, or do not move relative to each other.
 fn is_meshed(
     composed: &Machine,
     machine: &LinkedMachine,
@@ -282,7 +284,7 @@ fn meet([a, b]: [usize; 2], links: [usize; 2]) -> bool {
     [a, b] == links || [b, a] == links
 }
 
-/// Whether two links are held together by a joint or pin, or carry each other.
+/// Whether a joint or pin connects two links, or the links do not move relative to each other.
 fn held(machine: &LinkedMachine, links: [usize; 2]) -> bool {
     let mut joints = machine.joints.iter();
     let joined = joints.any(|joint| meet([joint.parent, joint.child], links));
@@ -290,7 +292,7 @@ fn held(machine: &LinkedMachine, links: [usize; 2]) -> bool {
     joined || pinned || stands_on(machine, links)
 }
 
-/// Whether two links do not move against each other.
+/// Whether two links do not move relative to each other.
 fn stands_on(machine: &LinkedMachine, links: [usize; 2]) -> bool {
     let [one, other] = links.map(|link| {
         let mut root = link;

@@ -8,11 +8,12 @@ use super::{ends, keys};
 use crate::forces::{Balance, Forces, ForcesError};
 use crate::{Finding, Report, Severity, Table, Unit};
 
-/// Rounding of the torque, in that of a single product of a force and an arm.
+/// Rounding of the torque, in units of the rounding of one product of a force and an arm.
 const ROUNDING: f64 = 1e3;
 
-/// Rounding of a force, in that of its value: it grows with the distance from the origin and the number of links. Ten times
-/// less follows the rounding of constant forces; ten times more misses a peak 4e-11 of its size above the samples.
+/// Rounding of a force, in units of the rounding of its value: it grows with the distance from the origin and the number of
+/// links. A tenth of this would follow the rounding of constant forces; ten times as much would miss a peak 4e-11 of its size
+/// above the samples.
 const LOST: f64 = 4096.0;
 
 /// A composed machine with its masses and loads, at the design's speed.
@@ -49,7 +50,7 @@ impl Loaded {
         }
     }
 
-    /// A figure of the forces at an input, N or N mm; not a number where it is none of theirs or not determined.
+    /// A figure of the forces at an input, N or N mm; NaN if it is not a figure of forces or not determined.
     pub(super) fn value(&self, figure: &MachineFigure, input: f64) -> f64 {
         let found = self.at(input);
         found
@@ -57,8 +58,8 @@ impl Loaded {
             .unwrap_or(f64::NAN)
     }
 
-    /// Maximum of each of several values of the forces at an input; minus infinity for one that is not determined. Differences
-    /// that are the rounding of a size are not followed.
+    /// Maximum over the cycle of each of several values of the forces; minus infinity for a value that is not determined.
+    /// Differences within the rounding of `size` are not followed.
     fn maximum(
         &self,
         count: usize,
@@ -79,8 +80,8 @@ impl Loaded {
     }
 }
 
-/// A figure of the forces of a state, N or N mm; `None` if it is none of theirs or not determined. Forces in joints and pins are
-/// sizes; that of a mesh has the sign of [`crate::forces::ToothForce`].
+/// A figure of the forces of a state, N or N mm; `None` if it is not a figure of forces or not determined. Forces in joints
+/// and pins are magnitudes; the force of a mesh has the sign of [`crate::forces::ToothForce`].
 pub(super) fn part(forces: &Forces, figure: &MachineFigure) -> Option<f64> {
     match *figure {
         MachineFigure::InputTorque => Some(forces.input_torque),
@@ -94,14 +95,14 @@ pub(super) fn part(forces: &Forces, figure: &MachineFigure) -> Option<f64> {
     }
 }
 
-/// Whether a cycle of a composed machine gives back all the work that it takes: without loads and friction, weight and inertia alone.
+/// Whether a cycle of a machine returns all the work that it takes: without loads and friction only weight and inertia act.
 fn returns_all_work(machine: &LinkedMachine) -> bool {
     let masses = |load: &Load| matches!(load, Load::Mass { .. });
     machine.loads.iter().all(masses) && machine.guides.is_empty()
 }
 
-/// Torque of the input, the maximum force of every joint and pin, minimum and maximum of that of every mesh, and the pressure on
-/// the keys of shafts.
+/// Reports the torque of the input, the maximum force of every joint and pin, the minimum and maximum force of every mesh, and
+/// the pressure on the keys of shafts.
 pub(super) fn forces(
     loaded: &Result<Loaded, ForcesError>,
     composed: &Machine,
@@ -148,7 +149,7 @@ pub(super) fn forces(
     });
     let (found, load) = found.split_at(rows.len() + signed);
     let (found_rows, minima) = found.split_at(rows.len());
-    // The rounding of a torque, that of the moments of all forces, need not be followed.
+    // Differences of a torque within the rounding of the moments of all forces need not be followed.
     let force = found.iter().map(|found| found.value).fold(0.0, f64::max);
     let origins = machine.joints.iter().map(|joint| joint.origin);
     let arm = origins.map(|[x, y, _]| x.hypot(y)).fold(0.0, f64::max);
@@ -185,7 +186,7 @@ pub(super) fn forces(
     });
     excessive(of_joints.chain(of_meshes), load[0].value, report);
     keys::check(composed, &keys, &torques[2..], report);
-    // What is not determined is minus infinity.
+    // Figures that are not determined are minus infinity.
     let of_joints = rows[..joints].iter().zip(found_rows);
     let of_joints = of_joints.map(|((name, _), found)| (name.clone(), vec![found.value]));
     let of_meshes = rows[joints..].iter().zip(minima).zip(&found_rows[joints..]);
@@ -204,7 +205,8 @@ pub(super) fn forces(
     );
 }
 
-/// Arm of a torque on each link, mm: the minimum pitch radius of its gears, or else the length of the shortest bar.
+/// Arm of a torque on each link, mm: the minimum pitch radius of its gears or, without gears, the length of the machine's
+/// shortest bar.
 fn arms(composed: &Machine, machine: &LinkedMachine) -> Vec<f64> {
     let pins = machine.closures.iter().map(|pin| pin.at);
     let ends = machine.joints.iter().map(|joint| joint.origin).chain(pins);
@@ -223,11 +225,13 @@ fn arms(composed: &Machine, machine: &LinkedMachine) -> Vec<f64> {
     arms
 }
 
-/// Force of a joint, pin or mesh, by the largest load, above which the machine cannot be driven: a thousandth of friction or
-/// of an error in a length takes the whole load there. Ten times less would refuse toggle presses.
+/// Ratio of the force of a joint, pin or mesh to the largest load above which the machine cannot be driven: a friction
+/// coefficient or a relative error of a length of 0.001 then takes the whole load. A tenth of this would refuse toggle
+/// presses.
 const EXCESSIVE: f64 = 1e3;
 
-/// Reports the largest force, by name and kind of what it is in, where it is out of all proportion to the largest load, N.
+/// Reports the largest of the forces if it exceeds [`EXCESSIVE`] times the largest load, N. Each force has the name and kind
+/// of its joint, pin or mesh.
 fn excessive<'a>(
     forces: impl Iterator<Item = (&'a String, &'static str, Extreme)>,
     load: f64,
@@ -254,7 +258,7 @@ fn excessive<'a>(
     }
 }
 
-/// Reports why the forces are not known: a dead position, where they grow beyond bounds, is an error.
+/// Reports why the forces are not known. A dead position, in which they grow beyond bounds, is an error.
 fn undetermined(error: &ForcesError, report: &mut Report) {
     Finding::new(
         "forces-undetermined",

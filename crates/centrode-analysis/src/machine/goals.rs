@@ -68,8 +68,8 @@ fn unit(made: &Made<'_>, figure: &MachineFigure) -> Unit {
     }
 }
 
-/// Minimum and maximum value over the cycle of each figure that a goal can name by one word, a table a unit; without those that
-/// are not determined.
+/// Minimum and maximum over the cycle of each figure that a goal can name by one word, one table per unit. Figures that are
+/// not determined are omitted.
 #[must_use]
 pub fn machine_figures(composed: &Machine) -> Vec<Table> {
     let made = Made::new(composed);
@@ -121,7 +121,7 @@ pub fn machine_figures(composed: &Machine) -> Vec<Table> {
     tables
 }
 
-/// A figure as a goal takes it, and the input at which it is found.
+/// The value of a figure for a goal, and the input at which it occurs.
 fn value(
     made: &Made<'_>,
     figure: &MachineFigure,
@@ -153,7 +153,7 @@ fn value(
     of(made.composed, spec, at, ends, unit)
 }
 
-/// A function of the input as a goal takes it, and the input at which it is found; none where it has no value.
+/// The value of a function of the input for a goal, and the input at which it occurs; `None` if there is none.
 fn of(
     composed: &Machine,
     spec: &MachineGoalSpec,
@@ -173,7 +173,7 @@ fn of(
                 .unwrap_or_default()
                 .map(|end| end / unit.factor());
             let rate = (last - first) / (to - from);
-            // Without a course it is zero everywhere.
+            // Without a required uniform motion this line is zero everywhere.
             let at = |input: f64| at(input) - (first + rate * (input - from));
             extremes(at, &within(composed, from, to))
         }
@@ -190,7 +190,7 @@ fn of(
     }
 }
 
-/// Minimum clearance of two bodies; infinite where they lie apart along the shafts.
+/// Minimum clearance of two bodies; infinite if they do not overlap along the shafts.
 fn clearance(
     made: &Made<'_>,
     ends: [ClearanceEnd; 2],

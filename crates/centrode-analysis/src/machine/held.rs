@@ -1,4 +1,4 @@
-//! Parts of a machine whose hardware is designed in full that nothing holds, and shafts that are held at one end.
+//! Parts that nothing holds, and shafts that are held at one end, of machines with full hardware.
 
 use std::f64::consts::PI;
 
@@ -8,7 +8,7 @@ use centrode_machines::machine::{Hardware, Hold, Machine, Overhang};
 use crate::rounding::exceeds;
 use crate::{Finding, Report, Severity, Unit};
 
-/// Rings that hold what is on a pin or shaft, one at each end.
+/// Number of retaining rings that hold the parts on a pin or shaft, one at each end.
 const RINGS: usize = 2;
 
 /// Checks that rings and keys hold every part, and that overhung shafts, held in the frame at one end only, can take the
@@ -99,7 +99,7 @@ pub(super) fn held(composed: &Machine, report: &mut Report) {
         .extend(maximum.map(|stress| ("overhung_stress_max", stress)));
 }
 
-/// Sum of the maximum forces on the frame of the bodies on an axis, N; `None` if they are not determined.
+/// Sum of the maximum forces that the bodies on an axis exert on the frame, N; `None` if they are not determined.
 fn force(composed: &Machine, overhang: &Overhang, report: &Report) -> Option<f64> {
     let mut tables = report.tables.iter();
     let forces = tables.find(|table| table.name == "joint-forces")?;
@@ -111,10 +111,10 @@ fn force(composed: &Machine, overhang: &Overhang, report: &Report) -> Option<f64
     overhang.bodies.iter().map(of).sum()
 }
 
-/// Maximum stress of a shaft that is held over a length of it and loaded beyond, N/mm²: the larger one of the pressure at the
-/// edge of its bore, F/(d l) (1 + 6 e/l), and of its bending, 32 F e/(pi d^3).
+/// Maximum stress of a shaft that is held over one part of its length and loaded beyond that part, N/mm²: the larger one of
+/// the pressure at the edge of the bore, F/(d l) (1 + 6 e/l), and the bending stress, 32 F e/(pi d^3).
 ///
-/// The pressure is taken to rise evenly along the bore; e is the distance of the load from the middle of the bore.
+/// The pressure is assumed to vary linearly along the bore; e is the distance of the load from the middle of the bore.
 fn stress(overhang: &Overhang, force: f64) -> f64 {
     let &Overhang {
         diameter,

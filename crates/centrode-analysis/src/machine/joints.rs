@@ -9,9 +9,9 @@ use centrode_machines::machine::{DyadKind, Machine};
 use super::motion::Motion;
 use crate::{Report, Table, Unit};
 
-/// Distance, as a share of a turn, within which a dead centre lies of the extreme that is found by positions alone.
+/// Maximum distance of a dead centre from the extreme found by positions alone, as a share of a turn.
 const NEAR: f64 = 1e-5;
-/// Swings and strokes of joints that come back, and the inputs of their dead centres.
+/// Reports swings and strokes of joints that move back and forth, and the inputs of their dead centres.
 pub(super) fn joints(composed: &Machine, motion: &Motion, report: &mut Report) {
     let (mut swings, mut centres) = (Vec::new(), Vec::new());
     let mut strokes = Vec::new();
@@ -46,7 +46,7 @@ pub(super) fn joints(composed: &Machine, motion: &Motion, report: &mut Report) {
     report.table(dead.columns(["minimum", "maximum"]).rows(centres));
 }
 
-/// How every table of angles is read: the turn of the body over it, and the steps that show this turn.
+/// Reports how every table of angles is read: the turn of the body over the table, its largest step and its last step.
 pub(super) fn tables(composed: &Machine, report: &mut Report) {
     let bodies = composed.whole().bodies.iter();
     let read = bodies.filter_map(|(name, body)| {
@@ -63,7 +63,7 @@ pub(super) fn tables(composed: &Machine, report: &mut Report) {
     );
 }
 
-/// Input of an extreme of a motion: where its speed is zero, in the first of several equal turns.
+/// Input of an extreme of a motion, at which its speed is zero. Of several equal turns the first one counts.
 fn dead_centre(law: &dyn Transmission, found: &Extreme, stroke: f64, period: f64) -> f64 {
     let alike = |input: &f64| {
         let off = law.at(*input).position - found.value;
@@ -88,7 +88,7 @@ fn dead_centre(law: &dyn Transmission, found: &Extreme, stroke: f64, period: f64
     }
 }
 
-/// Grashof's margin of every dyad RRR between a body that turns and the body that carries it.
+/// Reports Grashof's margin of every dyad RRR between a body that turns and the body that carries it.
 pub(super) fn four_bars(composed: &Machine, report: &mut Report) {
     let mut rows = Vec::new();
     for (dyad, spec) in composed.dyads().iter().filter_map(|dyad| {
@@ -102,7 +102,7 @@ pub(super) fn four_bars(composed: &Machine, report: &mut Report) {
             continue;
         };
         let mut four = None;
-        // Either end may be the crank's.
+        // Either end may be that of the crank.
         for ([crank, ground], lengths) in [
             ([from, to], [spec.lengths[0], spec.lengths[1]]),
             ([to, from], [spec.lengths[1], spec.lengths[0]]),

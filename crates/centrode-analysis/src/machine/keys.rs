@@ -1,4 +1,4 @@
-//! Keys of the shafts under the torque that they pass on.
+//! Keys of the shafts under the torque that they transmit.
 
 use centrode_geometry::Extreme;
 use centrode_kinematics::machine::Key;
@@ -13,15 +13,15 @@ pub(super) struct KeyUnderLoad<'a> {
     shaft: &'a MachineShaft,
     part: &'a ShaftPart,
     key: Key,
-    /// Meshes whose forces it passes on, and whether the gear is the driven one there.
+    /// Meshes whose forces the key transmits, and whether the gear is the driven one there.
     meshes: Vec<(usize, bool)>,
-    /// Joint whose drive it passes on.
+    /// Joint whose drive the key transmits.
     drive: Option<usize>,
 }
 
-/// The keys whose torque is known: of gears by the forces of their meshes, and of the one part next to them on their shaft by
-/// these forces and the drive of the shaft. How several such parts share it depends on what is around them. Inertia of
-/// gears and shafts is omitted; of copies the original represents all.
+/// The keys whose torque is known. The torque of a gear's key follows from the forces of its meshes. If exactly one other part
+/// is fixed on the shaft, the torque of its key follows from these forces and the drive of the shaft; how several other parts
+/// would share the torque is not known. The inertia of gears and shafts is omitted; of copies only the original is checked.
 pub(super) fn under_load(composed: &Machine) -> Vec<KeyUnderLoad<'_>> {
     let shafts = composed.shafts().iter();
     let originals = shafts.filter(|shaft| composed.original(&shaft.name) == shaft.name);
@@ -63,7 +63,8 @@ fn on_shaft<'a>(composed: &Machine, shaft: &'a MachineShaft) -> Vec<KeyUnderLoad
 }
 
 impl KeyUnderLoad<'_> {
-    /// Size of the torque that it passes on, N mm: the moment of the teeth's forces about the shaft's axis, with the drive.
+    /// Magnitude of the torque that the key transmits, N mm: the moment of the teeth's forces about the shaft's axis, with the
+    /// drive.
     pub(super) fn torque(&self, composed: &Machine, forces: &Forces, input: f64) -> f64 {
         let axis = composed.place(self.shaft.body, self.shaft.at, input);
         let of_mesh = |&(mesh, is_driven): &(usize, bool)| {
@@ -76,7 +77,7 @@ impl KeyUnderLoad<'_> {
     }
 }
 
-/// Maximum pressure on the keys under their maximum torques, and those that are pressed harder than the materials allow.
+/// Reports the maximum pressure on the keys under their maximum torques, and the keys that are overloaded.
 pub(super) fn check(
     composed: &Machine,
     keys: &[KeyUnderLoad<'_>],

@@ -1,4 +1,4 @@
-//! Orders of the plates in which nothing collides, for a machine whose plates or pins do.
+//! Orders of the plates without collisions, for a machine whose plates or pins collide.
 
 use std::collections::BTreeMap;
 
@@ -12,17 +12,17 @@ const RULES: [&str; 3] = ["plates-collide", "pins-collide", "parts-collide"];
 
 /// Outcome of a search for layers.
 enum Layers {
-    /// Layers by body that the check of collisions found free.
+    /// Layers by body without collisions.
     Free(BTreeMap<String, i32>),
-    /// Pins and plates of which one pair collides in every order.
+    /// Pairs of a pin and a plate: in every order at least one of these pairs collides.
     Blocked(Vec<String>),
-    /// No free one among so many orders.
+    /// Number of orders that were tried; each has a collision.
     Tried(usize),
-    /// Too many plates without a layer.
+    /// Number of plates without a layer, which is too large.
     Many(usize),
 }
 
-/// Design with layers in which no plates and pins collide, if those of the design do, and the layers in words.
+/// Layers in which no plates and pins collide, as text, and the design with these layers.
 ///
 /// Bodies with a `layer` keep it. `None` if nothing collides, or no order was found: the finding `layer-order` of the check has
 /// the reason.

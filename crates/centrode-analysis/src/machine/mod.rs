@@ -39,20 +39,21 @@ use crate::rounding::exceeds;
 use crate::side_by_side::both;
 use crate::{Finding, Goal, Report, Severity, Table, Unit};
 
-/// Parts of a turn of the input in each of which a motion has few extremes.
+/// Number of parts of a turn of the input. In each part a motion has few extremes.
 const PARTS: u32 = 16;
-/// Transmission angle below which a dyad holds badly, degrees: friction may lock it.
+/// Minimum transmission angle of a dyad, degrees: below it friction may lock the dyad.
 const HOLDS_BADLY: f64 = 30.0;
-/// Distance, rad, from the start or the end of the cycle at which an extreme is at its start: it is found to the square root of
-/// rounding.
+/// Distance, rad, from the start or the end of the cycle within which an extreme counts as at the start. Extremes are accurate
+/// to the square root of rounding.
 const NEAR: f64 = 1e-7;
 
-/// Checks a composed machine: how well its dyads hold, where joints reverse, how far points go and how fast.
+/// Checks a composed machine: transmission angles, dead centres, paths and speeds of points, teeth, cams, forces and
+/// collisions.
 ///
 /// Lengths are mm, angles rad, speeds mm/s. Every extreme is over the whole cycle.
 #[must_use]
 pub fn check_machine(composed: &Machine) -> Report {
-    // Teeth take about as long as the motion, of which they know nothing.
+    // The check of teeth takes about as long as the motion and does not depend on it.
     let (pairs, motion) = both(
         || filling([0.0, 0.7], || pairs::checked(composed)),
         || Motion::new(composed, &ends(composed)),
@@ -64,15 +65,15 @@ pub fn check_machine(composed: &Machine) -> Report {
     checked(&made, motion, Depth::Whole)
 }
 
-/// Checks the motion of a composed machine alone: all of [`check_machine`] but teeth, cams, forces and collisions,
-/// which only goals that name them require.
+/// Checks only the motion of a composed machine: [`check_machine`] without teeth, cams, forces and collisions, except for
+/// goals that need them.
 #[must_use]
 pub fn check_machine_motion(composed: &Machine) -> Report {
     let motion = Motion::new(composed, &ends(composed));
     checked(&Made::new(composed), motion, Depth::Motion)
 }
 
-/// Checks the goals of a composed machine alone: those of [`check_machine_motion`], without its figures.
+/// Checks only the goals of a composed machine: those of [`check_machine_motion`], without its figures.
 #[must_use]
 pub fn check_machine_goals(composed: &Machine) -> Report {
     let mut report = Report::default();
@@ -80,7 +81,7 @@ pub fn check_machine_goals(composed: &Machine) -> Report {
     report
 }
 
-/// How much is checked.
+/// Extent of a check.
 #[derive(Clone, Copy, Eq, PartialEq)]
 enum Depth {
     Motion,
@@ -125,7 +126,7 @@ fn checked(made: &Made<'_>, motion: Motion, depth: Depth) -> Report {
     report
 }
 
-/// Notes what the design leaves to the customer.
+/// Adds a note on the parts that the design leaves to the customer.
 fn not_designed(made: &Made<'_>, report: &mut Report) {
     let hardware = made.composed.design().hardware();
     let given = made
@@ -139,7 +140,7 @@ fn not_designed(made: &Made<'_>, report: &mut Report) {
             n => format!("{n} of {}", part.name),
         })
         .collect();
-    // The frame is listed last, and matters first.
+    // The frame is last in the list, but it is the most important part.
     given.reverse();
     let (message, remedy) = match hardware {
         Hardware::None => (
@@ -158,7 +159,7 @@ fn not_designed(made: &Made<'_>, report: &mut Report) {
         .push(Finding::new("not-designed", Severity::Note, message).remedy(remedy));
 }
 
-/// Adds the goals to a report, and the findings of those that are missed.
+/// Adds the goals to a report, and a finding for each missed goal.
 fn add_goals(made: &Made<'_>, report: &mut Report) {
     let found = goals::goals(made);
     clearance::apart(made.composed, &found, report);
@@ -179,7 +180,7 @@ pub fn machine_goals(composed: &Machine) -> Vec<Goal> {
     found.map(|found| found.goal).collect()
 }
 
-/// A composed machine with what its checks share, each made when it is first requested.
+/// A composed machine with the results that its checks share, each computed at its first use.
 struct Made<'a> {
     composed: &'a Machine,
     outlined: OnceLock<Option<LinkedMachine>>,
@@ -199,13 +200,13 @@ impl<'a> Made<'a> {
         }
     }
 
-    /// Its bodies as links; `None` if a plate is no solid.
+    /// The bodies as links; `None` if a plate is not a solid.
     fn machine(&self) -> Option<&LinkedMachine> {
         let made = || self.composed.machine().ok();
         self.machine.get_or_init(made).as_ref()
     }
 
-    /// Its links with their contours, with whatever else is known of them; `None` if a plate is no solid.
+    /// The links with their contours, and with all other data if these are known already; `None` if a plate is not a solid.
     fn outlined(&self) -> Option<&LinkedMachine> {
         match self.machine.get() {
             Some(made) => made.as_ref(),
@@ -216,12 +217,12 @@ impl<'a> Made<'a> {
         }
     }
 
-    /// Checks of its gear pairs.
+    /// Reports of the gear pairs.
     fn pairs(&self) -> &[Arc<Report>] {
         self.pairs.get_or_init(|| pairs::checked(self.composed))
     }
 
-    /// Its forces; none where it has no links.
+    /// The forces; `None` without links.
     fn loaded(&self) -> Option<&Result<Loaded, ForcesError>> {
         let made = || {
             self.machine()
@@ -236,7 +237,7 @@ fn ends(composed: &Machine) -> Vec<f64> {
     within(composed, 0.0, composed.period())
 }
 
-/// Ends of the parts of a stretch of inputs between which all motion and load is smooth.
+/// Ends of the parts of an interval of inputs between which all motion and load is smooth.
 fn within(composed: &Machine, from: f64, to: f64) -> Vec<f64> {
     let (period, jumps) = (composed.period(), composed.breaks());
     let cycles = (from / period).floor() as i64..=(to / period).floor() as i64;
@@ -250,7 +251,7 @@ fn within(composed: &Machine, from: f64, to: f64) -> Vec<f64> {
     piece_ends(from, to, parts as u32, &breaks)
 }
 
-/// Transmission angles of the dyads.
+/// Reports the transmission angles of the dyads.
 fn dyads(composed: &Machine, motion: &Motion, report: &mut Report) {
     let mut rows = Vec::new();
     for (dyad, &[low, high]) in composed.dyads().iter().zip(&motion.angles) {
@@ -263,7 +264,7 @@ fn dyads(composed: &Machine, motion: &Motion, report: &mut Report) {
         });
         let row = vec![low.value, low.input, high.value, high.input];
         rows.push((dyad.name.clone(), row));
-        // Bars hold as badly at 150 degrees as at 30.
+        // A transmission angle of 150 degrees is as bad as one of 30.
         let obtuse = PI - high.value < low.value;
         let (end, held) = match obtuse {
             true => (high, PI - high.value),
@@ -301,7 +302,7 @@ fn dyads(composed: &Machine, motion: &Motion, report: &mut Report) {
     );
 }
 
-/// Reach and speed of every point that moves.
+/// Reports the reach and speed of every point that moves.
 fn points(composed: &Machine, motion: Motion, report: &mut Report) {
     let (mut reach, mut speed) = (Vec::new(), Vec::new());
     for point in motion.points {

@@ -5,7 +5,7 @@ use centrode_machines::machine::{BodyPoint, Machine};
 pub(super) struct Motion {
     /// Minimum and maximum transmission angle of each dyad, rad.
     pub(super) angles: Vec<[Extreme; 2]>,
-    /// Minimum and maximum coordinate of each body's joint; none of the frame's.
+    /// Minimum and maximum coordinate of each body's joint; zero for the frame.
     pub(super) joints: Vec<[Extreme; 2]>,
     /// Every point that moves.
     pub(super) points: Vec<PointMotion>,
@@ -13,7 +13,7 @@ pub(super) struct Motion {
 
 /// Extremes of a point's motion.
 pub(super) struct PointMotion {
-    /// Its name, `body.point`.
+    /// Name of the point, `body.point`.
     pub(super) name: String,
     /// Minimum and maximum x, minimum and maximum y, mm.
     pub(super) sides: [f64; 4],
@@ -21,11 +21,11 @@ pub(super) struct PointMotion {
     pub(super) fastest: f64,
 }
 
-/// Functions of a point: its components in either direction, and its speed.
+/// Number of functions per point: x and y with both signs, and the speed.
 const OF_POINT: usize = 5;
 
 impl Motion {
-    /// Extremes between the ends of parts of a cycle in which all motion is smooth.
+    /// Extremes over a cycle. `ends` are the ends of its parts in which all motion is smooth.
     pub(super) fn new(composed: &Machine, ends: &[f64]) -> Self {
         let (names, points): (Vec<_>, Vec<_>) = composed
             .points()

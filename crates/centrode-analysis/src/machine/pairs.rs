@@ -10,13 +10,13 @@ use super::Made;
 use crate::progress::filling;
 use crate::{Report, Table, Unit};
 
-/// Checks of the pairs of a machine, in their order there.
+/// Reports of the pairs of a machine, in the order of the pairs.
 pub(super) fn checked(composed: &Machine) -> Vec<Arc<Report>> {
     static CHECKED: Recent<GearPairDesign, Arc<Report>> = Recent::new();
     let pairs = composed.pairs();
     let count = pairs.len() as f64;
     let pairs = (0_u32..).zip(pairs);
-    // Teeth take long; those of a design in which other things change are checked once.
+    // The check of teeth takes long: its report is cached for designs in which only other things change.
     pairs
         .map(|(number, pair)| {
             let [from, to] = [number, number + 1].map(|done| f64::from(done) / count);
@@ -27,7 +27,7 @@ pub(super) fn checked(composed: &Machine) -> Vec<Arc<Report>> {
         .collect()
 }
 
-/// Findings of the pairs, each with its pair, and how many of their teeth are in contact.
+/// Reports the findings of the pairs, each with the name of its pair, and the number of tooth pairs in contact.
 pub(super) fn pairs(made: &Made<'_>, report: &mut Report) {
     let mut rows = Vec::new();
     for (pair, own) in made.composed.pairs().into_iter().zip(made.pairs()) {
@@ -40,7 +40,7 @@ pub(super) fn pairs(made: &Made<'_>, report: &mut Report) {
                 .part
                 .as_ref()
                 .map(|part| format!("{name}-{part}"));
-            // Of the driver of the pair, not of the machine.
+            // This input is that of the pair's driver, not of the machine.
             stated.place.input = None;
             stated
         }));

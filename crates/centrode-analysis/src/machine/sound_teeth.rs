@@ -12,17 +12,17 @@ use crate::gear_pair::{is_carried, minimum_count};
 
 /// First tooth count tried.
 const FIRST: u32 = 40;
-/// Most full teeth: where more would be needed, fitted ones are larger.
+/// Maximum number of full teeth: if more would be needed, fitted teeth are larger.
 const MAX_FULL: u32 = 120;
 
-/// Teeth of a pair whose flanks carry its motion alone.
+/// Teeth of a pair whose flanks alone carry its motion.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SoundTeeth {
     /// Name of the pair.
     pub pair: String,
     /// Height of the teeth.
     pub addendum: Addendum,
-    /// Teeth of the driver.
+    /// Number of teeth of the driver.
     pub tooth_count: u32,
     /// Module, mm.
     pub module: f64,
@@ -42,7 +42,7 @@ pub enum NoSoundTeeth {
         /// Reason.
         error: Box<GearPairError>,
     },
-    /// The flanks carry the motion with no tooth count tried.
+    /// The flanks do not carry the motion with any tooth count tried.
     #[error(
         "pair {pair}: full teeth are undercut above a module of {full_module:.4} mm, and fitted ones carry the motion by their flanks alone with no count up to {MAX_TEETH}: take another axis, bend or split, or ease the path; of a drive, leave more room between its goals"
     )]
@@ -54,8 +54,8 @@ pub enum NoSoundTeeth {
     },
 }
 
-/// Gives those pairs of a machine that `of` picks by name the largest teeth of a kind whose flanks carry the motion alone: full ones of which none is
-/// undercut or short, where 120 or fewer on the driver are so, else fitted ones.
+/// Gives the pairs of a machine that `of` selects by name the largest teeth whose flanks alone carry the motion: full teeth,
+/// none undercut or short, if at most 120 teeth of the driver are enough; otherwise fitted teeth.
 ///
 /// # Errors
 /// [`NoSoundTeeth`] with the pair and the largest module of full teeth.
@@ -106,7 +106,8 @@ fn sound(
     Ok(teeth(Addendum::Fitted, count))
 }
 
-/// The minimum count of full teeth that are sound and carry, from the count on at which the pitch curves allow them anyway.
+/// The minimum count of full teeth that are sound and carry the motion. `borne` is the count at the largest module that the
+/// pitch curves allow.
 fn full(design: &GearPairDesign, pair: &GearPair, borne: f64) -> Option<u32> {
     let mut full = design.clone();
     full.teeth.addendum = Addendum::Full;
@@ -114,12 +115,12 @@ fn full(design: &GearPairDesign, pair: &GearPair, borne: f64) -> Option<u32> {
         let counted = FlankCount::new(&full.with_tooth_count(count), pair.rolling());
         counted.is_ok_and(|gears| gears.iter().all(|gear| gear.unsound == 0))
     };
-    // Not a number is no count either.
+    // NaN gives no count either.
     if borne.is_nan() || borne > f64::from(MAX_FULL) {
         return None;
     }
     let mut count = (borne.ceil() as u32).max(3);
-    // Flanks may miss the sharpest points of the pitch curves.
+    // Fewer teeth may be sound if their flanks miss the sharpest points of the pitch curves.
     while count > 3 && is_sound(count - 1) {
         checkpoint();
         count -= 1;
@@ -130,7 +131,7 @@ fn full(design: &GearPairDesign, pair: &GearPair, borne: f64) -> Option<u32> {
     })
 }
 
-/// The pair with the first tooth count with which it can be cut.
+/// The pair with the first tooth count that can be cut.
 fn cut(name: &str, design: &GearPairDesign) -> Result<GearPair, NoSoundTeeth> {
     let mut count = FIRST;
     loop {

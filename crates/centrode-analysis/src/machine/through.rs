@@ -1,4 +1,4 @@
-//! Pins and shafts that run into parts through which they have no hole, and cams and gears that run into what is at their height.
+//! Collisions of pins and shafts with parts that have no hole for them, and of cams and gears with parts at their height.
 
 use std::cell::OnceCell;
 
@@ -14,13 +14,13 @@ use crate::Report;
 /// Height by which parts that touch may overlap, mm: rounding.
 const LEVEL: f64 = 1e-6;
 
-/// Steps of the cycle at which a pin is to be within a slot.
+/// Number of steps of the cycle at which a pin is tested to be within a slot.
 const SLOT_STEPS: u32 = 360;
 
-/// Part that surfaces belong to.
+/// Kind of the part that surfaces belong to.
 #[derive(Clone, Copy)]
 enum Kind<'a> {
-    /// A pin or shaft with the sleeves on it, or a roller, by its axis in its link.
+    /// A pin or shaft with the sleeves on it, or a roller, with its axis in the frame of its link.
     Turned { axis: Point, is_roller: bool },
     /// A plate, with the holes for its pins.
     Plate(&'a [Outline]),
@@ -39,7 +39,7 @@ struct Round {
     is_roller: bool,
 }
 
-/// Pins, shafts and what is on them that run into plates, gears or cams.
+/// Reports collisions of pins, shafts and the parts on them, of cams, and of gears with plates.
 pub(super) fn collisions(
     composed: &Machine,
     machine: &LinkedMachine,
@@ -76,7 +76,7 @@ pub(super) fn collisions(
     let steps = (0..=SLOT_STEPS).map(|k| f64::from(k) / f64::from(SLOT_STEPS) * composed.period());
     let paths = OnceCell::new();
     let paths = || paths.get_or_init(|| composed.frames(&steps.clone().collect::<Vec<_>>()));
-    // Turned parts come first.
+    // Turned parts come first in the list.
     let pins_may = |[one, other]: [usize; 2]| {
         let Kind::Turned { axis, is_roller } = kinds[one] else {
             return false;
@@ -85,7 +85,7 @@ pub(super) fn collisions(
         let own = BodyPoint { body, at: axis };
         let is_free = || match kinds[other] {
             Kind::Turned { axis, .. } => !is_one(&frames, own, link, axis),
-            // A roller touches its cam, and goes through no hole of a pin.
+            // A roller touches its cam, and passes through no hole.
             Kind::Cam(bores) => !is_roller && !is_in_hole(&frames, own, link, bores),
             Kind::Gear(bores) => is_roller || !is_in_hole(&frames, own, link, bores),
             Kind::Plate(holes) => {
@@ -100,7 +100,7 @@ pub(super) fn collisions(
     let remedy = "another layer for a plate or cam that it joins, or for what it runs into";
     let found = findings("pins-collide", "parts", remedy, &found);
     report.findings.extend(found);
-    // Plates among each other, and gears, are checked on their own.
+    // Plates among each other, and gears among each other, are checked elsewhere.
     let parts_may = |pair: [usize; 2]| {
         let is_ours = matches!(
             pair.map(|part| kinds[part]),
@@ -168,7 +168,7 @@ fn round(piece: &TurnedPiece, diameter: f64, span: [f64; 2]) -> Surface {
     )
 }
 
-/// Name, link, surface and solid of every plate, gear and cam.
+/// Name, link, surface and kind of every plate, gear and cam.
 fn parts<'a>(
     composed: &'a Machine,
     machine: &'a LinkedMachine,
@@ -202,18 +202,18 @@ fn parts<'a>(
     found
 }
 
-/// Whether two axes are one all through the cycle.
+/// Whether two axes coincide over the whole cycle.
 fn is_one(frames: &Frames, own: BodyPoint, body: usize, axis: Point) -> bool {
     frames.path(body, own).all(|at| (at - axis).norm() < LEVEL)
 }
 
-/// Whether the axis of a pin lies in one hole of a part all through the cycle.
+/// Whether the axis of a pin stays in one hole of a part over the whole cycle.
 fn is_in_hole(frames: &Frames, own: BodyPoint, link: usize, holes: &[Outline]) -> bool {
     let mut holes = holes.iter();
     holes.any(|hole| frames.path(link, own).all(|at| hole.contains(at)))
 }
 
-/// Whether a pin, with what is on it at the height of a plate, stays within one slot of it over the whole cycle.
+/// Whether a pin, with the parts on it at the height of a plate, stays within one slot of the plate over the whole cycle.
 fn is_in_slot<'a>(
     composed: &Machine,
     paths: impl Fn() -> &'a Frames,

@@ -53,11 +53,12 @@ pub(super) fn crossings(shaft: &SpiralShaft, report: &mut Report) {
         .add_to(report);
 }
 
-/// Checks a slider free on its pin, pushed against one wall, where a crossing interrupts that wall over `gap` mm.
+/// Checks a slider that can turn on its pin and is pushed against one wall, at a crossing that interrupts this wall over `gap`
+/// mm.
 ///
-/// The load acts at the pin, the wall on the parts that are left of it. While the pin passes the gap the slider must
-/// touch the wall before it and behind it, up to a whole gap away at either end: it must be twice as long as
-/// the gap. A shorter one, held on one side of its pin alone, turns into the other groove.
+/// The load acts at the pin, and the wall supports the slider outside the gap. While the pin passes the gap, the slider must
+/// touch the wall before and behind the gap, up to a whole gap away from the pin on either side: it must be twice as long as
+/// the gap. A shorter slider, supported on one side of its pin only, turns into the other groove.
 fn tilt(shaft: &SpiralShaft, gap: f64, report: &mut Report) {
     let length = shaft.slider().length;
     report.values.insert("slider_length_free_on_pin", 2.0 * gap);
@@ -75,7 +76,7 @@ fn tilt(shaft: &SpiralShaft, gap: f64, report: &mut Report) {
         .add_to(report);
 }
 
-/// Shift of the return groove that brings the slow points off the crossings, in words.
+/// Text on the shift of the return groove that separates slow points from crossings.
 fn advice(shaft: &SpiralShaft) -> String {
     let law = shaft.law();
     let steepest = 2.0 * (law.mean_speed() / shaft.groove().radius()).atan();

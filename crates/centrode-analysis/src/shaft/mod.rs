@@ -17,16 +17,16 @@ use crate::{Finding, Report, Severity, Unit};
 
 pub use moving_box::check_moving_box;
 
-/// Pressure angle, rad, above which a follower moved along its guide runs badly: 30 deg.
+/// Maximum pressure angle, rad, of a follower in a straight guide: 30 deg.
 const PRESSURE_ANGLE: f64 = FRAC_PI_6;
-/// Misplacement, mm, below which a hole is met.
+/// Misplacement, mm, up to which a hole counts as met.
 const MET: f64 = 1e-6;
 
 /// Checks a spiral shaft: its motion while picking, its crossings, slider and forces.
 ///
-/// Lengths are mm, angles rad, forces N, torques N mm; speeds and accelerations of the slider are by the
-/// radian of shaft turn unless the name ends in a unit. Names ending in `_min` and `_max` are over the
-/// whole cycle, those of the speed over the strokes.
+/// Lengths are mm, angles rad, forces N, torques N mm; speeds and accelerations of the slider are per radian of shaft turn
+/// unless the name ends in a unit. Figures whose names end in `_min` and `_max` are extremes over the whole cycle, those of
+/// the speed over the strokes.
 #[must_use]
 pub fn check_shaft(shaft: &SpiralShaft) -> Report {
     let mut report = Report {
@@ -46,8 +46,8 @@ pub fn check_shaft(shaft: &SpiralShaft) -> Report {
     report
 }
 
-/// Checks the movement of the box while a seedling is picked, in full stroke and at the pick where it moves most,
-/// against a sixth of the pot.
+/// Checks the movement of the box while a seedling is picked, in full stroke and at the pick with the maximum movement. The
+/// limit is a sixth of the pot.
 fn moved(shaft: &SpiralShaft, moved: f64, picks: &Schedule, report: &mut Report) {
     let design = shaft.design();
     let widest = picks.widest().filter(|pick| pick.swept > moved + MET);
@@ -271,11 +271,12 @@ fn forces(shaft: &SpiralShaft, report: &mut Report) {
     }
 }
 
-/// Pressure on the key of the near journal at a torque, and whether the shaft can support it.
+/// Reports the pressure on the key of the near journal at a torque, and whether the key is overloaded.
 fn key(shaft: &SpiralShaft, torque: Extreme, report: &mut Report) {
     let body = shaft.body();
     let hub = body.keyway.map(Keyway::of_hub);
-    // In a keyway shorter than any standard key one is cut, whose end is square where the keyway's is half round.
+    // If the keyway is shorter than any standard key, a key is cut to length: its end is square, that of the keyway half
+    // round.
     let long = body.keyway_length;
     let cut = |hub: Keyway| Key::square(hub, long - 0.5 * hub.width);
     let key = hub.and_then(|hub| Some((hub, Key::round(hub, long).or_else(|| cut(hub))?)));
@@ -296,7 +297,8 @@ fn key(shaft: &SpiralShaft, torque: Extreme, report: &mut Report) {
     loaded.check(report);
 }
 
-/// Speed up to which the slider stays on one wall for a maximum deceleration (mm/rad^2), r/min. A deceleration of rounding is none.
+/// Speed up to which the slider stays on one wall for a maximum deceleration (mm/rad^2), r/min. A deceleration within rounding
+/// counts as zero.
 fn contact_limit(shaft: &SpiralShaft, deceleration: f64) -> f64 {
     let is_even = deceleration <= COMPUTED * shaft.law().mean_speed();
     let deceleration = if is_even { 0.0 } else { deceleration };

@@ -8,8 +8,8 @@ use super::{check_shaft, contact, contact_limit, moved, tables};
 use crate::key_pressure::LoadedKey;
 use crate::{Finding, Report, Severity, Unit, gear_pair};
 
-/// Checks a moving box: its shaft, and the motion its drive gives it. The figures of the box itself begin
-/// with `box_`; those without are the shaft's, turned evenly.
+/// Checks a moving box: its shaft, and the motion that its drive gives to it. Figures of the box begin with `box_`; the others
+/// are those of the shaft at constant speed.
 #[must_use]
 pub fn check_moving_box(machine: &MovingBox) -> Report {
     let mut report = check_shaft(machine.shaft());
@@ -59,8 +59,8 @@ pub fn check_moving_box(machine: &MovingBox) -> Report {
     report
 }
 
-/// Pressure on the keys of both gears at the maximum torques that the box requires, instead of that of the shaft turned
-/// evenly, and those that are pressed harder than their materials allow.
+/// Reports the pressure on the keys of both gears at the maximum torques that the box requires, and the keys that are
+/// overloaded. This replaces the pressure for the shaft at constant speed.
 fn keys(machine: &MovingBox, drive: &EllipticDrive, report: &mut Report) {
     let Some(design) = machine.design().gear_pair(drive) else {
         return;
@@ -75,7 +75,7 @@ fn keys(machine: &MovingBox, drive: &EllipticDrive, report: &mut Report) {
     };
     let ends = machine.stroke_pieces();
     let of_shaft = maximum(|input| torque(input).0.abs(), &ends);
-    // What the gears carry, they carry without loss.
+    // The gears transmit power without loss.
     let of_driver = maximum(
         |input| {
             let (torque, ratio) = torque(input);
@@ -127,7 +127,7 @@ fn keys(machine: &MovingBox, drive: &EllipticDrive, report: &mut Report) {
     }
 }
 
-/// Reports what is wrong with the gears, or that none can be cut.
+/// Reports the findings of the gears, or that none can be cut.
 fn gears(machine: &MovingBox, drive: &EllipticDrive, report: &mut Report) {
     let Some(design) = machine.design().gear_pair(drive) else {
         return;
@@ -144,7 +144,7 @@ fn gears(machine: &MovingBox, drive: &EllipticDrive, report: &mut Report) {
     }
 }
 
-/// Reports gears that have a bore of their own which is not that of their journal.
+/// Reports gears with a given bore that differs from the diameter of their journal.
 fn seat(machine: &MovingBox, report: &mut Report) {
     let Some(gears) = &machine.design().gears else {
         return;

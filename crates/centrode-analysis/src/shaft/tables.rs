@@ -6,14 +6,15 @@ use centrode_kinematics::transmission::{MotionJet, Transmission};
 
 use crate::{Table, Unit};
 
-/// Scheme that moves the box on a stroke: its motion by the input, and the lead angle under the slider.
+/// Scheme that moves the box on a stroke: the motion of the box as a function of the input, and the lead angle under the
+/// slider.
 struct Way<'a> {
     name: &'static str,
     at: Box<dyn Fn(f64) -> (MotionJet, f64) + 'a>,
 }
 
-/// Both schemes alone and as designed, next to a plain shaft: the movement of the box while a seedling is picked, its
-/// speeds, its acceleration and the force on the slider.
+/// Tables that compare a plain shaft, the groove alone, the gears alone and the design: the movement of the box while a
+/// seedling is picked, its speeds, its acceleration and the force on the slider.
 pub(super) fn schemes(machine: &MovingBox) -> Vec<Table> {
     let shaft = machine.shaft();
     let (radius, mean) = (shaft.groove().radius(), shaft.law().mean_speed());
@@ -53,7 +54,7 @@ pub(super) fn schemes(machine: &MovingBox) -> Vec<Table> {
     let (load, design) = (shaft.load(), shaft.design());
     let metres = 1e-3 * load.speed() * load.speed();
     let (pick, half) = (design.pick, 0.5 * design.window);
-    // Breaks of the groove alone and as designed: one too many costs little.
+    // Breaks of the groove alone and of the design: an extra break costs little.
     let both = [shaft.law().pieces(pick), machine.stroke_pieces()].concat();
     let ends = piece_ends(pick, pick + TAU, 1, &both);
     let range = |of: &dyn Fn(f64) -> f64| extremes(of, &ends).map(|extreme| extreme.value).to_vec();
@@ -101,7 +102,7 @@ pub(super) fn schemes(machine: &MovingBox) -> Vec<Table> {
     ]
 }
 
-/// Eighths of a turn at which the paper's equations are evaluated.
+/// Number of angles per turn at which the paper's equations are evaluated.
 const EIGHTHS: u32 = 8;
 
 fn eighths(of: impl Fn(f64) -> Vec<f64>) -> Vec<(String, Vec<f64>)> {
@@ -112,15 +113,15 @@ fn eighths(of: impl Fn(f64) -> Vec<f64>) -> Vec<(String, Vec<f64>)> {
     (0..EIGHTHS).map(row).collect()
 }
 
-/// Acceleration and forces over one turn of a stroke by equilibrium, next to equations (14) to (18) of Zhou et al.
-/// 2018, which do not hold: see [`Load::published`](centrode_groove::Load::published).
+/// Acceleration and forces over one turn of a stroke by equilibrium, compared with equations (14) to (18) of Zhou et al. 2018,
+/// which do not hold: see [`Load::published`](centrode_groove::Load::published).
 ///
-/// (16) to (18) are for sines; for another law they are omitted.
+/// Equations (16) to (18) are for sines; for another law they are omitted.
 pub(super) fn published(shaft: &SpiralShaft) -> Vec<Table> {
     let (load, radius) = (shaft.load(), shaft.groove().radius());
     let printed = |theta: f64| shaft.published_acceleration(theta, load);
     let sine = printed(0.0).is_some();
-    // Ours, by the true acceleration, and by that of (16): normal and transverse.
+    // Normal and transverse force: by equilibrium, and by the paper with the true acceleration and with that of (16).
     let forces = |theta: f64| -> Vec<[f64; 2]> {
         let motion = shaft.law().at(theta);
         let lead = (motion.velocity / radius).atan();

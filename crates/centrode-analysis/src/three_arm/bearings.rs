@@ -3,7 +3,7 @@ use centrode_machines::three_arm::ThreeArm;
 
 use crate::{Finding, Report, Severity, Unit};
 
-/// Reports shafts with requested bearings of which none is as narrow as the carrier's plates are thick.
+/// Reports shafts for which bearings are requested, but no bearing is narrow enough for the carrier's plates.
 pub(super) fn check_bearings(mechanism: &ThreeArm, report: &mut Report) {
     let design = mechanism.design();
     let wall = design.gearbox.wall;

@@ -5,7 +5,7 @@ use centrode_machines::three_arm::{Figures, ThreeArm};
 use super::ArmClearance;
 use crate::{Goal, Unit};
 
-/// Goals of a mechanism as far as its figures reach: those of arms, seedlings and flanks are left open.
+/// Goals of a mechanism with the values of its figures. The goals of arms, seedlings and flanks have no values yet.
 #[must_use]
 pub fn three_arm_goals(figures: &Figures, required: &GoalsSpec) -> Vec<Goal> {
     let angle = |number, name, title, value: f64, required: [f64; 2]| {
@@ -13,7 +13,7 @@ pub fn three_arm_goals(figures: &Figures, required: &GoalsSpec) -> Vec<Goal> {
             .range(required.map(Some), required[1] - required[0])
             .with(value)
     };
-    // A clearance of 20 mm is the paper's own; it is the scale where any clearance will do.
+    // If any clearance is enough, the scale is the paper's own clearance of 20 mm.
     let size = |required: f64| if required > 0.0 { required } else { 20.0 };
     let length = |number, name, title, value: Option<f64>, required: f64| {
         Goal::new(number, name, title, Unit::Millimetre)

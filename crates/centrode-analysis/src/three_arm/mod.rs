@@ -34,14 +34,14 @@ pub use variants::{Variants, VariantsError};
 /// Tolerance of the arms' clearances, as a share of the tip's distance from the planet's axis.
 const ARM_TOLERANCE: f64 = 1e-4;
 
-/// Checks a three-arm mechanism: its goals, its working points, and the teeth its curves allow.
+/// Checks a three-arm mechanism: its goals, working points, arms, teeth, cam, bearings and screws.
 #[must_use]
 pub fn check_three_arm(mechanism: &ThreeArm) -> Report {
     let teeth = filling([0.0, 0.7], || TrainTeeth::analyse(mechanism));
     filling([0.7, 1.0], || check_three_arm_teeth(mechanism, &teeth))
 }
 
-/// Checks a three-arm mechanism like [`check_three_arm`], with teeth that have been run together already.
+/// Checks a three-arm mechanism like [`check_three_arm`], with teeth whose contact is known already.
 #[must_use]
 pub fn check_three_arm_teeth(
     mechanism: &ThreeArm,
@@ -59,8 +59,7 @@ pub fn check_three_arm_teeth(
     report
 }
 
-/// Checks goals, working points and arms alone: the part of [`check_three_arm`] that needs no tooth and no cam, some
-/// ten times quicker.
+/// Checks only goals, working points and arms: the part of [`check_three_arm`] without teeth and cam, about ten times faster.
 #[must_use]
 pub fn check_arms(mechanism: &ThreeArm) -> Report {
     let mut report = Report {
@@ -110,7 +109,7 @@ pub fn three_arm_reached(mechanism: &ThreeArm) -> (Vec<Goal>, Option<ArmClearanc
     )
 }
 
-/// Checks the teeth of every mesh, where the design has any.
+/// Checks the teeth of every mesh, if the design has any.
 fn check_teeth(
     mechanism: &ThreeArm,
     teeth: &Result<Option<TrainTeeth>, GearPairError>,
@@ -128,7 +127,7 @@ fn check_teeth(
     }
 }
 
-/// Clearances of the arms; none where nothing is finite.
+/// Clearances of the arms; `None` if they cannot be determined.
 fn arm_clearance(mechanism: &ThreeArm) -> Result<Option<ArmClearance>, Box<Finding>> {
     let body = mechanism.arm_body().map_err(|error| {
         let message = format!("there is no such arm: {error}");
@@ -145,8 +144,8 @@ fn arm_tolerance(mechanism: &ThreeArm) -> Option<Tolerance> {
     Tolerance::new(ARM_TOLERANCE * mechanism.design().arm.tip_distance).ok()
 }
 
-/// Course of the arms' clearances in so many parts of a carrier turn, to the tolerance of [`check_three_arm`]; none
-/// without such an arm.
+/// Clearances of the arms in `parts` parts of a carrier turn, to the tolerance of [`check_three_arm`]; `None` if they cannot
+/// be determined.
 #[must_use]
 pub fn arm_clearance_course(mechanism: &ThreeArm, parts: u32) -> Option<ArmClearanceCourse> {
     let (body, tolerance) = (mechanism.arm_body().ok()?, arm_tolerance(mechanism)?);
@@ -184,7 +183,7 @@ fn figures(mechanism: &ThreeArm, report: &mut Report) {
     values.insert("gearbox_radius", mechanism.gearbox_radius());
     values.insert("carrier_speed", speed);
     values.insert("picking_speed", picking_speed);
-    // A carrier of two arms turns faster by the number of arms over two for the same rate.
+    // For the same rate a carrier with two arms turns faster, by the number of arms divided by two.
     values.insert(
         "picking_speed_of_two_arms",
         picking_speed * f64::from(mechanism.arms()) / 2.0,
@@ -246,7 +245,7 @@ fn numeral(arm: u32) -> &'static str {
     NUMERALS.get(arm as usize).copied().unwrap_or("?")
 }
 
-/// Reports every goal that is not reached, and working points that no rule of the design has fixed.
+/// Reports every goal that is not reached, and working points that the design does not fix.
 fn unmet(mechanism: &ThreeArm, arms: Option<&ArmClearance>, report: &mut Report) {
     let path = mechanism.trajectory();
     let input = |goal: &Goal| match &*goal.name {

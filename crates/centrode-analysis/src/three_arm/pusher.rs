@@ -7,16 +7,16 @@ use centrode_machines::three_arm::{Pusher, PusherError};
 use crate::cam::CheckedCam;
 use crate::{Finding, Report, Severity};
 
-/// Pressure angle, rad, up to which a swinging follower runs well while it is lifted. VDI 2142 part 2.
+/// Maximum pressure angle, rad, of a swinging follower during the rise. VDI 2142 part 2.
 const PRESSURE_ANGLE: f64 = PI / 4.0;
 
-/// Checks cam and fork; the return is left to the spring, which no pressure angle hinders.
+/// Checks cam and fork. On the return the spring moves the follower, whatever the pressure angle.
 pub(super) fn check_pusher(pusher: &Result<Pusher, PusherError>, report: &mut Report) {
     let pusher = match pusher {
         Ok(pusher) => pusher,
         Err(error) => {
             let message = format!("nothing moves the push rods: {}: {error}", error.key());
-            // Without it there is no machine, and no file of one.
+            // Without a pusher there is no machine, and no file of it.
             report
                 .findings
                 .push(Finding::new("pusher", Severity::Error, message).on("cam"));

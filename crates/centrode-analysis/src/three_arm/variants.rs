@@ -3,11 +3,11 @@ use centrode_machines::three_arm::design::ThreeArmDesign;
 use centrode_machines::three_arm::{Parameter, Sweep, SweepError, UnknownParameter};
 use rayon::prelude::{IndexedParallelIterator, IntoParallelIterator, ParallelIterator};
 
-/// Evaluates many variants of one three-arm design: the figures of its goals 2 to 4 and 6 to 8, about twenty
-/// microseconds each.
+/// Evaluates many variants of one three-arm design: the figures of its goals 2 to 4 and 6 to 8, in about twenty microseconds
+/// per variant.
 ///
-/// For pitch curves that a [`Sweep`] accepts; the figures agree with those of a check as closely as it says. The effect
-/// of a variant on arms, seedlings and teeth only a check shows.
+/// The pitch curves must be those that a [`Sweep`] accepts; its documentation states how closely the figures agree with those
+/// of a check. Only a check shows the effect of a variant on arms, seedlings and teeth.
 #[derive(Clone, Debug)]
 pub struct Variants {
     start: ThreeArmDesign,
@@ -33,7 +33,7 @@ pub enum VariantsError {
     /// A parameter is requested twice.
     #[error("`{0}` is given twice")]
     Twice(String),
-    /// The pitch curve is of another kind.
+    /// A sweep does not accept the pitch curve.
     #[error(transparent)]
     Sweep(#[from] SweepError),
 }
@@ -51,11 +51,11 @@ impl Variants {
         "pitch_length",
     ];
 
-    /// Makes variants of a design in the parameters of these names; the tip's path is sampled at so many inputs a turn
-    /// before its extremes are refined.
+    /// Makes variants of a design in the parameters `names`. The tip's path is sampled at `inputs` inputs per turn before its
+    /// extremes are refined.
     ///
     /// # Errors
-    /// [`VariantsError`] where a name is unknown or comes twice, or the pitch curve is of another kind.
+    /// [`VariantsError`] if a name is unknown or given twice, or if a sweep does not accept the pitch curve.
     pub fn new(
         design: &ThreeArmDesign,
         names: &[impl AsRef<str>],
@@ -84,8 +84,9 @@ impl Variants {
         })
     }
 
-    /// The [figures](Self::FIGURES) of `count` variants, whose values of the parameters, in the design file's units, `values`
-    /// writes; NaN where a variant is no mechanism, and for the module where gears have no tooth count. On all cores.
+    /// The [figures](Self::FIGURES) of `count` variants, computed on all cores. `values` writes the parameters of a variant in
+    /// the units of the design file. All figures are NaN if a variant is not a mechanism; the module is NaN if the gears have
+    /// no tooth count.
     pub fn figures(
         &self,
         count: usize,

@@ -77,7 +77,7 @@ pub(crate) fn add(
 /// The drawing of a cam, with exact contours.
 ///
 /// # Errors
-/// [`CamError::Open`] where the roller's path is not made of numbers.
+/// [`CamError::Open`] if the roller's path does not close, because a coordinate is not finite.
 pub fn drawing(cam: &Cam, tolerance: Tolerance) -> Result<Drawing, CamError> {
     Ok(sheet::cam(&Contours::new(cam, tolerance)?))
 }

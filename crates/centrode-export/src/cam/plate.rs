@@ -3,7 +3,7 @@ use crate::plate::{Exactness, Plate};
 use centrode_formats::sheet::Table;
 use centrode_gear::cam::Cam;
 
-/// A cam as a plate, with the file of its profile; in a machine that has so many of it.
+/// A cam as a plate, with the file of its profile; `quantity` is the number of such cams in the machine.
 pub(crate) fn plate(cam: &Cam, name: &str, title: &str, quantity: usize) -> Plate {
     let (body, disc) = (cam.body(), cam.disc());
     let base = format!("Base radius {:.4} mm", disc.base_radius());

@@ -14,7 +14,7 @@ const TEXT: &str = "TEXT";
 #[derive(Clone, Debug)]
 pub(super) struct Contours {
     contours: Vec<(&'static str, Outline)>,
-    /// Rectangle around the cam, the roller's path and a margin: as far as centre lines go.
+    /// Rectangle around the cam and the roller's path, with a margin; centre lines end there.
     extent: Bounds,
 }
 
@@ -82,7 +82,7 @@ pub(super) fn assembly(part: &Cam, contours: &Contours) -> Drawing {
     drawing
 }
 
-/// The follower at the input zero, its slide along the x axis or its pivot on it.
+/// The follower at input zero: it slides parallel to the x axis, or its pivot lies on the x axis.
 fn follower(part: &Cam, contours: &Contours, drawing: &mut Drawing) {
     let disc = part.disc();
     let contact = disc.contact(0.0);
@@ -140,7 +140,7 @@ fn figures(part: &Cam) -> String {
     }
 }
 
-/// The profile last, over the lines of reference.
+/// Layers of a cam: the profile last, above the reference lines.
 fn layers() -> Drawing {
     Drawing::default()
         .layer(CENTER, Color::Red, LineType::Center, 0.13)

@@ -2,9 +2,8 @@ use centrode_formats::csv::Column;
 use centrode_gear::cam::{Cam, Contact};
 use std::f64::consts::TAU;
 
-/// The profile table of a cam at `rows` equal steps of the cam angle: where it is touched, with outward
-/// normal and curvature, the roller's centre, the follower's motion and pressure angle, and whether the
-/// position is cut away by undercut.
+/// The profile table of a cam at `rows` equal steps of the cam angle: contact point with outward normal and curvature, the
+/// roller's centre, the follower's motion and pressure angle, and whether undercut removes the profile there.
 #[must_use]
 pub fn columns(cam: &Cam, rows: u32) -> Vec<Column> {
     let disc = cam.disc();

@@ -11,12 +11,12 @@ use super::gears::TITLES;
 use super::plates::{made, spacer};
 use crate::turned;
 
-/// Corners of a path.
+/// Number of segments of a drawn path.
 const POINTS: u32 = 360;
-/// Places of lengths, and of angles in degrees.
+/// Decimals of lengths in mm.
 const PLACES: usize = 4;
 
-/// Lists plates, pins and gears, and tells the arrangement: the six-bar as its effector rests.
+/// Lists plates, pins and gears, and fills the arrangement: it shows the six-bar while its effector rests.
 pub(super) fn annotate(feeder: &Feeder, plates: &[Plate], machine: &mut LinkedMachine) {
     paths(feeder, machine);
     let ends = ["driver", "driven gear"].map(|figure| machine.place_on(figure, [0.0; 2]));
@@ -56,7 +56,7 @@ pub(super) fn annotate(feeder: &Feeder, plates: &[Plate], machine: &mut LinkedMa
     .into();
 }
 
-/// Draws the paths of B and C; C comes back the way it went.
+/// Draws the paths of B and C; C returns on the same path, so one stroke of it is drawn.
 fn paths(feeder: &Feeder, machine: &mut LinkedMachine) {
     let [feed, _] = feeder.strokes();
     let there = feeder.crank(feed.to).position - feeder.start();
@@ -131,7 +131,7 @@ fn gears(feeder: &Feeder, machine: &mut LinkedMachine) {
             Form::Solids(solids) => solids.first(),
             _ => None,
         });
-        // Arcs are laid a micrometre to either side of the teeth: a gear's blank is that of the teeth themselves.
+        // The fitted arcs deviate from the teeth by up to a micrometre: a gear's blank comes from the exact teeth.
         let teeth = cut.as_ref().map(|pair| [pair.driver(), pair.driven()]);
         let blank = match seen {
             Some(_) => teeth.and_then(|teeth| Blank::round(teeth[index], spec.width)),

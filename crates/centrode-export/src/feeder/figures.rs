@@ -8,12 +8,12 @@ use centrode_machines::feeder::{Feeder, FeederPart, Plate};
 
 use crate::gear_pair;
 
-/// Points of the curve on which the effector's pivot may lie.
+/// Number of points of the curve on which the effector's pivot may lie.
 const PIVOTS: usize = 240;
 
-/// Draws the six-bar with the path of the tip and with all places of the effector's pivot that would give the swing asked
-/// for: a chord for half a turn, see [`SixBar::pivots`]. Behind it the intermittent gears that turn its crank, the driver to
-/// the left; by their pitch circles without a pair.
+/// Draws the six-bar with the path of the tip and all positions of the effector's pivot that give the required swing (a chord for
+/// half a turn, see [`SixBar::pivots`]). Behind the six-bar are the intermittent gears that turn its crank, the driver to the
+/// left; without a pair they are drawn by their pitch and tip circles.
 pub(super) fn draw(
     feeder: &Feeder,
     plates: &[Plate],
@@ -80,7 +80,7 @@ fn plain(feeder: &Feeder) -> [Vec<Line>; 2] {
     })
 }
 
-/// Driver and driven gear with their teeth and locking arcs, cams and pins as lines, each in its own axes.
+/// Driver and driven gear with their teeth and locking arcs, cams and pins as lines, each in its own frame.
 fn cut(pair: &IntermittentPair) -> [Vec<Line>; 2] {
     let gears = pair.pair();
     let mut both = [

@@ -23,10 +23,11 @@ pub(super) const TITLES: [&str; 4] = [
 
 /// Layer of cams.
 const CAM: &str = "CAM";
-/// Share of a radius by which arcs fitted to a contour may differ from the circle that it follows.
+/// Maximum deviation of a fitted arc from the circle that the contour follows, relative to the circle's radius.
 const FITTED: f64 = 1e-3;
 
-/// Driver, driven gear and, where there is an entry angle, the cams next to the driver; with arcs within the tolerance.
+/// Driver, driven gear and, where there is an entry angle, the cams next to the driver; their contours are arcs within the
+/// tolerance.
 pub(super) fn parts(feeder: &Feeder, gears: &IntermittentPair, tolerance: Tolerance) -> Vec<Plate> {
     let pair = gears.pair();
     let (driver, driven) = (pair.driver(), pair.driven());
@@ -107,7 +108,8 @@ pub(super) fn parts(feeder: &Feeder, gears: &IntermittentPair, tolerance: Tolera
     all
 }
 
-/// Row of the gear data of the locking arc about the gear's own axis; none of a gear whose locks are about the other's.
+/// Row of the gear data: polar angles of the locking arc about the gear's own axis. `None` if the locking arcs of the gear are
+/// about the mate's axis.
 fn locked(outline: &Outline, radius: f64) -> Option<Vec<String>> {
     let is_lock = |arc: &Arc| {
         let off = (arc.radius() - radius)
@@ -135,7 +137,7 @@ fn locked(outline: &Outline, radius: f64) -> Option<Vec<String>> {
     Some(row.map(String::from).to_vec())
 }
 
-/// Name of a gear or cam in lists and titles, by that of its files.
+/// Name of a gear or cam in lists and titles, from the name of its files.
 fn title(file: &str) -> &str {
     let at = GearBody::NAMES.iter().position(|name| *name == file);
     at.map_or(file, |at| TITLES[at])
@@ -171,7 +173,7 @@ fn data(feeder: &Feeder, gears: &IntermittentPair, member: Member, teeth: &str) 
     }
 }
 
-/// Radius of the tips of a gear's teeth, mm: of the corner of its contour farthest from its axis.
+/// Radius of the tips of a gear's teeth, mm: distance from its axis to the farthest corner of its contour.
 fn tip(gears: &IntermittentPair, member: Member) -> f64 {
     let outline = match member {
         Member::Driver => gears.driver(),

@@ -6,8 +6,8 @@ use super::plates::spacer;
 use super::{arrangement, figures};
 use crate::ExportError;
 
-/// The links as a tree, every joint zero where the effector rests; the loops close at C. The gears are drawn with the teeth
-/// of a pair, or by their pitch circles.
+/// The links as a tree. Every joint is zero while the effector rests, and the loops close at C. The gears are drawn with teeth if
+/// a pair is given, otherwise by their pitch and tip circles.
 pub(super) fn drawn(
     feeder: &Feeder,
     plates: &[Plate],
@@ -32,7 +32,7 @@ pub(super) fn drawn(
 
 /// The links with their bodies.
 ///
-/// Gears that cannot be cut are left out: the six-bar moves without them.
+/// Gears that cannot be cut are omitted: the six-bar moves without them.
 pub(super) fn machine(feeder: &Feeder, plates: &[Plate]) -> Result<LinkedMachine, ExportError> {
     let mut machine = drawn(feeder, plates, None);
     let mounted = feeder.mount_gears(&mut machine);
@@ -75,7 +75,7 @@ fn meaning_of(part: FeederPart) -> (&'static str, &'static str) {
     }
 }
 
-/// Columns of the tip of the effector.
+/// Adds columns for the position and the speed of the effector's tip.
 fn tip(feeder: &Feeder, machine: &mut LinkedMachine) {
     let meaning = "tip E of the effector, from the crank's shaft";
     for (axis, name) in ["tip_x_mm", "tip_y_mm"].into_iter().enumerate() {

@@ -31,8 +31,8 @@ pub fn machine(feeder: &Feeder) -> Result<LinkedMachine, ExportError> {
     links::machine(feeder, &cut(feeder)?)
 }
 
-/// The six-bar as it moves and is drawn, without bodies: the gears with the teeth of a pair, or by their pitch circles alone,
-/// for which nothing is cut. Links that make no plate are not drawn.
+/// The six-bar with its motion and its drawn lines, without bodies. The gears have teeth if a pair is given; otherwise they are
+/// circles, and no teeth are cut. Links that make no plate are not drawn.
 #[must_use]
 pub fn drawn(feeder: &Feeder, gears: Option<&IntermittentPair>) -> LinkedMachine {
     let plates = FeederPart::ALL
@@ -48,12 +48,12 @@ fn cut(feeder: &Feeder) -> Result<Vec<Plate>, FeederError> {
     plates.collect()
 }
 
-/// The files of a feeder in the formats asked for, not yet on disk.
+/// The files of a feeder in the requested formats, not yet on disk.
 ///
-/// Each link is a plate with holes for pins, the effector's with a slot, named after it; `assembly` is the six-bar
-/// where it rests. The intermittent gears are parts, too: `gear-driver`, `gear-driven`, the cams `gear-entry-cam` and
-/// `gear-exit-cam`, with `gears` in place. MJCF closes the loops of the linkage by equality constraints; URDF, which has no loops, leaves
-/// them open and says so. Both bring the solids they show, in a folder `links`, and the motion of every joint.
+/// Each link is a plate with holes for pins (the effector also with a slot), named after the link; `assembly` is the six-bar at
+/// rest. The intermittent gears are parts, too: `gear-driver`, `gear-driven`, the cams `gear-entry-cam` and `gear-exit-cam`, and
+/// `gears` shows them assembled. MJCF closes the loops of the linkage by equality constraints; URDF, which has no loops, leaves
+/// them open and states this. Both come with their solids in a folder `links` and the motion of every joint.
 ///
 /// # Errors
 /// [`ExportError`], for instance for an effector whose slot runs into its pivot.
@@ -91,7 +91,7 @@ const PARTS: [Format; 8] = [
     Format::Csv,
 ];
 
-/// Offers the intermittent gears, which take long to cut.
+/// Offers the intermittent gears. They take long to cut, so only if a requested format shows parts or parts are selected.
 fn add_gears(package: &mut Package<'_>, feeder: &Feeder) -> Result<(), ExportError> {
     if !package.wants(&PARTS) && package.options().parts.is_none() {
         return Ok(());

@@ -4,12 +4,12 @@ use centrode_gear::{IntermittentPair, Member, OverPins, Pin, PinFault};
 use centrode_geometry::{Point, bracketed_root, checkpoint};
 use nalgebra::Rotation2;
 
-/// Share of its radius by which a pin that rests may be off a flank.
+/// Maximum distance of a resting pin from a flank, relative to the pin's radius.
 const OFF: f64 = 1e-6;
 
-/// Pins in the spaces of a gear on its sheet's axes, where the finished contour has both flanks; the driver's teeth are thinner
-/// than those of the complete gear by the backlash. The driver has turned by an angle, and the teeth are thinner still by a length
-/// along the pitch circle: their flanks lie behind those of the contour.
+/// Pins in the spaces of a gear, in the axes of its sheet; a space without both flanks in the finished contour has a fault. The
+/// driver's teeth are thinner than those of the complete gear by the backlash. The driver has turned by `turned` (rad). All teeth
+/// are thinner by a further length `thinner` (mm along the pitch circle): their flanks lie behind those of the contour.
 pub(super) fn pins(
     gears: &IntermittentPair,
     member: Member,
@@ -25,7 +25,7 @@ pub(super) fn pins(
     let corners = finished.flatten(gears.accuracy());
     let mut over = pair.gear(member).over_pins(pair.pin_diameter(member));
     let radius = 0.5 * over.diameter;
-    // Each of two flanks has half of it, square to itself.
+    // Each flank takes half of `thinner`, measured normal to the flank.
     let behind = 0.5 * thinner * pair.pressure_angle().cos();
     for pin in &mut over.pins {
         checkpoint();
@@ -41,7 +41,7 @@ pub(super) fn pins(
     over
 }
 
-/// Pin of a radius on both flanks of a space of a closed contour, near a place.
+/// Pin of a radius on both flanks of a space of a closed contour, near `start`.
 fn rest(corners: &[Point], start: Point, radius: f64) -> Option<Pin> {
     let next = corners.iter().cycle().skip(1);
     let far = 4.0 * radius;
@@ -62,7 +62,7 @@ fn rest(corners: &[Point], start: Point, radius: f64) -> Option<Pin> {
         Some(place(angle, reach))
     };
     let aside = 0.15 * radius / middle;
-    // Turned on counter-clockwise a pin is nearer to the flank there.
+    // A pin that turns counter-clockwise gets nearer to the flank on that side.
     let angle = root([polar - aside, polar + aside], |angle| {
         let [left, right] = seat(angle).map(|at| gaps(&sides, at).map(|(gap, _)| gap))?;
         Some(right - left)
@@ -81,16 +81,16 @@ fn rest(corners: &[Point], start: Point, radius: f64) -> Option<Pin> {
     })
 }
 
-/// Root of a function that rises; none where it does not change its sign.
+/// Root of a rising function; `None` if its sign does not change.
 fn root([low, high]: [f64; 2], f: impl Fn(f64) -> Option<f64>) -> Option<f64> {
     let (below, above) = (f(low)?, f(high)?);
-    // Of what cannot be told no root comes: the pin found is looked at.
+    // A value that cannot be computed becomes NaN; `rest` checks the resulting pin.
     let stated = |x: f64| f(x).unwrap_or(f64::NAN);
     (below <= 0.0 && above >= 0.0).then(|| bracketed_root(stated, low, high, below, above))
 }
 
-/// Nearest points of lines to a point, with their distances: counter-clockwise of the ray from the origin through it, and
-/// clockwise.
+/// Nearest points of line segments to a point, with their distances: first counter-clockwise of the ray from the origin through
+/// the point, then clockwise.
 fn gaps(sides: &[[Point; 2]], center: Point) -> [(f64, Point); 2] {
     let mut gaps = [(f64::INFINITY, center); 2];
     for [a, b] in sides {

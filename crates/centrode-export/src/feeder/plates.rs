@@ -9,10 +9,10 @@ use centrode_machines::feeder::{Feeder, FeederPart, Plate};
 const PATH: &str = "PATH";
 const TEXT: &str = "TEXT";
 
-/// Points of the path of a joint.
+/// Number of points of the path of a joint.
 const POINTS: u32 = 360;
 
-/// A plate of the six-bar as a shop makes it: the distances of its holes are as exact as the swing needs them.
+/// A plate of the six-bar for the workshop: its holes have the position tolerances that the swing requires.
 pub(super) fn made(feeder: &Feeder, plate: &Plate) -> plate::Plate {
     let (spec, making) = (&feeder.design().plates, &feeder.design().making);
     let pins = plate.holes().map(|joint| Hole {
@@ -51,7 +51,7 @@ pub(super) fn made(feeder: &Feeder, plate: &Plate) -> plate::Plate {
     }
 }
 
-/// Spacer between the plates of the frame; none without screws.
+/// Spacer between the plates of the frame; `None` without screws.
 pub(super) fn spacer(feeder: &Feeder) -> Option<plate::Plate> {
     let spec = &feeder.design().plates;
     let screws = feeder.frame_screws()?.ok()?;
@@ -60,7 +60,7 @@ pub(super) fn spacer(feeder: &Feeder) -> Option<plate::Plate> {
     Some(plate::Plate::spacer(&screws, title, screws.at.len(), stock))
 }
 
-/// The six-bar where it rests, seen along the shafts, with the paths of its joints and its tip.
+/// The six-bar at rest, seen along the shafts, with the paths of its joints and its tip.
 #[must_use]
 pub fn assembly(feeder: &Feeder, plates: &[Plate]) -> Drawing {
     let mut drawing = Drawing::default()

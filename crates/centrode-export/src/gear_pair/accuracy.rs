@@ -15,7 +15,7 @@ struct Gauge {
 }
 
 impl Gauge {
-    /// Tolerance of a class by that of class 5, um, rounded as the standard requires.
+    /// Tolerance of the gear's class from that of class 5, um, rounded as the standard requires.
     fn of(self, fifth: f64) -> f64 {
         let exact = fifth * 2_f64.powf(0.5 * (f64::from(self.class) - 5.0));
         match exact {
@@ -48,7 +48,7 @@ impl Gauge {
         self.of(slope.hypot(form))
     }
 
-    /// The gear, or the minimum that the standard knows where it is smaller: its tolerances hardly fall from there.
+    /// The gear with at least the smallest diameter of the standard, 5 teeth and 5 mm: below it the tolerances hardly decrease.
     fn at_least_five_teeth(self) -> Self {
         let minimum = (5.0 * self.module).max(5.0);
         Self {
@@ -68,13 +68,14 @@ impl Gauge {
     }
 }
 
-/// Gear of a flank tolerance class, by the diameter of its equivalent circle; none of another system.
+/// Sizes of the two equivalent circular gears: the osculating circle where the pitch curve bends most, and the circle as long as
+/// the pitch curve. `None` if the class belongs to another system.
 fn gauges(pair: &GearPair, member: Member) -> Option<[Gauge; 2]> {
     let (gear, module) = (pair.gear(member), pair.module());
     let class = class(pair, member).parse().ok()?;
     let bend = pair.rolling().curvature_ranges()[member as usize].maximum.1;
     let reference = pair.reference_diameter(member);
-    // The pitch curve of a shifted gear is its operating circle; tolerances are those of the curve on which it is generated.
+    // The pitch curve of a shifted gear is its operating circle; its tolerances refer to the curve on which it is generated.
     let diameters = [
         2.0 / bend * (PI * reference / gear.pitch_length()),
         reference,
@@ -90,7 +91,7 @@ fn class(pair: &GearPair, member: Member) -> &str {
     pair.gear(member).body().accuracy_class()
 }
 
-/// Runout of the teeth of a gear to its bore, as measured over pins, mm; none beyond the standard.
+/// Runout of the teeth of a gear to its bore, as measured over pins, mm; `None` beyond the range of the standard.
 pub(crate) fn tooth_runout(pair: &GearPair, member: Member) -> Option<f64> {
     let [_, whole] = gauges(pair, member)?;
     let is_stated = whole.is_stated(pair.gear(member).body().width);

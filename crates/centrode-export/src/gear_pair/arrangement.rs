@@ -6,7 +6,7 @@ use centrode_gear::design::BodySpec;
 use centrode_gear::{Gear, GearPair, Member};
 use centrode_kinematics::machine::{Blank, Callout, Datum, Key, LinkedMachine, Part};
 
-/// Material of keys; their mass is that of the shaft's link, which is the customer's.
+/// Material of keys; their mass belongs to the link of the shaft, which the customer provides.
 const KEY: &str = "steel";
 
 /// Findings of an analysis of the contact, for the tables of sheets: minimum and maximum number of pairs of teeth in contact,
@@ -60,7 +60,7 @@ pub(super) fn annotate(pair: &GearPair, machine: &mut LinkedMachine) {
     }
 }
 
-/// Lists both gears of a pair, whose files' names begin with the prefix, then the shafts of those that have one of their own.
+/// Lists both gears of a pair, with the prefix before the names of their files, then the shafts of the gears in `shafts`.
 pub(crate) fn list_pair(
     pair: &GearPair,
     prefix: &str,
@@ -119,8 +119,8 @@ pub(crate) fn list_keys(machine: &mut LinkedMachine, body: &BodySpec, links: Vec
     }
 }
 
-/// Lists the shafts in the bores of gears, one for each of the links: they belong to the machine around the gears, whose bearings
-/// settle their lengths.
+/// Lists the shafts in the bores of gears, one for each of the links. They belong to the machine around the gears: its bearings
+/// determine their lengths.
 fn list_shafts(machine: &mut LinkedMachine, gear: &Gear, name: &str, links: Vec<usize>) {
     if gear.body().bore > 0.0 && !links.is_empty() {
         let body = gear.body();
@@ -194,20 +194,21 @@ pub(crate) fn of_both(pair: &GearPair, of: Option<Member>) -> Vec<Datum> {
     data
 }
 
-/// Half of what a pair with a normal backlash, mm, lets its centre distance be shorter, mm; `None` without backlash.
+/// Half of the decrease of the centre distance that the normal backlash of a pair permits, mm; `None` without backlash.
 pub(crate) fn half_backlash(pair: &GearPair, backlash: f64) -> Option<f64> {
     let [minimum, _] = pair.backlash_limits(backlash);
     (minimum > 0.0).then(|| 0.5 * shorter(pair, minimum))
 }
 
-/// How much shorter a backlash lets the centre distance be, mm.
+/// Decrease of the centre distance that a normal backlash permits, mm.
 fn shorter(pair: &GearPair, backlash: f64) -> f64 {
-    // Nowhere takes a shorter distance more backlash than twice its share across a flank where the pitch curves are square to
-    // the line of centres.
+    // A shorter distance reduces the backlash most where the pitch curves are normal to the line of centres: there by twice its
+    // component normal to a flank.
     backlash / (2.0 * pair.pressure_angle().sin())
 }
 
-/// Centre distance by the normal backlash of a pair, mm, and what the deviations of tooth thickness leave of it.
+/// Centre distance with the tolerance that the normal backlash of a pair (mm) permits; with deviations of tooth thickness also
+/// the limits of the backlash and the minimum centre distance.
 pub(crate) fn by_thickness(pair: &GearPair, backlash: f64) -> Vec<Datum> {
     let (a, mut data) = (pair.center_distance(), Vec::new());
     if let Some(half) = half_backlash(pair, backlash) {

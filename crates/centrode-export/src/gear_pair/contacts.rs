@@ -3,24 +3,24 @@ use centrode_geometry::Point;
 
 use crate::picture::{Contacts, Track, short};
 
-/// Samples of the path of one contact.
+/// Number of intervals between the samples of one contact path.
 const SAMPLES: u32 = 8;
 /// Samples of the pitch point in one turn of the driver.
 pub(crate) const PITCH_SAMPLES: u32 = 120;
-/// Positions are rounded by this share of the module, inputs of gears on fixed axes by the same number of radians.
+/// Positions are rounded to this fraction of the module, inputs of gears on fixed axes to the same number of radians.
 pub(crate) const ROUNDING: f64 = 1e-4;
 
 /// Flanks of the driver that touch.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(crate) enum Flanks {
-    /// Those that go ahead as the driver turns clockwise: they touch where it drives in that direction.
+    /// Flanks that go ahead as the driver turns clockwise: they touch while it drives in that direction.
     Leading,
-    /// The others.
+    /// Flanks on the other side of the teeth.
     Trailing,
 }
 
 impl Flanks {
-    /// That of a tooth of the driver.
+    /// The flank of a tooth.
     fn of(self, tooth: &Tooth) -> ToothSide {
         match self {
             Self::Leading => tooth.leading,
@@ -28,7 +28,7 @@ impl Flanks {
         }
     }
 
-    /// Those of the mate.
+    /// The flanks of the mate that touch these.
     fn mates(self) -> Self {
         match self {
             Self::Leading => Self::Trailing,
@@ -74,8 +74,8 @@ pub(crate) fn track(
 /// Paths of contact of one cycle: polar angles of the driver, ascending, and positions with the driver's axis at the origin
 /// and the driven gear's on the x axis.
 ///
-/// By the law of gearing a flank touches its mate where its normal passes through the pitch point; as long as both
-/// flanks are there.
+/// By the law of gearing a flank touches its mate where its normal passes through the pitch point. The contact lasts while both
+/// flanks are active there.
 pub(crate) fn paths(pair: &GearPair, flanks: Flanks) -> Vec<Vec<(f64, Point)>> {
     let rolling = pair.rolling();
     let lengths = [Member::Driver, Member::Driven].map(|member| rolling.pitch_length(member));
@@ -85,7 +85,8 @@ pub(crate) fn paths(pair: &GearPair, flanks: Flanks) -> Vec<Vec<(f64, Point)>> {
         Flanks::Leading => -sin,
         Flanks::Trailing => sin,
     };
-    // The driven flank about the same point of the pitch curves, as the gears roll on.
+    // Active range of the driven flank that crosses its pitch curve nearest to the point of the driver's crossing, in arc length
+    // rolled.
     let mate = |crossing: f64| {
         let along = crossing.rem_euclid(lengths[1]);
         let off = |side: &ToothSide| {

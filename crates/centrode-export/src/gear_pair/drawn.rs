@@ -23,20 +23,20 @@ impl<'a> Drawn<'a> {
         }
     }
 
-    /// Both gears in place at phi = 0.
+    /// Both gears assembled at phi = 0.
     pub(super) fn assembly(&self, curves: Curves) -> Drawing {
         let both = [Member::Driver, Member::Driven];
         sheet::assembly(self.pair, both.map(|member| self.contours(member, curves)))
     }
 
-    /// Contours of a gear, as arcs where they are written as such.
+    /// Contours of a gear, fitted with arcs if `curves` requests arcs.
     pub(super) fn contours(&self, member: Member, curves: Curves) -> &Contours {
         let index = usize::from(member == Member::Driven);
         let exact = || Contours::new(self.pair, member, self.tolerance);
         let exact = || self.exact[index].get_or_init(exact);
         match curves {
             Curves::Splines | Curves::Chords => exact(),
-            // Fitting what is arcs already leaves it as it is.
+            // Fitting does not change contours that are arcs already.
             Curves::Arcs => {
                 self.fitted[index].get_or_init(|| exact().clone().with_arcs(self.tolerance))
             }

@@ -22,7 +22,7 @@ pub fn machine(pair: &GearPair) -> Result<LinkedMachine, ExportError> {
     Ok(machine)
 }
 
-/// The machine of a pair as it moves and is drawn, without bodies.
+/// The machine of a pair with its motion and its drawn lines, without bodies.
 #[must_use]
 pub fn drawn(pair: &GearPair) -> LinkedMachine {
     let mut machine = LinkedMachine {
@@ -85,7 +85,7 @@ pub(crate) fn lines(gear: &Gear) -> Vec<Line> {
     lines_within(gear.outline(), gear)
 }
 
-/// Bore and pitch curve of a gear in an outline of its own.
+/// Lines of a gear with the given outline instead of its own, bore and pitch curve.
 pub(crate) fn lines_within(outline: &Outline, gear: &Gear) -> Vec<Line> {
     let mut lines = vec![Line::contour(LineRole::Body, outline)];
     lines.extend(gear.bore().map(|bore| Line::contour(LineRole::Hole, &bore)));
@@ -93,7 +93,7 @@ pub(crate) fn lines_within(outline: &Outline, gear: &Gear) -> Vec<Line> {
     lines
 }
 
-/// Gives a link the body of a gear, by the name of its files and that of its teeth.
+/// Gives a link the body of a gear; `file` is the name of its files, `name` that of its teeth.
 pub(crate) fn embody(
     machine: &mut LinkedMachine,
     link: usize,

@@ -34,8 +34,8 @@ impl From<GearPairError> for ExportError {
     }
 }
 
-/// The files of a pair in the requested formats, not yet on disk. URDF and MJCF bring the STL files they
-/// name (URDF a folder of them to touch with), the law of motion and a script that plays them.
+/// The files of a pair in the requested formats, not yet on disk. URDF and MJCF come with the STL files they name (URDF also with
+/// a folder of collision meshes), the law of motion and a script that plays it.
 ///
 /// # Errors
 /// [`ExportError`], for instance if the tolerance is too coarse for the bore to clear the teeth.
@@ -49,11 +49,11 @@ pub fn files(
     package.finish()
 }
 
-/// The files of one gear, or of both assembled, in the requested formats and at any tolerance: drawing and sheets, of
-/// a gear solid and tables, too.
+/// The files of one gear, or of both assembled, in the requested formats and at any tolerance: drawing and sheets, and for one
+/// gear also its solid and tables.
 ///
 /// # Errors
-/// [`ExportError`] where the gear is no solid, or a requested size is too small.
+/// [`ExportError`] where the gear is no solid, or the requested sheet size is too small.
 pub fn subject_files(
     pair: &GearPair,
     subject: Subject,
@@ -73,7 +73,7 @@ fn package<'a>(pair: &'a GearPair, formats: &[Format], options: &'a Options) -> 
     Package::new("a gear pair", pair.name(), pair.title(), formats, options)
 }
 
-/// Offers everything of a pair.
+/// Offers all files of a pair.
 pub(crate) fn fill(package: &mut Package<'_>, pair: &GearPair) -> Result<(), ExportError> {
     let tolerance = package.tolerance();
     package.finer_than(pair.module(), "module")?;

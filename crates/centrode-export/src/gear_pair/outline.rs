@@ -2,8 +2,8 @@ use centrode_formats::csv::Column;
 use centrode_gear::Gear;
 use centrode_geometry::Tolerance;
 
-/// Points of the toothed contour in order, counter-clockwise, each with outward normal, curvature, and
-/// which part of which tooth begins or continues there.
+/// Points of the toothed contour in order, counter-clockwise, each with outward normal, curvature, the role of its segment and
+/// the number of its tooth.
 pub(super) fn columns(gear: &Gear, tolerance: Tolerance) -> Vec<Column> {
     let samples = gear.outline().samples(tolerance);
     let owner = |segment: usize| {

@@ -1,10 +1,10 @@
 use centrode_formats::csv::Column;
 use centrode_gear::{GearPair, Member, OverPins, Pin};
 
-/// Measuring pins, a row a tooth space: where the pin lies, and the measures over it. Cells of a space
-/// that cannot be measured are empty, and the last column says why.
+/// Measuring pins, one row per tooth space: position of the pin, and the measures over it. Cells of a space that cannot be
+/// measured are empty, and the column `remark` states why.
 ///
-/// If the design gives deviations of tooth thickness, their limits follow.
+/// If the design gives deviations of tooth thickness, columns with the limits of the measures follow.
 pub(super) fn columns(
     pair: &GearPair,
     member: Member,

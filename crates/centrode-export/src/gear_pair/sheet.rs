@@ -12,13 +12,12 @@ const TEXT: &str = "TEXT";
 
 /// The contours of one gear in its own frame.
 ///
-/// Tip and root are the curves at a constant distance from the pitch curve; where there are none, since
-/// teeth are trimmed one by one or a bend is too tight, the circles round the axis through the
-/// outermost and the innermost point.
+/// Tip and root are the curves at a constant distance from the pitch curve. If no such curve exists (teeth trimmed one by one, or
+/// a bend too tight), they are the circles about the axis through the outermost and the innermost point.
 #[derive(Clone, Debug)]
 pub(super) struct Contours {
     contours: Vec<(&'static str, Outline)>,
-    /// Rectangle around the teeth and a margin: as far as centre lines go.
+    /// Rectangle around the teeth, with a margin; centre lines end there.
     extent: Bounds,
 }
 
@@ -106,7 +105,7 @@ pub(super) fn assembly(pair: &GearPair, [driver, driven]: [&Contours; 2]) -> Dra
     drawing
 }
 
-/// The outline's bounds and a margin of a sixteenth, always round the axis.
+/// Bounds of the outline and the axis, with a margin of a sixteenth of their diagonal.
 fn extent(gear: &Gear) -> Bounds {
     let bounds = gear.outline().bounds().with(Point::origin());
     let margin = Vector::repeat(bounds.diagonal() / 16.0);
@@ -126,7 +125,7 @@ fn figures(pair: &GearPair) -> String {
     )
 }
 
-/// The profile last, over the lines of reference.
+/// Layers of a gear: the profile last, above the reference lines.
 fn layers() -> Drawing {
     Drawing::default()
         .layer(CENTER, Color::Red, LineType::Center, 0.13)

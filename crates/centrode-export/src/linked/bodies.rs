@@ -5,14 +5,13 @@ use std::collections::BTreeMap;
 
 /// Convex bodies that replace a surface.
 pub(super) struct ContactBodies {
-    /// Of a gear the teeth in order, each one body or several, then the hub.
+    /// For a gear: the teeth in order, each of one body or several, then the hub.
     pub(super) bodies: Vec<Convex>,
     /// Maximum distance by which a body exceeds the surface, mm.
     pub(super) excess: f64,
 }
 
-/// A surface as convex bodies between its heights that are off it by no more than the tolerance, as often as the surface
-/// allows.
+/// A surface as convex bodies between its heights. They deviate from it by at most the tolerance times its `coarseness`.
 pub(super) fn all(surface: &Surface, tolerance: Tolerance) -> ContactBodies {
     let tolerance = tolerance.scaled(surface.coarseness);
     if surface.teeth.is_empty() {
@@ -22,7 +21,7 @@ pub(super) fn all(surface: &Surface, tolerance: Tolerance) -> ContactBodies {
     }
 }
 
-/// A plate, its pieces numbered.
+/// A plate as numbered convex pieces.
 fn plate(surface: &Surface, tolerance: Tolerance) -> ContactBodies {
     let half = tolerance.scaled(0.5);
     let [bottom, top] = surface.span;
@@ -39,13 +38,13 @@ fn plate(surface: &Surface, tolerance: Tolerance) -> ContactBodies {
     }
 }
 
-/// The teeth of a gear as convex bodies over its width: flanks and tip of each down to where the flanks
-/// end, cut into as many pieces as it takes to stand out of it by no more than the tolerance. Under them
-/// the hub, from the bottom of one space to that of the next, its bore filled.
+/// The teeth of a gear as convex bodies over its width: flanks and tip of each tooth down to where the flanks end, cut into
+/// enough pieces to exceed the tooth by no more than the tolerance. Below the teeth is the hub, from the bottom of one space to
+/// that of the next, with its bore filled.
 ///
 /// Fillets are omitted: mates do not touch there, and each would take a dozen bodies.
 fn gear(surface: &Surface, tolerance: Tolerance) -> ContactBodies {
-    // Half for the chords of a concave flank, half for what bridges them.
+    // Half of the tolerance is for the chords of a concave flank, half for the pieces that bridge them.
     let half = tolerance.scaled(0.5);
     let samples = surface.outline.samples(half);
     let contour: Vec<Point> = samples.iter().map(|sample| sample.point).collect();
@@ -89,11 +88,11 @@ impl ContactBodies {
     }
 }
 
-/// A gear's section, taken apart.
+/// A gear's section, split into teeth and hub.
 struct Sections {
     /// Contours of the teeth, by their numbers.
     teeth: BTreeMap<u32, Vec<Vec<Point>>>,
-    /// Corners of what carries them.
+    /// Corners of the hub, which carries the teeth.
     hub: Vec<Point>,
     /// Maximum distance by which the hub exceeds the contour, mm.
     excess: f64,
@@ -114,7 +113,7 @@ impl Sections {
             let [first, .., last] = [&run[..1], run].concat()[..] else {
                 continue;
             };
-            // The next point ends the last part of a contour, whatever begins there.
+            // The next point ends the last segment of the run, whether a tooth or a space begins there.
             let points = stretch(contour, first, last + 1);
             match owners[first] {
                 Some(tooth) => teeth.entry(tooth).or_default().push(points),
@@ -135,8 +134,8 @@ impl Sections {
     }
 }
 
-/// A polygon under stretches of contour, a corner for each: where it begins, or as much deeper as it takes
-/// for no point to lie below the polygon by more than the tolerance; and what is left of that, mm.
+/// A polygon under stretches of contour, with one corner per stretch: its start, or a deeper point, so that no point lies below
+/// the polygon by more than the tolerance. Also the maximum remaining depth below the polygon, mm.
 fn hub(stretches: &[Vec<Point>], tolerance: Tolerance) -> (Vec<Point>, f64) {
     let n = stretches.len();
     let mut corners: Vec<Point> = stretches.iter().map(|s| s[0]).collect();
@@ -163,14 +162,14 @@ fn hub(stretches: &[Vec<Point>], tolerance: Tolerance) -> (Vec<Point>, f64) {
     (corners, excess)
 }
 
-/// The points of a closed contour from one to another, both among them.
+/// The points of a closed contour from one index to another, both included.
 fn stretch(contour: &[Point], from: usize, to: usize) -> Vec<Point> {
     let n = contour.len();
     let count = (to + n - from - 1) % n + 1;
     (0..=count).map(|k| contour[(from + k) % n]).collect()
 }
 
-/// How deep each of some points lies to the left of a line, that is, inside a contour below it.
+/// Distance of each point to the left of a line, that is, its depth inside the contour; with the point's index.
 fn depths([from, to]: [Point; 2], points: &[Point]) -> impl Iterator<Item = (usize, f64)> {
     let along = (to - from).try_normalize(0.0).unwrap_or_default();
     let depth = points.iter().map(move |p| along.perp(&(p - from)));

@@ -2,10 +2,10 @@ use centrode_formats::drawing::Anchor;
 use centrode_formats::sheet::Table;
 use centrode_kinematics::machine::{Blank, LinkedMachine, Part};
 
-/// Parts from which on a list of what is cut pays: those of a gear pair are on their own sheets.
+/// Minimum number of parts with a blank for a cut list: the parts of a gear pair are on their own sheets.
 const WORTH_IT: usize = 4;
 
-/// The pieces of stock that a machine is made from, those of one material and thickness together; empty for a few parts.
+/// The pieces of stock that a machine is made from, sorted by material and thickness; empty for few parts.
 pub(super) fn cut_list(machine: &LinkedMachine) -> Table {
     let mut cuts: Vec<(usize, &Part, Blank)> = machine
         .parts

@@ -29,10 +29,10 @@ struct MachineFile {
 #[derive(Debug, Error)]
 #[non_exhaustive]
 pub enum MachineFileError {
-    /// It is no JSON, or not of this shape.
+    /// The file is no JSON, or does not have this structure.
     #[error("not the plain file of a machine: {0}")]
     Shape(#[from] serde_json::Error),
-    /// It is of another kind or version.
+    /// The file has another format or version.
     #[error("a file of format {format:?} and version {version}, not {FORMAT:?} and {VERSION}")]
     Other {
         /// Its format.
@@ -45,8 +45,8 @@ pub enum MachineFileError {
     LinkedMachine(#[from] LinkedMachineError),
 }
 
-/// The machine in plain numbers: laws in pieces within rounding, bodies that are no extrusions as meshes that simulators
-/// take, within the tolerance if those have faces enough.
+/// The machine in plain numbers: laws in pieces, equal within rounding. Bodies that are neither extruded nor turned become meshes
+/// that simulators accept, within the tolerance if their limit of triangles permits it.
 ///
 /// # Errors
 /// [`SolidError`] where a tolerance leaves no solid.
@@ -105,7 +105,7 @@ pub fn write(machine: &LinkedMachine) -> serde_json::Result<Vec<u8>> {
 /// Reads the plain file of a machine.
 ///
 /// # Errors
-/// [`MachineFileError`] where it is of another kind, or the machine is not connected.
+/// [`MachineFileError`] if the file has another format or version, or the machine is not connected.
 pub fn read(bytes: &[u8]) -> Result<LinkedMachine, MachineFileError> {
     let MachineFile {
         format,

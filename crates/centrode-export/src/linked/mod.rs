@@ -35,12 +35,12 @@ pub(crate) use {model::simulated, motion::lines};
 /// Name of the simulator models, without its end.
 const MODEL: &str = "machine";
 
-/// Adds the table of motion with its description, the parts list and, if requested, URDF and MJCF with the STL files they show and scripts
-/// that play them.
+/// Adds the table of motion with its description, the parts list and, if requested, URDF and MJCF with the STL files they show
+/// and scripts that play the motion.
 pub(crate) fn add(machine: &LinkedMachine, package: &mut Package<'_>) -> Result<(), ExportError> {
     let tolerance = package.tolerance();
     let no_solid = |source| ExportError::no_solid("link")(source);
-    // The table is of the exact laws: pieces have every digit of a position, but fewer of its derivatives.
+    // The table uses the exact laws: laws in pieces give every digit of a position, but fewer digits of its derivatives.
     let pieces = file::in_pieces(machine);
     let lines = motion::lines(&pieces);
     let exact = motion::with_rates(machine.clone(), &lines);
@@ -108,8 +108,8 @@ pub(crate) fn add_whole(
     Ok(())
 }
 
-/// The machine with every column of its table of motion: those of the machine, and the rate of each joint that does not move
-/// evenly and has none.
+/// The machine with every column of its table of motion: those of the machine, and a rate for each joint that does not move
+/// evenly and has no such column.
 #[must_use]
 pub fn tabulated(machine: LinkedMachine) -> LinkedMachine {
     let lines = motion::lines(&file::in_pieces(&machine));
@@ -122,7 +122,7 @@ pub fn motion_schema() -> serde_json::Value {
     schemars::schema_for!(MotionFile).to_value()
 }
 
-/// Reads the table of motion; both scripts hold it.
+/// Class that reads the table of motion; both scripts contain it.
 const LAW: &str = include_str!("law.py");
 
 /// A script with the class instead of its import, so that one file is enough to run it.

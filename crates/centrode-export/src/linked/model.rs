@@ -15,14 +15,14 @@ pub(crate) struct Simulated {
     pub(crate) meshes: Vec<(String, Mesh)>,
 }
 
-/// A mesh to be seen, the name of its file, and how far it may lie off the body, mm.
+/// A visible mesh, the name of its file, and its maximum distance from the body, mm.
 struct Seen {
     file: String,
     mesh: Mesh,
     off: f64,
 }
 
-/// The tree of links with every joint zero where the cycle begins.
+/// The tree of links; every joint is zero at the start of the cycle.
 pub(crate) fn simulated(
     machine: &LinkedMachine,
     lines: &[Line],
@@ -75,7 +75,7 @@ pub(crate) fn simulated(
     })
 }
 
-/// The meshes that a link is seen as.
+/// The visible meshes of a link.
 fn meshes(link: &Link, seen: &[Seen]) -> Vec<model::Seen> {
     let file = |shape: usize| seen[shape].file.clone();
     let own = link.shape.map(|shape| model::Seen::upright(file(shape)));
@@ -87,12 +87,12 @@ fn meshes(link: &Link, seen: &[Seen]) -> Vec<model::Seen> {
     own.into_iter().chain(mounted).collect()
 }
 
-/// A shape's mesh to be seen, with the name of its file.
+/// The visible mesh of a shape, with the name of its file.
 pub(super) fn shown(shape: &Shape, tolerance: Tolerance) -> Result<(String, Mesh), SolidError> {
     show(shape, tolerance).map(|seen| (seen.file, seen.mesh))
 }
 
-/// A shape's mesh to be seen; under the name of its part where both are the same.
+/// The visible mesh of a shape; under the name of its part if it is within the tolerance, like the part's own file.
 fn show(shape: &Shape, tolerance: Tolerance) -> Result<Seen, SolidError> {
     let (mesh, off) = meshed(&shape.form, tolerance)?;
     let name = if off <= tolerance.mm() && !shape.part.is_empty() {
@@ -107,7 +107,8 @@ fn show(shape: &Shape, tolerance: Tolerance) -> Result<Seen, SolidError> {
     })
 }
 
-/// The finest mesh of a body within the tolerance that simulators take, and how far it may lie off the body, mm.
+/// The mesh of a body at the tolerance, or at the finest coarser one that simulators accept, and its maximum distance from the
+/// body, mm.
 pub(super) fn meshed(form: &Form, tolerance: Tolerance) -> Result<(Mesh, f64), SolidError> {
     match form {
         Form::Mesh(mesh, off) => Ok((mesh.clone(), *off)),
@@ -126,7 +127,7 @@ pub(super) fn meshed(form: &Form, tolerance: Tolerance) -> Result<(Mesh, f64), S
     }
 }
 
-/// The finest mesh that simulators take of those made by a function.
+/// The finest mesh from a function that simulators accept, and its tolerance, mm.
 fn coarsened(
     tolerance: Tolerance,
     mesh: impl Fn(Tolerance) -> Result<Mesh, SolidError>,
@@ -149,7 +150,7 @@ fn joint(
     let about = &machine.joints[index];
     let start = about.law.at(0.0).position;
     let name = |link: usize| machine.links[link].name.clone();
-    // A joint follows another one by itself where both laws are straight lines.
+    // A joint can mimic the driving joint if both laws are straight lines.
     let mimic = driving.filter(|&driver| driver != index && about.kind == JointKind::Turning);
     let mimic = mimic.and_then(|driver| {
         let [line, input] = [&lines[index], &lines[driver]];
@@ -226,10 +227,10 @@ fn note(
     note
 }
 
-/// The tolerance of a mesh that a model shows: the one given, or as many times its double as brings the mesh down
-/// to [`MAX_FACES`]. `faces` counts the triangles of the mesh at a tolerance.
+/// The tolerance of a mesh that a model shows: the given one, doubled until the mesh has at most [`MAX_FACES`] triangles. `faces`
+/// counts the triangles of the mesh at a tolerance.
 fn shown_tolerance(tolerance: Tolerance, mut faces: impl FnMut(Tolerance) -> usize) -> Tolerance {
-    // A mesh that coarser tolerances do not thin out stays as it is in the end.
+    // If coarser tolerances do not reduce a mesh enough, it keeps the given tolerance.
     const DOUBLINGS: i32 = 30;
     let coarser = |times: i32| tolerance.scaled(2.0_f64.powi(times));
     (0..DOUBLINGS)

@@ -11,17 +11,17 @@ use std::f64::consts::TAU;
 
 /// Name of the table.
 pub(super) const TABLE: &str = "motion.csv";
-/// Fewest rows of a turn of the input: half degrees.
+/// Minimum number of rows per turn of the input: one per half degree.
 const FEWEST: f64 = 720.0;
-/// Most rows of a cycle, unless the fewest of its turns are more.
+/// Maximum number of rows of a cycle, unless [`FEWEST`] per turn gives more.
 const MOST: f64 = 2e4;
-/// Metres to the millimetre.
+/// Metres per millimetre.
 const METRE: f64 = 1e-3;
 /// Distance, rad or mm, below which a law counts as a straight line: rounding over a whole cycle.
 const LINEAR: f64 = 1e-9;
 
-/// Number of equal steps of the input in a cycle, and how far straight lines between them are off, mm: within the
-/// tolerance, if that takes no more than [`MOST`].
+/// Number of equal steps of the input in a cycle, and the maximum error of straight lines between them, mm: within the tolerance
+/// if [`MOST`] steps suffice.
 pub(super) fn steps(machine: &LinkedMachine, tolerance: Tolerance) -> (u32, f64) {
     let (period, bend) = (machine.input.period, bend(machine));
     let minimum = FEWEST * period / TAU;
@@ -30,8 +30,8 @@ pub(super) fn steps(machine: &LinkedMachine, tolerance: Tolerance) -> (u32, f64)
     (steps as u32, bend * (period / steps).powi(2) / 8.0)
 }
 
-/// Maximum acceleration by the input of any position on a link that its own joint causes, mm/rad^2: a chord over a step h
-/// is off by at most h^2/8 of it.
+/// Maximum second derivative by the input of any position on a link, from its own joint alone, mm/rad^2: the error of a chord
+/// over a step h is at most h^2/8 times this.
 fn bend(machine: &LinkedMachine) -> f64 {
     let of = machine.joints.iter().map(|joint| {
         let size = match joint.kind {
@@ -56,7 +56,7 @@ pub(super) fn within(law: &dyn Transmission, machine: &LinkedMachine) -> Vec<f64
         .collect()
 }
 
-/// Maximum distance from a link's origin of what it carries, mm.
+/// Maximum distance of a link's outlines, points and carried links from its origin, mm.
 fn reach(machine: &LinkedMachine, link: usize) -> f64 {
     let norm = |at: &[f64; 3]| at.iter().map(|x| x * x).sum::<f64>().sqrt();
     let far = |outline: &centrode_geometry::Outline| {
@@ -73,7 +73,7 @@ fn reach(machine: &LinkedMachine, link: usize) -> f64 {
         Some(Form::Solids(solids)) => {
             most = solids.iter().map(|s| far(s.outline())).fold(most, f64::max);
         }
-        // Shafts and surroundings turn by nothing that gears and arms do not reach beyond.
+        // Shafts and surroundings are not measured: gears and arms reach farther.
         Some(Form::Mesh(..) | Form::Turned(_) | Form::Body(_)) | None => {}
     }
     let points = machine.points.iter().filter(|point| point.link == link);
@@ -94,7 +94,7 @@ pub(crate) struct Line {
 }
 
 impl Line {
-    /// Whether the law is the line, but for rounding.
+    /// Whether the law equals the line within rounding.
     pub(super) fn is_law(&self) -> bool {
         self.off <= LINEAR
     }
@@ -159,7 +159,7 @@ fn rate(machine: &LinkedMachine, joint: usize) -> Option<(usize, f64)> {
     derivative(machine, joint, 1)
 }
 
-/// The joint that drives all others: the first that turns as the input does.
+/// The joint that drives all others: the first that turns at the input's speed, otherwise the first turning joint.
 pub(super) fn driving(machine: &LinkedMachine, lines: &[Line]) -> Option<usize> {
     let turns = |&joint: &usize| {
         let line = &lines[joint];
@@ -175,7 +175,7 @@ pub(super) fn driving(machine: &LinkedMachine, lines: &[Line]) -> Option<usize> 
     all.clone().find(turns).or_else(first)
 }
 
-/// The table of motion: so many equal steps of the input over one period.
+/// The table of motion at equal steps of the input over one period.
 pub(super) fn columns(machine: &LinkedMachine, steps: u32) -> Vec<Column> {
     let at = |i: u32| machine.input.period * f64::from(i) / f64::from(steps);
     let inputs: Vec<f64> = (0..=steps).map(at).collect();

@@ -4,7 +4,7 @@ use centrode_formats::drawing::Anchor;
 use centrode_formats::sheet::Table;
 use centrode_kinematics::machine::{LinkedMachine, Part, Supply};
 
-/// The parts list of a machine, numbered from one; columns that say nothing of any part are omitted.
+/// The parts list of a machine, numbered from one; empty columns are omitted.
 #[must_use]
 pub fn parts_list(machine: &LinkedMachine) -> Table {
     let row = |(index, part): (usize, &Part)| {
@@ -41,7 +41,7 @@ pub fn parts_list(machine: &LinkedMachine) -> Table {
         all if all == machine.parts.len() => Some(format!("Together {together}.")),
         _ => Some(format!("Parts with a mass: together {together}.")),
     };
-    // Of a shaft in a gear the design knows the end that is in it.
+    // For a shaft from the customer the design knows only the end in the gear.
     let mut given = machine.parts.iter().map(|part| part.supply);
     let given = given.any(|supply| supply == Supply::Given);
     let given =

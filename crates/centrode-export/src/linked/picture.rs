@@ -12,35 +12,35 @@ use super::rim::rim;
 use super::still::Still;
 use crate::picture::{Mark, Motion, Path, Picture, PictureLink, Rounding};
 
-/// Fewest steps of a period: half of the samples of its curves, so that what laws remember serves both.
+/// Minimum number of steps of a period: half of the samples of its curves, so that both use the cached values of the laws.
 const FEWEST: f64 = 360.0;
-/// Fewest steps of a turn of the input: no link may turn by half a turn in one.
+/// Minimum number of steps per turn of the input: no link may turn by half a turn in one step.
 const PER_TURN: f64 = 60.0;
-/// Times the tolerance by which figures may be off between two steps: nobody measures what moves.
+/// Maximum error of figures between two steps, in tolerances: nobody measures moving figures.
 const BETWEEN: f64 = 10.0;
-/// Most steps of a period.
+/// Maximum number of steps of a period.
 const MOST: f64 = 2e4;
-/// Time before a jump at which the picture has the position before, and after it at which it has the one after, rad.
+/// Inputs at which the picture shows the positions around a jump: this far before it and this far after it, rad.
 const BEFORE: f64 = 1e-6;
 const AFTER: f64 = 1e-9;
 /// Change of a law over [`BEFORE`], relative to one plus its speed, above which it counts as a jump.
 const SUDDEN: f64 = 1e-3;
-/// Minimum tolerance, as a share of the reach of the largest figure: nobody sees a finer one, and a figure much larger than the
+/// Minimum tolerance, relative to the reach of the largest figure: nobody sees a finer one, and a figure much larger than the
 /// others would need too many points.
 const FINEST: f64 = 1e-7;
 /// Steps to which angles and inputs are rounded, rad.
 const ANGLE: f64 = 1e-6;
 const INPUT: f64 = 1e-7;
 
-/// The machine as a picture that moves; lines are within the tolerance of the exact ones, and so are positions at steps of the
-/// input, between them within ten times as much. A tolerance below 1e-7 of how far the largest figure reaches is that.
+/// The machine as a moving picture. Lines and positions at the steps of the input are within the tolerance, positions between
+/// steps within ten times the tolerance. The tolerance is at least 1e-7 of the reach of the largest figure.
 #[must_use]
 pub fn picture(machine: &LinkedMachine, tolerance: Tolerance) -> Picture {
     let rims: Vec<Vec<Point>> = machine.sketches.iter().map(rim).collect();
     let finest = Tolerance::new(FINEST * rims.iter().map(|rim| reach(rim)).fold(0.0, f64::max));
     let tolerance = finest.map_or(tolerance, |finest| tolerance.max(finest));
     let still = Still::new(machine, tolerance);
-    // Contours take longer than the course: whoever is first goes on with what is left of them.
+    // Contours take longer than the poses: the thread that finishes first continues with the remaining contours.
     let course = || {
         let course = Course::within(machine, &rims, tolerance);
         still.fit();
@@ -92,14 +92,14 @@ pub fn picture(machine: &LinkedMachine, tolerance: Tolerance) -> Picture {
 /// Poses of all figures over a period.
 struct Course {
     input: Vec<f64>,
-    /// Of each figure x, y and turn at every input.
+    /// For each figure: x, y and turn at every input.
     poses: Vec<Vec<[f64; 3]>>,
-    /// Of each point its position at every input; empty for one that nothing traces.
+    /// For each point: its position at every input; empty if no line traces the point.
     points: Vec<Vec<Point>>,
 }
 
 impl Course {
-    /// At steps between which straight lines are near enough, as far as [`MOST`] allow.
+    /// Poses at steps so short that straight lines between them are near enough; at most [`MOST`] steps.
     fn within(machine: &LinkedMachine, rims: &[Vec<Point>], tolerance: Tolerance) -> Self {
         let period = machine.input.period;
         let traced: Vec<bool> = (0..machine.points.len())
@@ -113,7 +113,7 @@ impl Course {
         };
         let minimum = FEWEST.max(period / TAU * PER_TURN);
         let coarse = course(minimum);
-        // A chord is off by a quarter of how far its middle is off the chord over both steps next to it.
+        // The error of a chord over one step is a quarter of the deviation measured over two steps.
         let off = 0.25 * coarse.bend(machine, rims, &sudden) / (BETWEEN * tolerance.mm());
         let steps = (minimum * off.sqrt()).min(MOST.max(minimum));
         if off > 1.0 && steps > minimum {
@@ -147,7 +147,7 @@ impl Course {
         }
     }
 
-    /// Maximum distance of a figure's lines from the middle of their positions before and after, jumps aside.
+    /// Maximum distance of a figure's lines from the interpolation between the steps before and after, without jumps.
     fn bend(&self, machine: &LinkedMachine, rims: &[Vec<Point>], sudden: &[f64]) -> f64 {
         let smooth = |&i: &usize| {
             sudden
@@ -220,7 +220,7 @@ impl Course {
     }
 }
 
-/// Maximum distance from the origin of a figure's axes.
+/// Maximum distance of a rim from the origin of its figure, mm.
 fn reach(rim: &[Point]) -> f64 {
     rim.iter().map(|p| p.coords.norm()).fold(0.0, f64::max)
 }
@@ -229,7 +229,7 @@ pub(super) fn placed([x, y, turn]: &[f64; 3]) -> Isometry2<f64> {
     Isometry2::new(nalgebra::Vector2::new(*x, *y), *turn)
 }
 
-/// Pose of a figure at an input; a link's turn goes on from the one before.
+/// Pose of a figure at an input; the turn of a link continues from the turn `before`.
 pub(super) fn pose(
     machine: &LinkedMachine,
     figure: &Figure,
@@ -282,7 +282,7 @@ fn traces(sketch: &Sketch, point: usize) -> bool {
     lines.any(|line| line.path == LinePath::Trace(point))
 }
 
-/// Inputs at which a figure's speed jumps, and just before and after those at which its position does, ascending.
+/// Inputs at which a speed jumps, and inputs just before and after each jump of a position, ascending.
 fn sudden(machine: &LinkedMachine, required: &[bool]) -> Vec<f64> {
     let moved = machine.joints.iter().filter(|joint| required[joint.child]);
     let mut laws: Vec<&dyn Transmission> = moved.map(|joint| joint.law.as_ref()).collect();
@@ -315,7 +315,7 @@ fn sudden(machine: &LinkedMachine, required: &[bool]) -> Vec<f64> {
     found
 }
 
-/// Equal steps of a period and all that is sudden, ascending.
+/// Equal steps of a period and the inputs of jumps, ascending.
 fn inputs(period: f64, steps: u32, sudden: &[f64]) -> Vec<f64> {
     let alone = |input: &f64| {
         let after = sudden.partition_point(|s| s < input);

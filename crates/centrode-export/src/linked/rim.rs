@@ -1,10 +1,10 @@
 use centrode_geometry::{Point, Segment, convex_hull};
 use centrode_kinematics::machine::{LinePath, LineRole, Sketch};
 
-/// Most points of a rim: what lies beyond the straight lines between them is seen by no eye.
+/// Maximum number of points of a rim: the error of straight lines between them is too small to see.
 const MOST: usize = 64;
 
-/// Positions on the convex hull of what is material in a sketch, counter-clockwise.
+/// Points on the convex hull of the material in a sketch, counter-clockwise.
 pub(super) fn rim(sketch: &Sketch) -> Vec<Point> {
     let mut points: Vec<Point> = Vec::new();
     for line in &sketch.lines {
@@ -25,7 +25,7 @@ pub(super) fn rim(sketch: &Sketch) -> Vec<Point> {
     corners.iter().step_by(step).map(|&i| points[i]).collect()
 }
 
-/// Positions of a segment from its start on.
+/// Points along a segment, from its start, without its end.
 fn places(segment: &Segment) -> impl Iterator<Item = Point> {
     let count: u32 = match segment {
         Segment::Line(..) => 1,

@@ -28,11 +28,11 @@ struct Placed<'a> {
     shape: usize,
 }
 
-/// The machine in space: each mesh as the STL file that goes with the simulator models, and the position of each body of a link,
-/// at every input given.
+/// The machine in space: each mesh as the STL file that goes with the simulator models, and the pose of each body of a link at
+/// every given input.
 ///
-/// The bytes are: length of the head (u32), head (JSON, filled with blanks to a multiple of four bytes); of each body in turn
-/// x, y, z (mm) and the quaternion x, y, z, w at every input (f32); the STL files in the order of the head. All little-endian.
+/// The bytes are: length of the head (u32), head (JSON, filled with blanks to a multiple of four bytes); for each body in turn x,
+/// y, z (mm) and the quaternion x, y, z, w at every input (f32); the STL files in the order of the head. All little-endian.
 ///
 /// # Errors
 /// [`ExportError`] where a mesh or the head cannot be made.

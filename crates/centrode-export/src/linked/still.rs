@@ -1,4 +1,4 @@
-//! Lines of a picture that are the same whatever moves.
+//! Lines of a picture that do not depend on the motion.
 
 use std::sync::OnceLock;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -8,18 +8,19 @@ use centrode_kinematics::machine::{Line, LinePath, LinkedMachine};
 
 use crate::picture::Path;
 
-/// Contours remembered, and the most segments of one: a machine has some dozens, of which a change alters a few.
+/// Number of cached contours, and maximum segments of one: a machine has some dozens of contours, and a change alters a few of
+/// them.
 const CACHED: usize = 64;
 const LONGEST: usize = 2000;
 
-/// Contours as they were fitted last.
+/// Cache of contours fitted recently.
 static FITTED: Recent<(Outline, Tolerance), Path, CACHED> = Recent::new();
 
-/// Contours of a machine, those that look the same once, to be fitted by several threads.
+/// Contours of a machine, equal ones once, to be fitted by several threads.
 pub(super) struct Still<'a> {
     tolerance: Tolerance,
     contours: Vec<Contour<'a>>,
-    /// Contours that a thread has taken on.
+    /// Number of contours that threads have started to fit.
     taken: AtomicUsize,
 }
 
@@ -51,7 +52,7 @@ impl<'a> Still<'a> {
         }
     }
 
-    /// Fits contours until none is left that no thread has taken on.
+    /// Fits contours until threads have started all of them.
     pub(super) fn fit(&self) {
         while let Some(contour) = self
             .contours

@@ -21,10 +21,10 @@ const COLORS: [[u8; 3]; 8] = [
 /// Colour of shafts and pins, with their rings and keys.
 const MOUNTED: [u8; 3] = [0x5a, 0x60, 0x68];
 
-/// Positions of a body in the machine: those of its pieces, each with the name of its link.
+/// Poses of a body's pieces in the machine, each with the name of its link.
 type Places = Vec<(String, Isometry3<f64>)>;
 
-/// A shape of the machine in its position there.
+/// A shape of the machine with the poses of its pieces.
 struct Placed<'a> {
     shape: &'a Shape,
     color: [u8; 3],
@@ -32,13 +32,13 @@ struct Placed<'a> {
     items: Places,
 }
 
-/// The bodies of a machine as meshes, each once, with what they are called.
+/// The bodies of a machine as meshes, each once, with names and poses.
 pub(super) struct Whole<'a> {
     bodies: Vec<(Placed<'a>, Vec<Mesh>)>,
 }
 
 impl<'a> Whole<'a> {
-    /// Meshes of every body that is made or bought, within a tolerance.
+    /// Meshes of every body of the machine, without its surroundings, within a tolerance.
     pub(super) fn new(
         machine: &'a LinkedMachine,
         tolerance: Tolerance,
@@ -72,7 +72,7 @@ impl<'a> Whole<'a> {
     }
 }
 
-/// Exact bodies in their positions as the general arrangement shows the machine; none of those known as meshes alone.
+/// Exact bodies in their positions as the general arrangement shows the machine; without bodies that exist only as meshes.
 pub(super) fn components(machine: &LinkedMachine) -> Vec<Component<'_>> {
     let shapes = placed(machine).into_iter();
     let components = shapes.filter_map(|placed| {
@@ -123,7 +123,8 @@ fn placed(machine: &LinkedMachine) -> Vec<Placed<'_>> {
     placed.filter(|placed| !placed.items.is_empty()).collect()
 }
 
-/// Material of a shape: that of the part of its name, or the one of all that is made on its links; empty where they have several.
+/// Material of a shape: that of the part with its name, otherwise the only material of the parts on its links that are not
+/// bought; empty if there are several.
 fn material(machine: &LinkedMachine, index: usize) -> String {
     let shape = &machine.shapes[index];
     if let Form::Turned(part) = &shape.form {
@@ -153,7 +154,7 @@ fn material(machine: &LinkedMachine, index: usize) -> String {
     }
 }
 
-/// Closed meshes of a body: several solids that touch would be none together.
+/// Closed meshes of a body, one per solid: solids that touch would not form one closed mesh.
 fn meshes(form: &Form, tolerance: Tolerance) -> Result<Vec<Mesh>, SolidError> {
     match form {
         Form::Solids(solids) => solids.iter().map(|solid| solid.mesh(tolerance)).collect(),

@@ -6,7 +6,7 @@ use centrode_machines::machine::{Machine, MachineBody};
 
 use crate::picture::Curve;
 
-/// Samples of one turn of the input, and the most of all turns.
+/// Samples per turn of the input, and their maximum number for all turns.
 const SAMPLES: u32 = 720;
 const MOST: u32 = 2880;
 
@@ -17,7 +17,7 @@ pub fn curves(composed: &Machine) -> Vec<Curve> {
     let samples = MOST.min(SAMPLES * composed.design().input.turns);
     let input = |i: u32| composed.period() * f64::from(i) / f64::from(samples);
     let input: Vec<f64> = (0..=samples).map(input).collect();
-    // The picture is made next to them, in ascending order: what laws remember is made once by whoever comes first.
+    // Descending: the picture is made at the same time, ascending, so that each cached value of a law is computed only once.
     let mut rows: Vec<Vec<f64>> = input.iter().rev().map(|&phi| row(composed, phi)).collect();
     rows.reverse();
     let names = names(composed).into_iter().enumerate();
@@ -52,7 +52,7 @@ fn row(composed: &Machine, input: f64) -> Vec<f64> {
     let bodies = composed.bodies();
     let at = |body: &MachineBody| body.mount.as_ref().map(|mount| mount.law.at(input));
     let laws: Vec<_> = bodies.iter().map(at).collect();
-    // A carrier comes before what it carries.
+    // A carrier comes before the bodies that it carries.
     let mut angles = vec![0.0; bodies.len()];
     for (body, law) in laws.iter().enumerate() {
         let (Some(mount), Some(law)) = (&bodies[body].mount, law) else {

@@ -18,7 +18,7 @@ const SCENERY: &str = "SCENERY";
 
 /// Mass and inertia of a body without any in a simulator model, kg and kg mm².
 const TINY: f64 = 1e-6;
-/// Points of the path of a point.
+/// Number of segments of the path of a point.
 const POINTS: u32 = 360;
 
 /// A composed machine as links and joints, each body a plate.
@@ -32,7 +32,7 @@ pub fn machine(composed: &Machine) -> Result<LinkedMachine, ExportError> {
     Ok(made)
 }
 
-/// A composed machine as far as a picture shows it: [`machine`] without masses, pins and a list of parts.
+/// A composed machine for a picture: [`machine`] without masses, pins and a list of parts.
 ///
 /// # Errors
 /// [`ExportError`] where a body is no solid.
@@ -43,9 +43,9 @@ pub fn outlined(composed: &Machine) -> Result<LinkedMachine, ExportError> {
 
 /// The files of a machine in the requested formats, not yet on disk.
 ///
-/// Each body is a plate named after it, each gear and cam a part of its name; `assembly` is the machine where its cycle begins,
-/// with the paths of its points. MJCF closes the loops by equality constraints; URDF, which has no loops, leaves them open and
-/// says so.
+/// Each body is a plate named after it, each gear and cam a part with its own name; `assembly` is the machine at the start of its
+/// cycle, with the paths of its points. MJCF closes the loops by equality constraints; URDF, which has no loops, leaves them open
+/// and states this.
 ///
 /// # Errors
 /// [`ExportError`], for instance where the tolerance is too coarse.
@@ -70,7 +70,7 @@ pub fn files(
     package.finish()
 }
 
-/// The machine with a mass for every body that moves, as a simulator needs it, next to nothing where it has none.
+/// The machine with a mass for every moving body, as a simulator needs it: a body without mass gets [`TINY`].
 fn with_masses(machine: &LinkedMachine) -> LinkedMachine {
     let mut made = machine.clone();
     for link in made.links.iter_mut().skip(1) {
@@ -83,7 +83,7 @@ fn with_masses(machine: &LinkedMachine) -> LinkedMachine {
     made
 }
 
-/// The plate of a link, and its gears.
+/// The solids of a link: its plate and its gears.
 fn plates(machine: &LinkedMachine, link: usize) -> &[Solid] {
     let shape = machine.links.get(link).and_then(|link| link.shape);
     match shape
@@ -95,7 +95,7 @@ fn plates(machine: &LinkedMachine, link: usize) -> &[Solid] {
     }
 }
 
-/// The machine where its cycle begins, seen along the shafts, a layer a body, with the paths of its points.
+/// The machine at the start of its cycle, seen along the shafts, one layer per body, with the paths of its points.
 fn assembly(composed: &Machine, machine: &LinkedMachine) -> Drawing {
     let mut drawing = Drawing::default().layer(PATH, Color::Blue, LineType::Continuous, 0.18);
     for (index, body) in composed.bodies().iter().enumerate() {
@@ -125,7 +125,7 @@ fn assembly(composed: &Machine, machine: &LinkedMachine) -> Drawing {
     drawing
 }
 
-/// Position of a body where the cycle begins.
+/// Pose of a body at the start of the cycle.
 fn start(composed: &Machine, body: usize) -> Isometry2<f64> {
     let at = composed.place(body, Point::origin(), 0.0);
     Isometry2::new(at.coords, composed.angle(body, 0.0).position)

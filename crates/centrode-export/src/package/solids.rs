@@ -9,7 +9,7 @@ use super::Package;
 use crate::ExportError;
 
 impl Package<'_> {
-    /// Offers a part as a solid, which its files call by a title.
+    /// Offers a part as a solid; its files contain the title.
     ///
     /// # Errors
     /// [`ExportError`] where it cannot be made or written.
@@ -61,7 +61,7 @@ impl Package<'_> {
         self.file(&format!("{part}.step"), bytes)
     }
 
-    /// Offers a part as triangles within a tolerance, which its files call by a title.
+    /// Offers a part as triangles within a tolerance; its files contain the title.
     pub(crate) fn mesh(
         &mut self,
         part: &str,

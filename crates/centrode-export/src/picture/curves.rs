@@ -3,7 +3,7 @@ use serde::{Serialize, Serializer};
 
 use super::{Curve, path};
 
-/// Curves as JSON: inputs that are those of the curve before are null.
+/// Curves as JSON: inputs equal to those of the previous curve are null.
 #[derive(Clone, Copy, Debug)]
 pub struct CurveList<'a>(pub &'a [Curve]);
 

@@ -1,8 +1,7 @@
 //! A mechanism as a picture that moves, with the curves of its cycle.
 //!
-//! A [`Picture`] is what a browser needs to draw a machine and nothing it could compute with: outlines as
-//! lines and arcs, the pose of every link along the cycle. The same assets show it in the local program
-//! and in the self-contained report.
+//! A [`Picture`] has the data that a browser needs to draw a machine, but no data to compute with: outlines as lines and arcs,
+//! the pose of every link along the cycle. The same assets show it in the local program and in the self-contained report.
 
 mod curves;
 mod path;
@@ -18,10 +17,10 @@ use serde::Serialize;
 
 /// A machine drawn to scale, and how it moves.
 ///
-/// As JSON its links name a shape each, so that parts which look the same are reported, and drawn, once.
+/// In JSON each link has the index of a shape, so that parts that look the same are written and drawn once.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Picture {
-    /// The moving parts, the hindmost first.
+    /// The moving parts, the rearmost first.
     pub links: Vec<PictureLink>,
     /// The cycle.
     pub motion: Motion,
@@ -62,7 +61,7 @@ pub struct Contacts {
     pub mesh: String,
     /// The pitch point: the line of action passes through it.
     pub pitch_point: Track,
-    /// Paths of contact, one for each time that two flanks meet in a cycle; none before teeth are cut.
+    /// Paths of contact, one for each time that two flanks meet in a cycle; empty before teeth are cut.
     pub paths: Vec<Track>,
 }
 
@@ -93,21 +92,20 @@ pub struct Motion {
     pub input_name: String,
     /// Input angles, rad, ascending, over one whole cycle.
     pub input: Vec<f64>,
-    /// For every link: x, y (mm) and angle (rad) at every input, one after the other; the three alone for
-    /// one that is fixed.
+    /// For every link: x, y (mm) and angle (rad) at every input, one after the other; only these three numbers for a fixed link.
     pub poses: Vec<Vec<f64>>,
 }
 
 /// A point of the picture that represents numbers of the design.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Handle {
-    /// Description for those who cannot see it.
+    /// Description for users of screen readers.
     pub name: String,
     /// Index of the link it moves with.
     pub link: usize,
     /// How the two numbers place it.
     pub plane: HandlePlane,
-    /// Keys of the design: x and y, or radius and polar angle in degrees; empty for what cannot be changed.
+    /// Keys of the design: x and y, or radius and polar angle in degrees; empty if the point cannot be changed.
     pub keys: [String; 2],
     /// The two numbers as written.
     pub values: [f64; 2],
@@ -143,7 +141,7 @@ pub struct Curve {
     /// Input angles, rad, ascending.
     #[serde(serialize_with = "path::drawn")]
     pub input: Vec<f64>,
-    /// The figure at every input, in `unit`; what is not finite is no part of the curve.
+    /// The figure at every input, in `unit`; values that are not finite are no part of the curve.
     #[serde(serialize_with = "path::drawn")]
     pub value: Vec<f64>,
 }

@@ -8,7 +8,7 @@ use serde::{Serialize, Serializer};
 /// A chain of lines and arcs.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Path {
-    /// Its meaning, which settles how it looks.
+    /// Its meaning, which determines its appearance.
     pub role: LineRole,
     /// x and y of each vertex, mm, and the bulge of the arc that follows it: the tangent of a quarter of
     /// the turned angle, positive counter-clockwise, zero for a line.
@@ -18,7 +18,7 @@ pub struct Path {
 }
 
 impl Path {
-    /// A closed outline, nowhere farther from it than the tolerance.
+    /// The path of a closed outline, within the tolerance.
     #[must_use]
     pub fn closed(role: LineRole, outline: &Outline, tolerance: Tolerance) -> Self {
         let fitted = outline.display_arcs(tolerance.scaled(0.9));
@@ -33,7 +33,7 @@ impl Path {
                 };
                 let start = segment.start();
                 let chord = (segment.end() - start).norm();
-                // A bulge moves the middle of its arc by half the chord.
+                // A change of a bulge moves the middle of its arc by half the chord times this change.
                 [
                     short(start.x, unit),
                     short(start.y, unit),
@@ -48,7 +48,7 @@ impl Path {
         }
     }
 
-    /// The path of a point, within the tolerance of the straight lines between the given points; closed where it ends as it
+    /// The path of a point, within the tolerance of the straight lines between the given points; closed if it ends where it
     /// begins.
     pub(crate) fn way(role: LineRole, places: &[Point], tolerance: Tolerance) -> Self {
         let unit = unit(tolerance);
@@ -77,8 +77,8 @@ impl Path {
     }
 }
 
-/// Positions, by their numbers, between which straight lines leave none of the others farther away than a distance: each line
-/// reaches as far as it can.
+/// Indices of positions such that straight lines between them pass all other positions within the distance `off`; each line is as
+/// long as possible.
 fn fewest(places: &[Point], off: f64) -> Vec<usize> {
     let last = places.len().saturating_sub(1);
     let mut kept: Vec<usize> = (0..places.len().min(1)).collect();
@@ -90,10 +90,10 @@ fn fewest(places: &[Point], off: f64) -> Vec<usize> {
     kept
 }
 
-/// Number of the last position to which a straight line from the first leaves none between them farther away than a distance,
-/// as far as the next one does not turn back; 1 at least.
+/// Index of the last position to which a straight line from the first passes all positions between them within the distance
+/// `off`, before the positions turn back; at least 1.
 ///
-/// The directions in which the line passes a position near enough are a range, which narrows from point to point.
+/// The directions in which the line passes a position near enough form a range, which narrows from position to position.
 fn farthest(places: &[Point], off: f64) -> usize {
     let from = places[0];
     let (mut middle, mut range) = (None, [-FRAC_PI_2, FRAC_PI_2]);
@@ -117,7 +117,7 @@ fn farthest(places: &[Point], off: f64) -> usize {
     places.len() - 1
 }
 
-/// Rounding of numbers, which takes a tenth of the tolerance.
+/// Unit to which numbers are rounded; the rounding uses less than a tenth of the tolerance.
 fn unit(tolerance: Tolerance) -> f64 {
     let decimals = (-(0.05 * tolerance.mm()).log10()).ceil().clamp(0.0, 12.0);
     10_f64.powi(-(decimals as i32))
@@ -155,7 +155,7 @@ impl Rounding {
 /// Digits of a number that is drawn: finer than any screen.
 const DIGITS: i32 = 7;
 
-/// Numbers as JSON with as many digits as drawing needs, null for what is not finite.
+/// Numbers as JSON with as many digits as drawing needs, null for numbers that are not finite.
 pub(crate) fn drawn<S: Serializer>(values: &[f64], serializer: S) -> Result<S::Ok, S::Error> {
     let mut list = serializer.serialize_seq(Some(values.len()))?;
     for &value in values {

@@ -2,7 +2,7 @@ use serde::{Serialize, Serializer};
 
 use super::{Contacts, Handle, Mark, Motion, Path, Picture};
 
-/// A picture as it is written: links by the number of their shape.
+/// A picture in its written form: each link has the index of its shape.
 #[derive(Serialize)]
 struct Scene<'a> {
     shapes: Vec<&'a [Path]>,

@@ -13,20 +13,20 @@ const FACES: &str = "both faces";
 const PLACES: usize = 3;
 
 impl Plate {
-    /// Diameter of a round one, mm.
+    /// Diameter of a round plate, mm.
     pub(super) fn round(&self) -> Option<f64> {
         let (_, radius) = self.outline.as_circle()?;
         Some(2.0 * radius)
     }
 
-    /// Axis and diameter of the circle about the tips of a toothed one, mm: it is turned before its teeth are cut.
+    /// Axis and diameter of the tip circle of a toothed plate, mm: the plate is turned before its teeth are cut.
     pub(super) fn blank(&self) -> Option<(Point, f64)> {
         let is_toothed = matches!(self.exactness, Some(Exactness::Teeth(_)));
         let (_, axis) = self.first_datum().filter(|_| is_toothed)?;
         Some((axis, steady(2.0 * self.reach(axis))))
     }
 
-    /// The edge, next to the face: seen from the left it is on the right in first angle.
+    /// The edge next to the face, seen from the left: in first angle it is on the right.
     pub(super) fn edge(&self, draft: &mut Draft, k: f64, projection: Projection) {
         let whole = draft.bounds();
         let Bounds { min, max } = self.outline.bounds();
@@ -51,7 +51,7 @@ impl Plate {
         let beside = p(left + thick + 9.0, low);
         let round = self.round().or(blank.map(|(_, diameter)| diameter));
         let words = match round {
-            // Tips are laid within the tolerance of files: no finer figure is meant.
+            // Tips are exact only within the tolerance of the files: the diameter has no tolerance class.
             Some(diameter) if blank.is_some() => format!("Ø{}", number(diameter, PLACES)),
             Some(diameter) => fit::bore(diameter, &self.classes[0]),
             None => fit::keyway(max.y - min.y, &self.classes[0]),
@@ -81,7 +81,8 @@ impl Plate {
         }
     }
 
-    /// The wall that an opening goes through, seen from the right, on the other side of the face than the edge.
+    /// The wall that an opening goes through, seen from the right; its view is on the other side of the face than that of the
+    /// edge.
     pub(super) fn front(&self, draft: &mut Draft, k: f64, projection: Projection) {
         let Some(opening) = &self.opening else {
             return;

@@ -1,4 +1,4 @@
-//! Datums of a plate and what is toleranced to them.
+//! Datums of a plate and the geometrical tolerances that refer to them.
 
 use centrode_formats::sheet::geometrical::Frame;
 use centrode_geometry::Point;
@@ -7,10 +7,9 @@ use super::{Exactness, Hole, Plate};
 use crate::grade;
 
 impl Plate {
-    /// Frames of each hole. The first datum is the seat of a shaft, or else the first hole with a class; the second is the hole
-    /// with a class that lies farthest from it. All others, and slots with a class, lie in position to both; a keyway is symmetrical to the
-    /// first. Holes of screws are datums only where no other
-    /// hole has a class.
+    /// Tolerance frames of each hole. The first datum is the seat of a shaft, or else the first hole with a class; the second is
+    /// the hole with a class that lies farthest from it. All other holes and slots with a class have a position tolerance to
+    /// both; a keyway has a symmetry tolerance to the first. Holes of screws are datums only if no other hole has a class.
     pub(super) fn frames(&self) -> Vec<Vec<Frame>> {
         let mut frames = vec![Vec::new(); self.holes.len()];
         let Some((first, origin)) = self.first_datum() else {
@@ -46,7 +45,7 @@ impl Plate {
             let position = distance.and_then(|mm| grade::position_of_slot(mm, &datums));
             frames[index].extend(position);
         }
-        // A letter that nothing lies to is not stated.
+        // A datum that no frame refers to is omitted.
         let is_used = (0..frames.len())
             .any(|index| index != first && Some(index) != second && !frames[index].is_empty());
         if let Some(second) = second.filter(|_| is_used) {
@@ -58,7 +57,7 @@ impl Plate {
             || self.contour_frame().is_some()
             || keyway.is_some()
             || (0..frames.len()).any(|index| index != first && !frames[index].is_empty());
-        // Below what is said of the keyway.
+        // The datum comes below the frame of the keyway.
         frames[first].extend(keyway);
         if is_used {
             frames[first].push(Frame::datum(one));
@@ -76,7 +75,7 @@ impl Plate {
         grade::runout(2.0 * self.reach(origin), &one.to_string())
     }
 
-    /// Frame of the contour to the datum of the bore, and words behind it.
+    /// Tolerance frame of the contour relative to the datum of the bore, and the words after it.
     pub(super) fn contour_frame(&self) -> Option<(Frame, &'static str)> {
         let exactness = self.exactness?;
         let (first, origin) = self.first_datum()?;
@@ -93,7 +92,7 @@ impl Plate {
         }
     }
 
-    /// Distance of the farthest corner of the contour, mm.
+    /// Distance of the contour's farthest corner from a point, mm.
     pub(super) fn reach(&self, from: Point) -> f64 {
         let corners = self.outline.segments().iter().map(|side| side.start());
         corners.map(|p| (p - from).norm()).fold(0.0, f64::max)

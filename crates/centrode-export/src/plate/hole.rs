@@ -14,10 +14,10 @@ pub(crate) struct Hole {
     pub(crate) label: String,
     /// Tolerance class of its diameter or width, ISO 286; empty where general tolerances hold.
     pub(crate) fit: String,
-    /// How far its position may be off in either direction, mm; 0 where general tolerances hold.
+    /// Permitted deviation of its position in any direction, mm; 0 where general tolerances hold.
     pub(crate) off: f64,
-    /// How far its distance from another hole of the plate may be off in either direction, mm: that of two gears in mesh. None
-    /// where nothing requires it.
+    /// Permitted deviation (±) of its distance from another hole of the plate, mm, where two gears mesh. `None` without such
+    /// gears.
     pub(crate) apart: Option<f64>,
     /// Whether it is the seat of a shaft.
     pub(crate) is_seat: bool,
@@ -25,22 +25,22 @@ pub(crate) struct Hole {
     pub(crate) keyed: f64,
     /// Further lines next to it.
     pub(crate) notes: Vec<String>,
-    /// Screw that it is for, whether through it or into a thread.
+    /// Screw that goes through it or into its thread.
     pub(crate) screw: Option<ScrewHole>,
 }
 
 /// Hole of a screw.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum ScrewHole {
-    /// That it goes through.
+    /// Hole that the screw goes through with clearance.
     Clearance(Screw),
-    /// Drilled through for its thread, which is as deep from either face, mm, or goes through, too.
+    /// Through hole with a thread of this depth from both faces, mm; `None` for a thread over the whole length.
     Thread(Screw, Option<f64>),
 }
 
 impl ScrewHole {
-    /// How far its position may be off in either direction, mm: screws that are fixed in a thread find their holes where hole
-    /// and thread share the clearance, each with a cylinder of half of it.
+    /// Permitted deviation of its position in any direction, mm. Hole and thread share the clearance: each has a tolerance
+    /// cylinder with half the clearance as its diameter, so that a screw in its thread fits through its hole.
     fn off(self) -> f64 {
         let (Self::Clearance(screw) | Self::Thread(screw, _)) = self;
         0.25 * (screw.clearance_hole() - screw.diameter)
@@ -60,7 +60,7 @@ impl Hole {
         .collect()
     }
 
-    /// Holes in what is between the plates, with their threads.
+    /// Threaded holes in the part between the plates.
     pub(crate) fn threads(fastening: &Fastening) -> Vec<Self> {
         let (screw, depth) = (fastening.screw, fastening.thread_depth());
         let all = fastening.drilled_holes().into_iter();
@@ -99,12 +99,12 @@ impl Hole {
         bore
     }
 
-    /// The hole of a plate for a pin or shaft, named as its point is.
+    /// The hole of a plate for a pin or shaft, named after its point.
     pub(crate) fn of_pin(outline: Outline, pin: &PinHole) -> Self {
         let mut bored = Self::bore(outline, &pin.hub);
         bored.is_seat = !bored.notes.is_empty();
         if bored.is_seat {
-            // Its contour is no circle, whose position the sheet would state.
+            // The sheet states the position of circles only; this contour is no circle.
             let [x, y] = [pin.at.x, pin.at.y].map(|mm| number(mm, 4));
             bored.notes.insert(1, format!("at {x}, {y}"));
         }
@@ -113,7 +113,7 @@ impl Hole {
     }
 }
 
-/// Holds holes that are the centre distance of gears in mesh apart, mm, to how far it may be off in either direction.
+/// Sets the permitted deviation ±`off` (mm) for holes whose distance is the centre distance of gears in mesh (mm).
 pub(crate) fn hold_apart(holes: &mut [Hole], distance: f64, off: f64) {
     const NEAR: f64 = 1e-6;
     let axes: Vec<Option<Point>> = holes.iter().map(Hole::axis).collect();
@@ -142,7 +142,7 @@ impl From<Outline> for Hole {
     }
 }
 
-/// Shape of a hole that a sheet says in words.
+/// Shape of a hole that a sheet states in words.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum HoleKind {
     /// Centre and radius.
@@ -184,7 +184,7 @@ impl Hole {
         }
     }
 
-    /// Whether words say nothing of its shape: its contour alone does.
+    /// Whether only its contour shows its shape, without words.
     pub(super) fn is_by_contour(&self) -> bool {
         self.kind() == HoleKind::Free && self.notes.is_empty()
     }

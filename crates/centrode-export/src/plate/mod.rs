@@ -31,11 +31,11 @@ pub(crate) struct Plate {
     pub(crate) name: String,
     /// Title of its drawing.
     pub(crate) title: String,
-    /// How many of it a machine has.
+    /// Number of these plates in a machine.
     pub(crate) quantity: usize,
     pub(crate) outline: Outline,
     pub(crate) holes: Vec<Hole>,
-    /// Holes through a wall, their height from the middle of the thickness.
+    /// Opening through a wall; its height is measured from the middle of the thickness.
     pub(crate) opening: Option<Opening>,
     /// mm.
     pub(crate) thickness: f64,
@@ -48,21 +48,21 @@ pub(crate) struct Plate {
     pub(crate) notes: Vec<String>,
     /// Tables of its sheet.
     pub(crate) tables: Vec<Table>,
-    /// How exact its contour is to the datum of its bore.
+    /// Tolerance of its contour relative to the datum of its bore.
     pub(crate) exactness: Option<Exactness>,
     /// Timing marks on its face.
     pub(crate) marks: Vec<Point>,
-    /// Tolerance class of its height, of a round one of its diameter, and of the height of its opening, ISO 286; empty where
+    /// Tolerance classes of its height (or the diameter of a round plate) and of the height of its opening, ISO 286; empty where
     /// general tolerances hold.
     pub(crate) classes: [String; 2],
 }
 
-/// Exactness of a contour to the bore.
+/// Tolerance of a contour relative to the bore.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Exactness {
-    /// Its profile within a grade of its reach.
+    /// Profile tolerance, a grade of its reach.
     Profile,
-    /// The runout of a round one, within a grade of its diameter.
+    /// Runout of a round plate, a grade of its diameter.
     Rim,
     /// The runout of its teeth over pins, mm.
     Teeth(f64),
@@ -96,7 +96,7 @@ impl Plate {
         }
     }
 
-    /// A body with its bore, as gears and cams have it, of files of a name and with a title.
+    /// A body of a gear or cam with its bore; `name` begins the names of its files.
     pub(crate) fn of_body(
         name: &str,
         title: &str,
@@ -112,7 +112,7 @@ impl Plate {
         }
     }
 
-    /// A spacer between two plates that screws hold, twice as thick as these are, so many of it.
+    /// Spacers between two plates that screws hold, with twice the diameter of the screws.
     pub(crate) fn spacer(
         screws: &Fastening,
         title: &str,
@@ -132,7 +132,7 @@ impl Plate {
         .noted("Those of one machine are of one length within 0.02 mm.")
     }
 
-    /// The plate with its origin elsewhere.
+    /// The plate with its origin moved to a point.
     pub(crate) fn about(mut self, origin: Point) -> Self {
         let place = Isometry2::translation(-origin.x, -origin.y);
         self.outline = self.outline.transformed(&place);
@@ -152,12 +152,12 @@ impl Plate {
         self.holes.iter().map(|hole| hole.outline.clone()).collect()
     }
 
-    /// From z = 0 to its thickness.
+    /// The solid from z = 0 to its thickness.
     pub(crate) fn solid(&self) -> Result<Solid, SolidError> {
         self.placed([0.0, self.thickness])
     }
 
-    /// Plate between other heights.
+    /// The solid between other heights.
     pub(crate) fn placed(&self, [bottom, top]: [f64; 2]) -> Result<Solid, SolidError> {
         let solid = Solid::new(self.outline.clone(), self.cut_outs(), bottom, top)?;
         let Some(opening) = &self.opening else {
@@ -184,7 +184,8 @@ impl Plate {
         }
     }
 
-    /// Pieces of it to be mounted on a link, their lower faces at places in its frame, mm: names of their shape and of its part.
+    /// Pieces to be mounted on a link, with their lower faces at `places` in the link's frame, mm; `name` is that of their shape,
+    /// `part` that of their part.
     ///
     /// # Errors
     /// [`ExportError`] where it is no solid.

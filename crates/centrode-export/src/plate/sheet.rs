@@ -13,11 +13,11 @@ use crate::{number::fixed, treatment::treatment_note};
 
 /// Maximum number of holes with their size and position next to the view; more have a table.
 const CALLED_OUT: usize = 6;
-/// Most sides of a contour that a sheet is read for; more are in the cutting file alone.
+/// Maximum number of sides of the contour in a sheet's table; contours with more are only in the cutting file.
 const SIDES: usize = 40;
 /// Radius of a timing mark on a sheet, mm.
 const MARK: f64 = 0.6;
-/// How much farther from a hole than next to it its label may be, mm.
+/// Extra distances between a hole and its label in the order tried, mm.
 const FARTHER: [f64; 4] = [0.0, 2.0, 5.0, 9.0];
 /// Decimals of lengths.
 const PLACES: usize = 3;
@@ -119,7 +119,7 @@ impl Plate {
             draft.line(Pen::Axis, p(low.x - 3.0, 0.0), p(high.x + 3.0, 0.0));
             draft.line(Pen::Axis, p(0.0, low.y - 3.0), p(0.0, high.y + 3.0));
         }
-        // Below everything, and left of the notes. The diameter of a round one is at its edge.
+        // The width is below everything, and left of the notes. A round plate has its diameter at the view of its edge.
         if self.round().is_none() && self.blank().is_none() {
             draft.dimension(
                 [p(low.x, low.y), p(high.x, low.y)],
@@ -165,7 +165,7 @@ impl Plate {
         draft
     }
 
-    /// Label of a hole: its own, or a letter where there are many.
+    /// Label of a hole: its own, or a letter or number if there are many holes.
     pub(super) fn label(&self, index: usize) -> String {
         let own = &self.holes[index].label;
         if !own.is_empty() || self.holes.len() <= CALLED_OUT {
@@ -188,7 +188,7 @@ impl Plate {
             let (letters, label) = (draft.lettering(), self.label(index));
             let size = Vector::new(lettering::width(&label, letters), letters);
             let beside = 0.72 * reach * k + 0.8;
-            // Up and to the right of it, or where it touches nothing, the nearer the better.
+            // Above and to the right of the hole, or the nearest position where the label touches nothing.
             let corner = |([x, y], farther): ([f64; 2], f64)| {
                 let middle = Vector::repeat(beside + farther) + 0.5 * size;
                 at * k + Vector::new(x * middle.x, y * middle.y) - 0.5 * size
@@ -205,7 +205,7 @@ impl Plate {
         }
     }
 
-    /// Holes by their size and position.
+    /// Notes of the holes with their size and position.
     fn callouts(&self, k: f64) -> Vec<(Point, Vec<NoteLine>)> {
         let frames = self.frames();
         let holes = self.holes.iter().enumerate();
@@ -220,14 +220,14 @@ impl Plate {
                     ([min + 0.5 * (max - min); 2], 0.5 * (max - min).amin())
                 }
             };
-            // Towards the column of words it is put in.
+            // Towards the column of words that contains the note.
             let outwards = if 0.5 * (one.x + other.x) < middle {
                 -1.0
             } else {
                 1.0
             };
             let way = Vector::new(outwards * 0.8, 0.6);
-            // There the round end is the farthest of the slot.
+            // The round end of a slot that is farthest in that direction.
             let center = if (one - other).dot(&way) > 0.0 {
                 one
             } else {
@@ -249,7 +249,7 @@ impl Plate {
         holes.filter_map(note).collect()
     }
 
-    /// Places and sizes of many holes.
+    /// Table of the holes with size and position, if there are many.
     fn hole_table(&self) -> Option<Table> {
         if self.holes.len() <= CALLED_OUT {
             return None;
@@ -288,7 +288,7 @@ impl Plate {
             })
     }
 
-    /// The contour's corners and roundings; `None` for one with more than a sheet would be read for.
+    /// Table of the contour's corners and roundings; `None` if the sheet does not show all of the contour.
     fn contour_table(&self) -> Option<Table> {
         if !self.is_stated() {
             return None;
@@ -333,7 +333,7 @@ impl Plate {
     }
 }
 
-/// Radius of an arc of a contour, concave where it bends into it.
+/// Radius of an arc of a contour in words; "concave" if the arc bends into the contour.
 fn rounding(arc: &Arc, counter_clockwise: bool) -> String {
     let bulges = (arc.bulge > 0.0) == counter_clockwise;
     let [concave, long] = [
@@ -344,7 +344,7 @@ fn rounding(arc: &Arc, counter_clockwise: bool) -> String {
     format!("{}{concave}{long}", number(arc.radius(), PLACES))
 }
 
-/// A coordinate, mm, with the maximum number of digits.
+/// Coordinates of a point, mm, with one decimal more than lengths.
 fn written(at: Point) -> String {
     let [x, y] = [at.x, at.y].map(|x| number(x, PLACES + 1));
     format!("{x}, {y}")

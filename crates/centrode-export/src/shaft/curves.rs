@@ -13,7 +13,7 @@ pub fn shaft_curves(shaft: &SpiralShaft) -> Vec<Curve> {
     curves(&Parts::of_shaft(shaft))
 }
 
-/// Curves of a moving box, by its own input.
+/// Curves of a moving box over its own input.
 ///
 /// # Errors
 /// [`ExportError`] where the elliptic gears make no pair.

@@ -23,13 +23,13 @@ fn rectangle(low: Point, high: Point) -> EntityShape {
     ]))
 }
 
-/// The developed surface of the shaft, to be laid round it: along x the arc `R phi`, along y the axis.
+/// The developed surface of the shaft, to be wrapped around it: along x the arc `R phi`, along y the axis.
 ///
 /// Layers: BLANK the edge, WALL the upper edges of the existing walls, CENTER the centre line,
 /// PICK the positions of the slider while a seedling is picked, TEXT. Polylines are within the tolerance.
 ///
 /// # Errors
-/// [`ShaftError`] where body and groove do not go together.
+/// [`ShaftError`] if body and groove do not fit each other.
 pub fn developed(shaft: &SpiralShaft, tolerance: Tolerance) -> Result<Drawing, ShaftError> {
     let groove = shaft.groove();
     let around = TAU * groove.radius();
@@ -51,7 +51,7 @@ pub fn developed(shaft: &SpiralShaft, tolerance: Tolerance) -> Result<Drawing, S
         drawing.draw("CENTER", EntityShape::Polyline(line));
     }
     for pick in shaft.schedule().picks {
-        // A whole turn but for rounding is none.
+        // A whole turn within rounding counts as zero.
         let x = (groove.radius() * pick.theta + 1e-9).rem_euclid(around) - 1e-9;
         drawing.draw("PICK", EntityShape::Mark(Point::new(x, pick.position)));
         let circle = EntityShape::Circle {
@@ -115,7 +115,7 @@ fn wrapped(way: &[Point], around: f64) -> Vec<Vec<Point>> {
 /// axis, the walls' upper edges on the near side, the keyway, and the main dimensions in words.
 ///
 /// # Errors
-/// [`ShaftError`] where body and groove do not go together.
+/// [`ShaftError`] if body and groove do not fit each other.
 pub fn side_view(shaft: &SpiralShaft, tolerance: Tolerance) -> Result<Drawing, ShaftError> {
     let (groove, body) = (shaft.groove(), shaft.body());
     let solid = ShaftSolid::new(groove, body)?;
@@ -138,7 +138,7 @@ pub fn side_view(shaft: &SpiralShaft, tolerance: Tolerance) -> Result<Drawing, S
             p(low - c, r - c),
             p(low, r),
         ];
-        // Into the groove and out of it by turns.
+        // The contour goes into the groove and out of it alternately.
         let mut before = r;
         for z in passed(&edges, r * angle) {
             let after = if before == r { floor } else { r };
@@ -165,7 +165,7 @@ pub fn side_view(shaft: &SpiralShaft, tolerance: Tolerance) -> Result<Drawing, S
         drawing.draw("EDGE", EntityShape::Line(p(at, -height), p(at, height)));
     }
     for edge in edges {
-        // Seen from the angle zero; the near half of the shaft is what faces the viewer.
+        // Only the near half of the shaft is drawn, with the angle zero towards the viewer.
         let mut near: Vec<Point> = Vec::new();
         for q in edge {
             let (sin, cos) = (q.x / r).sin_cos();
@@ -233,7 +233,7 @@ pub fn side_view(shaft: &SpiralShaft, tolerance: Tolerance) -> Result<Drawing, S
     Ok(drawing)
 }
 
-/// Positions along the shaft of the walls at an arc `x` round it, ascending.
+/// Axial positions of the walls at the arc `x` around the shaft, ascending.
 fn passed(edges: &[Vec<Point>], x: f64) -> Vec<f64> {
     let segments = edges.iter().flat_map(|edge| edge.windows(2));
     let mut places: Vec<f64> = segments

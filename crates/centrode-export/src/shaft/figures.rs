@@ -10,8 +10,8 @@ use super::links::MEMBERS;
 use super::machine::{Gears, Parts};
 use crate::{ExportError, gear_pair};
 
-/// How exactly the edges of the groove are drawn, as a share of its width, and no finer than this share of the shaft's radius, at which
-/// a turn has some 700 strips.
+/// Tolerance of the drawn edges of the groove, relative to its width, and its minimum, relative to the shaft's radius: at this
+/// minimum a turn has some 700 strips.
 const DRAWN: f64 = 5e-3;
 const FINEST: f64 = 1e-5;
 /// A point of the development as drawn: the shaft lies along x.
@@ -28,8 +28,7 @@ fn still(at: f64) -> Quantity {
     Quantity::Law(Arc::new(Constant(at)))
 }
 
-/// Draws the developed groove with its slider running in it, and the box that goes with it: along x the shaft, along y its
-/// turned surface.
+/// Draws the developed groove with the slider in it, and the box: the shaft is along x, its unrolled surface along y.
 pub(super) fn develop(
     parts: &Parts<'_>,
     turn: &Arc<dyn Transmission>,
@@ -44,7 +43,7 @@ pub(super) fn develop(
     let radius = parts.shaft.groove().radius();
     let outline = parts.shaft.slider().outline(parts.shaft.groove().width());
     let slider = machine.sketch("slider", vec![Line::contour(LineRole::Body, &outline)]);
-    // At a whole turn it leaves one edge of the development for the other.
+    // At a whole turn the slider jumps from one edge of the development to the other.
     let own = turn.clone();
     let round = move |input: f64| {
         let mut jet = own.at(input);
@@ -97,7 +96,7 @@ pub(super) fn corner(shaft: &SpiralShaft) -> Point {
     Point::new(-0.5 * lead * f64::from(shaft.traverse().holes()), lead)
 }
 
-/// The box in its rows of holes, above the development.
+/// The box with its holes, above the development.
 fn rows(shaft: &SpiralShaft) -> Vec<Line> {
     let count = shaft.traverse().holes();
     let (lead, holes) = (shaft.law().lead(), f64::from(count));
@@ -113,7 +112,7 @@ fn rows(shaft: &SpiralShaft) -> Vec<Line> {
     lines
 }
 
-/// Draws the gears next to the near end of the shaft, seen along it, the driver below; by the joints that turn them.
+/// Draws the gears next to the near end of the shaft, seen along it, the driver below; `joints` turn them.
 pub(super) fn gears(
     gears: &Gears<'_>,
     shaft: &SpiralShaft,

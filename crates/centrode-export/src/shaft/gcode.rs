@@ -69,7 +69,7 @@ pub fn program(shaft: &SpiralShaft, tolerance: Tolerance) -> String {
     text
 }
 
-/// Five decimals, which no controller refuses: a hundredth of a micrometre.
+/// Number with five decimals (a hundredth of a micrometre), which every controller accepts.
 fn number(value: f64) -> String {
     let text = format!("{value:.5}");
     if text == "-0.00000" {

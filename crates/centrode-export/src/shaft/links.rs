@@ -15,12 +15,12 @@ use super::machine::{Gears, Parts};
 use super::{arrangement, figures, slider_solid};
 use crate::{ExportError, gear_pair};
 
-/// How far beyond the slider's path the box's joint lets it slide, mm.
+/// Distance beyond the slider's path that the joint of the box permits, mm.
 const ROOM: f64 = 1.0;
 /// Edge of the cube whose inertia the box has, mm.
 const CUBE: f64 = 100.0;
 
-/// The gears, the one that drives first.
+/// The gears, the driver first.
 pub(super) const MEMBERS: [Member; 2] = [Member::Driver, Member::Driven];
 
 /// Name of the link that the slider moves.
@@ -64,7 +64,7 @@ pub(super) fn machine(parts: &Parts<'_>) -> Result<machine::LinkedMachine, Expor
     Ok(machine)
 }
 
-/// The machine as it moves and is drawn, without bodies.
+/// The machine with its motion and its drawn lines, without bodies.
 pub(super) fn drawn(parts: &Parts<'_>) -> Result<machine::LinkedMachine, ExportError> {
     let shaft = parts.shaft;
     let (groove, slider) = (shaft.groove(), shaft.slider());
@@ -89,7 +89,7 @@ pub(super) fn drawn(parts: &Parts<'_>) -> Result<machine::LinkedMachine, ExportE
     };
     let links = ["base", "frame", "shaft", BOX, "slider"];
     let [base, frame, turned, carriage, slid] = links.map(|name| machine.link(Link::new(name)));
-    // The frame's z, along the shaft, on the world's x; its x, where the slider is, upwards.
+    // The frame's z axis, along the shaft, is on the world's x axis; its x axis, towards the slider, points upwards.
     machine.joint(Joint::fixed(base, frame).turned([PI, -FRAC_PI_2, 0.0]));
     let (turn, stroke) = (turn(parts), parts.stroke.clone());
     let against = turn.clone();
@@ -107,7 +107,7 @@ pub(super) fn drawn(parts: &Parts<'_>) -> Result<machine::LinkedMachine, ExportE
     let boxed = machine.joint(boxed);
     let swivelling = Joint::turning(carriage, slid, Arc::new(swivel))
         .at([groove.radius() - slider.reach, 0.0, 0.0])
-        // The slider's length on y, its width on z, its pin on x.
+        // The slider's length is along y, its width along z, its pin along x.
         .turned([FRAC_PI_2, 0.0, FRAC_PI_2])
         .led_by(turning);
     let swivelling = machine.joint(swivelling);
@@ -130,7 +130,7 @@ struct Grooved(SpiralShaft);
 
 impl SolidBody for Grooved {
     fn mesh(&self, tolerance: Tolerance) -> Result<Mesh, SolidError> {
-        // Shaft and groove were found sound when the machine was made.
+        // Shaft and groove were checked when the machine was made.
         Ok(self.0.mesh(tolerance).unwrap_or_default())
     }
 
@@ -147,7 +147,7 @@ fn turn(parts: &Parts<'_>) -> Arc<dyn Transmission> {
     }
 }
 
-/// Lead angle under the slider by the input, rad: how far the slider has swivelled.
+/// Lead angle under the slider by the input, rad: the angle by which the slider has swivelled.
 fn swivel(turn: &Arc<dyn Transmission>, stroke: &Arc<dyn Transmission>, radius: f64) -> Piecewise {
     let (turn, stroke) = (turn.clone(), stroke.clone());
     let (period, breaks) = (stroke.period(), stroke.breaks());
@@ -173,7 +173,7 @@ fn loads(machine: &mut machine::LinkedMachine, shaft: &SpiralShaft, joint: usize
     machine.loads.push(Load::Joint { joint, effort });
 }
 
-/// The table: shaft, box and slider with their speeds at the design's speed of the input, forces.
+/// Columns of the table: shaft, box and slider with their speeds at the design's input speed, and forces.
 fn columns(
     machine: &mut machine::LinkedMachine,
     parts: &Parts<'_>,
@@ -277,9 +277,9 @@ fn columns(
     machine.joints[shaft].load = Some(torque);
 }
 
-/// The box, of which no more is known than what it weighs.
+/// Mass properties of the box; only its mass is known.
 fn carried(mass: f64) -> MassProperties {
-    // A slider heavier than all that is moved leaves something to slide all the same.
+    // If the slider alone exceeds the moved mass, the box still has a small mass.
     let mass = mass.max(1e-3);
     MassProperties {
         mass,
@@ -288,7 +288,7 @@ fn carried(mass: f64) -> MassProperties {
     }
 }
 
-/// Adds the driver on the frame and its mate on the shaft, whose near end is at the height `end`; the driver's joint.
+/// Adds the driver on the frame and its mate on the shaft, whose near end is at the height `end`; returns the driver's joint.
 fn hang(
     gears: &Gears<'_>,
     end: f64,

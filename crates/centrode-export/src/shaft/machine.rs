@@ -6,7 +6,7 @@ use centrode_kinematics::transmission::{MotionJet, Transmission};
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-/// A shaft and what turns it.
+/// A shaft and its drive.
 pub(super) struct Parts<'a> {
     pub(super) name: &'a str,
     pub(super) title: &'a str,
@@ -17,14 +17,14 @@ pub(super) struct Parts<'a> {
     pub(super) stroke: Arc<dyn Transmission>,
 }
 
-/// The elliptic gears before a shaft.
+/// The elliptic gears that drive a shaft.
 pub(super) struct Gears<'a> {
     pub(super) drive: &'a EllipticDrive,
     pub(super) pair: GearPair,
 }
 
 impl<'a> Parts<'a> {
-    /// A shaft turned evenly.
+    /// A shaft that turns at constant speed.
     pub(super) fn of_shaft(shaft: &'a SpiralShaft) -> Self {
         Self {
             name: &shaft.design().name,
@@ -78,7 +78,7 @@ impl<'a> Parts<'a> {
         self.stroke.at(input)
     }
 
-    /// Lead angle under the slider by the input, rad: how far the slider has swivelled.
+    /// Lead angle under the slider by the input, rad: the angle by which the slider has swivelled.
     pub(super) fn swivel(&self, input: f64) -> MotionJet {
         let turn = self.turn(input);
         let (radius, motion) = (
@@ -112,8 +112,8 @@ impl Gears<'_> {
         }
     }
 
-    /// Turn of the driven gear on the shaft, rad: it has turned by its own angle at the slow point when the shaft, by
-    /// `-pick`, is there.
+    /// Mounting angle of the driven gear on the shaft, rad: at the slow point the gear has turned by its own angle, the shaft by
+    /// `-pick`.
     pub(super) fn rest(&self) -> f64 {
         self.pair.driven_angle(self.slowest()) + self.drive.phase
     }

@@ -29,10 +29,10 @@ impl From<ShaftError> for ExportError {
 
 /// The files of a spiral shaft in the requested formats, not yet on disk.
 ///
-/// DXF and SVG hold the developed groove, the side view and the slider; the sheets shaft and slider with
-/// dimensions; STL, STEP and 3MF shaft and slider; CSV the lead table, motion and forces, the schedule and the
-/// path of the mill, with it as a program for a machine with a rotary axis; URDF and MJCF the model of shaft,
-/// box and slider with the law of motion, and a script that plays it.
+/// DXF and SVG contain the developed groove, the side view and the slider; the sheets show shaft and slider with dimensions; STL,
+/// STEP and 3MF contain shaft and slider. CSV contains the lead table, motion and forces, the schedule and the path of the mill,
+/// also as a program for a machine with a rotary axis. URDF and MJCF contain the model of shaft, box and slider with the law of
+/// motion, and a script that plays it.
 ///
 /// # Errors
 /// [`ExportError`], for instance for a tolerance near the groove's depth.
@@ -73,7 +73,7 @@ pub fn moving_box_machine(machine: &MovingBox) -> Result<LinkedMachine, ExportEr
     links::machine(&Parts::of_box(machine)?)
 }
 
-/// Shaft, box and slider as they move and are drawn, without bodies.
+/// Shaft, box and slider with their motion and their drawn lines, without bodies.
 ///
 /// # Errors
 /// [`ExportError`] where body and groove make no solid.
@@ -81,7 +81,7 @@ pub fn drawn(shaft: &SpiralShaft) -> Result<LinkedMachine, ExportError> {
     links::drawn(&Parts::of_shaft(shaft))
 }
 
-/// Gears, shaft, box and slider as they move and are drawn, without bodies.
+/// Gears, shaft, box and slider with their motion and their drawn lines, without bodies.
 ///
 /// # Errors
 /// [`ExportError`] where body and groove make no solid, or the elliptic gears no pair.
@@ -106,7 +106,7 @@ fn all(
     package.drawing("groove", |_| Ok(developed(shaft, tolerance)?))?;
     package.drawing("shaft", |_| Ok(side_view(shaft, tolerance)?))?;
     package.cutting("slider", |_| Ok(slider(shaft)))?;
-    // The title block has the shaft's own title, and so have the pages.
+    // Title blocks and pages show the title of the shaft's own design.
     let design = shaft.design();
     package.within("", &design.name, &design.title, |package| {
         package.sheets("shaft", || shaft_sheets(shaft, options))?;

@@ -25,7 +25,7 @@ pub(super) fn lead(shaft: &SpiralShaft) -> Vec<Column> {
     ]
 }
 
-/// Which hole is picked at which turn.
+/// The schedule: the hole that is picked at each turn.
 pub(super) fn schedule(schedule: &Schedule) -> Vec<Column> {
     let picks = &schedule.picks;
     let over = |f: &dyn Fn(usize) -> f64| -> Vec<f64> { (0..picks.len()).map(f).collect() };

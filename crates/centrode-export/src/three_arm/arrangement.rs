@@ -8,7 +8,7 @@ use centrode_geometry::Point;
 use centrode_kinematics::machine::{self, Axis, Callout, Datum, Dimension, Fit};
 use centrode_machines::three_arm::ThreeArm;
 
-/// Lists the parts and fills the arrangement: the mechanism as its first arm picks.
+/// Lists the parts and fills the arrangement: the mechanism while its first arm picks.
 pub(super) fn annotate(parts: &Parts<'_>, machine: &mut machine::LinkedMachine) {
     let mechanism = parts.mechanism;
     for part in ThreeArmPart::ALL {
@@ -42,7 +42,7 @@ pub(super) fn annotate(parts: &Parts<'_>, machine: &mut machine::LinkedMachine) 
     surroundings(mechanism, machine);
 }
 
-/// Lists what holds sun, cams and arms fast and is the customer's: the remark says what it must fit.
+/// Lists the customer's parts that hold sun, cams and arms; the remark states the sizes that they must fit.
 fn given(parts: &Parts<'_>, machine: &mut machine::LinkedMachine) {
     let design = parts.mechanism.design();
     let on_shaft = |body: &BodySpec| (body.bore > 0.0).then(|| fit::shaft(&body.seat("")));
@@ -104,7 +104,7 @@ fn given(parts: &Parts<'_>, machine: &mut machine::LinkedMachine) {
     }
 }
 
-/// Dimensions and words of tray, ground and plants.
+/// Adds dimensions and callouts of tray, ground and plants.
 fn surroundings(mechanism: &ThreeArm, machine: &mut machine::LinkedMachine) {
     let on =
         |machine: &machine::LinkedMachine, at: Point| machine.place_on("machine", at.coords.into());
@@ -167,7 +167,7 @@ pub(super) fn links(part: ThreeArmPart, arms: u32, machine: &machine::LinkedMach
     }
 }
 
-/// Lists a part; its number is at a piece on an arm that leaves the others room.
+/// Lists a part; its number points to a piece on an arm where the other numbers have room.
 fn list(parts: &Parts<'_>, part: ThreeArmPart, machine: &mut machine::LinkedMachine) {
     let arms = parts.mechanism.arms();
     let links = links(part, arms, machine);

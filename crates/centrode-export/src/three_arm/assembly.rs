@@ -6,11 +6,10 @@ use centrode_machines::three_arm::{ThreeArm, ThreeArmLink};
 use nalgebra::Isometry2;
 use std::f64::consts::TAU;
 
-/// Points of the tip's path.
+/// Number of segments of the tip's path.
 const PATH: u32 = 720;
 
-/// The whole machine as its first arm picks: gears, carrier, cams and forks, arms, path of the tip, ground,
-/// tray, seedlings.
+/// The whole machine while its first arm picks: gears, carrier, cams and forks, arms, path of the tip, ground, tray, seedlings.
 pub(super) fn drawing(machine: &Parts<'_>, tolerance: Tolerance) -> Drawing {
     let mut drawing = layers();
     for (layer, outline) in contours(machine, tolerance) {
@@ -20,7 +19,7 @@ pub(super) fn drawing(machine: &Parts<'_>, tolerance: Tolerance) -> Drawing {
     drawing
 }
 
-/// Contours of everything that turns as the first arm picks, each with its layer.
+/// Contours of all turning parts while the first arm picks, each with its layer.
 pub(super) fn contours(machine: &Parts<'_>, tolerance: Tolerance) -> Vec<(&'static str, Outline)> {
     let mechanism = machine.mechanism;
     let input = mechanism.picking(0);
@@ -100,14 +99,14 @@ pub(super) fn path(mechanism: &ThreeArm) -> Vec<Point> {
         .collect()
 }
 
-/// Feet of the seedlings planted so far, up to a distance from the carrier's axis, as the first arm picks.
+/// Feet of the seedlings planted when the first arm picks, up to a horizontal distance from the carrier's axis, mm.
 pub(super) fn planted(mechanism: &ThreeArm, reach: f64) -> Vec<Point> {
     let mut feet = mechanism.planted(mechanism.picking(0), 2 * mechanism.arms());
     feet.retain(|foot| foot.x.abs() < reach);
     feet
 }
 
-/// Their stems.
+/// Stems of the planted seedlings.
 pub(super) fn planted_stems(mechanism: &ThreeArm, reach: f64) -> Vec<Outline> {
     let feet = planted(mechanism, reach);
     let place = |stem: &Outline, foot: &Point| stem.transformed(&Isometry2::new(foot.coords, 0.0));

@@ -4,7 +4,7 @@ use centrode_kinematics::machine::{self, Line, LineRole};
 use super::ThreeArmPart;
 use super::machine::Parts;
 
-/// Draws the contours of what the page's picture has as bars: cams, forks, arms, push rods and the carrier in front.
+/// Draws the contours of cams, forks, arms and push rods, and of the carrier in front. The page's picture has bars instead.
 pub(super) fn draw(parts: &Parts<'_>, machine: &mut machine::LinkedMachine) {
     let plate = |part: ThreeArmPart| {
         let plate = parts.plate_of(part);

@@ -48,7 +48,7 @@ impl Mesh {
         }
     }
 
-    /// A position relative to the axes of the pair, at a carrier turn, in the machine's axes.
+    /// Converts a position from the axes of the pair to the machine's axes, at a carrier turn.
     fn place(self, mechanism: &ThreeArm, input: f64, at: Point) -> Point {
         let train = mechanism.train();
         let way = train.carrier_start() + train.direction().sign() * input;
@@ -73,15 +73,15 @@ impl Mesh {
     }
 }
 
-/// Positions at which the flanks of sun, intermediate gears and planets touch, while the carrier drives by the sun that is
-/// held; without teeth the pitch points alone.
+/// Positions at which the flanks of sun, intermediate gears and planets touch, while the carrier drives and the sun is fixed;
+/// without teeth only the pitch points.
 #[must_use]
 pub fn contacts(mechanism: &ThreeArm, teeth: Option<&GearPair>) -> Vec<Contacts> {
     let meshes = [Mesh::Sun, Mesh::Planet];
     let touching = meshes.map(|mesh| touching(mechanism, teeth, mesh));
-    // What is rounded is seen: a module is some hundredths of the distance of two axes.
+    // Rounding must stay invisible: it depends on the module, or without teeth on 2 % of the centre distance.
     let size = teeth.map_or(0.02 * mechanism.center_distance(), GearPair::module);
-    // An input that is off moves the whole mesh about the sun.
+    // A rounded input moves the whole mesh about the sun.
     let length = ROUNDING * size;
     let units = [0.5 * length / mechanism.center_distance(), length];
     let chains = 0..mechanism.arms();

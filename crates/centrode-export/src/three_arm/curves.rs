@@ -72,7 +72,7 @@ pub fn arm_curves(mechanism: &ThreeArm) -> Vec<Curve> {
     .concat()
 }
 
-/// Carrier turns at which curves are read.
+/// Carrier turns at which curves are sampled.
 fn inputs() -> Vec<f64> {
     (0..=SAMPLES)
         .map(|i| TAU * f64::from(i) / f64::from(SAMPLES))

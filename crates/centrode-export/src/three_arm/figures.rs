@@ -11,12 +11,12 @@ use super::bodies;
 use super::machine::Parts;
 use crate::gear_pair;
 
-/// Planted seedlings that are shown.
+/// Number of planted seedlings that are shown.
 const SEEDLINGS: u32 = 4;
-/// Corners of each curve drawn instead of teeth.
+/// Number of corners of each curve that is drawn instead of teeth.
 const CORNERS: u32 = 240;
-/// Draws gears, carrier, arms, the path of the tip, tray and seedlings; the gears by their pitch curves without a pair, carrier and
-/// arms as bars without parts.
+/// Draws gears, carrier, arms, the path of the tip, tray and seedlings. Without a pair the gears are drawn by their pitch and tip
+/// curves; without parts carrier and arms are bars.
 pub(super) fn draw(
     mechanism: &ThreeArm,
     parts: Option<&Parts<'_>>,
@@ -80,7 +80,7 @@ pub(super) fn draw(
     machine.marks.extend(work.map(mark));
 }
 
-/// The seedlings planted last, the newest first: where an arm plants, each moves up by one.
+/// The seedlings planted last, the newest first: at each planting the number of every seedling rises by one.
 fn planted(mechanism: &ThreeArm, machine: &mut LinkedMachine) {
     let Some(stem) = mechanism.stem() else {
         return;
@@ -91,7 +91,7 @@ fn planted(mechanism: &ThreeArm, machine: &mut LinkedMachine) {
     let Some(foot) = mechanism.planted(release, 1).first().copied() else {
         return;
     };
-    // As the ground does, which goes back under the machine.
+    // The seedlings move with the ground, backwards under the machine.
     let velocity = mechanism.train().direction().sign() * mechanism.advance();
     for before in 0..SEEDLINGS {
         let place = move |input: f64| {
@@ -126,7 +126,7 @@ fn plain(mechanism: &ThreeArm, member: Member) -> Vec<Line> {
     lines.map(curve).into()
 }
 
-/// The legs from the sun's axis over each intermediate gear's to its planet's.
+/// The legs from the sun's axis over the axis of each intermediate gear to the axis of its planet.
 fn carrier(mechanism: &ThreeArm) -> Vec<Line> {
     let leg = |k: u32| {
         let [middle, end] = [ThreeArmLink::Intermediate(k), ThreeArmLink::Planet(k)];
@@ -136,7 +136,7 @@ fn carrier(mechanism: &ThreeArm) -> Vec<Line> {
     (0..mechanism.arms()).map(leg).collect()
 }
 
-/// From the planet's axis to the pusher's, along it, and the clamp to the tip: ends in the arm's frame.
+/// Points of an arm in its frame: the planet's axis, its foot on the pusher's axis, the start of the clamp, and the tip.
 pub(super) fn joints(mechanism: &ThreeArm) -> [Point; 4] {
     let spec = &mechanism.design().arm;
     let offset = -spec.pusher_offset;
@@ -157,7 +157,7 @@ fn arm(mechanism: &ThreeArm) -> Vec<Line> {
     ]
 }
 
-/// The path of the tip in the machine's frame, the ground, the first arm as it picks and as it plants, the tray with its
+/// The path of the tip in the machine's frame, the ground, the first arm while it picks and while it plants, the tray with its
 /// seedlings.
 fn surroundings(mechanism: &ThreeArm) -> Vec<Line> {
     let ground = mechanism.ground();

@@ -8,10 +8,10 @@ use super::machine::{Parts, no_fork};
 use crate::ExportError;
 use crate::plate::Pieces;
 
-/// Times the tolerance by which the bodies of an arm may exceed it: arms touch nothing as closely as teeth do.
+/// Maximum excess of the bodies of an arm, in tolerances: arms need less exact bodies than teeth.
 const COARSE: f64 = 20.0;
 
-/// The parts every chain has.
+/// The bodies that every chain has.
 pub(super) struct Limbs {
     pub(super) arm: Pieces,
     pub(super) touching: Vec<usize>,

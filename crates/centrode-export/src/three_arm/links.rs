@@ -17,7 +17,7 @@ use super::{ThreeArmPart, arrangement, figures, surroundings};
 use crate::plate::Plate;
 use crate::{ExportError, gear_pair};
 
-/// Where a cam is on the carrier: its frame in the carrier's.
+/// Pose of a cam in the carrier's frame.
 pub(super) fn cam_on_carrier(machine: &Parts<'_>, chain: u32) -> Isometry2<f64> {
     let mechanism = machine.mechanism;
     let share = TAU * f64::from(chain) / f64::from(mechanism.arms());
@@ -26,9 +26,9 @@ pub(super) fn cam_on_carrier(machine: &Parts<'_>, chain: u32) -> Isometry2<f64> 
     Isometry2::new(at.coords, machine.pusher.cam_angle() + later)
 }
 
-/// Sun and tray fixed to the base, ground sliding on it, the carrier on the base, gears and cams on the carrier, arms on
-/// planets, forks and rods on arms. Without parts only moving links: no cams, forks or rods. The gears are drawn
-/// with the teeth of a pair, or by their pitch curves.
+/// Sun and tray fixed to the base, ground sliding on it, the carrier on the base, gears and cams on the carrier, arms on planets,
+/// forks and rods on arms. Without parts only moving links: no cams, forks or rods. The gears are drawn with teeth if a pair is
+/// given, otherwise by their pitch and tip curves.
 pub(super) fn machine(
     mechanism: &ThreeArm,
     parts: Option<&Parts<'_>>,
@@ -80,7 +80,7 @@ pub(super) fn machine(
     Ok(builder.machine)
 }
 
-/// Input, and the links of a chain there.
+/// Input, and the motions of a chain's links at this input.
 type Solved = (f64, [LinkMotion; 3]);
 
 /// The laws of the joints.
@@ -88,7 +88,7 @@ type Solved = (f64, [LinkMotion; 3]);
 pub(super) struct Laws {
     pub(super) mechanism: ThreeArm,
     pub(super) pusher: Option<Pusher>,
-    /// Of each chain what was requested last.
+    /// Last result for each chain.
     last: Vec<Mutex<Option<Solved>>>,
 }
 
@@ -100,14 +100,14 @@ impl Laws {
         if let Some((_, links)) = known.filter(|(at, _)| at.to_bits() == input.to_bits()) {
             return links;
         }
-        // Not under the lock: it may be cancelled.
+        // Computed without the lock: the computation may be cancelled.
         let links = self.mechanism.chain(chain, input).links();
         *last.lock().unwrap_or_else(PoisonError::into_inner) = Some((input, links));
         links
     }
 }
 
-/// Index of a shape, what the link weighs, and its surfaces.
+/// Index of a shape, and the mass properties of its link.
 pub(super) type Seen = (usize, Option<MassProperties>);
 
 pub(super) struct Builder<'a> {
@@ -127,7 +127,7 @@ impl Builder<'_> {
         })
     }
 
-    /// Adds a link of a shape and mass alone.
+    /// Adds a link with at most a shape and a mass.
     pub(super) fn bodied(&mut self, name: &str, seen: Option<Seen>) -> usize {
         let (shape, mass) = seen.map_or((None, None), |(shape, mass)| (Some(shape), mass));
         self.link(name, mass, shape)
@@ -163,7 +163,7 @@ impl Builder<'_> {
             .column(&name, unit, meaning, Quantity::joint(joint));
     }
 
-    /// Several solids as one body; their mass together.
+    /// Several plates as one body with their total mass.
     pub(super) fn body(
         &mut self,
         name: &str,
@@ -194,7 +194,7 @@ impl Builder<'_> {
                 seen("tray", surroundings::tray_body(mechanism)),
                 seen("ground", surroundings::ground_body(mechanism)),
             ];
-            // What slides must weigh something; as much as the carrier will do.
+            // A sliding link needs a mass: the mass of a carrier plate is used.
             let outline = parts.gearbox.outline.clone();
             let solid = Solid::new(outline, Vec::new(), 0.0, 10.0);
             heavy = solid.map(|solid| solid.mass_properties(2000.0)).ok();
@@ -252,7 +252,7 @@ impl Builder<'_> {
             return Ok(self.bodied(name, None));
         };
         let (pair, member) = parts.gear(part).ok_or_else(no_gearbox)?;
-        // A planet has the teeth of the sun.
+        // A planet as wide as the sun has the same teeth.
         let teeth = match member {
             Member::Driver if same_width(parts) => ThreeArmPart::Sun.name(),
             _ => part.name(),
@@ -316,7 +316,7 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// The joint of a gear on the carrier: of a chain its intermediate gear, or its planet.
+    /// The joint of a gear on the carrier: the intermediate gear of a chain (`number` 0), or its planet (1).
     fn on_carrier(&mut self, carrier: usize, gear: usize, chain: u32, number: usize) -> usize {
         let mechanism = self.mechanism;
         let turn = move |laws: &Laws, input: f64| {
@@ -345,7 +345,7 @@ impl Builder<'_> {
         }
     }
 
-    /// The tips of the arms and their columns.
+    /// Adds the tips of the arms and their columns.
     fn tips(&mut self) {
         let [.., tip] = figures::joints(self.mechanism);
         for k in 0..self.mechanism.arms() {
@@ -373,7 +373,7 @@ impl Builder<'_> {
     }
 }
 
-/// Whether sun and planets are as wide: their teeth are then the same bodies.
+/// Whether sun and planets have the same width: then their teeth are the same bodies.
 fn same_width(machine: &Parts<'_>) -> bool {
     let [sun, planet] = machine
         .pairs

@@ -10,9 +10,9 @@ use centrode_machines::arm::{ArmBody, ArmPart};
 use centrode_machines::three_arm::making::{self, LIGHT, PRESSED, RINGS, SLIDING, SPRING, STEEL};
 use centrode_machines::three_arm::{GearboxBody, Pusher, ThreeArm};
 
-/// Tolerance class, ISO 286, of the holes in which the shafts of the gears turn, which are made to fit the gears.
+/// Tolerance class, ISO 286, of the holes in which the shafts of the gears turn; the class of the shafts fits the gears.
 const BEARING: &str = "F7";
-/// Of openings that only leave room.
+/// Tolerance classes of openings that only give clearance, and of the parts in them.
 pub(super) const PASSING: [&str; 2] = ["H11", "h11"];
 
 /// A mechanism with every part resolved.
@@ -51,7 +51,7 @@ impl<'a> Parts<'a> {
         })
     }
 
-    /// The pair and the member of it that a gear is.
+    /// The pair of a gear, and its member in the pair.
     pub(super) fn gear(&self, part: ThreeArmPart) -> Option<(&GearPair, Member)> {
         match part {
             ThreeArmPart::Sun => Some((&self.pairs[0], Member::Driver)),
@@ -66,7 +66,7 @@ impl<'a> Parts<'a> {
         self.mechanism.turned(&self.pusher, &self.arm)
     }
 
-    /// Contour, holes and thickness of a part of the arm, by its name there.
+    /// Contour, holes and thickness of a part of the arm, by its name in the arm.
     pub(super) fn of_arm(&self, name: &str) -> Option<&ArmPart> {
         self.arm.parts().iter().find(|part| part.name == name)
     }
@@ -103,8 +103,7 @@ impl<'a> Parts<'a> {
         )
     }
 
-    /// A part that is a plate, in the frame that its files have: those that lie off the planet's axis in the middle of the hole or
-    /// the root.
+    /// A plate in the frame of its files: the origin of the push rod is in its hole, that of the clamp in the middle of its root.
     pub(super) fn made(&self, part: ThreeArmPart) -> Option<Plate> {
         let plate = self.plate_of(part)?;
         let Bounds { min, max } = plate.outline.bounds();
@@ -142,7 +141,7 @@ impl<'a> Parts<'a> {
         }
     }
 
-    /// Fits of what turns, slides or is pressed in.
+    /// Fits of parts that turn, slide or are pressed in.
     pub(super) fn fits(&self) -> Vec<Fit> {
         let spec = self.pusher.fork_spec();
         let body = self.pairs[0].driver().body();
@@ -191,7 +190,7 @@ impl<'a> Parts<'a> {
         all.filter(|fit| fit.size > 0.0).collect()
     }
 
-    /// A part that is a plate, in its own frame, its holes with their classes.
+    /// A plate in its own frame; its holes have their tolerance classes.
     pub(super) fn plate_of(&self, part: ThreeArmPart) -> Option<Plate> {
         let mut plate = self.bare_plate(part)?;
         let (pivot, roller) = (self.pusher.pivot_fit(), self.pusher.roller_fit());
@@ -228,7 +227,7 @@ impl<'a> Parts<'a> {
         Some(plate)
     }
 
-    /// The carrier's plate with the classes of its holes, each as its shaft has a bearing there or none.
+    /// The carrier's plate with the classes of its holes, which depend on whether the hole holds a bearing.
     fn carrier(&self, mut plate: Plate) -> Plate {
         for hole in &mut plate.holes {
             let wide = hole.outline.bounds();

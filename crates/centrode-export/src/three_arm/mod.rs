@@ -47,8 +47,8 @@ pub fn machine(mechanism: &ThreeArm) -> Result<LinkedMachine, ExportError> {
     linked(&Parts::new(mechanism)?)
 }
 
-/// The mechanism as it moves and is drawn, without bodies: the gears with the teeth of a pair, or by their pitch curves
-/// alone, for which nothing is cut.
+/// The mechanism with its motion and its drawn lines, without bodies. The gears have teeth if a pair is given; otherwise pitch
+/// and tip curves are drawn, and no teeth are cut.
 ///
 /// # Errors
 /// [`ExportError`] where a part does not exist.
@@ -96,7 +96,7 @@ pub fn files(
     package.finish()
 }
 
-/// Words for the sheets of a gear.
+/// Names for the sheets of a gear.
 fn label<'a>(
     part: ThreeArmPart,
     arms: u32,

@@ -6,15 +6,15 @@ use std::fmt;
 pub enum ThreeArmPart {
     /// The gear fixed to the frame.
     Sun,
-    /// The gear between sun and planet, one an arm.
+    /// The gear between sun and planet, one per arm.
     Intermediate,
     /// The gear that carries an arm.
     Planet,
-    /// The cam on the carrier, one an arm.
+    /// The cam on the carrier, one per arm.
     Cam,
-    /// The fork between cam and push rod, one an arm.
+    /// The fork between cam and push rod, one per arm.
     Fork,
-    /// The roller on the fork, one an arm.
+    /// The roller on the fork, one per arm.
     Roller,
     /// The carrier's plate, on either side of the gears.
     Carrier,
@@ -26,9 +26,9 @@ pub enum ThreeArmPart {
     CoverRear,
     /// The cover of an arm's housing away from the gearbox.
     CoverFront,
-    /// A flake of the clamp, two an arm.
+    /// A flake of the clamp, two per arm.
     Clamp,
-    /// The push rod with its pusher, one an arm.
+    /// The push rod with its pusher, one per arm.
     PushRod,
     /// The assembly.
     Assembly,
@@ -73,14 +73,14 @@ impl ThreeArmPart {
         }
     }
 
-    /// How many a machine of so many arms has.
+    /// Number of these parts in a machine with `arms` arms.
     #[must_use]
     pub fn quantity(self, arms: u32) -> u32 {
         match self {
             Self::Sun | Self::Assembly => 1,
             Self::Carrier => 2,
             Self::Clamp => 2 * arms,
-            // As many to every arm as make three or more.
+            // An equal number per arm, at least three in total.
             Self::Spacer => arms * 3_u32.div_ceil(arms.max(1)),
             _ => arms,
         }

@@ -6,7 +6,7 @@ use super::limbs::Limbs;
 use super::links::{Builder, Laws};
 
 impl Builder<'_> {
-    /// Fork and rod of a chain on their arm: the cam moves the fork, the fork the rod, against its spring.
+    /// Fork and rod of a chain on their arm: the cam moves the fork, and the fork moves the rod against its spring.
     pub(super) fn pushed(
         &mut self,
         pusher: &Pusher,

@@ -1,7 +1,7 @@
 use centrode_geometry::{Mesh, Outline, Point, Segment, Vector};
 use centrode_machines::three_arm::ThreeArm;
 
-/// Thickness of what represents the ground, mm.
+/// Thickness of the body that represents the ground, mm.
 const GROUND: f64 = 20.0;
 
 /// The tray in space with the seedlings still in it: the arms pick from its middle column.
@@ -25,8 +25,8 @@ pub(super) fn tray_body(mechanism: &ThreeArm) -> Mesh {
     Mesh::joined(&bodies)
 }
 
-/// The ground with the seedlings planted in it, in a frame that moves back under the machine: at the
-/// first arm's planting the nearest seedling below is where it has just been planted.
+/// The ground with the seedlings planted in it, in a frame that moves back under the machine: when the first arm plants, the
+/// nearest seedling is at the position where it is planted.
 pub(super) fn ground_body(mechanism: &ThreeArm) -> Mesh {
     let design = mechanism.design();
     let level = mechanism.arm_level();
@@ -44,7 +44,7 @@ pub(super) fn ground_body(mechanism: &ThreeArm) -> Mesh {
     )];
     let spec = &design.seedling;
     if spec.width > 0.0 && spec.height > 0.0 && design.work.plant_spacing > 0.0 {
-        // Planted are those which the machine has passed: it moves towards the tray.
+        // The planted seedlings are behind the machine, which moves towards the tray.
         let forward = -mechanism.train().direction().sign();
         let planting = mechanism.planting(0);
         let at = mechanism.tip(planting, 0);

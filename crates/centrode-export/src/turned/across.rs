@@ -13,8 +13,8 @@ use crate::{fit, grade};
 /// Longest side of a section on paper, mm.
 const ROOM: f64 = 45.0;
 
-/// Section across a shaft of a diameter with its keyway, which lies to the left: what faces the viewer of the side view does when
-/// it is seen towards the left end. The keyway is symmetrical to datum A where there is such.
+/// Section across a shaft with its keyway, seen towards the left end: the keyway, which faces the viewer in the side view, is on
+/// the left. If the shaft has a datum A, the keyway has a symmetry tolerance to it.
 pub(crate) fn across(
     diameter: f64,
     keyway: Option<Keyway>,
@@ -103,15 +103,15 @@ fn slotted(radius: f64, key: Keyway, k: f64) -> Option<Outline> {
 /// Height of the letters of a cutting plane, and the distance of their middle from the tip of the arrow, mm.
 const LETTER: f64 = 3.5;
 const BEFORE: f64 = 3.2;
-/// From the outer end of the plane to the tip of its arrow, and how far it projects, mm.
+/// Length of the arrows of a cutting plane, and of the lines at its ends, mm.
 const ARROW: f64 = 7.0;
 const OUT: f64 = 6.0;
 
-/// Positions of a section along its keyway, as shares of its length, in the order in which they are tried.
+/// Positions of a section along its keyway, as fractions of the keyway's length, in the order tried.
 const PLANES: [f64; 7] = [0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8];
 
 /// The ends of the plane of a section across a shaft, seen towards the left end: in the middle of a keyway or near it, where its
-/// letters miss all that is drawn.
+/// letters touch nothing.
 pub(crate) fn cutting_plane(draft: &mut Draft, [from, to]: [f64; 2], height: f64, letter: char) {
     let places = PLANES.map(|share| from + share * (to - from));
     let free = places.into_iter().find(|x| {
@@ -131,7 +131,7 @@ pub(crate) fn cutting_plane(draft: &mut Draft, [from, to]: [f64; 2], height: f64
     }
 }
 
-/// Room that the letters of such a plane take, with some air about them.
+/// Bounds of the letters of a cutting plane, with a margin.
 fn plane_letters(x: f64, height: f64) -> [Bounds; 2] {
     [-1.0, 1.0].map(|side| {
         let middle = Point::new(x - ARROW - BEFORE, side * (height + OUT));

@@ -23,7 +23,7 @@ pub(crate) fn list(all: &[TurnedPieces], machine: &mut LinkedMachine) {
     }
 }
 
-/// States the sizes of turned parts that a machine lists.
+/// Writes the sizes of turned parts into the remarks of the parts that a machine lists.
 pub(crate) fn size(all: &[TurnedPieces], machine: &mut LinkedMachine) {
     for pieces in all {
         let listed = machine.parts.iter_mut();
@@ -44,7 +44,7 @@ fn remark(pieces: &TurnedPieces) -> String {
     }
 }
 
-/// Offers turned parts that are made: of each the contour for the lathe, the sheets and the exact body.
+/// Offers turned parts that are made: for each the contour for the lathe, the sheets, the exact body and its mesh.
 pub(crate) fn add(
     all: &[TurnedPieces],
     package: &mut Package<'_>,
@@ -84,7 +84,7 @@ fn made_rings(all: &[TurnedPieces]) -> Vec<Plate> {
                 continue;
             }
             let circle = |diameter: f64| Outline::circle(Point::origin(), 0.5 * diameter);
-            // A roller turns on its pin and is as hard.
+            // A roller turns on its pin and has the same heat treatment.
             let (bore, rim, treatment) = match spacer.kind {
                 SpacerKind::Roller => {
                     (&*pieces.fit.hole, Spacer::RIM, &*pieces.part.heat_treatment)
@@ -114,7 +114,7 @@ fn made_rings(all: &[TurnedPieces]) -> Vec<Plate> {
     found
 }
 
-/// A turned part as it is drawn, its axis along x.
+/// A turned part for drawings, its axis along x.
 struct Drawn<'a>(&'a TurnedPart);
 
 impl Deref for Drawn<'_> {
@@ -126,7 +126,7 @@ impl Deref for Drawn<'_> {
 }
 
 impl Drawn<'_> {
-    /// Corners of the upper half of its contour, from end to end along x, the ends' middles omitted.
+    /// Corners of the upper half of its contour, from end to end along x, without the centres of the end faces.
     fn half(&self) -> Vec<Point> {
         let (mut at, c) = (0.0, self.chamfer);
         let mut corners = Vec::new();

@@ -18,13 +18,13 @@ const SECTION: char = 'C';
 const GROOVE: &str = "H13";
 /// Decimals of lengths.
 const PLACES: usize = 3;
-/// Distance of heights that are one, mm: rounding.
+/// Distance below which two axial positions count as one, mm: rounding.
 const ROUNDING: f64 = 1e-6;
-/// Diameters of its own from which on a part is turned between centres.
+/// Length, in diameters, above which a part is turned between centres.
 const SLENDER: f64 = 3.0;
 /// Distance of dimension lines, mm, beyond the height of their letters.
 const ROW: f64 = 4.5;
-/// Most notes of diameters that are all on the right.
+/// Maximum number of notes of diameters that are all on the right.
 const LADDER: usize = 4;
 
 impl Drawn<'_> {
@@ -106,7 +106,7 @@ impl Drawn<'_> {
                 }
             }
         }
-        // Where the class changes on one diameter; grooves have edges.
+        // A thin line where only the class changes, not the diameter.
         for (pair, [_, end]) in self.steps.windows(2).zip(self.ends()) {
             let [one, other] = [&pair[0], &pair[1]];
             if one.diameter == other.diameter && one.class != other.class {
@@ -132,7 +132,7 @@ impl Drawn<'_> {
         draft
     }
 
-    /// Ends of the steps from the lower one on.
+    /// Start and end of each step along the axis, mm.
     fn ends(&self) -> Vec<[f64; 2]> {
         let mut at = 0.0;
         let steps = self.steps.iter().map(|step| {
@@ -149,7 +149,7 @@ impl Drawn<'_> {
         };
         let half = 0.5 * key.width * k;
         for ([from, to], round) in self.keyways() {
-            // Walls as far as the ends begin.
+            // The walls end where the round ends begin.
             let inset = round.map(|is_round| if is_round { half } else { 0.0 });
             let ends = [k * from + inset[0], k * to - inset[1]];
             for y in [-half, half] {
@@ -184,8 +184,8 @@ impl Drawn<'_> {
         cutting_plane(draft, [k * from, k * to], height, SECTION);
     }
 
-    /// Lengths that are dimensioned, with their words: of every step but grooves and the last one, and over all. Where
-    /// deviations hold for several steps between two grooves, their sum has them instead of the last of these.
+    /// Lengths with a dimension, and their words: every step except grooves and the last step, and the length over all. If
+    /// deviations hold for several steps together, the dimension of their sum replaces that of the last of them.
     fn dimensioned(&self) -> Vec<([f64; 2], String)> {
         let last = self.steps.len() - 1;
         let inside = |held: &&HeldLength, [from, to]: [f64; 2]| {
@@ -216,9 +216,9 @@ impl Drawn<'_> {
         let keyed = if self.keyway.is_some() { 9.0 } else { 0.0 };
         let p = |x: f64| Point::new(k * x, -radius);
         let mut lower = radius + keyed;
-        // Extension lines of the dimensions below run through the words of those above.
+        // Extension lines of lower dimensions may run through the words of upper ones.
         let crossing: Vec<f64> = self.ends().into_iter().flatten().map(|x| k * x).collect();
-        // Where the last line ends, if words beyond it leave room for another.
+        // End of the last dimension line, if its words fit between its arrows, so that the next dimension fits in its row.
         let mut free = f64::INFINITY;
         for ([from, to], words) in self.dimensioned() {
             let is_held = draft.holds(k * (to - from), &words);
@@ -231,7 +231,7 @@ impl Drawn<'_> {
         }
     }
 
-    /// The longest step with a class, to which all others run out; none of a part of one step.
+    /// The longest step with a class, the datum for the runout of all others; `None` for a part of one step.
     fn datum(&self) -> Option<usize> {
         let steps = self.steps.iter().enumerate();
         let fitted = steps.filter(|(_, step)| step.ring.is_none() && !step.class.is_empty());
@@ -241,7 +241,7 @@ impl Drawn<'_> {
             .filter(|_| self.steps.len() > 1)
     }
 
-    /// Diameters above the view, lower towards the end on whose side they are, and the chamfers.
+    /// Notes of the diameters and chamfers above the view; on each side they are lower towards the end of the part.
     fn diameters(&self, draft: &mut Draft, k: f64) {
         let datum = self.datum();
         let notes = self.steps.iter().zip(self.ends()).enumerate();
@@ -276,7 +276,7 @@ impl Drawn<'_> {
         let row = draft.lettering() + 2.0;
         let keyed = if self.keyway.is_some() { 9.0 } else { 0.0 };
         let lowest = 0.5 * k * self.diameter() + keyed + 6.0;
-        // Many of them on both sides: a leader from farther in rises next to no words.
+        // If there are many notes, they are on both sides, so that leaders from farther in pass no words.
         let left = if notes.len() > LADDER {
             notes.len() / 2
         } else {

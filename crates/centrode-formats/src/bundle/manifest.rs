@@ -15,8 +15,8 @@ const LISTED: usize = 5;
 impl Bundle {
     /// The manifest of a folder after this bundle is written there.
     ///
-    /// It also has the files that are there now and the manifest knows: after a kill while files are renamed, old and new
-    /// ones are both known.
+    /// It also lists the present versions of files that the old manifest lists: if the program is killed while it renames files,
+    /// old and new versions are both listed.
     ///
     /// # Errors
     /// [`BundleError::Foreign`] if a file would be replaced that no export wrote, or that was changed since.

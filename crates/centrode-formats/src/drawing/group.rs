@@ -2,12 +2,12 @@ use super::Entity;
 use centrode_geometry::{Bounds, Outline, Point, Vector};
 use nalgebra::Isometry2;
 
-/// Entities that are one object in programs which know it: a dimension, a hatched area.
+/// Entities that are one object in programs that support it: a dimension, a hatched area.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Group {
-    /// Meaning of them together.
+    /// Meaning of the group.
     pub object: Object,
-    /// How it looks, for all who do not know such objects.
+    /// Entities that show the object where it is not supported.
     pub drawn: Vec<Entity>,
 }
 
@@ -35,7 +35,7 @@ pub struct Dimension {
     pub words: String,
     /// Height of the letters, mm.
     pub letters: f64,
-    /// Millimetres on paper for one of the part.
+    /// Millimetres on paper per millimetre of the part.
     pub scale: f64,
 }
 

@@ -6,8 +6,8 @@ use super::{Curves, STYLE};
 use crate::drawing::{Anchor, Drawing, Entity, EntityShape, Object, Text};
 use centrode_geometry::{Arc, Point, Segment, Tolerance};
 
-/// Writes the entities of a drawing, owned by the model space; each looks as its layer says. The newer version has
-/// the width of the lines at each entity too: some programs ignore that of the layer.
+/// Writes the entities of a drawing, owned by the model space; each has the appearance of its layer. The newer version has the
+/// width of the lines at each entity too: some programs ignore that of the layer.
 pub(super) fn entities(writer: &mut Writer<'_>, drawing: &Drawing, space: Handle) {
     writer.file.section("ENTITIES");
     writer.owner = space;
@@ -40,7 +40,7 @@ pub(super) struct Writer<'a> {
     pub(super) file: &'a mut Pairs,
     /// Space or block the entities belong to.
     pub(super) owner: Handle,
-    /// Weight of the lines of the entity to come.
+    /// Weight of the lines of the next entity.
     weight: Option<u32>,
     curves: Curves,
     pub(super) tolerance: Tolerance,
@@ -112,7 +112,7 @@ impl Writer<'_> {
                 file.class("AcDbArc").number(50, start).number(51, end);
             }
             EntityShape::Triangle([a, b, c]) => {
-                // A fourth corner on the third: that is how a triangle is written.
+                // A triangle is written with a fourth corner on the third.
                 let solid = self.begin("SOLID", layer, "AcDbTrace");
                 solid.point(10, a).point(11, b).point(12, c).point(13, c);
             }
@@ -201,7 +201,7 @@ impl Writer<'_> {
     }
 }
 
-/// Start and end angle in degrees of an arc run through counter-clockwise, in the order of DXF.
+/// Start and end angle of an arc in degrees, counter-clockwise as DXF requires.
 fn angles(arc: &Arc) -> [f64; 2] {
     let center = arc.center();
     let angle = |p: &Point| {
@@ -218,8 +218,8 @@ fn angles(arc: &Arc) -> [f64; 2] {
     ends.map(angle)
 }
 
-/// Justification of a text between its two points. A fitted text has the same length whatever font a program
-/// has at hand; of very short ones a program would stretch a single letter.
+/// Justification of a text between its two points. A fitted text has the same length with any font of a program. Very short texts
+/// are not fitted: a program would stretch a single letter.
 fn justification(text: &Text) -> (u32, [Point; 2]) {
     match (text.width, text.anchor) {
         (Some(_), _) if text.words.chars().count() > 3 => (5, text.baseline()),

@@ -16,7 +16,7 @@ pub enum Version {
     /// Release 2010: lightweight polylines.
     #[default]
     R2010,
-    /// Release 12: heavy polylines, for old controllers. Knows no splines.
+    /// Release 12: heavy polylines, for old controllers. It has no splines.
     R12,
 }
 
@@ -53,8 +53,8 @@ pub enum DxfError {
     },
 }
 
-/// Writes a drawing as DXF text in millimetres (`$INSUNITS` 4), each contour one closed entity within the tolerance, a circle as such.
-/// Equal drawings give equal bytes: dates and identifiers are fixed.
+/// Writes a drawing as DXF text in millimetres (`$INSUNITS` 4), each contour as one closed entity within the tolerance; a circle
+/// is written as a circle. Equal drawings give equal bytes: dates and identifiers are fixed.
 ///
 /// # Errors
 /// [`DxfError`] for splines in R12 or an entity without a layer.
@@ -93,7 +93,7 @@ pub fn write(
     Ok(file.followed_by(&body))
 }
 
-/// Text style of fitted texts: the ISO 3098 shapes that drawing programs bring along.
+/// Text style of fitted texts: the ISO 3098 shapes that drawing programs include.
 const STYLE: &str = "ISO3098";
 const STYLE_FONT: &str = "isocp.shx";
 

@@ -1,4 +1,4 @@
-//! Objects the newer version knows beyond lines and words: dimensions with their styles and pictures, hatched areas.
+//! Objects that only the newer version has: dimensions with their styles and pictures, hatched areas.
 
 use super::entities::Writer;
 use super::pairs::{Handle, Pairs};
@@ -6,14 +6,14 @@ use super::tables::{record, table};
 use crate::drawing::{Dimension, Drawing, EntityShape, Group, Hatch, Object};
 use centrode_geometry::{Point, Segment};
 
-/// Style of dimensions in letters of one height at one scale.
+/// Style of dimensions with one height of letters and one scale.
 #[derive(Clone, Copy, PartialEq)]
 struct Style {
     letters: f64,
     scale: f64,
 }
 
-/// The dimensions of a drawing, each with what is drawn for it.
+/// The dimensions of a drawing, each with its group of drawn entities.
 fn dimensions(drawing: &Drawing) -> impl Iterator<Item = (&Dimension, &Group)> {
     drawing
         .entities
@@ -73,7 +73,7 @@ pub(super) fn dimension_styles(file: &mut Pairs, drawing: &Drawing, lettering: O
     record(file, owner, "DIMSTYLE", CLASS, "STANDARD");
     for style in &styles {
         record(file, owner, "DIMSTYLE", CLASS, &style.name(&styles));
-        // Size of all, arrows, gap and length of extension lines, letters, factor of lengths, gap below words.
+        // Overall factor, arrows, gap and length of extension lines, letters, factor of lengths, gap below words.
         for (code, value) in [
             (40, 1.0),
             (41, 3.0),
@@ -113,7 +113,7 @@ pub(super) fn blocks(
 }
 
 impl Writer<'_> {
-    /// Writes a linear dimension, the picture of which is in the block of its number.
+    /// Writes a linear dimension; its picture is in the block with its number.
     pub(super) fn dimension(
         &mut self,
         layer: &str,
@@ -164,7 +164,7 @@ impl Writer<'_> {
             file.whole(97, 0);
         }
         let degrees = hatch.angle.to_degrees();
-        // Every second area from outside, a pattern of its own.
+        // Hatch every second area from outside, with a user-defined pattern.
         file.whole(75, 0).whole(76, 0).number(52, degrees);
         file.number(41, hatch.spacing).whole(77, 0).whole(78, 1);
         file.number(53, degrees).number(43, hatch.origin.x);
@@ -175,7 +175,7 @@ impl Writer<'_> {
     }
 }
 
-/// Words of a dimension: a backslash and braces would begin codes.
+/// Words of a dimension with backslash and braces escaped, because they begin codes.
 fn escaped(words: &str) -> String {
     let mut out = String::new();
     for letter in words.chars() {

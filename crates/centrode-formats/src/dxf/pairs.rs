@@ -1,4 +1,4 @@
-//! Pairs of group code and value of which both versions are made, and the additions of the newer one to each entry.
+//! Pairs of group code and value, which make up a file of both versions, and the additions of the newer one to each entry.
 
 use super::Version;
 use centrode_geometry::Point;
@@ -11,7 +11,7 @@ pub(super) struct Pairs {
     next: u32,
 }
 
-/// Number by which entries of the newer version name one another; 0 names none.
+/// Number by which entries of the newer version refer to one another; 0 refers to none.
 #[derive(Clone, Copy)]
 pub(super) struct Handle(u32);
 
@@ -33,7 +33,7 @@ impl Pairs {
         self.version == Version::R2010
     }
 
-    /// The handle after the last that was given.
+    /// The next free handle.
     pub(super) fn seed(&self) -> Handle {
         Handle(self.next)
     }
@@ -105,7 +105,7 @@ impl Pairs {
         self.word(0, kind).identity(5, owner)
     }
 
-    /// Handle, at `code`, and owner of the entry begun; none in R12.
+    /// Writes handle (at `code`) and owner of the current entry; nothing in R12.
     pub(super) fn identity(&mut self, code: u16, owner: Handle) -> Handle {
         if !self.is_newer() {
             return Handle::NONE;

@@ -6,7 +6,7 @@ use super::{STYLE, STYLE_FONT, objects};
 use crate::drawing::{Color, Drawing, EntityShape, LineType};
 use centrode_geometry::{Bounds, Point};
 
-/// The header, which names the first handle that is free.
+/// Writes the header with the first free handle.
 pub(super) fn header(file: &mut Pairs, bounds: &Bounds, seed: Handle) {
     file.section("HEADER");
     let newer = file.is_newer();
@@ -16,7 +16,7 @@ pub(super) fn header(file: &mut Pairs, bounds: &Bounds, seed: Handle) {
         file.word(9, "$DWGCODEPAGE").word(3, "ANSI_1252");
         file.word(9, "$HANDSEED").handle(5, seed);
     }
-    // Both unknown to R12 itself, read by most programs since: line types and hatches from the metric files, millimetres.
+    // R12 itself lacks both variables, but most programs read them: metric line types and hatches, and millimetres.
     file.word(9, "$MEASUREMENT").whole(70, 1);
     file.word(9, "$INSUNITS").whole(70, 4);
     file.word(9, "$LTSCALE").number(40, 1.0);
@@ -36,8 +36,8 @@ pub(super) fn header(file: &mut Pairs, bounds: &Bounds, seed: Handle) {
     file.word(0, "ENDSEC");
 }
 
-/// Line types, layers and lettering styles, and all else the newer version must have; of that, the handles of the
-/// records of its blocks: the model space, which owns the entities, the paper space, and one for each dimension.
+/// Writes line types, layers and lettering styles, and all further tables that the newer version requires. Returns the handles of
+/// the newer version's block records: the model space, which owns the entities, the paper space, and one for each dimension.
 pub(super) fn tables(file: &mut Pairs, drawing: &Drawing, bounds: &Bounds) -> Option<Vec<Handle>> {
     file.section("TABLES");
     if file.is_newer() {
@@ -65,7 +65,7 @@ pub(super) fn blocks(writer: &mut Writer<'_>, drawing: &Drawing, records: &[Hand
 }
 
 fn block(writer: &mut Writer<'_>, name: &str, record: Handle, draw: &dyn Fn(&mut Writer<'_>)) {
-    // A block that programs have named themselves.
+    // Flag of a block with an automatic name.
     let own = u32::from(name.starts_with("*D"));
     writer.file.entry("BLOCK", record);
     writer.file.class("AcDbEntity").word(8, "0");
@@ -79,7 +79,7 @@ fn block(writer: &mut Writer<'_>, name: &str, record: Handle, draw: &dyn Fn(&mut
     file.class("AcDbBlockEnd");
 }
 
-/// The objects of the newer version: the root of its dictionaries, and the one of groups it must have.
+/// The objects of the newer version: the root dictionary, and the required dictionary of groups.
 pub(super) fn objects(file: &mut Pairs) {
     file.section("OBJECTS");
     let root = file.entry("DICTIONARY", Handle::NONE);
@@ -94,7 +94,7 @@ pub(super) fn objects(file: &mut Pairs) {
 /// Blocks every file of the newer version has: entities of the model, and of the paper.
 const SPACES: [&str; 2] = ["*Model_Space", "*Paper_Space"];
 
-/// Begins a table of so many records.
+/// Begins a table of `count` records.
 pub(super) fn table(file: &mut Pairs, name: &str, count: usize) -> Handle {
     let handle = file
         .word(0, "TABLE")
@@ -112,7 +112,7 @@ pub(super) fn record(
     class: &str,
     name: &str,
 ) -> Handle {
-    // The 5 of a dimension style is a block's name.
+    // In a dimension style code 5 is the name of a block.
     let code = if kind == "DIMSTYLE" { 105 } else { 5 };
     let handle = file.word(0, kind).identity(code, table);
     file.class("AcDbSymbolTableRecord").class(class);
@@ -189,7 +189,7 @@ fn layers(file: &mut Pairs, drawing: &Drawing) {
     file.word(0, "ENDTAB");
 }
 
-/// The lettering styles; the handle is that of fitted texts, where there are any.
+/// Writes the lettering styles; returns the handle of the style for fitted texts, if there are any.
 fn styles(file: &mut Pairs, drawing: &Drawing) -> Option<Handle> {
     let mut shapes = drawing.plain().map(|entity| &entity.shape);
     let fitted =
@@ -208,7 +208,7 @@ fn styles(file: &mut Pairs, drawing: &Drawing) -> Option<Handle> {
     last
 }
 
-/// Tables that only the newer version must have; the handles are those of its blocks.
+/// Writes the tables that only the newer version requires; returns the handles of its block records.
 fn newer_tables(file: &mut Pairs, drawing: &Drawing, lettering: Option<Handle>) -> Vec<Handle> {
     for name in ["VIEW", "UCS"] {
         table(file, name, 0);
@@ -251,7 +251,7 @@ fn description(line_type: LineType) -> &'static str {
     }
 }
 
-/// The color's number in the index every drawing program has.
+/// Number of a color in the color index of all drawing programs.
 fn color_index(color: Color) -> u8 {
     match color {
         Color::Red => 1,
@@ -264,7 +264,7 @@ fn color_index(color: Color) -> u8 {
     }
 }
 
-/// The line weight nearest to a width, among those the format has, in hundredths of a millimetre.
+/// The line weight of the format nearest to a width (mm), in hundredths of a millimetre.
 pub(super) fn weight(width: f64) -> u32 {
     const WEIGHTS: [u32; 24] = [
         0, 5, 9, 13, 15, 18, 20, 25, 30, 35, 40, 50, 53, 60, 70, 80, 90, 100, 106, 120, 140, 158,

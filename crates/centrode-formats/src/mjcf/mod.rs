@@ -9,7 +9,7 @@ use std::fmt::Write;
 use std::iter::successors;
 use thiserror::Error;
 
-/// Metres to the millimetre.
+/// Metres per millimetre.
 const METRE: f64 = 1e-3;
 
 /// Options of the solver: stiff contacts, resolved finely, so that a tooth sinks into its mate by less than a
@@ -30,7 +30,7 @@ const OPTIONS: &str = r#"  <compiler angle="radian" autolimits="true"/>
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum MjcfError {
-    /// A joint names a link that is not there.
+    /// A joint names a link that the model lacks.
     #[error("joint {joint:?} names link {link:?}, which is not in the model")]
     Link {
         /// The joint.
@@ -38,12 +38,12 @@ pub enum MjcfError {
         /// The missing link.
         link: String,
     },
-    /// The joints do not hang every link from the first one, once.
+    /// A link is not connected to the first one by exactly one chain of joints.
     #[error("link {link:?} is joined to the first link by {ways} chains of joints, not by one")]
     Tree {
         /// The link.
         link: String,
-        /// Number of chains; none may mean a ring.
+        /// Number of chains; 0 may mean a ring.
         ways: usize,
     },
     /// A link that moves has no mass.
@@ -54,7 +54,7 @@ pub enum MjcfError {
     },
 }
 
-/// Point at which two links are pinned to each other next to the tree of joints, which closes a loop.
+/// Pin between two links that is not in the tree of joints and closes a loop.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Closure {
     /// Name.
@@ -67,11 +67,11 @@ pub struct Closure {
     pub at: [f64; 3],
 }
 
-/// Writes a model as MJCF: metres, kilograms, radians; meshes to look at by file name next to it, scaled from mm,
-/// and convex bodies, inline, to touch with.
+/// Writes a model as MJCF: metres, kilograms, radians; visible meshes by the names of files next to it, scaled from mm; convex
+/// collision bodies inline.
 ///
 /// # Errors
-/// [`MjcfError`] where the links are no tree or one that turns has no mass.
+/// [`MjcfError`] if the links do not form a tree or a moving link has no mass.
 pub fn write(model: &Model) -> Result<Vec<u8>, MjcfError> {
     write_closed(model, &[])
 }
@@ -79,7 +79,7 @@ pub fn write(model: &Model) -> Result<Vec<u8>, MjcfError> {
 /// Writes a model with loops, closed by stiff equality constraints.
 ///
 /// # Errors
-/// Those of [`write()`], and where a closure names a link the model has not.
+/// Those of [`write()`], and if a closure names a link that the model lacks.
 pub fn write_closed(model: &Model, closures: &[Closure]) -> Result<Vec<u8>, MjcfError> {
     is_tree(model)?;
     for closure in closures {
@@ -118,7 +118,7 @@ pub fn write_closed(model: &Model, closures: &[Closure]) -> Result<Vec<u8>, Mjcf
     Ok(xml.into_bytes())
 }
 
-/// Checks that every link is carried by one joint, the first by none, and hangs from the first in the end.
+/// Checks that one joint carries every link except the first, and that a chain of joints connects each link to the first.
 fn is_tree(model: &Model) -> Result<(), MjcfError> {
     let index = |joint: &ModelJoint, end: &str| {
         let found = model.links.iter().position(|link| link.name == end);
@@ -134,7 +134,7 @@ fn is_tree(model: &Model) -> Result<(), MjcfError> {
     for (index, link) in model.links.iter().enumerate() {
         let carriers = ends.iter().filter(|[_, child]| *child == index).count();
         let ways = carriers + usize::from(index == 0);
-        // Carried once each, links that never come to the first make a ring.
+        // Links that are each carried once, but have no chain to the first link, form a ring.
         let chain = successors(Some(index), |link| Some(carrier(link)?[0]));
         let is_ring = || chain.take(ends.len() + 2).count() > ends.len() + 1;
         let ways = if ways == 1 && is_ring() { 0 } else { ways };
@@ -148,7 +148,7 @@ fn is_tree(model: &Model) -> Result<(), MjcfError> {
 
 fn assets<'a>(xml: &mut String, link: &'a ModelLink, written: &mut BTreeSet<&'a str>) {
     for (index, seen) in link.meshes.iter().enumerate() {
-        // Links may have bodies of one file.
+        // Several links may have bodies from the same file.
         let name = asset(link, index);
         if index > 0 && !written.insert(name) {
             continue;
@@ -175,7 +175,7 @@ fn assets<'a>(xml: &mut String, link: &'a ModelLink, written: &mut BTreeSet<&'a 
     }
 }
 
-/// Name of a mesh that a link is seen as: the first that of the link, others that of their file.
+/// Name of a visible mesh of a link: the first has the name of the link, others that of their file.
 fn asset(link: &ModelLink, index: usize) -> &str {
     match index {
         0 => &link.name,
@@ -206,7 +206,7 @@ fn geoms(xml: &mut String, link: &ModelLink, depth: usize) {
     }
 }
 
-/// Attribute of a turn by roll, pitch and yaw; nothing for none.
+/// Attribute of a turn by roll, pitch and yaw; empty without a turn.
 fn quaternion(turn: [f64; 3]) -> String {
     match turn {
         [0.0, 0.0, 0.0] => String::new(),
@@ -217,7 +217,7 @@ fn quaternion(turn: [f64; 3]) -> String {
     }
 }
 
-/// Writes the links a link carries, each with all that it carries in turn.
+/// Writes the links that a link carries, each with the links that it carries in turn.
 fn children(
     xml: &mut String,
     model: &Model,
@@ -253,7 +253,7 @@ fn children(
     Ok(())
 }
 
-/// Writes the joints of a body on the one that carries it.
+/// Writes the joint of a body on its carrier.
 fn moves(xml: &mut String, joint: &ModelJoint, depth: usize) {
     let (name, axis) = (quoted(&joint.name), numbers(joint.axis));
     match joint.kind {
@@ -288,7 +288,7 @@ fn inertial(xml: &mut String, mass: &MassProperties, depth: usize) {
     );
 }
 
-/// Stiffness of a closure: it is off by less than a hundredth of a micrometre under the weight of its links.
+/// Stiffness of a closure: its links are apart by less than a hundredth of a micrometre under the weight of its links.
 const CLOSED: &str = r#"solref="0.0004 1" solimp="0.9999 0.9999 0.001""#;
 
 fn equalities(xml: &mut String, model: &Model, closures: &[Closure]) {

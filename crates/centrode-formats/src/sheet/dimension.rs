@@ -8,10 +8,10 @@ use centrode_geometry::{Arc, Bounds, Point, Vector};
 const LIFT: f64 = 1.3;
 /// Length of an extension line beyond the dimension line, mm.
 const BEYOND: f64 = 2.0;
-/// Step by which a leader is moved to run clear of words, mm, and the most steps.
+/// Step by which a leader is moved to avoid words, mm, and the maximum number of steps.
 const CLEARING: f64 = 1.5;
 const TRIES: u32 = 40;
-/// Air next to the words of a dimension, mm, and what they are moved by to keep it whatever the rounding.
+/// Gap next to the words of a dimension, mm, and an extra distance that ensures this gap in spite of rounding, mm.
 const AIR: f64 = 1.0;
 const NUDGE: f64 = 1e-6;
 /// Distance of an extension line from its feature, mm.
@@ -25,7 +25,7 @@ impl Draft {
         self.dimension_clear_of(ends, along, at, words, &[]);
     }
 
-    /// Draws a dimension whose words leave lines square to it free, given by their positions along the direction, mm.
+    /// Draws a dimension whose words avoid lines normal to it; `lines` has their positions along the direction, mm.
     pub fn dimension_clear_of(
         &mut self,
         [a, b]: [Point; 2],
@@ -91,20 +91,19 @@ impl Draft {
         self.gather(first, Pen::Dimension, Object::Dimension(dimension));
     }
 
-    /// Whether the words of a dimension of a length, mm, go between its arrows, which are between its ends.
+    /// Whether the arrows of a dimension of this length (mm) fit between its ends, and its words between the arrows.
     pub fn holds(&self, length: f64, words: &str) -> bool {
         let (inside, between, _) = fitting(length, lettering::width(words, self.letters));
         inside && between
     }
 
-    /// Draws a note with an arrow: a line from `tip` to `elbow`, then level under the words; a second line of
-    /// words is put below.
+    /// Draws a note with an arrow: a line from `tip` to `elbow`, then level under the words; further lines of words are below.
     pub fn leader(&mut self, tip: Point, elbow: Point, words: &[String]) {
         let lines: Vec<NoteLine> = words.iter().cloned().map(NoteLine::from).collect();
         self.note(tip, elbow, &lines);
     }
 
-    /// Draws a note with an arrow, some of its lines frames.
+    /// Draws a note with an arrow; some of its lines may be tolerance frames.
     pub fn note(&mut self, tip: Point, elbow: Point, words: &[NoteLine]) {
         self.arrow(tip, tip - elbow);
         self.line(Pen::Dimension, tip, elbow);
@@ -127,8 +126,8 @@ impl Draft {
         }
     }
 
-    /// Draws notes in two columns left and right of a view, each with a leader to its point, in the order of
-    /// the points so that leaders do not cross. `band` of heights is left free, and leaders run clear of words there are.
+    /// Draws notes in two columns left and right of a view, each with a leader to its point, in the order of the points so that
+    /// leaders do not cross. The `band` of heights stays free, and leaders avoid existing words.
     pub fn callouts(&mut self, around: Bounds, band: [f64; 2], notes: &[(Point, Vec<String>)]) {
         let lines = |(tip, words): &(Point, Vec<String>)| {
             let lines = words.iter().cloned().map(NoteLine::from);
@@ -137,7 +136,7 @@ impl Draft {
         self.call_out(around, band, &notes.iter().map(lines).collect::<Vec<_>>());
     }
 
-    /// Draws notes left and right of a view, some of their lines frames.
+    /// Draws notes left and right of a view; some of their lines may be tolerance frames.
     pub fn call_out(&mut self, around: Bounds, band: [f64; 2], notes: &[(Point, Vec<NoteLine>)]) {
         let middle = steady(0.5 * (around.min.x + around.max.x));
         for right in [false, true] {
@@ -173,8 +172,8 @@ impl Draft {
         }
     }
 
-    /// The allowed height nearest to an elbow's, by steps, at which a leader to it runs through no words; its own where there is
-    /// none.
+    /// The allowed height of an elbow, nearest to its own by steps, at which the leader runs through no words; its own height if
+    /// there is none.
     fn clear(&self, tip: Point, elbow: Point, allowed: impl Fn(f64) -> bool) -> f64 {
         let steps = (0..TRIES).map(|i| CLEARING * f64::from(i));
         let mut heights = steps.flat_map(|step| [elbow.y + step, elbow.y - step]);
@@ -199,8 +198,8 @@ impl Draft {
     }
 }
 
-/// Whether arrows fit inside a dimension, whether its words fit between them, and how far beyond its start the middle of the
-/// words is, mm.
+/// Whether arrows fit inside a dimension, whether its words fit between them, and the distance from its start to the middle of
+/// the words, mm.
 fn fitting(length: f64, width: f64) -> (bool, bool, f64) {
     let inside = length >= 2.5 * ARROW;
     let between = inside && width + 1.0 <= length;
@@ -212,8 +211,8 @@ fn fitting(length: f64, width: f64) -> (bool, bool, f64) {
     (inside, between, middle)
 }
 
-/// Middle of the words of a dimension nearest to the usual one at which they leave lines free, mm from its start; the usual one
-/// where there is none. Words between the arrows stay there, others move outwards.
+/// Middle of the words of a dimension, mm from its start: the position nearest to the usual one at which the words touch no line,
+/// or the usual one if there is none. Words between the arrows stay between them, others move outwards.
 fn clear_middle(length: f64, width: f64, between: bool, usual: f64, lines: &[f64]) -> f64 {
     let half = 0.5 * width + AIR;
     let free = |middle: &f64| lines.iter().all(|line| (line - middle).abs() > half);
@@ -235,7 +234,7 @@ fn clear_middle(length: f64, width: f64, between: bool, usual: f64, lines: &[f64
     middles.first().copied().unwrap_or(usual)
 }
 
-/// Stretch of its line that the words of a dimension take with some air, mm.
+/// Range of the dimension line that its words take, with gaps, mm.
 pub fn dimension_words([a, b]: [f64; 2], words: &str, letters: f64) -> [f64; 2] {
     let width = lettering::width(words, letters);
     let (_, _, middle) = fitting((b - a).abs(), width);

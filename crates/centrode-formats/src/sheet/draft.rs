@@ -8,40 +8,40 @@ use centrode_geometry::{Bounds, Outline, Point, Vector};
 /// Length of an arrow head, mm.
 pub(super) const ARROW: f64 = 3.0;
 
-/// Minimum share of its natural length to which a line of text may be squeezed.
+/// Minimum length of a squeezed line of text, relative to its natural length.
 const SQUEEZE: f64 = 0.7;
 
-/// Piece of a sheet in paper millimetres, its origin wherever is handy until it is placed.
+/// Piece of a sheet in millimetres on paper; its origin is arbitrary until it is placed.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Draft {
     entities: Vec<Entity>,
     known: Known,
     /// Height of the letters of dimensions and notes, mm.
     pub(super) letters: f64,
-    /// Millimetres on paper for one of the part.
+    /// Millimetres on paper per millimetre of the part.
     pub(super) scale: f64,
 }
 
-/// Covered places of the first entities, found when they are first requested.
+/// Areas covered by the first entities, computed when they are first needed.
 #[derive(Clone, Debug, Default)]
 struct Known(RefCell<Vec<Covered>>);
 
 impl PartialEq for Known {
-    /// It follows from the entities.
+    /// Always true: the areas follow from the entities.
     fn eq(&self, _: &Self) -> bool {
         true
     }
 }
 
 impl Default for Draft {
-    /// Empty draft, to be dimensioned in letters of 3.5 mm.
+    /// Empty draft with letters of 3.5 mm.
     fn default() -> Self {
         Self::lettered(3.5)
     }
 }
 
 impl Draft {
-    /// Empty draft, to be dimensioned in letters of this height, mm.
+    /// Empty draft with letters of this height for dimensions and notes, mm.
     #[must_use]
     pub fn lettered(letters: f64) -> Self {
         Self {
@@ -52,7 +52,7 @@ impl Draft {
         }
     }
 
-    /// The draft as one at a scale, millimetres on paper for one of the part.
+    /// The draft with a scale, millimetres on paper per millimetre of the part.
     #[must_use]
     pub fn at_scale(self, scale: f64) -> Self {
         Self { scale, ..self }
@@ -115,8 +115,8 @@ impl Draft {
         self.draw(Pen::Text, EntityShape::Text(text));
     }
 
-    /// Writes words no longer than a room: in the first height that fits, squeezed if none does, and cut
-    /// short with dots if that is not enough either.
+    /// Writes words no longer than `room`, mm: with the first height that fits, otherwise squeezed, and if necessary cut short
+    /// with dots.
     pub fn text_within(
         &mut self,
         at: Point,
@@ -167,7 +167,7 @@ impl Draft {
         self.any(|covered| covered.is_struck(line))
     }
 
-    /// Whether what an entity covers is such.
+    /// Whether the area that any entity covers meets a condition.
     fn any(&self, is: impl Fn(&Covered) -> bool) -> bool {
         let mut known = self.known.0.borrow_mut();
         let new = &self.entities[known.len()..];
@@ -183,7 +183,7 @@ impl Draft {
         self.entities.len()
     }
 
-    /// Makes one object of all entities from a number on, on the layer of a pen.
+    /// Makes one object of all entities from an index on, on the layer of a pen.
     pub(super) fn gather(&mut self, from: usize, pen: Pen, object: Object) {
         let drawn = self.entities.split_off(from);
         self.known.0.get_mut().truncate(from);

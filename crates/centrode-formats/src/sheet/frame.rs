@@ -68,7 +68,7 @@ pub(super) fn draw(size: SheetSize) -> Draft {
     draft.line(Pen::Frame, p(x, outer.max.y), p(x, inner.max.y - GRID));
     draft.line(Pen::Frame, p(outer.min.x, y), p(inner.min.x + GRID, y));
     draft.line(Pen::Frame, p(outer.max.x, y), p(inner.max.x - GRID, y));
-    // Into the drawing space only where the title block leaves room.
+    // The lower mark extends into the drawing space only where the title block leaves room.
     let block = inner.max.x - title_block::WIDTH;
     let up = if x > block { 0.0 } else { GRID };
     draft.line(Pen::Frame, p(x, outer.min.y), p(x, inner.min.y + up));
@@ -78,7 +78,7 @@ pub(super) fn draw(size: SheetSize) -> Draft {
 /// Letters of the grid, from the top; I and O would be read as figures.
 const LETTERS: &str = "ABCDEFGHJKLMNPQRSTUVWXYZ";
 
-/// Fields of 50 mm on both sides of the middle; the outermost take what is left.
+/// Fields of 50 mm on both sides of the middle; the outermost fields take the rest.
 fn fields(
     middle: f64,
     low: f64,

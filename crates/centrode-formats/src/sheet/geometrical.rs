@@ -72,7 +72,7 @@ impl From<Frame> for NoteLine {
 }
 
 impl fmt::Display for NoteLine {
-    /// The words; those of a frame say what it shows.
+    /// The words; a frame is written in words.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Words(words) => f.write_str(words),
@@ -91,7 +91,7 @@ pub struct Frame {
 }
 
 impl Frame {
-    /// Datum of a letter.
+    /// Datum with a letter.
     pub fn datum(letter: char) -> Self {
         Self {
             characteristic: Characteristic::Datum,
@@ -99,7 +99,7 @@ impl Frame {
         }
     }
 
-    /// Tolerance of a value, with its unit mm unwritten, and the letters of its datums, a space between them.
+    /// Tolerance with a value in mm, written without the unit, and the letters of its datums, separated by spaces.
     pub fn new(characteristic: Characteristic, value: String, datums: &str) -> Self {
         let letters = datums.split(' ').map(String::from);
         Self {

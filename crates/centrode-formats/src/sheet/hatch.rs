@@ -7,7 +7,7 @@ use std::f64::consts::FRAC_PI_4;
 /// Distance of hatching lines, mm.
 const SPACING: f64 = 2.0;
 
-/// Maximum extent of a hatched area on paper, mm: some times that of the largest sheet.
+/// Maximum extent of a hatched area on paper, mm: several times that of the largest sheet.
 const LARGEST: f64 = 1e4;
 
 impl Draft {
@@ -22,7 +22,7 @@ impl Draft {
         let heights = || rings.iter().flatten().map(|p| p.y);
         let low = heights().fold(f64::INFINITY, f64::min);
         let high = heights().fold(f64::NEG_INFINITY, f64::max);
-        // What no sheet takes is not drawn at this scale.
+        // An area that fits on no sheet is not hatched at this scale.
         if high - low > LARGEST {
             return;
         }

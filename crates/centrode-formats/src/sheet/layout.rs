@@ -8,7 +8,7 @@ const GAP: f64 = 6.0;
 /// Minimum number of rows for which a part of a table is started.
 const FEWEST: usize = 10;
 
-/// Corner of the drawing space near which a piece is to be.
+/// Corner of the drawing space near which a piece is placed.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum Corner {
     /// Upper left.
@@ -21,7 +21,7 @@ pub enum Corner {
     LowerRight,
 }
 
-/// Page while pieces are placed on it: the maximum empty rectangles, overlapping each other.
+/// Page while pieces are placed on it; `free` has the largest empty rectangles, which may overlap.
 #[derive(Clone, Debug)]
 pub(crate) struct Page {
     room: Bounds,
@@ -31,7 +31,7 @@ pub(crate) struct Page {
 }
 
 impl Page {
-    /// Page of this room less a rectangle that is taken.
+    /// Page with this room, except a rectangle that is taken.
     pub(crate) fn new(room: Bounds, taken: Bounds) -> Self {
         let mut page = Self {
             room,
@@ -99,7 +99,7 @@ impl Page {
         self.free = kept.map(|(_, f)| *f).collect();
     }
 
-    /// The lower left corner for a rectangle of this size, as near to a corner as there is room.
+    /// The lower left corner for a rectangle of this size, as near to a corner of the page as possible.
     fn find(&self, size: Vector, corner: Corner) -> Option<Point> {
         let target = match corner {
             Corner::UpperLeft => Point::new(self.room.min.x, self.room.max.y),
@@ -149,7 +149,7 @@ impl Page {
         true
     }
 
-    /// Places rows of a table from the first on that is not placed; `None` when no useful part fits.
+    /// Places rows of a table from row `first` on; returns their number, or `None` if no useful part fits.
     pub(crate) fn place_rows(&mut self, table: &Table, first: usize) -> Option<usize> {
         let left = table.rows.len() - first;
         let width = table.width();
@@ -169,7 +169,7 @@ impl Page {
             })
             .copied()?;
         let whole = holds(&best);
-        // Next to views a table is not broken.
+        // A table next to views is not split.
         if !whole && self.pieces.iter().any(|(_, _, floats)| *floats) {
             return None;
         }

@@ -29,7 +29,7 @@ static METRICS: LazyLock<(BTreeMap<u32, Metrics>, Metrics)> = LazyLock::new(|| {
             .as_ref()
             .map(|face| face.glyph_metrics(Size::unscaled(), LocationRef::default()));
         let advance = widths.and_then(|w| w.advance_width(glyph));
-        // The font stores no box around the ink that can be trusted: the outline is walked.
+        // The boxes around the ink that the font stores are not reliable: they are computed from the outline.
         let mut pen = ControlBoundsPen::new();
         draw(glyph, &mut pen);
         let corner = |x: f32, y: f32| Point::new(f64::from(x), f64::from(y)) / UNITS;
@@ -58,13 +58,13 @@ fn draw(glyph: GlyphId, pen: &mut impl OutlinePen) {
     }
 }
 
-/// Font units an em.
+/// Font units per em.
 pub(crate) const UNITS: f64 = 1024.0;
 
-/// Height of a capital, as a share of the em.
+/// Height of a capital, relative to the em.
 const CAPITAL: f64 = 736.0 / UNITS;
 
-/// Size of the font, mm an em, for capitals of this height.
+/// Size of the font, mm per em, for capitals of this height.
 #[must_use]
 pub(crate) fn em(height: f64) -> f64 {
     height / CAPITAL
@@ -79,18 +79,18 @@ pub(crate) struct Letter {
 }
 
 impl Letter {
-    /// Whether there is anything to draw: a blank has none.
+    /// Whether there is anything to draw; false for a blank.
     pub(crate) fn is_inked(&self) -> bool {
         self.ink.is_some()
     }
 
-    /// The empty box instead of a letter that the font has not, in ems from its start.
+    /// The empty box instead of a letter that the font lacks, in ems from its start.
     pub(crate) fn empty_box(&self) -> Option<Bounds> {
         self.ink.filter(|_| self.glyph == GlyphId::NOTDEF.to_u32())
     }
 }
 
-/// The letters of a line; one the font has not becomes its empty box.
+/// The letters of a line; a letter that the font lacks becomes the empty box.
 pub(crate) fn letters(words: &str) -> impl Iterator<Item = Letter> + '_ {
     let (letters, missing) = &*METRICS;
     words.char_indices().map(move |(at, c)| {

@@ -35,8 +35,8 @@ pub use title_block::TitleBlock;
 /// Distance of everything from the frame, mm: room for the centring marks.
 const INSET: f64 = 7.0;
 
-/// Share of the room of a sheet that the pieces of a view at full scale or larger take at least; a sheet that they leave emptier gives
-/// way to a smaller one with a reduced view.
+/// Minimum fraction of a sheet's room that the pieces must take at full scale or larger; an emptier sheet is replaced by a
+/// smaller one with a reduced view.
 const FILLED: f64 = 0.5;
 /// Minimum length on paper of the longest side of a view that is reduced for a smaller sheet, mm.
 const READABLE: f64 = 100.0;
@@ -83,9 +83,9 @@ pub enum SheetError {
 /// Composes the sheets of a drawing: the pieces on the first, at the largest recommended scale that fits; the
 /// tables where there is room left, and on further sheets.
 ///
-/// `extent` is the longest side of a view at full scale, mm: no scale is tried at which it alone is too
-/// long. Without a requested size it is the smallest sheet that takes all pieces at full scale or larger, or A0; where the
-/// pieces take less than half of its room, a smaller one that takes them reduced, the longest side still 100 mm on paper.
+/// `extent` is the longest side of a view at full scale, mm: no scale is tried at which it alone is too long. Without a requested
+/// size the sheet is the smallest one on which all pieces fit at full scale or larger, or A0. If the pieces take less than half
+/// of its room, it is a smaller one on which they fit reduced, with the longest side at least 100 mm on paper.
 ///
 /// # Errors
 /// [`SheetError`] if views or a table do not fit on the requested sheet.
@@ -123,7 +123,7 @@ pub fn compose(
         Some((size, _, page, _)) if is_empty(page, *size) => {
             let readable = |s: &&Scale| s.factor() * extent >= READABLE;
             let reduced: Vec<Scale> = reduced.iter().filter(readable).copied().collect();
-            // The smallest sheet has smaller letters, too.
+            // A4 is excluded: it has smaller letters.
             let larger = |own: &&SheetSize| **own > SheetSize::A4 && *own < size;
             let mut sizes = sizes.iter().filter(larger);
             sizes.find_map(|&size| complete(size, &reduced))
@@ -181,7 +181,7 @@ fn blank(size: SheetSize) -> Page {
     Page::new(room(size), block_place(size))
 }
 
-/// A page with all views on it, and the pieces that found no room, those that wait last; `None` if a view did not.
+/// A page with all leading views, and the pieces without room, with the waiting ones last; `None` if a leading view has no room.
 fn place(size: SheetSize, pieces: Vec<SheetBlock>) -> Option<(Page, Vec<SheetBlock>)> {
     let (waiting, pieces): (Vec<SheetBlock>, Vec<SheetBlock>) =
         pieces.into_iter().partition(|p| p.waits);
@@ -199,7 +199,7 @@ fn placed(size: SheetSize, pieces: Vec<SheetBlock>) -> Option<(Page, Vec<SheetBl
     let mut rest = Vec::new();
     let (views, others): (Vec<SheetBlock>, Vec<SheetBlock>) =
         pieces.into_iter().partition(|p| p.floats);
-    // With all the pieces, if that works; the views alone otherwise.
+    // Tables and notes first, if all pieces fit; otherwise the views first.
     let mut whole = page.clone();
     let all = others
         .iter()

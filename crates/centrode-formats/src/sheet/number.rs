@@ -1,4 +1,4 @@
-/// Number to so many decimals, without trailing zeros.
+/// Number with at most `places` decimals, without trailing zeros.
 pub fn number(x: f64, places: usize) -> String {
     let text = format!("{x:.places$}");
     let text = match text.contains('.') {
@@ -8,7 +8,7 @@ pub fn number(x: f64, places: usize) -> String {
     if text == "-0" { "0" } else { text }.to_owned()
 }
 
-/// A length on paper, mm, without its rounding errors: the order of things must not depend on them.
+/// A length on paper, mm, without its rounding errors: the order of points and notes must not depend on them.
 pub fn steady(length: f64) -> f64 {
     const PARTS: f64 = 1e6;
     (length * PARTS).round() / PARTS

@@ -5,7 +5,7 @@ use crate::drawing::{EntityShape, Text};
 use centrode_geometry::{Bounds, Outline, Point, Segment, Tolerance, Vector};
 use nalgebra::Rotation2;
 
-/// How near a leader may pass by words, mm: the line below them is 1.3 mm away.
+/// Minimum distance between a leader and words, mm: a dimension's own line is 1.3 mm below its words.
 const AIR: f64 = 1.5;
 
 /// Words that touch something.
@@ -19,8 +19,8 @@ pub struct Overlap {
     pub at: Point,
 }
 
-/// Texts of a sheet that touch another, a line, or leave the sheet, by the ink of their letters
-/// and the widths of the lines.
+/// Texts of a sheet that touch another text or a line, or leave the sheet, judged by the ink of their letters and the widths of
+/// the lines.
 #[must_use]
 pub fn overlaps(sheet: &Sheet) -> Vec<Overlap> {
     let [width, height] = sheet.size.size();
@@ -64,7 +64,7 @@ pub fn overlaps(sheet: &Sheet) -> Vec<Overlap> {
     found
 }
 
-/// An entity as what it covers: the ink of its words, and its lines.
+/// Area that an entity covers: the ink of its words, and its lines.
 #[derive(Clone, Debug)]
 pub(super) struct Covered {
     inks: Vec<Ink>,
@@ -91,7 +91,7 @@ impl Covered {
         covered
     }
 
-    /// Whether it enters an axis-aligned rectangle.
+    /// Whether the entity enters an axis-aligned rectangle.
     pub(super) fn enters(&self, rectangle: Bounds) -> bool {
         let ink = Ink {
             origin: Point::origin(),
@@ -104,7 +104,7 @@ impl Covered {
                 && self.lines.iter().any(|line| ink.is_met_by(*line, 0.0)))
     }
 
-    /// Whether a straight line of a thin pen runs through its words, or so near that it would be their base line.
+    /// Whether a straight line of a thin pen runs through its words, or so near that it looks like their base line.
     pub(super) fn is_struck(&self, line: [Point; 2]) -> bool {
         self.inks.iter().any(|ink| ink.is_met_by(line, AIR))
     }
@@ -143,7 +143,7 @@ impl Ink {
         corners.map(|p| self.origin + self.turn * p.coords)
     }
 
-    /// Separating axes of two rectangles.
+    /// Whether two rectangles overlap, by separating axes.
     fn meets(&self, other: &Self) -> bool {
         if !near(&self.around, &other.around, 0.0) {
             return false;

@@ -6,17 +6,17 @@ use centrode_spec::SheetSize;
 /// A piece of the first page.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SheetBlock {
-    /// Name of it, for errors.
+    /// Name of the piece, for errors.
     pub name: &'static str,
-    /// Drawing of it.
+    /// Drawing of the piece.
     pub draft: Draft,
-    /// The corner of the sheet it is to be near.
+    /// The corner of the sheet near which it is placed.
     pub corner: Corner,
     /// Whether it is put in the middle of its room, as views are.
     pub floats: bool,
-    /// Whether it must be on the first page; others move on to the next where there is no room.
+    /// Whether it must be on the first page; others move to the next page if there is no room.
     pub leads: bool,
-    /// Whether it may go on to a further page rather than make the first larger.
+    /// Whether it moves to a further page instead of making the first larger.
     pub waits: bool,
 }
 

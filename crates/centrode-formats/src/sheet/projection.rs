@@ -20,7 +20,7 @@ pub(super) fn symbol(draft: &mut Draft, center: Point, height: f64, projection: 
         };
         draft.draw(Pen::Outline, circle);
     }
-    // The small end looks away from the circles in first angle, towards them in third.
+    // The small end points away from the circles in first angle, towards them in third.
     let small = cone - unit;
     let large = cone + unit;
     let outline = [

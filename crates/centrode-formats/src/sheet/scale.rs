@@ -35,13 +35,13 @@ impl Scale {
         Self { drawn, real }
     }
 
-    /// Millimetres on paper for one of the part.
+    /// Millimetres on paper per millimetre of the part.
     #[must_use]
     pub fn factor(self) -> f64 {
         f64::from(self.drawn) / f64::from(self.real)
     }
 
-    /// Largest scale at which a length on paper is no longer than a room, mm.
+    /// Largest scale at which a length takes at most `room` on paper, mm.
     #[must_use]
     pub fn largest(length: f64, room: f64) -> Self {
         Self::RECOMMENDED

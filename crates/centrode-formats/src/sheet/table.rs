@@ -20,7 +20,7 @@ const PAD: f64 = 1.6;
 pub struct Table {
     /// The title above.
     pub title: String,
-    /// Headings; none for a table that needs none.
+    /// Headings; empty for a table without headings.
     pub headings: Vec<String>,
     /// Anchor of the words in each column.
     pub columns: Vec<Anchor>,
@@ -53,7 +53,7 @@ impl Table {
         .filled()
     }
 
-    /// Table without the columns in which no row says anything.
+    /// Table without the columns that are empty in every row.
     pub fn filled(mut self) -> Self {
         let said = |k: usize| {
             self.rows
@@ -95,7 +95,7 @@ impl Table {
         notes.fold(table, f64::max)
     }
 
-    /// Height of the table with this many rows, mm; the notes are below its last part.
+    /// Height of a part of the table with this many rows, mm; the last part includes the notes.
     pub(super) fn height(&self, rows: usize, last: bool) -> f64 {
         let notes = if last { self.notes.len() } else { 0 };
         self.head() + ROW * (rows + notes) as f64 + if notes > 0 { 1.5 } else { 0.0 }
@@ -181,10 +181,10 @@ fn width(words: &str) -> f64 {
     lettering::width(words, LETTERS)
 }
 
-/// Longest value on one line, letters.
+/// Maximum number of letters of a value on one line.
 const LINE: usize = 38;
 
-/// Rows of a name, a symbol and a value, which is broken at blanks, and within a word longer than a line.
+/// Rows of a name, a symbol and a value. A long value is split at blanks, and within words longer than a line.
 pub fn broken(name: &str, symbol: &str, value: &str) -> Vec<Vec<String>> {
     let mut lines: Vec<String> = vec![String::new()];
     for word in value.split(' ') {

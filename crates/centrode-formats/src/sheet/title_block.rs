@@ -50,14 +50,15 @@ pub struct TitleBlock {
     pub edges: String,
     /// Texture of the surfaces.
     pub surface: String,
-    /// Texture of those with a tolerance class up to [`TitleBlock::FINE`], and of flanks and profiles; empty, that of the others.
+    /// Texture of surfaces with a tolerance class up to grade [`TitleBlock::FINE`], and of flanks and profiles; if empty, that of
+    /// the other surfaces.
     pub fitted_surface: String,
     /// Arrangement of the views.
     pub projection: Projection,
 }
 
 impl TitleBlock {
-    /// Fields that a design's file gives for a part, whose name ends the drawing number. A projection replaces that of the file.
+    /// Fields from a design file for a part, whose name ends the drawing number. `projection` replaces that of the file.
     #[must_use]
     pub fn new(spec: &DrawingSpec, part: &str, projection: Option<Projection>) -> Self {
         let number = match spec.number.as_str() {
@@ -80,7 +81,7 @@ impl TitleBlock {
         }
     }
 
-    /// Fields of a part drawing, of a part by name and title, with the machine's title below.
+    /// Fields of a part drawing: name and title of the part, and the machine's title as supplement.
     pub fn of_part(
         spec: &DrawingSpec,
         name: &str,
@@ -99,8 +100,8 @@ impl TitleBlock {
     /// Coarsest grade of ISO 286 whose surfaces have a texture of their own.
     pub const FINE: u32 = 8;
 
-    /// Names the texture of fitted surfaces behind that of the others, where some of these tolerance classes are fine or the
-    /// part has flanks or a profile, in words; the note that shows where it holds.
+    /// Adds the texture of fitted surfaces after that of the others, if one of these tolerance classes is fine or `contour` names
+    /// flanks or a profile. Returns the note that states where it holds.
     pub fn fitted<'a>(
         &mut self,
         classes: impl IntoIterator<Item = &'a str>,
@@ -197,7 +198,7 @@ impl TitleBlock {
         let at = Point::new(61.2, 18.0 - CAPTION - 1.0);
         draft.text(at, CAPTION, "Title, supplementary title", Anchor::Left);
         let line = |y: f64| Point::new(62.0, y);
-        // Long words below the title take two lines, the second after a comma if there is one.
+        // A long supplementary title takes two lines, the second after a comma if there is one.
         let fits = |words: &str| lettering::width(words, SMALL) <= TITLES;
         let breaks = self.supplement.match_indices(' ').map(|(at, _)| at);
         let breaks = breaks.rev().filter(|&at| fits(&self.supplement[..at]));

@@ -1,4 +1,4 @@
-//! Products in their positions: one file with every body once, coloured, and each piece by its name.
+//! Products in their positions: one file with every body once, coloured, and each piece with its name.
 
 use centrode_geometry::{Shell, Solid};
 use nalgebra::Isometry3;
@@ -32,7 +32,7 @@ pub struct Component<'a> {
 
 /// Writes products in their positions as one STEP AP214 file in millimetres, called `name`, the assembly `title`.
 ///
-/// Each body is as exact as [`super::write`] has it, and is in the file once, for any number of pieces.
+/// Each body is as exact as in [`super::write`] and is in the file once, for any number of pieces.
 ///
 /// # Errors
 /// [`StepError`] if a body cannot be written.
@@ -113,7 +113,7 @@ fn represent(data: &mut Data, product: Id, shape: Id) {
     ));
 }
 
-/// Names the material of a product, as the recommended practices of CAx-IF have it.
+/// Names the material of a product, by the recommended practices of CAx-IF.
 fn made_of(data: &mut Data, product: Id, material: &str, context: Id) {
     let material = Text(material).to_string();
     let named = data.add(format_args!(

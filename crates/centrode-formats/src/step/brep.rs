@@ -1,4 +1,4 @@
-//! Boundary of a straight extrusion: two flat caps and one wall a side of its contours.
+//! Boundary of a straight extrusion: two flat caps and one wall per side of its contours.
 
 use super::{
     StepError, contour, opened,
@@ -6,8 +6,7 @@ use super::{
 };
 use centrode_geometry::{Point, PolySegment, Segment, Solid, Vector};
 
-/// Shortest side of a contour, mm: ten times the accuracy stated in the file, under which a kernel takes
-/// two points for one.
+/// Shortest side of a contour, mm: ten times the accuracy stated in the file, below which a kernel treats two points as one.
 const SHORTEST: f64 = 1e-6;
 
 /// Writes the closed boundary of a solid and returns its `MANIFOLD_SOLID_BREP`.
@@ -132,7 +131,7 @@ impl<'a> ExtrusionWriter<'a> {
         (point, vertex)
     }
 
-    /// Writes the curve of a side at a height, walked as the side is.
+    /// Writes the curve of a side at a height, in the direction of the side.
     pub(super) fn curve(&mut self, side: &Segment, start: Id, z: f64) -> Id {
         match side {
             Segment::Line(from, to) => {
@@ -162,7 +161,7 @@ impl<'a> ExtrusionWriter<'a> {
         }
     }
 
-    /// Writes the walls over the sides of a contour, seen from outside counter-clockwise.
+    /// Writes the walls over the sides of a contour; their edges run counter-clockwise as seen from outside.
     fn walls(&mut self, sides: &[Segment], ring: &[Side]) -> Vec<Id> {
         let next = ring.iter().cycle().skip(1);
         sides
@@ -183,7 +182,7 @@ impl<'a> ExtrusionWriter<'a> {
             .collect()
     }
 
-    /// Writes the surface over a side, and says whether its normal points outward.
+    /// Writes the surface over a side; returns also whether its normal points outward.
     pub(super) fn surface(&mut self, side: &Segment) -> (Id, bool) {
         let (bottom, up) = (self.bottom, self.up);
         let start = self.point(side.start(), bottom);
@@ -229,7 +228,7 @@ impl<'a> ExtrusionWriter<'a> {
         self.data.add(format_args!("{kind}('',{ring},.T.)"))
     }
 
-    /// A boundary of a face from edges all walked in the same direction.
+    /// A boundary of a face from edges that are all used in the same direction.
     fn bound(&mut self, kind: &str, edges: &[Id], forward: bool) -> Id {
         let edges: Vec<Id> = edges
             .iter()

@@ -1,13 +1,13 @@
-//! Contours for a CAD kernel, without sides so short that it takes them for points.
+//! Contours for a CAD kernel, without sides so short that the kernel treats them as points.
 
 use super::StepError;
 use centrode_geometry::{Arc, Outline, Point, Segment, Solid};
 
-/// Height over its chord, mm, below which an arc is a straight line to a kernel.
+/// Height over its chord, mm, below which an arc counts as a straight line for a kernel.
 const FLAT: f64 = 1e-9;
 
-/// The sides of a solid's contours, the outer one first, each starting exactly where the one before it ends, with the
-/// material on its left; sides shorter than `shortest`, mm, are closed up.
+/// The sides of a solid's contours, the outer one first, each starting exactly where the one before it ends, with the material on
+/// its left; sides shorter than `shortest`, mm, are removed and their gaps closed.
 pub(super) fn contours(solid: &Solid, shortest: f64) -> Result<Vec<Vec<Segment>>, StepError> {
     let mut all = vec![sides(0, solid.outline(), shortest)?];
     for (hole, outline) in solid.holes().iter().enumerate() {
@@ -40,7 +40,7 @@ fn sides(contour: usize, outline: &Outline, shortest: f64) -> Result<Vec<Segment
     Ok(kept)
 }
 
-/// Segment with its ends moved by the length of a side omitted; an arc that is flat becomes a line.
+/// Segment with its ends moved to close the gaps of removed sides; a flat arc becomes a line.
 fn between(segment: &Segment, start: Point, end: Point) -> Segment {
     match segment {
         Segment::Line(..) => Segment::Line(start, end),

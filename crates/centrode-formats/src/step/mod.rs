@@ -43,9 +43,9 @@ pub enum StepError {
 
 /// Writes a solid as STEP AP214 in millimetres, its product called `name`, the file described by `title`.
 ///
-/// A straight side is a plane, an arc a cylinder, and a polynomial side the sweep of one Bézier curve, so
-/// the file holds the very solid: nothing is approximated. Sides shorter than 1e-6 mm, which a CAD kernel
-/// takes for points, are closed up.
+/// A straight side is a plane, an arc a cylinder, and a polynomial side the sweep of one Bézier curve, so the file contains the
+/// exact solid without approximation. Sides shorter than 1e-6 mm, which a CAD kernel treats as points, are removed and their gaps
+/// closed.
 ///
 /// # Errors
 /// [`StepError`] if a contour is not finite or encloses no area.
@@ -53,8 +53,8 @@ pub fn write(solid: &Solid, name: &str, title: &str) -> Result<Vec<u8>, StepErro
     file(name, title, |data, name| brep::manifold(data, name, solid))
 }
 
-/// The sides that a file has of a solid's contours, the outer one first, each with the material on its left; those shorter
-/// than the tolerance are closed up.
+/// The sides of a solid's contours as in its file, the outer contour first, each with the material on its left; sides shorter
+/// than the tolerance are removed and their gaps closed.
 ///
 /// # Errors
 /// [`StepError`] if a contour is not finite or encloses no area.
@@ -163,7 +163,7 @@ impl Products {
     }
 }
 
-/// Writes the units, millimetres and radians, and the distance under which two points are one.
+/// Writes the units, millimetres and radians, and the distance below which two points count as one.
 fn context(data: &mut Data) -> Id {
     let length = data.add("(LENGTH_UNIT()NAMED_UNIT(*)SI_UNIT(.MILLI.,.METRE.))");
     let angle = data.add("(NAMED_UNIT(*)PLANE_ANGLE_UNIT()SI_UNIT($,.RADIAN.))");

@@ -7,7 +7,7 @@ use super::{
 };
 use centrode_geometry::{Opening, Point, Segment, Solid};
 
-/// Edges over the start of a side, from below, and along it at the heights it has edges at.
+/// Edges of a wall: the upright ones over the start of its side, from below, and those along the side at each of its levels.
 struct Side {
     uprights: Vec<Id>,
     levels: Vec<Id>,
@@ -35,7 +35,7 @@ pub(super) fn manifold(
     ];
     let mut faces = Vec::new();
     let (mut below, mut above) = (Vec::new(), Vec::new());
-    // The two sides the opening removes, the outline's and the hole's, with the points that follow them.
+    // The two sides that the opening cuts, in the outline and in the hole: the edges at the start and at the end of each.
     let mut opened: Vec<[Edges; 2]> = Vec::new();
     for (index, sides) in contours.iter().enumerate() {
         let ring = ring(&mut shape, sides, opening, heights);
@@ -92,7 +92,7 @@ pub(super) fn manifold(
     faces.push(shape.cap(solid.bottom(), -1.0, &below));
     faces.push(shape.cap(solid.top(), 1.0, &above));
     let [outer, inner] = &opened[..] else {
-        // Sides shorter than a kernel's accuracy have been closed up, and the opening's with them.
+        // The sides of the opening were shorter than a kernel's accuracy and were removed.
         return Err(StepError::NoRegion { contour: 0 });
     };
     faces.extend(inside(&mut shape, outer, inner, heights));
@@ -124,8 +124,8 @@ impl Edges {
     }
 }
 
-/// Both sides, floor and ceiling of the opening: `outer` begins and ends at the outline's corners, `inner` at the
-/// hole's, which is walked in the opposite direction.
+/// Side walls, floor and ceiling of the opening: `first` and `second` are at the outline's corners, `third` and `fourth` at those
+/// of the hole, which runs in the opposite direction.
 fn inside(
     shape: &mut ExtrusionWriter<'_>,
     [first, second]: &[Edges; 2],
@@ -179,7 +179,7 @@ fn bound(shape: &mut ExtrusionWriter<'_>, kind: &str, edges: &[(Id, bool)]) -> I
     shape.closed(kind, &edges)
 }
 
-/// Writes the edges over a contour: at the opening's corners and along its sides also at its heights.
+/// Writes the edges over a contour; the corners and sides of the opening also have edges at the opening's heights.
 fn ring(
     shape: &mut ExtrusionWriter<'_>,
     sides: &[Segment],

@@ -12,13 +12,13 @@ impl Display for Id {
     }
 }
 
-/// A number with the point the format demands, all digits.
+/// A number with all digits and the decimal point that the format requires.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Real(pub(super) f64);
 
 impl Display for Real {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        // Adding zero takes the sign off a negative zero.
+        // Adding zero removes the sign of a negative zero.
         let digits = format!("{:?}", self.0 + 0.0);
         match digits.split_once('e') {
             None => f.write_str(&digits),
@@ -80,7 +80,7 @@ impl Data {
         Id(self.count)
     }
 
-    /// All entities, a line each.
+    /// All entities, one per line.
     pub(super) fn lines(&self) -> &str {
         &self.lines
     }

@@ -127,7 +127,7 @@ impl ShellWriter<'_> {
         }
     }
 
-    /// Writes a surface, and says whether its own normal points out of the body.
+    /// Writes a surface; returns also whether its own normal points out of the body.
     fn surface(&mut self, surface: &ShellSurface) -> (Id, bool) {
         match surface {
             ShellSurface::Plane { point, normal } => {

@@ -33,9 +33,8 @@ pub struct Contact {
     pub pressure_angle: f64,
     /// Position of the contact on a flat face, mm: to the left of the slide, or from the pivot along the arm.
     pub face: Option<f64>,
-    /// Regularity, above zero where the profile is regular, at most zero where it is undercut: for a roller of
-    /// radius r one less r times the curvature of its centre's path; for a flat face the radius of
-    /// curvature over that of the base circle.
+    /// Regularity, above zero where the profile is regular, at most zero where it is undercut. For a roller of radius r: 1 minus
+    /// r times the curvature of its centre's path. For a flat face: the radius of curvature over that of the base circle.
     pub regularity: f64,
 }
 
@@ -49,7 +48,7 @@ impl DiscCam {
         angle
     }
 
-    /// Direction of the arm from its pivot less pi, and the angle between arm and centre line.
+    /// Direction of the arm from its pivot, minus pi, and the angle between arm and centre line.
     fn arm(&self, input: f64, motion: &MotionJet, lifts: f64) -> (Taylor, Taylor) {
         let swing = Taylor::constant(self.start_angle()) + motion.series();
         let heading = self.direction(input) + swing * Taylor::constant(lifts);
@@ -110,9 +109,9 @@ impl DiscCam {
 
     /// Analyses the contact at an input.
     ///
-    /// The profile is the envelope of the follower: a roller's at the roller's radius from its centre
-    /// along the normal of the centre's path; a flat face's at `h n + h' t` for a face at the distance h
-    /// from the axis, the dash being the derivative by the angle of its normal n.
+    /// The profile is the envelope of the follower. For a roller the contact is at the roller's radius from its centre, along the
+    /// normal of the centre's path. For a flat face at the distance h from the axis it is `h n + h' t`, where h' is the
+    /// derivative of h by the angle of the face's normal n.
     #[must_use]
     pub fn contact(&self, input: f64) -> Contact {
         let motion = self.motion().at(input);

@@ -14,9 +14,9 @@ use centrode_spec::rule::positive;
 
 /// A disc cam with its follower, exact.
 ///
-/// Everything is in the frame of the cam: its axis is the origin, and at the input zero the slide points,
-/// or the arm's pivot lies, along the x axis. The input is the angle the cam has turned, in its own sense
-/// of rotation, relative to whatever holds the follower.
+/// Everything is in the frame of the cam: its axis is the origin, and at the input zero the slide points, or the arm's pivot
+/// lies, along the x axis. The input is the angle that the cam has turned, in its own sense of rotation, relative to the part
+/// that holds the follower.
 #[derive(Clone, Debug)]
 pub struct DiscCam {
     motion: Arc<dyn Transmission>,
@@ -39,7 +39,7 @@ pub enum CamError {
     /// The segments make no motion.
     #[error(transparent)]
     Motion(MotionError),
-    /// Transmissions that do not go together.
+    /// Transmissions that cannot be combined.
     #[error(transparent)]
     Transmission(#[from] TransmissionError),
     /// A motion that changes so fast that the contour takes too many segments.
@@ -47,9 +47,9 @@ pub enum CamError {
         "from {degrees:.3} deg on the cam's contour takes more than {most} segments up to the next break: its follower's motion changes too fast"
     )]
     Wild {
-        /// Cam angle from which on.
+        /// Cam angle where the contour needs too many segments, degrees.
         degrees: f64,
-        /// Most segments allowed there.
+        /// Maximum number of segments up to the next break.
         most: usize,
     },
     /// A motion that does not come back after one turn of the cam.
@@ -62,7 +62,7 @@ pub enum CamError {
         /// Advance over that input.
         advance: f64,
     },
-    /// A slide that passes outside the roller's lowest point.
+    /// A slide whose offset exceeds the distance of the roller's centre from the axis.
     #[error(
         "the slide passes the axis at {offset} mm, but the roller's centre is only {prime_radius} mm from it"
     )]
@@ -108,7 +108,7 @@ pub enum CamError {
         /// Cam angle.
         degrees: f64,
     },
-    /// A push rod required farther back than its fork can bring it.
+    /// A required retraction of a push rod that its fork cannot reach.
     #[error(
         "at {degrees} deg the rod is to be {retraction} mm back, more than a lever of {length} mm can do"
     )]
@@ -134,7 +134,7 @@ pub enum CamError {
     /// The crossings of the profile with itself cannot be determined.
     #[error("the cam has no profile: {0}")]
     Unresolved(LoopError),
-    /// A profile that leaves the axis outside.
+    /// A profile that does not enclose the axis.
     #[error("the profile does not go round the axis")]
     AxisOutside,
     /// The contour does not close.
@@ -186,7 +186,7 @@ impl From<MotionError> for CamError {
 }
 
 impl DiscCam {
-    /// Makes the cam that gives a follower a motion: mm of a slide, rad of an arm, zero on the base circle.
+    /// Makes the cam that moves a follower by a motion, in mm for a slide and in rad for an arm; 0 is on the base circle.
     ///
     /// # Errors
     /// [`CamError`] where the follower cannot reach the base circle or follow the motion.

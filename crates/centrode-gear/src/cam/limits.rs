@@ -93,11 +93,11 @@ impl DiscCam {
         }
     }
 
-    /// Minimum base radius, mm, at which the pressure angle stays below `rise` while the cam lifts and
-    /// below `fall` while the follower returns, rad; a right angle leaves a return by a spring free.
+    /// Minimum base radius, mm, at which the pressure angle stays below `rise` while the cam lifts and below `fall` while the
+    /// follower returns, rad; for a return by a spring give a right angle, which sets no limit.
     ///
-    /// Searched upwards in steps of 2 % from a thousandth of the follower's size, then solved. `None` where no base
-    /// circle will do: an arm far from the axis cannot touch a large one.
+    /// Searched upwards in steps of 2 % from a thousandth of the follower's size, then solved. `None` if no base circle is
+    /// possible: an arm far from the axis cannot touch a large one.
     #[must_use]
     pub fn minimum_base_radius(&self, rise: f64, fall: f64) -> Option<f64> {
         self.minimum_base(|cam| {
@@ -107,8 +107,8 @@ impl DiscCam {
         })
     }
 
-    /// Minimum base radius, mm, at which no convex part of the profile is sharper than `radius`, mm;
-    /// zero requires no undercut alone. `None` where no base circle will do.
+    /// Minimum base radius, mm, at which no convex part of the profile has a radius of curvature below `radius`, mm; with zero
+    /// only undercut is excluded. `None` if no base circle is possible.
     #[must_use]
     pub fn minimum_regular_base_radius(&self, radius: f64) -> Option<f64> {
         self.minimum_base(|cam| radius - cam.limits().minimum_radius.value)
@@ -118,7 +118,7 @@ impl DiscCam {
     fn minimum_base(&self, excess: impl Fn(&Self) -> f64) -> Option<f64> {
         const MOST: u32 = 700;
         let of = |radius: f64| match self.with_base_radius(radius) {
-            // Never a solution, and no number to interpolate with.
+            // A radius without a cam is no solution, and infinity cannot be interpolated.
             Err(_) => f64::INFINITY,
             Ok(cam) => excess(&cam),
         };
@@ -150,7 +150,7 @@ impl DiscCam {
     }
 }
 
-/// Minimum value above `low` at which `excess` is not above zero, by bisection; at `high` it is not.
+/// Minimum value above `low` at which `excess` is not above zero, by bisection; `excess(high)` is not above zero.
 fn halved(excess: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
     while high - low > 4.0 * f64::EPSILON * high {
         let middle = 0.5 * (low + high);

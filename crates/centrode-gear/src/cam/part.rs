@@ -56,7 +56,7 @@ impl Cam {
         })
     }
 
-    /// This cam by another name.
+    /// This cam under another name.
     pub fn renamed(&self, name: &str) -> Self {
         Self {
             name: name.to_owned(),

@@ -8,7 +8,7 @@ use centrode_geometry::{
 
 use super::disc::{CamError, DiscCam};
 
-/// Most segments of a contour between two breaks of its motion: a cam that runs has some tens.
+/// Maximum number of segments of a contour between two breaks of its motion; a usable cam has some tens.
 const MOST: usize = 1024;
 
 /// The contour of a cam, counter-clockwise.
@@ -32,8 +32,8 @@ impl Profile {
         &self.inputs
     }
 
-    /// Ranges of the cam angle, rad, whose contact is cut off: the follower does not keep to its motion
-    /// there. Empty for a sound cam.
+    /// Ranges of the cam angle, rad, whose contact is cut off: there the follower leaves its motion. Empty for a cam without
+    /// undercut.
     #[must_use]
     pub fn undercut(&self) -> &[(f64, f64)] {
         &self.undercut
@@ -46,7 +46,7 @@ impl Profile {
         self.undercut.iter().any(within)
     }
 
-    /// Minimum and maximum distance from the axis, mm, at nine samples a segment.
+    /// Minimum and maximum distance from the axis, mm, at nine samples per segment.
     pub(super) fn radii(&self) -> (f64, f64) {
         let points = self.outline.segments().iter().flat_map(|segment| {
             (0..=8).map(|i| segment.at(-1.0 + 0.25 * f64::from(i)).point.coords.norm())
@@ -89,13 +89,13 @@ impl DiscCam {
     /// The contour within a tolerance of the exact envelope: arcs over the dwells, polynomials of degree
     /// thirteen elsewhere.
     ///
-    /// Where the envelope is singular it crosses itself; the material that a tool of the follower's size would remove
-    /// there is removed, and [`Profile::undercut`] says over which angles the follower loses contact.
+    /// Where the envelope is singular it crosses itself. There the material is removed that a tool of the follower's size would
+    /// remove, and [`Profile::undercut`] lists the cam angles at which the follower loses contact.
     ///
     /// # Errors
-    /// [`CamError::Looped`] where nothing is left, [`CamError::Unresolved`] where the crossings of the contour
-    /// with itself cannot be determined, [`CamError::AxisOutside`] where it leaves the axis out, [`CamError::Wild`] where it
-    /// takes too many segments.
+    /// [`CamError::Looped`] where no part of the contour remains, [`CamError::Unresolved`] where the crossings of the contour
+    /// with itself cannot be determined, [`CamError::AxisOutside`] where it does not enclose the axis, [`CamError::Wild`] where
+    /// it takes too many segments.
     pub fn profile(&self, tolerance: Tolerance) -> Result<Profile, CamError> {
         let whole = self.envelope(&|input| self.contact(input).point, &self.turns(), tolerance)?;
         let kept = sound(&whole, self.sense() > 0.0, tolerance)?;
@@ -136,8 +136,8 @@ impl DiscCam {
         self.closed(parts).map(|(outline, _)| Some(outline))
     }
 
-    /// Ends of the analytic parts, and within each the middle of a run that goes backwards: the loop about it,
-    /// however small, then lies in two parts, where it is found.
+    /// Ends of the analytic parts, and in each undercut part the input of minimum regularity. The two halves of the loop there
+    /// then belong to different parts, so that their crossing is found, however small the loop.
     fn turns(&self) -> Vec<f64> {
         let ends = self.ends();
         let mut turns = vec![ends[0]];
@@ -198,7 +198,7 @@ impl DiscCam {
     ) -> impl Iterator<Item = ContourSpan> {
         let count = ((to - from) / (0.6 * PI)).ceil().max(1.0);
         let step = (to - from) / count;
-        // The limit from the right: the break at the end already belongs to what follows.
+        // The limit from the right: the break at the end already belongs to the next part.
         let start = curve(from);
         let sense = self.sense();
         (0..count as u32).map(move |i| {
@@ -219,7 +219,7 @@ impl DiscCam {
         })
     }
 
-    /// Parts pinned end to start, counter-clockwise.
+    /// Joins the parts exactly, end to start, into a counter-clockwise outline.
     fn closed(&self, mut parts: Vec<ContourSpan>) -> Result<(Outline, Vec<(f64, f64)>), CamError> {
         let count = parts.len();
         for i in 0..count {

@@ -79,8 +79,8 @@ impl BodySpec {
         Stock::new(&self.material, self.density).treated(&self.shaft_heat_treatment)
     }
 
-    /// The body with the keyway that DIN 6885-1 has for its bore, none where there is no such, along the x axis of what carries the body
-    /// at an angle, rad.
+    /// The body with the keyway that DIN 6885-1 has for its bore, or without one if the standard has none. The body is mounted at
+    /// an angle, rad; the keyway is along the x axis of the part that carries it.
     pub fn keyed(self, mount: f64) -> Self {
         let keyway = Keyway::of_bore(self.bore);
         let turned = TAU * (mount / TAU).round() - mount;

@@ -175,12 +175,13 @@ impl GearPairDesign {
         }
     }
 
-    /// Whether the teeth are fitted, as they are with any choice.
+    /// Whether the teeth are fitted: any parameter in `fit` implies it.
     pub(crate) fn is_fitted(&self) -> bool {
         self.teeth.addendum == Addendum::Fitted || !self.teeth.fit.is_empty()
     }
 
-    /// Profile shift coefficients of driver and driven gear that give no centre distance of their own: a missing one is opposite.
+    /// Profile shift coefficients of driver and driven gear; a missing one is opposite to its mate's, which does not change the
+    /// centre distance.
     pub(crate) fn shifts(&self) -> [f64; 2] {
         let [driver, driven] = [self.driver.shift, self.driven.shift];
         let of = |own: Option<f64>, mate: Option<f64>| own.or(mate.map(|x| 0.0 - x)).unwrap_or(0.0);

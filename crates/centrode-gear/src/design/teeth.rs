@@ -186,7 +186,7 @@ impl JsonSchema for TipShortening {
     }
 }
 
-/// A value that is one of some words or a number.
+/// Reader of a value that is a number or one of some words.
 struct WordOrNumber<T: 'static> {
     expected: &'static str,
     words: &'static [(&'static str, T)],

@@ -8,7 +8,7 @@ use super::{IntermittentPairError, Pins};
 use crate::Member;
 use centrode_kinematics::transmission::Transmission;
 
-/// Corners of a pin, which lie a little outside it.
+/// Corners of a polygon around a pin, circumscribed.
 fn pin(center: Point, radius: f64) -> Vec<Point> {
     let radius = radius / (PI / f64::from(PIN_CORNERS)).cos();
     let corner = |i: u32| {
@@ -18,10 +18,11 @@ fn pin(center: Point, radius: f64) -> Vec<Point> {
     (0..PIN_CORNERS).map(corner).collect()
 }
 
-/// Cam next to the driver's teeth, and the pins by which it holds the driven gear while that starts or stops.
+/// Cam next to the driver's teeth, and the pins by which the cam guides the driven gear while the gear starts or stops.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Cam {
-    /// The cam in the driver's axes: it clears a pin of nominal size along the whole path by what the backlash leaves at rest.
+    /// The cam in the driver's axes. Its clearance from a pin of nominal size is the same along the whole path: that which the
+    /// backlash leaves at rest.
     pub outline: Outline,
     /// The pins in the driven gear's axes, one for each stop.
     pub pins: Vec<Point>,
@@ -29,13 +30,14 @@ pub struct Cam {
     pub pin_radius: f64,
 }
 
-/// Corners of a pin.
+/// Number of corners of the polygon around a pin.
 const PIN_CORNERS: u32 = 96;
 
 impl IntermittentPair {
-    /// Cuts the cams of entry and exit, one on each side of the teeth: on one the pins of the other would be in the way.
+    /// Cuts the cams of entry and exit, one on each side of the teeth: on one side the pins of one cam would collide with the
+    /// other cam.
     ///
-    /// A pin has the same clearance along the normal of its path everywhere, or more: that of the backlash (rad) at rest.
+    /// A pin has at least the clearance, along the normal of its path, that the backlash (rad) leaves at rest.
     pub(super) fn cut_cams(
         &self,
         pins: &Pins,
@@ -73,7 +75,8 @@ impl IntermittentPair {
             let mut blank = Radial::unbounded();
             blank.limit(at.coords.norm());
             let turned = self.swept(blank, &bodies(radius), backlash, true);
-            // As a pin crosses the line of centres, turning the driven gear moves it along its path: there a wider pin clears it.
+            // Where a pin crosses the line of centres, a turn of the driven gear moves it along its path. There a wider pin gives
+            // the clearance.
             let cam = self.swept(turned, &bodies(radius + clearance), 0.0, true);
             Cam {
                 outline: Outline::polygon(&cam.polygon(accuracy)),

@@ -40,18 +40,17 @@ pub enum IntermittentError {
     },
 }
 
-/// Motion of an intermittent gear pair with circular pitch curves: a toothed arc of the driver turns
-/// the driven gear at the arc's own ratio, the rest of its turn holds it locked.
+/// Motion of an intermittent gear pair with circular pitch curves. A toothed arc of the driver turns the driven gear at the arc's
+/// own ratio; for the rest of its turn the driver locks the driven gear.
 ///
-/// Both counts are of pitches all round. N teeth turn the driven gear by N of its pitches while
-/// the driver turns by N of its own, so one driven turn a driver turn with a dwell needs a driver with
-/// more pitches than the driven gear: equal pitch circles, a full turn and a dwell contradict each
-/// other. Angles are those of the pitch circles; the law holds for teeth that enter and leave without backlash.
+/// Both counts are pitches of the whole circle. N teeth turn the driven gear by N of its pitches while the driver turns by N of
+/// its own. One driven turn per driver turn with a dwell therefore needs a driver with more pitches than the driven gear: equal
+/// pitch circles, a full turn and a dwell contradict each other. Angles are those of the pitch circles; the law holds for teeth
+/// that enter and leave without backlash.
 ///
-/// Without an entry the driven gear's speed jumps at the first tooth. An entry of angle beta - cam
-/// plates or a shaped first tooth - brings it to speed along w = ratio (10 u³ - 15 u⁴ + 6 u⁵), u from 0
-/// to 1 over beta, and the exit slows it likewise: no jump of speed or acceleration. Each takes the driven
-/// gear through ratio beta / 2.
+/// Without an entry the driven gear's speed jumps at the first tooth. An entry of angle beta, by cam plates or a shaped first
+/// tooth, accelerates it by w = ratio (10 u³ - 15 u⁴ + 6 u⁵), u from 0 to 1 over beta. The exit slows it likewise: no jump of
+/// speed or acceleration. Each takes the driven gear through ratio beta / 2.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct IntermittentDrive {
     driver_pitches: u32,
@@ -110,8 +109,8 @@ impl IntermittentDrive {
         f64::from(self.driver_pitches) / f64::from(self.driven_pitches)
     }
 
-    /// Driver angle from start to stop of the driven gear, rad: the toothed arc and one entry angle more,
-    /// for what entry and exit lose.
+    /// Driver angle from start to stop of the driven gear, rad: the toothed arc and one entry angle more, because entry and exit
+    /// each lose half an entry angle.
     #[must_use]
     pub fn motion_angle(&self) -> f64 {
         TAU * f64::from(self.kept) / f64::from(self.driver_pitches) + self.entry
@@ -183,7 +182,7 @@ impl IntermittentDrive {
         if input < motion - entry {
             return MotionJet::uniform(ratio * (input - 0.5 * entry), ratio);
         }
-        // The exit is the entry run backwards.
+        // The exit is the entry in reverse.
         let mirrored = self.ramp(motion - input);
         MotionJet {
             position: self.driven_angle() - mirrored.position,

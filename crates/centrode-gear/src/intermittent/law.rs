@@ -3,8 +3,8 @@ use std::sync::Arc;
 
 use centrode_kinematics::transmission::{MotionJet, Transmission};
 
-/// The motion of an [`IntermittentPair`](super::IntermittentPair): the law of its pitch curves over the toothed arc, eased in and out over the
-/// entry angle, and rest.
+/// The motion of an [`IntermittentPair`](super::IntermittentPair): the law of its pitch curves over the toothed arc, with a
+/// gradual start and stop over the entry angle, and rest.
 #[derive(Clone, Debug)]
 pub struct IntermittentLaw {
     pub(super) pair: Arc<crate::Rolling>,

@@ -1,4 +1,4 @@
-//! Intermittent (incomplete) gears: a driver with teeth on an arc alone, and the motion and rest it gives its mate.
+//! Intermittent (incomplete) gears: a driver with teeth on only an arc, and the motion and rest of its mate.
 
 mod cams;
 mod drive;

@@ -11,20 +11,21 @@ use crate::pitch::PitchSpec;
 use crate::{GearPair, Member};
 use centrode_kinematics::transmission::Transmission;
 
-/// Steps of one driver turn while the driven gear passes through the driver's blank: a twentieth of a degree.
+/// Number of steps per driver turn while the driven gear passes through the driver's blank: a twentieth of a degree each.
 const STEPS: u32 = 7200;
 /// Maximum distance of a written contour from the computed one, in modules.
 const ACCURACY: f64 = 1e-4;
 /// Minimum height of a tooth above the locking arc, in modules, for it to count.
 const TOOTH: f64 = 0.2;
 
-/// Intermittent gear pair: the driver has teeth on an arc alone, and holds the driven gear with a locking arc for the
-/// rest of its turn.
+/// Intermittent gear pair: the driver has teeth on only an arc, and holds the driven gear with a locking arc for the rest of its
+/// turn.
 ///
-/// The driven gear keeps the teeth its tool cuts, less a notch for the driver's locking arc at each stop. The driver is
-/// the rest of a complete one after the driven gear has been led through its law: the tips of its first and last teeth
-/// and the ends of its locking arc are cut back by just as much as entry and exit would clash. Pins of the driven gear
-/// on two cams next to the teeth, one for entry and one for exit, bring it to speed and to rest: teeth alone strike it.
+/// The driven gear has the teeth that its tool cuts, with a notch for the driver's locking arc at each stop. The driver is the
+/// remainder of a complete gear after the driven gear has moved through it by its law: the tips of its first and last teeth and
+/// the ends of its locking arc are cut back by the amount by which they would interfere during entry and exit. Pins of the driven
+/// gear on two cams next to the teeth, one for entry and one for exit, bring it to speed and to rest: with teeth alone it starts
+/// with an impact.
 ///
 /// The driver turns clockwise about the origin by the input, the driven gear counter-clockwise about (centre
 /// distance, 0). Contours are polygons within a ten-thousandth of the module.
@@ -169,8 +170,8 @@ impl IntermittentPair {
         mean * self.pair.pressure_angle().cos()
     }
 
-    /// The driver's blank: a complete driver, turned on by half the entry angle that easing in costs, filled up to the
-    /// locking arc where it holds.
+    /// The driver's blank: a complete driver, turned forward by the half entry angle that the entry loses, and filled up to the
+    /// locking arc over the dwell.
     fn blank(&self, accuracy: Tolerance) -> Radial {
         let turned = Rotation2::new(0.5 * self.law.entry);
         let corners = self.pair.driver().outline().flatten(accuracy);
@@ -186,8 +187,8 @@ impl IntermittentPair {
         Isometry2::rotation(input) * placed
     }
 
-    /// The `blank` less the region swept by `bodies` over one driver turn, with the driven gear offset by +-`backlash`
-    /// while it moves (throughout if `always`).
+    /// The `blank` minus the region swept by `bodies` over one driver turn, with the driven gear offset by +-`backlash` while it
+    /// moves (throughout if `always`).
     pub(super) fn swept(
         &self,
         mut blank: Radial,
@@ -312,9 +313,9 @@ impl IntermittentPair {
         self.locked_backlash
     }
 
-    /// Angle of [`locked_backlash`](Self::locked_backlash) on the finished contour: a corner of the driven gear at the
-    /// distance p from its axis meets the locking arc where the cosine of its angle from the line of centres is (a² +
-    /// p² - r²)/(2 a p).
+    /// Angle of [`locked_backlash`](Self::locked_backlash), computed on the finished contour. A corner of the driven gear at the
+    /// distance p from its axis meets the locking arc where the cosine of its angle from the line of centres is
+    /// (a² + p² - r²)/(2 a p).
     fn worked_locked_backlash(&self, accuracy: Tolerance) -> f64 {
         let (a, r) = (self.center_distance(), self.lock_radius);
         let corners = self.driven.flatten(accuracy);
@@ -325,7 +326,7 @@ impl IntermittentPair {
             for corner in &corners {
                 let p = corner.coords.norm();
                 let cosine = (a * a + p * p - r * r) / (2.0 * a * p);
-                // Nearer to its axis, or beyond both, a corner passes the arc.
+                // A corner nearer to its axis than a - r, or farther than a + r, cannot meet the arc.
                 if !(-1.0..1.0).contains(&cosine) {
                     continue;
                 }

@@ -4,9 +4,10 @@ use std::sync::LazyLock;
 use centrode_geometry::{Point, Tolerance, Vector};
 use nalgebra::Isometry2;
 
-/// Distance of points from a chord, as a share of the tolerance, within which they are as far off: rounding.
+/// Difference of the distances of two points from a chord, as a share of the tolerance, below which they count as equal:
+/// rounding.
 const ALIKE: f64 = 1e-6;
-/// Directions in which a contour's radius is stored.
+/// Number of directions in which a contour's radius is stored.
 const DIRECTIONS: usize = 32_768;
 
 /// Unit vectors of the directions.
@@ -52,7 +53,7 @@ impl Corner {
     }
 }
 
-/// Corners of a chain of a polygon.
+/// Number of corners per chain of a polygon.
 const CHAIN: usize = 32;
 
 /// Part of a closed polygon: corners one after the other, with the one before them and the one after them.
@@ -83,7 +84,7 @@ impl Chain {
         (0..count).step_by(CHAIN).map(chain).collect()
     }
 
-    /// Whether a corner of it can be within `reach` of the origin when it is placed.
+    /// Whether any corner of the placed chain can be within `reach` of the origin.
     pub(super) fn is_near(&self, place: &Isometry2<f64>, reach: f64) -> bool {
         let reach = (reach + self.radius) * (1.0 + 1e-12);
         (place * self.middle).coords.norm_squared() <= reach * reach
@@ -95,9 +96,9 @@ impl Chain {
     }
 }
 
-/// Contour around the origin that every ray from there meets once, by its radius in even directions.
+/// Contour around the origin that every ray from there meets once, given by its radius in equally spaced directions.
 ///
-/// Made smaller by what passes through it: a blank from which a moving mate takes all it touches.
+/// Bodies that pass through it make it smaller: from a blank, a moving mate removes all that it touches.
 #[derive(Clone, Debug)]
 pub(super) struct Radial {
     radius: Vec<f64>,
@@ -122,7 +123,7 @@ impl Radial {
         self.radius.iter().copied().fold(0.0, f64::max)
     }
 
-    /// The radius in a direction, of the nearest stored one.
+    /// The radius in the stored direction nearest to a direction.
     pub(super) fn at(&self, direction: f64) -> f64 {
         let index = (direction.rem_euclid(TAU) / TAU * DIRECTIONS as f64).round();
         self.radius[index as usize % DIRECTIONS]
@@ -192,7 +193,7 @@ impl Radial {
         if end < start {
             end += TAU;
         }
-        // Seen edge-on, or from the origin itself.
+        // The segment passes through the origin.
         if end - start >= PI {
             return;
         }
@@ -208,17 +209,18 @@ impl Radial {
         }
     }
 
-    /// Corners of a polygon nowhere farther from the contour than the tolerance, counter-clockwise.
+    /// Corners of a polygon within the tolerance of the contour everywhere, counter-clockwise.
     pub(super) fn polygon(&self, tolerance: Tolerance) -> Vec<Point> {
         let place = |index: usize| {
             let index = index % DIRECTIONS;
             Point::from(UNIT[index] * self.radius[index])
         };
-        // From the outermost point, which is a corner of any such polygon.
+        // Starts at the outermost point, which is a corner of any such polygon.
         let start = (0..DIRECTIONS)
             .max_by(|&a, &b| self.radius[a].total_cmp(&self.radius[b]))
             .unwrap_or(0);
-        // Farthest point between two from their chord, the first of those that are as far off, and how far that is.
+        // Point between two points that is farthest from their chord, the first of equally far ones, and its distance from the
+        // chord.
         let farthest = |from: usize, to: usize| {
             let (a, chord) = (place(from), place(to) - place(from));
             let length = chord.norm();
@@ -254,7 +256,7 @@ impl Radial {
             }
         }
         kept.push(start + DIRECTIONS);
-        // A corner between two others that do without it is none.
+        // A corner is omitted if the chord between its neighbours stays within the tolerance without it.
         let mut corners: Vec<usize> = Vec::new();
         for (index, &corner) in kept.iter().enumerate() {
             let next = kept.get(index + 1);

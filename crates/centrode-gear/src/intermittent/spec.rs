@@ -8,7 +8,7 @@ use centrode_spec::rule::{count_in_range, in_range, not_negative, positive};
 /// Intermittent gear pair as requested.
 #[derive(Clone, Debug, PartialEq)]
 pub struct IntermittentPairSpec {
-    /// The complete pair: any pitch curve, the mean ratio that of all pitches round both gears.
+    /// The complete pair: any pitch curve; the mean ratio is that of the pitches of the complete gears.
     pub pair: GearPairDesign,
     /// Pitches by which the driver turns the driven gear in one turn of its own, from the polar angle 0 of its curve.
     pub teeth: u32,
@@ -20,11 +20,11 @@ pub struct IntermittentPairSpec {
     pub lock_clearance: f64,
     /// Normal backlash of the teeth, mm.
     pub backlash: f64,
-    /// The pins of the entry cam.
+    /// The pins of the cams.
     pub pins: Pins,
 }
 
-/// The pins of the driven gear that run on the driver's entry cam.
+/// The pins of the driven gear that run on the driver's cams of entry and exit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Pins {
     /// Diameter, mm; default: two and a half modules.
@@ -148,7 +148,7 @@ pub enum IntermittentPairError {
         /// Distance at which the driven gear begins, mm.
         minimum: f64,
     },
-    /// A locking arc that overlaps the hub of the driven gear.
+    /// A locking arc that overlaps the bore of the driven gear.
     #[error(
         "the locking arc of radius {radius} mm overlaps the driven gear's bore, which begins {maximum} mm from the driver's axis"
     )]
@@ -184,7 +184,7 @@ pub enum IntermittentPairError {
 }
 
 impl IntermittentPairError {
-    /// The key to blame.
+    /// Key at fault.
     #[must_use]
     pub fn key(&self) -> String {
         match self {

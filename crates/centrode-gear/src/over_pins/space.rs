@@ -65,21 +65,21 @@ fn crest(run: &[usize], segments: &[Segment], roles: &[Role]) -> usize {
         .map_or(0, |(place, _)| place)
 }
 
-/// The two flanks of a space, each walked counter-clockwise round the gear: one goes down, one up.
+/// The two flanks of a space, each traversed counter-clockwise round the gear: one goes down, one up.
 #[derive(Clone, Debug)]
 pub(super) struct Walls<'a> {
     down: Vec<&'a Segment>,
     up: Vec<&'a Segment>,
 }
 
-/// Points a segment at which signs are sampled.
+/// Number of samples per segment at which signs are compared.
 const SAMPLES: u32 = 12;
 
 impl Walls<'_> {
-    /// The pin that touches both flanks, as far out as there is one.
+    /// The outermost pin that touches both flanks.
     pub(super) fn rest(&self, radius: f64) -> Result<Pin, PinFault> {
-        // Along the descending flank, from its tip down: the pin that touches it there, and how far it
-        // is then from the other flank.
+        // Along the descending flank, from its tip down: the pin that touches it there, and the distance of that pin from the
+        // other flank.
         let ends = self.down.len() as f64;
         let pin = |t: f64| offset(&self.down, t, radius);
         let gap = |t: f64| distance(&self.up, pin(t).1).1 - radius;
@@ -121,14 +121,14 @@ impl Walls<'_> {
     }
 }
 
-/// Point and derivative of a chain of segments at `t`, the whole part of which counts segments.
+/// Point and derivative of a chain of segments at `t`, whose integer part is the index of the segment.
 fn along(chain: &[&Segment], t: f64) -> (Point, Vector) {
     let index = (t.max(0.0) as usize).min(chain.len() - 1);
     let jet = chain[index].at(2.0 * (t - index as f64) - 1.0);
     (jet.point, jet.first)
 }
 
-/// The point of a chain at `t`, and the point this far out of the material from it.
+/// The point of a chain at `t`, and the point at the distance `radius` from it, outside the material.
 fn offset(chain: &[&Segment], t: f64, radius: f64) -> (Point, Point) {
     let (point, first) = along(chain, t);
     let outward = Vector::new(first.y, -first.x).normalize();

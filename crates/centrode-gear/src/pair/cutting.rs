@@ -10,7 +10,7 @@ use crate::rolling::{Member, Rolling};
 use crate::teeth::Layout;
 use crate::tool::Tool;
 
-/// Both gears of a pair, to be cut as their teeth are laid out.
+/// Data from which both gears of a pair are cut.
 pub(super) struct Cutting<'a> {
     /// Pitch curves of the pair.
     pub(super) rolling: &'a Rolling,
@@ -25,7 +25,7 @@ pub(super) struct Cutting<'a> {
 }
 
 impl Cutting<'_> {
-    /// Driver and driven gear: by two threads, or one from the other where they mate with it.
+    /// Driver and driven gear: the driven gear is made from the driver if they have the same form, else two threads cut them.
     pub(super) fn gears(&self) -> Result<[Gear; 2], GearPairError> {
         let [driver, driven] = [Member::Driver, Member::Driven];
         if let Some(mating) = Mating::new(&self.generation.rolling, self.plan) {

@@ -27,7 +27,7 @@ pub enum GearPairError {
     /// The teeth leave no contour.
     #[error(transparent)]
     Profile(#[from] ProfileError),
-    /// Neither the pair nor the curve says how many teeth the driver has.
+    /// Neither the pair nor the curve gives the number of teeth of the driver.
     #[error(
         "tooth_count is missing: give it to the pair, or module and tooth_count to the pitch curve"
     )]
@@ -48,22 +48,22 @@ pub enum GearPairError {
         /// Ratio of the law.
         implied: (u32, u32),
     },
-    /// The pitch curve swings so often that the waves of a tooth cannot all be distinguished from each other.
+    /// The pitch curve has so many waves that comparing those of each tooth with each other takes too long.
     #[error(
         "the pitch curves swing {swings} times for {teeth} teeth; swings times swings a tooth may be {MAX_WORK} at most: smooth the law, or give fewer points or more digits"
     )]
     Waves {
-        /// Waves of the radius in a turn.
+        /// Number of waves of the radius per turn.
         swings: usize,
         /// Teeth of the driver.
         teeth: u32,
     },
-    /// The pitch curve swings many times a tooth, on arcs too small for it.
+    /// The pitch curve has many waves per tooth, on arcs too small for a tooth.
     #[error(
         "the pitch curves swing {swings} times for {teeth} teeth, on arcs of {radius:.4} mm: no tooth of module {module:.4} mm follows that; with arcs under half a module they may swing {MAX_SWINGS} times a tooth: smooth the law, or give fewer points or more digits"
     )]
     Swings {
-        /// Waves of the radius in a turn.
+        /// Number of waves of the radius per turn.
         swings: usize,
         /// Teeth of the driver.
         teeth: u32,
@@ -182,14 +182,14 @@ impl GearPairError {
     #[must_use]
     pub fn key_in(&self, design: &GearPairDesign) -> String {
         let key = self.key();
-        // A shift that leaves a tooth or a space no width.
+        // A shift that leaves no width for a tooth or a space.
         if let Self::Teeth(TeethError::NoWidth { member, .. }) = self
             && key == "teeth.thickness_split"
             && design.shifts() != [0.0; 2]
         {
             return format!("{}.shift", member.name());
         }
-        // Where the pitch curve says how many teeth the driver has, that number is to blame.
+        // Where the pitch curve gives the number of teeth of the driver, that number is at fault.
         if key == "tooth_count"
             && design.tooth_count.is_none()
             && design.pitch.tooth_count().is_some()

@@ -1,19 +1,19 @@
-//! Whether teeth can follow pitch curves that swing.
+//! Whether teeth can follow pitch curves with many waves.
 
 use super::GearPairError;
 use crate::Rolling;
 
-/// Maximum product of the swings in a turn and the swings a tooth: every wave of a flank may cross every other of the tooth, so
-/// the work goes with it.
+/// Maximum product of the waves per turn and the waves per tooth: every wave of a flank may cross every other wave of the tooth,
+/// so that the work is proportional to this product.
 pub(super) const MAX_WORK: usize = 25_000;
 
-/// Minimum radius of curvature, modules, of pitch curves that swing as often as the work allows.
+/// Minimum radius of curvature, modules, of pitch curves with as many waves as the work allows.
 const MIN_ARC: f64 = 0.5;
 
-/// Most swings a tooth of sharper ones.
+/// Maximum number of waves per tooth of pitch curves with a smaller radius.
 pub(super) const MAX_SWINGS: usize = 4;
 
-/// Checks that teeth can follow the pitch curves: these may swing often, and have small arcs, but not both.
+/// Checks that teeth can follow the pitch curves: these may have many waves or small arcs, but not both.
 pub(super) fn follow(rolling: &Rolling, teeth: u32, module: f64) -> Result<(), GearPairError> {
     if !rolling.oscillates_per_tooth(teeth) {
         return Ok(());

@@ -135,7 +135,7 @@ impl Gear {
     }
 }
 
-/// Steps of a segment among which its distances from the axis are followed.
+/// Number of steps of a segment between which extremes of its distance from the axis are searched.
 const STEPS: usize = 8;
 
 /// Minimum and maximum distance of an outline from the axis, mm.
@@ -170,7 +170,7 @@ fn around(segment: &Segment) -> (f64, f64) {
     }
 }
 
-/// The minimum of a function from some samples, as far as it is below what is known.
+/// Minimum of a known value and of a function with these samples; refined only where it may be below the known value.
 fn nearest(
     samples: &[f64; STEPS + 1],
     place: impl Fn(usize) -> f64,
@@ -180,7 +180,7 @@ fn nearest(
     let mut minimum = samples.iter().copied().fold(known, f64::min);
     for i in 1..STEPS {
         let (value, beside) = (samples[i], [samples[i - 1], samples[i + 1]]);
-        // A parabola through the three reaches an eighth of this below the middle one.
+        // A parabola through the three reaches at most an eighth of this below the middle one.
         let below = beside[0] + beside[1] - 2.0 * value;
         if value <= beside[0].min(beside[1]) && value - below < minimum {
             minimum = minimum.min(bracketed_minimum(&f, place(i - 1), place(i + 1)).1);

@@ -52,7 +52,7 @@ pub struct GearPair {
 impl GearPair {
     /// Pair of a design, as [`GearPair::resolve`] makes it.
     ///
-    /// Cutting takes long: the teeth of a machine in which other things change are cut once.
+    /// Cutting takes long. The result is cached, so that teeth are not cut again when other parts of a machine change.
     ///
     /// # Errors
     /// [`GearPairError`], as of [`Self::resolve`].
@@ -176,7 +176,7 @@ impl GearPair {
         Ok(pair)
     }
 
-    /// Makes the pair with all teeth of both gears thinner by a length along the pitch curve (mm), all else as it is.
+    /// Makes the pair with all teeth of both gears thinner by a length along the pitch curve (mm), all else unchanged.
     ///
     /// # Errors
     /// [`GearPairError`] where too little of a tooth is left.
@@ -189,7 +189,7 @@ impl GearPair {
         Self::resolve(&design)
     }
 
-    /// Design of the pair with what it leaves free (`teeth.fit`) as it was chosen: it gives the same pair, and nothing is free.
+    /// Design of the pair with the chosen values of its free parameters (`teeth.fit`) written into it: it gives the same pair.
     #[must_use]
     pub fn settled_design(&self) -> GearPairDesign {
         let mut design = self.design.clone();
@@ -264,8 +264,8 @@ impl GearPair {
         self.rolling.mean_ratio()
     }
 
-    /// Pressure angle of the pair, rad: between the common normal of the teeth and the pitch curves. That of the tool, but for
-    /// circular gears with x1 + x2 not zero, whose pitch circles are the operating ones.
+    /// Pressure angle of the pair, rad: between the common normal of the teeth and the pitch curves. It is that of the tool,
+    /// except for circular gears with x1 + x2 not zero, whose pitch circles are the operating circles.
     #[must_use]
     pub fn pressure_angle(&self) -> f64 {
         self.generation.pressure_angle(self.teeth.pressure_angle())
@@ -386,8 +386,8 @@ impl GearPair {
         }
     }
 
-    /// Distances of the flank of a tooth's side from the gear's axis, mm: where the flank begins above the root, and where it ends
-    /// at the tip. `None` where undercut leaves no flank, or there is no such tooth.
+    /// Distances of the flank of a tooth's side from the gear's axis, mm: where the flank begins above the root, and where it
+    /// ends at the tip. `None` where undercut leaves no flank, or there is no such tooth.
     #[must_use]
     pub fn flank_radii(&self, member: Member, tooth: usize, side: Side) -> Option<[f64; 2]> {
         let tooth = self.gear(member).teeth().get(tooth)?;
@@ -411,8 +411,8 @@ impl GearPair {
         })
     }
 
-    /// Equal parts of a turn by which a gear's teeth repeat as far as the form of the pitch curve shows: the tooth count for round
-    /// gears, 1 for a gear without such a symmetry.
+    /// Number of equal parts of a turn after which a gear's teeth repeat, as far as the form of the pitch curve shows: the tooth
+    /// count for round gears, 1 for a gear without such a symmetry.
     #[must_use]
     pub fn repeats(&self, member: Member) -> u32 {
         self.patterns.of(member).repeats()
@@ -461,7 +461,7 @@ pub(super) fn parameters(design: &GearPairDesign, module: f64) -> TeethParameter
         ],
         profile_shifts: design.shifts().map(|x| x * module),
         tip_change: match design.teeth.tip_shortening {
-            // Without a sum of shifts nothing is needed to keep the clearance.
+            // Without a sum of shifts no change is needed for the clearance.
             TipShortening::KeepClearance | TipShortening::None => 0.0,
             TipShortening::By(coefficient) => coefficient * module,
         },

@@ -90,7 +90,7 @@ impl Bspline {
         let degree = in_range("degree", self.degree, 1, HIGHEST_DEGREE as u32)? as usize;
         let lists = self.lists();
         let points = lists.points(self.fewest())?;
-        // Control points make no corner, and a spline of degree 1 has its own.
+        // Control points define no corners, and a spline of degree 1 has corners at its points.
         let corners = match self.interpolate && degree > 1 {
             true => sampled::of_radii(&points.polar()),
             false => Vec::new(),
@@ -156,7 +156,7 @@ pub fn basis(degree: usize) -> Vec<Polynomial> {
     basis
 }
 
-/// The polynomial pieces; control point `i` pulls most at `t = i` (odd degree) or `i + 1/2` (even).
+/// The polynomial pieces; control point `i` has its largest weight at `t = i` (odd degree) or `i + 1/2` (even).
 fn pieces(points: &Points, degree: usize) -> Vec<[Polynomial; 2]> {
     let basis = basis(degree);
     let before = (degree / 2) as isize;
@@ -176,7 +176,7 @@ fn pieces(points: &Points, degree: usize) -> Vec<[Polynomial; 2]> {
         .collect()
 }
 
-/// Periodic control values whose spline takes the given values where their control point pulls most.
+/// Periodic control values whose spline has the given values where the control points have their largest weights.
 ///
 /// The matrix is a positive definite circulant with few distinct eigenvalues near its ends:
 /// conjugate gradients reach rounding in some tens of steps.
@@ -202,7 +202,7 @@ pub(crate) fn controls_through(values: &[f64], degree: usize) -> Vec<f64> {
     };
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let mut x = values.to_vec();
-    // The second pass starts from the true residual and removes what rounding left in the first.
+    // The second pass starts from the true residual and removes the rounding errors of the first.
     for _ in 0..2 {
         let product = times(&x);
         let mut residual: Vec<f64> = values.iter().zip(&product).map(|(v, p)| v - p).collect();

@@ -136,7 +136,7 @@ impl RadiusLaw for Focal {
 
     fn symmetry(&self) -> Symmetry {
         Symmetry {
-            // An ellipse rolls on its like about the foci.
+            // Two equal ellipses roll on each other about their foci.
             mates_itself: self.lobes == 1 || self.eccentricity == 0.0,
             ..Symmetry::of_cosine(self.lobes, self.eccentricity)
         }

@@ -45,12 +45,12 @@ pub enum PitchError {
     /// Module without tooth count, or vice versa for a shape without a size.
     #[error("{given} is given without {missing}: the two together set the size of the curve")]
     SizeIncomplete {
-        /// The key that is there.
+        /// The key that is given.
         given: &'static str,
-        /// The key that is not.
+        /// The key that is missing.
         missing: &'static str,
     },
-    /// A curve so long or so short that powers of its lengths are lost.
+    /// A curve so long or so short that powers of its lengths overflow or underflow.
     #[error(
         "{key} makes a pitch curve {length:e} mm long; it must be {minimum:e} to {maximum:e} mm"
     )]
@@ -122,7 +122,7 @@ pub enum PitchError {
         /// Rule it breaks.
         rule: &'static str,
     },
-    /// Listed polar angles do not pass once round in order.
+    /// Listed polar angles do not increase within one turn.
     #[error(
         "angle_deg must increase, within one turn: value {index} is {value} deg after {before} deg, so the control polygon crosses itself"
     )]
@@ -203,9 +203,9 @@ pub enum PitchError {
     Steep {
         /// Key of the function.
         key: &'static str,
-        /// About how wide the narrowest feature is, rad.
+        /// Approximate width of the narrowest feature, rad.
         width: f64,
-        /// Width of those that can be followed, rad.
+        /// Minimum width that can be followed, rad.
         minimum: f64,
     },
     /// The driven gear stops or turns back.
@@ -232,7 +232,7 @@ pub enum PitchError {
         /// Largest whole number tried.
         limit: u32,
     },
-    /// The curve changes so fast that no sampling can guarantee it.
+    /// The curve changes so fast that no sampling follows it reliably.
     #[error("the curve changes too fast near {angle:.3} deg to be followed")]
     TooRough {
         /// Key of the shape.

@@ -1,4 +1,4 @@
-//! Pitch curves: the description of each kind, and the exact curve it means.
+//! Pitch curves: the description of each kind, and the exact curve that it defines.
 //!
 //! A description scaled by `module` and `tooth_count` has the length `pi * module * tooth_count`.
 
@@ -90,12 +90,12 @@ pub struct Pitch {
     pub definition: String,
     /// Turns of driver and driven gear that the description requires, in lowest terms.
     pub implied_ratio: Option<(u32, u32)>,
-    /// Corners of the law that samples follow; the curve through them rounds these.
+    /// Corners of the law that the samples follow; the curve through the samples rounds them.
     pub corners: Vec<SampledCorner>,
     pub(crate) symmetry: Symmetry,
 }
 
-/// An expression of the spec of whatever kind a curve is.
+/// Evaluates an expression for the spec of any kind of curve.
 macro_rules! of_kind {
     ($curve:expr, $spec:ident => $expression:expr) => {
         match $curve {
@@ -115,7 +115,7 @@ macro_rules! of_kind {
 }
 
 impl PitchSpec {
-    /// Exact curve, proved to wind once round the shaft axis, in order.
+    /// Exact curve, proved to wind once round the shaft axis with an increasing polar angle.
     ///
     /// # Errors
     /// [`PitchError`] naming the violated rule and its numbers.
@@ -129,7 +129,7 @@ impl PitchSpec {
         of_kind!(self, spec => spec.tooth_count)
     }
 
-    /// Gives it another number of teeth, where it has one: on a curve of the same size, so that the module changes.
+    /// Changes the number of teeth, if one is written. The curve has the same size, so that the module changes.
     pub(crate) fn set_tooth_count(&mut self, teeth: u32) {
         let (module, diametral_pitch, count) = of_kind!(self, spec => (
             &mut spec.module,
@@ -154,11 +154,11 @@ impl PitchSpec {
 /// How a definition in words states the scale of its curve.
 #[derive(Debug)]
 enum Scaled {
-    /// It holds at every scale.
+    /// The definition holds at every scale.
     Not,
-    /// By the length that it leaves open: its symbol, and its value before scaling, mm.
+    /// By a length that the definition leaves open: its symbol, and its value before scaling, mm.
     Length(&'static str, f64),
-    /// By a factor, where it is not drawn as it is written.
+    /// By a factor, if the curve is not drawn as it is written.
     Written,
 }
 
@@ -195,12 +195,12 @@ impl Draft {
         })
     }
 
-    /// Its definition states how it is scaled.
+    /// The draft with a form in which its definition states the scale.
     fn scaled(self, scaled: Scaled) -> Self {
         Self { scaled, ..self }
     }
 
-    /// Its samples follow a law with these corners.
+    /// The draft with the corners of the law that its samples follow.
     fn with_corners(self, corners: Vec<SampledCorner>) -> Self {
         Self { corners, ..self }
     }
@@ -247,7 +247,7 @@ impl Draft {
 /// Minimum and maximum length of a pitch curve, mm: its moments, up to the fourth power, are normal numbers.
 const LENGTHS: [f64; 2] = [1e-50, 1e50];
 
-/// Checks that the length of a pitch curve can be computed with.
+/// Checks that the length of a pitch curve is within the range of the computation.
 fn sized(key: &'static str, length: f64) -> Result<f64, PitchError> {
     let [minimum, maximum] = LENGTHS;
     if (minimum..=maximum).contains(&length) {

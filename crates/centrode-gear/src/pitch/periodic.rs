@@ -22,7 +22,7 @@ pub enum Interpolation {
     Trigonometric,
 }
 
-/// Maximum number of harmonics of a trigonometric polynomial: every evaluation visits them all.
+/// Maximum number of harmonics of a trigonometric polynomial: the time of every evaluation is proportional to their number.
 const MAX_HARMONICS: usize = 500;
 
 /// A function of period one turn.
@@ -90,7 +90,7 @@ impl Periodic {
         Ok(Self(Form::Spline(Spline::uneven(angle, samples))))
     }
 
-    /// The series of the function at an angle, rad.
+    /// Taylor series of the function at an angle, rad.
     #[must_use]
     pub fn at(&self, phi: f64) -> Taylor {
         match &self.0 {
@@ -166,7 +166,7 @@ impl Fourier {
         }
     }
 
-    /// The harmonics in use have their greatest common divisor as folds; without sines it is even.
+    /// The greatest common divisor of the harmonics in use is the number of folds; without sines the function is even.
     fn symmetry(&self) -> Symmetry {
         let used = (1u32..).zip(&self.harmonics);
         let used = used.filter(|(_, [a, b])| *a != 0.0 || *b != 0.0);

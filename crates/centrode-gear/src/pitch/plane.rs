@@ -58,12 +58,12 @@ pub(crate) trait ScalableCurve: Curve {
     /// Multiplies every length of the curve by `factor`.
     fn rescale(&mut self, factor: f64);
 
-    /// The sign of the radius where a curve is given by one; 1 otherwise.
+    /// The sign of the radius of a curve that is given by its radius; 1 otherwise.
     fn side(&self, _t: f64) -> f64 {
         1.0
     }
 
-    /// Whether the curve winds once round the axis by its own form, so that nothing needs proving.
+    /// Whether the curve winds once round the axis by its own form, so that no proof is needed.
     fn goes_round_by_form(&self) -> bool {
         false
     }
@@ -79,7 +79,7 @@ pub(crate) trait RadiusLaw: std::fmt::Debug + Send + Sync {
     /// Radius and its derivatives in a direction.
     fn radius(&self, phi: &Direction) -> Derivatives;
 
-    /// Whether the radius is above zero by the law's own form, for any numbers it was checked for.
+    /// Whether the radius is above zero by the law's own form, for all parameters that pass its checks.
     fn is_positive_by_form(&self) -> bool {
         false
     }
@@ -89,7 +89,7 @@ pub(crate) trait RadiusLaw: std::fmt::Debug + Send + Sync {
         Symmetry::NONE
     }
 
-    /// Angles in `[0, 2 pi)` where a derivative may jump, and others that part a law of narrow features, ascending.
+    /// Angles in `[0, 2 pi)` where a derivative may jump, and angles that divide a law with narrow features, ascending.
     fn breaks(&self) -> Vec<f64> {
         Vec::new()
     }

@@ -175,7 +175,7 @@ impl Interpolation {
     }
 }
 
-/// Reads a formula; the error says where it cannot be read.
+/// Reads a formula; the error names the position at which it cannot be read.
 ///
 /// # Errors
 /// [`PitchError`] with the key.
@@ -187,7 +187,7 @@ pub fn read_formula(key: &'static str, text: &str) -> Result<Formula, PitchError
     })
 }
 
-/// Angles at which a formula is parted so that nothing narrow in it is stepped over.
+/// Angles at which a formula is divided so that no narrow feature is stepped over.
 ///
 /// # Errors
 /// [`PitchError`] with the key, for features too narrow to be followed.

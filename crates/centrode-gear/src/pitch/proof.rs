@@ -7,9 +7,9 @@ use centrode_geometry::{Curve, Jet, bracketed_minimum};
 use super::PitchError;
 use super::plane::ScalableCurve;
 
-/// Fewest samples of a whole curve and of one analytic piece of it.
+/// Minimum number of samples of a whole curve and of one analytic piece of it.
 const SAMPLES: (usize, usize) = (384, 8);
-/// Halvings of one sample interval, and of all together, where the curve is not yet resolved.
+/// Maximum number of halvings of one sample interval, and of all intervals together, where the curve is not yet resolved.
 const DEEPEST: u32 = 12;
 const MAX_HALVINGS: u32 = 50_000;
 
@@ -101,7 +101,7 @@ fn sample(curve: &dyn ScalableCurve, key: &'static str, t: f64) -> Result<Sample
     }
     let radius = square.sqrt() * curve.side(t);
     if radius == 0.0 {
-        // At the axis the curve goes on as its tangent does; without one its parameter is the polar angle.
+        // At the axis the polar angle is that of the tangent; if there is no tangent, the parameter is the polar angle.
         let tangent = jet.first;
         let angle = degrees(match tangent.norm() > 0.0 {
             true => tangent.y.atan2(tangent.x),
@@ -120,7 +120,7 @@ fn sample(curve: &dyn ScalableCurve, key: &'static str, t: f64) -> Result<Sample
     })
 }
 
-/// State of a walk along the curve.
+/// State of a pass along the curve.
 struct Walk<'a> {
     curve: &'a dyn ScalableCurve,
     key: &'static str,
@@ -133,7 +133,7 @@ struct Walk<'a> {
 }
 
 impl Walk<'_> {
-    /// Walks one interval, halving it until cubic Hermite interpolation predicts its middle.
+    /// Samples one interval, halving it until cubic Hermite interpolation predicts its middle.
     fn interval(&mut self, low: Sample, high: Sample, depth: u32) -> Result<(), PitchError> {
         let middle = sample(self.curve, self.key, 0.5 * (low.t + high.t))?;
         let step = high.t - low.t;

@@ -1,22 +1,22 @@
 //! Corners between samples of a periodic function.
 //!
-//! A spline through samples rounds every corner of the sampled law. A corner shows where the polynomials through the samples
-//! before it and after it meet at different slopes, while each of them is sure of its own.
+//! A spline through samples rounds every corner of the sampled law. At a corner the polynomials through the samples before it and
+//! after it meet at different slopes, although the slope of each polynomial is certain.
 
 use std::f64::consts::TAU;
 
-/// Samples of a polynomial on one side of a corner. With fewer the slope of a curved law is less sure and weak corners are missed;
-/// with more, corners near each other.
+/// Number of samples of a polynomial on one side of a corner. With fewer samples the slope of a curved law is less certain and
+/// weak corners are missed; with more samples, corners near each other are missed.
 const STENCIL: usize = 5;
 
-/// Polynomials on each side, each one sample farther away, that show how sure a slope is.
+/// Number of polynomials on each side, each one sample farther away, that show the uncertainty of a slope.
 const STENCILS: usize = 3;
 
-/// Multiple of the uncertainty of both slopes from which their difference is a corner. At 4 narrow bumps of smooth laws are taken
-/// for corners, at 40 corners between coarse samples are missed.
+/// Multiple of the uncertainty of both slopes above which their difference is a corner. At 4, narrow bumps of smooth laws are
+/// taken for corners; at 40, corners between coarse samples are missed.
 const SURE: f64 = 16.0;
 
-/// Change of direction, rad, below which a corner is not reported: rounding to 1 um makes as much.
+/// Change of direction, rad, below which a corner is not reported: rounding to 1 um gives the same change.
 const SLIGHT: f64 = 4e-3;
 
 /// Share of a step within which a corner is at a sample, and by which it may lie outside of the step, by rounding.
@@ -39,7 +39,7 @@ pub(super) struct Kink {
     pub(super) slopes: [f64; 2],
 }
 
-/// Corners of a pitch curve whose radius, or radius by a constant, has these samples at ascending polar angles, rad.
+/// Corners of a pitch curve whose radius, or radius times a constant, has these samples at ascending polar angles, rad.
 pub(super) fn of_radii(samples: &[[f64; 2]]) -> Vec<SampledCorner> {
     corners(samples, |kink| kink.value)
 }
@@ -49,7 +49,7 @@ pub(super) fn of_ratios(samples: &[[f64; 2]]) -> Vec<SampledCorner> {
     corners(samples, |kink| kink.value * (1.0 + kink.value))
 }
 
-/// Corners of a pitch curve from those of a function, whose slope over `size` is that of the radius over the radius.
+/// Corners of a pitch curve from those of a function. The function's slope over `size` is the radius's slope over the radius.
 fn corners(samples: &[[f64; 2]], size: impl Fn(&Kink) -> f64) -> Vec<SampledCorner> {
     let corner = |kink: &Kink| {
         let [before, after] = kink.slopes.map(|slope| (slope / size(kink)).atan());
@@ -87,7 +87,7 @@ fn kinks(samples: &[[f64; 2]]) -> Vec<Kink> {
         };
         found.extend(kink([&side(-1), &side(1)]));
     }
-    // A corner at a sample shows in the steps before and after it: the surer one counts.
+    // A corner at a sample shows in the steps before and after it: the more certain one counts.
     found.sort_by(|a, b| b.0.total_cmp(&a.0));
     let step = TAU / count as f64;
     let mut kept: Vec<Kink> = Vec::new();
@@ -103,7 +103,7 @@ fn kinks(samples: &[[f64; 2]]) -> Vec<Kink> {
     kept
 }
 
-/// The corner in the step between two rows of samples, nearest first, and how sure it is; `None` if there is none.
+/// The corner in the step between two rows of samples, nearest first, and its certainty; `None` if there is none.
 fn kink([before, after]: [&[[f64; 2]]; 2]) -> Option<(f64, Kink)> {
     let (from, to) = (before[0][0], after[0][0]);
     let mut at = 0.5 * (from + to);

@@ -4,7 +4,7 @@ use super::error::positive;
 /// Inch, mm.
 const INCH: f64 = 25.4;
 
-/// Size of a curve as its description gives it.
+/// Size of a curve as given in its description.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Size {
     pub(crate) module: Option<f64>,

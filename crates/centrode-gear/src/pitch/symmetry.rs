@@ -1,7 +1,7 @@
-/// Turns and the mirror that leave a radius law as it is.
+/// Turns and mirror image that leave a radius law unchanged.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub struct Symmetry {
-    /// Equal parts of a turn: `r(phi + 2 pi/folds) = r(phi)`. Zero where any turn leaves it as it is.
+    /// Equal parts of a turn: `r(phi + 2 pi/folds) = r(phi)`. Zero if every turn leaves the law unchanged.
     pub(crate) folds: u32,
     /// Whether `r(-phi) = r(phi)`.
     pub(crate) mirrored: bool,
@@ -10,14 +10,14 @@ pub struct Symmetry {
 }
 
 impl Symmetry {
-    /// A law that nothing is known of.
+    /// A law without any known symmetry.
     pub(crate) const NONE: Self = Self {
         folds: 1,
         mirrored: false,
         mates_itself: false,
     };
 
-    /// A law of `cos(lobes phi)`; of no swing it is a circle's.
+    /// Symmetry of a law in `cos(lobes phi)`; with a swing of zero, that of a circle.
     pub(crate) fn of_cosine(lobes: u32, swing: f64) -> Self {
         Self {
             folds: if swing == 0.0 { 0 } else { lobes },
@@ -27,7 +27,7 @@ impl Symmetry {
     }
 }
 
-/// Greatest common divisor; of zero and another the other.
+/// Greatest common divisor; if one number is zero, the other number.
 pub fn gcd(mut a: u32, mut b: u32) -> u32 {
     while b != 0 {
         (a, b) = (b, a % b);

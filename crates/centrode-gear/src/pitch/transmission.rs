@@ -303,7 +303,7 @@ fn draft(
     Ok(draft)
 }
 
-/// Turns of driver and driven gear, in lowest terms, where the driven gear makes `turns` a driver turn.
+/// Turns of driver and driven gear, in lowest terms, if the driven gear makes `turns` turns per driver turn.
 fn turns(key: &'static str, turns: f64) -> Result<(u32, u32), PitchError> {
     for driver in 1..=MAX_TURNS {
         let driven = (turns * f64::from(driver)).round();
@@ -322,7 +322,7 @@ fn turns(key: &'static str, turns: f64) -> Result<(u32, u32), PitchError> {
 enum RatioForm {
     /// Driven angle.
     Driven(Formula),
-    /// Mean ratio and the driven angle's departure from it.
+    /// Mean ratio, and the deviation of the driven angle from it.
     Swing(f64, Periodic),
     /// Ratio.
     Ratio(Formula),

@@ -8,7 +8,7 @@ use nalgebra::Isometry2;
 use super::{Profile, ProfileError, Role, Tooth, ToothCurve, ToothPlan, ToothSide};
 use crate::pattern::{Image, Mating};
 
-/// Copies pieces of one place to the end of them, as those of its image.
+/// Appends copies of the pieces of one tooth or space, as the pieces of its image.
 pub(super) fn copy(of: Range<usize>, image: &Image, tooth: u32, pieces: &mut Vec<ToothCurve>) {
     let last = of.start + of.end;
     for k in of {
@@ -27,7 +27,7 @@ pub(super) fn copy(of: Range<usize>, image: &Image, tooth: u32, pieces: &mut Vec
 }
 
 impl ToothCurve {
-    /// The mirror image about the x axis, travelled as contours are.
+    /// The mirror image about the x axis, reversed, so that it has the direction of contours.
     fn mirrored(&self) -> Self {
         Self {
             poly: self.poly.mirrored().reversed(),
@@ -39,7 +39,7 @@ impl ToothCurve {
 }
 
 impl Tooth {
-    /// The image of this tooth, whose plan is given.
+    /// The image of this tooth; `plan` is the plan of the image.
     pub(super) fn image(&self, image: &Image, plan: &ToothPlan) -> Self {
         let (leading, trailing) = if image.mirrored {
             (self.trailing, self.leading)
@@ -56,7 +56,7 @@ impl Tooth {
 }
 
 impl Profile {
-    /// The driven gear's profile where it is the driver's, turned.
+    /// The driven gear's profile, if it has the form of the driver's, turned.
     pub(crate) fn mated(&self, mating: &Mating, plans: &[ToothPlan]) -> Result<Self, ProfileError> {
         let teeth = (0u32..).zip(plans).map(|(k, plan)| {
             let (other, turns) = mating.other(k);
@@ -74,7 +74,7 @@ impl Profile {
                 ..tooth
             }
         });
-        // A space belongs to the tooth before it, in the order the teeth mesh: on the other gear that is the one after.
+        // A space belongs to the tooth before it, in the order the teeth mesh: on the other gear, to the tooth after it.
         let owner = |(role, &owner): (&Role, &u32)| match role {
             Role::Root => mating.other(owner + 1).0,
             _ => mating.other(owner).0,
@@ -83,7 +83,7 @@ impl Profile {
         let outline = self.outline.transformed(&Isometry2::rotation(mating.turn));
         let last = plans.len() as u32 - 1;
         let count = owners.len();
-        // From the space after the last tooth on, as a contour that is cut.
+        // Starts at the space after the last tooth, like a contour that is cut.
         let is_start = |i: &usize| owners[*i] == last && owners[(i + count - 1) % count] != last;
         let start = (0..count).find(is_start).unwrap_or(0);
         let turned = |i: usize| (start + i) % count;

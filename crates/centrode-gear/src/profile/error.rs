@@ -19,7 +19,7 @@ pub enum ProfileError {
     Unresolved {
         /// Gear at fault.
         member: Member,
-        /// Place and cause.
+        /// Position and cause.
         cause: LoopError,
     },
     /// Two curves of a tooth that do not meet.
@@ -34,7 +34,7 @@ pub enum ProfileError {
         /// Distance of their ends, mm.
         gap: f64,
     },
-    /// A contour that leaves its axis outside, so that nothing can carry it.
+    /// A contour that does not enclose its axis, so that no shaft can carry the gear.
     #[error("the {} has no profile: its axis lies outside its contour, {away:.6} mm from it, so the teeth are too large for the pitch curve", .member.name())]
     AxisOutside {
         /// Gear at fault.

@@ -5,7 +5,7 @@ use centrode_geometry::{
 use super::{Cutter, Member, Profile, ProfileError, Role, Side, Tooth, ToothCurve};
 
 impl Cutter<'_> {
-    /// Joins what is left of the pieces into the contour, and finds what it leaves of each tooth.
+    /// Joins the remaining parts of the pieces into the contour, and records what remains of the flanks of each tooth.
     pub(super) fn join(
         &self,
         pieces: &[ToothCurve],
@@ -81,7 +81,7 @@ impl Cutter<'_> {
         }
         let mut segments: Vec<Segment> = polys.into_iter().map(Segment::Poly).collect();
         if self.member == Member::Driven {
-            // Rolled clockwise: turn the contour round.
+            // The driven gear is rolled clockwise: its contour is reversed.
             segments = segments.iter().rev().map(Segment::reversed).collect();
             roles.reverse();
             owners.reverse();

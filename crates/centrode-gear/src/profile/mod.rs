@@ -42,7 +42,7 @@ struct ToothCurve {
     /// Pitch-curve parameters at the ends.
     span: (f64, f64),
     side: Side,
-    /// How it was copied from the piece whose span it has.
+    /// Image by which it was copied from the piece with this span; `None` if it was not copied.
     image: Option<Image>,
 }
 
@@ -50,10 +50,10 @@ struct ToothCurve {
 /// flank curls up on itself.
 const BLUNT: f64 = 0.02;
 
-/// Share of a parameter within which two of them are one.
+/// Relative difference below which two parameters are equal.
 const CRUMB: f64 = 1e-14;
 
-/// Tip and ends of one flank, as found.
+/// Tip and ends of one flank, as computed.
 struct Ends {
     /// Parameter at the tip corner.
     tip: f64,
@@ -280,8 +280,8 @@ impl Cutter<'_> {
         });
     }
 
-    /// Tip or root from one pitch-curve parameter and height over the pitch curve to another, as `blend` has it of the
-    /// share of the way.
+    /// Tip or root land between two pitch-curve parameters with a height over the pitch curve at each. `blend` gives the share of
+    /// the rise at a share of the distance.
     fn land(
         &self,
         pieces: &mut Vec<ToothCurve>,
@@ -296,14 +296,14 @@ impl Cutter<'_> {
         if narrow && rise.abs() <= self.tolerance.mm() {
             return;
         }
-        // Roundings that leave no land between them, at unlike depths: a step joins them.
+        // Two roundings of unequal depth without a land between them: a straight step joins them.
         let height = |share: f64| low + rise * if narrow { share } else { blend(share) };
         let cuts = if narrow {
             vec![0.0, 1.0]
         } else {
             self.cuts(from, to).map(|t| (t - from) / width).collect()
         };
-        // By the share of the way: a parameter has too few digits for the height along a narrow one.
+        // As a function of the share: a parameter has too few digits for the height along a narrow land.
         self.fit(pieces, role, Side::Trailing, tooth, cuts, &|share| {
             let frame = flank.frame(from + share * width);
             frame.point + frame.normal * height(share)
@@ -316,7 +316,7 @@ impl Cutter<'_> {
         std::iter::once(from).chain(breaks).chain([to])
     }
 
-    /// Fits a curve between the places of its parameter at which it is cut.
+    /// Fits a curve between the values of its parameter at which it is cut.
     fn fit(
         &self,
         pieces: &mut Vec<ToothCurve>,
@@ -327,7 +327,7 @@ impl Cutter<'_> {
         curve: &dyn Fn(f64) -> Point,
     ) {
         for pair in cuts.windows(2) {
-            // What has no length would only be cut off again.
+            // A piece without length would only be cut off again.
             if (pair[1] - pair[0]).abs() <= CRUMB * pair[0].abs().max(pair[1].abs()) {
                 continue;
             }

@@ -1,8 +1,8 @@
 use crate::tool::Corner;
 
-/// Fillet parameter w, with roll = depth of the rounding's centre x sinh w: the distance
-/// from the pitch point to that centre is then entire, and the fillet far smoother than in the roll,
-/// which moves it slowly at the root and fast at the flank.
+/// Fillet parameter w, with roll = depth of the rounding's centre x sinh w. The distance from the pitch point to that centre is
+/// then an entire function of w. The fillet is far smoother in w than in the roll, which moves it slowly at the root and fast at
+/// the flank.
 pub(super) struct Swing {
     center: f64,
     span: f64,
@@ -17,7 +17,7 @@ impl Swing {
         Self {
             center,
             span: end - center,
-            // A corner rounded all the way turns at once: any finite slope serves.
+            // A rounding with its centre on the pitch line has an infinite slope: any large finite slope works.
             slope: (roll / straight).min(1e3),
         }
     }

@@ -60,17 +60,17 @@ pub struct ToothSide {
     pub crossing: f64,
     /// Height of the tip corner above the pitch curve, mm.
     pub tip_height: f64,
-    /// Tip shortening, mm: by how much the tip corner is lower than asked for, since the pitch curve or the tool
-    /// allows no more flank.
+    /// Tip shortening, mm: by how much the tip corner is lower than required, because the pitch curve or the tool allows no more
+    /// flank.
     pub tip_shortening: f64,
     /// Form depth: depth below the pitch curve, at the tool's pose, that the tool's straight flank reaches, mm.
     pub form_depth: f64,
-    /// Active depth: arc length of roll below the crossing down to which the flank is needed, mm, as far as the tool
-    /// reaches, or the mate where addenda are fitted.
+    /// Active depth: arc length of roll below the crossing down to which the flank is needed, mm: as far as the tool reaches, or,
+    /// with fitted addenda, as far as the mate reaches.
     pub active_depth: f64,
     /// Length of active flank lost to undercut, in arc length of roll, mm; zero for a tooth without undercut.
     pub undercut: f64,
-    /// Arc lengths of roll between which flank remains; `None` where nothing does.
+    /// Arc lengths of roll between which flank remains; `None` if no flank remains.
     pub active: Option<(f64, f64)>,
     /// Minimum radius of curvature of the fillet, mm.
     pub fillet_radius: f64,

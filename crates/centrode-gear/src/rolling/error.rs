@@ -12,14 +12,14 @@ pub enum RollingError {
         /// Polar angle swept in one round, rad.
         turned: f64,
     },
-    /// The pitch curve swings or kinks too often to be followed.
+    /// The pitch curve oscillates or has kinks too often to be followed.
     #[error(
         "the pitch curve oscillates or has kinks too often: with up to 4096 pieces between two neighbouring joints it is still not smooth in {unsettled} of the pieces; at most {most} are allowed; smooth the law"
     )]
     Unsettled {
-        /// Pieces on which the curve's length is no polynomial to a billionth.
+        /// Number of pieces on which no polynomial represents the curve's length to a billionth.
         unsettled: usize,
-        /// Most such pieces.
+        /// Maximum number of such pieces.
         most: usize,
     },
     /// The mean ratio has no closed driven curve.
@@ -30,7 +30,7 @@ pub enum RollingError {
         /// Maximum difference found, mm.
         difference: f64,
     },
-    /// A mean ratio with a zero or absurd number in it.
+    /// A mean ratio with a number that is zero or too large.
     #[error("mean ratio {}:{} must be two counts from 1 to {}", ratio.0, ratio.1, Rolling::MAX_TURNS)]
     MeanRatio {
         /// Turns of driver : turns of driven.

@@ -6,7 +6,7 @@ use centrode_geometry::{bracketed_newton, checkpoint, piece_ends};
 
 use super::Rolling;
 
-/// Knots of a turn, breaks aside.
+/// Number of knots per turn, in addition to the breaks.
 const KNOTS: u32 = 96;
 
 impl Rolling {
@@ -43,7 +43,7 @@ impl Rolling {
         bracketed_newton(at, low, high, start) + before
     }
 
-    /// Neighbouring knots, the first at most at a polar angle within a turn, the second beyond it.
+    /// Neighbouring knots: the polar angle of the first is at most `angle`, that of the second is above it.
     fn around(&self, angle: f64) -> [[f64; 2]; 2] {
         let pair = |after: usize| [self.knots[after - 1], self.knots[after]];
         let is_around = |pair: &[[f64; 2]; 2]| pair[0][1] <= angle && angle < pair[1][1];
@@ -53,7 +53,7 @@ impl Rolling {
         if is_around(&found) {
             return found;
         }
-        // On a curve that runs back for a while, the first of several.
+        // On a curve whose polar angle decreases for a while several pairs fit: the first is used.
         let mut pairs = (1..=last).map(pair);
         pairs.find(is_around).unwrap_or(found)
     }

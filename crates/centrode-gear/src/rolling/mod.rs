@@ -14,7 +14,7 @@ pub use pitch_contact::{CurvatureRange, PitchContact};
 
 use super::pitch::{SampledCorner, Symmetry};
 
-/// Even parts of a turn in each of which a pitch curve has few extremes.
+/// Number of equal parts of a turn in each of which a pitch curve has few extremes.
 const PIECES: u32 = 8;
 
 /// Gear of a pair.
@@ -42,7 +42,7 @@ impl Member {
     }
 }
 
-/// Moving frame at a point of a rolling pitch curve, in which both tools and mates are seen.
+/// Moving frame at a point of a rolling pitch curve, in which tools and mates are described.
 #[derive(Clone, Copy, Debug)]
 pub struct Frame {
     /// The point, in the gear's own body frame, mm.
@@ -84,7 +84,7 @@ pub struct Rolling {
     mean_ratio: (u32, u32),
     minimum: Extreme,
     maximum: Extreme,
-    /// How often the radius swings in a turn.
+    /// Number of waves of the radius per turn.
     swings: usize,
     symmetry: Symmetry,
     sampled_corners: Vec<SampledCorner>,
@@ -92,10 +92,10 @@ pub struct Rolling {
     ranges: OnceLock<[CurvatureRange; 2]>,
 }
 
-/// Share of the period within which two parameters are the same but for rounding.
+/// Share of the period below which two parameters differ by rounding only.
 const SAME: f64 = 1e-12;
 
-/// A pitch radius that is the minimum or the maximum, and the parameter it is at.
+/// A pitch radius that is the minimum or the maximum, and its parameter.
 #[derive(Clone, Copy, Debug)]
 struct Extreme {
     at: f64,
@@ -174,15 +174,15 @@ impl Rolling {
         }
     }
 
-    /// How often the driver's radius swings in a turn, by more than rounding: once a wave, also of waves on a radius that rises or
-    /// falls all along. That of an ellipse about its focus does once.
+    /// Number of waves of the driver's radius per turn that exceed rounding. Waves on a radius that rises or falls throughout
+    /// count, too. An ellipse about its focus has one wave.
     #[must_use]
     pub fn swings(&self) -> usize {
         self.swings
     }
 
-    /// Whether the pitch curves swing more than twice a tooth of a driver with `teeth`: every wave has its peak, and their
-    /// teeth are sampled at few inputs.
+    /// Whether the pitch curves have more than two waves per tooth of a driver with `teeth` teeth. Every wave has a peak of its
+    /// own, so such teeth are sampled at few inputs.
     #[must_use]
     pub fn oscillates_per_tooth(&self, teeth: u32) -> bool {
         self.swings > 2 * teeth as usize
@@ -342,7 +342,7 @@ impl Rolling {
         }
     }
 
-    /// Breaks strictly between two parameters, in the order walked.
+    /// Breaks strictly between two parameters, in order from the first to the second.
     pub(crate) fn breaks_between(&self, from: f64, to: f64) -> Vec<f64> {
         if self.jumps.is_empty() {
             return Vec::new();
@@ -384,7 +384,7 @@ impl Rolling {
         self.jumps.contains(&inside)
     }
 
-    /// Parameter of that position in the first turn, and the turns before it.
+    /// Parameter reduced to the first turn, and the number of whole turns removed.
     pub(crate) fn wrapped(&self, t: f64) -> (f64, f64) {
         let period = self.curve.period();
         if t >= self.start && t <= self.start + period {
@@ -397,7 +397,7 @@ impl Rolling {
         )
     }
 
-    /// Polar angle in the turn the parameter lies in, whatever the rounding at its ends.
+    /// Polar angle within the turn of the parameter, whatever the rounding at the ends of the turn.
     pub(crate) fn polar_angle(&self, t: f64, jet: &Jet) -> f64 {
         let angle = jet.point.y.atan2(jet.point.x);
         let middle = if t <= self.half { 0.5 * PI } else { 1.5 * PI };

@@ -6,10 +6,10 @@ use centrode_geometry::{COMPUTED, Extreme, Point, bracketed_minimum, checkpoint}
 
 use super::Rolling;
 
-/// Positions on a turn of the driver among which an overlap is searched.
+/// Number of positions per driver turn among which an overlap is searched.
 const PLACES: usize = 360;
 
-/// A point of the driver's pitch curve, with that of the driven gear's curve there.
+/// One position of the pitch point: driver angle, radius of the driver's curve, and driven angle.
 struct Place {
     angle: f64,
     radius: f64,
@@ -17,12 +17,13 @@ struct Place {
 }
 
 impl Rolling {
-    /// Maximum overlap of the two pitch curves away from the point at which they roll, over all driver angles, rad: how far one
-    /// reaches into the other, mm, towards the driver's shaft; nothing where they only roll.
+    /// Maximum overlap of the two pitch curves away from the point at which they roll: the driver angle, rad, and the depth, mm,
+    /// to which one curve reaches into the other towards the driver's shaft. `None` if they only roll.
     ///
-    /// With the driver at phi, the point of the driven gear's curve that is to come to the pitch point after a turn beta of that
-    /// gear is at (a - r2 cos beta, r2 sin beta); with rho and gamma its distance and angle from the driver's shaft, the overlap is
-    /// r1(phi + gamma) - rho. Convex curves have none. Searched among 360 points of either curve and found between them.
+    /// With the driver at phi, the point of the driven gear's curve that comes to the pitch point after a further turn beta of
+    /// that gear is at (a - r2 cos beta, r2 sin beta). With rho and gamma its distance and angle from the driver's shaft, the
+    /// overlap is r1(phi + gamma) - rho. Convex curves have none. Searched at 360 points of either curve and refined between
+    /// them.
     #[must_use]
     pub fn overlap(&self) -> Option<Extreme> {
         if self
@@ -42,7 +43,7 @@ impl Rolling {
         let mut best: Option<Extreme> = None;
         for (rough, [pose, place]) in found {
             checkpoint();
-            // Points farther off than a step come no nearer between the samples.
+            // A point that is outside by more than a step does not overlap between the samples.
             if rough < -step || best.is_some_and(|best| rough < best.value - step) {
                 break;
             }
@@ -80,15 +81,15 @@ impl Rolling {
         Point::new(self.center_distance - radius * cos, radius * sin)
     }
 
-    /// Depth of that position within the driver's curve; negative outside.
+    /// Depth of a point of the driven gear's curve within the driver's curve; negative outside.
     fn depth(&self, pose: &Place, place: &Place) -> f64 {
         let point = self.beside(pose, place);
         let radius = self.radius(pose.angle + point.y.atan2(point.x));
         radius - point.coords.norm()
     }
 
-    /// Poses and positions, by their numbers, at which a position is deeper than those next to it at that pose, and than at the
-    /// poses next to it; each with its depth, by chords.
+    /// Poses and points, by their numbers, with a local maximum of the depth: the deepest point of a pose, if it is deeper than
+    /// those of the neighbouring poses. Each has its depth, by chords.
     fn suspects(&self, places: &[Place]) -> Vec<(f64, [i64; 2])> {
         let count = PLACES as i64;
         let angle_of_turn = self.driven.total();
@@ -101,7 +102,7 @@ impl Rolling {
                 ..*place
             }
         };
-        // Radii at even angles.
+        // Radii at equally spaced angles.
         let radii: Vec<f64> = (0..count)
             .map(|k| self.radius(TAU * k as f64 / count as f64))
             .collect();
@@ -111,7 +112,7 @@ impl Rolling {
             let pair = [radii[k % PLACES], radii[(k + 1) % PLACES]];
             pair[0] + rest * (pair[1] - pair[0])
         };
-        // Deepest point of a pose on either side of the pitch point, beyond where the curves part from there.
+        // Deepest point of a pose on either side of the pitch point, beyond the part where the curves move apart from there.
         let deepest = |pose: i64, way: i64| {
             let here = at(pose);
             let depth = |steps: i64| {

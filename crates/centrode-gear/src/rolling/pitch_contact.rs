@@ -6,7 +6,7 @@ use centrode_geometry::{Extreme, Vector, maximum_of_each};
 
 use super::Rolling;
 
-/// Minimum and maximum curvature of a member's pitch curve (1/mm), and the arc lengths they are at.
+/// Minimum and maximum curvature of a member's pitch curve (1/mm), each with its arc length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CurvatureRange {
     /// Minimum curvature; negative for a curve with a concave part.
@@ -15,7 +15,7 @@ pub struct CurvatureRange {
     pub maximum: (f64, f64),
 }
 
-/// The two pitch curves where they touch, and how far both gears have turned then.
+/// The two pitch curves where they touch, and the angles by which both gears have turned there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PitchContact {
     /// Parameter of the driver's pitch curve.
@@ -59,8 +59,8 @@ impl Rolling {
         }
     }
 
-    /// Curvature of the driver's pitch curve and of the driven gear's at a parameter, 1/mm, positive where convex: by Euler and
-    /// Savary they add up to those of circles about the axes, times cos mu.
+    /// Curvature of the driver's pitch curve and of the driven gear's at a parameter, 1/mm, positive where convex. By Euler and
+    /// Savary their sum is that of circles about the axes, times cos mu.
     #[must_use]
     pub fn curvatures(&self, t: f64) -> [f64; 2] {
         let jet = self.curve.at(self.wrapped(t).0);
@@ -73,7 +73,7 @@ impl Rolling {
         ]
     }
 
-    /// Curvature of the driver's pitch curve and of the driven gear's over the whole of them, to the float limit between breaks.
+    /// Curvature of the driver's pitch curve and of the driven gear's over a whole cycle, to the float limit between breaks.
     #[must_use]
     pub fn curvature_ranges(&self) -> [CurvatureRange; 2] {
         *self.ranges.get_or_init(|| {

@@ -6,10 +6,10 @@ use centrode_geometry::{Antiderivative, Curve, Jet, Point, bracketed_root};
 use super::{Extreme, Rolling, RollingError, SAME};
 use crate::pitch::{Symmetry, gcd};
 
-/// Most pieces on which a pitch curve may not be smooth, as next to a kink.
+/// Maximum number of pieces on which a pitch curve may not be smooth, as next to a kink.
 const MAX_UNSETTLED: usize = 64;
 
-/// Share of the maximum radius, a radian, by which the slope of a radius that swings changes at least.
+/// Minimum change of the radius's slope that counts as a wave, as a share of the maximum radius per radian.
 const SWINGS: f64 = 1e-7;
 
 impl Rolling {
@@ -23,8 +23,8 @@ impl Rolling {
         let period = curve.period();
         let (start, half) = axis_crossings(&*curve, period)?;
         let breaks = curve.breaks();
-        // A curve drawn from angle zero on has a break there: rounding must not part the two, nor the break
-        // from itself a turn on.
+        // A curve that starts at angle zero has a break there. Rounding must not separate the start from the break, nor the break
+        // from its repetition one turn later.
         let on = breaks.iter().find(|&&b| (b - start).abs() <= SAME * period);
         let start = on.copied().unwrap_or(start);
         let mut jumps: Vec<f64> = breaks
@@ -109,7 +109,8 @@ impl Rolling {
         Ok(rolling)
     }
 
-    /// Checks that a driver repeats n2 times a turn, without which the driven curve would not close after its own turn.
+    /// Checks that the radius repeats n2 times per turn of the driver; otherwise the driven curve would not close after its own
+    /// turn.
     fn check_repeats(&self) -> Result<(), RollingError> {
         let repeats = self.mean_ratio.1;
         if repeats == 1 {
@@ -176,7 +177,7 @@ fn axis_crossings(curve: &dyn Curve, period: f64) -> Result<(f64, f64), RollingE
     }
 }
 
-/// Minimum and maximum radius, sharpened from samples all along the curve.
+/// Minimum and maximum radius, refined from samples all along the curve.
 fn extremes(curve: &dyn Curve, samples: &[(f64, Jet)]) -> [Extreme; 2] {
     let slope_of = |jet: &Jet| jet.point.coords.dot(&jet.first);
     let slope = |t: f64| slope_of(&curve.at(t));
@@ -206,8 +207,8 @@ fn extremes(curve: &dyn Curve, samples: &[(f64, Jet)]) -> [Extreme; 2] {
     [minimum, maximum]
 }
 
-/// How often the radius swings in a turn: its slope goes from rising to falling and back by more than a threshold, which a wave on a
-/// radius that falls does, too.
+/// Number of waves of the radius per turn: its slope changes from rising to falling and back by more than a threshold. A wave on
+/// a falling radius counts, too.
 fn swings(samples: &[(f64, Jet)], threshold: f64) -> usize {
     let slopes = samples.iter().map(|(_, jet)| {
         let p = jet.point.coords;
@@ -216,7 +217,7 @@ fn swings(samples: &[(f64, Jet)], threshold: f64) -> usize {
     turns(slopes, threshold) / 2
 }
 
-/// How often a closed row of values goes from rising to falling or back, by more than a threshold.
+/// Number of times that a closed sequence of values changes from rising to falling or back, by more than a threshold.
 fn turns(values: impl Iterator<Item = f64>, threshold: f64) -> usize {
     let mut rises = Vec::new();
     let mut from: Option<f64> = None;
@@ -233,7 +234,8 @@ fn turns(values: impl Iterator<Item = f64>, threshold: f64) -> usize {
     rises.iter().zip(again).filter(|(a, b)| a != b).count()
 }
 
-/// Newton's method bounded below by the maximum radius, where the driven angle falls from infinity to zero.
+/// Centre distance by Newton's method, bounded below by the maximum radius; above it the driven angle falls from infinity to
+/// zero.
 fn closure(nodes: &[(f64, f64)], maximum: f64, required: f64) -> f64 {
     let turned = |a: f64| -> (f64, f64) {
         let (mut sum, mut slope) = (0.0, 0.0);

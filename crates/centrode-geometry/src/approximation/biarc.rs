@@ -5,8 +5,8 @@ use crate::{
     numeric::rounding,
 };
 
-/// Bulge of an arc, the tangent of a quarter of its turn, from the directions of its start and its chord, or its chord and its
-/// end.
+/// Bulge of an arc, the tangent of a quarter of its turn, from two directions: of its start and its chord, or of its chord and
+/// its end.
 pub(crate) fn bulge(from: Vector, to: Vector) -> f64 {
     from.perp(&to) / (from.norm() * to.norm() + from.dot(&to))
 }

@@ -11,8 +11,8 @@ use crate::{
     region::{BoundTree, Outline, Position},
 };
 
-/// Maximum number of passes, each of which divides the chords that cross. With too few, crossings remain near cusps; more only cost
-/// time.
+/// Maximum number of passes, each of which divides the chords that cross. With too few, crossings remain near cusps; more only
+/// cost time.
 const MAX_PASSES: u32 = 48;
 
 /// Fraction of a chord's parameter range at each end in which no position is added. Much smaller, chords become as short as

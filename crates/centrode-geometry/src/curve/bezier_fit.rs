@@ -48,7 +48,7 @@ impl BezierFit {
         points
     }
 
-    /// Position at a parameter, 0 to 1, on the curve with such Bézier points.
+    /// Position at a parameter, 0 to 1, on the curve with these Bézier points.
     #[must_use]
     pub fn at(points: &[[f64; 3]], x: f64) -> [f64; 3] {
         let weights = bernstein(x);

@@ -175,7 +175,7 @@ pub enum CrossingError {
 pub(crate) struct Meetings {
     /// Crossings, refined to rounding.
     pub(crate) crossings: Vec<(f64, f64)>,
-    /// Parts at the limit of division of which neither is proven: that they cross, or that they are apart.
+    /// Parts at the limit of division for which neither a crossing nor a distance between them is proven.
     pub(crate) touches: Vec<(f64, f64)>,
 }
 

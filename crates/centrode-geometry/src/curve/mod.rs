@@ -1,8 +1,8 @@
 //! Single curves: segments of three kinds, bounds on them, and where two of them cross.
 //!
-//! Reading order: [`closed_curve`] (the trait of an exact curve), [`poly_segment`] (its polynomial fit), [`segment`] (line, arc or
-//! polynomial), [`bounds`] (a rectangle), [`span`] (a part with proven bounds), [`piece`] (bounds of its arc length), [`crossings`],
-//! [`winding`]; [`bezier_fit`] is the fit of curves in space.
+//! Reading order: [`closed_curve`] (the trait of an exact curve), [`poly_segment`] (its polynomial fit), [`segment`] (line, arc
+//! or polynomial), [`bounds`] (a rectangle), [`span`] (a part with proven bounds), [`piece`] (bounds of its arc length),
+//! [`crossings`], [`winding`]; [`bezier_fit`] is the fit of curves in space.
 //! Uses `numeric`.
 
 mod bezier_fit;

@@ -1,8 +1,8 @@
 //! Numbers without geometry: roots, extremes, quadrature, series and tolerances, and the two helpers of every long computation.
 //!
-//! Reading order: [`tolerance`], [`precision`] (when two values are equal), [`roots`], [`extreme`] (minima and maxima over an interval), [`quadrature`],
-//! [`chebyshev`], [`antiderivative`]; then [`cancel`] (stop a computation, run jobs on two threads) and [`recent`]
-//! (cache results). Uses no other room.
+//! Reading order: [`tolerance`], [`precision`] (when two values are equal), [`roots`], [`extreme`] (minima and maxima over an
+//! interval), [`quadrature`], [`chebyshev`], [`antiderivative`]; then [`cancel`] (stop a computation, run jobs on two threads)
+//! and [`recent`] (cache results). Uses no other module.
 
 mod antiderivative;
 mod cancel;

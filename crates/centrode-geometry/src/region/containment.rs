@@ -7,7 +7,7 @@ use crate::{
 impl Outline {
     /// Whether a point lies inside, by the parity of the crossings with a ray to the right.
     ///
-    /// Exact up to rounding for a point that is not on the contour. For a point on the contour either answer may come.
+    /// Exact up to rounding for a point that is not on the contour. For a point on the contour either answer is possible.
     #[must_use]
     pub fn contains(&self, point: Point) -> bool {
         let turns = self

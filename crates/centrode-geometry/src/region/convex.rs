@@ -73,8 +73,8 @@ fn area(polygon: &[Point]) -> f64 {
 
 /// Indices of the corners of the convex hull of points, by Andrew's monotone chain.
 ///
-/// They run counter-clockwise from the lowest index, for a simple polygon in its own order. Points on an edge of the hull are
-/// not corners; of equal points one is.
+/// They run counter-clockwise from the lowest index, for a simple polygon in the order of the polygon. Points on an edge of the
+/// hull are not corners; of equal points only one is a corner.
 #[must_use]
 pub fn convex_hull(polygon: &[Point]) -> Vec<usize> {
     let mut order: Vec<usize> = (0..polygon.len()).collect();

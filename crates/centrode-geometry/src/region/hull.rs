@@ -109,7 +109,7 @@ fn turn(circles: &[(Point, f64)], circle: usize, other: usize, normal: f64) -> O
     }
     let leaves = offset.y.atan2(offset.x) - (shrink / distance).acos();
     let turn = (leaves - normal).rem_euclid(TAU);
-    // With rounding, a tangent just passed would be a whole turn ahead.
+    // Because of rounding, a tangent just passed may appear to be a whole turn ahead.
     Some(if turn > TAU - 1e-9 { 0.0 } else { turn })
 }
 

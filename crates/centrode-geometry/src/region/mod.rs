@@ -1,9 +1,9 @@
 //! Closed outlines and the regions they enclose.
 //!
 //! Reading order: [`outline`], [`position`] (a point of an outline), [`placement`] (move, circle, polygon), [`moments`] (area,
-//! length, centroid), [`extent`], [`containment`]; then the makers [`hull`], [`rounded_polygon`] and [`convex`], the test
-//! [`self_crossing`], and [`loops`], which cuts the loops off a chain that crosses itself; [`bound_tree`] finds near items, with
-//! bounds such as a [`disc`]. Uses `numeric` and `curve`.
+//! length, centroid), [`extent`], [`containment`]; then [`hull`] and [`rounded_polygon`] (new outlines), [`convex`] (pieces), the
+//! test [`self_crossing`], and [`loops`], which cuts the loops off a chain that crosses itself; [`bound_tree`] finds near items,
+//! with bounds such as a [`disc`]. Uses `numeric` and `curve`.
 
 mod bound_tree;
 mod containment;

@@ -7,7 +7,7 @@ use crate::{
 
 /// Area, first and second moments about the origin of the region inside an [`Outline`].
 ///
-/// For a clockwise outline all are negative.
+/// For a clockwise outline all have the opposite sign.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct AreaMoments {
     /// `∫ dA`, mm².

@@ -21,10 +21,10 @@ pub struct ShortSide {
 impl Outline {
     /// Polygon with every corner, convex or concave, rounded by an arc of `radius`, mm, tangent to both sides.
     ///
-    /// An arc needs the radius times the tangent of half the turn on each side of the corner, nothing in a straight line.
+    /// On each side of its corner an arc takes the radius times the tangent of half the turn: nothing in a straight line.
     ///
     /// # Errors
-    /// [`ShortSide`] if a side is too short for the arcs at its ends, as always at a corner that turns back.
+    /// [`ShortSide`] if a side is too short for the arcs at its ends, as is always so at a corner that turns back.
     pub fn rounded_polygon(points: &[Point], radius: f64) -> Result<Self, ShortSide> {
         let count = points.len();
         let turn = |i: usize| {

@@ -19,7 +19,7 @@ impl Outline {
     ///
     /// The test uses the exact segments with proven bounds, not a polygon. Parts closer than 1e-14 of the size of the outline
     /// count as touching, and loops smaller than 1e-9 of it are rounding. Two parts that leave a joint in one direction touch
-    /// unless they separate to one side, judged by their distances ever nearer to the joint.
+    /// unless they separate to one side, judged by their distance at points ever nearer to the joint.
     #[must_use]
     pub fn crossing(&self) -> Option<Crossing> {
         self.crossing_ignoring(0.0, 0.0)
@@ -50,7 +50,7 @@ impl Outline {
         })
     }
 
-    /// The segments that have a length, three or more if there are any, with the index of the segment of each.
+    /// The segments that have a length, each with the index of its segment; one or two segments are divided into quarters.
     fn parts(&self) -> (Vec<usize>, Vec<Segment>) {
         let segments = self.segments().iter().enumerate();
         let whole: Vec<_> = segments.filter(|(_, segment)| !segment.is_null()).collect();

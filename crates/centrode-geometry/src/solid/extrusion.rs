@@ -115,7 +115,7 @@ impl Solid {
         self.top
     }
 
-    /// Area moments of the cross-section without an opening about the origin, exact to rounding.
+    /// Area moments about the origin of the cross-section without the opening, exact to rounding.
     #[must_use]
     pub fn section(&self) -> AreaMoments {
         self.holes.iter().fold(self.outline.moments(), |sum, hole| {

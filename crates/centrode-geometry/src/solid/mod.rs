@@ -1,7 +1,7 @@
 //! Bodies: extrusions and turned parts, their meshes, exact shells and masses.
 //!
 //! Reading order: [`mesh`], [`triangulation`], [`extrusion`] with its [`opening`], [`mass`]; [`shell`] and [`shell_builder`]
-//! (exact boundaries for CAD), [`turned`] (bodies turned about an axis). Uses every other room.
+//! (exact boundaries for CAD), [`turned`] (bodies turned about an axis). Uses every other module.
 
 mod error;
 mod extrusion;

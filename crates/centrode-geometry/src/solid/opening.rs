@@ -54,7 +54,8 @@ impl Opening {
 
     /// Mesh of the solid over its flattened contours, which have the material on their left.
     ///
-    /// Every point of the contours has a vertex at all four heights, so that the walls meet the corners of the opening.
+    /// Every point of the contours has a vertex at four heights, those of the solid and of the opening: so the walls meet the
+    /// corners of the opening.
     pub(crate) fn mesh(
         &self,
         solid: &Solid,

@@ -29,7 +29,8 @@ impl ShellBuilder {
         })
     }
 
-    /// The edge between two vertices, an existing one if there is one; only an arc has no opposite direction.
+    /// The edge between two vertices; an existing one if there is one, except for an arc in the opposite direction: that is
+    /// another curve.
     fn edge(&mut self, from: usize, to: usize, kind: EdgeKind, curve: ShellCurve) -> ShellSide {
         if let Some(&edge) = self.edges.get(&([to, from], kind))
             && kind != EdgeKind::Arc

@@ -57,7 +57,7 @@ impl Default for SpeedLaw {
 }
 
 impl SpeedLaw {
-    /// The exact law for a lead (mm a turn), proved to run in one direction. `radius` (mm) is that of the shaft;
+    /// The exact law for a lead (mm per turn), proved to run in one direction. `radius` (mm) is that of the shaft;
     /// only the rotated sine depends on it.
     ///
     /// # Errors
@@ -107,7 +107,7 @@ impl ShaftLaw {
         }
     }
 
-    /// Lead, mm a turn.
+    /// Lead, mm per turn.
     #[must_use]
     pub fn lead(&self) -> f64 {
         self.form.advance()
@@ -152,7 +152,7 @@ impl ShaftLaw {
     }
 }
 
-/// Even parts of a turn in each of which a law has few extremes.
+/// Number of equal parts of a turn in each of which a law has few extremes.
 const PARTS: u32 = 16;
 
 fn turn_pieces(form: &dyn Transmission, from: f64) -> Vec<f64> {
@@ -179,5 +179,5 @@ impl Transmission for ShaftLaw {
     }
 }
 
-/// Maximum number of waves a turn.
+/// Maximum number of waves per turn.
 const MAX_HARMONICS: u32 = 60;

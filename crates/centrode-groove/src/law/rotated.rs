@@ -55,7 +55,7 @@ impl RotatedSine {
         count_in_range("law.harmonic", self.harmonic, 1, MAX_HARMONICS)?;
         let (mean, n) = (lead / TAU, f64::from(self.harmonic));
         let turn = radius.hypot(mean);
-        // cos b = mean / turn, sin b = radius / turn. The angle must not turn back, nor the speed.
+        // cos b = mean / turn, sin b = radius / turn. Neither the angle nor the slider may run back.
         let share = self.amplitude * mean / (turn * radius);
         let along = self.amplitude * turn / radius;
         // The speed has the sign of mean - n kappa R / turn cos(n E), the angle's that of 1 + n e cos(n E).

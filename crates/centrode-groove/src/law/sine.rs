@@ -43,7 +43,7 @@ pub struct AmplitudeFor {
     pub moved_distance: f64,
     /// Width of the window, rad.
     pub window: f64,
-    /// Lead, mm a turn.
+    /// Lead, mm per turn.
     pub lead: f64,
     /// Slow points per turn.
     pub harmonic: u32,

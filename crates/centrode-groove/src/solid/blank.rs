@@ -115,8 +115,8 @@ impl ShaftBody {
         Ok(())
     }
 
-    /// How far the half round end of the keyway reaches beyond its straight walls, mm: half its width, as an end mill leaves it. Zero, a
-    /// plane end, where there is no keyway, or none of straight walls beyond the chamfer.
+    /// Length of the keyway's half round end beyond its straight walls, mm: half its width, as an end mill makes it. Zero, for a
+    /// plane end, without a keyway or if no straight walls are left beyond the chamfer.
     #[must_use]
     pub fn keyway_rounding(&self) -> f64 {
         let half = 0.5 * self.keyway.map_or(0.0, |key| key.width);

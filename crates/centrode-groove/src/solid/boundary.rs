@@ -9,14 +9,14 @@ use super::surface::Surface;
 use super::{ShaftBody, ends};
 use crate::{Groove, Wall};
 
-/// Numbers of even lines tried, until every edge is met.
+/// Numbers of equally spaced lines that are tried until the surfaces meet every edge.
 const LINES: [u32; 4] = [8, 16, 32, MAX_LINES];
-/// Maximum number of even lines.
+/// Maximum number of equally spaced lines.
 pub(super) const MAX_LINES: u32 = 64;
 /// Distance within which an edge must be met, mm: below the resolution of CAD kernels.
 const MET: f64 = 1e-7;
 
-/// Builds the whole boundary; `None` where the edges are too wild to be met by smooth pieces.
+/// Builds the whole boundary; `None` if smooth pieces cannot meet the edges.
 pub(super) fn shell(groove: &Groove, body: &ShaftBody, thick: [f64; 2]) -> Option<Shell> {
     let fit = BezierFit::default();
     LINES.iter().find_map(|&count| {
@@ -62,7 +62,7 @@ fn grooved(
             walls.push((heights, sides));
         }
         for k in 0..=walls.len() {
-            // Land first, then floor and land by turns.
+            // Land first, then alternately floor and land.
             let land = k % 2 == 0;
             let r = if land { radius } else { floor };
             let mut ring = |side: usize, z: f64| {
@@ -112,7 +112,7 @@ fn wall(
     } else {
         vec![out[0], top, out[1].reversed(), foot.reversed()]
     };
-    // Round the shaft crossed with outwards points down.
+    // The cross product of the direction round the shaft and the outward direction points down.
     let surface = ShellSurface::Ruled {
         points,
         outward: raised,
@@ -121,7 +121,7 @@ fn wall(
 }
 
 /// The edge at a radius between two angles; its ends are at the angles and heights given, which differ from the curve's by
-/// rounding. `None` where the curve is not met.
+/// rounding. `None` if the fitted edge misses the curve.
 fn fitted(
     fit: &BezierFit,
     radius: f64,

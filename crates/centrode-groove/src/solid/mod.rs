@@ -20,7 +20,7 @@ use rings::Rings;
 ///
 /// The walls lie on the exact offset of the centre line on the shaft's surface and run straight towards
 /// the axis, as a mill slightly thinner than the groove leaves them when it follows both walls.
-/// [`Groove::wall_deviation`] says how far the walls of a mill as wide as the groove differ.
+/// [`Groove::wall_deviation`] gives the difference for the walls of a mill as wide as the groove.
 #[derive(Clone, Debug)]
 pub struct ShaftSolid<'a> {
     groove: &'a Groove,
@@ -33,7 +33,7 @@ impl<'a> ShaftSolid<'a> {
     /// Makes the solid of a groove in a body.
     ///
     /// # Errors
-    /// [`ShaftError`] where body and groove do not go together.
+    /// [`ShaftError`] where body and groove do not fit together.
     pub fn new(groove: &'a Groove, body: &'a ShaftBody) -> Result<Self, ShaftError> {
         body.validate(groove)?;
         let (near, far) = groove.traverse().reach();
@@ -83,7 +83,7 @@ impl<'a> ShaftSolid<'a> {
     /// within 1e-7 mm of the exact ones. The fillet along the floor is omitted.
     ///
     /// # Errors
-    /// [`ShaftError::Boundary`] where the edges are too wild for smooth pieces.
+    /// [`ShaftError::Boundary`] where smooth pieces cannot follow the edges.
     pub fn shell(&self) -> Result<Shell, ShaftError> {
         let shell = boundary::shell(self.groove, self.body, self.ends);
         shell.ok_or(ShaftError::Boundary(boundary::MAX_LINES))

@@ -16,11 +16,11 @@ const RULE: [(f64, f64); 3] = [
     (0.0, 8.0 / 9.0),
     (0.774_596_669_241_483_4, 5.0 / 9.0),
 ];
-/// Parts of the fillet, down which the groove's width and the section it opens change smoothly.
+/// Number of parts of the fillet for the integral: down the fillet the groove's width and section change smoothly.
 const FILLET: u32 = 4;
-/// Even lines round the shaft between which the walls are integrated: those tried first, and the most.
+/// Number of equally spaced lines round the shaft between which the walls are integrated: the first and the maximum.
 const LINES: [u32; 2] = [8, 512];
-/// Share by which the volume may change with twice the lines.
+/// Maximum relative change of the volume when the number of lines is doubled.
 const SAME: f64 = 1e-13;
 
 /// Nodes and weights on an interval cut into `parts`.
@@ -32,7 +32,7 @@ fn nodes([low, high]: [f64; 2], parts: u32) -> impl Iterator<Item = (f64, f64)> 
     })
 }
 
-/// Moments of the shaft: the blank with its keyway, less the groove. A body that has been validated has a blank.
+/// Moments of the shaft: the blank with its keyway, minus the groove. A body that has been validated has a blank.
 pub(super) fn moments(groove: &Groove, body: &ShaftBody, thick: [f64; 2]) -> VolumeMoments {
     let blank = ends::blank(body, groove.radius(), thick);
     let mut sum = blank.map_or_else(VolumeMoments::default, |blank| blank.moments());

@@ -14,7 +14,7 @@ pub(super) struct Rings<'a> {
     body: &'a ShaftBody,
     radius: f64,
     columns: u32,
-    /// Chords of a quarter of the keyway's end.
+    /// Number of chords of a quarter of the keyway's end.
     quarter: u32,
 }
 
@@ -29,8 +29,8 @@ impl<'a> Rings<'a> {
         }
     }
 
-    /// Adds shoulders and journals; the rims are counter-clockwise seen from above. The rims' own vertices
-    /// are moved in by the chamfer and doubled where the cylinder begins.
+    /// Adds chamfers, shoulders and journals to both rims, which are counter-clockwise seen from above. A chamfer joins a rim to
+    /// new vertices on a smaller circle.
     pub(super) fn close(&self, mesh: &mut Mesh, lower: &[u32], upper: &[u32]) {
         for (rim, way) in [(lower, -1.0), (upper, 1.0)] {
             let outer = self.chamfered(mesh, rim, way);
@@ -136,8 +136,8 @@ impl<'a> Rings<'a> {
         self.slotted_end(mesh, &before, way);
     }
 
-    /// The end of the slot, between the arc that it removes and the lower and upper corners where its straight walls begin: on the rim,
-    /// and at its foot.
+    /// The end of the slot, between the arc that it removes and the lower and upper corners where its straight walls begin, on
+    /// the rim and at its foot.
     fn slot_end(&self, mesh: &mut Mesh, arc: &[u32], rim: [u32; 2], feet: [u32; 2], way: f64) {
         let half = self.body.keyway_rounding();
         if half == 0.0 {
@@ -189,7 +189,7 @@ impl<'a> Rings<'a> {
             let [x, y, _] = mesh.vertices[v as usize];
             y.atan2(x).rem_euclid(TAU)
         };
-        // From the slot's foot one sees the round part up to where the centre sees it too.
+        // A corner of the slot's foot has an open view of the round part up to the line through it from the centre.
         let limits = [angle(feet[1]), angle(feet[0])];
         let first = round.iter().position(|&v| angle(v) > limits[0]);
         let last = round.iter().rposition(|&v| angle(v) < limits[1]);
@@ -212,7 +212,7 @@ impl<'a> Rings<'a> {
         }
     }
 
-    /// Vertices of the round part next to a slot, both its edges included.
+    /// Number of vertices of the round part next to a slot, both its edges included.
     fn open_count(&self) -> usize {
         self.columns as usize + 1
     }
@@ -225,7 +225,7 @@ impl<'a> Rings<'a> {
         };
         let edge = (0.5 * width / radius).asin();
         let step = (TAU - 2.0 * edge) / f64::from(n);
-        // An even number: the crest of a half round end lies on it.
+        // An even number of chords: the crest of a half round end is one of their ends.
         let over = 2 * (edge / step).ceil().max(1.0) as u32;
         let round = (0..=n).map(|i| edge + step * f64::from(i));
         let arc = (1..over).map(|i| TAU - edge + 2.0 * edge * f64::from(i) / f64::from(over));
@@ -238,7 +238,7 @@ fn push(mesh: &mut Mesh, vertex: [f64; 3]) -> u32 {
     (mesh.vertices.len() - 1) as u32
 }
 
-/// A triangle counter-clockwise seen from above, turned over where the surface faces down.
+/// A triangle counter-clockwise seen from above, reversed where the surface faces down.
 fn face(mesh: &mut Mesh, [a, b, c]: [u32; 3], way: f64) {
     mesh.faces
         .push(if way > 0.0 { [a, b, c] } else { [a, c, b] });
@@ -254,9 +254,11 @@ fn band(mesh: &mut Mesh, first: &[u32], second: &[u32], way: f64) {
     }
 }
 
-/// The cylinder between an arc and a quarter of a slot's half round end, both from the slot's wall to the crest, which they share.
+/// The cylinder between an arc and a quarter of a slot's half round end. Both lead from the slot's wall to the crest, which they
+/// share.
 ///
-/// Vertices come in the order of their distances from the crest. From the first of the arc all of the quarter is seen.
+/// The vertices are taken in the order of their distances from the crest. The whole quarter is visible from the arc's first
+/// vertex.
 fn corner(mesh: &mut Mesh, arc: &[u32], quarter: &[u32], way: f64) {
     let aside = |v: u32| mesh.vertices[v as usize][1].abs();
     let (mut i, mut j) = (0, 0);
@@ -273,7 +275,7 @@ fn corner(mesh: &mut Mesh, arc: &[u32], quarter: &[u32], way: f64) {
         }
     }
     for triangle in triangles {
-        // At the crest both have come to one vertex.
+        // At the crest both chains end at one vertex.
         let [a, b, c] = triangle;
         if a != b && b != c && c != a {
             face(mesh, triangle, way);

@@ -13,7 +13,7 @@ const LAND: usize = usize::MAX;
 const RIDGE: usize = usize::MAX / 4;
 const WALL: usize = usize::MAX / 2;
 
-/// Key of a height that sorts as the number does.
+/// Integer key of a height; keys have the order of the heights.
 fn key(z: f64) -> u64 {
     let bits = (z + 0.0).to_bits();
     if bits >> 63 == 0 {
@@ -131,13 +131,13 @@ impl<'a> Surface<'a> {
             let heights = [here[edge], next[edge]];
             let (level, wall) = (self.plan.edge(edge).level, self.plan.edge(edge).wall);
             let outside = if level == 0 { LAND } else { level };
-            // A right wall is passed into the groove, a left one out of it.
+            // Upwards, a right wall leads into the groove, a left one out of it.
             let (below, above) = match wall {
                 Wall::Right => (outside, level),
                 Wall::Left => (level, outside),
             };
             let high = Rim::new(heights, below);
-            // From a left edge to a right one, and no land between.
+            // From a left edge to a right one, without land between them.
             let crest = before
                 .filter(|_| wall == Wall::Right && below != LAND && low.levels[0] == below)
                 .and_then(|before| self.crest(line, [before, edge], [here, next]));
@@ -173,7 +173,7 @@ impl<'a> Surface<'a> {
         let mut found = false;
         for (side, heights) in heights.into_iter().enumerate() {
             let [[low, high], [met, other]] = [pair, above].map(|p| p.map(|edge| heights[edge]));
-            // Where the edges of a level meet the crest ends on them.
+            // Where the edges of a level meet, the crest ends on them.
             (crest.heights[side], crest.levels[side]) = if low == high {
                 (low, level)
             } else if met == other {
@@ -208,7 +208,7 @@ impl<'a> Surface<'a> {
         self.cells.push(cell);
     }
 
-    /// Adds the axial wall along an edge between a line and the next.
+    /// Adds the radial wall along an edge between a line and the next.
     fn upright(&mut self, line: usize, heights: [f64; 2], wall: Wall) {
         let next = (line + 1) % self.plan.lines.len();
         let rows = self.plan.rows as usize;
@@ -256,7 +256,7 @@ impl<'a> Surface<'a> {
             })
     }
 
-    /// Vertices along one side of a cell, upwards: its corners, and what neighbours have between them.
+    /// Vertices along one side of a cell, upwards: its corners, and the vertices of neighbouring cells between them.
     fn chain(&self, line: usize, side: usize, cell: &Cell) -> Vec<(f64, u32)> {
         let [low, high] = [&cell.low, &cell.high].map(|rim| key(rim.heights[side]));
         let on_line = &self.on_line[line];

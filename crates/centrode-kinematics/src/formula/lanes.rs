@@ -1,11 +1,11 @@
-//! Two numbers side by side: every processor works on two at once, and holds the series of a linkage in its registers.
-//! With four it does not, and takes twice the time. A number has the same bits for any neighbours.
+//! Two numbers side by side: every processor computes two at once, and holds the series of a linkage in its registers. Four do
+//! not fit there and take twice the time. The result of a number has the same bits for any neighbour.
 
 use wide::f64x2;
 
 use super::number::Number;
 
-/// Numbers side by side.
+/// Count of numbers side by side.
 pub(crate) const LANES: usize = 2;
 
 /// Vector of that many numbers.
@@ -19,10 +19,10 @@ pub(crate) fn groups(inputs: &[f64]) -> impl Iterator<Item = Lanes> + '_ {
     firsts.map(move |first| Lanes::from(std::array::from_fn(|lane| input(first + lane))))
 }
 
-/// Maximum angle whose turns the vector's own functions take off to the last digit.
+/// Angle below which the vector's own functions subtract whole turns without loss of the last digit, rad.
 const FARTHEST: f64 = 100_000.0;
 
-/// The sine and cosine of a number next to which one is far away or none: its bits do not depend on its neighbour.
+/// Sine and cosine of a number if it or its neighbour is beyond `FARTHEST` or NaN: its bits do not depend on its neighbour.
 #[cold]
 #[inline(never)]
 fn sin_cos_alone(x: f64) -> (f64, f64) {

@@ -13,7 +13,7 @@ pub use pace::Steep;
 pub use parser::FormulaError;
 pub use taylor::Taylor;
 
-/// Depth of the stack: values a formula may hold back while it computes others.
+/// Depth of the stack: maximum number of intermediate values of a formula.
 const DEEPEST: usize = 32;
 
 /// A formula in the variable `phi`, as a program for a stack machine.
@@ -39,7 +39,7 @@ enum Step {
     Apply(Function),
     /// The variable times a number.
     Multiple(f64),
-    /// Product of what is there with a number.
+    /// Product of the value on top of the stack with a number.
     Scale(f64),
     /// Sine, or else cosine, of the variable times a number.
     Wave {
@@ -83,13 +83,13 @@ impl Formula {
         self.run(phi, |_, _, _| ())
     }
 
-    /// Evaluates the formula, and shows the value of each function, product, quotient and power by its position in the program,
-    /// with the argument of one that may change at once.
+    /// Evaluates the formula. For each function, product, quotient and power, passes to `seen` its index in the program, the
+    /// argument of a quick function, and the value.
     #[inline]
     fn run(&self, phi: f64, mut seen: impl FnMut(usize, Option<&Taylor>, &Taylor)) -> Taylor {
         let mut stack = [Taylor::constant(0.0); DEEPEST];
         let mut top = 0;
-        // Terms of a Fourier sum come in pairs.
+        // Terms of a Fourier sum come in pairs: the last sine and cosine are stored.
         let mut wave = (f64::NAN, stack[0], stack[0]);
         for (place, step) in self.program.iter().enumerate() {
             match step {
@@ -143,7 +143,7 @@ impl Step {
             Self::Add => a + b,
             Self::Subtract => a - b,
             Self::Multiply => a * b,
-            // Of a value in use next to what comes near the maximum float nothing is left.
+            // A moderate value divided by one near the maximum float is zero, with all its derivatives.
             Self::Divide if b.0[0].abs() > 1e200 && a.0.iter().all(|c| c.abs() < 1e100) => {
                 Taylor::constant(0.0)
             }
@@ -154,8 +154,8 @@ impl Step {
 }
 
 impl Function {
-    /// Whether what changes within a step of its argument may lie next to nothing, as the foot of a bump; what changes at a
-    /// root or a pole is seen from afar.
+    /// Whether the function may change within a small step of its argument without a sign of it nearby, as at the foot of a bump.
+    /// A change at a root or a pole is visible from afar.
     fn is_quick(self) -> bool {
         !matches!(self, Self::Ln | Self::Sqrt | Self::Asin | Self::Acos)
     }

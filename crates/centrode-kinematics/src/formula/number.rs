@@ -16,16 +16,16 @@ pub trait Number:
     /// Sine and cosine of an angle, rad.
     fn sin_cos(self) -> (Self, Self);
 
-    /// The direction of (x, y), where this is y; (0, 0) has none.
+    /// The direction of (x, y), where this is y; not defined at (0, 0).
     fn atan2(self, x: Self) -> Self;
 
-    /// Numbers side by side.
+    /// Number of lanes.
     const COUNT: usize;
 
     /// Number made of a value for each lane.
     fn of_lanes(value: impl Fn(usize) -> f64) -> Self;
 
-    /// Value of one lane; a single number is its only one.
+    /// Value of one lane; a single number has one lane.
     fn lane(self, lane: usize) -> f64;
 
     /// `then` where this is below a bound, `otherwise` where it is not.

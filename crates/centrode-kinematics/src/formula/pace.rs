@@ -1,4 +1,4 @@
-//! How fast a formula changes, so that nothing narrow is stepped over.
+//! Rate of change of a formula, so that no narrow feature is missed.
 
 use super::{Formula, Taylor};
 use centrode_geometry::WRITTEN;
@@ -6,7 +6,7 @@ use centrode_geometry::WRITTEN;
 /// Samples per turn of any formula.
 const FEWEST: usize = 512;
 
-/// Maximum number of samples: a bump is found where one of them lies within seven of its widths.
+/// Maximum number of samples: a bump is found if one of them lies within seven of its widths.
 const MOST: usize = 1 << 18;
 
 /// Features slower than this rate, 1/rad, are resolved by the default partition.
@@ -18,15 +18,15 @@ const PART: f64 = 24.0;
 /// The number of intervals is a multiple of this, so that the partition repeats with the formula.
 const PARTS: usize = 60;
 
-/// Most parts of a turn.
+/// Maximum number of parts of a turn.
 const MAX_PARTS: usize = 1200;
 
 /// A formula with features too narrow to be followed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Steep {
-    /// About how wide the narrowest feature is, rad.
+    /// Approximate width of the narrowest feature, rad.
     pub width: f64,
-    /// Width of those that can be followed, rad.
+    /// Minimum width of a feature that can be followed, rad.
     pub minimum: f64,
 }
 
@@ -35,7 +35,7 @@ pub struct Steep {
 struct Course {
     low: f64,
     high: f64,
-    /// Maximum slope, of its own and from one position to the next.
+    /// Maximum slope: the derivative, or the chord between neighbouring samples.
     steepest: f64,
     last: f64,
 }
@@ -50,13 +50,13 @@ impl Course {
 
     fn pass(&mut self, value: f64, slope: f64, step: f64) {
         let chord = (value - self.last) / step;
-        // A value that is no number has no course.
+        // Values that are NaN are ignored by `max` and `min`.
         self.steepest = self.steepest.max(slope.abs()).max(chord.abs());
         (self.low, self.high) = (self.low.min(value), self.high.max(value));
         self.last = value;
     }
 
-    /// Slope, as a share of the whole range, of a value that has both and changes by more than its rounding.
+    /// Maximum slope, relative to the range, 1/rad; zero if it is not finite or if the range is within rounding.
     fn rate(&self) -> f64 {
         let range = self.high - self.low;
         let rate = self.steepest / range;
@@ -70,12 +70,12 @@ impl Course {
 }
 
 impl Formula {
-    /// Ends, inside a turn, of even parts in each of which the formula has no feature that is narrow next to the part; none
-    /// where the formula has no such features at all.
+    /// Ends, inside a turn, of equal parts in each of which the formula has no feature that is narrow compared with the part;
+    /// empty if the formula has no such features at all.
     ///
-    /// A bump, as of `exp(-700*(1-cos(5*phi)))`, is nearly nothing with all its derivatives a few widths away. How wide it
-    /// is, follows from the slopes of every function, product and quotient in the formula next to their ranges; where to look for
-    /// these, by how fast what the functions are of changes.
+    /// A bump, as of `exp(-700*(1-cos(5*phi)))`, is nearly zero with all its derivatives a few widths away. Its width follows
+    /// from the slopes of every function, product and quotient in the formula, relative to their ranges. The number of samples
+    /// follows from the rates of the functions' arguments.
     ///
     /// # Errors
     /// [`Steep`] for a feature too narrow to be followed.
@@ -103,8 +103,7 @@ impl Formula {
         Ok((1..count).map(|k| turn * k as f64 / count as f64).collect())
     }
 
-    /// Maximum rates a radian, at even samples of a turn: of what a function is of, and of what follows, as a share of its
-    /// range.
+    /// Maximum rates, 1/rad, at equal steps of a turn: of the argument of a quick function, and of a value relative to its range.
     fn rates(&self, turn: f64, count: usize) -> [f64; 2] {
         let step = turn / count as f64;
         let mut courses = vec![Course::NONE; self.program.len()];
@@ -112,7 +111,7 @@ impl Formula {
         for k in 0..=count {
             let seen = |place: usize, of: Option<&Taylor>, value: &Taylor| {
                 let rate = of.map_or(0.0, |of| of.0[1].abs());
-                // Where there is no value any more its argument is no matter.
+                // If the function has no value, its argument does not count.
                 if rate.is_finite() && value.0[0].is_finite() {
                     argument = argument.max(rate);
                 }

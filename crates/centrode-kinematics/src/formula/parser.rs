@@ -2,9 +2,9 @@ use thiserror::Error;
 
 use super::{DEEPEST, Formula, Function, Step};
 
-/// Longest formula, in characters.
+/// Maximum length of a formula, in characters.
 const LONGEST: usize = 2000;
-/// Deepest nesting of parentheses, signs and powers.
+/// Maximum nesting of parentheses, signs and powers.
 const DEEPEST_NESTING: usize = 64;
 
 const FUNCTIONS: [(&str, Function); 12] = [
@@ -22,7 +22,7 @@ const FUNCTIONS: [(&str, Function); 12] = [
     ("sqrt", Function::Sqrt),
 ];
 
-/// Functions by the names they have elsewhere.
+/// Names of functions and variables in other notations, each with its name here.
 const ELSEWHERE: [(&str, &str); 6] = [
     ("log", "ln"),
     ("arcsin", "asin"),
@@ -126,7 +126,7 @@ impl Parser<'_> {
         }
     }
 
-    /// Parses a sign, which binds looser than a power: `-phi^2` is `-(phi^2)`.
+    /// Parses a sign, which binds less strongly than a power: `-phi^2` is `-(phi^2)`.
     fn signed(&mut self) -> Result<(), FormulaError> {
         self.nesting += 1;
         if self.nesting > DEEPEST_NESTING {
@@ -236,7 +236,7 @@ impl Parser<'_> {
         Ok(())
     }
 
-    /// Appends a step; steps on constants alone are done now.
+    /// Appends a step; a step whose operands are all constants is evaluated at once.
     fn emit(&mut self, step: Step) {
         let constant = |back: usize| match self.program.iter().rev().nth(back) {
             Some(Step::Constant(c)) => Some(*c),

@@ -1,7 +1,7 @@
 use super::{Function, Step};
 
-/// A program with the steps of a Fourier sum done at once: multiples of the variable, their sines and cosines, and products with
-/// a number. Its values are those of the program as it was read, bit by bit.
+/// A program in which steps of a Fourier sum are combined: multiples of the variable, their sines and cosines, and products with
+/// a number. Its values are those of the original program, bit by bit.
 pub(super) fn shortened(program: Vec<Step>) -> Vec<Step> {
     let mut short = Vec::with_capacity(program.len());
     for step in program {
@@ -12,7 +12,7 @@ pub(super) fn shortened(program: Vec<Step>) -> Vec<Step> {
     short
 }
 
-/// Number of last steps that go with the next one, and what replaces them.
+/// Number of last steps that combine with the next one, and the steps that replace them all.
 fn replaced(before: &[Step], next: Step) -> (usize, Vec<Step>) {
     use Step::{Apply, Constant, Multiple, Multiply, Scale, Variable, Wave};
     let is_sine = matches!(next, Apply(Function::Sin));

@@ -66,15 +66,15 @@ impl<const ORDERS: usize, T: Number> Taylor<ORDERS, T> {
         self.circular(value, -1.0)
     }
 
-    /// The series of the direction of (x, y), where this series is y: its slope is exact however x and y
-    /// are scaled, its value the principal one.
+    /// The series of the direction of (x, y), where this series is y. The slope is exact for any scale of x and y; the value is
+    /// the principal one.
     #[inline(always)]
     pub fn atan2(self, x: Self) -> Self {
         let y = self;
         let mut a = Self::constant(y.0[0].atan2(x.0[0]));
         let inverse = T::from(1.0) / (x.0[0] * x.0[0] + y.0[0] * y.0[0]);
         for k in 1..ORDERS {
-            // a' (x² + y²) = x y' - y x', of which each product comes twice with the sign changed.
+            // a' (x² + y²) = x y' - y x': each product occurs twice, with opposite signs.
             let mut turning = T::from(0.0);
             for i in k / 2 + 1..=k {
                 let cross = x.0[k - i] * y.0[i] - y.0[k - i] * x.0[i];
@@ -129,7 +129,7 @@ impl<const ORDERS: usize, T: Number> Taylor<ORDERS, T> {
 }
 
 impl<const ORDERS: usize> Taylor<ORDERS> {
-    /// The slope's own series; its last coefficient is not known and left zero.
+    /// The series of the slope; its last coefficient is not known and set to zero.
     pub fn differentiated(&self) -> Self {
         Self(std::array::from_fn(|k| {
             self.0.get(k + 1).map_or(0.0, |next| (k + 1) as f64 * next)
@@ -164,7 +164,8 @@ impl<const ORDERS: usize> Taylor<ORDERS> {
     }
 
     pub(crate) fn tanh(self) -> Self {
-        // Of a large argument sinh and cosh are beyond any float; that of a small one needs its last digits.
+        // For a large argument sinh and cosh overflow, so the exponential is used; for a small one this would lose the last
+        // digits.
         if self.0[0].abs() < 1.0 {
             let (sinh, cosh) = self.sinh_cosh();
             return sinh / cosh;
@@ -202,7 +203,7 @@ impl<const ORDERS: usize> Taylor<ORDERS> {
 
     /// Power of the series to a constant exponent.
     pub(crate) fn power(self, p: f64) -> Self {
-        // A whole power has derivatives at zero and below it; a recurrence divides by the value.
+        // An integer power has derivatives at zero and below it, too; the recurrence divides by the value.
         if p == p.trunc() && p.abs() <= 64.0 {
             let whole = self.whole_power(p.abs() as u32);
             return if p < 0.0 {

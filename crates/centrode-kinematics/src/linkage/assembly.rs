@@ -20,7 +20,7 @@ pub(super) enum Step {
         pivot: usize,
         phase: f64,
     },
-    /// A link that turns on a joint's link by a law.
+    /// A link that turns about a joint, relative to the joint's link, by a law.
     Turning {
         pivot: usize,
         law: Arc<dyn Transmission>,
@@ -116,13 +116,13 @@ fn length(name: &'static str, value: f64) -> Result<(), LinkageError> {
 }
 
 impl Linkage {
-    /// Makes a frame alone.
+    /// Makes a linkage that is only a frame.
     #[must_use]
     pub fn new() -> Self {
         Self::with_turns(1)
     }
 
-    /// Makes a frame alone, of a linkage that repeats after so many turns of the input.
+    /// Makes a linkage that is only a frame and repeats after `turns` turns of the input.
     #[must_use]
     pub fn with_turns(turns: u32) -> Self {
         Self {
@@ -300,7 +300,7 @@ impl Linkage {
         })
     }
 
-    /// Adds two blocks pinned to each other, each on a line of its own (dyad PRP). It closes in one direction only.
+    /// Adds two blocks pinned to each other, each on a line of its own (dyad PRP). It has one assembly only.
     ///
     /// # Errors
     /// [`LinkageError::Unknown`], [`LinkageError::NotFinite`].

@@ -7,14 +7,15 @@ use super::error::LinkageError;
 use super::places::Needed;
 use super::series::{Series, SeriesItem};
 
-/// Samples over a turn of the input in the search for where dyads cease to close.
+/// Samples per turn of the input in the search for the inputs at which dyads cease to close.
 const SAMPLES: u32 = 720;
-/// Parts of a gap in which the maximum distance between a dyad's ends is searched.
+/// Parts of a gap in which the maximum missing distance is searched.
 const PARTS: u32 = 4;
-/// Squared sine of the transmission angle that is rounding: at an angle below 2e-4 deg both branches of a dyad meet. Ten times
-/// more calls linkages flat that just close; ten times less takes rounding of long chains for gaps.
+/// Squared sine of the transmission angle below which it counts as zero: at an angle below 2e-4 deg both branches of a dyad meet.
+/// Ten times more calls linkages flat that just close; ten times less takes rounding of long chains for gaps.
 const FLAT: f64 = 1e-11;
-/// Difference of inputs that is one change point, rad: an extreme is found to the square root of rounding.
+/// Distance from the end of the cycle within which a change point is moved to input 0, rad: an extreme is found to the square
+/// root of rounding.
 const NEAR: f64 = 1e-6;
 
 /// Intervals of inputs, ascending, rad.
@@ -25,34 +26,34 @@ type Intervals = Vec<(f64, f64)>;
 pub struct NotClosing {
     /// Its number, from 0 in the order of building.
     pub dyad: usize,
-    /// Inputs at which it closes, as intervals, ascending, rad; of a dyad that depends on another one, where that closes.
+    /// Inputs at which it closes, as intervals, ascending, rad; for a dyad that depends on others, only where these close.
     pub open: Vec<(f64, f64)>,
-    /// Change points: inputs at which its links lie in one line and both its branches meet, or its two guides are parallel, while
-    /// it closes on either side, rad.
+    /// Change points, rad: inputs at which its links lie in one line and both its branches meet, or its two guides are parallel,
+    /// while it closes on either side.
     pub change_points: Vec<f64>,
-    /// Input at which most is missing, or the first change point if nothing is, rad.
+    /// Input at which the missing distance is largest, or the first change point if none is missing, rad.
     pub input: f64,
-    /// Distance between its ends there, mm: 0 if its links lie in one line; infinite for two parallel guides.
+    /// Distance that is missing there for it to close, mm: 0 if its links lie in one line; infinite for two parallel guides.
     pub missing: f64,
 }
 
 /// Where a dyad closes.
 #[derive(Default)]
 struct Closing {
-    /// Inputs at which all dyads before it close that it depends on.
+    /// Inputs at which all dyads close on which it depends.
     given: Intervals,
     open: Intervals,
     change_points: Vec<f64>,
-    /// Whether there is an input at which it does not close, even flat.
+    /// Whether at some input it does not close, even flat.
     misses: bool,
 }
 
 impl Linkage {
     /// Inputs in `[0, period]` at which the linkage closes, as intervals, ascending; the whole cycle for a crank that turns.
     ///
-    /// An end that is a limit of the crank is exact to the float limit. Gaps and islands narrower than
-    /// half a degree are found where the room of a dyad has its minimum or maximum there. A change point, where both
-    /// branches of a dyad meet, is no gap: see [`not_closing`](Self::not_closing).
+    /// An end that is a limit of the crank is exact to the float limit. Gaps and islands narrower than half a degree are found if
+    /// the discriminant of a dyad has its minimum or maximum in them. A change point, where both branches of a dyad meet, is no
+    /// gap: see [`not_closing`](Self::not_closing).
     #[must_use]
     pub fn closing_inputs(&self) -> Vec<(f64, f64)> {
         let whole = vec![(0.0, self.period)];
@@ -70,7 +71,7 @@ impl Linkage {
         described.collect()
     }
 
-    /// The input of a dyad's largest gap and what is missing there.
+    /// Describes where a dyad does not close: the input at which the missing distance is largest, and that distance.
     fn described(&self, dyad: usize, closing: Closing) -> NotClosing {
         let missing = |input: f64| self.missing(dyad, input).max(0.0);
         let gaps = gaps(&closing.given, &closing.open).into_iter();
@@ -130,18 +131,18 @@ impl Linkage {
         all
     }
 
-    /// How far a dyad closes at an input: the square of the sine of its transmission angle, below zero where it does not close;
-    /// of two guides, the sine of their angle, above zero on the side on which the cycle begins.
+    /// Margin with which a dyad closes at an input: the square of the sine of its transmission angle, below zero where it does
+    /// not close. For two guides: the sine of their angle, above zero on the side on which the cycle begins.
     fn level<'a>(&'a self, step: &'a Step, needed: &'a Needed) -> impl Fn(f64) -> f64 + use<'a> {
         let series = |input: f64| {
             let mut series = Series::<1>::default();
             self.find(input, |part| needed.has(part), &mut series);
             series
         };
-        // Of the dyads that are needed it is the last.
+        // This dyad is the last of the needed ones.
         let room = |series: &Series<1>| series.room.last().copied().unwrap_or(f64::NAN);
         let inputs = || (0..SAMPLES).map(|i| self.period * f64::from(i) / f64::from(SAMPLES));
-        // Guides that are parallel at the start are on the side to which they go.
+        // If the guides are parallel at the start, the side is that of the first input at which they are not.
         let mut slants = inputs().map_while(|input| slant(step, &series(input)));
         let side = slants
             .find(|slant| slant.abs() > FLAT)
@@ -162,7 +163,7 @@ impl Linkage {
         }
     }
 
-    /// The steps on which a dyad depends, itself among them.
+    /// The steps on which a dyad depends, including its own.
     fn needed_by_dyad(&self, dyad: usize) -> Needed {
         let (mut link, mut before) = (1, 0);
         for step in &self.steps {
@@ -177,7 +178,7 @@ impl Linkage {
         self.needed_among(&[link])
     }
 
-    /// First input above zero at which the linkage does not close or a dyad has a change point, and the dyad at fault.
+    /// First input at which the linkage does not close or a dyad has a change point, and the dyad at fault.
     pub(super) fn limit(&self) -> Option<LinkageError> {
         let limits = self.not_closing().into_iter().map(|found| {
             let stop = match found.open.first() {
@@ -202,8 +203,8 @@ impl Linkage {
         })
     }
 
-    /// Transmission angle of each dyad, in the order of building, rad: a right angle where it holds best, 0 where its links are
-    /// stretched, folded or slide without effect, and for two bars pi, too.
+    /// Transmission angle of each dyad, in the order of building, rad: a right angle where force is transmitted best, 0 where its
+    /// links are stretched, folded or slide without effect, and for two bars also pi.
     ///
     /// Two bars: the angle between them at their joint, from 0 to pi. The others are angles between lines, from 0 to a right
     /// angle. A bar and a slider: that of the bar with the normal of the guide. A guided link: that of its guide with the normal
@@ -217,7 +218,7 @@ impl Linkage {
             .collect()
     }
 
-    /// Sine of the [transmission angle](Self::transmission_angles) of each dyad: 1 where it holds best.
+    /// Sine of the [transmission angle](Self::transmission_angles) of each dyad: 1 where force is transmitted best.
     #[must_use]
     pub fn holds(&self, input: f64) -> Vec<f64> {
         let angles = self.transmission_angles(input).into_iter();
@@ -247,7 +248,7 @@ fn common(one: &Intervals, other: &Intervals) -> Intervals {
     pairs.filter(|(low, high)| low < high).collect()
 }
 
-/// Parts of intervals that are not in `open`, itself parts of them.
+/// Parts of `intervals` that are not in `open`, whose intervals lie within them.
 fn gaps(intervals: &Intervals, open: &Intervals) -> Intervals {
     let mut gaps = Vec::new();
     for &(low, high) in intervals {
@@ -267,13 +268,13 @@ fn gaps(intervals: &Intervals, open: &Intervals) -> Intervals {
 struct Found {
     open: Intervals,
     change_points: Vec<f64>,
-    /// Whether there is an input at which it does not close, even flat.
+    /// Whether at some input it does not close, even flat.
     misses: bool,
 }
 
-/// The parts of an interval on which `level` is above zero, and the inputs at which it only comes down to zero.
+/// The parts of an interval on which `level` is above zero, and the inputs at which it only touches zero.
 ///
-/// `cycle` is the period if the interval is all of it and so has no ends.
+/// `cycle` is the period if the interval is the whole cycle and so has no ends.
 fn found_in(level: &dyn Fn(f64) -> f64, (low, high): (f64, f64), cycle: Option<f64>) -> Found {
     let count = (f64::from(SAMPLES) * (high - low) / TAU).ceil().max(4.0) as usize;
     let step = (high - low) / count as f64;
@@ -290,7 +291,7 @@ fn found_in(level: &dyn Fn(f64) -> f64, (low, high): (f64, f64), cycle: Option<f
     }
     let [start, end] = [looks[0].0, looks[count].0];
     looks.extend(dips(level, &looks));
-    // A dyad before this one may not close just at the end of an interval.
+    // Exactly at the end of an interval, a dyad before this one may fail to close.
     looks.retain(|(_, level)| !level.is_nan());
     looks.sort_by(|a, b| a.0.total_cmp(&b.0));
     let edge = |above: (f64, f64), other: (f64, f64)| match other.1 > 0.0 {
@@ -323,7 +324,7 @@ fn found_in(level: &dyn Fn(f64) -> f64, (low, high): (f64, f64), cycle: Option<f
     }
 }
 
-/// Samples over a cycle, gone through from that at which a dyad closes best, or closes worst if it closes at none: no dip lies
+/// Shifts the samples of a cycle so that they begin where a dyad closes best, or worst if it closes nowhere: then no dip lies
 /// across the ends.
 fn from_best(looks: &mut Vec<(f64, f64)>, period: f64) {
     let by_level = |a: &&(f64, f64), b: &&(f64, f64)| a.1.total_cmp(&b.1);
@@ -343,12 +344,12 @@ fn from_best(looks: &mut Vec<(f64, f64)>, period: f64) {
     looks.push((first.0 + period, first.1));
 }
 
-/// Extremes of a function between samples where it may change its sign or come down to zero.
+/// Extremes of a function between samples where it may change its sign or touch zero.
 fn dips(level: &dyn Fn(f64) -> f64, looks: &[(f64, f64)]) -> Vec<(f64, f64)> {
     let dip = |looks: &[(f64, f64)]| {
         let [a, b, c] = [looks[0], looks[1], looks[2]];
         let sign = if b.1 > 0.0 { 1.0 } else { -1.0 };
-        // Eight times the depth of the parabola through the samples, twice that of a kink.
+        // Eight times the maximum depth of a parabola through the samples below the middle one; twice that of a kink.
         let deep = sign * (a.1 - 2.0 * b.1 + c.1);
         let dips = a.1 * sign > b.1 * sign && c.1 * sign >= b.1 * sign && a.1 * sign > 0.0;
         if !dips || sign * b.1 > deep.max(FLAT) {
@@ -361,7 +362,7 @@ fn dips(level: &dyn Fn(f64) -> f64, looks: &[(f64, f64)]) -> Vec<(f64, f64)> {
 }
 
 impl Found {
-    /// Shifts a cycle that was gone through from another input than 0 into `[0, period]`.
+    /// Shifts the results of a cycle that began at another input than 0 into `[0, period]`.
     fn within(mut self, period: f64) -> Self {
         let parts = self.open.into_iter().flat_map(|(low, high)| {
             [

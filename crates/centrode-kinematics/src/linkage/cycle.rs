@@ -9,9 +9,9 @@ use super::series::Series;
 use crate::formula::Taylor;
 use crate::transmission::{MotionJet, Transmission};
 
-/// Steps of a turn in which an angle is followed at first.
+/// Steps per turn in which an angle is unwrapped at first.
 const STEPS: u32 = 64;
-/// Halvings of a step over which a link turns too far to be followed.
+/// Maximum number of halvings of a step over which a link turns too far to be unwrapped.
 const DEEPEST: u32 = 30;
 
 impl Linkage {
@@ -71,7 +71,7 @@ impl Linkage {
             let ([_, v0], [to, v1]) = (angle(before), angle(input));
             let step = input - before;
             let change = wrapped(to - turned);
-            // A step is followed only where the velocities at both ends account for the change.
+            // A step is accepted only if the velocities at both ends account for the change.
             let expected = 0.5 * (v0 + v1) * step;
             if change.abs() < FRAC_PI_2 && (change - expected).abs() < 0.3 {
                 knots.push((input, turned + change));
@@ -99,7 +99,7 @@ pub(super) fn wrapped(angle: f64) -> f64 {
     (angle + PI).rem_euclid(TAU) - PI
 }
 
-/// A joint's coordinate, as it is read from a linkage.
+/// A joint's coordinate that can be computed from a linkage.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Coordinate {
     /// Angle of a link's first axis against another link's, rad.
@@ -119,7 +119,7 @@ pub enum Coordinate {
 }
 
 impl Coordinate {
-    /// Numbers of the two links whose relative position it is.
+    /// Numbers of the two links whose relative position the coordinate describes.
     fn links(&self) -> [usize; 2] {
         match self {
             Self::Angle { link, against } => [link.0, against.0],
@@ -151,18 +151,19 @@ pub struct LinkTransmission {
     of: Coordinate,
     /// Parts of the linkage on which the coordinate depends.
     needed: Needed,
-    /// Inputs and the unwrapped angle there; between two of them it changes by less than a quarter turn. None for a slide.
+    /// Inputs, each with the unwrapped angle there; between neighbours the angle changes by less than a quarter turn. Empty for a
+    /// slide.
     knots: Vec<(f64, f64)>,
     advance: f64,
 }
 
 thread_local! {
-    /// Room of the last series, to be used again: a coordinate is requested thousands of times.
+    /// Memory of the last series, for reuse: a coordinate is requested thousands of times.
     static ROOM: Cell<Option<Box<Series<4>>>> = const { Cell::new(None) };
 }
 
 impl LinkTransmission {
-    /// The coordinate as a series in the room of another; an angle as its principal value.
+    /// The coordinate as a series, computed in the memory of `series`; an angle as its principal value.
     fn coordinate<const N: usize>(&self, input: f64, series: &mut Series<N>) -> Taylor<N> {
         self.linkage
             .find(input, |part| self.needed.has(part), series);
@@ -171,7 +172,7 @@ impl LinkTransmission {
 
     /// The coordinate up to the jerk; an angle as its principal value.
     fn jet(&self, input: f64) -> MotionJet {
-        // A law on the way may be a coordinate itself, which then finds no room and makes its own.
+        // A law of the linkage may be such a coordinate itself. It then finds no memory here and allocates its own.
         let mut series = ROOM.take().unwrap_or_default();
         let found = MotionJet::from_series(&self.coordinate(input, &mut series));
         ROOM.set(Some(series));

@@ -100,7 +100,7 @@ impl Linkage {
         }
     }
 
-    /// Position of a link's point, given in its axes in mm, at an input, mm; of the links on which it depends alone.
+    /// Position at an input, mm, of a link's point given in the link's axes, mm. Only the links on which it depends are computed.
     ///
     /// Not finite where the linkage does not close.
     ///

@@ -37,16 +37,16 @@ impl Branch {
     }
 }
 
-/// Closed form of a dyad.
+/// Solution of a dyad in closed form.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Closed<const N: usize, T = f64> {
     pub(crate) at: PointSeries<N, T>,
-    /// Discriminant: above zero where the dyad closes with room, zero where it is stretched or folded, below where it
-    /// cannot close: in mm⁴ (two bars) or mm² (the others).
+    /// Discriminant: above zero where the dyad closes, zero where it is stretched, folded or has parallel guides, below zero
+    /// where it cannot close. Unit: mm⁴ (two bars), mm² (one slider) or none (two sliders).
     pub(crate) room: T,
 }
 
-/// Length that is a plain number, or a series where its own influence is requested.
+/// Length that is a plain number, or a series if the derivative by the length itself is required.
 pub(crate) trait Length<const N: usize, T>: Copy {
     fn value(self) -> T;
 
@@ -54,7 +54,7 @@ pub(crate) trait Length<const N: usize, T>: Copy {
 
     fn times(self, series: Taylor<N, T>) -> Taylor<N, T>;
 
-    /// Coefficient `order` of half its square, which is not the first one, and `rest`.
+    /// `rest` plus the coefficient `order` (above 0) of half the square of the length.
     fn half_square_and(self, rest: T, order: usize) -> T;
 }
 
@@ -103,8 +103,8 @@ impl<const N: usize> Length<N, f64> for Taylor<N> {
 /// With d the vector from p to q and s = d², the joint is p + a d + h d⊥, where
 /// a = 1/2 + (first² - second²) / (2 s) and, after Heron,
 /// h = sqrt(((first + second)² - s) (s - (first - second)²)) / (2 s).
-/// That it stays so far from p and from q gives its derivatives one after the other: each is the solution of the two
-/// linear equations u·x = e, v·x = f along the bars u and v, whose determinant is s h.
+/// Its constant distances from p and from q give its derivatives one after the other: each is the solution of the two linear
+/// equations u·x = e, v·x = f along the bars u and v, whose determinant is s h.
 #[inline(always)]
 pub(crate) fn rrr<const N: usize, T: Number, L: Length<N, T>>(
     p: PointSeries<N, T>,

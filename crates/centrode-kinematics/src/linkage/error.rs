@@ -33,7 +33,7 @@ pub enum LinkageError {
     /// A second crank.
     #[error("the linkage has its crank already: one input moves it")]
     SecondCrank,
-    /// A dyad does not reach.
+    /// A dyad cannot close.
     #[error("dyad {dyad} cannot close {}", not_closing(*input, *missing))]
     DoesNotClose {
         /// Its number, from 0 in the order of building.

@@ -17,17 +17,17 @@ pub enum Grashof {
     DoubleCrank,
     /// The rocker turns, the crank swings.
     RockerCrank,
-    /// The coupler turns against both, which swing.
+    /// The coupler turns relative to crank and rocker, which both swing.
     DoubleRocker,
     /// No link turns.
     TripleRocker,
-    /// The shortest and longest link together are as long as the two others: the links can lie in one
-    /// line, and there the branch is open.
+    /// The shortest and longest link together are as long as the two others: the links can lie in one line, and both branches
+    /// meet there.
     ChangePoint,
 }
 
 impl Grashof {
-    /// Whether the crank turns through and the branch never opens.
+    /// Whether the crank turns fully and the branches never meet.
     #[must_use]
     pub fn crank_turns(self) -> bool {
         matches!(self, Self::CrankRocker | Self::DoubleCrank)
@@ -69,7 +69,7 @@ pub enum FourBarError {
         /// The limit of the crank, from 0 to pi either side of the frame line, rad.
         limit: f64,
     },
-    /// Coupler and rocker lie in one line, where the crank can go on.
+    /// Coupler and rocker lie in one line, but the crank can go on.
     #[error(
         "coupler and rocker lie in one line at the crank angle {input} rad, a change point: both branches meet there"
     )]
@@ -94,8 +94,7 @@ pub struct DeadCenters {
 
 /// A four-bar: the crank turns about A in the origin, the rocker about D at (`frame`, 0).
 ///
-/// B is the joint of crank and coupler, C that of coupler and rocker. The upper branch has C left of
-/// the way from B to D.
+/// B is the joint of crank and coupler, C that of coupler and rocker. The upper branch has C to the left of the line from B to D.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FourBar {
     crank: f64,
@@ -144,8 +143,7 @@ impl FourBar {
         self.branch
     }
 
-    /// Grashof type: the shortest link turns against all others where shortest + longest < the other two
-    /// together.
+    /// Grashof type: the shortest link turns relative to all others if shortest + longest < the other two together.
     #[must_use]
     pub fn grashof(&self) -> Grashof {
         let lengths = self.lengths();
@@ -181,8 +179,8 @@ impl FourBar {
         (a * a + d * d - diagonal * diagonal) / (2.0 * a * d)
     }
 
-    /// The crank angles in [0, pi] between which the linkage closes, on either side of the frame line;
-    /// none where it closes nowhere, (0, pi) for a crank that turns.
+    /// The crank angles in [0, pi] between which the linkage closes, on either side of the frame line; `None` if it closes
+    /// nowhere, (0, pi) for a crank that turns.
     ///
     /// The limits are where coupler and rocker lie in one line: cos phi = (crank² + frame² - d²) /
     /// (2 crank frame) with d = coupler + rocker or |coupler - rocker|.
@@ -297,7 +295,7 @@ impl FourBar {
     }
 
     /// The angle at C between coupler and rocker, in (0, pi), rad: cos mu = (coupler² + rocker² - BD²) /
-    /// (2 coupler rocker). Force passes best at a right angle. Not a number where it does not close.
+    /// (2 coupler rocker). It transmits force best at a right angle. NaN where the four-bar does not close.
     #[must_use]
     pub fn transmission_angle(&self, input: f64) -> f64 {
         let (a, d) = (self.crank, self.frame);
@@ -322,7 +320,7 @@ impl FourBar {
         near.min(PI - far).min(far).min(PI - near)
     }
 
-    /// Dead centres, where crank and coupler lie in one line; none unless it is a crank-rocker.
+    /// Dead centres, where crank and coupler lie in one line; `None` unless it is a crank-rocker.
     #[must_use]
     pub fn dead_centers(&self) -> Option<DeadCenters> {
         if self.grashof() != Grashof::CrankRocker {
@@ -346,7 +344,7 @@ impl FourBar {
         })
     }
 
-    /// Angle between the rocker's ends, rad; `None` for what is not a crank-rocker.
+    /// Angle between the rocker's ends, rad; `None` unless it is a crank-rocker.
     #[must_use]
     pub fn rocker_swing(&self) -> Option<f64> {
         let dead = self.dead_centers()?;
@@ -354,7 +352,7 @@ impl FourBar {
         Some((ends[0] - ends[1]).abs())
     }
 
-    /// Crank angle of the slower stroke of the rocker, rad; `None` for what is not a crank-rocker.
+    /// Crank angle of the slower stroke of the rocker, rad; `None` unless it is a crank-rocker.
     #[must_use]
     pub fn slow_stroke(&self) -> Option<f64> {
         let dead = self.dead_centers()?;
@@ -362,7 +360,7 @@ impl FourBar {
         Some(one.max(TAU - one))
     }
 
-    /// Time of the slower stroke over that of the quicker one.
+    /// Time of the slower stroke divided by that of the quicker one; `None` unless it is a crank-rocker.
     #[must_use]
     pub fn quick_return(&self) -> Option<f64> {
         self.slow_stroke().map(|slow| slow / (TAU - slow))
@@ -371,7 +369,7 @@ impl FourBar {
     /// The rocker's angle as a function of the crank angle.
     ///
     /// # Errors
-    /// [`FourBarError::DoesNotClose`] if the crank cannot turn; [`FourBarError::ChangePoint`] if it passes one.
+    /// [`FourBarError::DoesNotClose`] if the crank cannot turn; [`FourBarError::ChangePoint`] if it passes a change point.
     pub fn transmission(&self) -> Result<impl Transmission + use<>, FourBarError> {
         if !self.grashof().crank_turns() {
             let flat = self.change_points().first().copied();

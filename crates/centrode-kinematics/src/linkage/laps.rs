@@ -2,8 +2,8 @@ use std::f64::consts::{PI, TAU};
 
 use crate::formula::{Number, Taylor};
 
-/// Unwraps principal angles into [middle - pi, middle + pi): adds `before` or `after`, multiples of 2 pi, by the side
-/// of `cut`.
+/// Unwraps principal angles into [middle - pi, middle + pi): adds `before` below `cut` and `after` above it, both multiples of 2
+/// pi.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Unwrap {
     cut: f64,

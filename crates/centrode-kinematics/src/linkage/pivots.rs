@@ -6,25 +6,24 @@ use super::four_bar::FourBar;
 use super::six_bar::SixBar;
 use super::slider_arc::SliderArc;
 
-/// Points between which a curve is measured for each that is returned, and the minimum number of them.
+/// Number of points at which a curve is measured, per pivot that is returned, and the minimum total.
 const MEASURED: (usize, usize) = (4, 256);
-/// Maximum ratio of a step to the mean one at which they count as even.
+/// Maximum ratio of the longest step to the mean step at which steps count as even.
 const EVEN: f64 = 1.002;
-/// Maximum number of passes that move these points to equal lengths; near half a turn, where a ray hardly turns
-/// along most of the curve, it takes a dozen.
+/// Maximum number of passes that space these points evenly. A dozen are needed near half a turn, where a ray hardly turns along
+/// most of the curve.
 const PASSES: usize = 60;
 
 impl SixBar {
-    /// Positions of the effector's pivot, `count` of them, that all give this swing (rad), in order along a curve and
-    /// evenly spaced along its length; empty for a swing that is not between 0 and 2 pi, or for what is not a
+    /// Positions of the effector's pivot, `count` of them, that all give this swing (rad), in order along a curve and evenly
+    /// spaced along its length. The list is empty for a swing that is not between 0 and 2 pi, or if the four-bar is not a
     /// crank-rocker.
     ///
-    /// The slider runs on an arc about D. Half a turn is seen from the chord between its dead centres,
-    /// and from nowhere else: from outside the circle the arc looks smaller, on the near side of the
-    /// chord larger. Every other swing is seen from an isoptic of the arc, found along rays from the
-    /// chord's middle, on which the swing falls all the way (and is below half a turn past the arc). No
-    /// pivot sees more than half a turn and half the rocker's swing. Each point gives the swing to the float limit;
-    /// the spaces between them are equal to about a hundredth.
+    /// The slider runs on an arc about D, and the swing is the angle that this arc subtends at the pivot. It is half a turn only
+    /// on the chord between the dead centres. Between chord and arc it is larger, elsewhere smaller. Every other swing belongs to
+    /// an isoptic of the arc. Its points are found along rays from the chord's middle, on which the swing only rises towards the
+    /// arc and only falls elsewhere. No pivot sees more than half a turn and half the rocker's swing. Each point gives the swing
+    /// to the float limit; the spaces between the points are equal to about 1 %.
     #[must_use]
     pub fn pivots(four_bar: &FourBar, swing: f64, count: usize) -> Vec<Point> {
         let Some(arc) = SliderArc::new(four_bar) else {
@@ -45,7 +44,7 @@ impl SixBar {
             let (sin, cos) = turn.sin_cos();
             arc.seen_at(middle, chord.normalize() * cos + across * sin, swing)
         };
-        // Past half a turn the curve runs from end to end of the chord next to the arc, else all round it.
+        // Above half a turn the curve runs between chord and arc, from end to end of the chord; below, all round the chord.
         let whole = if swing > PI { PI } else { TAU };
         let knots = even_knots(whole, count, |turn| {
             if swing > PI && turn <= 0.0 {

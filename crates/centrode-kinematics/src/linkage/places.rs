@@ -5,7 +5,7 @@ use super::parts::{Line, LinkId};
 use super::series::{Series, SeriesItem};
 use crate::formula::{LANES, Lanes, groups};
 
-/// Joints and links that a step needs, by their numbers.
+/// Joints and links on which a step depends, by their numbers.
 #[derive(Default)]
 struct Takes {
     joints: Vec<usize>,
@@ -55,17 +55,18 @@ enum Source {
     Of(LinkId, Point),
 }
 
-/// Joints and links on which some of them depend.
+/// Steps and frames of links that a computation needs.
 #[derive(Clone, Debug)]
 pub(super) struct Needed {
     steps: Vec<bool>,
     frames: Vec<bool>,
-    /// Link in whose axes all is reported, on which the parts depend alone; the frame where there is no nearer one.
+    /// Link that carries all needed parts and in whose axes positions are stated; the frame if no nearer link carries them all.
+    /// link.
     base: usize,
 }
 
 impl Needed {
-    /// Whether a part is among it.
+    /// Whether a part is needed.
     #[inline(always)]
     pub(super) fn has(&self, part: SeriesItem) -> bool {
         match part {
@@ -77,9 +78,9 @@ impl Needed {
 }
 
 impl Linkage {
-    /// Positions of points of links, given in their axes in mm, at each of many inputs, mm: all points at the first input, then
-    /// at the second and so on; equal to [`place`](Self::place) but for a few units in the last digit, computed side by side,
-    /// and of the links on which these depend alone.
+    /// Positions at each of many inputs, mm, of points given in the axes of their links, mm: all points at the first input, then
+    /// at the second and so on. They equal [`place`](Self::place) but for a few units in the last digit. They are computed side
+    /// by side, and only the links on which they depend.
     ///
     /// Not finite where the linkage does not close.
     ///
@@ -92,7 +93,7 @@ impl Linkage {
         places
     }
 
-    /// Writes [`places_each`](Self::places_each), as far as there is room: a block of an array of its caller.
+    /// Writes [`places_each`](Self::places_each) into an array of the caller, up to the end of that array.
     ///
     /// # Panics
     /// Never for links of the linkage.
@@ -135,8 +136,8 @@ impl Linkage {
         }
     }
 
-    /// Position (mm) and velocity (mm per radian of the input) of each of several points of links, given in their axes in mm, at
-    /// an input; of the links on which these depend alone.
+    /// Position (mm) and velocity (mm per radian of the input) at an input of each of several points, given in the axes of their
+    /// links in mm. Only the links on which the points depend are computed.
     ///
     /// Not finite where the linkage does not close.
     ///
@@ -156,7 +157,7 @@ impl Linkage {
         points.iter().map(moving).collect()
     }
 
-    /// The joint at a point of a link, given in its axes, where there is one.
+    /// The joint at a point of a link, given in the link's axes; `None` if there is no joint.
     fn joint_at(&self, link: LinkId, local: Point) -> Option<usize> {
         let (mut links, mut joints) = (1, 0);
         for step in &self.steps {
@@ -183,7 +184,7 @@ impl Linkage {
         None
     }
 
-    /// The steps on which joints and links depend, by their numbers, and the links of which more than joints is needed.
+    /// The steps on which joints and links depend, by their numbers, and the links whose frames are needed.
     pub(super) fn needed(
         &self,
         joints: impl Iterator<Item = usize>,
@@ -192,8 +193,8 @@ impl Linkage {
         self.needed_above(0, joints, links)
     }
 
-    /// Steps on which links depend against each other, stated in the axes of the last link that carries all of them: how that
-    /// one moves is not requested.
+    /// Steps on which the relative position of links depends, stated in the axes of the last link that carries all of them: the
+    /// motion of that link is not computed.
     pub(super) fn needed_among(&self, links: &[usize]) -> Needed {
         let of = |base: usize| self.needed_above(base, std::iter::empty(), links.iter().copied());
         let bases = 1..links.iter().copied().max().unwrap_or(0);
@@ -202,7 +203,7 @@ impl Linkage {
         alone.next().unwrap_or_else(|| of(0))
     }
 
-    /// Whether nothing that is needed depends on how its base is placed.
+    /// Whether no needed part depends on the position of the base.
     fn is_alone(&self, needed: &Needed) -> bool {
         let mut first = 1;
         let makes_base = |first: usize, step: &Step| {

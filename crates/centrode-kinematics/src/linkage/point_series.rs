@@ -25,7 +25,7 @@ impl<const N: usize, T: Number> PointSeries<N, T> {
         Self { x, y }
     }
 
-    /// The unit vector at an angle that is itself the variable: each derivative is a quarter turn ahead.
+    /// The unit vector at an angle that is itself the variable: each derivative is a quarter turn ahead of the one before it.
     #[inline(always)]
     pub(crate) fn turning(angle: T) -> Self {
         let (y, x) = angle.sin_cos();
@@ -123,7 +123,7 @@ impl<const N: usize, T: Number> PointSeries<N, T> {
         }
     }
 
-    /// Rotated `v`: given in the frame whose first axis is this unit vector, brought into the frame of this vector.
+    /// Vector `v`, whose components are along this unit vector and to its left, in the axes in which this unit vector is given.
     #[inline(always)]
     pub(crate) fn turned(self, v: Vector) -> Self {
         self.times(v.x).plus(self.left().times(v.y))

@@ -1,6 +1,6 @@
 use std::ops::Deref;
 
-/// List that is filled from its start on, again and again: unused entries stay allocated.
+/// List that is filled again and again from its start; its entries stay allocated.
 pub(super) struct Refilled<T> {
     list: Vec<T>,
     next: usize,
@@ -37,7 +37,7 @@ impl<T> Refilled<T> {
         self.next += 1;
     }
 
-    /// Leaves the next element as it is; where there is none yet, it is `first`.
+    /// Skips the next element, which stays as it is; if there is none yet, appends `first`.
     #[inline(always)]
     pub(super) fn leave(&mut self, first: T) {
         if self.next == self.list.len() {

@@ -15,18 +15,18 @@ pub(super) struct Series<const N: usize, T = f64> {
     joints: Refilled<PointSeries<N, T>>,
     /// Origin and first axis.
     frames: Refilled<(PointSeries<N, T>, PointSeries<N, T>)>,
-    /// Discriminant of every dyad: its room before it no longer closes.
+    /// Discriminant of every dyad: above zero while the dyad closes.
     pub(super) room: Refilled<T>,
 }
 
-/// Part of a linkage that others need.
+/// Part of a linkage on which other parts depend.
 #[derive(Clone, Copy)]
 pub(super) enum SeriesItem {
     /// A step, by its number.
     Step(usize),
     /// A link's origin and axis, by its number.
     Frame(usize),
-    /// A link, by its number, in whose axes all is reported.
+    /// Base link, by its number: all positions are stated in its axes.
     Base(usize),
 }
 
@@ -69,14 +69,15 @@ impl<const N: usize, T: Number> Series<N, T> {
 }
 
 impl<const N: usize> Series<N> {
-    /// Angle at which a dyad holds, rad: 0 or pi where it is stretched or folded, a right angle where it holds best.
+    /// Transmission angle of a dyad, rad: 0 or pi where it is stretched or folded, a right angle at best; `None` for another
+    /// step.
     pub(super) fn holding_angle(&self, step: &Step) -> Option<f64> {
         let parts = |a: PointSeries<N>, b: PointSeries<N>| (a.cross(b).0[0].abs(), a.dot(b).0[0]);
         let between = |a, b| {
             let (across, along) = parts(a, b);
             across.atan2(along)
         };
-        // Lines have no direction: from 0 to a right angle.
+        // Lines have no direction: their angle is from 0 to a right angle.
         let of_lines = |a, b| {
             let (across, along) = parts(a, b);
             across.atan2(along.abs())
@@ -172,14 +173,14 @@ impl Linkage {
         }
     }
 
-    /// Pose as series of order N - 1; where a dyad does not close, the joints after it are not numbers.
+    /// Pose as series of order N - 1; where a dyad does not close, the joints that depend on it are NaN.
     pub(super) fn series<const N: usize>(&self, input: f64) -> Series<N> {
         let mut series = Series::default();
         self.find(input, |_| true, &mut series);
         series
     }
 
-    /// Finds the series of what is needed, at one input or at several side by side.
+    /// Computes the series of all needed parts, at one input or at several side by side.
     pub(super) fn find<const N: usize, T: Number>(
         &self,
         input: T,

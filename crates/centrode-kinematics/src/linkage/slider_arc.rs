@@ -9,7 +9,7 @@ use super::six_bar::EffectorExtremes;
 pub(super) struct SliderArc {
     center: Point,
     radius: f64,
-    /// Rocker angle and crank angle at the two ends, the lesser rocker angle first.
+    /// Rocker angle and crank angle at the two ends, the smaller rocker angle first.
     ends: [(f64, f64); 2],
     four_bar: FourBar,
 }
@@ -22,7 +22,7 @@ impl SliderArc {
         if ends[0].0 > ends[1].0 {
             ends.reverse();
         }
-        // Both unwrapped in [0, 2 pi) of the crank, where the rocker's angle has no jump.
+        // Both rocker angles are unwrapped at crank angles in [0, 2 pi), where they have no jump.
         let [_, _, radius, frame] = four_bar.lengths();
         Some(Self {
             center: Point::new(frame, 0.0),
@@ -40,7 +40,7 @@ impl SliderArc {
         self.ends.map(|(rocker, _)| self.at(rocker))
     }
 
-    /// Angle within the arc's range of angles, or none.
+    /// Rocker angle, shifted by whole turns into the arc's range; `None` if it lies outside.
     fn within(&self, rocker: f64) -> Option<f64> {
         let [low, high] = self.ends.map(|e| e.0);
         let angle = low + (rocker - low).rem_euclid(TAU);
@@ -137,9 +137,9 @@ impl SliderArc {
         across * across.dot(&(self.at(half) - middle)).signum()
     }
 
-    /// Point on a ray from the chord's middle from which the arc is seen at an angle.
+    /// Point on a ray from the chord's middle at which the arc subtends the angle `swing`.
     pub(super) fn seen_at(&self, middle: Point, ray: Vector, swing: f64) -> Option<Point> {
-        // Where the ray crosses the circle, on the far side of the middle.
+        // Distance along the ray to the point where it leaves the circle.
         let way = middle - self.center;
         let along = way.dot(&ray);
         let to_circle =

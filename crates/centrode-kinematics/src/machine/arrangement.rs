@@ -109,14 +109,14 @@ impl Datum {
 }
 
 impl LinkedMachine {
-    /// A place in the sketch of a figure by its name, mm; none where there is no such figure.
+    /// A point in the sketch of a figure by its name, mm; `None` if there is no such figure.
     #[must_use]
     pub fn place_on(&self, figure: &str, at: [f64; 2]) -> Option<Place> {
         let figure = self.figures.iter().position(|known| known.name == figure)?;
         Some(Place { figure, at })
     }
 
-    /// A place on the edge of a contour in the sketch of a figure: the middle of its longest segment.
+    /// A point on the edge of a contour in the sketch of a figure: the middle of its longest segment.
     #[must_use]
     pub fn place_on_edge(&self, figure: &str, outline: &Outline) -> Option<Place> {
         let length = |s: &&Segment| (s.end() - s.start()).norm_squared();

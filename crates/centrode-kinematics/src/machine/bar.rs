@@ -6,34 +6,34 @@ use super::{
 };
 use crate::machine::Keyway;
 
-/// Share of a diameter that a chamfer at an end takes at most.
+/// Maximum chamfer at an end, relative to the diameter.
 const CHAMFER: f64 = 1.0 / 16.0;
-/// Lengths below which steps are none, mm: rounding.
+/// Length at or below which a step is omitted as rounding, mm.
 const ROUNDING: f64 = 1e-9;
-/// Minimum play along the axis of what lies between two rings, mm.
+/// Minimum axial play of the parts between two rings, mm.
 const CLEARANCE: f64 = 0.05;
-/// Steps of deviations of a length between grooves, and the width of its tolerance, mm.
+/// Rounding step of the deviations of a length between grooves, and the width of its tolerance, mm.
 const DEVIATION: [f64; 2] = [0.05, 0.1];
 
-/// A bar of one diameter through the parts on one axis, at heights in its machine: the shaft or pin with its rings, keys, bearings and
-/// spacers follows from them.
+/// A bar of one diameter through the parts on one axis, described by heights in its machine. The shaft or pin with its rings,
+/// keys, bearings and spacers follows from these heights.
 #[derive(Clone, Debug)]
 pub struct Bar {
-    /// Its diameter and the fit of what sits on it.
+    /// Its diameter and the fit of the parts on it.
     fit: Fit,
-    /// Tolerance class of its diameter where nothing else is stated.
+    /// Tolerance class of its diameter outside its seats.
     class: String,
-    /// Parallel pin that is bought instead.
+    /// Parallel pin that is bought instead of a turned bar.
     standard: Option<Dowel>,
     /// Lower and upper end, mm.
     span: [f64; 2],
     keyed: Vec<[f64; 2]>,
-    /// Heights of the walls of grooves towards what the ring holds, and whether the groove lies above it.
+    /// Heights of those walls of grooves that face the held parts, and whether the groove lies above its wall.
     grooves: Vec<(f64, bool)>,
     keyway: Option<Keyway>,
-    /// Stretches of a class of their own.
+    /// Stretches with a tolerance class of their own.
     seats: Vec<([f64; 2], String)>,
-    /// Extents of the parts on it.
+    /// Lower and upper faces of the parts on it.
     parts: Vec<[f64; 2]>,
     /// Keys, bearings and spacers on it, each with the height of its lower end.
     keys: Vec<(Key, f64)>,
@@ -60,8 +60,8 @@ impl Bar {
         }
     }
 
-    /// The longest parallel pin that has room between two heights, flush with the upper one; a bar between both where there is none, or where
-    /// it is shorter by a length, mm, or more.
+    /// The longest parallel pin that has room between two heights, flush with the upper one; a turned bar between both if
+    /// there is no such pin, or if the pin is shorter than the room by `short`, mm, or more.
     pub fn dowel(fit: Fit, [low, high]: [f64; 2], short: f64) -> Self {
         let standard = Dowel::for_diameter(fit.size, high - low);
         let standard = standard.filter(|pin| high - low - pin.length < short);
@@ -78,19 +78,19 @@ impl Bar {
         self
     }
 
-    /// The parts on it, by their lower and upper faces, mm: rings leave them play.
+    /// The bar through these parts, given by their lower and upper faces, mm: rings leave them axial play.
     pub fn through(mut self, parts: &[[f64; 2]]) -> Self {
         self.parts.extend_from_slice(parts);
         self
     }
 
-    /// Retaining rings at both ends where there is a ring of this size and room beyond them for its groove and land.
+    /// Adds retaining rings at both ends if there is a ring of this size and room (mm) beyond the end for its groove and land.
     pub fn held(self, room: [f64; 2]) -> Self {
         let [low, high] = self.span;
         self.ring(low, false, room[0]).ring(high, true, room[1])
     }
 
-    /// A retaining ring below or above a height, where there is room for its groove; at an end the bar grows by what the land takes.
+    /// Adds a retaining ring below or above a height if there is room for it; at an end the bar grows by groove and land.
     pub fn ring(mut self, wall: f64, above: bool, room: f64) -> Self {
         let Some(ring) = Circlip::of_shaft(self.fit.size) else {
             return self;
@@ -111,7 +111,7 @@ impl Bar {
         self
     }
 
-    /// A keyway of the shaft for a hub's, between two heights.
+    /// Adds the shaft's keyway that mates with a hub's keyway, between two heights.
     pub fn keyed(mut self, hub: Option<Keyway>, span: [f64; 2]) -> Self {
         if let Some(hub) = hub {
             self.keyway = Some(hub.of_shaft());
@@ -120,8 +120,8 @@ impl Bar {
         self
     }
 
-    /// A keyway for a key with square ends, whose whole length between two heights is straight: half round ends lie beyond it, past
-    /// grooves there, or the keyway is open at the bar's end.
+    /// Adds a keyway for a key with square ends, straight over the whole length between two heights. Its half round ends lie
+    /// beyond this length, past any grooves there, or the keyway is open at the bar's end.
     pub fn keyed_square(self, hub: Option<Keyway>, [low, high]: [f64; 2]) -> Self {
         let half = 0.5 * hub.map_or(0.0, |hub| hub.width);
         let walls = self.walls();
@@ -147,26 +147,26 @@ impl Bar {
         self.keyed(hub, [past, beyond])
     }
 
-    /// A stretch between two heights in a tolerance class of its own.
+    /// Gives the stretch between two heights a tolerance class of its own.
     pub fn seat(mut self, span: [f64; 2], class: &str) -> Self {
         self.seats.push((span, class.into()));
         self
     }
 
-    /// A key in the middle between two heights, mm.
+    /// Adds a key in the middle between two heights, mm.
     pub fn key(mut self, key: Option<Key>, [low, high]: [f64; 2]) -> Self {
         self.keys
             .extend(key.map(|key| (key, 0.5 * (low + high - key.length))));
         self
     }
 
-    /// A bearing from a height on, mm, with a seat of a tolerance class.
+    /// Adds a bearing with its lower face at a height, mm, and a seat of a tolerance class.
     pub fn bearing(mut self, bearing: Bearing, low: f64, class: &str) -> Self {
         self.bearings.push((bearing, low));
         self.seat([low, low + bearing.width], class)
     }
 
-    /// Spacers, each with the height of its lower face, mm; they are parts on it.
+    /// Adds spacers, each with the height of its lower face, mm; they count as parts on the bar.
     pub fn spaced(mut self, spacers: Vec<(Spacer, f64)>) -> Self {
         let spans = spacers.iter().map(|(ring, at)| [*at, at + ring.length]);
         self.parts.extend(spans);
@@ -179,7 +179,7 @@ impl Bar {
         [false, true].map(|way| self.grooves.iter().any(|(_, above)| *above == way))
     }
 
-    /// Heights between which the keyway of the last key goes.
+    /// Lower and upper end of the keyway that was added last, mm.
     pub fn last_keyway(&self) -> Option<[f64; 2]> {
         self.keyed.last().copied()
     }
@@ -192,7 +192,7 @@ impl Bar {
         }
     }
 
-    /// The bar without the ring at its upper end where that, moved by the play, finds no room.
+    /// The bar without the ring at its upper end, if that ring, moved by the play, does not fit into the room, mm.
     pub fn within(mut self, room: f64, general: &str) -> Self {
         let needed = Circlip::of_shaft(self.fit.size).map_or(0.0, Circlip::room);
         if needed + self.growth(general) <= room + ROUNDING {
@@ -211,7 +211,7 @@ impl Bar {
         self.span[0]
     }
 
-    /// Lower and upper walls of its grooves, from the lowest on, and whether the ring in each holds what is below it.
+    /// Lower and upper walls of its grooves, from the lowest on, and whether the ring in each holds the parts below it.
     fn walls(&self) -> Vec<([f64; 2], bool)> {
         let width = Circlip::of_shaft(self.fit.size).map_or(0.0, |ring| ring.width);
         let walls = self.grooves.iter().map(|&(wall, above)| match above {
@@ -223,10 +223,10 @@ impl Bar {
         walls
     }
 
-    /// Lengths between grooves that leave what the rings hold no play within general tolerances, with deviations that do.
+    /// Lengths between grooves at which general tolerances leave the held parts no play, with deviations that do leave it.
     ///
-    /// A ring gives way to the far wall of its groove. The play is then smallest where the length and the grooves are shortest and the
-    /// parts and rings thickest: l + (m - s) for each ring that is pushed away from the parts, less the thicknesses, each with
+    /// A ring can move to the far wall of its groove. The play is smallest where the length and the grooves are shortest and the
+    /// parts and rings thickest: l + (m - s) for each ring that is pushed away from the parts, minus the thicknesses, each with
     /// its deviation.
     fn held_lengths(&self, general: &str) -> Vec<HeldLength> {
         let slack =
@@ -249,7 +249,7 @@ impl Bar {
                 return None;
             }
             let [step, width] = DEVIATION;
-            // A whole number of steps, but for rounding.
+            // Rounded up to whole steps; the margin is for rounding.
             let minimum = ((CLEARANCE - play) / step - 1e-6).ceil() * step;
             let deviations = [minimum, minimum + width].map(|mm| (mm * 1e3).round() / 1e3);
             let span = [low, high].map(|z| z - self.span[0]);
@@ -296,7 +296,7 @@ impl Bar {
         TurnedPiece::upright(link, [at.x, at.y, self.bottom()])
     }
 
-    /// The turned part with what sits on it, without pieces yet: names of its files and in words, material, and the general tolerances.
+    /// The turned part with the parts on it, without pieces yet: name of its files, title, material and general tolerances.
     pub fn turned(&self, name: &str, title: &str, stock: Stock<'_>, general: &str) -> TurnedPieces {
         let above = |at: f64| at - self.bottom();
         let keys = self.keys.iter();
@@ -333,8 +333,9 @@ impl Bar {
     }
 }
 
-/// Makes the last step of a length between two grooves longer by the middle of its deviations, which are then even: what lies beyond keeps
-/// its length, and the contour lies within all limits. Lengths one after another keep theirs: the parts on them would move.
+/// Makes the last step of a length between two grooves longer by the middle of its deviations, which are then symmetric. Steps
+/// beyond keep their length, and the contour lies within all limits. Several such lengths stay unchanged: the parts on them would
+/// move.
 fn lengthen(steps: &mut [TurnedStep], held: &mut [HeldLength]) {
     let [length] = held else {
         return;

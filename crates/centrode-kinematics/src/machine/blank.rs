@@ -25,16 +25,17 @@ pub enum Blank {
     },
 }
 
-/// How far off a contour the points lie by which its sides are chosen, mm; their lengths are those of the contour.
+/// Maximum distance from the contour, mm, of the polygon that decides the direction of the sides; their lengths are those of the
+/// contour.
 const FINE: f64 = 1e-3;
-/// Excess of a size over a tenth of a millimetre that costs no further tenth, mm: more than rounding ever is.
+/// Excess over a tenth of a millimetre that is not rounded up to the next tenth, mm: larger than any rounding error.
 const HAIR: f64 = 1e-6;
 
 impl Blank {
-    /// The minimum rectangle of plate around a contour, or round bar where it is a circle; `None` for a contour of no extent.
+    /// The minimum rectangle of plate around a contour, or round bar if it is a circle; `None` for a contour of no extent.
     ///
     /// One side of the minimum rectangle lies along a side of the convex hull: every one is tried, on a polygon within 0.001 mm.
-    /// The sides told are those of the contour.
+    /// The sides returned are those of the contour.
     #[must_use]
     pub fn plate(outline: &Outline, thickness: f64) -> Option<Self> {
         let points = outline.flatten(Tolerance::new(FINE).ok()?);
@@ -71,7 +72,7 @@ impl Blank {
         Some(Self::Plate { sides, thickness })
     }
 
-    /// Round bar about the origin of a contour, as a turned part has it.
+    /// Round bar about the origin of a contour, as for a turned part.
     #[must_use]
     pub fn round(outline: &Outline, length: f64) -> Option<Self> {
         let diameter = 2.0 * outline.maximum_distance(Point::origin());

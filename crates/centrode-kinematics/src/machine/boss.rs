@@ -4,8 +4,8 @@ use std::f64::consts::PI;
 
 use centrode_geometry::{Arc, Outline, Point, Segment, bracketed_root};
 
-/// A hole without the discs of a radius, mm, about places near its contour: bosses on the wall around it. `None` where a disc
-/// does not cut the contour just twice.
+/// A hole without the discs of a radius, mm, about points near its contour: bosses on the wall around it. `None` if a disc does
+/// not cut the contour exactly twice.
 #[must_use]
 pub fn with_bosses(hole: &Outline, at: &[Point], radius: f64) -> Option<Outline> {
     at.iter().try_fold(hole.clone(), |hole, &middle| {
@@ -37,7 +37,7 @@ fn rest(segment: &Segment, from: f64) -> Segment {
     }
 }
 
-/// Places along a segment at which its distance from a circle is looked at.
+/// Intervals of a segment at whose ends its distance from a circle is sampled.
 const SAMPLES: usize = 64;
 
 fn boss(hole: &Outline, middle: Point, radius: f64) -> Option<Outline> {
@@ -59,7 +59,8 @@ fn boss(hole: &Outline, middle: Point, radius: f64) -> Option<Outline> {
     let ([(last, end)], [(first, start)]) = (&enters[..], &leaves[..]) else {
         return None;
     };
-    // From where the contour leaves the disc to where it enters it again, and back round the disc with the material inside.
+    // From the point where the contour leaves the disc to the point where it enters it again, and back round the disc, whose
+    // inside is material.
     let mut kept = Vec::new();
     if first == last && start < end {
         kept.push(segments[*first].part(*start, *end));

@@ -55,7 +55,7 @@ impl GearMesh {
     }
 }
 
-/// Whether two places are the origins of their frames.
+/// Whether two points are the origins of their frames.
 fn at_origins(places: &[[f64; 3]; 2]) -> bool {
     *places == [[0.0; 3]; 2]
 }
@@ -73,8 +73,8 @@ pub struct PitchCurves {
 }
 
 impl PitchCurves {
-    /// Radius of the driver's pitch curve in a direction in the axes of the driving link, mm, and its change by a radian of
-    /// that, for a distance of the axes (mm).
+    /// Radius of the driver's pitch curve in a direction given in the axes of the driving link, mm, and its derivative by that
+    /// direction, mm/rad, for a distance of the axes (mm).
     ///
     /// With i the ratio of the radii and a the distance of the axes, r = a i / (1 + i).
     #[must_use]
@@ -142,10 +142,10 @@ pub struct Guide {
     pub friction: f64,
 }
 
-/// Forces of a groove on what it moves.
+/// Forces of a groove on the part that it moves.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GuideForce {
-    /// Push along the way, N; negative where the groove holds back.
+    /// Push along the path, N; negative where the groove holds back.
     pub push: f64,
     /// Normal force of the wall, N, never negative.
     pub normal: f64,
@@ -158,12 +158,12 @@ pub struct GuideForce {
 }
 
 impl GuideForce {
-    /// Forces of a groove of some lead angle (rad) and radius (mm) that gives a push (N) along the way, by equilibrium of the
+    /// Forces of a groove of a lead angle (rad) and radius (mm) that gives a push (N) along the path, by equilibrium of the
     /// wall's normal force and its friction.
     ///
-    /// With the lead angle `a`, the angle of friction `f` and the push `P`: `F_n = P cos f / cos(a + f)`, across the way
-    /// `P tan(a + f)`. Where `P` is negative the other wall holds back, and the sum becomes a difference. It holds below the
-    /// angle of jamming, `a + f` less than a right angle.
+    /// With the lead angle `a`, the angle of friction `f` and the push `P`: `F_n = P cos f / cos(a + f)`, across the path
+    /// `P tan(a + f)`. Where `P` is negative the other wall holds back, and the sum becomes a difference. The formulas hold below
+    /// the angle of jamming: `a + f` less than a right angle.
     #[must_use]
     pub fn new(push: f64, lead_angle: f64, radius: f64, friction: f64) -> Self {
         let (lead, friction) = (lead_angle.abs(), friction.atan());

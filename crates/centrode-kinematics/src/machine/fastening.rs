@@ -1,4 +1,4 @@
-//! Screws through two plates, from both sides, into what lies between and holds them apart.
+//! Screws through two plates, from both sides, into the body between them that holds them apart.
 
 use std::f64::consts::PI;
 
@@ -6,7 +6,7 @@ use centrode_geometry::{Outline, Point};
 
 use super::{Fit, Screw, TurnedPiece, TurnedPieces};
 
-/// Maximum length of thread that a screw enters, in its diameters: more holds no better.
+/// Maximum length of thread that a screw enters, in its diameters: a longer one holds no better.
 const ENTERED: f64 = 2.0;
 /// Length of thread beyond the end of the screw, in its diameters.
 const BEYOND: f64 = 0.5;
@@ -26,7 +26,7 @@ pub struct Fastening {
     pub plate: f64,
 }
 
-/// Reason why plates are not screwed.
+/// Reason why plates cannot be screwed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum FasteningError {
@@ -44,7 +44,7 @@ pub enum FasteningError {
         /// Minimum length of thread, mm.
         minimum: f64,
     },
-    /// Too few places that miss everything else.
+    /// Too few positions that are clear of all other parts.
     #[error(
         "{found} places for screws M{diameter} clear of all that turns there, 3 are needed: around each a circle of {around} mm"
     )]
@@ -59,11 +59,11 @@ pub enum FasteningError {
 }
 
 impl Fastening {
-    /// Screws of a diameter for plates of a thickness between two outer faces, mm, without places yet: each as long as leaves it
-    /// two diameters of thread at most, and its end apart from that of the screw from the other side.
+    /// Screws of a diameter for plates of a thickness between two outer faces, mm, without positions yet. Each enters two
+    /// diameters of thread at most, and its end is apart from that of the screw from the other side.
     ///
     /// # Errors
-    /// [`FasteningError::TooShort`] where it then enters less than so many diameters.
+    /// [`FasteningError::TooShort`] if it then enters less than `minimum` diameters.
     pub fn new(
         diameter: f64,
         faces: [f64; 2],
@@ -88,8 +88,8 @@ impl Fastening {
         })
     }
 
-    /// Of the sizes that are no thicker than a plate, down to half of that, or of one size alone, the first that a layout finds
-    /// screws and room for.
+    /// The first size for which a layout finds screws and room. Sizes are tried from the thickness of a plate down to half of it,
+    /// or `size` alone; `None` if there is no such size.
     ///
     /// # Errors
     /// [`FasteningError`] of the smallest size tried.
@@ -119,7 +119,7 @@ impl Fastening {
         Screw::sizes().rev().filter(fitting).collect()
     }
 
-    /// Maximum height of a head that [`Fastening::largest`] may choose, mm; zero for none.
+    /// Maximum height of a head that [`Fastening::largest`] may choose, mm; zero if there is no size to choose.
     #[must_use]
     pub fn highest_head(size: Option<f64>, plate: f64) -> f64 {
         let sizes = Self::sizes(size, plate);
@@ -132,7 +132,7 @@ impl Fastening {
         self.faces[1] - self.faces[0] - 2.0 * self.plate
     }
 
-    /// Depth of the thread from either face of the body between the plates, mm; none where it goes through.
+    /// Depth of the thread from either face of the body between the plates, mm; `None` if it goes through.
     #[must_use]
     pub fn thread_depth(&self) -> Option<f64> {
         let depth = self.screw.length - self.plate + BEYOND * self.screw.diameter;

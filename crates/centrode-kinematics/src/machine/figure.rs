@@ -123,7 +123,7 @@ impl Line {
         Self { role, path }
     }
 
-    /// The way of a point over one period, as seen from the figure.
+    /// The path of a point over one period, as seen from the figure.
     #[must_use]
     pub fn trace(role: LineRole, point: usize) -> Self {
         let path = LinePath::Trace(point);
@@ -132,7 +132,7 @@ impl Line {
 }
 
 impl LinkedMachine {
-    /// Adds a sketch, or finds the one of that name.
+    /// Adds a sketch, or finds the one of that name; its index.
     pub fn sketch(&mut self, name: &str, lines: Vec<Line>) -> usize {
         let known = self.sketches.iter().position(|s| s.name == name);
         known.unwrap_or_else(|| {
@@ -148,7 +148,7 @@ impl LinkedMachine {
         self.draw_at(name, seat, [0.0; 3], sketch);
     }
 
-    /// Draws a sketch at a place (x and y, mm) and turn (rad) of its seat, in front of all that is drawn already.
+    /// Draws a sketch at a position (x and y, mm) and turn (rad) of its seat, in front of all that is drawn already.
     pub fn draw_at(&mut self, name: &str, seat: Seat, at: [f64; 3], sketch: usize) {
         let name = name.into();
         self.figures.push(Figure {

@@ -22,9 +22,9 @@ static R: LazyLock<StandardTable<2>> =
 
 /// Lower and upper deviation of a size in a tolerance class, mm.
 ///
-/// Holes have capital letters: D to H and JS in grades 5 to 13, N in grades 6 to 8, as bearings press in, N and P in grade 9, as keyways have them. Shafts have small
-/// ones: d to h and js in grades 5 to 13, k in grades 5 to 7, m to r in grades 5 to 9. `None` for other classes, and for sizes
-/// that are not between 0 and 500 mm.
+/// Holes have capital letters: D to H and JS in grades 5 to 13, N in grades 6 to 8 (for bearings pressed in), N and P in grade 9
+/// (for keyways). Shafts have small ones: d to h and js in grades 5 to 13, k in grades 5 to 7, m to r in grades 5 to 9. `None`
+/// for other classes, and for sizes that are not between 0 and 500 mm.
 ///
 /// Source: ISO 286-1:2010, tables of standard tolerance grades and fundamental deviations.
 #[must_use]
@@ -41,12 +41,12 @@ pub fn limits_of_size(size: f64, class: &str) -> Option<[f64; 2]> {
         "D" | "E" | "F" | "G" | "H" => from?,
         "d" | "e" | "f" | "g" | "h" => -from? - width,
         "JS" | "js" => -0.5 * width,
-        // Shaft n mirrored, nearer to the line by what the grade is wider than the one before.
+        // Shaft n mirrored, nearer to the line by the difference in width between this grade and the one before.
         "N" if (6..=8).contains(&number) => {
             let before = grades[GRADES.column(&(number - 1).to_string())?];
             -from? + if is_smallest { 0.0 } else { width - before } - width
         }
-        // Holes up to 3 mm have 4 µm at this grade, larger ones none.
+        // The upper deviation is -4 µm for holes up to 3 mm at this grade, 0 for larger ones.
         "N" if number == 9 => -width - if is_smallest { 4.0 } else { 0.0 },
         "P" if number == 9 => -width - from?,
         "k" if number <= 7 => from?,
@@ -57,7 +57,7 @@ pub fn limits_of_size(size: f64, class: &str) -> Option<[f64; 2]> {
     Some([lower / 1000.0, (lower + width) / 1000.0])
 }
 
-/// Letters of the fundamental deviations of holes; those of shafts are the same, small.
+/// Letters of the fundamental deviations of holes; those of shafts are the same in lower case.
 #[rustfmt::skip]
 const LETTERS: [&str; 28] = [
     "A", "B", "C", "CD", "D", "E", "EF", "F", "FG", "G", "H", "JS", "J", "K", "M", "N", "P", "R", "S", "T", "U", "V", "X", "Y", "Z",
@@ -88,7 +88,7 @@ const PREFERRED: [f64; 21] = [
 
 /// Preferred size nearest to a size, by ratio: pins, reamers and plates are bought in such sizes.
 ///
-/// At most 9 % off, none for what is no positive number: that comes back as it is. Source: ISO 497:1973, series R''20.
+/// At most 9 % off. A value that is not a positive number is returned unchanged. Source: ISO 497:1973, series R''20.
 #[must_use]
 pub fn preferred_size(size: f64) -> f64 {
     if !(size > 0.0 && size.is_finite()) {
@@ -110,7 +110,7 @@ pub fn preferred_size_below(size: f64) -> f64 {
     })
 }
 
-/// Preferred size in the decade of a size for which a measure of their ratio is lowest.
+/// Preferred size in the decade of a size for which `off`, a function of their ratio, is minimum.
 fn preferred(size: f64, off: impl Fn(f64) -> f64) -> f64 {
     let power = size.log10().floor() as i32;
     let decade = 10_f64.powi(power);
@@ -118,7 +118,7 @@ fn preferred(size: f64, off: impl Fn(f64) -> f64) -> f64 {
     let nearest = PREFERRED
         .into_iter()
         .min_by(|a, b| off(*a).total_cmp(&off(*b)));
-    // A division by a whole power of ten gives the nearest float of the short decimal.
+    // Division by a whole power of ten gives the float nearest to the short decimal.
     let nearest = nearest.unwrap_or(1.0);
     if decade < 1.0 {
         nearest / 10_f64.powi(-power)
@@ -150,14 +150,14 @@ pub struct PinFit {
     pub size: f64,
     /// Tolerance class of the pin, ISO 286.
     pub pin: &'static str,
-    /// Of the hole that it is pressed in.
+    /// Tolerance class of the hole that it is pressed in.
     pub pressed: &'static str,
-    /// Of the hole that turns on it.
+    /// Tolerance class of the hole that turns on it.
     pub running: &'static str,
 }
 
 impl PinFit {
-    /// The fit of the hole that it is pressed in, and of the one that turns on it, with their names.
+    /// The fit of the hole that it is pressed in, and of the one that turns on it, with these names.
     #[must_use]
     pub fn fits(&self, [pressed, running]: [&str; 2]) -> [Fit; 2] {
         [
@@ -180,7 +180,7 @@ impl Fit {
         }
     }
 
-    /// Fit of a width (mm), as a slot has it.
+    /// Fit of a width (mm), as of a slot.
     #[must_use]
     pub fn of_width(name: &str, size: f64, classes: [&str; 2]) -> Self {
         Self {
@@ -189,7 +189,7 @@ impl Fit {
         }
     }
 
-    /// Minimum and maximum clearance, mm, below zero where the parts press: the hole's limits less the shaft's. None where a class or
+    /// Minimum and maximum clearance, mm, below zero for interference: the hole's limits minus the shaft's. `None` if a class or
     /// the size is beyond the tables of [`limits_of_size`].
     #[must_use]
     pub fn clearance(&self) -> Option<[f64; 2]> {
@@ -200,7 +200,7 @@ impl Fit {
 }
 
 impl LinkedMachine {
-    /// Adds a fit, or its name to that of one alike.
+    /// Adds a fit, or adds its name to an equal fit.
     pub fn fit(&mut self, fit: Fit) {
         let alike = |known: &&mut Fit| {
             let named = Fit {

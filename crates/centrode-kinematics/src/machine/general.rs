@@ -2,16 +2,16 @@ use std::sync::LazyLock;
 
 use super::StandardTable;
 
-/// Deviations either way by class and range of lengths, mm.
+/// Symmetric deviations by class and range of lengths, mm.
 static CLASSES: LazyLock<StandardTable<5>> =
     LazyLock::new(|| StandardTable::read(include_str!("../../data/iso-2768-1.csv")));
 /// Column of class m.
 const MEDIUM: usize = 2;
 
-/// Deviation either way that general tolerances allow a length (mm): by the class that they name, as "ISO 2768-mK" names m, or by class m
-/// where they name none.
+/// Symmetric deviation that general tolerances allow a length (mm), mm: by the class that they name, m in "ISO 2768-mK", or by
+/// class m if they name none.
 ///
-/// Source: ISO 2768-1, table 1; lengths beyond 4 m as of 4 m.
+/// Source: ISO 2768-1, table 1; lengths above 4 m count as 4 m.
 #[must_use]
 pub fn general_deviation(words: &str, length: f64) -> f64 {
     let named = words.split_once("2768-").and_then(|(_, class)| {

@@ -2,7 +2,7 @@ use nalgebra::{Matrix4, Point3, Vector3};
 
 use crate::transmission::MotionJet;
 
-/// Where a frame stands in the first link's, with its first three derivatives by the input.
+/// Pose of a frame in the first link's, with its first three derivatives by the input.
 ///
 /// The matrices are homogeneous: the derivatives' last rows are zero.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,7 +11,7 @@ pub struct FrameJet(pub [Matrix4<f64>; 4]);
 /// A point in the first link's frame, mm, with its first three derivatives by the input.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PointJet {
-    /// Place, mm.
+    /// Position, mm.
     pub position: Point3<f64>,
     /// First derivative, mm/rad.
     pub velocity: Vector3<f64>,
@@ -28,14 +28,14 @@ impl FrameJet {
         Self::still(Matrix4::identity())
     }
 
-    /// A frame that stands still.
+    /// A frame that does not move.
     #[must_use]
     pub fn still(frame: Matrix4<f64>) -> Self {
         let zero = Matrix4::zeros();
         Self([frame, zero, zero, zero])
     }
 
-    /// The frame of what stands in this one: the product rule to third order.
+    /// Pose of a frame whose pose in this one is `inner`: the product rule to third order.
     #[must_use]
     pub fn then(&self, inner: &Self) -> Self {
         let ([a, a1, a2, a3], [b, b1, b2, b3]) = (&self.0, &inner.0);
@@ -84,7 +84,7 @@ impl FrameJet {
         Self(out)
     }
 
-    /// The motion of a point of the frame, given in it in mm.
+    /// The motion of a point of the frame, given in this frame in mm.
     #[must_use]
     pub fn point(&self, at: [f64; 3]) -> PointJet {
         let at = Vector3::from(at).push(1.0);

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 use super::{Constant, plain};
 use crate::transmission::Transmission;
 
-/// Difference of a direction from the drawing plane, or from its normal, that is rounding.
+/// Component of an axis, or turn in rad, that counts as zero: a direction in the drawing plane or along its normal.
 const PLANE: f64 = 1e-12;
 
 /// Connection of a link to the one that carries it, and its motion there.
@@ -92,7 +92,7 @@ impl Joint {
         }
     }
 
-    /// The joint with the child's origin at a place of the parent, mm.
+    /// The joint with the child's origin at a point of the parent, mm.
     #[must_use]
     pub fn at(self, origin: [f64; 3]) -> Self {
         Self { origin, ..self }
@@ -104,7 +104,7 @@ impl Joint {
         Self { turn, ..self }
     }
 
-    /// Whether it keeps the link carried in the plane of the one that carries: it turns about z, or slides square to z.
+    /// Whether it keeps the carried link in the plane of the one that carries it: it turns about z, or slides square to z.
     #[must_use]
     pub fn is_planar(&self) -> bool {
         let [x, y, z] = self.axis.map(|along| along.abs() <= PLANE);

@@ -19,7 +19,7 @@ impl Transmission for Constant {
 pub struct Linear {
     /// Position at input zero.
     pub start: f64,
-    /// Position by input.
+    /// Change of position per radian of the input.
     pub slope: f64,
 }
 
@@ -43,11 +43,11 @@ impl Transmission for Linear {
 
 /// Coefficients of a piece.
 const COUNT: usize = centrode_geometry::CHEBYSHEV_TERMS;
-/// Share of a law's size by which a piece may miss it: the law's own rounding.
+/// Permitted error of a piece, relative to the size of the law: the law's own rounding.
 const ROUNDING: f64 = 4e-15;
-/// Share of a law's size below which a tail that halving does not lessen is the law's own noise.
+/// Tail of a series, relative to the size of the law, below which it counts as noise if halving does not reduce it.
 const NOISE: f64 = 1e-9;
-/// Shortest piece, as a share of the period: below it a jump lies inside.
+/// Shortest piece, as a share of the period: a shorter one would contain a jump.
 const SHORTEST: f64 = 1e-9;
 
 /// A transmission as a straight line and Chebyshev pieces of what is left of it, within rounding of what it stands for.
@@ -74,7 +74,7 @@ impl Piecewise {
     pub fn fit<T: Transmission + ?Sized>(law: &T) -> Self {
         let period = law.period();
         let breaks = law.breaks();
-        // A break next to another, or next to an end, by rounding leaves no piece whose derivatives mean anything.
+        // A break within rounding of another one, or of an end, leaves no piece whose derivatives mean anything.
         let apart = |b: &&f64| **b > SHORTEST * period && **b < (1.0 - SHORTEST) * period;
         let inside: Vec<f64> = breaks.iter().filter(apart).copied().collect();
         let mut cuts = centrode_geometry::piece_ends(0.0, period, 1, &inside);
@@ -85,7 +85,7 @@ impl Piecewise {
         let size = size.fold(0.0, f64::max);
         let places = cuts.iter().map(|&cut| law.at(cut).position.abs());
         let rounding = 4.0 * f64::EPSILON * places.fold(0.0, f64::max);
-        // Ends of what is still to be fitted, and the tail of the series over twice as much.
+        // Ends of the intervals still to be fitted, each with the tail of the series over the interval that was halved.
         let whole = |w: &[f64]| (w[0], w[1], f64::INFINITY);
         let mut open: Vec<(f64, f64, f64)> = cuts.windows(2).rev().map(whole).collect();
         let (mut ends, mut pieces) = (vec![0.0], Vec::new());
@@ -120,7 +120,7 @@ impl Piecewise {
         &self.ends
     }
 
-    /// Whether it can be evaluated: a period, ends that ascend from 0 to it, a piece between any two.
+    /// Whether it can be evaluated: a period, ends that ascend from 0 to the period, and a piece between any two ends.
     #[must_use]
     pub fn is_sound(&self) -> bool {
         let ascends = self.ends.windows(2).all(|w| w[0] < w[1]);

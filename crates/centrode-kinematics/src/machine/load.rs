@@ -61,7 +61,7 @@ pub enum Axes {
 }
 
 impl Load {
-    /// The quantities that say how large it is.
+    /// The quantities that define its size.
     #[must_use]
     pub fn sizes(&self) -> &[Quantity] {
         match self {
@@ -71,7 +71,7 @@ impl Load {
         }
     }
 
-    /// The quantities that say how large it is, to be replaced.
+    /// The quantities that define its size, to be replaced.
     pub fn sizes_mut(&mut self) -> &mut [Quantity] {
         match self {
             Self::Force { force: all, .. } | Self::Torque { torque: all, .. } => all,

@@ -1,7 +1,7 @@
 //! The machine: rigid links in a tree of joints, each of which follows a transmission of the one input.
 //!
 //! Posing, motion tables, forces, simulator models, pictures, parts lists, arrangements and interference read a [`LinkedMachine`]
-//! and nothing else. Loops are closed when it is made: the joints' laws already hold them, and the closures stay known.
+//! and nothing else. Loops are closed when it is made: the joints' laws satisfy them, and the closures remain listed.
 
 mod arrangement;
 mod bar;
@@ -218,7 +218,7 @@ pub enum Quantity {
 }
 
 impl Shape {
-    /// A body by the name of its file, and by that of its own part, which may be empty.
+    /// A body with the name of its file and that of its own part, which may be empty.
     #[must_use]
     pub fn new(name: impl Into<String>, part: impl Into<String>, form: Form) -> Self {
         Self {
@@ -245,7 +245,7 @@ impl Link {
         }
     }
 
-    /// Every body it is seen with, by the index of its shape, and the body's place in the link's frame.
+    /// Every body it is seen with, by the index of its shape, and the body's pose in the link's frame.
     pub fn bodies(&self) -> impl Iterator<Item = (usize, Isometry3<f64>)> {
         let own = self.shape.map(|shape| (shape, Isometry3::identity()));
         let mounted = self.mounted.iter();
@@ -255,7 +255,7 @@ impl Link {
 }
 
 impl Mounted {
-    /// Its place in the link's frame.
+    /// Its pose in the link's frame.
     #[must_use]
     pub fn place(&self) -> Isometry3<f64> {
         let [x, y, z] = self.turn;
@@ -299,7 +299,7 @@ pub struct Shape {
 pub enum Form {
     /// Extrusions along z.
     Solids(Vec<Solid>),
-    /// A triangle mesh and how far it may lie off the body, mm; zero for a body of plane faces.
+    /// A triangle mesh and its maximum deviation from the body, mm; zero for a body of plane faces.
     Mesh(Mesh, f64),
     /// A shaft or pin.
     Turned(TurnedPart),
@@ -315,7 +315,7 @@ pub trait SolidBody: fmt::Debug + Send + Sync {
     /// [`SolidError`] where the tolerance leaves no solid.
     fn mesh(&self, tolerance: Tolerance) -> Result<Mesh, SolidError>;
 
-    /// Its boundary on exact surfaces; none where there is no such.
+    /// Its boundary on exact surfaces; `None` if there are none.
     fn shell(&self) -> Option<Shell> {
         None
     }
@@ -382,7 +382,8 @@ impl LinkedMachine {
         })
     }
 
-    /// Adds solids as one shape, or finds the one of that name; its index. A part's name if they are the body of its files, or empty.
+    /// Adds solids as one shape, or finds the one of that name; its index. `part` names the part whose files have this body, or
+    /// is empty.
     pub fn solids(&mut self, name: &str, part: &str, solids: Vec<Solid>) -> usize {
         self.shape(Shape {
             name: name.into(),
@@ -411,7 +412,7 @@ impl LinkedMachine {
         self.columns.len() - 1
     }
 
-    /// Adds the columns of the input, an angle of a meaning, and of the time.
+    /// Adds the columns of the input angle, with its meaning, and of the time.
     pub fn input_columns(&mut self, meaning: &str) {
         self.column("input_angle_rad", "rad", meaning, Quantity::Input(1.0));
         let time = Quantity::Input(1.0 / self.input.speed);
@@ -432,7 +433,7 @@ impl LinkedMachine {
         self.links.iter().position(|link| link.name == name)
     }
 
-    /// Title, or name where there is none.
+    /// Title, or the name if the title is empty.
     #[must_use]
     pub fn heading(&self) -> &str {
         if self.title.is_empty() {

@@ -20,7 +20,7 @@ pub struct Fastener<'a> {
     pub name: String,
     material: &'a str,
     density: f64,
-    /// Name of the files of one that is made.
+    /// Name of its files if it is made, not bought.
     pub file: Option<String>,
     solid: Option<Solid>,
     /// Its origin in the part's frame, mm, and its turn there.
@@ -68,7 +68,7 @@ impl TurnedPieces {
             at: [0.0, 0.0, *at],
             turn: [0.0; 3],
         }));
-        // Sleeves and rollers are of the material of what they are on.
+        // Sleeves and rollers have the material of the shaft or pin that they are on.
         all.extend(self.spacers.iter().map(|(spacer, at)| {
             let (material, density) = match spacer.kind {
                 SpacerKind::Shim => ("steel", STEEL),
@@ -89,7 +89,7 @@ impl TurnedPieces {
 }
 
 impl Part {
-    /// Name as one word, as a file has it: "circlip-din-471-10x1".
+    /// Name as one word, as in file names: "circlip-din-471-10x1".
     #[must_use]
     pub fn word(&self) -> String {
         let word = self.name.to_lowercase().replace(" - ", "-");
@@ -107,8 +107,8 @@ impl Link {
 }
 
 impl LinkedMachine {
-    /// Mounts the pieces of a turned part on their links and lists it, under a remark, with the rings, keys and bearings that
-    /// are bought and the sleeves that are made for it; its number points to its rim.
+    /// Mounts the pieces of a turned part on their links and lists it, under a remark, with the rings, keys and bearings that are
+    /// bought and the sleeves that are made for it. Its item number points to its rim.
     pub fn add_turned(&mut self, all: &TurnedPieces, remark: String) {
         let part = &all.part;
         let named = |piece: &TurnedPiece| self.link_named(&piece.link).unwrap_or(0);
@@ -183,7 +183,7 @@ impl LinkedMachine {
         }
     }
 
-    /// Mounts a body on the link of a piece, at a place on the piece.
+    /// Mounts a body on the link of a piece, at a position on the piece.
     fn mount(
         &mut self,
         shape: usize,
@@ -198,7 +198,7 @@ impl LinkedMachine {
         };
         let [upon, within] = [(piece.at, piece.turn), (at, turn)]
             .map(|(at, turn)| Mounted { shape, at, turn }.place());
-        // A turn of its own is left as it was written.
+        // Without a turn of the body, the angles of the piece are used unchanged, free of rounding.
         let turn = match turn == [0.0; 3] {
             true => piece.turn,
             false => {
@@ -211,7 +211,7 @@ impl LinkedMachine {
         link.mount(body, own.filter(|_| !piece.is_counted));
     }
 
-    /// Mounts a body on a link, which it makes heavier by its mass.
+    /// Mounts a body on a link and adds its mass to that of the link.
     pub fn mount_body(&mut self, link: usize, body: Mounted, own: Option<MassProperties>) {
         if let Some(link) = self.links.get_mut(link) {
             link.mount(body, own);

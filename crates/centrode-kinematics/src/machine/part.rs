@@ -87,8 +87,8 @@ impl Part {
 }
 
 impl LinkedMachine {
-    /// Adds a part with its pieces; of one that is not made, or one made from the sheet of another, more pieces to that of its
-    /// name and remark.
+    /// Adds a part with its pieces. A listed part of the same name and supply gets the pieces instead, if it has the same files
+    /// or, for one that is not made, the same remark.
     pub fn part(&mut self, part: Part) -> usize {
         let alike = |known: &Part| {
             let same = known.supply == part.supply && known.name == part.name;
@@ -103,7 +103,7 @@ impl LinkedMachine {
         self.parts.len() - 1
     }
 
-    /// Mass of the pieces that belong to a link, kg, of those whose mass is known.
+    /// Mass of the pieces that belong to a link, kg; a piece of unknown mass adds none.
     #[must_use]
     pub fn mass_of_pieces(&self, link: usize) -> f64 {
         let pieces = |part: &Part| part.links.iter().filter(|own| **own == link).count();
@@ -111,8 +111,8 @@ impl LinkedMachine {
         self.parts.iter().map(mass).sum()
     }
 
-    /// Mass, center of mass and inertia at an input, in the first link's frame: of all links that a part belongs to, since
-    /// scenery is not the machine's. None where no such link has a mass.
+    /// Mass, center of mass and inertia at an input, in the first link's frame, of all links that a part belongs to: scenery does
+    /// not count. `None` if no such link has a mass.
     #[must_use]
     pub fn mass_properties(&self, input: f64) -> Option<MassProperties> {
         let own = |link: &usize| self.parts.iter().any(|part| part.links.contains(link));

@@ -1,4 +1,4 @@
-//! Geometry and laws as the plain file of a machine holds them.
+//! Geometry and laws in the form of a machine's plain file.
 
 use std::fmt::Display;
 use std::sync::Arc;
@@ -267,7 +267,7 @@ impl From<MassFile> for MassProperties {
     }
 }
 
-/// Reads what a value is made of.
+/// Reads a value from its form in the file.
 fn read<'de, D, F, T, E>(
     deserializer: D,
     make: impl FnOnce(F) -> Result<T, E>,

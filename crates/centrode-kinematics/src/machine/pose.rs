@@ -19,7 +19,7 @@ impl Joint {
         FrameJet::still(place).then(&moved)
     }
 
-    /// The child's place in the parent's frame at a coordinate.
+    /// The child's pose in the parent's frame at a coordinate.
     #[must_use]
     pub fn place(&self, coordinate: f64) -> Isometry3<f64> {
         let [x, y, z] = self.turn;
@@ -35,7 +35,7 @@ impl Joint {
 }
 
 impl LinkedMachine {
-    /// Where every link stands at an input, in the first link's frame, with derivatives by the input.
+    /// Pose of every link at an input, in the first link's frame, with derivatives by the input.
     #[must_use]
     pub fn pose(&self, input: f64) -> Vec<FrameJet> {
         let own = |joint: &Joint| joint.frame(&joint.law.at(input));
@@ -48,7 +48,7 @@ impl LinkedMachine {
             .collect()
     }
 
-    /// Where links stand at an input, in the first link's frame, without derivatives; none for those not wanted.
+    /// Poses of links at an input, in the first link's frame, without derivatives; `None` for links that are not required.
     #[must_use]
     pub fn places(&self, input: f64, required: &[bool]) -> Vec<Option<Isometry3<f64>>> {
         self.hung(Isometry3::identity(), |parent, joint| {
@@ -57,7 +57,8 @@ impl LinkedMachine {
         })
     }
 
-    /// Value of the first link, handed on from each link to those it carries; none below a link without one.
+    /// A value for each link, computed from that of the link that carries it; `first` is that of the first link. A link without a
+    /// value leaves `None` for all links that it carries.
     fn hung<T, U: Into<Option<T>>>(
         &self,
         first: T,
@@ -67,7 +68,7 @@ impl LinkedMachine {
         if let Some(own) = all.first_mut() {
             *own = Some(first);
         }
-        // A joint may stand before the one that carries its parent: one more pass for each link in the way.
+        // A joint may be listed before the one that carries its parent: each pass then adds at least one link.
         for _ in 0..self.joints.len() {
             let mut open = false;
             for joint in &self.joints {
@@ -97,11 +98,11 @@ impl LinkedMachine {
     pub fn carriers(&self, link: usize) -> impl Iterator<Item = &Joint> {
         let of = |link: usize| self.joints.iter().find(|joint| joint.child == link);
         let all = std::iter::successors(of(link), move |joint| of(joint.parent));
-        // In a sound machine none comes twice.
+        // In a valid machine no joint comes twice.
         all.take(self.joints.len())
     }
 
-    /// One link at an input: only the joints that carry it are worked out.
+    /// One link at an input: only the joints that carry it are computed.
     #[must_use]
     pub fn link_frame(&self, link: usize, input: f64) -> FrameJet {
         match self.carriers(link).next() {

@@ -49,8 +49,8 @@ impl Spacer {
     /// Tolerance class of the rim of a roller.
     pub const RIM: &'static str = "h7";
 
-    /// The roller of a radius that turns on a pin of a diameter, as wide as its cam, all in mm; none where its wall would be thinner than
-    /// a tenth of the pin, as at a follower that is a point.
+    /// The roller of a radius that turns on a pin of a diameter, as wide as its cam, all in mm; `None` if its wall would be
+    /// thinner than a tenth of the pin, as for a follower that is a point.
     #[must_use]
     pub fn roller(radius: f64, pin: f64, width: f64) -> Option<Self> {
         let roller = Self {
@@ -62,8 +62,8 @@ impl Spacer {
         (pin > 0.0 && radius - 0.5 * pin >= Self::ROLLER_WALL * pin - ROUNDING).then_some(roller)
     }
 
-    /// Rings for a gap on a diameter, mm: up to three shims of DIN 988, or a sleeve of their diameters. None where the standard
-    /// has no shim of the diameter.
+    /// Rings for a gap on a diameter, mm: up to three shims of DIN 988, or a sleeve of their diameters. Empty if the standard has
+    /// no shim of the diameter.
     #[must_use]
     pub fn filling(diameter: f64, gap: f64) -> Vec<Self> {
         let sizes = SHIMS.into_iter().find(|[inner, _]| *inner == diameter);
@@ -89,7 +89,7 @@ impl Spacer {
         }
     }
 
-    /// The ring next to a roller on one pin: no wider than leaves half of the roller's wall free of it.
+    /// The ring next to a roller on one pin: its outer diameter is reduced if it would cover more than half of the roller's wall.
     #[must_use]
     pub fn beside(self, roller: Self) -> Self {
         let most = 0.5 * (roller.inner + roller.outer);
@@ -114,7 +114,7 @@ impl Spacer {
         }
     }
 
-    /// Name that the files of a sleeve or roller begin with; none of a shim.
+    /// Name that the files of a sleeve or roller begin with; `None` for a shim.
     #[must_use]
     pub fn file(self) -> Option<String> {
         let word = match self.kind {

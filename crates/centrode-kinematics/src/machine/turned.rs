@@ -71,7 +71,7 @@ pub struct TurnedPieces {
     pub fit: Fit,
     /// Purpose, in words; may be empty.
     pub role: String,
-    /// Designation by which it is bought; none where it is made from its sheet.
+    /// Designation by which it is bought; `None` if it is made from its sheet.
     pub standard: Option<String>,
     /// Keys on each piece.
     pub keys: Vec<SeatedKey>,
@@ -79,7 +79,7 @@ pub struct TurnedPieces {
     pub bearings: Vec<(Bearing, f64)>,
     /// Rings in the gaps between the parts on each piece, with the height of their lower face above the part's lower end, mm.
     pub spacers: Vec<(Spacer, f64)>,
-    /// Where its pieces are.
+    /// Positions of its pieces.
     pub pieces: Vec<TurnedPiece>,
     /// Its axis in the figure of the first link, mm, where it is seen there.
     pub axis: Option<[f64; 2]>,
@@ -103,7 +103,7 @@ pub struct TurnedPiece {
     pub at: [f64; 3],
     /// Its turn there as roll, pitch and yaw: about the link's x, then y, then z axis, rad.
     pub turn: [f64; 3],
-    /// Whether the mass of the link is given with it: it adds none.
+    /// Whether the given mass of the link includes the piece: then the piece adds none.
     pub is_counted: bool,
 }
 
@@ -142,8 +142,8 @@ impl TurnedPart {
         diameters.fold(0.0, f64::max)
     }
 
-    /// Stretches of the keyway above the lower end, mm, and whether their lower and upper ends are half round, as an end mill leaves them:
-    /// where the part goes on as thick without it.
+    /// Stretches of the keyway above the lower end, mm, and whether their lower and upper ends are half round, as an end mill
+    /// leaves them: where the part continues with the same diameter but without the keyway.
     #[must_use]
     pub fn keyways(&self) -> Vec<([f64; 2], [bool; 2])> {
         let half = 0.5 * self.keyway.map_or(0.0, |key| key.width);
@@ -181,7 +181,7 @@ impl TurnedPart {
         found.into_iter().map(rounded).collect()
     }
 
-    /// Its keyway as the body has it.
+    /// Its keyway as a slot of the body.
     fn slot(&self) -> Option<TurnedSlot> {
         self.keyway.map(|key| TurnedSlot {
             width: key.width,
@@ -198,7 +198,7 @@ impl TurnedPart {
     /// Exact body, from z = 0.
     ///
     /// # Errors
-    /// [`SolidError::Turned`] where a step has no extent, or does not hold its keyway or chamfer.
+    /// [`SolidError::Turned`] if a step has no extent, or does not contain its keyway or chamfer.
     pub fn solid(&self) -> Result<Turned, SolidError> {
         let c = self.chamfer;
         let last = self.steps.len().saturating_sub(1);
@@ -227,13 +227,13 @@ impl TurnedPart {
         Turned::new(0.0, sections, self.slot())
     }
 
-    /// Mass of one, kg; none where it makes no solid.
+    /// Mass of one, kg; `None` if the part is no valid solid.
     #[must_use]
     pub fn mass(&self) -> Option<f64> {
         Some(self.mass_properties()?.mass)
     }
 
-    /// Mass of one with its center and inertia; none where it makes no solid.
+    /// Mass of one with its center and inertia; `None` if the part is no valid solid.
     #[must_use]
     pub fn mass_properties(&self) -> Option<MassProperties> {
         let body = self.solid().ok()?;
@@ -258,7 +258,7 @@ impl TurnedPieces {
         }
     }
 
-    /// The parts with a purpose in words if they are bought by a standard: sheets of others state it.
+    /// The parts, with their purpose in words if they are bought by a standard: other parts state it on their sheets.
     #[must_use]
     pub fn bought_as(mut self, role: &str) -> Self {
         if self.standard.is_some() {
@@ -269,7 +269,7 @@ impl TurnedPieces {
 }
 
 impl TurnedPiece {
-    /// A piece upright on a link, its lower end at a place, mm.
+    /// A piece upright on a link, its lower end at a point, mm.
     #[must_use]
     pub fn upright(link: &str, at: [f64; 3]) -> Self {
         Self {

@@ -1,22 +1,22 @@
 use super::{Arrangement, JointKind, LinePath, LinkedMachine, Load, Quantity, Seat};
 
-/// A machine that does not hang together.
+/// Reason why a machine is not valid.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum LinkedMachineError {
-    /// Something names what is not there.
+    /// A reference to an item that does not exist.
     #[error("{from} names {kind} {index}, of which there are {count}")]
     Missing {
-        /// Who names it.
+        /// Item that contains the reference.
         from: String,
-        /// Kind of thing named.
+        /// Kind of the item referred to.
         kind: &'static str,
-        /// Its index.
+        /// Index of the item referred to.
         index: usize,
-        /// Number of such things.
+        /// Number of items of this kind.
         count: usize,
     },
-    /// The joints do not hang every link from the first one, once.
+    /// A link is not connected to the first link by exactly one chain of joints.
     #[error("link {link:?} hangs from the first link by {ways} chains of joints, not by one")]
     Tree {
         /// The link.
@@ -24,7 +24,7 @@ pub enum LinkedMachineError {
         /// Number of chains; 0 may mean a ring.
         ways: usize,
     },
-    /// A number that cannot be.
+    /// A number that is not permitted.
     #[error("{what} is {value}")]
     Number {
         /// The number.
@@ -35,10 +35,10 @@ pub enum LinkedMachineError {
 }
 
 impl LinkedMachine {
-    /// Checks that everything named is there, that the joints make the links a tree, and that numbers are finite.
+    /// Checks that all references are valid, that the joints make the links a tree, and that numbers are finite.
     ///
     /// # Errors
-    /// [`LinkedMachineError`] with what is wrong first.
+    /// [`LinkedMachineError`] with the first error found.
     pub fn validate(&self) -> Result<(), LinkedMachineError> {
         for (what, value) in [("period", self.input.period), ("speed", self.input.speed)] {
             if !(value > 0.0 && value.is_finite()) {
@@ -96,7 +96,7 @@ impl LinkedMachine {
         self.is_tree()
     }
 
-    /// Checks the numbers of what joints and links bear.
+    /// Checks the numbers of gravity, loads, mounted bodies, meshes, contacts and guides.
     fn bears_soundly(&self) -> Result<(), LinkedMachineError> {
         let finite = |value: &f64| value.is_finite();
         let positive = |value: &f64| *value >= 0.0 && value.is_finite();
@@ -149,7 +149,7 @@ impl LinkedMachine {
         Ok(())
     }
 
-    /// Every name by index: who names, what kind, which one.
+    /// Every reference by index: the item that contains it, the kind referred to, and the index.
     fn named(&self) -> Vec<(String, &'static str, usize)> {
         let mut all = Vec::new();
         for link in &self.links {
@@ -223,7 +223,7 @@ impl LinkedMachine {
         all
     }
 
-    /// Names by index of parts list and arrangement.
+    /// References by index in the parts list and the arrangement.
     fn listed(&self) -> Vec<(String, &'static str, usize)> {
         let mut all = Vec::new();
         for part in &self.parts {
@@ -264,7 +264,7 @@ impl LinkedMachine {
 }
 
 impl Quantity {
-    /// The joint or point it is of, by its kind and index, as named from somewhere.
+    /// Kind and index of the joint or point that it refers to, with the item `from` that contains it; `None` for others.
     fn named(&self, from: &str) -> Option<(String, &'static str, usize)> {
         let (kind, index) = match *self {
             Self::Joint { joint, .. } => ("joint", joint),
@@ -275,8 +275,8 @@ impl Quantity {
     }
 }
 
-/// The first of some links that does not hang from link 0 by one chain of joints, each given by its parent and child, and
-/// by how many it does: 0 may mean a ring.
+/// The first link that is not connected to link 0 by exactly one chain of joints, and the number of its chains: 0 may mean a
+/// ring. Each joint is given by its parent and child.
 fn loose_link(links: usize, joints: &[[usize; 2]]) -> Option<(usize, usize)> {
     (0..links).find_map(|link| {
         let carriers = joints.iter().filter(|[_, child]| *child == link).count();
@@ -284,7 +284,7 @@ fn loose_link(links: usize, joints: &[[usize; 2]]) -> Option<(usize, usize)> {
         if ways != 1 {
             return Some((link, ways));
         }
-        // Carried once each, links that never come to the first make a ring.
+        // Links that are each carried once but never lead to the first one form a ring.
         let (mut at, mut steps) = (link, 0);
         while let Some([parent, _]) = joints.iter().find(|[_, child]| *child == at) {
             (at, steps) = (*parent, steps + 1);

@@ -6,12 +6,12 @@ use centrode_geometry::{bracketed_root, piece_ends};
 
 use super::Transmission;
 
-/// Parts of a turn of the input, in each of which a motion is taken to pass a position at most once.
+/// Parts of a turn of the input. A motion is assumed to pass a position at most once in each part.
 const PARTS: u32 = 720;
-/// Miss of a position at the ends of a period that is rounding, as a share of the cycle or of the position.
+/// Maximum rounding error of a position at the ends of a period, relative to the cycle or to the position.
 const ROUNDING: f64 = 1e-13;
 
-/// Breaks of a motion over a period of a whole number of its own.
+/// Breaks of a motion over a period that is a whole number of the motion's own periods.
 pub fn repeated(law: &(impl Transmission + ?Sized), period: f64) -> Vec<f64> {
     let (own, jumps) = (law.period(), law.breaks());
     let repeats = (period / own).round().max(1.0) as u32;
@@ -19,7 +19,7 @@ pub fn repeated(law: &(impl Transmission + ?Sized), period: f64) -> Vec<f64> {
     (0..repeats).flat_map(shifted).collect()
 }
 
-/// Inputs of a period, ascending, at which a position meets one of some values, which repeat with a cycle of their own.
+/// Inputs of a period, ascending, at which a position equals one of `values` plus a whole number of cycles.
 ///
 /// The position is smooth but for `breaks`, and repeats with the period up to whole cycles.
 pub fn crossings(
@@ -39,7 +39,7 @@ pub fn crossings(
     for pair in ends.windows(2) {
         let (from, to) = (pair[0], pair[1]);
         let after = position(to);
-        // Inside the period neighbours share their samples; across its ends rounding may open a gap.
+        // Inside the period, neighbouring parts share a sample; at the ends of the period rounding may leave a gap between them.
         let margin = if from == 0.0 || to == period {
             ROUNDING * cycle.max(before.abs()).max(after.abs())
         } else {
@@ -48,7 +48,7 @@ pub fn crossings(
         let range = before.min(after) - margin..before.max(after) + margin;
         for value in values {
             let number = |at: f64| ((at - value) / cycle).round() as i64;
-            // One cycle to either side more, lest rounding hide a value met just at a sample.
+            // One more cycle on either side: rounding must not hide a value that is met exactly at a sample.
             let numbers = number(range.start) - 1..=number(range.end) + 1;
             let met = numbers.map(|n| value + cycle * n as f64);
             for at in met.filter(|at| range.contains(at)) {

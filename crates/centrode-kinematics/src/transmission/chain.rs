@@ -3,25 +3,26 @@ use std::sync::{Arc, OnceLock};
 
 use super::{MotionJet, Transmission, TransmissionError, crossings, repeated, sorted};
 
-/// Most cycles of the driving motion in one of the chain.
+/// Maximum number of cycles of the driving motion per cycle of the chain.
 const MOST: u32 = 1000;
 /// One transmission driven by another: `outer` of `inner`, which may stop and run back.
 #[derive(Clone, Debug)]
 pub struct Chain {
     inner: Arc<dyn Transmission>,
     outer: Arc<dyn Transmission>,
-    /// Cycles of the driving motion in one of the chain, and of the driven one, below zero where it runs backwards.
+    /// Numbers of cycles of the driving and of the driven motion per cycle of the chain; the second is below zero if the driven
+    /// one runs backwards.
     cycles: (f64, f64),
-    /// Inputs at which a derivative may jump, once they have been requested.
+    /// Inputs at which a derivative may jump, computed at the first request.
     breaks: OnceLock<Vec<f64>>,
 }
 
 impl Chain {
-    /// Chains two transmissions: the chain repeats after the minimum number of the driving one's cycles that brings the driven one
-    /// through whole cycles, or none.
+    /// Chains two transmissions. The chain repeats after the minimum number of the driving one's cycles in which the driven one
+    /// runs through a whole number of cycles, or through none.
     ///
     /// # Errors
-    /// [`TransmissionError::NoCommonCycle`] where there is no such number up to 1,000.
+    /// [`TransmissionError::NoCommonCycle`] if there is no such number up to 1,000.
     pub fn new(
         outer: Arc<dyn Transmission>,
         inner: Arc<dyn Transmission>,
@@ -48,10 +49,10 @@ impl Chain {
         })
     }
 
-    /// Chains two transmissions of which one runs through a cycle, in either direction, as the other does.
+    /// Chains two transmissions: the driven one must run through one cycle, in either direction, per cycle of the driving one.
     ///
     /// # Errors
-    /// [`TransmissionError::Periods`] where it does not.
+    /// [`TransmissionError::Periods`] if it does not.
     pub fn cycle_for_cycle(
         outer: Arc<dyn Transmission>,
         inner: Arc<dyn Transmission>,

@@ -2,16 +2,16 @@ use std::sync::Arc;
 
 use super::{MotionJet, Transmission, TransmissionError, sorted};
 
-/// Share of the distance of two looks below which the cube of a step is nothing.
+/// Newton step, relative to the distance of two samples, below which its cube is within rounding.
 const SMALL: f64 = 1e-5;
-/// Share of the period that rounding may be off.
+/// Permitted rounding error of an input, relative to the period.
 const ROUNDING: f64 = 0.25 * f64::EPSILON;
 
 /// Inverse of a transmission that always advances: the input as a function of the position.
 #[derive(Clone, Debug)]
 pub struct Inverse {
     of: Arc<dyn Transmission>,
-    /// Inputs from 0 to the period, breaks among them, and the positions and velocities there.
+    /// Samples: inputs from 0 to the period, breaks among them, each with the position and velocity there.
     looks: Vec<(f64, f64, f64)>,
 }
 
@@ -19,8 +19,8 @@ impl Inverse {
     /// Inverts a transmission that runs in one direction.
     ///
     /// # Errors
-    /// [`TransmissionError::StandsStill`] where its velocity is zero or against its advance, sampled
-    /// at a thousand inputs and at its breaks.
+    /// [`TransmissionError::StandsStill`] if its velocity is zero or against its advance at one of a thousand sampled inputs or
+    /// at a break.
     pub fn new(of: Arc<dyn Transmission>) -> Result<Self, TransmissionError> {
         const SAMPLES: u32 = 1000;
         let (period, way) = (of.period(), of.advance().signum());
@@ -41,7 +41,7 @@ impl Inverse {
         Ok(Self { of, looks })
     }
 
-    /// The input within a period at which the position is reached, by Newton steps within the two looks around it.
+    /// The input within a period at which the position is reached, by Newton steps between the two samples around it.
     fn input(&self, position: f64) -> f64 {
         let way = self.of.advance().signum();
         let before = |look: &(f64, f64, f64)| (look.1 - position) * way <= 0.0;
@@ -49,7 +49,7 @@ impl Inverse {
         let index = index.clamp(1, self.looks.len() - 1);
         let (mut low, at_low, slope) = self.looks[index - 1];
         let (mut high, at_high, slope_high) = self.looks[index];
-        // The cubic through both looks, of the input by the position.
+        // Start at the cubic through both samples, with the input as a function of the position.
         let (span, share) = (at_high - at_low, (position - at_low) / (at_high - at_low));
         let width = high - low;
         let [enter, leave] = [span / slope, span / slope_high].map(|rate| rate - width);
@@ -65,7 +65,7 @@ impl Inverse {
             if step <= 0.0 {
                 low = input;
             }
-            // The next step would be half the square of this one by acceleration over velocity.
+            // The next step would be half the square of this one times acceleration over velocity.
             let next = 0.5 * step * step * (jet.acceleration / jet.velocity).abs();
             let small = step.abs() <= SMALL * width && next <= ROUNDING * self.of.period();
             if small || step.is_nan() {

@@ -48,7 +48,7 @@ impl MotionJet {
         }
     }
 
-    /// Jet of this motion's output by the variable of which its input is a function.
+    /// Jet of this motion's output by the variable on which the input depends.
     ///
     /// `self` is f at g(t), `inner` is g at t: the result is f(g(t)), by the chain rule to third order.
     #[must_use]
@@ -105,7 +105,7 @@ impl MotionJet {
         }
     }
 
-    /// Taylor coefficients of this jet, as many as are requested; those above the third are not known and left zero.
+    /// The first `N` Taylor coefficients of this jet; those above the third are not known and set to zero.
     pub(crate) fn coefficients<const N: usize>(&self) -> Taylor<N> {
         let known = self.series().0;
         Taylor(std::array::from_fn(|k| {
@@ -113,7 +113,7 @@ impl MotionJet {
         }))
     }
 
-    /// The series of this jet; its last coefficient is not known and left zero.
+    /// The series of this jet; its last coefficient is not known and set to zero.
     pub fn series(&self) -> Taylor {
         Taylor([
             self.position,
@@ -203,11 +203,11 @@ impl<F: Fn(f64) -> MotionJet + Send + Sync> Transmission for FromFn<F> {
     }
 }
 
-/// Reason why transmissions do not go together.
+/// Reason why transmissions cannot be combined.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 #[non_exhaustive]
 pub enum TransmissionError {
-    /// The driving one does not run through one cycle of the driven one.
+    /// One cycle of the driving motion is not one cycle of the driven motion.
     #[error(
         "a cycle of the driving motion advances it by {advance}, but the driven one repeats after {period}"
     )]
@@ -234,9 +234,9 @@ pub enum TransmissionError {
         "the motion must run in one direction, but at the input {input} rad its velocity is {velocity}"
     )]
     StandsStill {
-        /// Input there.
+        /// Input at which it stops or runs back, rad.
         input: f64,
-        /// Velocity there.
+        /// Velocity at this input.
         velocity: f64,
     },
 }

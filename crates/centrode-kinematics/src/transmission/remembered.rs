@@ -3,15 +3,15 @@ use std::sync::{Mutex, PoisonError};
 use super::{MotionJet, Transmission};
 use crate::machine::Piecewise;
 
-/// Values remembered at most, a power of two: a machine is swept over some thousand inputs, by several analyses one after
+/// Maximum number of cached values, a power of two: a machine is sampled at some thousand inputs, by several analyses one after
 /// the other.
 const MOST: usize = 1 << BITS;
 const BITS: u32 = 12;
 
-/// A transmission that remembers its values, for one that is costly and on which several others are built.
+/// A transmission that caches its values, for a costly one on which several others depend.
 ///
-/// What is remembered is equal to what is computed, bit by bit. Each input has one position for its value, which it shares with
-/// others: the last one keeps it.
+/// A cached value equals the computed one, bit by bit. Each input has one entry, which it shares with other inputs: the entry
+/// holds the value that was computed last.
 #[derive(Debug)]
 pub struct Remembered<T> {
     of: T,
@@ -19,16 +19,16 @@ pub struct Remembered<T> {
 }
 
 impl<T: Transmission> Remembered<T> {
-    /// Remembers the values of a transmission.
+    /// Caches the values of a transmission.
     pub fn new(of: T) -> Self {
         let values = Mutex::new(Vec::new());
         Self { of, values }
     }
 }
 
-/// Position of an input's value.
+/// Index of an input's entry.
 fn place(bits: u64) -> usize {
-    // By the golden ratio: inputs that follow each other lie far apart.
+    // Multiplied by the golden ratio: inputs that follow each other get entries far apart.
     (bits.wrapping_mul(0x9E37_79B9_7F4A_7C15) >> (u64::BITS - BITS)) as usize
 }
 
@@ -40,7 +40,7 @@ impl<T: Transmission> Transmission for Remembered<T> {
             Some((of, value)) if of == bits => return value,
             _ => {}
         }
-        // Not under the lock: it takes long, and may be cancelled.
+        // Computed without the lock: it takes long, and may be cancelled.
         let value = self.of.at(input);
         let mut values = self.values.lock().unwrap_or_else(PoisonError::into_inner);
         if values.is_empty() {

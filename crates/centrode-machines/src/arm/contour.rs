@@ -37,8 +37,8 @@ impl Contour {
         ])
     }
 
-    /// Belt with its round front split where a bar of a half height along the pusher's axis leaves it, and the two
-    /// corners, the lower one first; `None` where the bar does not leave through the front.
+    /// Belt whose round front is split at two corners, where a bar along the pusher's axis leaves the belt; `half` is half the
+    /// height of the bar. Also the two corners, the lower one first. `None` if the bar does not leave through the front.
     pub(super) fn split(&self, inset: f64, half: f64) -> Option<(Outline, [Point; 2])> {
         let radius = self.tube_radius - inset;
         let front = self.on_axis(self.front);
@@ -74,7 +74,7 @@ impl Contour {
         Some((outline, corners))
     }
 
-    /// A flake of the clamp seen from the side: rounded at both ends, tapered.
+    /// Side view of a flake of the clamp: rounded at both ends, tapered.
     pub(super) fn flake(&self) -> Option<Outline> {
         Outline::hull(&[
             (self.on_axis(self.front), self.root),
@@ -82,27 +82,27 @@ impl Contour {
         ])
     }
 
-    /// Direction of the flake's upper side's normal.
+    /// Direction of the normal of the flake's upper side, rad.
     fn slant(&self) -> f64 {
         let length = self.tip - self.end - self.front;
         ((self.root - self.end) / length).acos()
     }
 
-    /// Direction in which the flake's upper side leaves the tube's rounded front, seen from its centre.
+    /// Direction, from the centre of the tube's rounded front, of the point where the flake's upper side leaves this front, rad.
     fn leaves(&self) -> f64 {
         self.slant() - (self.root / self.tube_radius).acos()
     }
 
     /// Half the height, mm, at which a clamp of this taper would just leave the tube's rounded front.
     pub(super) fn room(&self) -> f64 {
-        // The front is round up to where the belt leaves it for the drum.
+        // The front is round up to the point where the belt leaves it towards the drum.
         let way = Vector::new(-self.front, self.offset);
         let share = (self.tube_radius - self.drum_radius) / way.norm();
         let upper = way.y.atan2(way.x) - share.clamp(-1.0, 1.0).acos();
         self.tube_radius * (self.slant() - upper.clamp(0.0, FRAC_PI_2)).cos()
     }
 
-    /// Housing and clamp in one; `None` where the clamp does not leave the tube's rounded front.
+    /// Contour of housing and clamp together; `None` if the clamp does not leave through the tube's rounded front.
     pub(super) fn whole(&self) -> Option<Outline> {
         let housing = self.housing()?;
         let leaves = self.leaves();
@@ -145,7 +145,7 @@ impl Contour {
         split.then(|| Outline::new(segments).ok())?
     }
 
-    /// A bar along the pusher's axis.
+    /// A bar along the pusher's axis; `half` is half its height.
     pub(super) fn bar(&self, from: f64, to: f64, half: f64) -> Outline {
         let corner = |x: f64, side: f64| self.on_axis(x) + Vector::new(0.0, side * half);
         Outline::polygon(&[
@@ -157,7 +157,7 @@ impl Contour {
     }
 }
 
-/// Mirror image of an outline across the x axis, again counter-clockwise.
+/// Mirror image of an outline in the x axis, again counter-clockwise.
 pub(super) fn mirrored(outline: &Outline) -> Option<Outline> {
     let flip = |p: Point| Point::new(p.x, -p.y);
     let segments = outline

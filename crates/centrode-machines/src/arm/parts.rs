@@ -5,7 +5,7 @@ use super::spec::ArmBodySpec;
 use centrode_spec::SpecError;
 use centrode_spec::rule::{in_range, positive};
 
-/// One part of an arm: its contour in the arm's frame and where it lies along the planet's axis.
+/// One part of an arm: its contour in the arm's frame and its position along the planet's axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ArmPart {
     /// Short name, used for file names.
@@ -16,11 +16,11 @@ pub struct ArmPart {
     pub holes: Vec<Outline>,
     /// Extent along the planet's axis, mm, from the middle of the housing.
     pub span: [f64; 2],
-    /// Opening through a wall of it, square to the planet's axis.
+    /// Opening through a wall of the part, perpendicular to the planet's axis.
     pub opening: Option<Opening>,
 }
 
-/// A transplanting arm as a body: one outline to keep clear of, and its parts.
+/// A transplanting arm as a body: its outline, for clearances, and its parts.
 #[derive(Clone, Debug)]
 pub struct ArmBody {
     outline: Outline,
@@ -49,14 +49,14 @@ pub enum ArmError {
         /// Length of the clamp, mm.
         clamp_length: f64,
     },
-    /// The clamp is too high for the tube it leaves.
+    /// The clamp is too high for the round front of the tube.
     #[error(
         "a clamp {root_height} mm high at its root does not fit the housing's front: about {most:.3} mm would"
     )]
     ClampTooHigh {
         /// Height at the root, mm.
         root_height: f64,
-        /// Most that fits, mm.
+        /// Maximum height that fits, mm.
         most: f64,
     },
     /// The clamp is shorter than its own rounded tip.
@@ -81,7 +81,7 @@ pub enum ArmError {
         /// Outer radius of the tube, mm.
         tube_radius: f64,
     },
-    /// A part inside is larger than the room that is to hold it.
+    /// A part inside is larger than the room for it.
     #[error("{inner} is {inner_size} mm, but {outer} leaves {outer_size} mm")]
     TooLarge {
         /// Key of the inner part.
@@ -90,10 +90,10 @@ pub enum ArmError {
         inner_size: f64,
         /// Key of the outer part.
         outer: &'static str,
-        /// The room, mm.
+        /// Size of the room, mm.
         outer_size: f64,
     },
-    /// The contour meets itself.
+    /// The contour crosses itself.
     #[error("the arm's outline crosses itself at ({x}, {y}) mm")]
     Crossing {
         /// X coordinate, mm.
@@ -103,7 +103,7 @@ pub enum ArmError {
     },
 }
 
-/// Position and length of an arm's clamp: the arm's own three figures.
+/// Position and length of an arm's clamp, as the design gives them, mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Reach {
     pub(super) tip_distance: f64,
@@ -119,7 +119,7 @@ impl ArmBody {
     /// tip turned by asin(H/S).
     ///
     /// # Errors
-    /// [`ArmError`] naming the rule broken.
+    /// [`ArmError`] with the violated rule.
     pub fn new(
         spec: &ArmBodySpec,
         tip_distance: f64,
@@ -189,7 +189,7 @@ impl ArmBody {
         &self.outline
     }
 
-    /// Contour of the housing a distance within its outside, mm; `None` where nothing is left.
+    /// Contour of the housing moved inwards by a distance, mm; `None` if no area is left.
     #[must_use]
     pub fn within(&self, inset: f64) -> Option<Outline> {
         let belt = self.contour.belt(inset)?;
@@ -205,7 +205,7 @@ impl ArmBody {
         self.tip
     }
 
-    /// Housing with its covers, both flakes, push rod with pusher, and spring, with the rod thrown out.
+    /// Housing with its covers, both flakes, push rod with pusher, and spring; the rod is thrown out.
     #[must_use]
     pub fn parts(&self) -> &[ArmPart] {
         &self.parts
@@ -331,7 +331,7 @@ fn fits(spec: &ArmBodySpec, tube_length: f64) -> Result<(), ArmError> {
     Ok(())
 }
 
-/// The parts of an arm; `None` where the push rod finds no way out of the housing.
+/// The parts of an arm; `None` if the push rod does not leave the housing through the round front.
 fn parts(spec: &ArmBodySpec, contour: &Contour) -> Option<Vec<ArmPart>> {
     let (clamp, rod, spring) = (&spec.clamp, &spec.push_rod, &spec.spring);
     let half = |size: f64| [-0.5 * size, 0.5 * size];
@@ -371,14 +371,14 @@ fn parts(spec: &ArmBodySpec, contour: &Contour) -> Option<Vec<ArmPart>> {
     let outer = inner + clamp.thickness;
     add("flake-left", contour.flake(), Vec::new(), [inner, outer]);
     add("flake-right", contour.flake(), Vec::new(), [-outer, -inner]);
-    // Thrown out, the pusher reaches to where the flakes are rounded off.
+    // With the rod thrown out, the pusher reaches to the point where the rounding of the flakes begins.
     let face = contour.tip - contour.end;
     let neck = face - rod.pusher_length;
     let bar = contour.bar(spec.rod_end(), neck, 0.5 * rod.diameter);
     add("push-rod", Some(bar), Vec::new(), half(rod.diameter));
     let pusher = contour.bar(neck, face, 0.5 * rod.pusher_height);
     add("pusher", Some(pusher), Vec::new(), half(rod.diameter));
-    // As far in front as the round end lets it: the fork's pin moves behind it.
+    // The spring is as far in front as the tube's round end lets it be: the fork's pin moves behind the spring.
     let half_coil = 0.5 * spring.outer_diameter;
     let room = spec.housing.tube_radius - wall;
     let seat = contour.front + (room * room - half_coil * half_coil).max(0.0).sqrt();

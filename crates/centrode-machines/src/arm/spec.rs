@@ -196,20 +196,20 @@ impl ArmBodySpec {
         screw_size("housing.screw", self.housing.screw)
     }
 
-    /// Width and height of the bore for the push rod in the housing's front, mm: the rod's, which slides in it.
+    /// Width and height of the bore for the push rod in the housing's front, mm: equal to the rod, which slides in it.
     #[must_use]
     pub fn rod_bore(&self) -> f64 {
         self.push_rod.diameter
     }
 
-    /// Position of the push rod's rear end along the pusher's axis when it is thrown out, mm: drawn back, it ends
+    /// Position of the push rod's rear end along the pusher's axis with the rod thrown out, mm. Drawn back, the rod ends
     /// just inside the tube's rounded rear wall.
     pub(crate) fn rod_end(&self) -> f64 {
         let housing = &self.housing;
         self.push_rod.stroke - housing.tube_back - 0.9 * (housing.tube_radius - housing.wall)
     }
 
-    /// Sizes enlarged `k` times; forces with them, stiffness as it is.
+    /// The arm with all sizes and forces multiplied by `k`; the stiffness of the spring is unchanged.
     #[must_use]
     pub fn scaled(&self, k: f64) -> Self {
         Self {

@@ -1,4 +1,4 @@
-//! Usual sizes of an arm, where a design gives none.
+//! Default sizes of an arm, for a design that gives none.
 
 use super::ArmBodySpec;
 use super::parts::Reach;
@@ -11,16 +11,16 @@ const TIP_DISTANCE: f64 = 145.0;
 const BEHIND_CLAMP: f64 = 66.0;
 /// Distance of the pusher's axis from the planet's, mm, for which the default fork's lever is made.
 const BETWEEN_AXES: f64 = 46.0;
-/// Share of the room for the clamp on the housing's front that is used.
+/// Used share of the maximum height of the clamp at the housing's front.
 const FILLED: f64 = 0.98;
-/// Ratio of each size tried to the one before.
+/// Ratio of each scale tried to the one before, and of each height tried to the one before.
 const SMALLER: f64 = 0.9;
 /// Number of scales tried.
 const SCALES: i32 = 24;
-/// Number of heights of clamp and rod tried on each: down to four tenths.
+/// Number of heights of clamp and rod tried at each scale: the last is 0.43 of the first.
 const HEIGHTS: i32 = 9;
 
-/// Default sizes on the scale that suits an arm.
+/// Default sizes at the scale that suits an arm.
 #[derive(Clone, Debug, PartialEq)]
 pub struct UsualArm {
     /// Scale of the default sizes, and of the usual cam and fork.
@@ -30,14 +30,14 @@ pub struct UsualArm {
 }
 
 impl UsualArm {
-    /// Sizes the arm whose tip lies `tip_distance` (S) from the planet's axis, on a pusher's axis that passes it at
-    /// `pusher_offset` (H), with a clamp of `clamp_length` (L); all mm.
+    /// Sizes the arm whose tip is `tip_distance` (S) from the planet's axis, on a pusher's axis at the distance
+    /// `pusher_offset` (H) from the planet's axis, with a clamp of `clamp_length` (L); all mm.
     ///
-    /// The scale is `min(S / 145, (sqrt(S^2 - H^2) - L) / 66, |H| / 46)`: behind the clamp there is room for the spring
-    /// and, behind that, the fork's pin; between the axes for the fork and its lever. Where the belt to the drum leaves
-    /// the housing's front too low, the clamp's root is made lower, down to its tip, then clamp and rod slimmer, down to
-    /// four tenths, and in the end all of it smaller. If nothing fits, the sizes are those of the scale, and
-    /// [`ArmBody::new`](super::ArmBody::new) or the fork says which part is in the way.
+    /// The scale is `min(S / 145, (sqrt(S^2 - H^2) - L) / 66, |H| / 46)`. It leaves room behind the clamp for the spring and the
+    /// fork's pin, and between the axes for the fork and its lever. If the clamp is then too high for the housing's front, its
+    /// root is made lower, down to the height of its tip. If that is not enough, clamp and rod are made slimmer, down to 0.43 of
+    /// their heights, and after that the whole arm smaller. If nothing fits, the sizes are those of the scale, and
+    /// [`ArmBody::new`](super::ArmBody::new) or the fork reports the part that does not fit.
     #[must_use]
     pub fn new(tip_distance: f64, pusher_offset: f64, clamp_length: f64) -> Self {
         let usual = tip_distance / TIP_DISTANCE;
@@ -65,14 +65,14 @@ impl UsualArm {
     }
 }
 
-/// A length rounded to two digits.
+/// A length rounded to two significant digits.
 fn of_two_digits(length: f64) -> f64 {
     let parts = 10_f64.powi(1 - length.log10().floor() as i32);
     let rounded = (length * parts).round() / parts;
     if rounded.is_finite() { rounded } else { length }
 }
 
-/// A length of a millimetre or more rounded up to half millimetres.
+/// A length of at least 1 mm rounded up to half millimetres; a shorter one is unchanged.
 fn whole_halves(length: f64) -> f64 {
     match length >= 1.0 && length.is_finite() {
         true => 0.5 * (2.0 * length - 1e-9).ceil(),
@@ -80,7 +80,8 @@ fn whole_halves(length: f64) -> f64 {
     }
 }
 
-/// Default sizes enlarged: what other parts fit to preferred sizes, the bore for the cam's sleeve to half millimetres, what is cut from plate to two digits.
+/// Default sizes enlarged and rounded: bore and push rod to preferred sizes, the bore for the cam's sleeve up to half
+/// millimetres, wall, width and clamp thickness to two significant digits.
 fn enlarged(scale: f64) -> ArmBodySpec {
     let mut body = ArmBodySpec::default().scaled(scale);
     for size in [&mut body.housing.bore, &mut body.push_rod.diameter] {
@@ -97,7 +98,7 @@ fn enlarged(scale: f64) -> ArmBodySpec {
     body
 }
 
-/// The sizes with clamp, rod and pusher a share as high.
+/// The sizes with the heights of clamp, rod and pusher multiplied by `share`.
 fn slimmer(mut body: ArmBodySpec, share: f64) -> ArmBodySpec {
     for height in [
         &mut body.clamp.root_height,
@@ -111,9 +112,10 @@ fn slimmer(mut body: ArmBodySpec, share: f64) -> ArmBodySpec {
     body
 }
 
-/// The sizes with the clamp's root as high as the housing's front allows; `None` where that is too low.
+/// The sizes with the clamp's root lowered to the height that the housing's front allows; `None` if it becomes lower than the
+/// tip.
 fn fitted(mut body: ArmBodySpec, reach: &Reach) -> Option<ArmBodySpec> {
-    // A lower root points the clamp's sides another way, which changes the room.
+    // A lower root changes the slope of the clamp's sides, and with it the maximum height: iterate.
     for _ in 0..20 {
         let contour = reach.contour(&body).ok()?;
         let most = 2.0 * FILLED * contour.room();

@@ -1,4 +1,4 @@
-//! A feeder as written.
+//! A feeder as the design file gives it.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -184,7 +184,7 @@ impl Default for MakingSpec {
 }
 
 impl BoundsSpec {
-    /// Crank, coupler, rocker and frame, by name.
+    /// Bounds of crank, coupler, rocker and frame, by name.
     #[must_use]
     pub fn named(&self) -> [(&'static str, [f64; 2]); 4] {
         [
@@ -245,7 +245,7 @@ impl DesignSpec for FeederDesign {
 }
 
 impl FeederDesign {
-    /// A feeder with this six-bar, and every other value at its default.
+    /// A feeder with this six-bar; every other value is the default.
     #[must_use]
     pub fn new(linkage: LinkageSpec) -> Self {
         Self {
@@ -298,7 +298,7 @@ impl FeederDesign {
         not_negative("drive.carried_mass", self.drive.carried_mass)?;
         self.gears.validate().map_err(|e| e.inside("gears"))?;
         self.plates.validate().map_err(|e| e.inside("plates"))?;
-        // Material is left about the shafts in the plates.
+        // The plates must have material around the holes for the shafts.
         let bore = self.gears.bore;
         let beyond = 2.0 * self.gears.body().bore_reach() - bore;
         let widest = (0.9 * self.plates.width - beyond).max(0.0);

@@ -32,7 +32,7 @@ pub enum Dimension {
 pub struct UnknownDimension(pub String);
 
 impl Dimension {
-    /// The four lengths, then the pivot's place.
+    /// The four lengths, then the coordinates of the pivot.
     pub const ALL: [Self; 6] = [
         Self::Crank,
         Self::Coupler,
@@ -68,13 +68,13 @@ impl Dimension {
         }
     }
 
-    /// Whether it is a coordinate of the pivot.
+    /// Whether the dimension is a coordinate of the pivot.
     #[must_use]
     pub fn is_of_pivot(self) -> bool {
         matches!(self, Self::PivotX | Self::PivotY)
     }
 
-    /// Value in a linkage, mm.
+    /// Value of the dimension in a linkage, mm.
     #[must_use]
     pub fn of(self, linkage: &LinkageSpec) -> f64 {
         match self {
@@ -87,7 +87,7 @@ impl Dimension {
         }
     }
 
-    /// Sets the value in a linkage, mm.
+    /// Sets the value of the dimension in a linkage, mm.
     pub fn set(self, linkage: &mut LinkageSpec, value: f64) {
         let place = match self {
             Self::Crank => &mut linkage.crank,

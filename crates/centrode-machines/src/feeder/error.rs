@@ -23,17 +23,17 @@ pub enum FeederError {
     /// The gears cannot be cut.
     #[error(transparent)]
     Gears(#[from] IntermittentPairError),
-    /// A cycle that does not bring the crank back to where it rested.
+    /// A cycle after which the crank is not back at its rest position.
     #[error(
         "{teeth} teeth turn the crank by {teeth}/{driven} of a turn each cycle: a feeder needs one whole turn, so teeth must be {driven}"
     )]
     NotOneTurn {
-        /// Pitches driven in one cycle.
+        /// Number of pitches driven in one cycle.
         teeth: u32,
-        /// Pitches round the driven gear.
+        /// Number of pitches of the driven gear.
         driven: u32,
     },
-    /// The slider comes so near the effector's pivot that its slot meets the pivot's hole.
+    /// The slider comes so close to the effector's pivot that its slot meets the pivot's hole.
     #[error(
         "the slot for the slider would begin {start:.4} mm from the effector's pivot, whose hole has a radius of {radius} mm: take a shorter slider or a thinner pin, or move the pivot away from the slider's path"
     )]
@@ -43,7 +43,7 @@ pub enum FeederError {
         /// Radius of the pivot's hole, mm.
         radius: f64,
     },
-    /// Two holes of a plate that meet.
+    /// Two holes of a plate overlap.
     #[error(
         "holes {} and {} of the {part} meet: {distance:.4} mm apart, reaching {reach:.4} mm together",
         joints[0],
@@ -56,16 +56,16 @@ pub enum FeederError {
         joints: [String; 2],
         /// Distance of their centres, mm.
         distance: f64,
-        /// Sum of the holes' reaches, mm.
+        /// Sum of the radii of the holes, with keyways, mm.
         reach: f64,
     },
-    /// A part that would have no area.
+    /// A part has no area.
     #[error("the {0} has no contour")]
     NoPlate(&'static str),
 }
 
 impl FeederError {
-    /// Key of the design to blame.
+    /// Key of the design at fault.
     #[must_use]
     pub fn key(&self) -> String {
         match self {

@@ -1,4 +1,4 @@
-//! Screws that hold the two plates of the frame apart, with spacers between, and the frame that reaches to them.
+//! Screws and spacers between the two plates of the frame, and the contour of the frame plates around them.
 
 use std::f64::consts::TAU;
 
@@ -8,27 +8,27 @@ use super::{Feeder, FeederError, FeederPart, GearsSpec, LinkageSpec, Plate, Plat
 use crate::screw_room::ScrewRoom;
 use centrode_kinematics::machine::{Fastening, FasteningError};
 
-/// Minimum length of thread in a steel spacer, in diameters.
+/// Minimum length of thread that a screw enters in a steel spacer, in screw diameters.
 const ENTERED: f64 = 1.0;
-/// Distance of the middle of a screw from the edge of the frame, in diameters.
+/// Distance of the axis of a screw from the edge of the frame, in screw diameters.
 const EDGE: f64 = 1.5;
-/// Screws of the frame.
+/// Number of screws of the frame.
 const SCREWS: usize = 4;
-/// Places of the crank at which the links are looked at.
+/// Positions of the crank at which the links are sampled.
 const PLACES: u32 = 180;
-/// Step of the places of screws, mm.
+/// Step of the coordinates of screws, mm.
 const GRID: f64 = 1.0;
 /// Steps by which the frame grows, as a share of the plates' width, and their number.
 const STEP: f64 = 0.125;
 const STEPS: u32 = 80;
 
-/// Lengths that places of screws hang on.
+/// Parts of the design that determine the positions of the screws.
 type Frame = (LinkageSpec, PlatesSpec, GearsSpec);
 
 impl Feeder {
-    /// Screws of both plates of the frame, in the frame's axes, into steel spacers twice as thick as they are: clear of all links in
-    /// every place of the crank, and behind the frame of gears and cams, by the gap of the plates. The frame reaches as far as it
-    /// takes for them to lie around its middle. None where the design asks for none.
+    /// Screws of both plates of the frame, in the frame's axes. Each enters a steel spacer of twice its diameter. The screws
+    /// clear all links in every position of the crank, and gears and cams behind the frame, by the gap of the plates. The frame
+    /// grows until its screws surround its middle. `None` if the design requires no screws.
     #[must_use]
     pub fn frame_screws(&self) -> Option<Result<Fastening, FasteningError>> {
         static FOUND: Recent<Frame, Option<Result<Fastening, FasteningError>>> = Recent::new();
@@ -47,10 +47,10 @@ impl Feeder {
         })
     }
 
-    /// A plate as it is with the screws of the frame: that of the frame reaches around them and has their holes.
+    /// A plate with the screws of the frame: the frame plate reaches around them and has their holes, other plates are unchanged.
     ///
     /// # Errors
-    /// [`FeederError::NoPlate`] where nothing is enclosed.
+    /// [`FeederError::NoPlate`] if the contour encloses nothing.
     pub fn screwed(&self, mut plate: Plate) -> Result<Plate, FeederError> {
         let screws = self.frame_screws().and_then(Result::ok);
         let Some(screws) = screws.filter(|_| plate.part == FeederPart::Frame) else {
@@ -66,7 +66,7 @@ impl Feeder {
         Ok(plate)
     }
 
-    /// Places of screws around the joints of the frame, as near to these as there is room.
+    /// Positions of screws around the joints of the frame, as near to the joints as the room allows.
     fn around(
         &self,
         diameter: f64,
@@ -104,7 +104,7 @@ impl Feeder {
         last.map_or_else(|| Ok(Vec::new()), Err)
     }
 
-    /// Shafts and pins that the frame holds: A, D, F, G.
+    /// Positions of the shafts and pins that the frame holds: A, D, F, G.
     fn on_frame(&self) -> [Point; 4] {
         let frame = self.six_bar().four_bar().lengths()[3];
         let away = self.design().gears.center_distance();
@@ -116,14 +116,14 @@ impl Feeder {
         ]
     }
 
-    /// Outlines that the links sweep between the plates of the frame, and the gears behind them.
+    /// Room that the links sweep between the plates of the frame, and that of the gears behind them.
     fn swept(&self) -> Vec<([Point; 2], f64)> {
         let (spec, gears) = (&self.design().plates, &self.design().gears);
         let [a, d, f, g] = self.on_frame();
         let half = 0.5 * spec.width + spec.gap;
         let far = self.six_bar().effector_length();
         let far = far.max(self.six_bar().maximum_slider_distance() + spec.slider_length);
-        // What is farthest off moves by half a step of its own turn between two places.
+        // Between two sampled positions a point moves by at most half a step times its reach: links are widened by this.
         let step = 0.5 * TAU / f64::from(PLACES);
         let mut taken = Vec::new();
         for i in 0..PLACES {
@@ -140,7 +140,7 @@ impl Feeder {
         }
         let tip = |pitches: u32| 0.5 * gears.module * f64::from(pitches) + gears.module + spec.gap;
         let (driver, driven) = (tip(gears.driver_pitches), tip(gears.driven_pitches));
-        // A cam reaches no further than to the pin that it takes first or leaves last.
+        // The reach of a cam is the distance of the pin that it takes first or leaves last.
         let circle = 0.75 * gears.module * f64::from(gears.driven_pitches);
         let (circle, away) = (0.5 * gears.pin_circle.unwrap_or(circle), (g - a).norm());
         let square = away * away + circle * circle - 2.0 * away * circle * gears.pin_angle.cos();
@@ -153,7 +153,7 @@ impl Feeder {
     }
 }
 
-/// Whether a place is within the convex contour around others.
+/// Whether a point is within the convex hull of other points.
 fn is_within(at: Point, others: &[Point]) -> bool {
     let circles: Vec<(Point, f64)> = others.iter().map(|other| (*other, 0.0)).collect();
     Outline::hull(&circles).is_some_and(|hull| {

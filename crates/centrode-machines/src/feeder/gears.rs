@@ -104,7 +104,7 @@ impl Default for GearsSpec {
 }
 
 impl GearsSpec {
-    /// Maximum number of pitches round a gear.
+    /// Maximum number of pitches of a gear.
     const MOST: u32 = 1000;
 
     pub(super) fn validate(&self) -> Result<(), SpecError> {
@@ -196,7 +196,7 @@ impl GearsSpec {
     /// Motion of the gears.
     ///
     /// # Errors
-    /// [`IntermittentError`], for instance for equal pitch circles, which leave nothing to dwell.
+    /// [`IntermittentError`], for instance for equal pitch circles, which leave no dwell.
     pub fn drive(&self) -> Result<IntermittentDrive, IntermittentError> {
         let (driver, driven) = (self.driver_pitches, self.driven_pitches);
         IntermittentDrive::new(driver, driven, self.teeth, self.entry)

@@ -11,7 +11,7 @@ use centrode_kinematics::machine::{
 use centrode_kinematics::transmission::{FromFn, MotionJet, Transmission};
 
 impl FeederPart {
-    /// The part another one is mounted on; none for the frame.
+    /// The part on which the part is mounted; `None` for the frame.
     #[must_use]
     pub fn carrier(self) -> Option<Self> {
         match self {
@@ -28,7 +28,7 @@ impl FeederPart {
         self as usize
     }
 
-    /// Index of the joint that carries the part in the machine of a feeder; that of the crank for the frame.
+    /// Index of the joint that carries the part in the machine of a feeder; for the frame, that of the crank.
     #[must_use]
     pub fn joint(self) -> usize {
         self.link().saturating_sub(1)
@@ -36,11 +36,11 @@ impl FeederPart {
 }
 
 impl Feeder {
-    /// The six-bar as links, joints and closures, with a mass (kg) carried at its tip: no bodies, no picture, no table.
+    /// The six-bar as links, joints and closures, with a mass (kg) carried at its tip; without bodies, picture and table.
     ///
-    /// Links are those of [`FeederPart::ALL`] in their order, each with its joint. Every frame is parallel to the world's where the
-    /// effector rests, every joint zero there. The y axis points up. The coupler closes the loop first, the slider second,
-    /// both on the rocker at C. The first point is the tip.
+    /// The links are those of [`FeederPart::ALL`] in their order, each with its joint. At the rest position of the effector every
+    /// frame is parallel to the world's and every joint is zero. The y axis points up. The coupler closes the loop first, the
+    /// slider second, both on the rocker at C. The first point is the tip.
     #[must_use]
     pub fn links(&self, carried: f64) -> LinkedMachine {
         let design = self.design();
@@ -107,10 +107,10 @@ impl Feeder {
         machine
     }
 
-    /// Plates of a part in the frame of its link, and the mass of all: a second one of the frame stands above the others.
+    /// Plates of a part in the frame of its link, and their total mass. The second plate of the frame is above all other plates.
     ///
     /// # Errors
-    /// [`SolidError`] where the plate encloses no volume.
+    /// [`SolidError`] if the plate encloses no volume.
     pub fn bodies(&self, plate: &Plate) -> Result<(Vec<Solid>, MassProperties), SolidError> {
         let place = self.place(plate.part, self.start());
         let turned = Isometry2::new(Vector::zeros(), place.rotation.angle());
@@ -127,12 +127,12 @@ impl Feeder {
         Ok((solids, together))
     }
 
-    /// Direction of the effector's slot where it rests, and how far the slider goes in it either way, mm.
+    /// Direction of the effector's slot at the rest position, and the limits of the slider's motion in it, mm.
     fn slide(&self) -> ([f64; 3], [f64; 2]) {
         let along = self.place(FeederPart::Effector, self.start()).rotation * Vector::x();
         let bar = self.six_bar();
         let now = bar.slider_distance(self.start()).position;
-        // As far as the slot lets it.
+        // The ends of the slot limit the motion.
         let clearance = self.design().plates.slot_clearance;
         let range = [
             bar.minimum_slider_distance() - now - clearance,
@@ -141,7 +141,7 @@ impl Feeder {
         ([along.x, along.y, 0.0], range)
     }
 
-    /// A joint's coordinate since the effector rested.
+    /// Change of a joint's coordinate since the effector left its rest position.
     fn joint_law(&self, part: FeederPart) -> Arc<dyn Transmission> {
         let bar = *self.six_bar();
         let at = move |crank: f64| -> MotionJet {

@@ -1,7 +1,7 @@
 //! The willow-cutting feeder: a picking six-bar that rests while it is filled, driven by an intermittent gear.
 //!
-//! The input is the angle the intermittent gear has turned since the effector left its place under the store,
-//! rad, counter-clockwise for the crank. Lengths are mm. After Ye et al., "Optimal design and test of picking
+//! The input is the angle that the intermittent gear has turned since the effector left its position under the store,
+//! rad, counter-clockwise for the crank. Lengths are in mm. Source: Ye et al., "Optimal design and test of picking
 //! mechanism of automatic feeding device for cutting willows", 2022, DOI 10.6041/j.issn.1000-1298.2022.05.010.
 
 mod design;
@@ -34,10 +34,10 @@ use centrode_gear::{IntermittentDrive, IntermittentPair, IntermittentPairError};
 use centrode_kinematics::linkage::{FourBar, SixBar};
 use centrode_kinematics::transmission::{MotionJet, Transmission};
 
-/// Parts of a stroke in each of which the motion is smooth but for its breaks.
+/// Number of parts of a stroke; in each part the motion is smooth except at its breaks.
 const PARTS: u32 = 8;
 
-/// Stroke of the effector one way.
+/// Stroke of the effector in one direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stroke {
     /// Input at which it begins, rad.
@@ -46,11 +46,11 @@ pub struct Stroke {
     pub to: f64,
     /// Input of the maximum speed, rad.
     pub fastest: f64,
-    /// Maximum speed of the effector by the input, without sign.
+    /// Maximum speed of the effector per radian of the input, without sign.
     pub speed: f64,
 }
 
-/// A feeder: its six-bar, the drive that turns and rests it, and its motion as a function of the input.
+/// A feeder: its six-bar, its intermittent drive, and its motion as a function of the input.
 #[derive(Clone, Debug)]
 pub struct Feeder {
     design: FeederDesign,
@@ -64,7 +64,7 @@ impl Feeder {
     /// Resolves a design.
     ///
     /// # Errors
-    /// [`FeederError`] naming the violated rule and its numbers.
+    /// [`FeederError`] with the violated rule and its numbers.
     pub fn resolve(design: &FeederDesign) -> Result<Self, FeederError> {
         design.validate()?;
         let spec = &design.linkage;
@@ -99,7 +99,7 @@ impl Feeder {
         })
     }
 
-    /// The design as written.
+    /// The design as given.
     #[must_use]
     pub fn design(&self) -> &FeederDesign {
         &self.design
@@ -119,10 +119,10 @@ impl Feeder {
 
     /// The intermittent gear and its mate with their teeth, locking arcs and entry cam.
     ///
-    /// Cutting them takes long; those of a design in which other things change are cut once.
+    /// Cutting the gears takes long; the result is cached by the gears' design.
     ///
     /// # Errors
-    /// [`FeederError::Gears`] where they cannot be cut.
+    /// [`FeederError::Gears`] if they cannot be cut.
     pub fn gears(&self) -> Result<Arc<IntermittentPair>, FeederError> {
         static CUT: Recent<GearsSpec, Result<Arc<IntermittentPair>, IntermittentPairError>> =
             Recent::new();
@@ -132,8 +132,8 @@ impl Feeder {
         })?)
     }
 
-    /// Crank angle at which the effector rests and is filled, rad: the end of its swing from which the slower
-    /// stroke goes.
+    /// Crank angle at which the effector rests and is filled, rad: the end of its swing at which the slower stroke
+    /// begins.
     #[must_use]
     pub fn start(&self) -> f64 {
         self.start
@@ -147,7 +147,7 @@ impl Feeder {
         jet
     }
 
-    /// The effector's angle at an input, without jumps.
+    /// The effector's angle at an input, without jumps of whole turns.
     #[must_use]
     pub fn effector(&self, input: f64) -> MotionJet {
         let crank = self.crank(input);
@@ -167,19 +167,19 @@ impl Feeder {
         (self.effector(input).velocity * self.speed() * self.six_bar.effector_length()).abs()
     }
 
-    /// Inputs in `[0, 2 pi)` where the motion may change its law, ascending.
+    /// Inputs in `[0, 2 pi)` at which the law of the motion may change, ascending.
     #[must_use]
     pub fn breaks(&self) -> Vec<f64> {
         self.law.breaks()
     }
 
-    /// Inputs of one cycle between which the motion is smooth and short, from 0 to a whole turn.
+    /// Ends of short intervals of one cycle, from 0 to a whole turn; within each the motion is smooth.
     #[must_use]
     pub fn pieces(&self) -> Vec<f64> {
         piece_ends(0.0, TAU, 2 * PARTS, &self.breaks())
     }
 
-    /// Input at which the crank has turned by an angle from where it rests, up to a turn, rad.
+    /// Input at which the crank has turned by an angle from its rest position, rad; the angle is at most one turn.
     #[must_use]
     pub fn input_at(&self, turned: f64) -> f64 {
         let motion = self.drive.motion_angle();
@@ -223,13 +223,13 @@ impl Feeder {
         self.cycles_per_minute() * TAU / 60.0
     }
 
-    /// Cycles a minute: turns of the intermittent gear.
+    /// Cycles per minute, equal to the turns of the intermittent gear.
     #[must_use]
     pub fn cycles_per_minute(&self) -> f64 {
         self.design.drive.motor_rpm / self.design.drive.chain_ratio
     }
 
-    /// Cuttings fed in a minute.
+    /// Cuttings fed per minute.
     #[must_use]
     pub fn feed_rate(&self) -> f64 {
         self.cycles_per_minute() * f64::from(self.design.drive.slots)
@@ -241,8 +241,8 @@ impl Feeder {
         self.drive.dwell_time(self.speed())
     }
 
-    /// Distance of the effector's pivot from the chord between the slider's dead centres, mm: on it, between its
-    /// ends, lengths of any size swing the effector by half a turn.
+    /// Distance of the effector's pivot from the chord between the slider's dead centres, mm; `None` if the foot of the
+    /// perpendicular is not on the chord. With the pivot on the chord, any lengths swing the effector by half a turn.
     #[must_use]
     pub fn distance_from_chord(&self) -> Option<f64> {
         let dead = self.six_bar.four_bar().dead_centers()?;

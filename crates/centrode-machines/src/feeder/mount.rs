@@ -6,9 +6,9 @@ use super::{Feeder, FeederPart, GearsSpec};
 use centrode_gear::IntermittentPair;
 use centrode_kinematics::machine::{Joint, Linear, Link, LinkedMachine, Quantity};
 
-/// Name of the intermittent gear: of its files and its link.
+/// Name of the intermittent gear, for its files and its link.
 const DRIVER: &str = "gear-driver";
-/// Name of its mate.
+/// Name of the driven gear.
 const DRIVEN: &str = "gear-driven";
 /// Names of the cams next to the intermittent gear.
 const CAMS: [&str; 2] = ["gear-entry-cam", "gear-exit-cam"];
@@ -16,10 +16,10 @@ const CAMS: [&str; 2] = ["gear-entry-cam", "gear-exit-cam"];
 /// Accuracy of the bodies in the machine, mm.
 const FINE: f64 = 1e-3;
 
-/// A gear or cam of the feeder, as it is cut.
+/// A gear or cam of the feeder as it is cut.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GearBody {
-    /// Name of its files and its link.
+    /// Name of the body, for its files and its link.
     pub name: &'static str,
     /// Contour, mm.
     pub outline: Outline,
@@ -30,14 +30,15 @@ pub struct GearBody {
 }
 
 impl GearBody {
-    /// Names of all that there can be: the intermittent gear, its mate, the entry cam, the exit cam.
+    /// Names of all possible bodies: the intermittent gear, the driven gear, the entry cam, the exit cam.
     pub const NAMES: [&str; 4] = [DRIVER, DRIVEN, CAMS[0], CAMS[1]];
 
     /// The gears and cams of a pair, with arcs within a tolerance.
     #[must_use]
     pub fn all(gears: &IntermittentPair, tolerance: Tolerance) -> Vec<Self> {
         let pair = gears.pair();
-        // Cut as short chords: lines and arcs of the same accuracy, which a solid can have, too.
+        // The outlines are cut as short chords. Lines and arcs of the same accuracy replace them, because solids can have arcs,
+        // too.
         let cut = |outline: &Outline| outline.polygon_arcs(gears.accuracy(), tolerance);
         let body = |name, outline: &Outline, bore: Option<Outline>| Self {
             name,
@@ -57,7 +58,7 @@ impl GearBody {
         all
     }
 
-    /// Whether it is a cam.
+    /// Whether the body is a cam.
     #[must_use]
     pub fn is_cam(&self) -> bool {
         CAMS.contains(&self.name)
@@ -70,7 +71,7 @@ impl GearBody {
 }
 
 impl Feeder {
-    /// Heights of the lower faces of the gears, of the entry cam and of the exit cam, mm, with cams or without.
+    /// Heights of the lower faces of the gears, of the entry cam and of the exit cam, mm; `cams`: whether there are cams.
     #[must_use]
     pub fn gear_levels(&self, cams: bool) -> [f64; 3] {
         let (spec, plates) = (&self.design().gears, &self.design().plates);
@@ -87,9 +88,9 @@ impl Feeder {
         spec.entry > 0.0 && spec.drive().is_ok_and(|drive| drive.stops() > 0)
     }
 
-    /// Bodies of the gears in the machine; none where they cannot be cut.
+    /// Bodies of the gears in the machine; `None` if the gears cannot be cut.
     ///
-    /// Laying arcs takes long; those of a design in which other things change are laid once.
+    /// Fitting arcs takes long; the result is cached by the gears' design.
     fn gear_bodies(&self) -> Option<Arc<Vec<GearBody>>> {
         static LAID: Recent<GearsSpec, Arc<Vec<GearBody>>> = Recent::new();
         let (gears, tolerance) = (self.gears().ok()?, Tolerance::new(FINE).ok()?);
@@ -98,11 +99,11 @@ impl Feeder {
         }))
     }
 
-    /// Adds the gears to the machine of [`Feeder::links`] as links with bodies, behind the rear frame plate: from there the exit
-    /// cam, the gears, the entry cam. Gears that cannot be cut are left out: the six-bar moves without them.
+    /// Adds the gears to the machine of [`Feeder::links`] as links with bodies, behind the rear frame plate, in this order: exit
+    /// cam, gears, entry cam. Gears that cannot be cut are omitted: the six-bar moves without them.
     ///
     /// # Errors
-    /// [`SolidError`] where a gear encloses no volume.
+    /// [`SolidError`] if a gear encloses no volume.
     pub fn mount_gears(&self, machine: &mut LinkedMachine) -> Result<(), SolidError> {
         let Some(bodies) = self.gear_bodies() else {
             return Ok(());

@@ -10,7 +10,7 @@ use centrode_gear::design::BodySpec;
 /// A part of the six-bar, cut from plate.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub enum FeederPart {
-    /// Plate that holds the shafts A, D and F and that of the intermittent gear, G; one in front of the links, one behind.
+    /// One of two plates, in front of the links and behind them, that hold the shafts A, D and F, and G of the intermittent gear.
     Frame,
     /// The crank AB.
     Crank,
@@ -18,7 +18,7 @@ pub enum FeederPart {
     Coupler,
     /// The rocker CD.
     Rocker,
-    /// The end effector on F, with a slot for the slider.
+    /// The end effector on the pivot F, with a slot for the slider.
     Effector,
     /// The slider on the pin C.
     Slider,
@@ -48,7 +48,7 @@ impl FeederPart {
         }
     }
 
-    /// Number of the part that one six-bar needs.
+    /// Number of copies of the part in one six-bar.
     #[must_use]
     pub fn quantity(self) -> u32 {
         match self {
@@ -57,7 +57,7 @@ impl FeederPart {
         }
     }
 
-    /// Layer of the part's plate along the shafts; the frame is the one below the first.
+    /// Layer of the part's plate along the shafts; the rear frame plate is in layer -1.
     fn layer(self) -> f64 {
         match self {
             Self::Frame => -1.0,
@@ -69,18 +69,18 @@ impl FeederPart {
     }
 }
 
-/// A part as a plate in its own axes: the first joint in the origin, the second one along x.
+/// A part as a plate in its own axes: the first joint is the origin, the second one is on the x axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plate {
     /// The part.
     pub part: FeederPart,
     /// Contour.
     pub outline: Outline,
-    /// Holes of the screws that hold the frame's plates apart.
+    /// Holes for the screws that hold the frame's plates together.
     pub screws: Vec<Outline>,
     /// Slot for the slider.
     pub slot: Option<Outline>,
-    /// Joints by their letters, A to G; the tip has no bore.
+    /// Joints by their letters, A to G; the tip has no hole.
     pub joints: Vec<PinHole>,
     /// Height of the lower face along the shafts, mm.
     pub bottom: f64,
@@ -101,10 +101,10 @@ impl Plate {
         self.holes().map(PinHole::outline).chain(others).collect()
     }
 
-    /// The plate moved in its plane, its lower face at a height.
+    /// The plate moved in its plane, with its lower face at a height.
     ///
     /// # Errors
-    /// [`SolidError`] where a number is not finite.
+    /// [`SolidError`] if a number is not finite.
     pub fn solid_at(&self, motion: &Isometry2<f64>, bottom: f64) -> Result<Solid, SolidError> {
         let moved = |outline: &Outline| outline.transformed(motion);
         let holes = self.cut_outs().iter().map(moved).collect();
@@ -113,12 +113,12 @@ impl Plate {
 }
 
 impl Feeder {
-    /// A part as a plate. The crank is keyed to its shaft as the gear is: with both keyways on one line it stands as the
-    /// motion begins.
+    /// A part as a plate. Crank and driven gear are keyed to one shaft: with both keyways on one line the crank is at its rest
+    /// position.
     ///
     /// # Errors
-    /// [`FeederError::SlotMeetsPivot`] for an effector whose slot runs into the hole of its pivot;
-    /// [`FeederError::NoPlate`] where the joints leave no contour.
+    /// [`FeederError::SlotMeetsPivot`] for an effector whose slot meets the hole of its pivot;
+    /// [`FeederError::NoPlate`] if the joints give no contour.
     pub fn plate(&self, part: FeederPart) -> Result<Plate, FeederError> {
         let (spec, gears) = (&self.design().plates, &self.design().gears);
         let [crank, coupler, rocker, frame] = self.six_bar().four_bar().lengths();
@@ -146,7 +146,7 @@ impl Feeder {
                 joint("G", -gears.center_distance(), 0.0, bearing),
             ],
             FeederPart::Crank => {
-                // The gear's x axis points from the intermittent gear's as the motion begins.
+                // At the rest position the x axis of the driven gear points away from the axis of the intermittent gear.
                 let keyed = BodySpec {
                     keyway_angle: -self.start(),
                     bore_fit: Self::CRANK_FIT[0].into(),
@@ -178,7 +178,7 @@ impl Feeder {
                     (Point::origin() + off, radius),
                 ];
             }
-            // The plate goes on behind a slot that ends beyond the tip.
+            // If the slot ends beyond the tip, the plate reaches around the end of the slot.
             (_, Some([_, end])) => circles.push((Point::new(end, 0.0), half)),
             _ => {}
         }
@@ -214,7 +214,7 @@ impl Feeder {
         Ok(plate)
     }
 
-    /// Ends of the effector's slot, distances from its pivot, mm.
+    /// Ends of the effector's slot, as distances from its pivot, mm.
     fn slot(&self) -> Result<[f64; 2], FeederError> {
         let spec = &self.design().plates;
         let more = 0.5 * spec.slider_length + spec.slot_clearance;
@@ -227,7 +227,7 @@ impl Feeder {
         Ok([start, end])
     }
 
-    /// Pose of a part's own axes at a crank angle.
+    /// Pose of a part's own axes in the frame at a crank angle.
     #[must_use]
     pub fn place(&self, part: FeederPart, crank: f64) -> Isometry2<f64> {
         let bar = self.six_bar().four_bar();
@@ -246,8 +246,8 @@ impl Feeder {
         Isometry2::new(origin.coords, way.y.atan2(way.x))
     }
 
-    /// Clearance between the rocker's shaft D, where it passes the effector, and the effector's plate at an input, mm;
-    /// below zero where they overlap.
+    /// Clearance between the rocker's shaft D and the effector's plate, which passes it, at an input, mm; negative if they
+    /// overlap.
     #[must_use]
     pub fn shaft_clearance(&self, input: f64) -> f64 {
         let spec = &self.design().plates;
@@ -260,7 +260,7 @@ impl Feeder {
         (d - nearest).norm() - 0.5 * (spec.width + spec.pin_diameter)
     }
 
-    /// The path of a joint or the tip over one turn of the crank: B, C or E by its place in
+    /// The path of a joint or of the tip over one turn of the crank: B, C or E, by its index in
     /// [`SixBar::joints`](centrode_kinematics::linkage::SixBar::joints).
     #[must_use]
     pub fn path(&self, joint: usize, count: u32) -> Vec<Point> {

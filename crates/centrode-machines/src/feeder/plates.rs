@@ -92,7 +92,7 @@ impl PlatesSpec {
         ] {
             positive(key, value)?;
         }
-        // Holes leave material around them, and the slider has room for its pin.
+        // There must be material around the holes, and room in the slider for its pin.
         in_range(
             "pin_diameter",
             self.pin_diameter,

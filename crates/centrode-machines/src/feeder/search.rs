@@ -43,7 +43,7 @@ impl Default for DimensionSearchSpec {
 }
 
 impl DimensionSearchSpec {
-    /// Whether the table is left at its defaults.
+    /// Whether all values of the table are defaults.
     pub(super) fn is_default(&self) -> bool {
         *self == Self::default()
     }

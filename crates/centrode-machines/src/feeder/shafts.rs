@@ -1,4 +1,4 @@
-//! Shafts and pins of a feeder, turned to the heights of what is on them.
+//! Shafts and pins of a feeder, turned to the heights of the parts on them.
 
 use centrode_geometry::Point;
 
@@ -6,13 +6,13 @@ use super::{Feeder, FeederPart, GearBody, Plate};
 use centrode_kinematics::machine::{Bar, Fit, Key, TurnedPiece, TurnedPieces};
 
 impl Feeder {
-    /// Tolerance classes, ISO 286, of the holes into which the pins of the cams are pressed and of the pins, ISO 8734.
+    /// Tolerance classes, ISO 286: of the holes of the cams' pins, which are pressed in, and of these pins, ISO 8734.
     pub const CAM_PIN_FIT: [&str; 2] = ["H7", "m6"];
 
-    /// Tolerance classes, ISO 286, of the crank's hole and of the seat of its shaft, on which it is pressed.
+    /// Tolerance classes, ISO 286: of the crank's hole, which is pressed on, and of its seat on the shaft.
     pub const CRANK_FIT: [&str; 2] = ["H7", "r6"];
 
-    /// All parts that are turned, for plates of the links, and the dowels.
+    /// All turned parts for the given plates of the links, and the dowels.
     #[must_use]
     pub fn turned(&self, plates: &[Plate]) -> Vec<TurnedPieces> {
         let mut all: Vec<TurnedPieces> = self.pins(plates).into();
@@ -21,7 +21,7 @@ impl Feeder {
         all
     }
 
-    /// Pins of the cams: half of them reach from the driven gear to the entry cam, half to the exit cam; none without cams.
+    /// Pins of the cams: half of them reach from the driven gear to the entry cam, half to the exit cam; `None` without cams.
     fn cam_pins(&self) -> Option<TurnedPieces> {
         let (spec, body) = (&self.design().gears, self.design().gears.body());
         let stops = spec.drive().ok()?.stops();
@@ -30,11 +30,11 @@ impl Feeder {
         let bar = Bar::dowel(fit, [0.0, room], f64::INFINITY);
         let [middle, entry, _] = self.gear_levels(true);
         let gears = self.gears().ok();
-        // Ends flush with the cams.
+        // The ends of the pins are flush with the cams.
         let levels = [entry, middle + bar.bottom()];
         let cams = gears.iter().flat_map(|gears| gears.cams()).zip(levels);
         let at = cams.flat_map(|(cam, z)| cam.pins.iter().map(move |at| [at.x, at.y, z]));
-        // Without gears none has a place.
+        // If the gears cannot be cut, the positions of the pins are not known: zero stands for them.
         let at = at.chain(std::iter::repeat([0.0; 3]));
         let on_gear = |at| TurnedPiece::upright(GearBody::NAMES[1], at);
         let made = bar.turned("pin-cam", "Pin of a cam", body.shaft_stock(), "");
@@ -44,7 +44,7 @@ impl Feeder {
         })
     }
 
-    /// Pins of the joints, which float in all their holes, a ring at either end.
+    /// Pins of the joints: loose in all their holes, with a retaining ring at each end.
     fn pins(&self, plates: &[Plate]) -> [TurnedPieces; 4] {
         let spec = &self.design().plates;
         let level = |part: FeederPart| {
@@ -53,11 +53,11 @@ impl Feeder {
             [bottom, bottom + spec.thickness]
         };
         let [rear, _] = level(FeederPart::Frame);
-        // The second frame plate stands above all others.
+        // The second frame plate is above all other plates.
         let front = level(FeederPart::Effector)[1] + spec.gap + spec.thickness;
         let (gap, free) = (spec.gap, f64::INFINITY);
         let general = &self.design().drawing.general_tolerance;
-        // The plates of the frame are held apart.
+        // Spacers hold the plates of the frame apart: the room between them counts as a part.
         let frame = [
             [rear, rear + spec.thickness],
             [rear + spec.thickness, front - spec.thickness],
@@ -121,9 +121,9 @@ impl Feeder {
         let ([rear, front], plate) = ([-gap - plates.thickness, -gap], [0.0, plates.thickness]);
         let key = body.keyway;
         let key = key.and_then(|hub| Key::fitting(hub, body.width));
-        // Half round ends of keyways end with the keys, which are in the middle of their hubs.
+        // The keyway with half-round ends is as long as the key, which is in the middle of its hub.
         let beyond = key.map_or(0.0, |key| 0.5 * (body.width - key.length));
-        // A bar up to a height through hubs, from the lowest on, with a ring on either side of each.
+        // Bar from the lowest hub up to a height, with a retaining ring on both sides of each hub.
         let through = |hubs: &[f64], end: f64| {
             let bar = Bar::new(body.seat(""), [hubs[0], end]).ring(hubs[0], false, free);
             let hubs = hubs.iter().map(|&low| [low, low + body.width]);
@@ -135,8 +135,8 @@ impl Feeder {
             let bar = hubs.fold(bar, on).through(&[[rear, front]]);
             bar.keyed(body.keyway, [f64::NEG_INFINITY, last - beyond])
         };
-        // In the thin crank a key with round ends would bear over less than half its length: one with square ends leaves its whole seat to
-        // the straight part of the keyway.
+        // In the thin crank a key with round ends would transmit force over less than half its length. A key with square ends
+        // uses the whole length of the seat.
         let square = body.keyway;
         let square = square.and_then(|hub| Key::square(hub, plates.thickness));
         let before = 0.5 * body.keyway.map_or(0.0, |keyway| keyway.width);
@@ -150,7 +150,7 @@ impl Feeder {
             true => vec![entry, middle, exit],
             false => vec![middle],
         };
-        // The crank does not reach as far as this shaft.
+        // If the crank does not reach as far as this shaft, there is more room for its ring.
         let reach = self.six_bar().four_bar().lengths()[0] + 0.5 * plates.width;
         let distance = self.design().gears.center_distance();
         let room = match reach < distance - 0.5 * body.bore {

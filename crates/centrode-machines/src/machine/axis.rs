@@ -1,4 +1,4 @@
-//! Axes of gears and cams, as seen from the body that carries what they move.
+//! Axes of gears and cams in the axes of the body that carries the parts they move.
 
 use centrode_geometry::Point;
 use nalgebra::Isometry2;
@@ -9,14 +9,14 @@ use super::{BodyPoint, Mount};
 use centrode_kinematics::machine::JointKind;
 
 impl Mount {
-    /// Position of the joint's axes in the carrier's.
+    /// Pose of the joint's axes in the carrier's axes.
     pub(super) fn seat(&self) -> Isometry2<f64> {
         Isometry2::new(self.at.coords, self.angle)
     }
 }
 
 impl Builder<'_> {
-    /// Angle of a body by the input, from the joints that carry it, without jumps.
+    /// Angle of a body as a function of the input, from the joints that carry it, without jumps of whole turns.
     pub(super) fn angle(&self, body: usize) -> Angle {
         let Some(mount) = &self.bodies[body].mount else {
             return Angle::default();
@@ -28,14 +28,14 @@ impl Builder<'_> {
         angle
     }
 
-    /// Position, in the axes of a body that carries it, of a point of another that is fixed there; `None` if it moves by
-    /// more than a length.
+    /// Position of a point of a body in the axes of `carrier`, if the point does not move there by more than `size`, mm; `None`
+    /// if it moves.
     pub(super) fn axis_on(&self, carrier: usize, mut point: BodyPoint, size: f64) -> Option<Point> {
         loop {
             if let Some(found) = self.down(carrier, point, size) {
                 return Some(found);
             }
-            // The same point on the body below: that of the pin, or any of a body fixed to it.
+            // The same point on the body below: the joint of a fixed body, or the pin on which a body turns.
             let mount = self.bodies[point.body].mount.as_ref()?;
             point.at = match mount.kind {
                 JointKind::Fixed => mount.seat() * point.at,
@@ -46,7 +46,7 @@ impl Builder<'_> {
         }
     }
 
-    /// A point of a body in the axes of one that it carries, where it is fixed.
+    /// Position of a point in the axes of `carrier`, a body that the point's body carries; `None` if the point moves there.
     fn down(&self, carrier: usize, point: BodyPoint, size: f64) -> Option<Point> {
         if carrier == point.body {
             return Some(point.at);

@@ -12,7 +12,7 @@ use centrode_kinematics::linkage::{Branch, Coordinate, JointId, Line, LinkId, Li
 use centrode_kinematics::machine::{Constant, JointKind};
 use centrode_kinematics::transmission::Transmission;
 
-/// Parts of a cycle in each of which a slide has few extremes.
+/// Number of parts of a cycle; in each the motion of a slide has few extremes.
 const PARTS: u32 = 8;
 
 impl Builder<'_> {
@@ -100,7 +100,7 @@ impl Builder<'_> {
         Ok(self.ahead_of(name, law))
     }
 
-    /// The law of a copy that runs ahead of the original's, by its name; any other as it is.
+    /// The law of a body: for a copy that runs ahead of its original the law shifted along the input, otherwise unchanged.
     pub(super) fn ahead_of(&self, name: &str, law: Arc<dyn Transmission>) -> Arc<dyn Transmission> {
         match self.expansion.ahead.get(name) {
             Some(&by) => copying::ahead(law, by),
@@ -108,9 +108,9 @@ impl Builder<'_> {
         }
     }
 
-    /// Turn on its own pin of a body that is there.
+    /// Turn of a body on its own pin; the body is already built.
     fn turn_of(&mut self, key: &str, name: &str) -> Result<Arc<dyn Transmission>, MachineError> {
-        // Those of dyads before it.
+        // The motions of dyads built before are needed.
         self.follow()?;
         let body = self.body_named(name);
         let mount = body.and_then(|body| self.bodies[body].mount.as_ref());
@@ -215,7 +215,7 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// Adds a body of a dyad that turns on a pin; its motion is followed when all is built.
+    /// Adds a body of a dyad that turns on a pin; its motion is computed when all dyads are built.
     fn turning(&mut self, key: &str, name: &str, link: LinkId, carrier: usize, at: Point) -> usize {
         let against = self.bodies[carrier].link;
         let law = Arc::new(Constant(0.0));
@@ -225,7 +225,7 @@ impl Builder<'_> {
         body
     }
 
-    /// Adds a body of a dyad that slides along a line; its motion is followed when all is built.
+    /// Adds a body of a dyad that slides along a line; its motion is computed when all dyads are built.
     fn sliding(
         &mut self,
         key: &str,

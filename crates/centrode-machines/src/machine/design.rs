@@ -1,4 +1,4 @@
-//! A composed machine as written.
+//! A composed machine as the design file gives it.
 
 use std::collections::BTreeMap;
 
@@ -16,13 +16,13 @@ use centrode_spec::rule::{
 };
 use centrode_spec::{DesignSpec, DrawingSpec, SpecError};
 
-/// Name of the body that is fixed.
+/// Name of the fixed body.
 pub(super) const FRAME: &str = "frame";
-/// Most turns of the input in a period.
+/// Maximum number of turns of the input in a period.
 const MAX_TURNS: u32 = 60;
 
-/// Maximum number of bodies. A check of 400 with plates takes 4 s in the development build; the time grows with the power
-/// 1.5 to 2 of their number.
+/// Maximum number of bodies. A check of 400 bodies with plates takes 4 s in the development build; the time grows with their
+/// number to the power of 1.5 to 2.
 const MAX_BODIES: f64 = 400.0;
 
 /// A planar machine composed of bodies that turn, slide or are tied by dyads.
@@ -146,7 +146,7 @@ impl DesignSpec for MachineDesign {
 }
 
 impl MachineDesign {
-    /// Number of bodies next to the frame: those of their own, two per dyad, and all copies.
+    /// Number of bodies apart from the frame: bodies with a table of their own, two per dyad, and all copies.
     fn body_count(&self) -> usize {
         let copies = self.copies.values();
         let copied = copies.map(|c| c.bodies.len() * c.count.saturating_sub(1) as usize);

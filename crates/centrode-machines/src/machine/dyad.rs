@@ -66,7 +66,7 @@ pub struct MachineDyadSpec {
     pub slot: Option<f64>,
 }
 
-/// Whether a kind takes a key.
+/// Whether a kind of dyad takes a key.
 #[derive(Clone, Copy, Eq, PartialEq)]
 enum Takes {
     Needs,
@@ -87,8 +87,8 @@ impl DyadKind {
         }
     }
 
-    /// Whether it takes each of `from`, `to`, `joint`, `lengths`, `side`, `line` and `line_deg`, those of the second line,
-    /// `offset`, `slot_deg`.
+    /// For each of `from`, `to`, `joint`, `lengths`, `side`, `line` with `line_deg`, the second line, `offset` and `slot_deg`:
+    /// whether the kind takes it.
     fn takes(self) -> [Takes; 9] {
         use Takes::{May, Needs, No};
         match self {
@@ -100,7 +100,7 @@ impl DyadKind {
         }
     }
 
-    /// A word for the rule that the kind takes a key, or does not.
+    /// Text for the rule that the kind takes a key, or does not.
     fn words(self, takes: Takes) -> &'static str {
         match (self, takes) {
             (Self::TwoBars, Takes::No) => "in a dyad RRR",

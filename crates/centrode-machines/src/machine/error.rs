@@ -7,14 +7,14 @@ use centrode_kinematics::linkage::{LinkageError, NotClosing};
 use centrode_spec::digits::{digits, rounded};
 use centrode_spec::{MechanismError, SpecError};
 
-/// Error of a composed machine that cannot be.
+/// Error of a composed machine that cannot be built.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum MachineError {
     /// A value breaks a rule of its own.
     #[error(transparent)]
     Spec(#[from] SpecError),
-    /// A word that is no point of a body.
+    /// A word that does not name a point of a body.
     #[error("{word:?} names no point of a body: write body.point, as in frame.O")]
     NoReference {
         /// Key that names it.
@@ -22,7 +22,7 @@ pub enum MachineError {
         /// The word.
         word: String,
     },
-    /// A body, dyad, gear, pair or cam that is not there.
+    /// A body, dyad, gear, pair or cam that does not exist.
     #[error("there is no {what} {name:?}; there are {}", if known.is_empty() { "none".to_owned() } else { known.join(", ") })]
     Unknown {
         /// Key that names it.
@@ -31,10 +31,10 @@ pub enum MachineError {
         what: &'static str,
         /// Its name.
         name: String,
-        /// Names there are.
+        /// Names of this kind that exist.
         known: Vec<String>,
     },
-    /// A point that is not there.
+    /// A point that does not exist.
     #[error("body {body:?} has no point {point:?}; it has {}", if known.is_empty() { "none".to_owned() } else { known.join(", ") })]
     NoPoint {
         /// Key that names it.
@@ -43,10 +43,10 @@ pub enum MachineError {
         body: String,
         /// Name of the point.
         point: String,
-        /// Points it has.
+        /// Points that the body has.
         known: Vec<String>,
     },
-    /// Two points of one name on a body.
+    /// Two points of a body have the same name.
     #[error("body {body:?} would have two points {point:?}: give one of them another name")]
     PointTwice {
         /// Key that gives the second one.
@@ -71,7 +71,7 @@ pub enum MachineError {
         key: String,
         /// The body.
         body: String,
-        /// Key that holds it.
+        /// Key that holds it already.
         by: String,
     },
     /// A body that nothing holds.
@@ -82,7 +82,7 @@ pub enum MachineError {
         /// The body.
         body: String,
     },
-    /// A body that would have to be placed before itself.
+    /// A body whose position depends on itself.
     #[error("{}", ring(.names))]
     Ring {
         /// Key at which the ring is entered.
@@ -99,23 +99,23 @@ pub enum MachineError {
         key: String,
         /// Lengths of the sides, mm.
         lengths: [f64; 2],
-        /// Distance of the points, mm.
+        /// Distance between the two given points, mm.
         apart: f64,
-        /// Gap that is left, mm.
+        /// Length by which the sides fail to meet, mm.
         missing: f64,
     },
-    /// A law that cannot be.
+    /// A law that is not possible.
     #[error("{error}")]
     Law {
-        /// The body.
+        /// Name of the body.
         body: String,
-        /// Why.
+        /// Reason.
         error: MachineLawError,
     },
     /// Dyads that do not close over the whole cycle, or that have change points.
     #[error("{}", dyads.iter().map(not_closing).collect::<Vec<_>>().join("; "))]
     DoesNotClose {
-        /// Their names, in the order of building, and where they close.
+        /// Names of the dyads, in the order of building, and the inputs at which each does not close.
         dyads: Vec<(String, NotClosing)>,
     },
     /// A joint whose motion has a pole.
@@ -133,7 +133,7 @@ pub enum MachineError {
     Pair {
         /// Key at fault.
         key: String,
-        /// Why.
+        /// Reason.
         error: Box<GearPairError>,
     },
     /// A cam that cannot be cut.
@@ -141,10 +141,10 @@ pub enum MachineError {
     Cam {
         /// Name of the cam.
         cam: String,
-        /// Why.
+        /// Reason.
         error: CamError,
     },
-    /// An error of a copy, none of its original.
+    /// An error of a copy that the original does not have.
     #[error("of a copy: {error}")]
     Copy {
         /// Key of the original.
@@ -152,20 +152,20 @@ pub enum MachineError {
         /// The error of the copy.
         error: Box<MachineError>,
     },
-    /// Something written that cannot be: a contour, a load, a mesh, a follower, a copy, a figure.
+    /// A given contour, load, mesh, follower, copy or figure that is not possible.
     #[error("{why}")]
     Refused {
         /// Key at fault.
         key: String,
-        /// Why.
+        /// Reason.
         why: String,
     },
-    /// Anything else that a linkage cannot be.
+    /// Any other error of the linkage.
     #[error("{error}")]
     Linkage {
         /// Key that adds it.
         key: String,
-        /// Why.
+        /// Reason.
         error: LinkageError,
     },
 }
@@ -183,7 +183,7 @@ fn listed(words: &[String]) -> String {
     }
 }
 
-/// Where a dyad does not close or changes its branch, in words.
+/// Message about the inputs at which a dyad does not close or changes its branch.
 fn not_closing((name, found): &(String, NotClosing)) -> String {
     let ranges = found.open.iter();
     let ranges = ranges.map(|&(low, high)| format!("{} to {}", degrees(low), degrees(high)));
@@ -191,7 +191,7 @@ fn not_closing((name, found): &(String, NotClosing)) -> String {
     let is_of_guides = found.missing.is_infinite();
     let mut points = found.change_points.clone();
     if is_of_guides {
-        // Guides are parallel where they change sides: at the ends of the ranges, apart from those of the cycle.
+        // Guides that become parallel change their branch at the ends of the ranges; ends of the cycle do not count.
         let mut ends: Vec<f64> = found
             .open
             .iter()
@@ -236,7 +236,7 @@ fn not_closing((name, found): &(String, NotClosing)) -> String {
     }
 }
 
-/// Names that wait for each other, in words.
+/// Message about names that depend on each other.
 fn ring(names: &[String]) -> String {
     match names {
         [one] => format!("{one} is held by itself"),
@@ -248,13 +248,13 @@ fn ring(names: &[String]) -> String {
 }
 
 impl MachineError {
-    /// Something written at a key that cannot be, and why.
+    /// A given value at a key that is not possible, with the reason.
     pub(crate) fn refused(key: impl Into<String>, why: impl Into<String>) -> Self {
         let (key, why) = (key.into(), why.into());
         Self::Refused { key, why }
     }
 
-    /// Something that a key names and that is not among the names of its kind.
+    /// A name at a key that is not among the known names of its kind.
     pub(crate) fn unknown(
         key: impl Into<String>,
         what: &'static str,
@@ -269,7 +269,7 @@ impl MachineError {
         }
     }
 
-    /// Key of the design to blame.
+    /// Key of the design at fault.
     #[must_use]
     pub fn key(&self) -> String {
         match self {

@@ -6,11 +6,11 @@ use super::{Machine, MachineDesign, MachineError};
 use centrode_spec::rule::in_range;
 use centrode_spec::{Design, SpecError, numbers_of};
 
-/// Maximum length and coordinate, mm.
+/// Maximum of lengths and coordinates, mm.
 const FAR: f64 = 1e5;
-/// Maximum number of any other kind.
+/// Maximum of all other numbers.
 const MOST: f64 = 1e9;
-/// Words of keys that hold lengths.
+/// Words in the keys of lengths.
 const LENGTHS: [&str; 19] = [
     "arm_length",
     "base_radius",
@@ -32,17 +32,17 @@ const LENGTHS: [&str; 19] = [
     "thickness",
     "width",
 ];
-/// Files of the whole machine.
+/// Names of files of the whole machine.
 const OWN_FILES: [&str; 2] = ["assembly", "sheets"];
-/// Tables of the whole machine: gears and cams have tables, too.
+/// Names of tables of the whole machine: gears and cams have tables, too.
 const OWN_TABLES: [&str; 2] = ["motion", "parts"];
 /// Names that Windows reserves for devices.
 const DEVICES: [&str; 4] = ["aux", "con", "nul", "prn"];
-/// Tables whose numbers say what is required, not what the machine is.
+/// Tables whose numbers are requirements, not properties of the machine.
 const REQUIRED: [&str; 2] = ["goals", "vary"];
 
 impl MachineDesign {
-    /// Checks that no number is beyond what a machine can have.
+    /// Checks that no number exceeds its limit.
     pub(super) fn check_sizes(&self) -> Result<(), SpecError> {
         for (key, number) in numbers_of(self) {
             let mut words = key.split(['.', '[']);
@@ -53,7 +53,7 @@ impl MachineDesign {
         Ok(())
     }
 
-    /// Checks that whatever a search may move is a number of the machine.
+    /// Checks that every key of `vary` names a number of the machine.
     ///
     /// # Errors
     /// [`MachineError::Refused`] with the key at fault.
@@ -74,7 +74,7 @@ impl MachineDesign {
 }
 
 impl Machine {
-    /// Checks that every part has files of its own.
+    /// Checks that the files of all parts have different names.
     pub(super) fn check_names(&self) -> Result<(), MachineError> {
         let named = |table: &str, name: &String| (format!("{table}.{name}"), name.clone());
         let design = &self.written;
@@ -98,7 +98,7 @@ impl Machine {
         let mut taken: BTreeMap<String, String> = BTreeMap::new();
         for (key, stem) in &stems {
             let refused = |why: String| Err(MachineError::refused(key, why));
-            // File systems may take small and capital letters for one.
+            // File systems may treat capital and small letters as equal.
             let small = stem.to_ascii_lowercase();
             let is_tabled = !key.starts_with("bodies.");
             let is_table = is_tabled && OWN_TABLES.contains(&small.as_str());
@@ -129,7 +129,7 @@ fn one_name(key: &str, other: &str) -> String {
     format!("the files of {key} and {other} would have one name: give one of them another")
 }
 
-/// The name of the part whose drawing sheet a name could be: `a` for `a-sheet` and `a-sheet-2`.
+/// The name of the part whose drawing sheet could have this name: `a` for `a-sheet` and `a-sheet-2`.
 fn without_sheet(name: &str) -> &str {
     let numbered = name
         .trim_end_matches(|c: char| c.is_ascii_digit())

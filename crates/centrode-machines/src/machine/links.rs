@@ -9,10 +9,10 @@ use centrode_kinematics::machine::{
 };
 
 impl Machine {
-    /// The machine as links and joints, each body a plate drawn round its points, with the pins in the plates.
+    /// The machine as links and joints: each body is a plate drawn round its points, with the pins in the plates.
     ///
     /// # Errors
-    /// [`SolidError`] where a plate is no solid.
+    /// [`SolidError`] if a plate is not a solid.
     pub fn machine(&self) -> Result<LinkedMachine, SolidError> {
         let pieces = self.all_pieces()?;
         let mut machine = self.linked(&pieces);
@@ -40,7 +40,7 @@ impl Machine {
     /// The machine as links and joints for pictures and clearances: without masses, pins and a list of parts.
     ///
     /// # Errors
-    /// [`SolidError`] where a plate is no solid.
+    /// [`SolidError`] if a plate is not a solid.
     pub fn outlined(&self) -> Result<LinkedMachine, SolidError> {
         Ok(self.linked(&self.all_pieces()?))
     }
@@ -50,7 +50,7 @@ impl Machine {
         pieces.collect()
     }
 
-    /// Links and joints with what is drawn of them.
+    /// Links and joints with their lines for pictures.
     fn linked(&self, pieces: &[Pieces<'_>]) -> LinkedMachine {
         let mut machine = LinkedMachine {
             name: self.design.name.clone(),
@@ -74,7 +74,7 @@ impl Machine {
                 self.add_joint(&mut machine, index, mount.carrier);
             }
         }
-        // A pin a dyad; each body but the frame is carried by the joint before it.
+        // One pin per dyad. Joint `body - 1` carries a body; the frame has none.
         for (pin, dyad) in self.pins.iter().zip(&self.dyads) {
             machine.closures.push(Closure {
                 links: pin.bodies,
@@ -96,7 +96,7 @@ impl Machine {
                 copy: 0,
                 pressure_angle: Some(pair.pressure_angle()),
                 axes: mesh.gears.map(axis),
-                // Gears that dwell still hold each other.
+                // Gears in mesh transmit force even while they dwell.
                 pitch: Some(PitchCurves {
                     driven: pair.shared_rolling(),
                     zero: driver.mount,
@@ -109,8 +109,8 @@ impl Machine {
         machine
     }
 
-    /// Lists the plates, the bodies of given masses, the gears and the cams as parts, each with the files of its name; copies
-    /// are pieces of one part.
+    /// Lists the plates, the bodies of given masses, the gears and the cams as parts, each with the files of its name. Copies
+    /// are further pieces of the original's part.
     fn list(&self, machine: &mut LinkedMachine, pieces: &[Pieces<'_>]) {
         for (index, (body, made)) in self.bodies.iter().zip(pieces).enumerate() {
             let outline = made.plate.as_ref().map(|plate| plate.outline());
@@ -187,7 +187,7 @@ impl Machine {
         }
     }
 
-    /// States the fit of the pins in the plates, if there are any.
+    /// Lists the fits of seats and plates on shafts, of pins in plates, and of blocks in guides.
     fn list_fits(&self, machine: &mut LinkedMachine) {
         let spec = &self.design.plates;
         for shaft in self.shafts() {
@@ -206,7 +206,7 @@ impl Machine {
                 machine.fit(Fit::new(name, hub.bore, classes));
             }
         }
-        // Holes without a pin are those of what is around the machine.
+        // Holes that no shaft of the machine fills are for pins.
         let of_shafts: usize = self
             .shafts()
             .iter()
@@ -228,7 +228,7 @@ impl Machine {
         }
     }
 
-    /// Lists a part of a body; a copy is one more piece of the original.
+    /// Lists a part of a body; a copy is a further piece of the original's part.
     fn add_part(
         &self,
         machine: &mut LinkedMachine,
@@ -250,7 +250,7 @@ impl Machine {
         });
     }
 
-    /// Adds a body with its plate, gears and cams: shape, mass, surfaces to touch with.
+    /// Adds a body with its plate, gears and cams: shape, mass, and surfaces for contact.
     fn add_link(&self, machine: &mut LinkedMachine, body: usize, pieces: &Pieces<'_>) {
         let name = &self.bodies[body].name;
         let mut link = Link::new(name.clone());
@@ -318,7 +318,7 @@ impl Machine {
         }
     }
 
-    /// Draws every body, and the paths of the points on which nothing is held.
+    /// Draws every body, and the paths of the points that hold no other body.
     fn draw(&self, machine: &mut LinkedMachine, pieces: &[Pieces<'_>]) {
         let followed = self.followed();
         let traced: Vec<usize> = (0..machine.points.len())
@@ -347,7 +347,7 @@ impl Machine {
             let sketch = machine.sketch(&body.name, lines);
             machine.draw(&body.name, index, sketch);
         }
-        // Links are drawn in their own order.
+        // Links are drawn in their order, so that the index of a body is the index of its figure.
         let marks = self
             .points()
             .map(|(name, point): (String, BodyPoint)| Mark {
@@ -360,7 +360,7 @@ impl Machine {
     }
 }
 
-/// A remark, and what is said of how the part is held.
+/// A remark, followed by the note on how the part is held.
 fn stated(remark: String, hold: Option<&str>) -> String {
     match hold {
         Some(hold) => format!("{remark}; {hold}"),

@@ -82,7 +82,7 @@ impl MachineLoadSpec {
         Ok(())
     }
 
-    /// Share of force and torque that acts, by the input.
+    /// Factor of force and torque as a function of the input.
     fn factor(&self, key: &str, turns: u32) -> Result<Arc<dyn Transmission>, MachineError> {
         let period = TAU * f64::from(turns);
         let wrong = |of: &str, why: String| MachineError::refused(format!("{key}.{of}"), why);
@@ -91,7 +91,7 @@ impl MachineLoadSpec {
         let formula =
             formula.map_err(|error: MachineLawError| wrong("expression", error.to_string()))?;
         let mut breaks = Vec::new();
-        // A formula need not come back.
+        // The values of a formula at the two ends of the period may differ.
         if formula(0.0) != formula(period) {
             breaks.push(0.0);
         }
@@ -146,12 +146,12 @@ impl Builder<'_> {
 }
 
 impl MachineLoad {
-    /// Inputs at which it may jump.
+    /// Inputs at which the load may jump.
     pub(super) fn breaks(&self) -> Vec<f64> {
         self.factor.breaks()
     }
 
-    /// Force and torque as loads of the machine.
+    /// Force and torque of the load as loads of the linked machine.
     pub(super) fn parts(&self) -> Vec<Load> {
         let mut parts = Vec::new();
         let [x, y] = self.force;
@@ -173,7 +173,7 @@ impl MachineLoad {
         parts
     }
 
-    /// A component of such a size while the load acts in full.
+    /// A component of the given size, N or N mm, times the factor.
     fn times(&self, size: f64) -> Quantity {
         if size == 0.0 {
             return Quantity::Law(Arc::new(Constant(0.0)));

@@ -1,10 +1,10 @@
-//! Composed machines: bodies that turn, slide or are fixed, driven by laws of one input and tied by dyads.
+//! Composed machines: bodies that turn, slide or are fixed, driven by laws of one input and connected by dyads.
 //!
-//! A body has axes of its own. One that turns has its origin on its pin; one that slides has its first axis along its line;
-//! the bodies of a dyad have theirs as those of a [`Linkage`]. The input is the angle of the driving shaft, rad.
+//! A body has axes of its own. A turning body has its origin on its pin, a sliding body its first axis along its line. The
+//! axes of a dyad's bodies are those of a [`Linkage`]. The input is the angle of the driving shaft, rad.
 //!
-//! To read it: `design` (the file), `build` and `resolve` (from the file to bodies in the order of need), then the rooms:
-//! `body` (points and contours), `motion` (laws), `dyad`, `gears`, `cams`, `copies`, `load`, `goal` (figures and
+//! Order of reading: `design` (the file), `build` and `resolve` (from the file to bodies in the order of building), then the
+//! folders `body` (points and contours), `motion` (laws), `dyad`, `gears`, `cams`, `copies`, `load`, `goal` (figures and
 //! obstacles), `hardware` (pins, shafts, plates and the frame).
 
 mod axis;
@@ -75,10 +75,10 @@ use centrode_kinematics::linkage::{Line, LinkId, Linkage};
 use centrode_kinematics::machine::{JointKind, TurnedPieces};
 use centrode_kinematics::transmission::{MotionJet, Transmission};
 
-/// A composed machine: its bodies in the order in which they need each other, and their motion.
+/// A composed machine: its bodies in the order of building, and their motion.
 #[derive(Clone, Debug)]
 pub struct Machine {
-    /// The design as written, and with its copies written out.
+    /// The design as given, then the design with its copies written out.
     written: MachineDesign,
     design: Sized,
     expansion: Expansion,
@@ -87,7 +87,7 @@ pub struct Machine {
     dyads: Vec<MachineDyad>,
     pins: Vec<Pin>,
     points: BodyPoints,
-    /// Contours of the bodies that are drawn by hand, by name.
+    /// Contours that the design gives for bodies, by name.
     drawn: BTreeMap<String, Outline>,
     figures: Vec<MachineFigure>,
     gears: Vec<MachineGear>,
@@ -115,15 +115,15 @@ pub struct MachineBody {
 /// Joint that carries a body.
 #[derive(Clone, Debug)]
 pub struct Mount {
-    /// Index of the body that carries.
+    /// Index of the body that carries the joint.
     pub carrier: usize,
     /// Position of the joint in the carrier's axes, mm.
     pub at: Point,
     /// Turn of the joint's axes against the carrier's, rad.
     pub angle: f64,
-    /// How it moves; a slide along the first axis.
+    /// Kind of motion; a slide moves along the first axis.
     pub kind: JointKind,
-    /// Its coordinate by the input, rad or mm.
+    /// Coordinate of the joint as a function of the input, rad or mm.
     pub law: Arc<dyn Transmission>,
 }
 
@@ -142,7 +142,7 @@ pub struct MachineDyad {
 #[derive(Clone, Debug, PartialEq)]
 struct Pin {
     bodies: [usize; 2],
-    /// Position in the axes of the first, mm.
+    /// Position in the axes of the first body, mm.
     at: Point,
 }
 
@@ -179,13 +179,13 @@ impl Mount {
         }
     }
 
-    /// Position of what slides along it by a distance, in the carrier's axes, mm.
+    /// Position of the body that has slid along the joint's line by a distance, mm, in the carrier's axes, mm.
     fn along(&self, distance: f64) -> Point {
         let (sin, cos) = self.angle.sin_cos();
         self.at + Vector::new(cos, sin) * distance
     }
 
-    /// Sets the motion, and the range of a slide.
+    /// Sets the law of the joint and, for a slide, its range.
     fn follow(
         &mut self,
         law: Arc<dyn Transmission>,
@@ -199,7 +199,7 @@ impl Mount {
 }
 
 impl Machine {
-    /// The design as written.
+    /// The design as given.
     #[must_use]
     pub fn design(&self) -> &MachineDesign {
         &self.written
@@ -211,7 +211,7 @@ impl Machine {
         &self.design
     }
 
-    /// Original of a body, dyad, gear or cam by its name: itself where it is no copy.
+    /// Name of the original of a body, dyad, gear or cam; the name itself if it is not a copy.
     #[must_use]
     pub fn original<'a>(&'a self, name: &'a str) -> &'a str {
         self.expansion.original(name)
@@ -223,7 +223,7 @@ impl Machine {
         &self.linkage
     }
 
-    /// Bodies in the order in which they need each other, the frame first.
+    /// Bodies in the order of building, the frame first.
     #[must_use]
     pub fn bodies(&self) -> &[MachineBody] {
         &self.bodies
@@ -281,8 +281,8 @@ impl Machine {
         self.bodies.iter().position(|body| body.name == name)
     }
 
-    /// Every point by `body.point`, with its body and position: those of the bodies themselves, not the pins on which
-    /// they turn.
+    /// Every point as `body.point`, with its body and position: the points that belong to the bodies themselves, not the pins on
+    /// which they turn.
     pub fn points(&self) -> impl Iterator<Item = (String, BodyPoint)> + '_ {
         self.bodies
             .iter()
@@ -297,7 +297,7 @@ impl Machine {
             })
     }
 
-    /// Finds a point by `body.point`, or by its own name where no other body has one of that name.
+    /// Finds a point by `body.point`, or by its own name if no other body has a point of that name.
     #[must_use]
     pub fn point_named(&self, word: &str) -> Option<BodyPoint> {
         if let Some((body, point)) = word.split_once('.') {
@@ -316,10 +316,10 @@ impl Machine {
         }
     }
 
-    /// Motion of a point of a body by the input: position in mm and its derivatives.
+    /// Motion of a point of a body at an input: position in mm and its derivatives.
     ///
     /// # Panics
-    /// Never for the index of a body.
+    /// If `body` is not the index of a body.
     #[must_use]
     pub fn point(&self, body: usize, at: Point, input: f64) -> Jet {
         self.linkage.body(self.bodies[body].link, input).point(at)
@@ -328,25 +328,26 @@ impl Machine {
     /// Position of a point of a body at an input, mm.
     ///
     /// # Panics
-    /// Never for the index of a body.
+    /// If `body` is not the index of a body.
     #[must_use]
     pub fn place(&self, body: usize, at: Point, input: f64) -> Point {
         self.linkage.place(self.bodies[body].link, at, input)
     }
 
-    /// Positions of points of bodies at each of many inputs, mm, input by input; see [`Linkage::places_each`].
+    /// Positions of points of bodies at many inputs, mm: all points at the first input, then at the next; see
+    /// [`Linkage::places_each`].
     ///
     /// # Panics
-    /// Never for indices of bodies.
+    /// If a point's body is not the index of a body.
     #[must_use]
     pub fn places_each(&self, points: &[BodyPoint], inputs: &[f64]) -> Vec<[f64; 2]> {
         self.linkage.places_each(&self.on_links(points), inputs)
     }
 
-    /// Writes [`places_each`](Self::places_each), as far as there is room; see [`Linkage::write_places`].
+    /// Writes the positions of [`places_each`](Self::places_each) to `places` until it is full; see [`Linkage::write_places`].
     ///
     /// # Panics
-    /// Never for indices of bodies.
+    /// If a point's body is not the index of a body.
     pub fn write_places(&self, points: &[BodyPoint], inputs: &[f64], places: &mut [[f64; 2]]) {
         let points = self.on_links(points);
         self.linkage.write_places(&points, inputs, places);
@@ -356,7 +357,7 @@ impl Machine {
     /// [`Linkage::moving`].
     ///
     /// # Panics
-    /// Never for indices of bodies.
+    /// If a point's body is not the index of a body.
     #[must_use]
     pub fn moving(&self, points: &[BodyPoint], input: f64) -> Vec<(Point, Vector)> {
         self.linkage.moving(&self.on_links(points), input)
@@ -370,7 +371,7 @@ impl Machine {
             .collect()
     }
 
-    /// Angle of a body's first axis by the input, without jumps, rad.
+    /// Angle of a body's first axis at an input, without jumps of whole turns, rad.
     #[must_use]
     pub fn angle(&self, body: usize, input: f64) -> MotionJet {
         let Some(mount) = self.bodies.get(body).and_then(|body| body.mount.as_ref()) else {
@@ -384,7 +385,7 @@ impl Machine {
         }
     }
 
-    /// Transmission angles of the dyads, in their order, at an input, rad: a right angle where a dyad holds best; see
+    /// Transmission angles of the dyads, in their order, at an input, rad; a right angle is best. See
     /// [`Linkage::transmission_angles`].
     #[must_use]
     pub fn transmission_angles(&self, input: f64) -> Vec<f64> {

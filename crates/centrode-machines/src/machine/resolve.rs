@@ -16,7 +16,7 @@ use centrode_kinematics::machine::JointKind;
 use centrode_kinematics::transmission::Remembered;
 use centrode_spec::{Rule, SpecError};
 
-/// Body or dyad to build, in whatever order its needs allow.
+/// Body or dyad to build, in any order that its needs allow.
 #[derive(Clone, Copy)]
 enum Node<'a> {
     Body(&'a str),
@@ -27,29 +27,29 @@ enum Node<'a> {
 #[derive(Clone)]
 pub(super) struct Builder<'a> {
     pub(super) design: &'a MachineDesign,
-    /// Words of what is copied, among them the inputs by which laws run ahead.
+    /// Names of copies and their originals, and the inputs by which laws run ahead.
     pub(super) expansion: &'a Expansion,
-    /// The machine without its copies, where it has some: its slides and cams are those of the copies, too.
+    /// The machine without its copies, if it has any: ranges of slides and cams of the copies are taken from it.
     pub(super) bare: Option<&'a Machine>,
     pub(super) points: BodyPoints,
     pub(super) linkage: Linkage,
-    /// Bodies in the order of building, and those that dyads have yet to be followed for.
+    /// Bodies in the order of building; those that dyads make get their motion later.
     pub(super) bodies: Vec<MachineBody>,
     pub(super) dyads: Vec<MachineDyad>,
     pub(super) pins: Vec<Pin>,
     pub(super) gears: Vec<MachineGear>,
     pub(super) meshes: Vec<Meshing>,
-    /// Cams that a body follows already.
+    /// Cams that already have a follower.
     pub(super) cams: BTreeMap<String, MachineCam>,
-    /// Joints whose motion follows from the closed linkage, by the body they carry, and the key that holds it.
+    /// Joints whose motion follows from the closed linkage: the body they carry, its coordinate, and the key of the dyad.
     pub(super) followed: Vec<(usize, Coordinate, String)>,
 }
 
 impl Machine {
-    /// Resolves a design: bodies in the order in which they need each other, whatever their order in the file.
+    /// Resolves a design: bodies are built in the order in which they depend on each other, not in the order of the file.
     ///
     /// # Errors
-    /// [`MachineError`] naming the key at fault.
+    /// [`MachineError`] with the key at fault.
     pub fn resolve(design: &MachineDesign) -> Result<Self, MachineError> {
         design.validate()?;
         if !design.copies.is_empty() {
@@ -62,7 +62,7 @@ impl Machine {
     }
 }
 
-/// Checks that every body is held, and by one key.
+/// Checks that every body is held, and by one key only.
 fn holders(design: &MachineDesign) -> Result<(), MachineError> {
     let of_bodies = design.bodies.iter().flat_map(|(name, body)| {
         let keys = [
@@ -99,8 +99,8 @@ impl Node<'_> {
 }
 
 impl<'a> Builder<'a> {
-    /// Bodies and dyads of a design, with their motion, without the cams that are cut to it; `bare` is the machine without copies
-    /// of a design whose copies are written out.
+    /// Bodies and dyads of a design with their motion, without the cams that are cut to this motion. If the copies of the design
+    /// are written out, `bare` is the machine without them.
     pub(super) fn assembled(
         design: &'a MachineDesign,
         expansion: &'a Expansion,
@@ -131,7 +131,7 @@ impl<'a> Builder<'a> {
         Ok(builder)
     }
 
-    /// The machine as far as it is assembled, unchecked.
+    /// The machine as far as it is built, not checked.
     pub(super) fn so_far(self, written: &MachineDesign) -> Machine {
         Machine {
             written: written.clone(),
@@ -188,7 +188,7 @@ impl<'a> Builder<'a> {
         Ok(made)
     }
 
-    /// Builds everything, each as soon as what it needs is there.
+    /// Builds all bodies and dyads, each as soon as the bodies that it needs are built.
     fn build(&mut self) -> Result<(), MachineError> {
         let design = self.design;
         let held = design.bodies.iter();
@@ -218,7 +218,7 @@ impl<'a> Builder<'a> {
         Ok(())
     }
 
-    /// Bodies that must be there before a node, each found with the point that is named.
+    /// Bodies that must be built before a node. Checks that every point that the node names exists.
     fn needs(&self, node: &Node<'_>) -> Result<Vec<String>, MachineError> {
         let key = node.key();
         let words: Vec<(&str, &String)> = match node {
@@ -286,13 +286,13 @@ impl<'a> Builder<'a> {
         Ok(bodies)
     }
 
-    /// The bodies that wait for each other.
+    /// The error of bodies that depend on each other.
     fn ring(&self, left: &[Node<'_>], needs: &[Vec<String>]) -> MachineError {
         let makes = |node: &Node<'_>, body: &String| match node {
             Node::Body(name) => name == body,
             Node::Dyad(_, dyad) => dyad.bodies.contains(body),
         };
-        // From node to a node it waits for, until one comes again.
+        // From each node to a node on which it depends, until a node appears again.
         let (mut way, mut at) = (Vec::new(), 0);
         while !way.contains(&at) {
             way.push(at);
@@ -308,12 +308,12 @@ impl<'a> Builder<'a> {
         }
     }
 
-    /// Index of a body that is there.
+    /// Index of a body that is already built.
     pub(super) fn body_named(&self, name: &str) -> Option<usize> {
         self.bodies.iter().position(|body| body.name == name)
     }
 
-    /// A point of a body that is there.
+    /// A point of a body that is already built.
     pub(super) fn place(&self, key: &str, word: &str) -> Result<BodyPoint, MachineError> {
         let reference = Reference::to_body(word);
         let at = reference.find(key, &self.points)?;
@@ -321,13 +321,13 @@ impl<'a> Builder<'a> {
         Ok(BodyPoint { body, at })
     }
 
-    /// The machine without copies and, there, a body or that of which it is a copy.
+    /// The machine without copies, and in it the index of the body, or of its original if the body is a copy.
     pub(super) fn original(&self, body: &str) -> Option<(&'a Machine, usize)> {
         let bare = self.bare?;
         Some((bare, bare.body_named(self.expansion.original(body))?))
     }
 
-    /// Follows the joints of the dyads over the cycle, over which all of them must close.
+    /// Computes the motion of the dyads' joints over the cycle. All dyads must close at every input.
     pub(super) fn follow(&mut self) -> Result<(), MachineError> {
         let dyads = self.linkage.not_closing().into_iter();
         let dyads: Vec<(String, NotClosing)> = dyads

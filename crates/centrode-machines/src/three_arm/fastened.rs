@@ -1,4 +1,5 @@
-//! Screws of a three-arm mechanism: those of the carrier's plates, with spacers between, and those of the arms' covers.
+//! Screws of a three-arm mechanism: those of the carrier's plates, with spacers between the plates, and those of the arms'
+//! covers.
 
 use centrode_geometry::{Outline, Point};
 
@@ -7,26 +8,26 @@ use crate::arm::ArmBody;
 use crate::screw_room::ScrewRoom;
 use centrode_kinematics::machine::{Fastening, FasteningError};
 
-/// Minimum length of thread in diameters: of a steel spacer, and of a housing of light alloy.
+/// Minimum length of thread in screw diameters: in a steel spacer, and in a housing of light alloy.
 const ENTERED: [f64; 2] = [1.0, 1.5];
-/// Minimum distance of the middle of a screw from the edge of the carrier's plates, in diameters.
+/// Minimum distance of the axis of a screw from the edge of the carrier's plates, in diameters.
 const EDGE: f64 = 1.5;
-/// Minimum distance of the middle of a screw from the edge of a cover, in diameters of its hole; EN 1993-1-8, 3.5, e1 and e2.
+/// Minimum distance of the axis of a screw from the edge of a cover, in diameters of its hole; EN 1993-1-8, 3.5, e1 and e2.
 const COVER_EDGE: f64 = 1.2;
 /// Minimum number of screws per plate of the carrier.
 const OF_CARRIER: usize = 3;
 /// Number of screws per cover.
 const OF_COVER: usize = 4;
 
-/// A fixed position, with a radius around it, mm.
+/// A circle that does not move: its centre and its radius, mm.
 fn round(at: Point, radius: f64) -> ([Point; 2], f64) {
     ([at; 2], radius)
 }
 
 impl ThreeArm {
-    /// Screws of the carrier's plates, in the carrier's frame, into steel spacers twice as thick as they are, heights from the
-    /// rear faces of the gears: clear of the gears by the gearbox's clearance, and their heads of the arms' housings. None
-    /// where the design requires none.
+    /// Screws of the carrier's plates, in the carrier's frame, with heights from the rear faces of the gears. Each enters a steel
+    /// spacer of twice its diameter. Spacers clear the gears, and heads the arms' housings, by the gearbox's clearance. `None` if
+    /// the design requires no screws.
     #[must_use]
     pub fn carrier_screws(&self, arm: &ArmBody) -> Option<Result<Fastening, FasteningError>> {
         let spec = &self.design().gearbox;
@@ -44,7 +45,7 @@ impl ThreeArm {
                 let at = self.on_carrier(ThreeArmLink::Planet(k));
                 round(at, reach + spec.clearance)
             });
-            // Spacers and heads are no wider than twice the diameter.
+            // Spacers and heads are not wider than twice the diameter.
             let room = ScrewRoom {
                 line: belt,
                 taken: gears.chain(arms).collect(),
@@ -56,8 +57,8 @@ impl ThreeArm {
         })
     }
 
-    /// Screws of the covers of an arm, in the arm's frame, into bosses on the inside of the wall between them, twice as thick as
-    /// they are: clear of cam, fork, spring and rod by half a wall. None where the design has none.
+    /// Screws of the covers of an arm, in the arm's frame. Each enters a boss of twice its diameter inside the wall between the
+    /// covers. Bosses clear cam, fork, spring and rod by half a wall. `None` if the design requires no screws.
     #[must_use]
     pub fn cover_screws(
         &self,
@@ -81,14 +82,14 @@ impl ThreeArm {
         })
     }
 
-    /// Room taken by the parts that move within an arm's housing, and by the openings of its covers.
+    /// Room of the parts that move in an arm's housing, and of the openings in its covers.
     fn moving_inside(&self, pusher: &Pusher, arm: &ArmBody) -> Vec<([Point; 2], f64)> {
         let (spec, housing) = (pusher.fork_spec(), self.arm_sizes().housing);
         let origin = Point::origin();
         let cam = farthest(pusher.cam().profile().outline(), origin);
         let bores = 0.5 * housing.bore.max(housing.sleeve_bore);
         let mut taken = vec![round(origin, cam.max(bores))];
-        // The fork swings one way: between its ends its three arms sweep arcs about the pivot.
+        // The fork turns in one direction during a stroke. At each sample, lines between pivot, roller and slot end cover it.
         let pivot = pusher.pivot();
         for i in 0..=SWINGS {
             let back = pusher.stroke() * f64::from(i) / f64::from(SWINGS);
@@ -101,7 +102,7 @@ impl ThreeArm {
             if let Some(pin) = pusher.pin() {
                 let pin = Point::new(pin.x - back, pin.y);
                 let around = 0.5 * spec.slot_width.max(spec.pivot_bore) + spec.wall;
-                // The slot goes on past the pin by what the lever is longer at the ends.
+                // The slot ends at the maximum distance of the pin from the pivot, which the pin has at both ends of the stroke.
                 let end = pivot + (pin - pivot).normalize() * self.slot_end(pusher);
                 taken.push(([pivot, end], around));
                 taken.push(([roller, end], around));
@@ -116,7 +117,8 @@ impl ThreeArm {
             let bounds = part.outline.bounds();
             let half = 0.5 * (bounds.max.y - bounds.min.y);
             let y = bounds.center().y;
-            // To the front end of the bore that the rod leaves the housing by.
+            // The part with its stroke, along its axis; it is at least as wide as the bore through which the rod leaves the
+            // housing.
             let ends = [bounds.min.x - moves, bounds.max.x].map(|x| Point::new(x, y));
             taken.push((ends, half.max(0.5 * self.arm_sizes().rod_bore())));
         }
@@ -130,10 +132,10 @@ impl ThreeArm {
     }
 }
 
-/// Positions of the fork that are sampled.
+/// Number of steps of the fork's stroke that are sampled.
 const SWINGS: u32 = 24;
 
-/// Distance of the farthest corner or rounding of a contour from a position, mm.
+/// Distance of the farthest point of a contour from a position, mm, from samples of every segment.
 fn farthest(outline: &Outline, from: Point) -> f64 {
     let points = outline
         .segments()

@@ -5,7 +5,7 @@ use centrode_geometry::Vector;
 use super::ThreeArm;
 use centrode_gear::Member;
 
-/// Figures that the goals of a mechanism bound; angles in rad, lengths in mm.
+/// Figures that the goals of a mechanism limit; angles in rad, lengths in mm.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Figures {
     /// Elevation of the clamp above the horizontal at picking, seen from the machine towards the tray.
@@ -18,7 +18,7 @@ pub struct Figures {
     pub gearbox_clearance: f64,
     /// Height of the tip's path in the machine's frame.
     pub trajectory_height: f64,
-    /// Length of the pitch curve over pi and the tooth count, where there is one.
+    /// Length of the pitch curve over pi and the tooth count; `None` without a tooth count.
     pub module: Option<f64>,
 }
 
@@ -29,7 +29,7 @@ impl ThreeArm {
         self.chain(arm, input).clamp_elevation()
     }
 
-    /// Height of the ground in the machine's frame, mm: the tip at its lowest is the planting depth below it.
+    /// Height of the ground in the machine's frame, mm. The lowest point of the tip is below it by the planting depth.
     #[must_use]
     pub fn ground(&self) -> f64 {
         self.trajectory().lowest.reach + self.design().work.planting_depth
@@ -51,7 +51,7 @@ impl ThreeArm {
 
     /// Radius of the circle that the gearbox sweeps around the carrier's axis, mm.
     ///
-    /// The housing is its offset away from the largest pitch radius around every axis.
+    /// Around every axis the housing is larger than the largest pitch radius by its offset.
     #[must_use]
     pub fn gearbox_radius(&self) -> f64 {
         let (_, sun) = self.rolling().radii(Member::Driver);
@@ -61,7 +61,7 @@ impl ThreeArm {
             + design.gearbox.housing_offset
     }
 
-    /// Figures that the goals bound.
+    /// Figures that the goals limit.
     #[must_use]
     pub fn figures(&self) -> Figures {
         let pick_angle = self.clamp_elevation(self.picking(0), 0);
@@ -77,7 +77,7 @@ impl ThreeArm {
     }
 }
 
-/// Elevation of a direction above the horizontal, seen towards -sign x.
+/// Elevation of a direction above the horizontal, seen in the direction of -`sign` x.
 pub(super) fn elevation(direction: f64, sign: f64) -> f64 {
     let seen = if sign > 0.0 {
         PI - direction
@@ -87,7 +87,7 @@ pub(super) fn elevation(direction: f64, sign: f64) -> f64 {
     seen - TAU * ((seen - PI) / TAU).ceil()
 }
 
-/// Maximum distance from the carrier's axis of circles of the gears' largest radii around their axes.
+/// Maximum distance from the carrier's axis of a point on circles of the gears' largest radii around their axes.
 pub(super) fn swept_radius(a: f64, bend: f64, sun: f64, intermediate: f64) -> f64 {
     // The planet's axis is 2 a cos(bend/2) from the sun's.
     let planet = 2.0 * a * (0.5 * bend).cos() + sun;

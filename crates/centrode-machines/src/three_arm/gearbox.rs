@@ -5,7 +5,7 @@ use super::{ThreeArm, ThreeArmLink};
 use centrode_gear::Member;
 use centrode_kinematics::machine::{Bearing, Fastening};
 
-/// Body of the carrier: a plate on either side of the gears, with a hole at every axis.
+/// Body of the carrier: a plate on each side of the gears, with a hole at every axis.
 #[derive(Clone, Debug)]
 pub struct GearboxBody {
     /// Contour, counter-clockwise, in the carrier's frame.
@@ -18,14 +18,14 @@ pub struct GearboxBody {
 }
 
 impl ThreeArm {
-    /// Position of a link's axis in the carrier's frame, where it is fixed, mm.
+    /// Position of a link's axis in the carrier's frame, mm; it is fixed there.
     #[must_use]
     pub fn on_carrier(&self, link: ThreeArmLink) -> Point {
         let carrier = self.link(ThreeArmLink::Carrier, 0.0).angle.position;
         Rotation2::new(-carrier) * self.link(link, 0.0).origin.position
     }
 
-    /// Circles about all axes in the carrier's frame, wider than the largest pitch radius by an offset, mm.
+    /// Circles around all axes in the carrier's frame, with the largest pitch radius plus an offset, mm.
     pub(super) fn around_gears(&self, offset: f64) -> Vec<(Point, f64)> {
         let radius = |member| self.rolling().radii(member).1 + offset;
         let (sun, intermediate) = (radius(Member::Driver), radius(Member::Driven));
@@ -39,8 +39,8 @@ impl ThreeArm {
             .collect()
     }
 
-    /// The carrier's plates: the belt around circles of the housing's offset over the largest pitch radius
-    /// about every axis.
+    /// The carrier's plates: a belt around circles about every axis, with the largest pitch radius plus the housing's offset;
+    /// `None` if the circles have no belt.
     #[must_use]
     pub fn gearbox(&self) -> Option<GearboxBody> {
         let design = self.design();
@@ -72,16 +72,16 @@ impl ThreeArm {
         })
     }
 
-    /// Bearing in the carrier's plates on a shaft of a diameter, mm; `None` if the design has none, or where none is as narrow
-    /// as the plates are thick.
+    /// Bearing in the carrier's plates on a shaft of a diameter, mm; `None` if the design has no bearings, or if no bearing is as
+    /// narrow as the plates are thick.
     #[must_use]
     pub fn bearing(&self, bore: f64) -> Option<Bearing> {
         let gearbox = &self.design().gearbox;
         Bearing::for_bore(bore, gearbox.wall).filter(|_| gearbox.bearings)
     }
 
-    /// Distance of the middle of the arms' housings from the rear faces of the gears, mm: behind them are the gearbox's front
-    /// plate, a clearance equal to that of the gears and the heads of the screws of the covers.
+    /// Distance of the middle of the arms' housings from the rear faces of the gears, mm. Between them are the gearbox's front
+    /// plate, a clearance equal to that of the gears, and the heads of the covers' screws.
     #[must_use]
     pub fn arm_level(&self) -> f64 {
         let design = self.design();

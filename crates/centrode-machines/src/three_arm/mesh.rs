@@ -9,10 +9,10 @@ pub enum GearMesh {
     Planet(u32),
 }
 
-/// Pose of two gears in mesh against the line from the sun's or planet's axis to the intermediate gear's.
+/// Pose of two gears in mesh, relative to the line from the sun's or planet's axis to the intermediate gear's.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct MeshPose {
-    /// Polar angle of the sun or planet on that line, rad: the driver angle of the pair.
+    /// Polar angle of the sun or planet at that line, rad: the driver angle of the pair.
     pub driver: f64,
     /// Turn of the intermediate gear from that line, rad: the driven angle of the pair.
     pub driven: f64,
@@ -24,13 +24,13 @@ impl ThreeArm {
         (0..self.arms()).flat_map(|k| [GearMesh::Sun(k), GearMesh::Planet(k)])
     }
 
-    /// Pose of the gears of a mesh at a carrier turn, read from the links alone.
+    /// Pose of the gears of a mesh at a carrier turn, computed from the links alone.
     ///
-    /// Teeth laid out once for the pair of sun and intermediate gear fit every mesh at every input if, and
-    /// only if, this is a pose of that pair: the driven angle that goes with the driver angle. It is, for
-    /// any tooth count, bend and number of arms: every mesh has the mean ratio 1, so no tooth ever meets
-    /// another space; chains repeat the first one; and a planet is the sun's part, set by the train so that
-    /// it meets the intermediate gear at the polar angle where the sun would.
+    /// Teeth that are laid out once for the pair of sun and intermediate gear fit every mesh at every input if, and only if, this
+    /// is a pose of that pair: the driven angle belongs to the driver angle. This holds for any tooth count, bend and number of
+    /// arms. Every mesh has the mean ratio 1, so every tooth meets one space only. All chains repeat the first one. A planet is
+    /// the same part as the sun; the train sets it so that it meets the intermediate gear at the polar angle at which the sun
+    /// would.
     #[must_use]
     pub fn mesh_pose(&self, mesh: GearMesh, input: f64) -> MeshPose {
         let (driver, driven) = match mesh {

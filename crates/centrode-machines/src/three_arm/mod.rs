@@ -37,8 +37,8 @@ use design::ThreeArmDesign;
 
 /// A three-arm transplanting mechanism, resolved: exact pitch curves, exact motion of every link.
 ///
-/// The carrier's axis is the origin; the input is the carrier's turn from its start, positive whichever way it
-/// turns. Every arm does what the first does, later by its share of a turn.
+/// The carrier's axis is the origin. The input is the carrier's turn from its start, positive in its own sense of rotation.
+/// Every arm moves like the first one, later by its share of a turn.
 #[derive(Clone, Debug)]
 pub struct ThreeArm {
     design: ThreeArmDesign,
@@ -59,11 +59,11 @@ pub enum ThreeArmError {
         "tray.distance is {distance} mm, but the arms reach only from {minimum} to {maximum} mm in that direction"
     )]
     TrayOutOfReach {
-        /// Distance as written, mm.
+        /// Distance in the design, mm.
         distance: f64,
         /// Minimum reach of the tip, mm.
         minimum: f64,
-        /// Maximum reach, mm.
+        /// Maximum reach of the tip, mm.
         maximum: f64,
     },
 }
@@ -95,10 +95,10 @@ impl From<ThreeArmError> for MechanismError {
 }
 
 impl ThreeArm {
-    /// Rolls the pitch curves and finds the inputs at which the arms pick and plant. No tooth is cut.
+    /// Rolls the pitch curves and finds the inputs at which the arms pick and plant. It cuts no teeth.
     ///
     /// # Errors
-    /// [`ThreeArmError`] naming the rule broken and its numbers.
+    /// [`ThreeArmError`] with the violated rule and its numbers.
     pub fn resolve(design: &ThreeArmDesign) -> Result<Self, ThreeArmError> {
         design.validate()?;
         let (definition, rolling) = GearPair::roll(&design.pair())?;
@@ -119,7 +119,7 @@ impl ThreeArm {
         &self.design
     }
 
-    /// The sun's pitch curve in words.
+    /// Description of the sun's pitch curve.
     #[must_use]
     pub fn definition(&self) -> &str {
         &self.definition
@@ -175,7 +175,7 @@ impl ThreeArm {
         self.later(self.trajectory.planting, arm)
     }
 
-    /// Travel of the machine for a radian of carrier turn, mm.
+    /// Travel of the machine per radian of carrier turn, mm.
     #[must_use]
     pub fn advance(&self) -> f64 {
         f64::from(self.arms()) * self.design.work.plant_spacing / TAU
@@ -187,11 +187,11 @@ impl ThreeArm {
         self.design.work.rate_per_minute / 60.0 * TAU / f64::from(self.arms())
     }
 
-    /// Sun and intermediate gear with their teeth. The planets are the sun's part again, the intermediate gears are
-    /// all one part: the sun meets each of them at the same teeth, only later.
+    /// Sun and intermediate gear with their teeth. The planets are the same part as the sun, and the intermediate gears are all
+    /// one part: the sun meets each of them at the same teeth, at different inputs.
     ///
     /// # Errors
-    /// [`GearPairError`] where no teeth can be laid out or cut.
+    /// [`GearPairError`] if the teeth cannot be laid out or cut.
     pub fn pair(&self) -> Result<GearPair, GearPairError> {
         GearPair::cached(&self.design.pair()).map(|pair| GearPair::clone(&pair))
     }
@@ -199,7 +199,7 @@ impl ThreeArm {
     /// Counts the sound flanks of the sun (and so of each planet) and of each intermediate gear at full height.
     ///
     /// # Errors
-    /// [`GearPairError`] without a tooth count, or where no teeth can be laid out.
+    /// [`GearPairError`] without a tooth count, or if the teeth cannot be laid out.
     pub fn flank_counts(&self) -> Result<[FlankCount; 2], GearPairError> {
         FlankCount::new(&self.design.pair(), self.rolling())
     }
@@ -211,17 +211,18 @@ impl ThreeArm {
         arm.mounting_angle + (arm.pusher_offset / arm.tip_distance).asin()
     }
 
-    /// Sun and planet, which differ in their bodies alone, each with the intermediate gear, with their teeth.
+    /// The pairs of sun and intermediate gear, and of planet and intermediate gear, with teeth. They differ in the driver's
+    /// body only.
     ///
     /// # Errors
-    /// [`GearPairError`] where no teeth can be laid out or cut, or a bore cuts into them.
+    /// [`GearPairError`] if the teeth cannot be laid out or cut, or a bore cuts into them.
     pub fn pairs(&self) -> Result<[GearPair; 2], GearPairError> {
         let sun = self.pair()?;
         let planet = sun.with_driver_body(&self.design.planet)?;
         Ok([sun, planet])
     }
 
-    /// Input of the first arm at which its pose is that of the given arm now.
+    /// Input at which the first arm has the pose that the given arm has at `input`.
     #[must_use]
     pub fn own_input(&self, input: f64, arm: u32) -> f64 {
         input - TAU * f64::from(arm) / f64::from(self.arms())

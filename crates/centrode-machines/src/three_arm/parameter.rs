@@ -41,14 +41,14 @@ pub enum Parameter {
     Planting,
 }
 
-/// Error of a word that names no parameter.
+/// Error of a word that does not name a parameter.
 #[derive(Clone, Debug, Eq, PartialEq, thiserror::Error)]
 #[error(
     "`{0}` is no parameter: they are r1, r2, ..., theta1, theta2, ..., carrier_start, bend, mounting_angle, tip_distance, pusher_offset, planet_reference, picking and planting"
 )]
 pub struct UnknownParameter(pub String);
 
-/// Parameters with one name of their own, the paper's letters, and their key in the design file.
+/// Parameters with a name of their own: parameter, name, the paper's letters, and key in the design file.
 const NAMED: [(Parameter, &str, &str, &str); 8] = [
     (
         Parameter::CarrierStart,
@@ -96,7 +96,7 @@ const NAMED: [(Parameter, &str, &str, &str); 8] = [
 ];
 
 impl Parameter {
-    /// Key in the design file.
+    /// Key of the parameter in the design file.
     #[must_use]
     pub fn key(self) -> String {
         match self {
@@ -110,7 +110,7 @@ impl Parameter {
         }
     }
 
-    /// Whether it is an angle, rad, degrees in the file, rather than a length, mm.
+    /// Whether the parameter is an angle (rad; degrees in the file), not a length (mm).
     #[must_use]
     pub fn is_angle(self) -> bool {
         !matches!(
@@ -119,7 +119,7 @@ impl Parameter {
         )
     }
 
-    /// Value in a design, rad or mm; `None` if the design does not write it.
+    /// Value of the parameter in a design, rad or mm; `None` if the design does not give it.
     #[must_use]
     pub fn of(self, design: &ThreeArmDesign) -> Option<f64> {
         let spline = || match &design.pitch {
@@ -140,7 +140,7 @@ impl Parameter {
         }
     }
 
-    /// Sets the value in a design, rad or mm; does nothing for a control point that is not there.
+    /// Sets the parameter in a design, rad or mm; does nothing for a control point that does not exist.
     pub fn set(self, design: &mut ThreeArmDesign, value: f64) {
         fn put(list: Option<&mut Vec<f64>>, index: u8, value: f64) {
             if let Some(place) = list.and_then(|list| list.get_mut(usize::from(index))) {

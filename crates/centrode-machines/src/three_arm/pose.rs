@@ -7,9 +7,9 @@ use centrode_kinematics::transmission::MotionJet;
 
 /// A link of the mechanism; chains and arms are counted from zero.
 ///
-/// Each has a frame of its own. Sun and planets: that of a pair's driver, intermediate gears: that of its driven gear, on
-/// their axes. Carrier: on the sun's axis, x towards the first intermediate gear. Arm: on its planet's axis, x along the
-/// pusher's axis, the way the clamp points.
+/// Each link has its own frame. Sun and planets: the frame of a pair's driver; intermediate gears: that of its driven gear;
+/// both on their axes. Carrier: on the sun's axis, x towards the first intermediate gear. Arm: on its planet's axis, x along
+/// the pusher's axis in the direction of the clamp.
 #[derive(Clone, Copy, Debug, Eq, Hash, PartialEq)]
 pub enum ThreeArmLink {
     /// The gear fixed to the frame.
@@ -68,12 +68,12 @@ impl PointMotion {
     }
 }
 
-/// Motion of one link: its axis and the turn of its frame, with derivatives by carrier turn.
+/// Motion of one link: its origin and the turn of its frame, with derivatives by carrier turn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LinkMotion {
     /// The link's own origin.
     pub origin: PointMotion,
-    /// Turn of its frame from the machine's, rad.
+    /// Turn of the link's frame from the machine's, rad.
     pub angle: MotionJet,
 }
 
@@ -94,7 +94,7 @@ pub struct Chain<'a> {
 }
 
 impl Chain<'_> {
-    /// Angles of the train from which they follow.
+    /// Angles of the train, from which the motion of the chain follows.
     #[must_use]
     pub fn train(&self) -> &TrainJet {
         &self.jet
@@ -143,7 +143,7 @@ impl Chain<'_> {
 }
 
 impl ThreeArm {
-    /// Motion of a link at a carrier turn; any real input. Chains beyond the last wrap round.
+    /// Motion of a link at a carrier turn, which may be any real number. Chain numbers beyond the last repeat the first ones.
     #[must_use]
     pub fn link(&self, link: ThreeArmLink, input: f64) -> LinkMotion {
         let rest = PointMotion::at_rest();
@@ -162,8 +162,8 @@ impl ThreeArm {
         }
     }
 
-    /// Chain at a carrier turn: the train is solved once for all its links. Chains beyond the last wrap
-    /// round.
+    /// Chain at a carrier turn: the train is solved once for all its links. Chain numbers beyond the last repeat the first
+    /// ones.
     #[must_use]
     pub fn chain(&self, chain: u32, input: f64) -> Chain<'_> {
         Chain {
@@ -184,7 +184,7 @@ impl ThreeArm {
         self.chain(arm, input).clamp()
     }
 
-    /// Motion over ground, for a machine that has travelled from zero at input zero, of a point in the machine's frame.
+    /// Motion over ground of a point in the machine's frame; at input zero the machine has travelled zero.
     #[must_use]
     pub fn over_ground(&self, motion: &PointMotion, input: f64) -> PointMotion {
         let travel = Vector::new(-self.train().sign() * self.advance(), 0.0);

@@ -4,30 +4,30 @@ use centrode_geometry::{Extreme, Outline, Point, minimum, piece_ends};
 
 use super::ThreeArm;
 
-/// Minimum clearance of an arm's clamp from pushing a planted seedling over.
+/// Minimum clearance of an arm's clamp from planted seedlings.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SeedlingClearance {
-    /// Minimum clearance, mm; negative by as much as a stem is pushed.
+    /// Minimum clearance, mm; if negative, the distance by which a stem is pushed.
     pub value: f64,
-    /// Carrier turn of the planting arm at which it is smallest, rad.
+    /// Carrier turn of the planting arm at which the clearance is smallest, rad.
     pub input: f64,
-    /// Nearest seedling there: 0 the one just planted, 1 the one before it in the row.
+    /// Nearest seedling at this input: 0 is the one just planted, 1 the one before it in the row.
     pub seedling: u32,
 }
 
-/// Parts of a turn in each of which the clearance is smooth enough for its extremes to be found.
+/// Number of parts of a turn; in each the clearance has few extremes.
 const PARTS: u32 = 15;
 
 impl ThreeArm {
-    /// Minimum clearance of an arm's clamp from the seedlings it has planted and finds planted, over a whole cycle.
+    /// Minimum clearance of an arm's clamp from the seedling that it has planted and the one before it, over a whole cycle.
     ///
-    /// Model: over ground, each arm leaves a vertical stem where its tip is at planting, as wide and as high as the
-    /// design says, one every `plant_spacing`. The clamp is the line back from the tip along the pusher's axis. From
-    /// the release on it must stay behind the far side of the stem just planted, through which its open flakes may
-    /// draw back, and at all times in front of the stem before it. Only what is below the stems' top
-    /// counts; the thickness of the clamp, and of what is above it, does not.
+    /// Model: over ground, each arm leaves a vertical stem at the position of its tip at planting, with the width and height of
+    /// the design, one every `plant_spacing`. The clamp is the line back from the tip along the pusher's axis. From the release
+    /// on it must stay behind the far side of the stem just planted; its open flakes may draw back past the stem. At all
+    /// times it must stay in front of the stem before. Only the part of the clamp below the top of the stems counts; the
+    /// thickness of the clamp and the parts above do not.
     ///
-    /// Infinite where the clamp never is below the stems' top.
+    /// Infinite if the clamp is never below the top of the stems.
     #[must_use]
     pub fn seedling_clearance(&self) -> SeedlingClearance {
         let release = self.planting(0);
@@ -64,7 +64,7 @@ impl ThreeArm {
         (0..count).map(place).collect()
     }
 
-    /// The stem of a planted seedling over its foot; `None` if the design gives it no size.
+    /// The stem of a planted seedling, from its foot; `None` if the design gives it no width or height.
     #[must_use]
     pub fn stem(&self) -> Option<Outline> {
         let spec = &self.design().seedling;
@@ -73,7 +73,8 @@ impl ThreeArm {
         (half > 0.0 && top > 0.0).then(|| Outline::polygon(&corners.map(Point::from)))
     }
 
-    /// Ends of the part of the clamp below the stems' top, along the travel over ground from the stem, mm.
+    /// Ends of the part of the clamp below the top of the stems, as distances from the stem in the direction of travel, mm;
+    /// `None` if the whole clamp is above.
     fn low_part(&self, input: f64, planted: Point) -> Option<[f64; 2]> {
         let forward = -self.train().sign();
         let design = self.design();

@@ -1,4 +1,4 @@
-//! Shafts and pins of a three-arm mechanism, turned to the heights of what is on them.
+//! Shafts and pins of a three-arm mechanism, turned to the heights of the parts on them.
 
 use std::f64::consts::PI;
 
@@ -10,13 +10,13 @@ use centrode_kinematics::machine::{
     Bar, Fit, Key, TurnedPart, TurnedPiece, TurnedPieces, TurnedStep,
 };
 
-/// Diameters of its own that the carrier's shaft goes on behind the gearbox.
+/// Length of the carrier's shaft behind the gearbox, in shaft diameters.
 const DRIVEN_END: f64 = 3.0;
-/// Share of the fork's thickness that its pin may fall short of, so that one of a standard length does.
+/// Share of the fork's thickness by which its pin may be too short, so that pins of standard length can be used.
 const SHORT: f64 = 0.3;
 
 impl ThreeArm {
-    /// All parts that are turned, the dowels and the screws; no shafts of gears without a bore, and none without a gearbox.
+    /// All turned parts, dowels and screws. Gears without a bore have no shafts; without a gearbox there are no shafts at all.
     #[must_use]
     pub fn turned(&self, pusher: &Pusher, arm: &ArmBody) -> Vec<TurnedPieces> {
         let mut all = self.shafts(arm);
@@ -31,7 +31,7 @@ impl ThreeArm {
         all
     }
 
-    /// A piece on a link of every chain, at a position in it.
+    /// Pieces at a position of a link, one per chain.
     fn on_chains(&self, link: &str, at: [f64; 3]) -> Vec<TurnedPiece> {
         let piece = |k| TurnedPiece::upright(&format!("{link}_{k}"), at);
         (0..self.arms()).map(piece).collect()
@@ -65,7 +65,7 @@ impl ThreeArm {
         all.into_iter().flatten().collect()
     }
 
-    /// Shaft of the sun, which is fixed and about which the carrier turns; `None` without a gearbox, or a bore of the sun.
+    /// Shaft of the sun. It is fixed, and the carrier turns about it. `None` without a gearbox or a bore of the sun.
     #[must_use]
     pub fn carrier_shaft(&self) -> Option<TurnedPieces> {
         let (design, [rear, front]) = (self.design(), self.gearbox()?.spans);
@@ -84,7 +84,7 @@ impl ThreeArm {
         Some(made)
     }
 
-    /// A shaft in the bore of a gear, on links, between two heights with room for rings beyond them.
+    /// A shaft in the bore of a gear, between two heights, with room for retaining rings beyond them; `links` are its pieces.
     fn shaft(
         &self,
         body: &BodySpec,
@@ -98,7 +98,7 @@ impl ThreeArm {
         let general = &self.design().drawing.general_tolerance;
         let [_, end] = span;
         let bar = Bar::new(body.seat(""), span).held(room);
-        // Plates of the carrier, what holds them apart and, where the shaft goes on, what holds the arm.
+        // On the shaft: the carrier's plates, the spacers between them and, if the shaft goes on, the parts that hold the arm.
         let arm = (end > front[1]).then_some([front[1], end]);
         let between = [rear, [rear[1], front[0]], front];
         let on_it: Vec<[f64; 2]> = between.into_iter().chain(arm).collect();
@@ -106,7 +106,7 @@ impl ThreeArm {
         let key = key.and_then(|hub| Key::fitting(hub, body.width));
         let bar = bar.through(&on_it).keyed(body.keyway, hub);
         let mut bar = bar.key(key, hub);
-        // At the outer faces of the plates, against the rings.
+        // The bearings are at the outer faces of the plates, against the retaining rings.
         if let Some(bearing) = self.bearing(body.bore) {
             for low in [rear[0], front[1] - bearing.width] {
                 bar = bar.bearing(bearing, low, BEARING[1]);
@@ -129,10 +129,11 @@ impl ThreeArm {
         let spec = pusher.fork_spec();
         let (fork, cam) = (pusher.fork_span(), pusher.cam_span());
         let wide = |name: &str| span(arm, name).unwrap_or([0.0, 1.0]);
-        // The cam behind the fork reaches beyond the pivot.
+        // The cam is behind the fork and covers the pivot: the pin cannot go on behind the fork.
         let [_, cover] = wide("cover-front");
         let stock = STEEL.treated(&spec.pin_heat_treatment);
-        // From the rear face of the fork, or a little above it where no pin is as long, to the outside of the front cover.
+        // From the rear face of the fork to the outside of the front cover. If no pin has this length, it begins a little in
+        // the fork.
         let [pressed, _] = pusher.pivot_fit().fits([""; 2]);
         let bar = Bar::dowel(pressed, [fork[0], cover], SHORT * spec.width);
         let pivot = bar.turned("pin-fork", "Pin of the fork", stock, "");
@@ -140,7 +141,7 @@ impl ThreeArm {
         pivot.part.notes = vec!["Pressed into the front cover, flush with its outside.".into()];
         let at = pusher.pivot();
         pivot.pieces = self.on_chains("arm", [at.x, at.y, bar.bottom()]);
-        // From the roller, which is behind it, through the fork.
+        // From the roller, which is behind the fork, through the fork.
         let room = [fork[0].min(cam[0]), fork[1].max(cam[1])];
         let [pressed, _] = pusher.roller_fit().fits([""; 2]);
         let bar = Bar::dowel(pressed, room, f64::INFINITY);
@@ -173,7 +174,7 @@ impl ThreeArm {
         ];
         let mut pieces = self.on_chains("push_rod", at);
         for piece in &mut pieces {
-            // The fork is behind the rod.
+            // The fork is behind the rod: the pin points to the rear.
             piece.turn = [PI, 0.0, 0.0];
         }
         let rod = TurnedPieces {

@@ -8,12 +8,12 @@ use centrode_kinematics::transmission::{MotionJet, Transmission};
 /// The gear train of one arm: the fixed sun, an intermediate gear and a planet on the turning carrier.
 ///
 /// At the input theta, the carrier's turn, the carrier is at phi = `carrier_start` -+ theta and meets the sun at
-/// the sun's polar angle psi = -+ theta (upper sign clockwise). With f the pair's transmission function, the
-/// intermediate is at phi + f(psi). It meets the planet at the planet's polar angle
-/// chi = f^-1(f(psi) - bend - pi), where the planet, a gear like the sun, is at phi + bend + pi - chi, and the arm's
+/// the sun's polar angle psi = -+ theta (upper sign: clockwise). With the pair's transmission function f, the
+/// intermediate gear is at phi + f(psi). It meets the planet at the planet's polar angle
+/// chi = f^-1(f(psi) - bend - pi). The planet, a gear like the sun, is then at phi + bend + pi - chi, and the arm's
 /// zero at phi + bend - reference + chi(0) - chi.
 ///
-/// Both stages are the same exact integral, read forwards and backwards. The mean ratios are 1, so after one carrier
+/// Both stages are the same exact integral, evaluated forwards and backwards. The mean ratios are 1, so after one carrier
 /// turn every gear is in its first position again.
 ///
 /// Source: Yin et al. 2021, DOI 10.25165/j.ijabe.20211405.6844, eqs. (4) to (10), derived again: the printed limits of
@@ -25,18 +25,18 @@ pub struct Train {
     carrier_start: f64,
     bend: f64,
     reference: f64,
-    /// Polar angle of the planet in mesh at the start.
+    /// Polar angle of the planet that is in mesh at the start.
     chi: f64,
 }
 
-/// Angles of the links of one chain, with their derivatives by carrier turn; from the x axis, rad.
+/// Angles of the links of one chain from the x axis, rad, with their derivatives by carrier turn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TrainJet {
     /// Direction of the intermediate gear's axis from the sun's.
     pub carrier: MotionJet,
-    /// The intermediate gear, in its own frame of a [`GearPair`](centrode_gear::GearPair)'s driven gear.
+    /// The intermediate gear, in its frame as the driven gear of a [`GearPair`](centrode_gear::GearPair).
     pub intermediate: MotionJet,
-    /// The planet, in its own frame of a driver.
+    /// The planet, in its frame as a driver.
     pub planet: MotionJet,
     /// The arm's zero, fixed to the planet.
     pub arm: MotionJet,
@@ -73,7 +73,7 @@ impl Train {
         &self.rolling
     }
 
-    /// Sense in which the carrier turns.
+    /// Sense of rotation of the carrier.
     #[must_use]
     pub fn direction(&self) -> Direction {
         if self.sign > 0.0 {
@@ -100,7 +100,7 @@ impl Train {
         self.bend
     }
 
-    /// Angle of the arm's zero behind the chain's second leg at the start, rad.
+    /// Angle from the arm's zero to the chain's second leg at the start, rad.
     #[must_use]
     pub fn planet_reference(&self) -> f64 {
         self.reference
@@ -112,7 +112,7 @@ impl Train {
         self.chi - self.reference - PI
     }
 
-    /// Angles of the links at a carrier turn; any real input.
+    /// Angles of the links at a carrier turn, which may be any real number.
     #[must_use]
     pub fn at(&self, input: f64) -> TrainJet {
         let carrier = MotionJet::uniform(self.carrier_start + self.sign * input, self.sign);
@@ -129,7 +129,7 @@ impl Train {
         }
     }
 
-    /// Turn of the arm against the carrier as a function of the carrier's: the input of a cam fixed to the carrier.
+    /// Turn of the arm against the carrier as a function of the carrier's turn: the input of a cam that is fixed to the carrier.
     #[must_use]
     pub fn arm_on_carrier(&self) -> ArmOnCarrier {
         ArmOnCarrier {
@@ -137,7 +137,7 @@ impl Train {
         }
     }
 
-    /// Inputs in one turn where a derivative of the train may jump, ascending.
+    /// Inputs in one turn at which a derivative of the train may jump, ascending.
     #[must_use]
     pub fn breaks(&self) -> Vec<f64> {
         let ends = Transmission::breaks(self.rolling.as_ref());
@@ -153,7 +153,7 @@ impl Train {
     }
 }
 
-/// The arm's zero seen from the carrier, as a function of the carrier's turn.
+/// Angle of the arm's zero against the carrier, as a function of the carrier's turn.
 #[derive(Clone, Debug)]
 pub struct ArmOnCarrier {
     train: Train,

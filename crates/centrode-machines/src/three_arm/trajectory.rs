@@ -4,7 +4,7 @@ use centrode_geometry::{Vector, bracketed_root};
 
 use super::{PointMotion, ThreeArm, ThreeArmError};
 
-/// Extreme of the tip's path in some direction, and its input.
+/// Extreme of the tip's path in a direction, and its input.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Extreme {
     /// Carrier turn of the first arm, rad.
@@ -21,7 +21,7 @@ pub enum PickingRule {
     Farthest,
     /// Input at which the tip passes the tray's surface on its way to the farthest reach.
     EntersTray,
-    /// Written in the design.
+    /// The design gives the input.
     Given,
 }
 
@@ -31,7 +31,7 @@ pub enum PlantingRule {
     /// Input at which the tip is lowest.
     #[default]
     Lowest,
-    /// Written in the design.
+    /// The design gives the input.
     Given,
 }
 
@@ -46,18 +46,18 @@ pub struct Trajectory {
     pub farthest: Extreme,
     /// Input at which the first arm picks, in `[0, 2 pi)`.
     pub picking: f64,
-    /// Rule by which it was found.
+    /// Rule by which the picking input was found.
     pub picking_rule: PickingRule,
     /// Input at which the first arm plants, in `[0, 2 pi)`.
     pub planting: f64,
-    /// Rule by which it was found.
+    /// Rule by which the planting input was found.
     pub planting_rule: PlantingRule,
 }
 
-/// Number of inputs at which extremes are sampled before they are refined to the float limit.
+/// Number of inputs at which extremes are sampled before they are refined to rounding.
 const SAMPLES: u32 = 720;
 
-/// Even samples of the tip's path: input, reach in a direction, reach by input.
+/// Evenly spaced samples of the tip's path: input, reach in a direction (mm), derivative of the reach by the input (mm/rad).
 struct ReachSamples<'a> {
     mechanism: &'a ThreeArm,
     direction: Vector,
@@ -88,7 +88,7 @@ impl<'a> ReachSamples<'a> {
         reach(&self.mechanism.tip(input, 0), &self.direction)
     }
 
-    /// Maximum reach for sign 1, minimum for sign -1.
+    /// Maximum reach if `sign` is 1, minimum if it is -1.
     fn extreme(&self, sign: f64) -> Extreme {
         let mut best = Extreme {
             input: 0.0,
@@ -111,7 +111,7 @@ impl<'a> ReachSamples<'a> {
         best
     }
 
-    /// Input before the given one at which the reach last grows past a value.
+    /// Input, before the given one, at which the reach last increases past a value.
     fn entering(&self, value: f64, before: f64) -> Option<f64> {
         let count = self.list.len() - 1;
         let start = (before / TAU * count as f64).ceil() as usize;

@@ -4,20 +4,20 @@ use nalgebra::Isometry2;
 use super::ThreeArm;
 use super::design::Unpicked;
 
-/// Depth of the plate that models a tray, in distances of its holes.
+/// Depth of the plate that represents a tray, in distances of its holes.
 const DEPTH: f64 = 2.0;
 
 /// Side view of the tray, with the seedlings that are still in it.
 ///
-/// Its frame has its origin in the tray's surface at the hole that is picked from; x points in the direction in which the arms
-/// enter, y along the rows.
+/// The origin of its frame is on the tray's surface at the hole that is picked from; x is the direction in which the arms
+/// enter, y runs along the rows.
 #[derive(Clone, Debug)]
 pub struct TrayBody {
     /// Pose of the tray's frame in the machine's.
     pub place: Isometry2<f64>,
     /// The plate behind the surface, counter-clockwise, in the tray's frame.
     pub plate: Outline,
-    /// The stems of the unpicked rows, from the nearest on, in the tray's frame.
+    /// The stems of the unpicked rows, the nearest row first, in the tray's frame.
     pub stems: Vec<Outline>,
 }
 
@@ -38,15 +38,16 @@ impl ThreeArm {
             .unwrap_or(tip.coords.dot(&self.tray_direction()))
     }
 
-    /// Distance of the circle that the gearbox sweeps from the tray's surface, mm; negative where it reaches behind it.
+    /// Distance of the circle that the gearbox sweeps from the tray's surface, mm; negative if the circle extends beyond the
+    /// surface.
     #[must_use]
     pub fn gearbox_tray_clearance(&self) -> f64 {
         self.tray_distance() - self.gearbox_radius()
     }
 
-    /// Tray in the pose in which the arms meet it: as many rows as it has, the hole that is picked from in the middle.
+    /// Tray in the pose in which the arms enter it, with all its rows; the hole that is picked from is in the middle.
     ///
-    /// The stems of unpicked rows are square to its surface; those next to the picked one, in its row, do not count.
+    /// The stems of unpicked rows are perpendicular to the surface. Stems in the row that is picked do not count.
     #[must_use]
     pub fn tray_body(&self) -> TrayBody {
         let spec = &self.design().tray;
@@ -59,7 +60,7 @@ impl ThreeArm {
             let corners = [[left, low], [right, low], [right, high], [left, high]];
             Outline::polygon(&corners.map(Point::from))
         };
-        // Up in the machine's frame is up in the tray's where the arms enter it to the right.
+        // The directions up of machine and tray agree if the arms enter the tray to the right; otherwise they are opposite.
         let up = inward.x.signum();
         let sides: &[f64] = match spec.unpicked {
             Unpicked::Above => &[1.0],

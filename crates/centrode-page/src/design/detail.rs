@@ -1,4 +1,4 @@
-//! Details of bodies that cannot be made: the motion goes on without them.
+//! Details of bodies that cannot be made: the motion is shown without them.
 
 use super::edit::{Edit, edited};
 use super::field::{Table, tables};
@@ -12,12 +12,12 @@ const MOST: usize = 6;
 
 /// Mechanism of a design, without the details of its bodies that cannot be made.
 ///
-/// A detail moves nothing: the motion is that of the design as written.
+/// A detail does not affect the motion: it is that of the design as written.
 #[derive(Debug)]
 pub struct Made {
     /// The mechanism.
     pub mechanism: Arc<dyn Mechanism>,
-    /// Details it is without.
+    /// Details that the mechanism is without.
     pub left_out: Option<LeftOut>,
 }
 
@@ -33,7 +33,7 @@ impl Made {
     /// Resolves the text of a design file.
     ///
     /// # Errors
-    /// [`DesignError`] of anything but a detail.
+    /// [`DesignError`] of anything other than a detail.
     pub fn new(text: &str) -> Result<Self, DesignError> {
         let error = match resolved(text) {
             Ok(mechanism) => {
@@ -77,10 +77,9 @@ fn resolved(text: &str) -> Result<Arc<dyn Mechanism>, DesignError> {
     FAMILIES.read(text.as_bytes())?.mechanism()
 }
 
-/// Mechanism of a design without the details that are at fault, and the keys omitted; `None` where the fault is in anything
-/// else.
+/// Mechanism of a design without the details that are at fault, and the keys omitted; `None` if the fault is not in a detail.
 fn without_details(text: &str, error: &DesignError) -> Option<(Arc<dyn Mechanism>, Vec<String>)> {
-    // A key that means nothing is no detail: who wrote it meant something else.
+    // An unknown key is not a detail: it may be a misspelt key that matters.
     if matches!(error.fault, DesignFault::UnknownKey { .. }) {
         return None;
     }
@@ -99,7 +98,7 @@ fn without_details(text: &str, error: &DesignError) -> Option<(Arc<dyn Mechanism
     None
 }
 
-/// Key or table of a detail that is written and may go: the blamed one, else the nearest around it.
+/// Key or table of a detail that is written and may be removed: the one at fault, else the nearest table around it.
 fn written_detail(tables: &[Table], blamed: &str) -> Option<String> {
     let mut path = blamed;
     loop {

@@ -16,17 +16,17 @@ const ALIKE: [&str; 6] = [
     "speed_rpm",
 ];
 
-/// Tables about what is required and searched: their numbers stay among themselves.
+/// Tables of requirements and searches: their numbers are only copied among these tables.
 const WISHES: [&str; 3] = ["goals", "bounds", "optimise"];
 
 /// A key of a design, and its value.
 type Entry = (String, Json);
 
-/// Design of another family with those keys of this one that make a mechanism there; `None` if it is of this family, or there is
-/// no such family.
+/// Design of another family, with those keys of this design with which it is a mechanism; `None` if the design is of that family,
+/// or there is no such family.
 ///
 /// It starts from the template of the family. A key is copied to the same path, else to one with the same ending (`lead`,
-/// `shaft.lead`), and a few that mean the same everywhere by their names alone.
+/// `shaft.lead`), and a few keys that mean the same everywhere are copied by their names alone.
 pub(super) fn turned(document: &DocumentMut, word: &str) -> Option<DocumentMut> {
     let old = serde_json::to_value(document.to_string().parse::<toml::Table>().ok()?).ok()?;
     if old.get("family").is_some_and(|now| now == word) {
@@ -36,11 +36,11 @@ pub(super) fn turned(document: &DocumentMut, word: &str) -> Option<DocumentMut> 
     let required = entries(template, &old);
     let start: DocumentMut = template.parse().ok()?;
     let (kept, lost) = with_as_many(start, &required);
-    // A key that did not fit next to another may fit by now.
+    // A key that did not fit before the others were set may fit now.
     Some(with_as_many(kept, &lost).0)
 }
 
-/// Keys of the family of a template that a design has values for.
+/// Keys of a template's family for which a design has values.
 fn entries(template: &str, old: &Json) -> Vec<Entry> {
     let mut written = Vec::new();
     list("", old, &mut written);
@@ -56,7 +56,7 @@ fn entries(template: &str, old: &Json) -> Vec<Entry> {
         if inside(&table.key) {
             continue;
         }
-        // A table of a kind is one thing: its numbers mean nothing without it.
+        // A table with a kind is copied as a whole: its numbers mean nothing without the kind.
         if let Some((_, value)) = written.iter().find(|(key, value)| {
             value.is_object() && (*key == table.key || same_end(key, &table.key))
         }) {
@@ -72,7 +72,7 @@ fn entries(template: &str, old: &Json) -> Vec<Entry> {
     found
 }
 
-/// All keys of a table, those of tables in it by their paths; a table with a kind is one.
+/// All keys of a table, those of inner tables by their paths; a table with a kind counts as one key.
 fn list(path: &str, value: &Json, out: &mut Vec<Entry>) {
     match value {
         Json::Object(table) if path.is_empty() || !table.contains_key("kind") => {
@@ -104,7 +104,7 @@ fn value_for(key: &str, written: &[Entry]) -> Option<Json> {
     if let Some((_, value)) = same.or_else(alike) {
         return Some(value.clone());
     }
-    // Within a table of a kind.
+    // Keys within a table with a kind.
     let kinds = written.iter().filter_map(|(_, value)| value.as_object());
     let name = last(key);
     let inside = kinds.filter(|_| ALIKE.contains(&name) && !wish(key));
@@ -115,7 +115,7 @@ fn last(key: &str) -> &str {
     key.rsplit('.').next().unwrap_or(key)
 }
 
-/// Whether one path, of several names or of a number that means the same everywhere, is the end of the other.
+/// Whether one path is the end of the other, and has several names or is a number that means the same everywhere.
 fn same_end(one: &str, other: &str) -> bool {
     let ends = |long: &str, short: &str| {
         long.strip_suffix(short)
@@ -124,7 +124,7 @@ fn same_end(one: &str, other: &str) -> bool {
     ends(one, other) || ends(other, one)
 }
 
-/// Design with as many of the entries as leave it a mechanism, and those that do not.
+/// Design with those entries with which it is a mechanism, and the entries that do not fit.
 fn with_as_many(start: DocumentMut, required: &[Entry]) -> (DocumentMut, Vec<Entry>) {
     if required.is_empty() {
         return (start, Vec::new());
@@ -161,7 +161,7 @@ fn with_as_many(start: DocumentMut, required: &[Entry]) -> (DocumentMut, Vec<Ent
     (made, lost)
 }
 
-/// Sets a key; a table replaces all that is in it.
+/// Sets a key; a table replaces the whole content of the old one.
 fn put(document: &mut DocumentMut, key: &str, value: &Json) -> Option<()> {
     let mut steps: Vec<Step> = key.split('.').map(Step::named).collect();
     let Json::Object(new) = value else {

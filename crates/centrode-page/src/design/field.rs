@@ -6,12 +6,12 @@ use serde_json::{Map, Value};
 
 use super::schema::{Requirements, described, marked, shape};
 
-/// Mark of the schema on what says how bodies look and moves nothing.
+/// Mark of the schema for keys that change the shape of bodies, but not the motion.
 const DETAIL: &str = "x-detail";
 /// Mark of the schema with the symbol that a paper uses.
 const SYMBOL: &str = "x-symbol";
 
-/// Table of the design file as a form: one field a key.
+/// Table of the design file as a form: one field per key.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct Table {
     /// Path of the table, `driver.keyway`; empty for the keys before the first table.
@@ -19,7 +19,7 @@ pub(crate) struct Table {
     doc: String,
     /// Whether it is optional as a whole.
     optional: bool,
-    /// Whether the table is in the file and may be taken out of it.
+    /// Whether the table is in the file and may be removed from it.
     #[serde(skip)]
     pub(crate) may_go: bool,
     /// Whether the key changes only the shape of bodies, not the motion.
@@ -39,10 +39,10 @@ pub(crate) struct Field {
     symbol: Option<String>,
     unit: &'static str,
     kind: Kind,
-    /// The words to choose from, where there are any.
+    /// The words to choose from, if there are any.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     choices: Vec<Choice>,
-    /// Value as written, else the default; null where there is neither.
+    /// Value as written, else the default; null if there is neither.
     pub(crate) value: Value,
     /// Whether the key is written in the file.
     written: bool,
@@ -99,8 +99,7 @@ pub(crate) struct Choice {
     pub(crate) doc: String,
 }
 
-/// Tables of a design file, from the schema of its family and the text; none where the text is
-/// not TOML.
+/// Tables of a design file, from the schema of its family and the text; empty if the text is not TOML.
 pub(crate) fn tables(text: &str) -> Vec<Table> {
     let Ok(written) = text.parse::<toml::Table>() else {
         return Vec::new();
@@ -118,7 +117,7 @@ pub(crate) fn tables(text: &str) -> Vec<Table> {
         None,
         &mut out,
     );
-    // What lies within a detail is one, too.
+    // Tables within a detail are details, too.
     for inner in 1..out.len() {
         let (around, rest) = out.split_at_mut(inner);
         let own = &mut rest[0];
@@ -128,8 +127,8 @@ pub(crate) fn tables(text: &str) -> Vec<Table> {
     out
 }
 
-/// Keys allowed in a table next to a tag of the given word, with their defaults, null where there is none;
-/// `None` where the table has no such tag.
+/// Keys allowed in a table next to a tag of the given word, with their defaults, null if there is none; `None` if the table has
+/// no such tag.
 pub(crate) fn keys_next_to(text: &str, table: &str, word: &str) -> Option<Map<String, Value>> {
     let written = serde_json::to_value(text.parse::<toml::Table>().ok()?).ok()?;
     let mut here = schema();
@@ -201,7 +200,7 @@ fn add(
             properties,
             required,
         } => (tag, words, properties, required),
-        // A word that is none of the tags: only the choice can be shown.
+        // The written word is not a known tag: only the choice can be shown.
         Requirements::Tagged { tag, words } => (Some(tag), words, Vec::new(), Vec::new()),
         Requirements::Leaf(_) => return,
     };
@@ -289,12 +288,12 @@ fn symbol(sub: &Value) -> Option<String> {
     Some(mark.as_str()?.to_owned())
 }
 
-/// Unit in which a key is written: that of its name, else that of its description.
+/// Unit in which a key is written, from its name or else from its description.
 fn unit(name: &str, doc: &str) -> &'static str {
     if name.ends_with("_deg") {
         return "°";
     }
-    // Longer names first: one may begin another.
+    // Longer names first, because a unit may begin with the name of another.
     const UNITS: [&str; 16] = [
         "kg/m^3", "kg mm²", "N/mm", "N mm", "mm/s", "mm/rad", "rad/s", "1/min", "r/min", "1/mm",
         "1/in", "kg", "mm", "s", "N", "rad",

@@ -6,13 +6,13 @@ use centrode_spec::DesignError;
 use serde_json::{Map, Value as Json};
 use toml_edit::{DocumentMut, InlineTable, Item, Value};
 
-/// Maximum number of keys of other tables that give way to a new kind.
+/// Maximum number of keys of other tables that are removed for a new kind.
 pub(super) const MOST: usize = 3;
 
-/// Changes the kind of the table at a path; `None` if the table has no kinds, or not this one.
+/// Changes the kind of the table at a path; `None` if the table has no kinds, or does not have this kind.
 ///
-/// Keys that the new kind has too stay, others go, and its required keys get a value, so that the design is a
-/// mechanism: copied keys are dropped for that, then optional keys outside the table.
+/// Keys that the new kind also has stay, the others are removed, and its required keys get a value. If the design is then no
+/// mechanism, copied keys are dropped, and after them optional keys outside the table.
 pub(super) fn switched(document: &DocumentMut, steps: &[Step], kind: &str) -> Option<DocumentMut> {
     let text = document.to_string();
     let names: Vec<&str> = steps.iter().filter_map(Step::name).collect();
@@ -46,7 +46,7 @@ pub(super) fn switched(document: &DocumentMut, steps: &[Step], kind: &str) -> Op
             }
         }
     }
-    // The fault is elsewhere.
+    // No start gives a mechanism: the fault is elsewhere.
     Some(first)
 }
 
@@ -58,7 +58,7 @@ struct Switch<'a> {
 }
 
 impl Switch<'_> {
-    /// Finds the design that is a mechanism with as many of the shared keys as can be.
+    /// Finds a design that is a mechanism with as many of the shared keys as possible.
     fn search(
         &self,
         shared: &[&str],
@@ -70,7 +70,7 @@ impl Switch<'_> {
             let table: Vec<&str> = table.collect();
             sound(self.with(kept, start)?, &table.join("."), sacrifice)
         };
-        // Points instead of a formula, as the old table has them, need nothing else.
+        // The shared keys may be enough, for example points instead of a formula: then no start is needed.
         let whole = tried(shared, start).or_else(|| tried(shared, &Map::new()));
         if whole.is_some() {
             return whole;
@@ -126,7 +126,7 @@ pub(super) fn fresh(value: &Json) -> Option<Value> {
     Some(Value::InlineTable(pairs.collect::<Option<InlineTable>>()?))
 }
 
-/// Returns the design if it is a mechanism, at the price of so many optional keys outside a table that contradict it.
+/// Returns the design if it is a mechanism after at most `sacrifice` optional keys at fault outside a table are removed.
 pub(super) fn sound(
     mut document: DocumentMut,
     table: &str,

@@ -13,14 +13,14 @@ const PLANES: [(&str, [&str; 2]); 2] = [
     ("cartesian", ["x", "y"]),
 ];
 
-/// Design with the points of the table at a path in another plane, where they are; `None` if the table has no points of the
-/// plane before, or those of the new one.
+/// Design with the points of the table at a path in the coordinates of another plane, at the same positions; `None` if the table
+/// has no points of the old plane, or already has points of the new one.
 pub(super) fn moved(document: &DocumentMut, steps: &[Step], plane: &str) -> Option<DocumentMut> {
     let to = PLANES.iter().position(|(word, _)| *word == plane)?;
     let [(before, old), (_, new)] = [PLANES[1 - to], PLANES[to]];
     let mut made = document.clone();
     let table = container(made.as_item_mut(), steps, true)?.as_table_like_mut()?;
-    // Polar is what a table without the key is.
+    // A table without the key is polar.
     let now = table.get("plane").and_then(Item::as_str).unwrap_or("polar");
     if now != before || new.iter().any(|name| table.contains_key(name)) {
         return None;
@@ -70,7 +70,7 @@ fn place(radius: f64, degrees: f64) -> [f64; 2] {
     [radius * cos, radius * sin]
 }
 
-/// Radii and angles of points, which increase from the first on.
+/// Radii and angles of points; the angles increase from the first point on.
 fn polar(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut before = -180.0;
     let mut polar = |&[x, y]: &[f64; 2]| {
@@ -83,7 +83,7 @@ fn polar(points: &[[f64; 2]]) -> Vec<[f64; 2]> {
 
 fn rounded(value: f64) -> f64 {
     let scale = 10_f64.powi(DIGITS);
-    // No minus before a zero.
+    // Adding zero removes the sign of a zero.
     (value * scale).round() / scale + 0.0
 }
 

@@ -4,14 +4,14 @@ use super::field::{Choice, Kind};
 
 /// Requirements of a part of the JSON schema, for the value that is there.
 pub(super) enum Requirements<'a> {
-    /// A table with known keys; the tag among them, if it has one, has chosen them.
+    /// A table with known keys; if it has a tag, the tag determines them.
     Table {
         tag: Option<&'a str>,
         words: Vec<Choice>,
         properties: Vec<(String, &'a Value)>,
         required: Vec<&'a str>,
     },
-    /// A table whose tag is none of the words known.
+    /// A table whose tag is not a known word.
     Tagged { tag: &'a str, words: Vec<Choice> },
     /// A value.
     Leaf(Leaf),
@@ -54,7 +54,7 @@ pub(super) fn shape<'a>(root: &'a Value, sub: &'a Value, value: &Value) -> Requi
         .get("additionalProperties")
         .filter(|item| item.is_object())
     {
-        // A table of names that the user gives: those that are written.
+        // A table with names chosen by the user: the names that are written.
         let names = value.as_object().into_iter().flatten();
         return Requirements::Table {
             tag: None,
@@ -66,7 +66,7 @@ pub(super) fn shape<'a>(root: &'a Value, sub: &'a Value, value: &Value) -> Requi
     Requirements::Leaf(leaf(root, sub))
 }
 
-/// Schema that a reference leads to.
+/// Schema to which a reference leads.
 fn followed<'a>(root: &'a Value, sub: &'a Value) -> &'a Value {
     let mut here = sub;
     while let Some(target) = here.get("$ref").and_then(Value::as_str) {
@@ -78,7 +78,7 @@ fn followed<'a>(root: &'a Value, sub: &'a Value) -> &'a Value {
     here
 }
 
-/// Mark on a part of the schema: next to it, or where it leads, absence aside.
+/// Mark on a part of the schema: next to the part, or in the schema to which it refers, apart from null.
 pub(super) fn marked<'a>(root: &'a Value, sub: &'a Value, mark: &str) -> Option<&'a Value> {
     let options = sub.get("anyOf").and_then(Value::as_array);
     let options = options.into_iter().flatten();
@@ -139,7 +139,7 @@ fn table<'a>(
     }
 }
 
-/// One of some words, perhaps or a number.
+/// A choice of words, to which a number may be added.
 fn choice(options: &[&Value]) -> Leaf {
     let mut choices = Vec::new();
     let mut number = false;
@@ -199,7 +199,7 @@ fn leaf(root: &Value, sub: &Value) -> Leaf {
     }
 }
 
-/// The type of a value, absence aside.
+/// The type of a value, apart from null.
 fn type_of(sub: &Value) -> &str {
     match sub.get("type") {
         Some(Value::String(one)) => one,

@@ -20,7 +20,7 @@ pub struct Snapshot {
     definition: String,
     /// Reason why there is no mechanism.
     error: Option<Fault>,
-    /// Error of a detail of a body: picture, curves and checks are those of the design without it.
+    /// Error of a detail of a body: picture, curves and checks are those of the design without the detail.
     detail: Option<Fault>,
     #[serde(skip)]
     left_out: Option<Arc<LeftOut>>,
@@ -32,12 +32,12 @@ pub struct Snapshot {
     goals_first: bool,
     #[serde(skip)]
     beside: Adjacent,
-    /// Speed of the input, rad/s, where the design has one.
+    /// Speed of the input, rad/s, if the design has one.
     speed: Option<f64>,
     verdict: Option<Verdict>,
 }
 
-/// Numbers and curves, which the eye has after the picture.
+/// Numbers and curves, which the page shows after the picture.
 #[derive(Clone, Debug, Default)]
 struct Adjacent {
     /// The numbers of the design, table by table.
@@ -45,11 +45,11 @@ struct Adjacent {
     curves: Vec<Curve>,
 }
 
-/// An error at its key, in the words of the command line.
+/// An error with its key, in the words of the command line.
 #[derive(Clone, Debug, Serialize)]
 pub struct Fault {
     key: String,
-    /// Line from one; zero where no position in the file is to blame.
+    /// Line from one; zero if the error has no position in the file.
     line: usize,
     column: usize,
     message: String,
@@ -108,7 +108,7 @@ impl Goals {
     }
 }
 
-/// Picture of a design alone, as JSON: that of its page before the details are made.
+/// Picture of a design alone, as JSON, as its page shows it before the details are made.
 ///
 /// # Errors
 /// The reason in words if there is no mechanism.
@@ -166,7 +166,7 @@ impl Snapshot {
         }
     }
 
-    /// Title, or name where there is none.
+    /// Title, or the name if there is no title.
     pub fn heading(&self) -> &str {
         if self.title.is_empty() {
             &self.name
@@ -183,18 +183,18 @@ impl Snapshot {
     /// Snapshot as JSON; numbers that are not finite are null.
     ///
     /// # Errors
-    /// That of the JSON writer.
+    /// The error of the JSON writer.
     pub fn json(&self) -> serde_json::Result<String> {
-        // What is long is written by two threads.
+        // Two threads write the two long parts.
         let (head, beside) = run_both(|| self.head(), || self.beside.json());
         Ok(head? + &beside?)
     }
 
-    /// The beginning of its JSON, to which that of what is next to the picture belongs.
+    /// The beginning of the snapshot's JSON; the JSON of numbers and curves follows it.
     fn head(&self) -> serde_json::Result<String> {
         let picture = serde_json::to_string(&self.picture)?;
         let rest = serde_json::to_string(self)?;
-        // Its braces are those of the whole.
+        // The outer braces belong to the whole JSON value.
         let rest = &rest[1..rest.len() - 1];
         Ok(format!("{{\"picture\":{picture},{rest}"))
     }
@@ -220,7 +220,8 @@ impl Subject {
         }
     }
 
-    /// Resolves and draws a design that is worked on: a detail of a body that cannot be is a finding, and the rest is drawn without it.
+    /// Resolves and draws a design that is being edited: an impossible detail of a body becomes a finding, and the rest is drawn
+    /// without it.
     ///
     /// # Errors
     /// The snapshot with the reason.
@@ -267,7 +268,7 @@ impl Subject {
     /// Snapshot with the picture but without the results of the checks, as JSON in two parts: the picture is in the first.
     ///
     /// # Errors
-    /// That of the JSON writer.
+    /// The error of the JSON writer.
     pub fn drawn(&self, send: &dyn Fn(String)) -> serde_json::Result<()> {
         send(self.snapshot.head()? + "\n");
         send(self.beside().json()?);
@@ -275,7 +276,7 @@ impl Subject {
     }
 
     fn beside(&self) -> &Adjacent {
-        // By one thread: the browser draws the picture meanwhile.
+        // One thread is enough: the browser draws the picture meanwhile.
         self.beside.get_or_init(|| Adjacent {
             tables: tables(&self.snapshot.text),
             curves: self.mechanism.curves(),

@@ -10,7 +10,7 @@ use serde::Serialize;
 use serde_json::{Map, Value};
 use std::f64::consts::TAU;
 
-/// Measures of the design for a table that changes its kind.
+/// Dimensions of the design for a table that changes its kind.
 pub(super) struct Measures {
     /// Mean radius of the pitch curve, mm.
     radius: f64,
@@ -18,16 +18,16 @@ pub(super) struct Measures {
     sized: bool,
     /// Turns of driver and driven gear in a cycle.
     ratio: [u32; 2],
-    /// Times the curve must repeat in a turn.
+    /// Number of times that the curve must repeat per turn.
     repeats: u32,
-    /// Lead of the shaft, mm a turn.
+    /// Lead of the shaft, mm per turn.
     lead: f64,
     /// The table as it is.
     old: Value,
 }
 
 impl Measures {
-    /// Measures of a table of the design, both as written.
+    /// Dimensions for a table of the design, from both as written.
     pub(super) fn new(design: &Value, path: &[&str], old: &Value) -> Self {
         let ratio_in = |table: &Value| {
             let pair = table.get("mean_ratio")?.as_array()?;
@@ -70,14 +70,14 @@ fn mean_radius(pitch: &Value) -> Option<f64> {
     Some(Antiderivative::new(|t| pitch.curve.at(t).first.norm(), &ends).total() / TAU)
 }
 
-/// Tables from which a kind can start, the preferred one first: each holds the keys it needs besides the defaults.
+/// Tables from which a kind can start, the preferred one first: each holds the keys that it needs in addition to the defaults.
 pub(super) fn starts(kind: &str, about: &Measures) -> Vec<Map<String, Value>> {
     // A curve that does not repeat as often as the ratio requires gives no pair unless it is round.
     let swings = [0.2 / (1.0 + f64::from(about.repeats).powi(2)), 0.0];
     let pitches = swings
         .into_iter()
         .filter_map(|swing| table(pitch(kind, about, swing)?));
-    // Before a plain shaft only elliptic gears change the speed.
+    // With a plain shaft only elliptic gears change the speed.
     let speeds = [0.4, 0.0]
         .into_iter()
         .filter_map(|swing| table(speed(kind, about.lead, swing)?));
@@ -86,7 +86,7 @@ pub(super) fn starts(kind: &str, about: &Measures) -> Vec<Map<String, Value>> {
     pitches.chain(speeds).chain(others).collect()
 }
 
-/// Keys of a table as the file holds them: without those that are not given.
+/// Keys of a table as the file holds them, without the keys that have no value.
 fn table(written: impl Serialize) -> Option<Map<String, Value>> {
     let written = toml::Table::try_from(written).ok()?;
     match serde_json::to_value(written) {
@@ -95,12 +95,12 @@ fn table(written: impl Serialize) -> Option<Map<String, Value>> {
     }
 }
 
-/// Rounds to a thousandth: numbers in the file are to be read.
+/// Rounds to a thousandth, so that numbers in the file are readable.
 fn short(value: f64) -> f64 {
     (value * 1e3).round() / 1e3
 }
 
-/// A curve of the mean radius that swings by a share of it; a circle where the share is 0.
+/// A curve whose radius varies about the mean radius by a share of it; a circle if the share is 0.
 fn pitch(kind: &str, about: &Measures, swing: f64) -> Option<PitchSpec> {
     let Measures { ratio, repeats, .. } = *about;
     let [n1, n2] = ratio;
@@ -108,7 +108,7 @@ fn pitch(kind: &str, about: &Measures, swing: f64) -> Option<PitchSpec> {
     let own = (!about.sized).then_some(mean);
     let center_distance = own.map(|r| short(r * (1.0 + f64::from(n1) / f64::from(n2))));
     let amplitude = short(swing * mean);
-    // Curves of one lobe must be round where the ratio requires several.
+    // Curves of one lobe must be round if the ratio requires several lobes.
     let single = if repeats == 1 { swing } else { 0.0 };
     let share = f64::from(n2) / f64::from(n1);
     let (quotient, driven) = if n1 == n2 {
@@ -223,7 +223,7 @@ fn tool(kind: &str) -> Option<ToolSpec> {
     }
 }
 
-/// A law with one slow point a turn, at the angle zero, whose speed swings by a share of its mean.
+/// A law with one slow point per turn, at the angle zero, whose speed varies by a share of its mean.
 fn speed(kind: &str, lead: f64, swing: f64) -> Option<SpeedLaw> {
     let amplitude = short(swing * lead / TAU);
     let (slow, fast) = (short(1.0 - swing), short(1.0 + swing));
@@ -258,7 +258,7 @@ fn speed(kind: &str, lead: f64, swing: f64) -> Option<SpeedLaw> {
     })
 }
 
-/// The 3-4-5 polynomial, to be changed; the other laws have no figures of their own.
+/// The 3-4-5 polynomial, to be edited; the other laws have no coefficients.
 fn law(kind: &str) -> Option<LawSpec> {
     match kind {
         "polynomial" => Some(LawSpec::Polynomial(Polynomial {

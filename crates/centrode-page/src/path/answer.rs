@@ -56,7 +56,7 @@ struct Figure {
 /// Reason why there is no machine.
 #[derive(Debug, Serialize)]
 struct Fault {
-    /// Input to blame: `path`, `axis`, `split`, or `wish` for a key of the design.
+    /// Input at fault: `path`, `axis`, `split`, or `wish` for a key of the design.
     of: &'static str,
     message: String,
 }
@@ -105,7 +105,7 @@ impl Answer {
         answer
     }
 
-    /// The machine that is searched.
+    /// The machine that a search finds.
     ///
     /// # Errors
     /// The reason in words if there is no machine.
@@ -200,7 +200,7 @@ fn figures(chain: &TwoBar, bend: Option<f64>) -> Vec<Figure> {
     found
 }
 
-/// Figures that take longer: of the pitch curves as they are written.
+/// Figures that take longer: those of the pitch curves as they are written.
 fn rested(chain: &TwoBar, split: &Split, design: &PathDesign) -> Result<Vec<Figure>, String> {
     let made = ReversedMachine::new(chain, split, design.arms, design.steps);
     let made = made.map_err(|error| error.to_string())?;

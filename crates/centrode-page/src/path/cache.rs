@@ -4,15 +4,15 @@ use std::sync::{Arc, Mutex, PoisonError};
 use super::wish::{Wish, points};
 use crate::reverse::Found;
 
-/// A machine that was found, and the words of its wish.
+/// A machine that was found, and the key of its wish.
 type Last = (String, Arc<Found>);
 
-/// The machine found last, by the wish: what is made of it need not seek it again.
+/// The machine found last, with its wish: later requests with this wish do not search again.
 #[derive(Clone, Debug, Default)]
 pub struct Cached(Arc<Mutex<Option<Last>>>);
 
 impl Cached {
-    /// Seeks the machine of a wish, unless it is the one found last.
+    /// Searches for the machine of a wish, unless it is the one found last.
     pub(super) fn found(
         &self,
         wish: &Wish,

@@ -10,7 +10,7 @@ use std::f64::consts::{PI, TAU};
 const SAMPLES: u32 = 360;
 /// Steps of the motion.
 const MOMENTS: u32 = 120;
-/// Rounding of what is drawn, mm and rad.
+/// Reciprocal of the step to which drawn numbers are rounded, for mm and for rad.
 const DIGITS: [f64; 2] = [1e3, 1e5];
 
 /// The path alone, with marked positions.
@@ -25,7 +25,7 @@ pub(super) fn path(required: &RequiredPath, marks: Vec<Mark>) -> Picture {
     still(&points, LineRole::Trace, [range.x, range.y], marks)
 }
 
-/// A polygon through points that are no path, with marked positions.
+/// A polygon through points that do not make a path, with marked positions.
 pub(super) fn polygon(points: &[Point], marks: Vec<Mark>) -> Picture {
     let bounds: Bounds = points.iter().copied().collect();
     let [x, y] = [[bounds.min.x, bounds.max.x], [bounds.min.y, bounds.max.y]];
@@ -91,7 +91,7 @@ impl<'a> Drawing<'a> {
         })
     }
 
-    /// Direction of the carrier at an input, which is its turn since the path's beginning.
+    /// Direction of the carrier at an input; the input is the carrier's turn since the start of the path.
     fn carrier(&self, input: f64) -> f64 {
         let start = self.chain.at(0.0).carrier[0];
         match self.chain.direction().sign() < 0.0 {

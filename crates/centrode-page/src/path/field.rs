@@ -1,4 +1,4 @@
-//! Axes about a path: which are possible, and the best one.
+//! Axes around a path: the possible ones, and the best one.
 
 use super::wish::path;
 use centrode_synthesis::reverse::{AxisFault, AxisMap, AxisRange, PossibleAxis};
@@ -22,7 +22,7 @@ pub struct Field {
     x: [f64; 2],
     y: [f64; 2],
     count: [u32; 2],
-    /// Factor of 1 within which the ratio is; none where the axis is not possible.
+    /// Maximum factor between the ratio and 1; `None` if the axis is not possible.
     factor: Vec<Option<f64>>,
     /// Minimum and maximum ratio.
     ratios: Vec<Option<[f64; 2]>>,
@@ -30,7 +30,7 @@ pub struct Field {
     radius: Vec<Option<f64>>,
     /// Number of the reason why an axis is not possible.
     fault: Vec<Option<usize>>,
-    /// The reasons found: name, words, and how many axes they forbid.
+    /// The reasons found: name, words, and number of axes that each forbids.
     faults: Vec<(&'static str, &'static str, usize)>,
     possible: usize,
     /// Number of possible axes inside the path.
@@ -38,7 +38,7 @@ pub struct Field {
 }
 
 impl Field {
-    /// Map about a path.
+    /// Map around a path.
     ///
     /// # Errors
     /// The reason in words if the points make no path, or the count is out of range.
@@ -121,11 +121,11 @@ fn words(name: &str) -> &'static str {
 pub struct Best {
     points: Vec<[f64; 2]>,
     bend_deg: f64,
-    /// Whether the bluntest gears are required, not the gentlest ratio.
+    /// Whether the least curved gears are required instead of the gentlest ratio.
     bluntest: bool,
 }
 
-/// The gentlest axis, or that of the bluntest gears.
+/// The axis with the gentlest ratio, or the one with the least curved gears.
 ///
 /// # Errors
 /// The reason in words if the points make no path, or no axis is possible.

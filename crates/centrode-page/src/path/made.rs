@@ -8,7 +8,7 @@ use centrode_synthesis::reverse::Split;
 use serde::Serialize;
 use std::ops::ControlFlow;
 
-/// A design with sound teeth, or what was found without such.
+/// A design with sound teeth, or the machine found and the reason why it has none.
 #[derive(Debug, Serialize)]
 pub struct PathMachine {
     /// The design file.
@@ -17,7 +17,7 @@ pub struct PathMachine {
     /// Reason why there are no sound teeth.
     #[serde(skip_serializing_if = "Option::is_none")]
     refused: Option<String>,
-    /// Names and words of what was found.
+    /// Lines on the machine found: names and words.
     stated: Vec<Labelled>,
     /// Further wishes, and how far they are reached.
     goals: Vec<GoalAnswer>,
@@ -62,7 +62,7 @@ pub fn machine(
     })
 }
 
-/// The reason with what can be done on the page.
+/// The reason, and the remedy on the page.
 fn without_teeth(error: &NoSoundTeeth) -> String {
     match error {
         NoSoundTeeth::None { pair, full_module } => {

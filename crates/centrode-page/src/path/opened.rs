@@ -10,11 +10,11 @@ const MOST: usize = 200;
 /// Contents of a file, for the page.
 #[derive(Debug, Serialize)]
 pub struct Opened {
-    /// The design, or what of it a file of points holds.
+    /// The design; from a file of points, the points and their tolerances and directions.
     design: PathDesign,
-    /// Whether it is a design file: all of it holds, and not its points alone.
+    /// Whether it is a design file: the page then takes the whole design, not the points alone.
     whole: bool,
-    /// How it was found.
+    /// Remark on the file for the user.
     note: String,
 }
 

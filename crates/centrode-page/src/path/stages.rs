@@ -2,11 +2,11 @@ use std::f64::consts::{PI, TAU};
 
 use centrode_geometry::{Point, Vector};
 
-/// Steps of a turn of each driver.
+/// Steps per turn of each driver.
 pub(super) const STEPS: u32 = 360;
 
-/// A stage of gears as it is drawn: both pitch curves at equal steps of the driver's polar angle, from its law by differences of
-/// fourth order.
+/// A stage of gears as it is drawn: both pitch curves at equal steps of the driver's polar angle, computed from the law by
+/// differences of fourth order.
 pub(super) struct Stage {
     /// Pitch curves of driver and driven gear, each about its own axis.
     pub(super) curves: [Vec<Point>; 2],
@@ -31,7 +31,7 @@ impl Stage {
             (0..count).map(driver).collect(),
             (0..count).map(driven).collect(),
         ];
-        // The driven curve is run through clockwise.
+        // The points of the driven curve follow each other clockwise.
         let curvatures = [(0, 1.0), (1, -1.0)].map(|(k, sense): (usize, f64)| {
             let bent = |i: usize| sense * curvature(&curves[k], i);
             (0..count).map(bent).collect()
@@ -60,12 +60,12 @@ impl Stage {
     }
 }
 
-/// Number of the position so many steps on.
+/// Index of the point `k` steps after point `i`.
 fn around(i: usize, k: i32) -> usize {
     (i as i32 + k).rem_euclid(STEPS as i32) as usize
 }
 
-/// Slope by the step, from two values to either side.
+/// Slope per step, from two values on each side.
 fn slope(at: impl Fn(i32) -> f64) -> f64 {
     (at(-2) - at(2) + 8.0 * (at(1) - at(-1))) / 12.0
 }

@@ -6,12 +6,12 @@ use serde::Deserialize;
 /// Wish of the page: the design that `centrode reverse` reads, or key poses with its choices.
 #[derive(Clone, Debug, Deserialize)]
 pub struct Wish {
-    /// The design; of key poses, its bend, split and arms count.
+    /// The design; with key poses only its bend, split and arms are used.
     design: PathDesign,
     /// Key poses instead of a path: points of the tip, mm, and directions of the clamp, degrees.
     #[serde(default)]
     poses: Vec<[f64; 3]>,
-    /// Whether the drag has paused: slower figures are reported, too.
+    /// Whether the user pauses while dragging: slower figures are then reported, too.
     #[serde(default)]
     pub(super) rest: bool,
     /// Whether the other splits are reported, too.
@@ -34,7 +34,7 @@ impl Wish {
                 "path.file: the points are in {file}, which the page cannot read: open that file"
             ));
         }
-        // Points that make no path are reported in the words of the path.
+        // Points that do not make a path are reported later, by the error of the path.
         let text = design.to_toml().map_err(|error| error.message())?;
         PathDesign::from_toml(&text).map_err(|error| error.message())
     }
@@ -48,7 +48,7 @@ impl Wish {
         (!self.poses.is_empty()).then(|| self.poses.iter().map(pose).collect())
     }
 
-    /// Words by which the answer to one wish is known from that to another.
+    /// Text that distinguishes this wish from others.
     pub(super) fn key(&self) -> String {
         let poses = &self.poses;
         let text = self.design.to_toml();
@@ -56,7 +56,7 @@ impl Wish {
     }
 }
 
-/// Points of a design's path: those it passes.
+/// Points that the path of a design passes.
 pub(super) fn points(design: &PathDesign) -> Vec<Point> {
     let rows = self::rows(&design.path.points);
     match design.path.control {

@@ -13,9 +13,9 @@ use std::ops::ControlFlow;
 pub struct Found {
     /// Carrier and arm.
     pub chain: TwoBar,
-    /// Why this axis.
+    /// Reason why this axis was chosen.
     pub why: String,
-    /// Axes tried for a path that is followed as it is.
+    /// Axes tried for a path that is followed exactly.
     pub map: Option<AxisMap>,
     /// Further lines to print: names and words.
     pub stated: Vec<Labelled>,
@@ -42,7 +42,7 @@ pub enum NotFound {
     Axis {
         /// x and y of the axis, mm.
         at: [f64; 2],
-        /// Why not.
+        /// Reason why it is not possible.
         fault: AxisFault,
     },
     /// No axis is possible.
@@ -50,7 +50,7 @@ pub enum NotFound {
     NoAxis {
         /// Number of axes tried.
         tried: usize,
-        /// Why not, with the number of axes for each reason.
+        /// Reasons, with the number of axes for each.
         faults: String,
     },
     /// No path within the tolerances has a machine.
@@ -59,8 +59,8 @@ pub enum NotFound {
 }
 
 impl Found {
-    /// Seeks the machine of a design whose points are these; `observe` hears of evaluations and may end the search, whose best is
-    /// then taken.
+    /// Searches for the machine of a design with these points. `observe` receives the number of evaluations and may end the
+    /// search; the best machine so far is then used.
     ///
     /// # Errors
     /// [`NotFound`] if there is no machine.
@@ -127,7 +127,7 @@ impl Found {
         })
     }
 
-    /// The machine of a path as it is required.
+    /// The machine of a path that is followed exactly.
     fn as_given(design: &PathDesign, path: &RequiredPath) -> Result<Self, NotFound> {
         let Some(at) = design.axis else {
             return Self::mildest(design, path);
@@ -164,7 +164,7 @@ impl Found {
     /// Finds the machine that meets key poses.
     ///
     /// # Errors
-    /// [`PoseError`] if there is none.
+    /// [`PoseError`] if no machine meets the poses.
     pub fn by_poses(poses: &[KeyPose]) -> Result<Self, PoseError> {
         let found = KeyPoses::new(poses)?;
         Ok(Self {
@@ -190,7 +190,7 @@ fn check_crossing(design: &PathDesign, path: &RequiredPath) -> Result<(), NotFou
     }
 }
 
-/// Lines on how far a path was eased, and which full teeth it allows.
+/// Lines on how far a path was eased, and on the module of full teeth that it allows.
 fn eased_words(eased: &EasedPath, module: Option<f64>, is_moved: bool) -> Vec<Labelled> {
     let mm = |x: f64| Unit::Millimetre.with_unit(x);
     let moved = eased.moved.iter().enumerate();

@@ -6,7 +6,7 @@ use centrode_synthesis::reverse::{
     PathDesign, ReversedMachine, ReversedMachineError, Split, TwoBar,
 };
 
-/// The machine of a chain, with the names and the shapes to keep out of of a design.
+/// The machine of a chain, with the name, the title and the shapes to keep out of from a design.
 ///
 /// # Errors
 /// [`ReversedMachineError`] if no gears have this law.
@@ -50,7 +50,7 @@ impl Toothed {
     }
 }
 
-/// The deepest collision of each kind, with how many more there are.
+/// The deepest collision of each kind, with the number of further ones.
 fn deepest(all: Vec<Finding>) -> Vec<Finding> {
     let mut stated: Vec<(Finding, usize)> = Vec::new();
     for finding in all {

@@ -51,7 +51,7 @@ pub fn minimum_radii(pair: &str, [driver, driven]: [f64; 2]) -> Labelled {
     (format!("pair {pair}"), words)
 }
 
-/// Line on how far the tip is off the path.
+/// Line on the distance of the tip from the path.
 pub fn tip_error(made: &ReversedMachine) -> (&'static str, String) {
     let error = mm(made.tip_error.value);
     let words = format!("{error} at most, with laws of {} steps", made.steps);
@@ -64,7 +64,7 @@ pub(crate) fn clamp(angle: f64) -> Labelled {
     ("clamp".to_owned(), words)
 }
 
-/// Lines on the clamp and on how far each pose is missed.
+/// Lines on the clamp and on the error of each pose.
 pub fn poses(angle: f64, misses: &[[f64; 2]]) -> Vec<Labelled> {
     let pose = |(index, [off, turned]): (usize, &[f64; 2])| {
         let (off, turned) = (mm(*off), Unit::Angle.with_unit(*turned));
@@ -88,7 +88,7 @@ pub fn other_splits(chain: &TwoBar, chosen: SplitKind, bend: f64) -> Vec<Labelle
     others.map(line).collect()
 }
 
-/// The sharpest pitch curve of a split that was not chosen.
+/// The minimum convex radius of a split that was not chosen, in words.
 fn sharpest(chain: &TwoBar, split: &Split) -> String {
     match ReversedMachine::new(chain, split, 1, None) {
         Ok(made) => {

@@ -52,7 +52,7 @@ pub(super) fn exact(value: f64) -> String {
     serde_json::to_string(&JsonNumber(value)).unwrap_or_default()
 }
 
-/// Every table and figure of the report, figures of no group last.
+/// Every table and figure of the report; figures without a group come last.
 pub fn sections(report: &Report) -> Vec<Section> {
     let mut shown: BTreeSet<&str> = BTreeSet::new();
     let mut sections: Vec<Section> = report.tables.iter().map(section).collect();

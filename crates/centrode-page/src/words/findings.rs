@@ -38,7 +38,7 @@ pub struct FindingWords {
     /// Part, teeth and input.
     #[serde(rename = "where")]
     pub place: String,
-    /// Flanks, each with where it ends; the first of many.
+    /// Flanks, each with the radius at which it ends; if there are many, the first ones.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub flanks: Option<String>,
     /// Measured and required figure.
@@ -66,7 +66,7 @@ pub fn finding_words(finding: &Finding) -> FindingWords {
         about.push(format!("{part}{teeth}"));
     }
     if let Some(input) = finding.place.input {
-        // Adding zero takes the sign off a zero.
+        // Adding zero removes the sign of a zero.
         let degrees = (100.0 * input.to_degrees()).round() / 100.0 + 0.0;
         about.push(format!("input at {degrees:.2} deg"));
     }
@@ -130,7 +130,7 @@ fn causes(rule: &str) -> &'static [&'static str] {
     }
 }
 
-/// Tooth and side of flanks with the radius at which they end, the first of many.
+/// Tooth, side and end radius of flanks; if there are many, the first ones.
 fn flanks(flanks: &[FlankPlace]) -> Option<String> {
     const SHOWN: usize = 6;
     let one = |flank: &FlankPlace| {

@@ -8,7 +8,7 @@ use super::figures::exact;
 pub struct GoalWords {
     /// Number.
     pub number: u32,
-    /// Number in the paper it is from, where that is another.
+    /// Number of the goal in its paper, if that is different.
     pub paper: Option<u32>,
     /// Name in the report.
     pub name: String,
@@ -20,15 +20,15 @@ pub struct GoalWords {
     pub exact: Option<String>,
     /// Unit of the figure.
     pub unit: &'static str,
-    /// The range it is required in.
+    /// The required range.
     pub required: String,
     /// Met, missed by how much, or not checked.
     pub verdict: String,
-    /// By how much it is met, with its unit.
+    /// Margin by which it is met, with its unit.
     pub spare: Option<String>,
     /// Whether it is met; `None` if it is not checked.
     pub met: Option<bool>,
-    /// Share of the way to it, 1 where it is met.
+    /// Progress towards the goal, 0 to 1; 1 if it is met.
     pub progress: Option<f64>,
 }
 
@@ -69,11 +69,11 @@ pub fn goal_words(goal: &Goal) -> GoalWords {
 fn end(value: f64) -> String {
     let rounded = (value * 1e6).round() / 1e6;
     if rounded == 0.0 && value != 0.0 {
-        // Of six digits those that are not trailing zeros.
+        // Six digits, without trailing zeros.
         let short = format!("{value:.5e}").parse().unwrap_or(value);
         format!("{short:e}")
     } else {
-        // No zero below zero.
+        // Adding zero removes the sign of a zero.
         format!("{}", rounded + 0.0)
     }
 }

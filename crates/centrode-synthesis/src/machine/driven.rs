@@ -12,14 +12,14 @@ use centrode_machines::machine::{Machine, MachineDesign, MachineError};
 use centrode_spec::degrees;
 use centrode_spec::digits::stated;
 
-/// Distance of the output from its law that is near enough, as a share of the stroke.
+/// Accepted distance of the output from its law, as a share of the stroke.
 const NEAR_ENOUGH: f64 = 1e-7;
 /// Range of the centre distance, mm.
 const DISTANCES: [f64; 2] = [1e-3, 1e6];
-/// Maximum direction of the shaft in either direction, degrees.
+/// Maximum angle of the direction to the shaft, positive or negative, degrees.
 const MAX_DIRECTION: f64 = 360.0;
 
-/// Which crank of a machine a gear pair must drive, and where its shaft is.
+/// Crank of a machine that a gear pair must drive, and position of the driving shaft.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GearDriveSpec {
     /// Body that turns evenly in the machine as it is: the crank.
@@ -41,15 +41,15 @@ pub struct GearDrive {
     pub timing: Timing,
     /// Steps of the table in which the law is written.
     pub steps: u32,
-    /// Maximum distance of the output from where it would be with the law itself, mm or rad, and the input there.
+    /// Maximum distance of the output from its position with the exact law, mm or rad, and the input there.
     pub miss: Extreme,
     /// Minimum radii of curvature where convex, mm: of driver and driven gear.
     pub minimum_radii: [f64; 2],
-    /// Names of the goals that say nothing of the law: of another kind, or without `within_deg`.
+    /// Names of the goals that do not define the law: goals of another kind, or without `within_deg`.
     pub left_alone: Vec<String>,
 }
 
-/// Reason why no gear pair drives a crank so.
+/// Reason why no gear pair drives the crank as required.
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum GearDriveError {
@@ -89,7 +89,7 @@ pub enum GearDriveError {
         /// The rule broken.
         why: String,
     },
-    /// A name that the drive takes.
+    /// A name that the drive needs is already used.
     #[error("{key} is there already, and the drive takes this name")]
     Taken {
         /// Its key.
@@ -111,7 +111,7 @@ pub enum GearDriveError {
         /// Maximum, mm.
         maximum: f64,
     },
-    /// A direction that is none.
+    /// A direction out of range.
     #[error("the direction of the shaft must be -{maximum} to {maximum} deg, not {}", stated(*direction))]
     Direction {
         /// Given, degrees.
@@ -131,14 +131,14 @@ impl GearDrive {
     /// Name of its pair in the design.
     pub const PAIR: &'static str = crank::DRIVE;
 
-    /// Finds the law and the gears with which the output meets the goals for it to go evenly (`over = "deviation"`) and to
-    /// rest (`over = "span"` with `maximum` and `within_deg`); other goals are left alone.
+    /// Finds the law and the gears with which the output meets its goals to move evenly (`over = "deviation"`) and to rest
+    /// (`over = "span"` with `maximum` and `within_deg`); other goals are ignored.
     ///
-    /// The law is written as a table of driven angles with as few of 90, 180 and so on up to 2,880 steps as bring the output
-    /// within 1e-7 of its stroke.
+    /// The law is written as a table of driven angles with the smallest of 90, 180 and so on up to 2,880 steps that brings the
+    /// output within 1e-7 of its stroke.
     ///
     /// # Errors
-    /// [`GearDriveError`]: a body that is no crank, goals that contradict each other, and what no gears can do.
+    /// [`GearDriveError`]: a body that is no crank, goals that contradict each other, or a motion that no gears can make.
     pub fn new(design: &MachineDesign, spec: &GearDriveSpec) -> Result<Self, GearDriveError> {
         let [minimum, maximum] = DISTANCES;
         let distance = spec.center_distance;

@@ -15,7 +15,7 @@ use centrode_machines::machine::{
     MachineObstacleSpec,
 };
 
-/// Names of the pairs of a machine: of one that occurs twice, and of two.
+/// Names of the pairs of a machine: of a single pair that occurs twice, or of two pairs.
 const STAGE: &str = "stage";
 const FIRST: &str = "first-stage";
 const SECOND: &str = "second-stage";
@@ -28,14 +28,14 @@ const WIDTH: f64 = 0.15;
 const BORE: f64 = 0.06;
 /// Thickness and width of a plate and diameter of its pins, as shares of the centre distance.
 const PLATE: [f64; 3] = [0.07, 0.16, 0.06];
-/// Numbers of equal steps of a table of the law that are tried, the last where none brings the tip near enough.
+/// Numbers of equal steps of a law's table, tried in order; the last is used if none brings the tip near enough.
 const STEPS: [u32; 6] = [90, 180, 360, 720, 1440, 2880];
 /// Fewest and most steps of a table.
 const RANGE: [u32; 2] = [12, 5000];
-/// Distance of the tip from the path that is near enough, as a share of the maximum distance of the path from the axis.
+/// Accepted distance of the tip from the path, as a share of the maximum distance of the path from the axis.
 const NEAR_ENOUGH: f64 = 1e-7;
 
-/// A machine whose tip runs along the path required, as a design of family machine.
+/// A machine whose tip runs along the required path, as a design of the family `machine`.
 #[derive(Clone, Debug)]
 pub struct ReversedMachine {
     /// The design; its teeth are fitted, of a count that may be changed.
@@ -46,7 +46,7 @@ pub struct ReversedMachine {
     pub tip_error: Extreme,
     /// Minimum radii of curvature of the pitch curves where convex, mm: driver and driven gear of each pair.
     pub minimum_radii: Vec<[f64; 2]>,
-    /// Whether the pitch curves are convex all round: driver and driven gear of each pair.
+    /// Whether the pitch curves are convex everywhere: driver and driven gear of each pair.
     pub convex: Vec<[bool; 2]>,
 }
 
@@ -77,19 +77,19 @@ pub enum ReversedMachineError {
     Gears(#[from] GearPairError),
 }
 
-/// Most arms of a machine.
+/// Maximum number of arms of a machine.
 const MAX_ARMS: u32 = 12;
 
 impl ReversedMachine {
-    /// The machine of a split: the sun on the frame, an intermediate gear, or two on one body, and a planet with the arm, whose
-    /// point `tip` is where the path begins at input zero; as many of these chains as there are arms.
+    /// The machine of a split: the sun on the frame, an intermediate gear, or two on one body, and a planet with the arm. At
+    /// input zero the arm's point `tip` is at the start of the path. There is one such chain per arm.
     ///
-    /// Laws are written as tables of driven angles with so many steps of a turn; default: as few of 90, 180 and so on up to
-    /// 2,880 as bring the tip within 1e-7 of the maximum distance from the carrier's axis. The path's derivatives of third order
-    /// jump where its pieces join, so the error falls with the third power of the steps.
+    /// Laws are written as tables of driven angles with `steps` steps per turn; default: the smallest of 90, 180 and so on up to
+    /// 2,880 that brings the tip within 1e-7 of the maximum distance from the carrier's axis. The path's derivatives of third
+    /// order jump where its pieces join, so the error falls with the third power of the steps.
     ///
     /// # Errors
-    /// [`ReversedMachineError`] for a number of arms or steps out of range, and where the pitch curves do not roll.
+    /// [`ReversedMachineError`] for a number of arms or steps out of range, and if the pitch curves do not roll.
     pub fn new(
         chain: &TwoBar,
         split: &Split,
@@ -116,7 +116,7 @@ impl ReversedMachine {
         fewest_steps(of_steps, |made| made.tip_error.value <= enough)
     }
 
-    /// The machine with obstacles where it must not be, and as goals the clearances of its bodies from them.
+    /// Adds obstacles to the machine, and the clearances of its bodies from them as goals.
     #[must_use]
     pub fn with_obstacles(mut self, keep_out: &BTreeMap<String, KeepOut>) -> Self {
         for (name, shape) in keep_out {
@@ -129,7 +129,7 @@ impl ReversedMachine {
         self
     }
 
-    /// Width of the plates of a machine of a carrier's length and a bend, rad, mm.
+    /// Width of the plates, mm, for a length of the carrier, mm, and a bend, rad.
     #[must_use]
     pub fn plate_width(carrier: f64, bend: f64) -> f64 {
         preferred_size(PLATE[1] * leg(carrier, bend))
@@ -175,13 +175,13 @@ impl ReversedMachine {
     }
 }
 
-/// Makes something with the fewest steps of a table that are enough, or with the most where none are.
+/// Makes a result with the smallest number of table steps that is enough, or with the largest if none is.
 pub(super) fn fewest_steps<T, E>(
     make: impl Fn(u32) -> Result<T, E>,
     is_enough: impl Fn(&T) -> bool,
 ) -> Result<T, E> {
     let [coarse @ .., last] = STEPS;
-    // A coarse table may be no law.
+    // Some coarse tables are no valid laws.
     let mut found = coarse.into_iter().filter_map(|steps| make(steps).ok());
     match found.find(is_enough) {
         Some(made) => Ok(made),
@@ -198,12 +198,12 @@ fn minimum_convex_radius(range: CurvatureRange) -> f64 {
     1.0 / range.maximum.1.max(0.0)
 }
 
-/// Turn of the arm's axes against those of the planet's gear, rad.
+/// Angle from the axes of the planet's gear to those of the arm, rad.
 fn turned(split: &Split) -> f64 {
     split.planet_offset() - 0.5 * split.bend() - PI
 }
 
-/// Angle of the intermediate's second gear on its body where both laws begin at zero, rad.
+/// Angle of the intermediate's second gear on its body, rad, such that both laws begin at zero.
 fn idler_mount(split: &Split) -> f64 {
     match split.kind() {
         SplitKind::OnePair => 0.0,
@@ -229,7 +229,7 @@ fn pairs(
     }
 }
 
-/// Pair of a law given as a table, for teeth to be found.
+/// Gear pair with a law given as a table; its tooth count is found later.
 pub(super) fn table_pair(table: Vec<f64>, distance: f64) -> GearPairDesign {
     let law = Transmission {
         driven_angle: table,
@@ -245,12 +245,12 @@ pub(super) fn table_pair(table: Vec<f64>, distance: f64) -> GearPairDesign {
     pair
 }
 
-/// Backlash of gears of a centre distance, mm, where it is free.
+/// Default backlash of gears, mm, for a centre distance, mm.
 pub(crate) fn free_backlash(distance: f64) -> f64 {
     preferred_size(BACKLASH * distance)
 }
 
-/// Body of gears of a centre distance, mm, where it is free.
+/// Default body of gears for a centre distance, mm.
 pub(crate) fn free_body(distance: f64) -> BodySpec {
     BodySpec {
         width: preferred_size(WIDTH * distance),
@@ -259,7 +259,7 @@ pub(crate) fn free_body(distance: f64) -> BodySpec {
     }
 }
 
-/// Tooth count before another is found.
+/// Tooth count before the search for another one.
 const FIRST_COUNT: u32 = 60;
 
 fn design(
@@ -366,7 +366,7 @@ fn design(
     design
 }
 
-/// The train forwards, from its pitch curves alone.
+/// Forward motion of the gear train, computed from its pitch curves alone.
 struct Train<'a> {
     first: &'a Rolling,
     second: &'a Rolling,
@@ -386,7 +386,7 @@ impl<'a> Train<'a> {
         }
     }
 
-    /// Point of the tip where the planet's axis is in a direction from the carrier's.
+    /// Position of the tip for a direction from the carrier's axis to the planet's, rad.
     ///
     /// With lambda the direction from a driver's axis to the driven gear's and f the driven angle of the pair, the driven gear
     /// is at lambda + f(lambda - angle of the driver).

@@ -5,7 +5,7 @@ use centrode_spec::Design;
 use centrode_analysis::Goal;
 use centrode_optimise::Problem;
 
-/// Number of a design that a search moves.
+/// Number of a design that a search changes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Variable {
     /// Name, `r1`.
@@ -16,12 +16,12 @@ pub struct Variable {
     pub bounds: [f64; 2],
     /// Whether it is an angle, in rad, and in degrees in the file.
     pub is_angle: bool,
-    /// Decimals of its values in the file, degrees or mm: the file then holds what was evaluated.
+    /// Decimals of its values in the file, degrees or mm: the file then holds the evaluated values exactly.
     pub decimals: u32,
 }
 
 impl Variable {
-    /// Rounds a value, in the file's unit, to its decimals.
+    /// Converts a value to the file's unit and rounds it to its decimals.
     #[must_use]
     pub fn written(&self, value: f64) -> f64 {
         let value = if self.is_angle {
@@ -30,7 +30,7 @@ impl Variable {
             value
         };
         let grid = 10_f64.powi(self.decimals as i32);
-        // Divided by the whole number: the nearest number to those decimals.
+        // Division by the integer gives the nearest number to those decimals.
         (value * grid).round() / grid
     }
 
@@ -61,8 +61,8 @@ pub trait DesignProblem: Problem {
     /// mechanism.
     fn goals(&self, point: &[f64]) -> Option<Vec<Goal>>;
 
-    /// Goals at a point as a guide needs them: smooth figures, which may be nearer or farther than those of
-    /// [`DesignProblem::goals`] but are met only where those are.
+    /// Goals at a point for a guided search: smooth figures. They may be missed by more or less than those of
+    /// [`DesignProblem::goals`], but are met only if those are met.
     fn guides(&self, point: &[f64]) -> Option<Vec<Goal>>;
 
     /// Objective at which a point that breaks no constraint is good enough; `None` if less is always better.
@@ -70,7 +70,7 @@ pub trait DesignProblem: Problem {
         None
     }
 
-    /// Remark of the problem on a point at which a search has ended: why no better one can be had, or why it says little.
+    /// Remark of the problem on a point at which a search has ended: why there is no better one, or why the result means little.
     fn remark(&self, _point: &[f64]) -> Option<String> {
         None
     }

@@ -32,7 +32,7 @@ impl Strategy {
     }
 }
 
-/// Search for a better design under way: keep it, store it, go on with it.
+/// State of a search for a better design, which can be stored and continued.
 #[derive(Clone, Debug, Deserialize, PartialEq, Serialize)]
 pub struct DesignSearch {
     /// Variables with their bounds; a search goes on only with equal ones.
@@ -53,11 +53,11 @@ fn variables(problem: &dyn DesignProblem) -> Vec<(String, [f64; 2])> {
 }
 
 impl DesignSearch {
-    /// Starts a search from the problem's start. The method of the settings is ignored; without a target the problem's
-    /// own holds.
+    /// Starts a search from the problem's start. The method of the settings is ignored; without a target the one of the problem
+    /// is used.
     ///
     /// # Errors
-    /// [`SearchError`] where there is nothing to search.
+    /// [`SearchError`] if there is nothing to search.
     pub fn new(
         problem: &dyn DesignProblem,
         strategy: Strategy,
@@ -104,7 +104,7 @@ impl DesignSearch {
         }
     }
 
-    /// Seed; none of a guided search, which is deterministic.
+    /// Seed; `None` for a guided search, which is deterministic.
     #[must_use]
     pub fn seed(&self) -> Option<u64> {
         match &self.state {
@@ -119,7 +119,7 @@ impl DesignSearch {
         self.evaluations
     }
 
-    /// Allows so many evaluations in all, those done among them.
+    /// Sets the maximum number of evaluations in all, including those already made.
     pub fn allow(&mut self, evaluations: u64) {
         self.evaluations = evaluations;
         if let State::Global(search) = &mut self.state {
@@ -127,7 +127,7 @@ impl DesignSearch {
         }
     }
 
-    /// Searches until it is at its end, the evaluations are used up or `observe` breaks off; the best found is kept in
+    /// Searches until the search is at its end, the evaluations are used up or `observe` breaks off; the best found is kept in
     /// every case.
     pub fn run(
         &mut self,
@@ -151,7 +151,7 @@ impl DesignSearch {
         }
     }
 
-    /// Progress; none before the first evaluation of a guided search.
+    /// Progress; `None` before the first generation of a global search.
     #[must_use]
     pub fn progress(&self) -> Option<Progress> {
         match &self.state {
@@ -169,7 +169,7 @@ impl DesignSearch {
         }
     }
 
-    /// The steps of a guided search; none of another.
+    /// The steps of a guided search; empty for another search.
     #[must_use]
     pub fn log(&self) -> &[GuidedStep] {
         match &self.state {

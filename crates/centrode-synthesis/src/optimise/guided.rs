@@ -9,14 +9,14 @@ use super::DesignProblem;
 use centrode_analysis::Goal;
 use centrode_optimise::{Ended, Progress};
 
-/// First step of a parameter, as a share of its bounds, and the minimum before a goal is left.
+/// First step of a parameter, as a share of its bounds; and minimum step, below which the search goes on to the next goal.
 const FIRST_STEP: f64 = 0.04;
 const MIN_STEP: f64 = 1e-4;
 /// Share of the gain of a step's own goal that all other goals together may lose.
 const PRICE: f64 = 0.5;
 /// Minimum gain of a step, as a share of the goal's scale.
 const MIN_GAIN: f64 = 1e-9;
-/// Share of the maximum influence above which a parameter is moved together with others.
+/// Share of the maximum influence above which a parameter is moved together with other parameters.
 const TOGETHER: f64 = 0.3;
 
 /// Step of a guided search: its goal, the parameters moved, and the gain.
@@ -28,7 +28,7 @@ pub struct GuidedStep {
     pub moves: Vec<(String, [f64; 2])>,
     /// The goal's miss before and after, as a share of its scale.
     pub miss: [f64; 2],
-    /// Growth of the misses of all other goals together; below zero where they gained, too.
+    /// Growth of the misses of all other goals together; below zero if they gained, too.
     pub others: f64,
     /// Number of the parameters that would have helped this goal.
     pub helpful: usize,
@@ -63,10 +63,10 @@ impl fmt::Display for GuidedStep {
 /// Parameter-guided search: goal by goal, each missed goal moves the parameters that influence it most, step by step.
 ///
 /// At each step every free parameter is tried a little in either direction. The one that brings the goal nearest is moved, as
-/// long as all other goals together do not lose more than half of what it gains, and it goes on with twice the
-/// step while that helps. Where several have a similar influence on the goal, moving them together is tried, too. Where nothing helps the
-/// step is halved; a goal that no step helps is left for the next one. So the misses fall with every step, and it
-/// ends. It is deterministic.
+/// long as all other goals together do not lose more than half of what it gains, and is moved on with twice the step while that
+/// helps. If several have a similar influence on the goal, moving them together is tried, too. If nothing helps, the step is
+/// halved; if no step helps, the search goes on to the next goal. So the misses fall with every step, and the search ends. It is
+/// deterministic.
 ///
 /// Source: the "parameter guide" of Yin et al. 2021, section 4, DOI 10.25165/j.ijabe.20211405.6844, whose rules the paper
 /// does not print; these are ours.
@@ -78,7 +78,7 @@ pub struct GuidedSearch {
     log: Vec<GuidedStep>,
     #[serde(default)]
     history: Vec<Progress>,
-    /// Where a run ended, to go on from there; `None` before the first run, and where every goal is met.
+    /// State in which a run ended, to go on from there; `None` before the first run, and if every goal is met.
     #[serde(default)]
     under_way: Option<UnderWay>,
 }
@@ -86,7 +86,7 @@ pub struct GuidedSearch {
 /// Position in a guided search at which it can break off.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 struct UnderWay {
-    /// Index of the goal under way; their number where no step helps any more.
+    /// Index of the current goal; the number of goals if no step helps any more.
     goal: usize,
     /// Step tried next for it, as a share of the bounds.
     step: f64,
@@ -94,7 +94,7 @@ struct UnderWay {
     before: usize,
 }
 
-/// Evaluation of a point: the goals, and by what share of its scale each is missed.
+/// Evaluation of a point: the goals, and the miss of each as a share of its scale.
 struct Seen {
     goals: Vec<Goal>,
     misses: Vec<f64>,
@@ -121,7 +121,7 @@ impl Seen {
         })
     }
 
-    /// Gain of a goal, and loss of all others together, on the way to another point.
+    /// Gain of a goal, and loss of all other goals together, from this point to another.
     fn change(&self, to: &Self, goal: usize) -> (f64, f64) {
         let gain = self.misses[goal] - to.misses[goal];
         let grown: f64 = to.misses.iter().sum::<f64>() - self.misses.iter().sum::<f64>();
@@ -188,8 +188,8 @@ impl GuidedSearch {
         }
     }
 
-    /// Steps until every goal is met, no step helps any more, the evaluations are used up, or `observe` breaks off. Another
-    /// run goes on as if there had been no break.
+    /// Makes steps until every goal is met, no step helps any more, the evaluations are used up, or `observe` breaks off. The
+    /// next run goes on as if there had been no break.
     pub fn run(
         &mut self,
         problem: &dyn DesignProblem,
@@ -286,7 +286,7 @@ impl GuidedSearch {
                 .filter(|t| seen.allows(&t.seen, goal))
         };
         let better = |a: &Candidate, b: &Candidate| gain(a).total_cmp(&gain(b));
-        // All that count, together, as far as their influence goes; and only those whose own step is allowed.
+        // Two joint moves: all parameters of large influence, in proportion to it; and all whose own step is allowed.
         let mut own = vec![0.0; count];
         for candidate in candidates.iter().filter(|t| seen.allows(&t.seen, goal)) {
             for (own, moved) in own.iter_mut().zip(&candidate.moved) {
@@ -311,7 +311,7 @@ impl GuidedSearch {
             Vec::new()
         };
         let mut best = allowed(candidates).chain(allowed(joint)).max_by(better)?;
-        // On in that direction, with twice the step each time.
+        // Further in the direction of the best step, with twice the step each time.
         while best.seen.misses[goal] > 0.0 {
             let further = best.moved.iter().map(|moved| 2.0 * moved).collect();
             let Some(next) = self.tried(problem, vec![further]).pop() else {
@@ -325,8 +325,7 @@ impl GuidedSearch {
         Some((best, helpful))
     }
 
-    /// Evaluates points moved from here by shares of the bounds, in their order; those that give no mechanism are left
-    /// out.
+    /// Evaluates points moved from here by shares of the bounds, in their order; those that give no mechanism are omitted.
     fn tried(&mut self, problem: &dyn DesignProblem, moves: Vec<Vec<f64>>) -> Vec<Candidate> {
         self.evaluations += moves.len() as u64;
         let bounds = problem.bounds();

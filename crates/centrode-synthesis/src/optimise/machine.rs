@@ -11,7 +11,7 @@ use centrode_optimise::{Evaluation, Problem};
 
 /// Decimals of the numbers found, mm or degrees.
 const DECIMALS: u32 = 6;
-/// Violation of a point that gives no machine, next to what a dyad is short of.
+/// Violation of a point that gives no machine, before the missing distance of a dyad is added.
 const NO_MACHINE: f64 = 1e3;
 
 /// A composed machine as a problem: the numbers that its table `vary` lets move, within their bounds, and its goals as
@@ -27,7 +27,7 @@ impl MachineProblem {
     /// Makes the problem around a design.
     ///
     /// # Errors
-    /// [`NotSearched`] where the design has no goal, lets nothing vary, or names what is no number of it.
+    /// [`NotSearched`] if the design has no goal, lets nothing vary, or names a key that holds no number.
     pub fn new(design: &MachineDesign) -> Result<Self, NotSearched> {
         let no = |why: String| NotSearched::Design(why);
         if design.goals.is_empty() {
@@ -88,8 +88,8 @@ impl Problem for MachineProblem {
         Some(self.start.clone())
     }
 
-    /// Evaluates a point: no objective, and each goal's miss by its scale; a machine that does not close is worse by what
-    /// is missing.
+    /// Evaluates a point: no objective, and each goal's miss by its scale; for a machine that does not close, the violation grows
+    /// with the missing distance.
     fn evaluate(&self, point: &[f64]) -> Evaluation {
         let constraints = match self.made(point) {
             Some(Ok(machine)) => {
@@ -97,7 +97,7 @@ impl Problem for MachineProblem {
                 machine_goals(&machine).iter().map(miss).collect()
             }
             Some(Err(MachineError::DoesNotClose { dyads })) => {
-                // That of the first one: the others may close as soon as it does.
+                // Only the first dyad counts: the others may close as soon as it does.
                 let missing = dyads
                     .first()
                     .map_or(f64::INFINITY, |(_, found)| found.missing);

@@ -20,29 +20,31 @@ use objective::{aimed, best_axis};
 pub use path_goals::reached;
 pub use spec::{EasedPath, EasingSpec};
 
-/// Most points that are moved each on its own; of more, the moves are a sum of harmonics.
+/// Maximum number of points that are moved independently; for more points the moves are a sum of harmonics.
 const SINGLE: usize = 24;
-/// Such harmonics.
+/// Number of these harmonics.
 const HARMONICS: usize = 12;
-/// Maximum amplitude of a harmonic: a share of the band, before it is bent to stay within one.
+/// Maximum of the mean move, as a share of the band; the maximum amplitude of harmonic k is this over 1 + k. The sum is then
+/// compressed to less than the band.
 const MAXIMUM: f64 = 2.0;
-/// Room of the axis about the one that the search starts from, as a share of the path's size.
+/// Maximum displacement of the axis in x and in y from its start, as a share of the path's diagonal.
 const ROOM: f64 = 0.2;
-/// Evaluations of each of both searches.
+/// Maximum number of evaluations per search.
 const EVALUATIONS: u64 = 6000;
-/// Searches, each within half of the bands of the one before, where none finds a better path.
+/// Maximum number of searches, each within half of the bands of the one before.
 const HALVINGS: u32 = 6;
-/// Minimum module of full teeth, as a share of the centre distance, that other wishes leave: gears of less have hardly any teeth.
+/// Minimum module of full teeth, as a share of the centre distance, in a search with wishes or with another aim than the module:
+/// with less, the teeth have hardly any height.
 const MIN_MODULE: f64 = 1.0 / 600.0;
-/// Violation of a point of which there is no machine.
+/// Violation of a point that gives no machine.
 const NONE: f64 = 1e3;
 
-/// Search for the path near a required one whose gears are the bluntest: every point may move within its band along the path's
-/// normal, and the axis, where it is free, about the best known.
+/// Search for the path near a required one whose pitch curves are the least curved: every point may move within its band along
+/// the path's normal, and a free axis may move around the one from which the search starts.
 ///
-/// What is searched is the largest module with which full teeth are surely sound on the four pitch curves of the split by
-/// powers, by their maximum curvatures, [`TwoBar::curvatures`]. The eased path is of degree five: its pitch curves' curvatures
-/// do not jump.
+/// With [`Aim::Module`] it searches for the largest module with which full teeth are surely sound on the four pitch curves of the
+/// split by powers; this module follows from the maximum curvatures, [`TwoBar::curvatures`]. The eased path is of degree five:
+/// its pitch curves' curvatures do not jump.
 #[derive(Clone, Debug)]
 pub struct Easing {
     points: Vec<Point>,
@@ -53,21 +55,21 @@ pub struct Easing {
     bend: f64,
     aim: Aim,
     wishes: Wishes,
-    /// Module required, mm: then the search is for the moves that reach it and are the smallest shares of their bands.
+    /// Required module, mm: the search is then for the moves that reach it and are the smallest shares of their bands.
     required: Option<f64>,
     start: Vec<f64>,
     /// Share of the bands within which points are moved.
     reach: f64,
-    /// Number of points that were given; the others are a free return.
+    /// Number of points that were given; the points after them are a free return.
     given: usize,
 }
 
 impl Easing {
-    /// The search for a path through points each within its band, mm. Without an axis the search starts from the one of a grid
-    /// about the path that comes nearest to the wishes, and of several that reach them is the best by its aim.
+    /// The search for a path through points each within its band, mm. If no axis is given, the search starts from an axis of a
+    /// grid around the path: the one that comes nearest to the wishes, or, of several that reach them, the best by the aim.
     ///
     /// # Errors
-    /// [`EasingError`]: the points make no path, a band is none, a wish breaks a rule, or no axis makes a machine for the
+    /// [`EasingError`]: the points make no path, a band is invalid, a wish breaks a rule, or no axis makes a machine for the
     /// required path.
     pub fn new(points: &[Point], spec: &EasingSpec) -> Result<Self, EasingError> {
         Self::through(points, points.len(), spec)
@@ -90,7 +92,7 @@ impl Easing {
             Some(axis) => (TwoBar::new(&path, axis, None)?.axis(), None),
             None => {
                 let (axis, room) = starting_axis(&path, points.len(), spec)?;
-                // The path is eased by another curve, for which that position may be none.
+                // The eased path is another curve, for which that axis may be impossible.
                 let smooth = RequiredPath::smoothly_through(points)?;
                 let is_possible = TwoBar::new(&smooth, axis, None).is_ok();
                 let again = (!is_possible).then(|| starting_axis(&smooth, points.len(), spec));
@@ -123,11 +125,12 @@ impl Easing {
         Ok(easing)
     }
 
-    /// Searches for the bluntest gears, or, where a module is required, mm, for the smallest shares of the bands with which it
-    /// is reached. Where it is out of reach the bluntest are given. `observe` hears of evaluations.
+    /// Searches for the best path by the aim. If a module, mm, is required, searches for the path that reaches it with the
+    /// smallest moves as shares of the bands; if no path reaches it, the one with the largest module is returned. `observe`
+    /// receives the number of evaluations.
     ///
     /// # Errors
-    /// [`EasingError::Module`], and [`EasingError::Axis`] where no path of degree five within the bands has a machine.
+    /// [`EasingError::Module`], and [`EasingError::Axis`] if no path of degree five within the bands has a machine.
     pub fn search(
         &self,
         required: Option<f64>,
@@ -167,14 +170,15 @@ impl Easing {
             let Some((point, ended)) = best(&found, required.map(|module| -module)) else {
                 break;
             };
-            // Wishes out of reach are come as near to as can be.
+            // Wishes that cannot be reached are approached as closely as possible.
             let here = found.evaluate(&point);
             let (is_better, is_feasible) = (here.order(&nearest).is_lt(), here.feasible());
             let had_one = chosen.is_some();
             if is_better {
                 (nearest, reach, chosen) = (here, found.reach, Some(point));
             }
-            // Bands as wide as the path leave hardly any machine to be found: narrower ones are tried until they find no more.
+            // With bands as wide as the path hardly any point gives a machine: narrower bands are tried until the result gets no
+            // better.
             let is_done = if is_better { is_feasible } else { had_one };
             if is_done || ended == Ended::Stopped || found.moves() == 0 {
                 break;
@@ -204,7 +208,7 @@ impl Easing {
         let moved = points.iter().zip(&self.points[..self.given]);
         let axis = found.axis_at(&found.start);
         let eased = TwoBar::new(&self.curve(&points)?, axis, None)?;
-        // A free return was not required as it was tried first.
+        // With a free return the first path was not a required one: no module of it is reported.
         let is_whole = self.given == self.points.len();
         let before = RequiredPath::through(&self.points)?;
         let before = TwoBar::new(&before, axis, None).ok().filter(|_| is_whole);
@@ -226,7 +230,7 @@ impl Easing {
         })
     }
 
-    /// Variables that move points.
+    /// Number of variables that move points.
     fn moves(&self) -> usize {
         if self.bands.iter().all(|band| *band == 0.0) {
             return 0;
@@ -276,8 +280,8 @@ impl Easing {
         }
     }
 
-    /// The curve through points: where nothing may move, that of a path followed as it is; else one of degree five, which leaves no
-    /// jump in the curvature of gears.
+    /// The curve through points: if nothing may move, the one of an exactly followed path; else one of degree five, with which
+    /// the curvature of the gears does not jump.
     fn curve(&self, points: &[Point]) -> Result<RequiredPath, PathError> {
         match self.moves() == 0 && self.axis.1.is_none() {
             true => RequiredPath::through(points),
@@ -364,7 +368,7 @@ fn starting_axis(
     let tried = map.found().len();
     let axis = best_axis(path, &map, points, spec);
     let axis = axis.ok_or(EasingError::NoAxis { tried })?;
-    // A far axis makes an ever milder machine, and an ever larger one: no farther than the map goes.
+    // The farther the axis, the gentler and the larger the machine: the box ends at the border of the map.
     let room = match spec.axes {
         Some(_) => f64::INFINITY,
         None => ROOM * path.bounds().diagonal(),
@@ -375,7 +379,7 @@ fn starting_axis(
     Ok((axis, [low, high].into_iter().collect()))
 }
 
-/// A band for each point, of one for each or one for all.
+/// A band for each point, from a list with one per point or a single one for all.
 fn each(bands: &[f64], points: usize) -> Result<Vec<f64>, EasingError> {
     match bands {
         [one] => Ok(vec![*one; points]),

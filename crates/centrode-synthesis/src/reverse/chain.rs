@@ -14,27 +14,27 @@ use centrode_kinematics::transmission::{
 };
 use centrode_machines::three_arm::design::Direction;
 
-/// Minimum speed of a body, as a share of its mean, at which it still turns.
+/// Minimum speed of a body at which it counts as turning, as a share of its mean speed.
 const MIN_SPEED: f64 = 1e-6;
-/// Difference of angles that is rounding, rad.
+/// Maximum difference of angles that counts as rounding, rad.
 const ROUNDING: f64 = 1e-6;
 
-/// Carrier and arm whose tip runs along a path: both lengths, and both turns as functions of the path's parameter.
+/// Carrier and arm whose tip runs along a path: both lengths, and the angles of both as functions of the path's parameter.
 ///
 /// With R and rho the maximum and the minimum distance of the path from the axis the bars are (R + rho)/2 and (R - rho)/2 long.
-/// The longer one is the carrier where the axis lies inside the path, the shorter one where it lies outside; the other choice
-/// makes no whole turn. With u the square of the distance, c and s the lengths and beta the angle of the arm against the
-/// carrier, `4 c s sin^2(beta/2) = R^2 - u` and `4 c s cos^2(beta/2) = u - rho^2`: beta runs through one whole turn, against
-/// that of the carrier.
+/// If the axis lies inside the path, the longer bar is the carrier; if it lies outside, the shorter one. With the other choice
+/// the carrier would not make a whole turn. With u the square of the distance, c and s the lengths and beta the angle of the arm
+/// against the carrier, `4 c s sin^2(beta/2) = R^2 - u` and `4 c s cos^2(beta/2) = u - rho^2`: beta makes one whole turn, in the
+/// opposite direction to the carrier's.
 #[derive(Clone, Debug)]
 pub struct TwoBar {
     path: RequiredPath,
     distance: Distance,
     carrier: f64,
     arm: f64,
-    /// Sense of the carrier as the path is run through: 1 counter-clockwise.
+    /// Sense of rotation of the carrier while the tip moves along the path: 1 counter-clockwise, -1 clockwise.
     sense: f64,
-    /// Direction of the carrier where it is stretched, rad.
+    /// Direction of the carrier when carrier and arm are stretched, rad.
     start: f64,
     minimum_ratio: Extreme,
     maximum_ratio: Extreme,
@@ -52,12 +52,12 @@ pub struct ChainJet {
 impl TwoBar {
     /// The chain with its carrier's axis at a position.
     ///
-    /// `direction` is the sense of the carrier as the path is run through: free where the axis lies outside the path; omitted,
-    /// the one whose maximum |ln| of the ratio is less.
+    /// `direction` is the sense of rotation of the carrier while the tip moves along the path. It is free if the axis lies
+    /// outside the path; default: the sense with the smaller maximum |ln| of the ratio.
     ///
     /// # Errors
-    /// [`AxisFault`] with the rule broken and where on the path: the distance from the axis must have one maximum and one
-    /// minimum place, and the carrier and the arm against it must turn in one direction.
+    /// [`AxisFault`] with the rule broken and the position on the path: the distance from the axis must have one maximum and one
+    /// minimum, and the carrier and the arm against it must turn in one direction.
     pub fn new(
         path: &RequiredPath,
         axis: Point,
@@ -126,14 +126,14 @@ impl TwoBar {
         Ok(chain)
     }
 
-    /// Finds the extremes of the ratio, and that both bars turn in one direction.
+    /// Finds the extremes of the ratio, and checks that both bars turn in one direction.
     fn check(&mut self) -> Result<(), AxisFault> {
         let minimum = MIN_SPEED * TAU / self.path.period();
         let looks = PathSamples::new(&self.path, usize::MAX);
         let mut known = Vec::with_capacity(looks.samples.len());
         for sample in &looks.samples {
             let speeds = self.speeds(sample.at, &sample.jet);
-            // Most places that are no axis are reported by the samples at hand; speeds that are no numbers are none.
+            // These samples already refuse most impossible axes; a speed that is not a number is refused, too.
             let turns_on = speeds[0] > minimum;
             if !turns_on {
                 return Err(AxisFault::CarrierTurnsBack {
@@ -195,7 +195,7 @@ impl TwoBar {
         [carrier, elbow]
     }
 
-    /// A parameter moved by whole turns into the one that begins where the chain is stretched, and the turns.
+    /// A parameter moved by whole turns into the turn that begins where the chain is stretched, and the number of these turns.
     fn inside(&self, t: f64) -> (f64, f64) {
         let (from, period) = (self.distance.far, self.path.period());
         if t >= from && t <= from + period {
@@ -222,13 +222,13 @@ impl TwoBar {
             series(p.x, jet.first.x, jet.second.x),
             series(p.y, jet.first.y, jet.second.y),
         );
-        // The way to the tip, turned back by that of the chain in the carrier's own axes.
+        // Direction to the tip, minus the direction to the tip in the carrier's own axes.
         let (a, b) = (cos * self.arm + self.carrier, sin * self.arm);
         let carrier = (y * a - x * b).atan2(x * a + y * b);
         let turned = TAU * turns * self.sense;
         let principal = carrier.0[0];
         let mut since = (self.sense * (principal - self.start)).rem_euclid(TAU);
-        // Rounding next to the ends of the turn.
+        // Rounding may move an angle near an end of the turn to the other end.
         let share = (inside - self.distance.far) / self.path.period();
         if since > TAU - ROUNDING && share < 0.25 {
             since -= TAU;
@@ -308,13 +308,13 @@ impl TwoBar {
         (-self.minimum_ratio.value.ln()).max(self.maximum_ratio.value.ln())
     }
 
-    /// Axis of the arm for a direction of the carrier, rad; mm.
+    /// Position of the arm's axis, mm, for a direction of the carrier, rad.
     #[must_use]
     pub fn knee(&self, carrier: f64) -> Point {
         self.axis() + Vector::new(carrier.cos(), carrier.sin()) * self.carrier
     }
 
-    /// Point of the tip at angles of the carrier and of the arm against it, mm.
+    /// Position of the tip, mm, for the angles of the carrier and of the arm relative to it, rad.
     #[must_use]
     pub fn tip(&self, carrier: f64, elbow: f64) -> Point {
         let arm = carrier + elbow;
@@ -329,10 +329,10 @@ impl TwoBar {
         self.inverse(|jet| jet.carrier, self.sense)
     }
 
-    /// Parameter of the path by the turn of the planet, which is that of the arm against the carrier with its sign changed, rad.
+    /// Parameter of the path by the turn of the planet, rad: the turn of the arm relative to the carrier with its sign changed.
     ///
     /// # Errors
-    /// [`TransmissionError::StandsStill`] where rounding stops the arm.
+    /// [`TransmissionError::StandsStill`] if rounding stops the arm.
     pub fn by_planet(&self) -> Result<Inverse, TransmissionError> {
         self.inverse(|jet| jet.elbow.map(|x| -x), self.sense)
     }
@@ -350,14 +350,14 @@ impl TwoBar {
                 position,
                 velocity,
                 acceleration,
-                // An inverse does without.
+                // An inverse does not need the jerk.
                 jerk: 0.0,
             }
         };
         Inverse::new(Arc::new(FromFn::new(period, sense * TAU, breaks, law)))
     }
 
-    /// The total law: turn of the planet by the direction of the carrier, in pieces within rounding.
+    /// The total law: turn of the planet by the direction of the carrier, in pieces that are exact within rounding.
     ///
     /// Its velocity is the ratio; with a turn of the carrier it grows by one turn. It is zero where the chain is stretched.
     ///
@@ -371,14 +371,14 @@ impl TwoBar {
             let t = inverse.at(carrier).position;
             MotionJet {
                 position: -chain.at(t).elbow[0],
-                // Pieces are made of positions alone.
+                // The pieces use the position only.
                 ..MotionJet::default()
             }
         };
         Ok(FromFn::new(TAU, TAU, breaks, planet).pieces())
     }
 
-    /// Angles in `[0, 2 pi)` of something at the breaks of the path, ascending.
+    /// Values of `angle` in `[0, 2 pi)` at the breaks of the path, ascending.
     pub(super) fn breaks(&self, angle: impl Fn(ChainJet) -> f64) -> Vec<f64> {
         let breaks = self.path.breaks().iter();
         let angles = breaks.map(|&t| angle(self.at(t)).rem_euclid(TAU));
@@ -386,8 +386,8 @@ impl TwoBar {
     }
 }
 
-/// Turns of a path about a position, counter-clockwise positive: how often it crosses the half line from there along x upwards,
-/// less how often downwards.
+/// Turns of a path around a position, counter-clockwise positive: number of upward crossings of the half line from there along x,
+/// minus number of downward crossings.
 fn winding(path: &RequiredPath, axis: Point) -> i32 {
     let samples = path.samples();
     let next = samples.iter().cycle().skip(1);

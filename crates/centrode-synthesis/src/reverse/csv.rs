@@ -33,7 +33,7 @@ const POSES: Layout = Layout {
     words: "x and y in mm and the direction in degrees",
 };
 
-/// Numbers of the optional columns of a path.
+/// Indices of the optional columns of a path.
 const TOLERANCE: usize = 2;
 const DIRECTION: usize = 3;
 const DIRECTION_TOLERANCE: usize = 4;
@@ -51,10 +51,10 @@ pub struct RequiredPoints {
 
 impl RequiredPoints {
     /// Reads points as [`RequiredPath::from_csv`](super::RequiredPath::from_csv) does, and the columns headed `tolerance`,
-    /// `direction_deg` and `direction_tolerance_deg`, if there are such. Where a direction is left empty it is free.
+    /// `direction_deg` and `direction_tolerance_deg`, if the file has them. An empty direction is free.
     ///
     /// # Errors
-    /// [`PathError`] with the line; a tolerance is zero or more.
+    /// [`PathError`] with the line; a tolerance must be zero or more.
     pub fn from_csv(bytes: &[u8]) -> Result<Self, PathError> {
         let table = Table::read(bytes, &PATH)?;
         let points = table.rows()?.into_iter().map(|row: [f64; 2]| row.into());
@@ -85,7 +85,7 @@ struct Table<'a> {
     lines: Vec<Line<'a>>,
 }
 
-/// A line that is no remark.
+/// A line that is not a comment, with its number.
 struct Line<'a> {
     number: usize,
     words: Vec<&'a str>,
@@ -118,7 +118,7 @@ impl<'a> Table<'a> {
         Ok(table)
     }
 
-    /// Refuses a line that has too few values, or one in a column without a name.
+    /// Refuses a line that has too few values, or a value in a column without a name.
     fn check(&self, line: &Line<'_>) -> Result<(), PathError> {
         let needed = &self.columns[..self.layout.needed];
         let is_short = needed.iter().flatten().any(|k| *k >= line.words.len());
@@ -179,7 +179,7 @@ impl<'a> Table<'a> {
 }
 
 impl Layout {
-    /// Position in a line of each column, by the line of headings.
+    /// Position in a line of each column, read from the line of headings.
     fn columns(&self, line: &Line<'_>) -> Result<Vec<Option<usize>>, PathError> {
         let refused = |fault: String| {
             let known: Vec<&str> = self.headings.iter().map(|names| names[0]).collect();
@@ -216,7 +216,7 @@ impl Layout {
 
 impl<'a> Line<'a> {
     fn new(number: usize, line: &'a str) -> Self {
-        // Spreadsheets that write a decimal comma separate by semicolons or tabs.
+        // Spreadsheets that write a decimal comma separate columns by semicolons or tabs.
         let (separators, decimal): (&[char], _) = match line.contains([';', '\t']) {
             true => (&[';', '\t'], ','),
             false => (&[','], '.'),

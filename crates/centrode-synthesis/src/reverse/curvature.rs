@@ -1,6 +1,7 @@
 /// Curvatures of the pitch curves of driver and driven gear of a pair of centre distance 1, with their derivatives.
 ///
-/// By w, the logarithm of the ratio, and its two derivatives by the driver's angle, of which each has derivatives again.
+/// The arguments are w, the logarithm of the ratio, and its first two derivatives by the driver's angle. The derivatives of each
+/// curvature are by these three.
 pub(super) fn curvatures([w, w1, w2]: [f64; 3]) -> [(f64, [f64; 3]); 2] {
     let p = 1.0 / (1.0 + (-w).exp());
     let q = 1.0 / (1.0 + w.exp());

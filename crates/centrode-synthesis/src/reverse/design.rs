@@ -148,11 +148,11 @@ impl Default for PathDesign {
 }
 
 impl PathDesign {
-    /// Checks axis and box; of a path whose points are in a file, `points` may be empty until it is read.
+    /// Checks axis and box; if the points are in a file, `points` may be empty until the file is read.
     ///
     /// # Errors
-    /// [`SpecError`] with the key at fault: both are given, a number is none, the box has no room, or it reaches more than 1000
-    /// times the size of the path beyond it.
+    /// [`SpecError`] with the key at fault: both are given, a number is not finite, the box is empty, or it reaches beyond the
+    /// path by more than 1000 times the path's size.
     pub fn check_axes(&self, points: &[Point]) -> Result<(), SpecError> {
         for x in self.axis.iter().flatten() {
             finite("axis", *x)?;
@@ -179,7 +179,7 @@ impl PathDesign {
         Ok(())
     }
 
-    /// Axes among which one is searched for a path: of the box given, or about the path.
+    /// Axes among which one is searched for a path: within the given box, or around the path.
     #[must_use]
     pub fn axes(&self, path: &RequiredPath) -> AxisRange {
         let about = AxisRange::about(path);
@@ -192,8 +192,8 @@ impl PathDesign {
         }
     }
 
-    /// Distances within which the path may pass its points, mm, one for all or one for each; `None` if it is to be followed as
-    /// it is, and nothing else is required.
+    /// Distances within which the path may pass its points, mm, one for all or one for each; `None` if the path must be followed
+    /// exactly and nothing else is required.
     #[must_use]
     pub fn bands(&self) -> Option<Vec<f64>> {
         let path = &self.path;
@@ -207,7 +207,7 @@ impl PathDesign {
 }
 
 impl PathSpec {
-    /// Checks the rules; gives how many points there may be.
+    /// Checks the rules; returns the maximum number of points.
     fn validate(&self) -> Result<usize, SpecError> {
         match (&self.file, self.points.is_empty()) {
             (Some(_), false) => return broken("file", Rule::Excludes("points")),
@@ -234,7 +234,7 @@ impl PathSpec {
                 return broken("band", Rule::Needed("with module, which eases the path"));
             }
         }
-        // How many a file has is seen when it is read.
+        // The number of points in a file is not known before it is read.
         Ok(match self.file {
             Some(_) => usize::MAX,
             None => self.points.len(),

@@ -8,19 +8,19 @@ use centrode_kinematics::formula::Taylor;
 /// Value and first two derivatives, as Taylor coefficients.
 pub(super) type Series = Taylor<3>;
 
-/// Share of the maximum distance's square within which of an extreme differences of squares lose digits.
+/// Difference of a distance's square from its extreme below which digits are lost, as a share of the maximum square.
 const NEAR: f64 = 4e-4;
-/// Most breaks between an extreme and a position that is near it: beyond, digits lost are fewer than the path's own.
+/// Maximum number of breaks between an extreme and a position near it: with more, the path itself loses more digits.
 const MAX_BREAKS: usize = 8;
-/// Difference of the maximum and minimum distance, as a share, that is rounding.
+/// Relative difference of the maximum and minimum distance below which both count as equal.
 const SAME: f64 = 1e-9;
 /// Minimum distance of the path from the axis, as a share of the maximum.
 const CLEAR: f64 = 1e-9;
 
 /// Distance of a path from an axis, with one maximum and one minimum value in a turn.
 ///
-/// With u the square of the distance and R, rho its extremes, `sqrt(R^2 - u)` and `sqrt(u - rho^2)` are smooth once they
-/// change sign where they are zero. There they are `h sqrt(v)` with h the step from the extreme and
+/// With u the square of the distance and R, rho its extremes, `sqrt(R^2 - u)` and `sqrt(u - rho^2)` are smooth if their sign
+/// changes where they are zero. Near a zero they are `h sqrt(v)` with h the step from the extreme and
 /// `v = -+ integral of (1 - tau) u''(extreme + tau h) from 0 to 1`, a limit in which no digit is lost.
 #[derive(Clone, Debug)]
 pub(super) struct Distance {
@@ -89,7 +89,7 @@ impl Distance {
         })
     }
 
-    /// The extreme next to which a difference of squares would lose digits, and the step from it.
+    /// The extreme near which a difference of squares would lose digits, and the step from it; `None` if none is so near.
     fn beside(&self, path: &RequiredPath, t: f64, square: f64) -> Option<(Place, f64)> {
         let [far, near] = self.reach.map(|r| r * r);
         let room = NEAR * far;
@@ -107,8 +107,8 @@ impl Distance {
         (path.breaks_between(from, to).len() <= MAX_BREAKS).then_some(found)
     }
 
-    /// `sqrt(R^2 - u)` and `sqrt(u - rho^2)` with their derivatives at a parameter in `[far, far + period]`, the second below
-    /// zero beyond the minimum distance.
+    /// `sqrt(R^2 - u)` and `sqrt(u - rho^2)` with their derivatives at a parameter in `[far, far + period]`, the second negative
+    /// beyond the minimum distance.
     pub(super) fn legs(&self, path: &RequiredPath, t: f64, jet: &Jet) -> [Series; 2] {
         let (p, d1, d2) = (jet.point - self.axis, jet.first, jet.second);
         let u = [
@@ -134,7 +134,7 @@ impl Distance {
         [away, close]
     }
 
-    /// One of the roots next to its extreme, by the limit: `h w` with w = sqrt(v).
+    /// One of the roots near its extreme, by the limit: `h w` with w = sqrt(v).
     fn root(&self, path: &RequiredPath, place: Place, h: f64, jet: &Jet) -> Series {
         let sense = if place.is_maximum { -1.0 } else { 1.0 };
         let limit = Limit::new(path, self.axis, place.at, h, jet);
@@ -145,7 +145,7 @@ impl Distance {
         let w1 = slope / (2.0 * w);
         let hw2 = bend / (2.0 * w) - h * slope * slope / (4.0 * w * w * w);
         let series = Taylor([h * w, w + h * w1, w1 + 0.5 * hw2]);
-        // Positive after the maximum distance and before the next, and before the minimum.
+        // The first root is positive between two maxima of the distance; the second is positive before the minimum.
         let ahead = if place.is_maximum {
             place.at == self.far
         } else {
@@ -180,7 +180,7 @@ impl Distance {
             _ => [0.0; 2],
         };
         let sense = limit.square[0].signum();
-        // u' and the square of the root, both over their power of the step.
+        // u' and the square of the root, each divided by its power of the step.
         let series = |[value, slope]: [f64; 2], bend: f64| {
             taylor::<N>([value * sense, slope * sense, 0.5 * bend * sense])
         };
@@ -189,12 +189,12 @@ impl Distance {
     }
 }
 
-/// Taylor coefficients, as many as are requested.
+/// The first N Taylor coefficients.
 pub(super) fn taylor<const N: usize>(all: [f64; 3]) -> Taylor<N> {
     Taylor(std::array::from_fn(|k| all.get(k).copied().unwrap_or(0.0)))
 }
 
-/// Positions along a path at which its distance from an axis is greater, or less, than next to them.
+/// Positions along a path at which its distance from an axis has a local maximum or minimum.
 fn extremes(path: &RequiredPath, axis: Point) -> Vec<Place> {
     let slope_of = |jet: &Jet| (jet.point - axis).dot(&jet.first);
     let slope = |t: f64| slope_of(&path.at(t));
@@ -215,7 +215,7 @@ fn extremes(path: &RequiredPath, axis: Point) -> Vec<Place> {
                 is_maximum: here > 0.0,
             });
         }
-        // Two zeros between samples, where the slope comes near zero and turns.
+        // The slope may have two zeros between samples if it comes near zero and turns back.
         let side = here.signum();
         let [low, middle, high] = [before, here, after].map(|s| s * side);
         let is_minimum = middle <= low && middle <= high && low + high > 2.0 * middle;

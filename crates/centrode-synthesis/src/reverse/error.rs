@@ -21,7 +21,7 @@ pub enum PathError {
         /// Its y, mm.
         y: f64,
     },
-    /// A coordinate so large that its powers are lost.
+    /// A coordinate beyond the limit.
     #[error(
         "point {number} of the path is ({}, {}) mm: coordinates may be up to {limit:e} mm", stated(*x), stated(*y)
     )]
@@ -38,7 +38,7 @@ pub enum PathError {
     /// A path that is small next to its distance from the origin.
     #[error("the path is {} mm across and up to {} mm from the origin of x and y: too few digits are left for its shape; draw it larger, or nearer to the origin", stated(*size), stated(*far))]
     TooSmall {
-        /// Diagonal of the box round it, mm.
+        /// Diagonal of the path's bounding box, mm.
         size: f64,
         /// Maximum coordinate, mm.
         far: f64,
@@ -59,7 +59,7 @@ pub enum PathError {
         /// Most allowed.
         limit: usize,
     },
-    /// Two neighbouring points are one.
+    /// Two neighbouring points coincide.
     #[error("points {first} and {second} of the path are both ({x}, {y}) mm: leave one out", x = stated(*x), y = stated(*y))]
     Twice {
         /// Number of the first, from one.
@@ -103,7 +103,7 @@ pub enum PathError {
         /// Line, from one.
         line: usize,
     },
-    /// A tolerance that is none.
+    /// A tolerance that is negative or not finite.
     #[error("line {line}: the tolerance of a point is zero or more, in mm, not {}", stated(*value))]
     Tolerance {
         /// Line, from one.
@@ -149,7 +149,7 @@ pub enum PathError {
 #[derive(Clone, Debug, Error, PartialEq)]
 #[non_exhaustive]
 pub enum AxisFault {
-    /// The position is no point.
+    /// A coordinate that is not finite or too large.
     #[error("the axis ({}, {}) must be two finite numbers within {limit:e} mm", stated(*x), stated(*y))]
     NotFinite {
         /// Its x, mm.
@@ -159,7 +159,7 @@ pub enum AxisFault {
         /// Maximum coordinate, mm.
         limit: f64,
     },
-    /// An axis so far from the path that the tip's position is lost in rounding.
+    /// An axis so far from the path that rounding spoils the tip's position.
     #[error("the axis is {} mm from the path: it may be up to {} mm away, 1000 times the size of the path", stated(distance.round()), stated(limit.round()))]
     TooFar {
         /// Minimum distance of the path from the axis, mm.
@@ -174,7 +174,7 @@ pub enum AxisFault {
         places(maxima)
     )]
     Extremes {
-        /// Positions on the path where the distance is greater than next to them, mm.
+        /// Positions on the path with a local maximum of the distance, mm.
         maxima: Vec<Point>,
     },
     /// The path is a circle about the axis.
@@ -204,7 +204,7 @@ pub enum AxisFault {
         "with the axis inside the path the carrier turns as the path is run through, {sense}: the other sense needs an axis outside"
     )]
     Sense {
-        /// The one that is possible.
+        /// The sense that is possible, in words.
         sense: &'static str,
     },
     /// The carrier would turn back.
@@ -219,7 +219,7 @@ pub enum AxisFault {
         /// Position on the path, mm.
         at: Point,
     },
-    /// The arm would not move on the carrier.
+    /// The arm would not move relative to the carrier.
     #[error(
         "the arm would stop on the carrier at ({:.4}, {:.4}) mm of the path, where the path lies on a circle about the axis",
         at.x,

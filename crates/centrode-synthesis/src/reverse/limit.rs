@@ -2,12 +2,12 @@ use centrode_geometry::{Jet, Point, gauss_legendre};
 
 use super::RequiredPath;
 
-/// Share of the path's period from an extreme within which second derivatives of the limit lose digits.
+/// Distance from an extreme, as a share of the path's period, within which second derivatives of the limit lose digits.
 const TOO_NEAR: f64 = 1e-4;
-/// Share of the period within which a break is the extreme itself.
+/// Distance, as a share of the period, within which a break counts as the extreme itself.
 const SAME_PLACE: f64 = 1e-8;
 
-/// Means of the derivatives of the square of a distance between one of its extremes and a position next to it, a step h away.
+/// Means of the derivatives of the square u of a distance, taken between an extreme and a position near it, a step h away.
 ///
 /// There `u' = h A` and `u = u(extreme) + h^2 V` with `A = integral of u''` and `V = integral of (1 - tau) u''`, at the extreme
 /// plus tau h and over tau from 0 to 1: no digit is lost in them. Derivatives are by h.
@@ -57,7 +57,7 @@ impl Limit {
         found
     }
 
-    /// A'' and V'' at a step: very near the extreme by the line through two points farther from it on the same side.
+    /// A'' and V'' at a step: very near the extreme, extrapolated linearly from two points farther from it on the same side.
     pub(super) fn second(
         &self,
         path: &RequiredPath,

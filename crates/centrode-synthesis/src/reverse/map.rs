@@ -7,11 +7,11 @@ use super::{AxisFault, RequiredPath, TwoBar};
 const MARGIN: f64 = 0.25;
 /// Axes along each side of the grid of a search.
 const GRID: u32 = 33;
-/// Halvings of the grid's step about the best axis, and axes tried to either side of it each time.
+/// Halvings of the grid's step around the best axis, and number of axes tried on each side of it each time.
 const HALVINGS: u32 = 24;
 const BESIDE: i32 = 2;
 
-/// Positions of a grid at which carrier axes are tried, first and last along x and y included.
+/// Grid of positions tried as the carrier's axis; the limits of x and y belong to it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AxisRange {
     /// Minimum and maximum x, mm.
@@ -30,7 +30,7 @@ pub struct AxisMap {
     found: Vec<Result<PossibleAxis, AxisFault>>,
 }
 
-/// Chain of a possible axis in figures.
+/// Figures of the chain of a possible axis.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PossibleAxis {
     /// Length of the carrier, mm.
@@ -43,8 +43,8 @@ pub struct PossibleAxis {
     pub shaft_distance: f64,
     /// Maximum curvature of the four pitch curves of the split by powers, as a multiple of one over the centre distance.
     ///
-    /// Averaged over a 180th of a turn, as in the gears that are written: mostly within 5 % of theirs, up to 40 % blunter where
-    /// the law has a narrow peak. Of a path of more than 64 pieces 64 are sampled, evenly spread.
+    /// Averaged over a 180th of a turn, as in the gears that are written: mostly within 5 % of their value, up to 40 % below it
+    /// if the law has a narrow peak. Of a path with more than 64 pieces at most 64 are sampled, evenly spread.
     pub sharpness: f64,
 }
 
@@ -124,7 +124,7 @@ impl AxisRange {
 }
 
 impl AxisMap {
-    /// Tries every axis of a grid; where the sense of the carrier is free, the milder one.
+    /// Tries every axis of a grid; if the sense of the carrier is free, the gentler one is used.
     #[must_use]
     pub fn new(path: &RequiredPath, range: AxisRange) -> Self {
         let [columns, rows] = range.count;
@@ -144,7 +144,7 @@ impl AxisMap {
         &self.range
     }
 
-    /// Axes row by row from the minimum y, each row from the minimum x: figures, or why there is no machine.
+    /// Axes row by row from the minimum y, each row from the minimum x: figures, or the reason why there is no machine.
     pub fn found(&self) -> &[Result<PossibleAxis, AxisFault>] {
         &self.found
     }
@@ -155,8 +155,8 @@ impl AxisMap {
         self.found.iter().filter(|found| found.is_ok()).count()
     }
 
-    /// The axis of the grid whose gears are the bluntest: that of the maximum [`minimum_radius`](PossibleAxis::minimum_radius); none
-    /// where none is possible.
+    /// The axis of the grid whose gears are the least curved: the one with the maximum
+    /// [`minimum_radius`](PossibleAxis::minimum_radius); `None` if no axis is possible.
     #[must_use]
     pub fn bluntest(&self, bend: f64) -> Option<Point> {
         self.minimum(|axis| -axis.minimum_radius(bend))
@@ -171,8 +171,8 @@ impl AxisMap {
         Some(self.range.axis((n % columns) as u32, (n / columns) as u32))
     }
 
-    /// The gentlest axis: that of the smallest maximum |ln| of the ratio, refined from the best of the grid by ever finer
-    /// grids about it within its bounds; `None` if no axis of the grid is possible.
+    /// The gentlest axis: that of the smallest maximum |ln| of the ratio, refined from the best of the grid by finer and finer
+    /// grids around it, within the bounds of the grid; `None` if no axis of the grid is possible.
     #[must_use]
     pub fn mildest(&self, path: &RequiredPath) -> Option<TwoBar> {
         let axis = self.minimum(PossibleAxis::unevenness)?;

@@ -1,10 +1,11 @@
 //! Synthesis of a machine from the path required of its tip.
 //!
-//! A carrier turns about a fixed axis and supports an arm, whose tip runs along the path. The carrier turns once for one run
-//! of the path, and the arm turns once against it in the opposite direction, as the planet of a train does whose sun is fixed
-//! and whose mean ratio is 1. Stretched once and folded once, the two bars follow from the path and the axis alone.
+//! A carrier turns about a fixed axis and supports an arm, whose tip runs along the path. The carrier turns once per cycle of the
+//! path, and the arm turns once relative to it in the opposite direction, like the planet of a train with a fixed sun and a mean
+//! ratio of 1. The two bars are stretched once and folded once per cycle, so their lengths follow from the path and the axis
+//! alone.
 //!
-//! And of the law of a crank from what is required of the output of the machine it drives: [`Timing`].
+//! Also synthesis of the law of a crank from the required output of the machine that it drives: [`Timing`].
 
 mod chain;
 mod csv;

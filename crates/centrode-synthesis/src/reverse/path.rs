@@ -19,14 +19,14 @@ pub(super) const FARTHEST: f64 = 1e9;
 pub(super) const FARTHEST_AXIS: f64 = 1e3;
 /// Minimum size of a path as a share of its distance from the origin: a smaller one has lost the digits that its law needs.
 const SMALLEST: f64 = 1e-6;
-/// Maximum distance of the last point from the first, as a multiple of the maximum of two other neighbours.
+/// Maximum distance of the last point from the first, as a multiple of the maximum distance of two other neighbours.
 const GAP: f64 = 4.0;
-/// Samples of a turn, and fewest between two breaks.
+/// Samples per turn, and minimum number between two breaks.
 const SAMPLES: f64 = 384.0;
 const MIN_SAMPLES: f64 = 2.0;
-/// Most parts into which a turn is cut for searches of extremes: those of a curve of more pieces span several.
+/// Maximum number of parts into which a turn is cut for searches of extremes: if a curve has more pieces, a part spans several.
 const MAX_PARTS: usize = 64;
-/// Even parts of a turn, in each of which an analytic path has few extremes.
+/// Number of equal parts of a turn, in each of which an analytic path has few extremes.
 const EVEN_PARTS: u32 = 16;
 /// Sides of the polygon on which crossings are searched.
 const SIDES: usize = 2000;
@@ -42,7 +42,7 @@ pub struct RequiredPath {
     pieces: Vec<PathPiece>,
 }
 
-/// A smooth piece of the path, the numbers of its samples, and the limit at its end.
+/// A smooth piece of the path, the indices of its samples, and the limit at its end.
 pub(super) type PathPiece = (SampledPiece, Range<usize>, Sample);
 
 /// A point of the path and its derivatives at a parameter.
@@ -53,7 +53,7 @@ pub(super) struct Sample {
 }
 
 impl RequiredPath {
-    /// Largest file of a path, bytes.
+    /// Maximum size of a path's file, bytes.
     pub const LARGEST: usize = 1 << 22;
 
     /// Closed curve through points in order: a periodic cubic spline over their index.
@@ -61,9 +61,9 @@ impl RequiredPath {
     /// The last point may repeat the first.
     ///
     /// # Errors
-    /// [`PathError`] for too few or too many points, one that is no point or given twice, a path a millionth as large as it is far
-    /// from the origin, and an open path: one whose last
-    /// point is more than four times as far from the first as any two other neighbours are from each other.
+    /// [`PathError`] for too few or too many points, a point that is not finite or given twice, and a path smaller than a
+    /// millionth of its distance from the origin. Also for an open path: its last point is more than four times as far from the
+    /// first as any two other neighbours are from each other.
     pub fn through(points: &[Point]) -> Result<Self, PathError> {
         Self::of_degree(points, 3)
     }
@@ -77,8 +77,8 @@ impl RequiredPath {
         Self::of_degree(points, 5)
     }
 
-    /// Points of the closed uniform cubic B-spline with some control points at its knots, `(c(i-1) + 4 c(i) + c(i+1))/6`: the
-    /// path [`through`](Self::through) them is that spline.
+    /// Points, at its knots, of the closed uniform cubic B-spline with the given control points, `(c(i-1) + 4 c(i) + c(i+1))/6`:
+    /// the path [`through`](Self::through) these points is that spline.
     ///
     /// The last control point may repeat the first.
     #[must_use]
@@ -145,7 +145,7 @@ impl RequiredPath {
         Ok(Self::new(Arc::new(closed_spline(list, degree))))
     }
 
-    /// Path along a curve, which need not go round anything.
+    /// Path along a closed curve, which need not surround anything.
     #[must_use]
     pub fn new(curve: Arc<dyn Curve>) -> Self {
         let period = curve.period();
@@ -181,9 +181,9 @@ impl RequiredPath {
         }
     }
 
-    /// Reads points from a CSV file: x and y in mm, a point a line, in order.
+    /// Reads points from a CSV file: x and y in mm, one point per line, in order.
     ///
-    /// Columns are separated by commas, or by semicolons or tabs, and then a decimal comma is read, too. Empty lines and lines
+    /// Columns are separated by commas, or by semicolons or tabs; with these a decimal comma is read, too. Empty lines and lines
     /// that begin with `#` are skipped. A line of headings names the columns in any order: `x`, `y`, `tolerance`,
     /// `direction_deg`, `direction_tolerance_deg`. Other columns are refused.
     ///
@@ -253,7 +253,8 @@ impl RequiredPath {
         &self.pieces
     }
 
-    /// Ends of parts from `from` over one turn, between which the path is smooth or, where it has many pieces, nearly so.
+    /// Ends of the parts of one turn that starts at `from`. Within a part the path is smooth; if it has many pieces, only nearly
+    /// so.
     pub(crate) fn parts(&self, from: f64) -> Vec<f64> {
         let to = from + self.period();
         if self.breaks.len() > MAX_PARTS {
@@ -284,7 +285,7 @@ impl RequiredPath {
         found
     }
 
-    /// Distance of a point from the path near a parameter, mm: to the foot of its normal there.
+    /// Distance of a point from the path near a parameter, mm: from the point to the foot of its normal.
     pub(crate) fn distance_near(&self, point: Point, t: f64) -> f64 {
         let mut t = t;
         let mut off = Vector::zeros();
@@ -303,14 +304,14 @@ impl RequiredPath {
     }
 }
 
-/// Samples of a path, those of each piece up to its end.
+/// Samples of a path; the samples of a piece include its end.
 pub(super) struct PathSamples {
     pub(super) pieces: Vec<SampledPiece>,
     pub(super) samples: Vec<Sample>,
 }
 
 impl PathSamples {
-    /// Those of `most` pieces at most, evenly spread.
+    /// Samples of at most `most` pieces, evenly spread.
     pub(super) fn new(path: &RequiredPath, most: usize) -> Self {
         let count = path.pieces().len();
         let step = count.div_ceil(most);
@@ -330,7 +331,7 @@ impl PathSamples {
     }
 }
 
-/// Text of a file, without the mark that some programs begin it with.
+/// Text of a file, without the byte order mark with which some programs begin it.
 pub(super) fn text(bytes: &[u8]) -> Result<&str, PathError> {
     if bytes.len() > RequiredPath::LARGEST {
         let (bytes, limit) = (bytes.len(), RequiredPath::LARGEST);

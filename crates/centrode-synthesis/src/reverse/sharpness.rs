@@ -8,9 +8,9 @@ use super::distance::Series;
 use super::path::{PathSamples, Sample};
 use super::split::SHARE;
 
-/// Most pieces of the path that a map looks at: of more it takes as many, evenly spread.
+/// Maximum number of pieces of the path that a map samples; if there are more, the sampled ones are evenly spread.
 const MAX_PIECES: usize = 64;
-/// Steps of a turn over each of which a map averages a curvature: those of the tables in which most laws are written.
+/// Steps per turn; a map averages a curvature over one step. Most laws are written in tables of this many steps.
 pub(super) const AVERAGED: f64 = 180.0;
 
 impl TwoBar {
@@ -21,8 +21,8 @@ impl TwoBar {
     }
 
     /// Maximum curvature of the four pitch curves of the split by powers, as a multiple of one over the centre distance, and the
-    /// path's parameter there: exact to the float limit, of the law itself. Gears are written from a table of the law, and may be
-    /// less sharp: [`ReversedMachine::minimum_radius`](super::ReversedMachine::minimum_radius).
+    /// path's parameter there: exact within rounding, for the law itself. Gears are written from a table of the law, and may be
+    /// less curved: [`ReversedMachine::minimum_radius`](super::ReversedMachine::minimum_radius).
     #[must_use]
     pub fn sharpness(&self) -> Extreme {
         self.maximum_bend(|[a, b, c, d]| a.max(b).max(c.max(d)))
@@ -48,10 +48,11 @@ impl TwoBar {
         self.center_distance(bend) / self.sharpness().value
     }
 
-    /// The sharpness at samples of as many pieces of the path as a map looks at, averaged over a step of a table.
+    /// The sharpness, averaged over a step of a table, at samples of at most 64 pieces of the path.
     ///
-    /// Where two pieces of the path join near a position at which the bars are stretched or folded, the law has a peak of
-    /// curvature: the nearer, the higher and narrower. A table of the law does not have it, nor do the gears.
+    /// If two pieces of the path join near a position at which the bars are stretched or folded, the law has a peak of curvature
+    /// there: the nearer the joint, the higher and narrower the peak. A table of the law does not contain this peak, so the gears
+    /// do not have it.
     pub(super) fn sharpness_sampled(&self) -> f64 {
         let looks = PathSamples::new(self.path(), MAX_PIECES);
         let speeds = self.speeds_of(&looks);
@@ -91,9 +92,10 @@ impl TwoBar {
         maximum_of_samples(&samples, at, rounding, &looks.pieces)
     }
 
-    /// Logarithm of the mean ratio of the first stage's ratio to the power of the total one, by samples in order.
+    /// Logarithm of the factor that gives the first stage the mean ratio one: its ratio is this factor times a power of the total
+    /// ratio. `samples` and `speeds` are in order along the path.
     ///
-    /// By the trapezoidal rule with the slopes at both ends of each step: the integrand has a continuous slope.
+    /// Computed by the trapezoidal rule with the slopes at both ends of each step: the integrand has a continuous slope.
     fn scale(&self, samples: &[Sample], speeds: &[[Series; 2]]) -> f64 {
         let rate = |[carrier, planet]: &[Series; 2]| {
             let ln = |s: &Series| (s.0[0].ln(), s.0[1] / s.0[0]);
@@ -114,7 +116,7 @@ impl TwoBar {
     }
 }
 
-/// Distance of the axes of each stage, mm: both legs of a carrier are as long.
+/// Centre distance of each stage, mm: both legs of a carrier have this length.
 pub(crate) fn leg(carrier: f64, bend: f64) -> f64 {
     0.5 * carrier / (0.5 * bend).cos()
 }

@@ -32,11 +32,11 @@ pub enum NotPosed {
 }
 
 impl KeyPoses {
-    /// The three-arm mechanism whose clamps take the key poses: the first is where they pick, the last where they plant.
+    /// The three-arm mechanism whose clamps take the key poses: the clamps pick in the first pose and plant in the last one.
     ///
-    /// Its axis is the origin of its frame; the poses are about [`TwoBar::axis`](crate::reverse::TwoBar::axis). It starts in
-    /// the first pose. The law of its pair is a sum of harmonics that comes as near to the amplitudes of `bias` as the poses
-    /// leave room for. The pusher's axis is S sin(clamp) from the planet's, S the arm's length.
+    /// Its axis is the origin of its frame; the axis of the poses is [`TwoBar::axis`](crate::reverse::TwoBar::axis). It starts in
+    /// the first pose. The law of its pair is a sum of harmonics whose amplitudes are as near to those of `bias` as the poses
+    /// allow. The pusher's axis is S sin(clamp) from the planet's, S the arm's length.
     ///
     /// # Errors
     /// [`NotPosed`].
@@ -56,7 +56,7 @@ impl KeyPoses {
             ..Transmission::expression(law.formula())
         });
         let sun = principal(carrier - 0.5 * bend);
-        // As `Train` has it where it is omitted.
+        // The default reference angle of `Train`.
         let reference = -law.at(chain.sense() * bend.abs());
         let spec = ArmSpec::new(
             principal(arm - (sun + bend - reference)),

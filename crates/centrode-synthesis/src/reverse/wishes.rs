@@ -13,7 +13,7 @@ use centrode_spec::{SpecError, degrees};
 
 /// Maximum coordinate of a shape, mm.
 const FARTHEST: f64 = 1e6;
-/// Most directions that are required along a path.
+/// Maximum number of directions that may be required along a path.
 const MAX_DIRECTIONS: usize = 200;
 
 /// Wishes about a machine besides the path of its tip.
@@ -148,7 +148,7 @@ impl RequiredRange {
 }
 
 impl RequiredDirection {
-    /// Tolerance where none is given: 2 degrees, in rad.
+    /// Default tolerance: 2 degrees, in rad.
     #[must_use]
     pub fn usual_tolerance() -> f64 {
         2.0_f64.to_radians()
@@ -162,7 +162,7 @@ impl Wishes {
         *self == Self::default()
     }
 
-    /// Checks the rules for a path of so many points.
+    /// Checks the rules for a path of `points` points.
     ///
     /// # Errors
     /// [`SpecError`] with the key at fault.
@@ -181,7 +181,7 @@ impl Wishes {
             };
             return broken("directions", rule);
         }
-        // How many points a file holds is not known before it is read.
+        // The number of points in a file is not known before it is read.
         let is_point = |key: &str, number: usize| match points {
             usize::MAX => positive(key, number as f64),
             points => in_range(key, number as f64, [1.0, points as f64], ""),
@@ -226,7 +226,7 @@ impl Wishes {
 }
 
 impl KeepOut {
-    /// Bodies of the machine that keep out of it.
+    /// Bodies of the machine that must not enter the shape.
     pub(crate) const BODIES: [&'static str; 4] = ["arm", "carrier", "idler", "planet"];
 
     fn validate(&self) -> Result<(), SpecError> {

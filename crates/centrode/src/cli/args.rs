@@ -16,7 +16,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 pub(crate) use required::{Drive, Reverse};
 
-/// Finest tolerance that can be requested, mm: below it lie the rounding errors of the outlines.
+/// Finest tolerance that can be requested, mm: the rounding errors of the outlines are below it.
 const FINEST: f64 = 1e-7;
 
 /// Design, prove and export non-circular gears.
@@ -155,7 +155,7 @@ impl Export {
         files.filter_map(|file| file.format()).collect()
     }
 
-    /// Tolerance, as given or as the receiver needs it.
+    /// Tolerance as given, or else as the receiver needs it.
     pub(crate) fn tolerance(&self) -> Result<Tolerance, String> {
         let needed = self.purpose.unwrap_or(For(Purpose::Laser)).0.tolerance();
         let usual = || Tolerance::new(needed).map_err(|error| error.to_string());
@@ -217,7 +217,7 @@ pub(crate) enum File {
 }
 
 impl File {
-    /// The format, of the kinds that are one.
+    /// The format of a kind of file; `None` if the kind is not a format.
     fn format(self) -> Option<Format> {
         Some(match self {
             Self::Dxf => Format::Dxf,
@@ -235,7 +235,7 @@ impl File {
     }
 }
 
-/// Name of a part: a machine may have others than are listed.
+/// Parser of the name of a part: a machine may have parts that are not listed.
 #[derive(Clone, Copy)]
 struct PartWord;
 
@@ -251,7 +251,7 @@ impl TypedValueParser for PartWord {
         NonEmptyStringValueParser::new().parse_ref(command, argument, value)
     }
 
-    /// The parts of every family, those of several families once and last.
+    /// The parts of every family; a part of several families is listed once, at the end.
     fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
         let parts = FAMILIES.0.iter().flat_map(|family| family.parts);
         let mut all: Vec<PartName> = Vec::new();

@@ -21,7 +21,7 @@ pub(crate) fn run(command: &Check, out: &mut impl Write) -> Result<Status, Failu
         mechanism,
         mut left_out,
     } = Made::new(&text).map_err(|error| source.blame(error))?;
-    // Figures and remedies are of the design as written.
+    // Figures and remedies need the design as written, with its details.
     if (command.figures || command.remedy)
         && let Some(left_out) = left_out.take()
     {
@@ -67,7 +67,7 @@ pub(crate) fn run(command: &Check, out: &mut impl Write) -> Result<Status, Failu
     Ok(Status::new(report.ok()))
 }
 
-/// Prints changed designs, each with what it does.
+/// Prints changed designs, each with its effect.
 fn remedies(
     command: &Check,
     mechanism: &dyn Mechanism,
@@ -98,7 +98,7 @@ fn remedies(
         return Ok(Status::Good);
     }
     for (at, (words, design)) in designs.into_iter().enumerate() {
-        // The output is one design file: those after the first are comments.
+        // The output is one design file: the designs after the first are comments.
         let design = match at {
             0 => design,
             _ => design

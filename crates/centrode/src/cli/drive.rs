@@ -12,7 +12,7 @@ use crate::cli::reverse::{line, minimum_radii, teeth};
 use crate::cli::{Status, output};
 use crate::page::reverse::words::range;
 
-/// Finds the gears of a drive, prints what they do and writes the design.
+/// Finds the gears of a drive, prints their figures and writes the design.
 pub(crate) fn run(command: &Drive, out: &mut impl Write) -> Result<Status, Failure> {
     let source = Source::open(&command.design)?;
     if let Some(output) = &command.output {
@@ -35,7 +35,7 @@ pub(crate) fn run(command: &Drive, out: &mut impl Write) -> Result<Status, Failu
         ))
     })?;
     let made = made.map_err(|error| source.refused(&error))?;
-    // It is reported before teeth are searched, and even where there are none.
+    // The result is reported before teeth are searched, even if there are none.
     found(&made, out)?;
     out.flush()?;
     let Some(output) = &command.output else {
@@ -48,7 +48,7 @@ pub(crate) fn run(command: &Drive, out: &mut impl Write) -> Result<Status, Failu
     teeth(&found, out)?;
     let text = design.to_toml();
     let text = text.map_err(|error| Failure::Files(Box::new(error)))?;
-    // No file of a machine that cannot be.
+    // An impossible machine is not written.
     let driven = Source::of_text(&text);
     let machine = driven.design()?.mechanism();
     machine.map_err(|error| driven.blame(error))?;

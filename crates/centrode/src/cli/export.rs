@@ -53,13 +53,13 @@ pub(crate) fn zip(text: &str, command: Option<&Export>, page: bool) -> Result<Ve
     Ok(files.zip()?)
 }
 
-/// Parts of a design whose files can be requested alone: the name of each, and what it is.
+/// Parts of a design whose files can be requested alone: name and description of each.
 pub(crate) fn parts(mechanism: &dyn Mechanism, family: &Family) -> Vec<[String; 2]> {
     let Ok(tolerance) = Tolerance::new(Purpose::Cad.tolerance()) else {
         return Vec::new();
     };
     let mut options = Options::new(tolerance);
-    // For an unknown part the exporter makes nothing and lists those that it knows.
+    // For an unknown part the exporter makes no file and lists the known parts.
     options.parts = Some(vec![String::new()]);
     let Err(ExportError::UnknownPart { known, .. }) = mechanism.files(&Format::ALL, &options)
     else {
@@ -82,7 +82,7 @@ fn bundle(
 ) -> Result<Bundle, Failure> {
     let known: Vec<&str> = family.parts.iter().map(|part| part.name).collect();
     let mut requested = command.part.iter();
-    // Parts that the design names are reported when it is drawn.
+    // Unknown parts that the design names are reported when it is drawn.
     if !known.is_empty()
         && let Some(lost) = requested.find(|part| !known.contains(&part.as_str()))
     {
@@ -107,12 +107,12 @@ fn bundle(
     Ok(bundle)
 }
 
-/// Writes a line on standard error: the findings, and that the files are there all the same.
+/// Writes a line on standard error: the number of files written, and a summary of the findings.
 fn summarise(found: &crate::analysis::Report, files: usize, command: &Export) {
     let mut err = anstream::stderr();
     let summary = summary(found);
     let design = command.design.display();
-    // Nobody reads it when standard error is closed.
+    // A closed standard error is not a failure.
     let _ = if found.ok() {
         writeln!(err, "{files} files written; {summary}")
     } else {

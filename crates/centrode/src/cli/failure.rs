@@ -14,7 +14,7 @@ const MARGIN: Style = AnsiColor::Blue.on_default().bold();
 /// Reason why a command could not do its job.
 #[derive(Debug)]
 pub(crate) enum Failure {
-    /// The design is bad: its errors, and the text they are in.
+    /// The design is bad: its errors, and the text that contains them.
     Design {
         name: String,
         text: String,
@@ -55,7 +55,7 @@ impl From<BundleError> for Failure {
 }
 
 impl Failure {
-    /// Writes the failure for a person, with the line of the file where there is one.
+    /// Writes the failure as text to read, with the line of the file if it has one.
     pub(crate) fn write(&self, out: &mut impl Write) -> io::Result<()> {
         if let Self::Design { name, text, errors } = self {
             return errors
@@ -68,7 +68,7 @@ impl Failure {
 }
 
 impl std::fmt::Display for Failure {
-    /// Failure in one line, of a design one for each mistake.
+    /// Failure in one line; for a design, one line per mistake.
     fn fmt(&self, out: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::Design { errors, .. } => {
@@ -115,7 +115,7 @@ fn at_line(out: &mut impl Write, name: &str, text: &str, error: &DesignError) ->
         true => name.len().min(from.len()),
         false => from.len().min(1),
     };
-    // A character that is escaped takes more room than one.
+    // An escaped character takes more than one column.
     let line_part = |part: &[char]| shown(&part.iter().collect::<String>().replace('\t', " "));
     let room = |part: &[char]| line_part(part).chars().count();
     let before_width = room(before);
@@ -131,7 +131,7 @@ fn at_line(out: &mut impl Write, name: &str, text: &str, error: &DesignError) ->
     )
 }
 
-/// The text without the numbers that the system gives its errors: they say nothing that the words do not.
+/// The text without the error numbers of the system, which repeat the words.
 fn without_code(text: &str) -> String {
     const CODE: &str = " (os error ";
     let mut parts = text.split(CODE);
@@ -148,7 +148,7 @@ fn without_code(text: &str) -> String {
     kept
 }
 
-/// The first part of a text, as a message shows it.
+/// The first 600 characters of a text, as a message shows them.
 fn shown(text: &str) -> String {
     visible(&text.chars().take(600).collect::<String>())
 }

@@ -9,7 +9,7 @@ use crate::cli::failure::Failure;
 
 /// Reads a file up to one byte more than a limit. A named pipe is refused: without a writer it would never be read.
 pub(crate) fn read(path: &Path, limit: usize) -> io::Result<Vec<u8>> {
-    // A pipe of the shell, as in `<(...)`, has no name that leads to it.
+    // A pipe of the shell, as in `<(...)`, has no name that can be resolved.
     if let Ok(there) = path.canonicalize().and_then(fs::metadata)
         && is_pipe(there.file_type())
     {
@@ -43,7 +43,7 @@ pub(crate) struct Source {
 }
 
 impl Source {
-    /// Reads a file, or standard input for `-`; a little more than a design may have is enough.
+    /// Reads a file, or standard input for `-`; at most one byte more than a design may have.
     pub(crate) fn open(path: &Path) -> Result<Self, Failure> {
         Self::open_up_to(path, DesignFile::LARGEST)
     }
@@ -77,17 +77,17 @@ impl Source {
         &self.name
     }
 
-    /// Failure of an error that shows its position in the file itself.
+    /// Failure of an error whose text already states its position in the file.
     pub(crate) fn refused(&self, error: &dyn std::error::Error) -> Failure {
         Failure::Usage(format!("{}: {}", self.name, shortened(&error.to_string())))
     }
 
-    /// Refuses to write over the design.
+    /// Refuses an output that would overwrite the design.
     pub(crate) fn keep_from(&self, output: &Path) -> Result<(), Failure> {
         self.keep(output, "the design")
     }
 
-    /// Refuses to write over the file read.
+    /// Refuses an output that would overwrite the input file.
     pub(crate) fn keep(&self, output: &Path, noun: &str) -> Result<(), Failure> {
         let [own, other] = [Path::new(&self.name), output].map(|path| path.canonicalize().ok());
         if own.is_some() && own == other {
@@ -107,11 +107,11 @@ impl Source {
         }
     }
 
-    /// Text of the file, whatever it means.
+    /// Text of the file, which need not be a design.
     pub(crate) fn text(&self) -> Result<String, Failure> {
         match std::str::from_utf8(&self.bytes) {
             Ok(text) if text.len() <= DesignFile::LARGEST => Ok(text.to_owned()),
-            // Reading such a file always fails, and says why.
+            // Reading such a file as a design always fails, with the reason.
             _ => self
                 .design()
                 .and(Err(Failure::Usage("not a design".into()))),

@@ -10,11 +10,11 @@ pub(crate) struct Interrupt {
     runtime: Option<tokio::runtime::Runtime>,
 }
 
-/// File descriptors that must be free before a signal is watched, twice as many as the watch takes: the others are for the work.
-/// With fewer the library of the watch ends the program.
+/// Number of free file descriptors required before a signal is watched. The watch takes half of them; without these its library
+/// would end the program. The work needs the others.
 const DESCRIPTORS: usize = 16;
 
-/// Whether the system gives the descriptors that a watch takes.
+/// Whether the system has free descriptors for a watch.
 pub(crate) fn has_descriptors() -> bool {
     let pipes = (0..DESCRIPTORS / 2).map(|_| io::pipe());
     pipes.collect::<io::Result<Vec<_>>>().is_ok()
@@ -27,7 +27,8 @@ fn has_threads() -> bool {
 }
 
 impl Interrupt {
-    /// Starts the watch; without threads or descriptors for it Ctrl-C ends the program at once, as it does before the watch.
+    /// Starts the watch. If threads or descriptors for it are missing, Ctrl-C ends the program at once, as it does without a
+    /// watch.
     pub(crate) fn watch() -> Self {
         let cancel = Cancel::default();
         let can_watch = has_descriptors() && has_threads();
@@ -48,7 +49,7 @@ fn watched(stated: Cancel) -> io::Result<tokio::runtime::Runtime> {
         .worker_threads(1)
         .enable_all()
         .build()?;
-    // Heard from here on, not only once the task runs.
+    // Ctrl-C is caught from here on, not only when the task runs.
     let mut presses = {
         let _inside = runtime.enter();
         presses()?

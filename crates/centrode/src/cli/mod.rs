@@ -1,7 +1,7 @@
 //! The command line: `centrode new`, `check`, `export` and the rest.
 //!
-//! Unlike the rest of the library it prints, reads and writes files, and hears signals: it is a whole program behind one
-//! function, for the program `centrode` and for the Python package, whose command is the same.
+//! Unlike the rest of the library, this module prints, reads and writes files, and catches signals. It is a whole program behind
+//! one function, which the program `centrode` and the command of the Python package call.
 
 mod args;
 mod check;
@@ -49,18 +49,18 @@ impl Status {
     }
 }
 
-/// Runs the program with its arguments, its own name not among them, and gives its exit status.
+/// Runs the program with its arguments, without its own name, and returns its exit status.
 ///
-/// The status is 0 if all is good, 1 for a finding of severity error, 2 if there is no mechanism, a file cannot be read
-/// or written or the usage is bad, 101 if the program is at fault, and 130 after Ctrl-C in a command that ends its work first.
-/// All that was printed has been written when it returns.
+/// The status is 0 if all is good, 1 for a finding of severity error, 2 if there is no mechanism, a file cannot be read or
+/// written or the usage is bad, 101 if the program is at fault, and 130 after Ctrl-C in a command that catches it. All printed
+/// text has been written when the function returns.
 #[must_use]
 pub fn run(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let status = InternalFault::catch(|| command(arguments)).unwrap_or_else(|fault| {
         let _ = Failure::Internal(fault).write(&mut anstream::stderr());
         101
     });
-    // A line not ended is held back; where nobody reads it any more, nothing is lost.
+    // The buffer may still hold an unfinished line; if nobody reads the output any more, nothing is lost.
     let _ = std::io::stdout().flush();
     status
 }
@@ -70,15 +70,15 @@ fn command(arguments: impl IntoIterator<Item = OsString>) -> u8 {
     let arguments = match Arguments::try_parse_from(words) {
         Ok(arguments) => arguments,
         Err(error) => {
-            // Help and version are no failures; a reader that has gone is none either.
+            // Help and version are no failures, and neither is a closed output.
             let _ = error.print();
             return if error.use_stderr() { 2 } else { 0 };
         }
     };
     #[cfg(unix)]
-    // Without it such a write ends the program: no reason not to begin.
+    // If this fails, a write beyond the limit ends the program; commands can still run.
     let _ = output::heed_file_limit();
-    // The page's requests wait on threads of their own.
+    // The requests of the page wait on threads of their own, so the studio needs no preparation.
     if !matches!(arguments.command, Command::Studio(_)) {
         crate::analysis::prepare_threads();
     }

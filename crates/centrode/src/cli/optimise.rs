@@ -90,7 +90,7 @@ pub(crate) fn run(command: &Optimise, out: &mut impl Write) -> Result<Status, Fa
     Ok(Status::new(outcome.reached()))
 }
 
-/// Checks that method and seed of the command line are those of the stored search, which goes on as it began.
+/// Checks that method and seed of the command line are those of the stored search: they cannot change when it is resumed.
 fn same(command: &Optimise, search: &DesignSearch, name: &str) -> Result<(), Failure> {
     let differs = |flag: &str, requested: &str, stored: &str| {
         let message = format!("--{flag} {requested}: {name} is a search with the {flag} {stored}");
@@ -152,7 +152,7 @@ fn watched(
 }
 
 fn target() -> ProgressDrawTarget {
-    // Off a terminal the standard error stays clean.
+    // Without a terminal no bar is written to standard error.
     if std::io::IsTerminal::is_terminal(&std::io::stderr()) {
         ProgressDrawTarget::stderr()
     } else {

@@ -6,7 +6,7 @@ use crate::formats::{Bundle, BundleError};
 use crate::cli::failure::Failure;
 use crate::cli::interrupt::{Interrupt, has_descriptors};
 
-/// Writes files as a writer does, each whole or not at all; Ctrl-C before the last is written leaves no new one.
+/// Writes files by calling `writer`, each whole or not at all; after Ctrl-C before the last file is written there is no new file.
 pub(crate) fn write(
     writer: impl FnOnce() -> Result<Vec<PathBuf>, BundleError>,
 ) -> Result<Vec<PathBuf>, Failure> {
@@ -15,7 +15,7 @@ pub(crate) fn write(
     Ok(written.map_err(|_| Failure::Interrupted)??)
 }
 
-/// Writes one file, whole or not at all, and prints where it is.
+/// Writes one file, whole or not at all, and prints its path.
 pub(crate) fn write_one(path: &Path, bytes: Vec<u8>, out: &mut impl Write) -> Result<(), Failure> {
     for path in put(path, bytes)? {
         writeln!(out, "{}", path.display())?;
@@ -23,7 +23,7 @@ pub(crate) fn write_one(path: &Path, bytes: Vec<u8>, out: &mut impl Write) -> Re
     Ok(())
 }
 
-/// Writes one file, whole or not at all, and shows where it is.
+/// Writes one file, whole or not at all, and returns its path.
 pub(crate) fn put(path: &Path, bytes: Vec<u8>) -> Result<Vec<PathBuf>, Failure> {
     let folder = match path.parent() {
         Some(folder) if !folder.as_os_str().is_empty() => folder,
@@ -35,7 +35,8 @@ pub(crate) fn put(path: &Path, bytes: Vec<u8>) -> Result<Vec<PathBuf>, Failure> 
     write(|| bundle.write_to(folder))
 }
 
-/// Makes a write beyond the limit of a file's size fail with a reason: its signal, not caught, would end the program.
+/// Makes a write beyond the system's limit of file size fail with an error: if its signal were not caught, it would end the
+/// program.
 #[cfg(unix)]
 pub(crate) fn heed_file_limit() -> std::io::Result<()> {
     use tokio::signal::unix::{SignalKind, signal};

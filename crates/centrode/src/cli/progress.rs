@@ -4,10 +4,10 @@ use std::time::Duration;
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
-/// Work shorter than this shows no bar.
+/// Time before a bar is shown: shorter work shows none.
 const PATIENCE: Duration = Duration::from_secs(1);
 
-/// Bar on the terminal's standard error, there only while long work lasts.
+/// Progress bar on the terminal's standard error, shown only during long work.
 pub(crate) struct Progress {
     bar: ProgressBar,
     done: Option<Sender<()>>,
@@ -15,10 +15,10 @@ pub(crate) struct Progress {
 }
 
 impl Progress {
-    /// A bar for so many steps.
+    /// A bar for `steps` steps.
     pub(crate) fn new(steps: u64) -> Self {
         let bar = ProgressBar::with_draw_target(Some(steps), ProgressDrawTarget::hidden());
-        // Off a terminal the standard error stays clean.
+        // Without a terminal no bar is written to standard error.
         if !std::io::IsTerminal::is_terminal(&std::io::stderr()) {
             return Self {
                 bar,
@@ -31,7 +31,7 @@ impl Progress {
         }
         let (done, finished) = channel();
         let shown = bar.clone();
-        // Without a thread for it there is no bar.
+        // If its thread cannot start, there is no bar.
         let watch = std::thread::Builder::new().spawn(move || show_late(&shown, &finished));
         Self {
             bar,
@@ -48,7 +48,7 @@ impl Progress {
         self.bar.set_message(what);
     }
 
-    /// Says how far a step is.
+    /// Shows the progress of a step.
     pub(crate) fn report(&self, words: String) {
         self.bar.set_message(words);
     }
@@ -65,7 +65,7 @@ impl Drop for Progress {
     fn drop(&mut self) {
         drop(self.done.take());
         if let Some(watch) = self.watch.take() {
-            // It only waits for the sender just dropped.
+            // The thread ends now, because its sender has just been dropped.
             let _ = watch.join();
         }
         self.bar.finish_and_clear();

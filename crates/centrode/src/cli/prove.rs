@@ -33,7 +33,7 @@ pub(crate) fn run(command: &Prove, out: &mut impl Write) -> Result<Status, Failu
                 continue;
             }
         };
-        // The unchanged file, so that a checker can verify that it is of this design.
+        // The unchanged design file, so that a checker can verify that the certificate belongs to this design.
         proof.design = source.text()?;
         let bytes = proof.file().map_err(std::io::Error::from)?;
         let path = match is_alone {
@@ -48,7 +48,7 @@ pub(crate) fn run(command: &Prove, out: &mut impl Write) -> Result<Status, Failu
     }
 }
 
-/// File next to another, with the name of a pair in its own.
+/// Path of a file next to another one, with the name of a pair in its file name.
 fn of_pair(path: &Path, pair: &str) -> PathBuf {
     let stem = path.file_stem().unwrap_or_default().to_string_lossy();
     let end = path

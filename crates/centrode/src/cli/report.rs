@@ -16,7 +16,7 @@ pub(crate) fn json(report: &Report) -> std::io::Result<String> {
     Ok(text)
 }
 
-/// Writes the report as a person reads it: findings first, then goals, tables and the figures in groups.
+/// Writes the report as text: findings first, then goals, tables and the figures in groups.
 pub(crate) fn write(
     mechanism: &dyn Mechanism,
     report: &Report,

@@ -14,7 +14,7 @@ use crate::cli::{Status, output};
 /// Minimum width of a column, characters.
 const MIN_WIDTH: usize = 10;
 
-/// Characters of a line that is read at a glance.
+/// Maximum number of characters of a line of the table.
 const LONGEST_LINE: usize = 100;
 
 /// Prints the response of a design's figures to one of its numbers.
@@ -71,7 +71,7 @@ pub(crate) fn run(command: &Response, out: &mut impl Write) -> Result<Status, Fa
     Ok(Status::Good)
 }
 
-/// Requested figures; by default all goals, or of a family without goals the figures that change.
+/// Requested figures; default: all goals, or, for a family without goals, the figures that change.
 fn requested<'a>(
     command: &Response,
     response: &Found,
@@ -107,12 +107,12 @@ fn is_named(answer: &Answer, name: &str) -> bool {
     answer.name.replace('_', "-") == name.replace('_', "-")
 }
 
-/// A figure as a person reads it: degrees for radians.
+/// A figure as text, angles in degrees.
 fn shown(answer: &Answer, at: usize) -> String {
     answer.figures[at].map_or("-".into(), |figure| answer.unit.show(figure))
 }
 
-/// Whether a figure changes as it is shown, so that it is more than a setting and its rounding.
+/// Whether a figure changes in the digits shown, so that it is not just a setting or rounding.
 fn changes(answer: &Answer) -> bool {
     let known = (0..answer.figures.len()).filter(|&at| answer.figures[at].is_some());
     let mut known = known.map(|at| shown(answer, at));
@@ -120,7 +120,7 @@ fn changes(answer: &Answer) -> bool {
     known.any(|figure| Some(figure) != first)
 }
 
-/// A line for each value; for each figure where the lines would be too long to read.
+/// Writes a line per value, or a line per figure if the lines would be too long.
 fn write_table(response: &Found, answers: &[&Answer], out: &mut impl Write) -> Result<(), Failure> {
     let given = |value: &f64| ((value * 1e6).round() / 1e6 + 0.0).to_string();
     let values: Vec<String> = response.values.iter().map(given).collect();
@@ -161,13 +161,13 @@ fn write_table(response: &Found, answers: &[&Answer], out: &mut impl Write) -> R
     Ok(())
 }
 
-/// Characters that a column takes.
+/// Width of a column, characters.
 fn wide(column: &[String]) -> usize {
     let cells = column.iter().map(|cell| cell.chars().count());
     cells.max().unwrap_or(0).max(MIN_WIDTH)
 }
 
-/// Characters that a line of columns takes.
+/// Width of a line of columns, characters.
 fn width(columns: &[Vec<String>]) -> usize {
     columns.iter().map(|column| wide(column) + 2).sum()
 }

@@ -25,7 +25,7 @@ use request::Request;
 /// Width of the names of figures.
 const NAME: usize = 24;
 
-/// Makes a machine from a path, prints what was chosen and writes its design.
+/// Makes a machine from a path, prints its figures and writes its design.
 pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Failure> {
     if command.template {
         out.write_all(PathDesign::TEMPLATE.as_bytes())?;
@@ -35,7 +35,7 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
         return posed::run(command, out);
     }
     let progress = Progress::new(4);
-    // Held to the end, so that a second Ctrl-C ends the steps after the search.
+    // The watch must live to the end, so that a second Ctrl-C ends the steps after the search.
     let (requested, found, _interrupt) = match command.poses {
         true => {
             let source = source(command)?;
@@ -101,7 +101,7 @@ pub(crate) fn line(out: &mut impl Write, name: &str, words: &str) -> std::io::Re
     writeln!(out, "{name:NAME$}{words}")
 }
 
-/// Prints names and words, each pair at a line.
+/// Prints names and words, one pair per line.
 fn lines(
     all: impl IntoIterator<Item = (String, String)>,
     out: &mut impl Write,
@@ -110,7 +110,7 @@ fn lines(
     all.try_for_each(|(name, words)| line(out, &name, &words))
 }
 
-/// Searches the machine of a path; shows progress, and Ctrl-C ends the search with the best found.
+/// Searches for the machine of a path; shows progress, and Ctrl-C ends the search with the best found.
 fn search(
     command: &Reverse,
     requested: &Request,
@@ -163,7 +163,7 @@ fn refused(command: &Reverse, requested: &Request, error: NotFound) -> Failure {
     }
 }
 
-/// Axes tried for a path that is followed as it is.
+/// Axes tried for a path that is followed exactly.
 fn map(requested: &Request, found: &Found) -> Option<AxisMap> {
     let is_as_given = !requested.points.is_empty() && requested.design.bands().is_none();
     is_as_given.then(|| {

@@ -9,7 +9,7 @@ use crate::cli::Status;
 use crate::cli::args::Schema;
 use crate::cli::failure::Failure;
 
-/// Words next to the families that have a schema: the figures of a composed machine, and files that are exported.
+/// Words apart from the families that have a schema: the figures of a composed machine, and exported files.
 pub(crate) const FILES: [&str; 6] = [
     "figures",
     "machine-model",

@@ -10,7 +10,7 @@ use crate::cli::progress::Progress;
 use crate::cli::{Status, output};
 use crate::page::Subject;
 
-/// Writes a design's page as one file that needs no other.
+/// Writes a design's page as one file that needs no other file.
 pub(crate) fn run(command: &Report, out: &mut impl Write) -> Result<Status, Failure> {
     let source = Source::open(&command.design)?;
     source.keep_from(&command.output)?;
@@ -23,7 +23,7 @@ pub(crate) fn run(command: &Report, out: &mut impl Write) -> Result<Status, Fail
     Ok(Status::new(ok))
 }
 
-/// The page of a design as one file, and whether the mechanism does its job.
+/// The page of a design as one file, and whether the check of the mechanism finds no error.
 pub(crate) fn page(source: &Source, design: &OpenDesign) -> Result<(String, bool), Failure> {
     let subject = match Subject::from_text(source.text()?) {
         Ok(subject) => subject,

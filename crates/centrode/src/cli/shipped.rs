@@ -1,4 +1,4 @@
-//! Designs that the program brings with it.
+//! Designs that the program contains.
 
 use crate::FAMILIES;
 

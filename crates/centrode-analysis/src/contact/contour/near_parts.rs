@@ -37,7 +37,7 @@ pub(in crate::contact) struct PairCache {
     mates: Vec<PartCircle>,
     /// Pairs by index into `drivers` and `mates`, in the order of the driven gear's parts.
     pairs: Vec<(u32, u32)>,
-    /// Index into `drivers` per part of the driver; valid only for parts that are in it.
+    /// Index into `drivers` per part of the driver; valid only for parts that `drivers` contains.
     slots: Vec<u32>,
 }
 
@@ -66,7 +66,7 @@ impl PoseTolerance {
         let (teeth, drift) = (f64::from(pair.driver().tooth_count()), PI * pair.module());
         let (n1, n2) = pair.mean_ratio();
         let share = f64::from(n1) / f64::from(n1 + n2);
-        // Circles of the mean radii are nearer than `near` over sqrt(2 near radius) on either side of the pitch point.
+        // Circles with the mean radii are less than `near` apart up to sqrt(2 near radius) on either side of the pitch point.
         let radius = pair.center_distance() * share * (1.0 - share);
         let turn = near / ((2.0 * near * radius).sqrt() + drift);
         let sample = TAU / (teeth * share * f64::from(SAMPLES_PER_PITCH));
@@ -105,7 +105,7 @@ impl PairCache {
         })
     }
 
-    /// Fills the cache with all parts that are near each other in a pose, or can be in one within the tolerance of it.
+    /// Fills the cache with all parts that are near each other in a pose, or in any pose within the tolerance of it.
     ///
     /// Within the tolerance a point of the driver moves, in the driven gear's axes, by no more than the pitch point does plus the
     /// rotation times its distance from the pitch point.

@@ -82,7 +82,8 @@ impl<F: Fn(&Point) -> Point, R: Fn(&Point, f64) -> f64> NearSearch<'_, F, R> {
         groups.truncate(start);
     }
 
-    /// Adds the parts of a driver's group that are near a group of the driven gear, in groups no longer than that one.
+    /// Adds the parts of a driver's group that are near a group of the driven gear, in groups with no more parts than that
+    /// one.
     fn split_near(&self, a: &Run<PosedCircle>, b: &Run<Disc>, out: &mut Vec<Run<PosedCircle>>) {
         let (circle, disc) = (&a.bound, &b.bound);
         if (circle.center - disc.center.coords).norm_squared()

@@ -43,7 +43,7 @@ impl NormalCone {
         Self { direction, ..*self }
     }
 
-    /// Whether any direction of one is opposite to any direction of the other.
+    /// Whether any direction of one cone is opposite to any direction of the other.
     pub(in crate::contact) fn opposes(&self, other: &Self) -> bool {
         self.cos == 0.0
             || other.cos == 0.0
@@ -87,8 +87,9 @@ impl OutlinePart<'_> {
 
 /// Number of crossings of a part of a segment with the ray from a point towards +x; only its parity is correct.
 ///
-/// The curve and its chord form a loop. A point farther from the chord than the curve's sagitta lies outside the loop: the ray
-/// crosses curve and chord equally often, to parity. Other parts are halved, which divides the sagitta by four.
+/// The curve and its chord form a loop. A point farther from the chord than the curve's sagitta lies outside the loop: the
+/// numbers of crossings of the ray with curve and chord have equal parity. Other parts are halved, which divides the sagitta
+/// by four.
 fn curve_crossings(span: &Span<'_>, point: Point) -> usize {
     let ([u0, u1], [start, end]) = (span.u, span.ends);
     let away = span.min_distance(&point);
@@ -148,7 +149,7 @@ const MIN_SECTORS: usize = 72;
 const PARTS_PER_SECTOR: usize = 8;
 
 impl<'a> GearOutline<'a> {
-    /// Outlines of two gears whose near parts are searched within a distance, mm.
+    /// Outlines of two gears whose near parts are searched within `near` mm.
     pub(in crate::contact) fn pair(driver: &'a Gear, driven: &'a Gear, near: f64) -> [Self; 2] {
         let parts = [parts(driver), parts(driven)];
         let largest =
@@ -311,7 +312,7 @@ fn parts(gear: &Gear) -> Vec<OutlinePart<'_>> {
 
 /// Corner between two parts, if there is one.
 ///
-/// A re-entrant corner is none: its neighbours touch first.
+/// A re-entrant corner does not count: the parts next to it touch first.
 fn corner(before: &OutlinePart<'_>, after: &OutlinePart<'_>) -> Option<Corner> {
     let (end, start) = (
         before.span.bounds.tangents[1],

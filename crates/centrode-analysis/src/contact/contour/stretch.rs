@@ -113,12 +113,12 @@ impl Stretch {
         (start(2.0 * x / size), start(2.0 * (apart - x) / other))
     }
 
-    /// Whether a normal of at most a length, mm, may lead from the stretch to a point.
+    /// Whether a normal of at most `within` mm may lead from the stretch to a point.
     pub(in crate::contact) fn may_face(&self, point: &Vector, within: f64) -> bool {
         let chord = self.point[1] - self.point[0];
         let size = chord.norm();
         let along = (point - self.point[0]).dot(&chord) / size;
-        // If tangents are oblique to the chord, points beyond its ends may be faced too.
+        // If tangents are oblique to the chord, the stretch may also face points beyond the ends of the chord.
         let off = self.bounds.sin * within + COMPUTED * size;
         !self.bounds.is_forward() || (-off <= along && along <= size + off) || along.is_nan()
     }
@@ -228,7 +228,7 @@ impl PosedContour<'_> {
         }
     }
 
-    /// Bounds of the distance of the axis from the normals, positive where the stretch leads away.
+    /// Bounds of the distance of the axis from the normals, mm, positive where the distance from the axis grows.
     fn levers(&self, stretch: &Stretch) -> (f64, f64) {
         let axis = self.pose.map_or(Point::origin(), |pose| pose.axis);
         let segment = self.body.parts[stretch.part].span.segment;

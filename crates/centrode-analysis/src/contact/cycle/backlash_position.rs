@@ -3,7 +3,7 @@ use centrode_geometry::Point;
 
 use crate::contact::contour::Pose;
 
-/// Maximum motion of the driven gear within its backlash, modules at the centre distance.
+/// Maximum motion of the driven gear within its backlash: the path at a radius equal to the centre distance, modules.
 const MAX_TURN: f64 = 4.0;
 
 /// Position of the driven gear within its backlash.

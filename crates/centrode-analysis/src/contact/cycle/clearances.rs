@@ -108,7 +108,7 @@ impl ExtremeSearch<'_> {
         self.meshing().edges_to_fillets(&sampling, known)
     }
 
-    /// Minimum clearance from a fillet: that of the nearest edge, or a smaller one that starts from the samples.
+    /// Minimum clearance from a fillet: that of the nearest edge, or a smaller one found from the samples.
     pub(super) fn min_fillet_clearance(&mut self, edge: Option<Extreme>, sampled: f64) -> Extreme {
         let rounding = self.meshing().search_distance * ANGLE_ROUNDING;
         match edge {

@@ -1,4 +1,4 @@
-//! The contact of a pair along one whole cycle: how many samples it takes, and on which threads they are made.
+//! The contact of a pair along one whole cycle: the number of samples, and the threads that compute them.
 
 use std::ops::Range;
 
@@ -46,13 +46,13 @@ pub struct Contact {
     pub input: Vec<f64>,
     /// Driven angle of the law, rad.
     pub law: Vec<f64>,
-    /// Driven angle when the driver pushes it on, rad.
+    /// Driven angle when the driver pushes the driven gear on, rad.
     pub driven_angle: Vec<f64>,
-    /// Driven angle when the driver pushes it back, rad.
+    /// Driven angle when the driver pushes the driven gear back, rad.
     pub reverse_driven_angle: Vec<f64>,
-    /// Driven angle when the driver pushes it on, minus the law and the designed half backlash, rad.
+    /// Driven angle when the driver pushes the driven gear on, minus the law and the designed half backlash, rad.
     pub transmission_error: Vec<f64>,
-    /// Transmission error with the driver pushing it back, rad.
+    /// Transmission error with the driver pushing the driven gear back, rad.
     pub reverse_transmission_error: Vec<f64>,
     /// Angular backlash of the driven gear with the driver held, rad.
     pub backlash: Vec<f64>,
@@ -74,8 +74,8 @@ pub struct Contact {
     pub clearance: Vec<f64>,
     /// Minimum clearance from a fillet in the same position, mm; infinite if nothing is near.
     pub fillet_clearance: Vec<f64>,
-    /// Maximum sliding speed in the contacts of the driven gear pushed on per driver speed, mm/rad: that of the flanks in contact or,
-    /// if there are none, of the edges.
+    /// Maximum sliding speed per driver speed when the driver pushes the driven gear on, mm/rad: of the flanks in contact or,
+    /// if no flanks are, of the edges.
     pub sliding: Vec<f64>,
 }
 
@@ -202,7 +202,7 @@ impl Contact {
         inputs.iter().map(sample).collect()
     }
 
-    /// Analyses poses of any source: driver angle and driven angle of the law, rad.
+    /// Analyses given poses: driver angle and driven angle of the law, rad.
     #[must_use]
     pub fn posed(pair: &GearPair, poses: &[[f64; 2]]) -> Self {
         let mut meshing = Meshing::new(pair);
@@ -228,7 +228,8 @@ fn oscillates_every_two_teeth(pair: &GearPair) -> bool {
     2 * pair.rolling().swings() >= pair.driver().tooth_count() as usize
 }
 
-/// Samples of some of a number of runs. No run uses results of another, so the figures do not depend on the number of threads.
+/// Samples of the runs `runs`, of `count` runs in all. No run uses results of another, so the figures do not depend on the
+/// number of threads.
 fn run_samples(
     meshing: &mut Meshing<'_>,
     cycle: &CycleSamples,

@@ -13,13 +13,14 @@ use super::{
 };
 use crate::contact::seat::Meshing;
 
-/// Share of a pitch next to a change within which the count of a sample is uncertain: the edge is still within a seated gap there.
+/// Share of a pitch next to a change within which the count of a sample is uncertain: the gap at the edge still counts as
+/// contact there.
 const UNCERTAIN_SHARE: f64 = 0.02;
 
 /// Share of a pitch within which edges of both gears can end the same contact.
 const SAME_CONTACT_SHARE: f64 = 0.25;
 
-/// Minimum share of a pitch over which a count lasts. A shorter one is rounding.
+/// Minimum duration of a count, as a share of a pitch. A shorter count is rounding.
 const MIN_DURATION_SHARE: f64 = 1e-9;
 
 /// Number of pairs of teeth in contact over a cycle.
@@ -27,7 +28,7 @@ const MIN_DURATION_SHARE: f64 = 1e-9;
 pub(super) struct ContactCounts {
     /// Minimum and maximum.
     pub(super) range: [Extreme; 2],
-    /// Mean along the pitch curve; an edge that drives alone counts as none.
+    /// Mean along the pitch curve; an edge that drives alone counts as zero.
     pub(super) mean: f64,
     /// Intervals over which no flanks are in contact, but an edge is.
     pub(super) gaps: Vec<AngleInterval>,
@@ -120,7 +121,7 @@ pub(super) struct CountChanges<'a> {
 }
 
 impl<'a> CountChanges<'a> {
-    /// The changes at edges that drive one way; `None` if contacts begin and end unequally often.
+    /// The changes at edges that drive in one direction; `None` if contacts begin and end unequally often.
     pub(super) fn new(meshing: &Meshing<'a>, edges: &[EdgeContact]) -> Option<Self> {
         let pair = meshing.pair;
         let changes = edges.iter().filter_map(|edge| {
@@ -223,19 +224,19 @@ impl<'a> CountChanges<'a> {
     }
 }
 
-/// Contacts over a cycle, whichever way the driver pushes.
+/// Contacts over a cycle, with the driver pushing on and pushing back.
 pub(super) struct CycleContacts {
     /// Counts with the driver pushing on.
     pub(super) counts: ContactCounts,
     /// Intervals over which no flanks are in contact, with the driver pushing on or back.
     pub(super) gaps: Vec<AngleInterval>,
-    /// Share of the cycle that they take with the driver pushing one way, the larger of both.
+    /// Share of the cycle that these intervals take: the larger one of the two directions.
     pub(super) lost: f64,
 }
 
 impl ExtremeSearch<'_> {
-    /// Counts the contacts over the cycle. With backlash the driven gear is at its seat, where its edges reach the mate at other angles
-    /// than at the law's angle.
+    /// Counts the contacts over the cycle. With backlash the driven gear is at its seat: its edges reach the mate at other
+    /// driver angles than in the middle of the backlash.
     pub(super) fn contacts(
         &mut self,
         edges: &[EdgeContact],
@@ -264,7 +265,7 @@ impl ExtremeSearch<'_> {
         let mut lost = on.as_ref().map_or(off, share);
         let counts = on.unwrap_or_else(|| counts_of_samples(contact));
         let mut gaps = counts.gaps.clone();
-        // Otherwise the driven gear pushed back is the mirror image of the one pushed on.
+        // If the pair is mirrored, the contact pushed back is the mirror image of the contact pushed on.
         if !self.base.is_mirrored() {
             let edges = self
                 .meshing()

@@ -6,7 +6,7 @@ use centrode_gear::{GearPair, Member, PitchContact};
 
 use super::{Contact, sample::Sample};
 
-/// Minimum number of samples per period, without the one that is added.
+/// Minimum number of samples per period, before one sample is added.
 const MIN_SAMPLES: u32 = 24;
 
 /// Difference of driver angles up to which samples count as copies, rad.
@@ -95,7 +95,7 @@ impl CycleSamples {
     }
 }
 
-/// Number of samples of a contact of which all others are copies.
+/// Numbers of distinct samples of a contact; all other samples are copies of these.
 #[derive(Clone, Copy)]
 pub(super) struct DistinctSamples {
     /// Samples of the first period.

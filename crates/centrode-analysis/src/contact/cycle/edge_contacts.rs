@@ -99,7 +99,8 @@ fn pitch_point(member: Member, ratio: f64, pose: &Pose) -> Vector {
 }
 
 impl Meshing<'_> {
-    /// Edge contacts of both gears over one period with the driver pushing on (`sign` 1) or back (-1), the maximum sliding speed first.
+    /// Edge contacts of both gears over one period with the driver pushing on (`sign` 1) or back (-1), in descending order of
+    /// sliding speed.
     pub(super) fn edge_contacts(&self, sampling: &PoseSampling, sign: f64) -> Vec<EdgeContact> {
         let mut found = Vec::new();
         let pair = self.pair;

@@ -18,8 +18,8 @@ const MIN_SEARCH_DISTANCE: f64 = 0.02;
 /// Maximum motion of an edge in a step, as a multiple of its motion in the steps before and after.
 const STEP_FACTOR: f64 = 1.5;
 
-/// Possible drop of a clearance below its minimum at three steps, as a share of the second difference: that of a kink. A parabola
-/// drops by at most a quarter of it.
+/// Possible drop of a clearance below its minimum at three steps, as a share of the second difference: that of a kink. The
+/// drop of a parabola is at most a quarter of this.
 const KINK_SHARE: f64 = 0.5;
 
 /// Fillets of a gear.
@@ -154,7 +154,7 @@ impl Meshing<'_> {
                 }
             }
         }
-        // The lowest bound first: most of the others then cannot be below it.
+        // The candidate with the lowest bound first: most other candidates then cannot be below its clearance.
         candidates.sort_by(|(_, p), (_, q)| p.bound.total_cmp(&q.bound));
         let mut best: Option<Extreme> = None;
         let rounding = within * WRITTEN;

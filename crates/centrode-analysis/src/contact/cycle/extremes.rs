@@ -47,8 +47,8 @@ pub struct ContactExtremes {
     /// which contacts reach the ends of flanks. They are those of the samples if the gears are not followed, or if these ends disagree
     /// with the flanks that face each other between them. An edge that drives alone counts as one.
     pub contacts: [Extreme; 2],
-    /// Contact ratio: mean number of pairs of flanks in contact along the pitch curve, not over the angle, found in the same way.
-    /// An edge that drives alone counts as none. For circular gears it is the transverse contact ratio of ISO 21771.
+    /// Contact ratio: mean number of pairs of flanks in contact along the pitch curve, not over the angle, found in the same
+    /// way. An edge that drives alone counts as zero. For circular gears it is the transverse contact ratio of ISO 21771.
     pub contact_ratio: f64,
     /// Share of the cycle, by driver angle, over which no flanks are in contact, with the driver pushing on or back, the larger of both.
     /// It is found in the same way.
@@ -114,7 +114,7 @@ impl Contact {
         let transmission_error = search.maximum_with_suspects(error, transmission_error, &suspects);
         ContactExtremes {
             transmission_error,
-            // The driven gear pushed back is the mirror image of the one pushed on.
+            // If the pair is mirrored, the driven gear pushed back is the mirror image of the one pushed on.
             reverse_transmission_error: if search.base.is_mirrored() {
                 Extreme {
                     input: (-transmission_error.input).rem_euclid(pair.cycle()),
@@ -273,7 +273,7 @@ impl<'a> ExtremeSearch<'a> {
         let mut peaks: Vec<Peak> = (0..among)
             .filter_map(|k| samples.peak(k, self.pair.cycle()))
             .collect();
-        // The highest first: most of the others then cannot exceed it.
+        // The highest peak first: most other peaks then cannot exceed its maximum.
         peaks.sort_by(|p, q| q.value().total_cmp(&p.value()));
         for peak in peaks {
             let threshold = rounding.max(EQUAL_PEAKS * best.value.abs());

@@ -90,7 +90,8 @@ impl PoseSampling {
             })
     }
 
-    /// Contact of the pitch curves between a step and the next at which a function of it and of the pose changes its sign.
+    /// Contact of the pitch curves between `step` and the next one at which `f`, a function of contact and pose, changes its
+    /// sign.
     pub(super) fn root(
         &self,
         pair: &GearPair,

@@ -14,7 +14,7 @@ use crate::contact::seat::{FacingFlanks, Meshing, Proximity, ProximityKind, SEAT
 /// Deviation from the designed backlash within which flanks face each other as designed, modules.
 const DESIGNED_GAP: f64 = 1e-6;
 
-/// Step of the driven angle below which it is exact, rad.
+/// Step of the driven angle below which the angle is exact, rad.
 const SETTLED: f64 = 1e-12;
 
 /// Figures of one sample.
@@ -28,7 +28,7 @@ pub(in crate::contact) struct Sample {
     pub(super) loaded: [LoadedFigures; 2],
     /// Angular backlash, rad.
     pub(super) backlash: f64,
-    /// Depth, mm.
+    /// Depth of penetration, mm.
     pub(super) penetration: f64,
     /// Clearance of tips from roots, mm.
     pub(in crate::contact) clearance: f64,
@@ -36,7 +36,7 @@ pub(in crate::contact) struct Sample {
     pub(in crate::contact) fillet_clearance: f64,
 }
 
-/// Figures with the driver pushing one way.
+/// Figures with the driver pushing in one direction.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct LoadedFigures {
     /// Driven angle, rad; infinite if nothing holds the gear.
@@ -66,7 +66,7 @@ impl LoadedFigures {
         }
     }
 
-    /// The figures of the pair's mirror image, where the driver pushes the other way.
+    /// The figures of the pair's mirror image, where the driver pushes in the other direction.
     fn mirrored(&self) -> Self {
         let negative = |angle: f64| if angle.is_finite() { -angle } else { angle };
         Self {

@@ -15,7 +15,7 @@ const SETTLED: f64 = 1e-9;
 /// Minimum ratio of a difference to its neighbours at which a jump is searched.
 const JUMP_RATIO: f64 = 2.0;
 
-/// A jump of the driven angle at which the driver holds the driven gear.
+/// A jump of the driven angle while the driver holds the driven gear.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SeatJump {
     /// Driver angle, rad.
@@ -31,9 +31,9 @@ pub struct SeatJump {
 impl Contact {
     /// Driver angles at which the driven angle jumps, with the driver pushing on or back, the largest jump first.
     ///
-    /// From there on the driven gear has two ranges of positions, one on either side of a tooth. Jumps are searched between samples
-    /// whose difference exceeds both neighbouring differences, so one next to an equally large one may be missed. There are none without
-    /// backlash, and none of gears that are not followed ([`Self::is_followed`]).
+    /// From there on the driven gear has two ranges of positions, one on either side of a tooth. Jumps are searched between
+    /// samples whose difference is more than twice each neighbouring difference, so a jump next to another large one may be
+    /// missed. The list is empty without backlash, and for gears that are not followed ([`Self::is_followed`]).
     #[must_use]
     pub fn seat_jumps(&self, pair: &GearPair) -> Vec<SeatJump> {
         if self.flanks_carry() || !self.is_followed(pair) {

@@ -24,7 +24,7 @@ const END_SEARCH: f64 = 1e-2;
 /// Minimum drop of the sliding speed at the end of the fastest contact, as a share, and its maximum change within [`END_SEARCH`].
 const SPEED_CHANGE: f64 = 0.05;
 
-/// The part itself if it is one of a flank, or the one before it: a corner is at the start of its part.
+/// The part if it belongs to a flank, otherwise the part before it if that one does: a corner is at the start of its part.
 fn flank_part(body: &GearOutline<'_>, part: usize) -> Option<usize> {
     let count = body.parts.len();
     let mut parts = [part, (part + count - 1) % count].into_iter();
@@ -71,8 +71,8 @@ impl Meshing<'_> {
 }
 
 impl ExtremeSearch<'_> {
-    /// Maximum sliding speed per driver speed, mm/rad. It grows with the distance of a contact from the pitch point, so it is at the end
-    /// of a contact, at an edge. Where an edge drives, the samples show it.
+    /// Maximum sliding speed per driver speed, mm/rad. It grows with the distance of a contact from the pitch point, so it is
+    /// at the end of a contact, at an edge. While an edge drives, the maximum is that of the samples.
     pub(super) fn max_sliding(&mut self, edges: &[EdgeContact]) -> Extreme {
         let contact = self.contact;
         let mut best = SampledFigure {
@@ -82,7 +82,7 @@ impl ExtremeSearch<'_> {
         .maximum();
         let (pair, flanks_carry) = (self.pair, self.flanks_carry);
         let pitch = period(pair) / f64::from(pair.period());
-        // Maximum speed at an end that was found: slower ends are skipped.
+        // Maximum speed at the ends found so far: slower ends are skipped.
         let mut ended: f64 = 0.0;
         for edge in edges {
             let speed = edge.sliding;

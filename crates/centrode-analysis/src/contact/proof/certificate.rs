@@ -1,4 +1,4 @@
-//! The certificate as it is written.
+//! The file of a certificate, and the errors.
 
 use centrode_gear::{Gear, Member};
 use centrode_geometry::{Point, Segment};
@@ -71,7 +71,7 @@ pub struct ProofMeeting {
 }
 
 impl Proof {
-    /// The file, the same bytes every time.
+    /// The bytes of the file, identical at every call.
     ///
     /// # Errors
     /// [`serde_json::Error`] for a certificate that cannot be written.
@@ -112,7 +112,7 @@ pub enum ProofError {
         /// Missing room, rad of the driven gear.
         overlap: f64,
     },
-    /// Holding features change too often to be told apart.
+    /// The features that hold the driven gear change too often to be determined.
     #[error(
         "the contact that holds the driven gear at the driver angle {phi:.9} rad cannot be determined, even over only {SHORTEST} rad"
     )]
@@ -129,21 +129,21 @@ pub enum ProofError {
     Step {
         /// Driver angle, rad.
         phi: f64,
-        /// Which way the driven gear is pushed, on or back.
+        /// Direction in which the driven gear is pushed: `on` or `back`.
         side: &'static str,
-        /// From the seat to where the teeth meet, rad.
+        /// Rotation of the driven gear from its seat to the position in which the teeth meet, rad.
         turn: f64,
         /// Tooth of the driver, tooth of the driven gear.
         teeth: (u32, u32),
-        /// Where they meet, mm, in the driver's axes.
+        /// Point at which the teeth meet, mm, in the driver's axes.
         point: Point,
     },
-    /// A contour has a piece that is no polynomial.
+    /// A contour has a piece that is not a polynomial.
     #[error("piece {piece} of the {}'s contour is an arc, the proof knows polynomials alone", .member.name())]
     Arc {
-        /// Which gear.
+        /// The gear.
         member: Member,
-        /// Which piece, from 0.
+        /// Index of the piece, from 0.
         piece: usize,
     },
 }

@@ -11,8 +11,8 @@ use crate::contact::seat::Meshing;
 /// Samples of a track: both ends of the stretch, and the roots of the series between them in ascending order.
 pub(super) const SAMPLES: usize = CHEBYSHEV_TERMS + 2;
 
-/// Angle by which one meeting must be beyond another to hold the gear before it, rad: a quarter of the half width, more than the
-/// rounding of flanks.
+/// Angle by which one meeting must be beyond another to hold the gear instead of it, rad: a quarter of the half width, more
+/// than the rounding of flanks.
 const SEAT_DIFFERENCE: f64 = 0.25 * HALF_WIDTH;
 
 /// Inverse of the last decimal in the certificate: far below the half width and below any effect of a parameter on a parabola.
@@ -96,7 +96,8 @@ impl FeatureTrack {
         })
     }
 
-    /// Whether the meeting at sample `k` is on its parts, and no other track on its parts holds the gear before it.
+    /// Whether the meeting at sample `k` is on its parts, and no other track has a meeting on its parts that holds the gear
+    /// earlier.
     pub(super) fn holds(&self, k: usize, all: &[Self], side: Side) -> bool {
         self.meetings[k].is_some_and(|m| holds(&m, all.iter().filter_map(|t| t.meetings[k]), side))
     }
@@ -202,7 +203,7 @@ fn nearer_to_middle(found: Option<f64>, phi: f64, (from, to): (f64, f64)) -> Opt
     }
 }
 
-/// Whether a meeting is on its parts and no other one on its parts holds the gear before it.
+/// Whether a meeting is on its parts, and no other meeting on its parts holds the gear earlier.
 fn holds(meeting: &Meeting, mut others: impl Iterator<Item = Meeting>, side: Side) -> bool {
     let beaten = |other: Meeting| {
         other.is_on_parts() && side.sign() * (other.angle - meeting.angle) > SEAT_DIFFERENCE
@@ -210,7 +211,7 @@ fn holds(meeting: &Meeting, mut others: impl Iterator<Item = Meeting>, side: Sid
     meeting.is_on_parts() && !others.any(beaten)
 }
 
-/// Driver angle at which the features that hold the gear at one end of a stretch stop to hold it, rad.
+/// Driver angle at which the features that hold the gear at one end of a stretch stop holding it, rad.
 pub(super) fn cut(
     meshing: &Meshing<'_>,
     tracks: &[FeatureTrack],

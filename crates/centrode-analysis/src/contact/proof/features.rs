@@ -17,7 +17,7 @@ const SETTLED: f64 = 1e-9;
 /// need no stretch between them.
 const OVERHANG: f64 = 1e-6;
 
-/// Parameter beyond an end for a corner, where the seat has a kink.
+/// Parameter beyond an end up to which a corner counts as on its part. It is smaller, because the seat has a kink there.
 const CORNER_OVERHANG: f64 = 1e-8;
 
 /// Parameter beyond an end up to which a part is extrapolated.
@@ -95,7 +95,7 @@ impl AngularContact {
 }
 
 impl SeatedPose {
-    /// Features that meet in its contacts.
+    /// Features that meet in the contacts of the seat.
     pub(super) fn features(&self) -> Vec<FeatureMeeting> {
         self.angular_contacts
             .iter()

@@ -19,7 +19,7 @@ const MARGINS: [f64; 2] = [0.25, 0.05];
 /// Minimum room between the curvatures over a whole stretch, as a share of their difference in its middle.
 const MIN_ROOM: f64 = 0.4;
 
-/// Parameter above which the piece beyond the end counts too.
+/// Magnitude of the parameter above which the piece beyond the end counts too.
 const JOINT: f64 = 0.8;
 
 impl Prover<'_> {
@@ -54,7 +54,7 @@ impl Prover<'_> {
         ];
         let between = |above: Option<f64>, below: Option<f64>| Some(0.5 * (above? + below?));
         let all = match corner {
-            // They separate too little of the stretch.
+            // Parabolas would separate the contours on too little of the stretch.
             None if above - below < MIN_ROOM * (here.0 - here.1) => Vec::new(),
             None => {
                 let [far, close] = MARGINS.map(|margin| margin * (above - below));
@@ -103,7 +103,8 @@ impl Prover<'_> {
         ]
     }
 
-    /// Pieces beyond joints close to a meeting, and pieces that end at its corner: extrapolated, they meet a little beyond their ends.
+    /// Meetings of the pieces beyond joints close to a meeting, and of the pieces that end at its corner, all extrapolated a
+    /// little beyond their ends.
     pub(super) fn past_joints(&self, track: &FeatureTrack) -> Vec<FeatureMeeting> {
         let Some(meeting) = track.middle() else {
             return Vec::new();

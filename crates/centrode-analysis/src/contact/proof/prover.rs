@@ -15,7 +15,7 @@ use super::{
 use crate::contact::contour::Pose;
 use crate::contact::seat::Meshing;
 
-/// Half of the width of every proven seat, rad.
+/// Half of the width of the proven interval of every seat, rad.
 pub(super) const HALF_WIDTH: f64 = 4e-10;
 
 /// Missing room above which there is no certificate, modules at the centre distance. A smaller one is rounding of the seats.
@@ -87,7 +87,7 @@ pub(super) struct Prover<'a> {
 }
 
 impl Prover<'_> {
-    /// Adds the stretches of the first of a number of equal parts of the cycle.
+    /// Adds the stretches of the first of `sectors` equal parts of the cycle.
     fn cover_sector(&mut self, sectors: u32) -> Result<(), ProofError> {
         let pair = self.meshing.pair;
         let rolling = pair.rolling();

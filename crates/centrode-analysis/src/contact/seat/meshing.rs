@@ -13,7 +13,7 @@ const NEAR: f64 = 0.3;
 /// Search distance of flanks, modules. It grows if nothing is within it.
 const CLOSE: f64 = 0.05;
 
-/// Pair under analysis, pose by pose.
+/// Pair under analysis, with search distances and results of the previous pose.
 #[derive(Debug)]
 pub(crate) struct Meshing<'a> {
     pub(in crate::contact) pair: &'a GearPair,
@@ -22,7 +22,7 @@ pub(crate) struct Meshing<'a> {
     /// Parts of the driven gear as stretches about its axis.
     pub(in crate::contact) stretches: Vec<DividedStretch>,
     pub(in crate::contact) module: f64,
-    /// Whether all teeth are as the tool would make them.
+    /// Whether all teeth are complete: not undercut, not cut through and not shortened at the tip.
     pub(super) has_complete_teeth: bool,
     /// Search distance of points that face each other, mm.
     pub(in crate::contact) search_distance: f64,
@@ -108,7 +108,7 @@ impl<'a> Meshing<'a> {
     }
 }
 
-/// Whether every tooth of both gears is as the tool would make it.
+/// Whether all teeth of both gears are complete: not undercut, not cut through and not shortened at the tip.
 pub(in crate::contact) fn has_complete_teeth(pair: &GearPair) -> bool {
     let complete = |side: &ToothSide| side.undercut == 0.0 && side.tip_shortening == 0.0;
     let mut teeth = pair.driver().teeth().iter().chain(pair.driven().teeth());

@@ -1,4 +1,4 @@
-//! Where the gears touch at one driver angle.
+//! Points at which the gears touch at one driver angle.
 //!
 //! Read it in this order:
 //!
@@ -6,7 +6,7 @@
 //! 2. `facing_points`: points of two parts with a common normal, by Newton's method.
 //! 3. `proximity`: all such points in one pose.
 //! 4. `meeting_points`, `angular_contact`: points that meet when the driven gear turns.
-//! 5. `turn_search`: the first of them.
+//! 5. `turn_search`: the first of these meetings.
 //! 6. `seated_pose`: the driven gear turned until it rests on the driver.
 
 mod angular_contact;

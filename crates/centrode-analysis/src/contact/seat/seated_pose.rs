@@ -57,7 +57,7 @@ impl Meshing<'_> {
             let candidates = self.candidates(&pose);
             seats = [1.0, -1.0].map(|sign| self.seat(&candidates, phi, law, sign));
         }
-        // Short or undercut teeth may penetrate so depth that no sides that face each other are near.
+        // Short or undercut teeth may penetrate so deeply that no sides that face each other are near.
         let free = |seats: &[Option<SeatedPose>; 2]| match seats {
             [Some(forward), Some(back)] => forward.angle <= back.angle,
             _ => false,
@@ -155,7 +155,7 @@ impl Meshing<'_> {
         })
     }
 
-    /// Contacts that stop the driven gear when it turns from a pose, the first one first.
+    /// Contacts that stop the driven gear when it turns from a pose, in the order in which it reaches them.
     fn first_contacts(
         &self,
         candidates: &Candidates,

@@ -32,7 +32,7 @@ pub(super) struct TurnSearch<'a> {
     contacts: Vec<AngularContact>,
 }
 
-/// Rotation of the driver against the driven gear: `sign` times an angle, with its sine and cosine.
+/// Rotation of the driver relative to the driven gear: `sign` times an angle, with its sine and cosine.
 struct Floor {
     /// Angle, rad.
     turn: f64,
@@ -100,7 +100,7 @@ impl<'a> TurnSearch<'a> {
     /// Searches two stretches for a contact that may be the first.
     pub(super) fn search(&mut self, one: &DividedStretch, other: &DividedStretch) {
         let (a, b) = (&one.whole, &other.whole);
-        // A driven gear that turns back is stopped only by sides of the driver that face on.
+        // A driven gear that turns back (or on) is stopped only by sides of the driver that push it on (or back).
         if a.sense * self.sign > 0.0 || b.sense * self.sign < 0.0 || self.cannot_meet(a, b) {
             return;
         }
@@ -136,7 +136,7 @@ impl<'a> TurnSearch<'a> {
             return;
         }
         if a.is_whole() && b.is_whole() {
-            // Their halves are cached too, and most of them cannot meet.
+            // The halves of whole parts are cached, and most of these halves cannot meet.
             for part in one.parts(&self.driver, self.limits.min_lever) {
                 for mate in other.parts(&self.driven, self.limits.min_lever) {
                     self.search(part, mate);

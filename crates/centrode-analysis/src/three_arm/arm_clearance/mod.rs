@@ -13,19 +13,19 @@ use crate::side_by_side::both;
 
 /// Clearances of the arms of a planetary transplanting mechanism, proven over a whole cycle.
 ///
-/// The arms run next to the gearbox, not in its plane: an arm turns once round its planet while the
-/// intermediate gear stays next to it.
+/// The arms move in a plane next to that of the gearbox: an arm turns once round its planet, and the intermediate gear lies
+/// next to the planet.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ArmClearance {
-    /// Clearance of one arm from another, by their numbers; `None` for a single arm.
+    /// Clearance of one arm from another, with their numbers; `None` for a single arm.
     pub arms: Option<Clearance>,
     /// Clearance of the first arm's housing from the tray, a plate behind the surface in which the tip picks; the
     /// clamp goes into it and does not count.
     pub tray: Option<Clearance>,
     /// Clearance of the first arm from the stems of the rows still in the tray; `None` if there is no such row.
     pub unpicked: Option<Clearance>,
-    /// Clearance of the first arm from the stems planted before its own: the second of the pair counts them back.
-    /// Its own, which its open clamp leaves behind, does not count.
+    /// Clearance of the first arm from the stems planted before its own; the second number of the pair counts them backwards.
+    /// Its own stem, which its open clamp leaves behind, does not count.
     pub seedlings: Option<Clearance>,
 }
 
@@ -48,10 +48,10 @@ impl From<crate::interference::MotionError> for ArmClearanceError {
 }
 
 impl ArmClearance {
-    /// Computes all clearances of a mechanism with such arms, to within the tolerance.
+    /// Computes all clearances of a mechanism with the arm body `arm`, to within the tolerance.
     ///
     /// # Errors
-    /// [`ArmClearanceError`] where a pose or the contour is not finite.
+    /// [`ArmClearanceError`] if a pose or the contour is not finite.
     pub fn analyse(
         mechanism: &ThreeArm,
         arm: &ArmBody,
@@ -77,7 +77,7 @@ impl ArmClearance {
 }
 
 impl ArmClearance {
-    /// Clearances found, with the names in a report of their minimum clearance, lower bound (mm) and input (rad).
+    /// Clearances that were found, with the keys in a report of their minimum clearance, lower bound (mm) and input (rad).
     pub(crate) fn named(&self) -> impl Iterator<Item = (Clearance, [&'static str; 3])> + use<> {
         let arms = [
             "arm_clearance",
@@ -110,13 +110,13 @@ impl ArmClearance {
     }
 }
 
-/// Minimum clearance of two arms over a cycle, to within the tolerance; none for a single arm.
+/// Minimum clearance of two arms over a cycle, to within the tolerance; `None` for a single arm.
 ///
-/// Each arm does what the one before it did, later by its share of a turn: the first arm against every
-/// other up to the opposite one is enough. Seen from the carrier the arms only turn.
+/// Each arm repeats the motion of the arm before it, delayed by its share of a turn: pairs of the first arm with the arms up
+/// to the opposite one are enough. In the carrier's frame the arms only turn.
 ///
 /// # Errors
-/// [`ArmClearanceError`] where a pose or the contour is not finite.
+/// [`ArmClearanceError`] if a pose or the contour is not finite.
 pub fn between_arms(
     mechanism: &ThreeArm,
     arm: &ArmBody,
@@ -129,22 +129,23 @@ pub fn between_arms(
     Ok(found.flatten())
 }
 
-/// Course of the arms' clearances as the carrier turns.
+/// Clearances of the arms over a turn of the carrier.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ArmClearanceCourse {
     /// Middles of the parts of a carrier turn, rad, from zero on.
     pub input: Vec<f64>,
     /// Minimum distance of the first arm from another within each part, mm; empty for a single arm.
     pub arms: Vec<f64>,
-    /// Minimum distance of its housing from the tray within each part, mm; empty for an arm without a housing.
+    /// Minimum distance of the first arm's housing from the tray within each part, mm; empty for an arm without a housing.
     pub tray: Vec<f64>,
 }
 
 impl ArmClearanceCourse {
-    /// Computes the clearances in so many equal parts of a carrier turn, to within the tolerance; none for no parts.
+    /// Computes the clearances in `parts` equal parts of a carrier turn, to within the tolerance; without parts the lists are
+    /// empty.
     ///
     /// # Errors
-    /// [`ArmClearanceError`] where a pose or the contour is not finite.
+    /// [`ArmClearanceError`] if a pose or the contour is not finite.
     pub fn analyse(
         mechanism: &ThreeArm,
         arm: &ArmBody,
@@ -169,7 +170,8 @@ impl ArmClearanceCourse {
     }
 }
 
-/// Applies `look` to the first arm and those it could meet, as they turn against the carrier; none for a single arm.
+/// Applies `look` to the first arm and the arms that it could meet, with their motion in the carrier's frame; `None` for a
+/// single arm.
 fn among_arms<R>(
     mechanism: &ThreeArm,
     arm: &ArmBody,
@@ -186,7 +188,7 @@ fn among_arms<R>(
         train.at(0.0).carrier.position,
     );
     let axis = Rotation2::new(-carrier) * axis;
-    // Seen from the carrier an arm turns about its planet's axis, and does not move otherwise.
+    // In the carrier's frame an arm turns about its planet's axis, and does not move otherwise.
     let first = shares.motion(&body, [0.0, TAU], |input| {
         let jet = train.at(input);
         PoseJet {
@@ -237,7 +239,7 @@ fn from_tray(
     Ok(found.flatten())
 }
 
-/// Applies `look` to the first arm's housing and the tray; none for an arm without a housing.
+/// Applies `look` to the first arm's housing and the tray; `None` for an arm without a housing.
 fn at_tray<R>(
     mechanism: &ThreeArm,
     arm: &ArmBody,
@@ -312,7 +314,7 @@ fn from_seedlings(
     let motion = shares.motion(&arm, inputs, |input| {
         on_frame(&mechanism.link(ThreeArmLink::Arm(0), input))
     })?;
-    // Seen from the machine, planted seedlings move back evenly.
+    // In the machine's frame planted seedlings move back at constant speed.
     let still = mechanism.tip(release, 0);
     let back = still.velocity - mechanism.over_ground(&still, release).velocity;
     let apart = TAU / f64::from(mechanism.arms());

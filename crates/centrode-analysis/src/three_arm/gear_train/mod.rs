@@ -14,31 +14,31 @@ use crate::{ArmClearanceError, Contact, Finding, Place, Report, Severity, Unit, 
 
 /// Number of carrier turns at which each mesh is checked.
 const SAMPLES: u32 = 360;
-/// Turn of a gear, rad, by which a mesh may be off its teeth: rounding.
+/// Maximum phase error of a mesh that counts as rounding, rad.
 const PHASE: f64 = 1e-9;
-/// Tolerance of the gears' clearances, in modules.
+/// Tolerance of the gears' clearances, modules.
 const TOLERANCE: f64 = 1e-3;
 
-/// Teeth of a train, run together over a whole cycle.
+/// Teeth of a train, with their contact over a whole cycle.
 ///
 /// Sun and intermediate gear of the first chain represent every mesh.
 #[derive(Clone, Debug)]
 pub struct TrainTeeth {
     /// Sun and intermediate gear.
     pub pair: GearPair,
-    /// Contact of their flanks, by the sun's polar angle.
+    /// Contact of their flanks as a function of the sun's polar angle.
     pub contact: Contact,
-    /// Check of the pair by itself.
+    /// Report of the pair alone.
     checked: Report,
 }
 
 impl TrainTeeth {
-    /// Cuts the teeth and runs them together; none where the design has no tooth count.
+    /// Cuts the teeth and analyses their contact; `None` if the design has no tooth count.
     ///
-    /// It takes long; teeth of a design in which other things change are run together once.
+    /// This takes long: the result is cached for designs in which only other things change.
     ///
     /// # Errors
-    /// [`GearPairError`] where no teeth can be laid out or cut.
+    /// [`GearPairError`] if no teeth can be laid out or cut.
     pub fn analyse(mechanism: &ThreeArm) -> Result<Option<Self>, GearPairError> {
         if mechanism.design().gear_tooth_count().is_none() {
             return Ok(None);
@@ -50,7 +50,7 @@ impl TrainTeeth {
         Ok(Some(Self::clone(&run)))
     }
 
-    /// Runs cut teeth together.
+    /// Analyses the contact of cut teeth.
     fn run(pair: GearPair) -> Self {
         let contact = filling([0.0, 0.6], || Contact::analyse(&pair));
         let checked = filling([0.6, 1.0], || check_contact(&pair, &contact));
@@ -71,8 +71,8 @@ pub fn carrier_turn(mechanism: &ThreeArm, sun: f64) -> f64 {
 
 /// Checks the teeth of every mesh and the clearance of gears that are not in mesh.
 ///
-/// All meshes of all chains are poses of the one pair of sun and intermediate gear, as proven here from
-/// the links' poses alone; its contact analysis over a whole cycle is then that of every mesh.
+/// All meshes of all chains are poses of the one pair of sun and intermediate gear. This is checked here, from the poses of
+/// the links alone. The contact analysis of that pair over a whole cycle is then valid for every mesh.
 pub(crate) fn check_gear_train(mechanism: &ThreeArm, teeth: &TrainTeeth, report: &mut Report) {
     let TrainTeeth { pair, checked, .. } = teeth;
     let (off, input) = phase_error(mechanism, pair);
@@ -131,7 +131,7 @@ pub(crate) fn check_gear_train(mechanism: &ThreeArm, teeth: &TrainTeeth, report:
     apart(mechanism, pair, report);
 }
 
-/// Maximum angle by which a mesh is off the pair's own law at any sample, rad, and the carrier turn.
+/// Maximum deviation of a mesh from the law of the pair at the samples, rad, and the carrier turn at which it occurs, rad.
 fn phase_error(mechanism: &ThreeArm, pair: &GearPair) -> (f64, f64) {
     let mut worst = (0.0, 0.0);
     for mesh in mechanism.meshes() {
@@ -174,19 +174,19 @@ fn apart(mechanism: &ThreeArm, pair: &GearPair, report: &mut Report) {
     .add_to(report);
 }
 
-/// Nearest two gears that are not in mesh.
+/// Two gears that are not in mesh and are nearest to each other.
 pub(crate) struct GearClearance {
-    /// Names of the two.
+    /// Names of the two gears.
     pair: [String; 2],
-    /// Lower bound of their distance, mm: that of the tip circles, or better.
+    /// Lower bound of their distance, mm: the distance of the tip circles, or a larger proven bound.
     bound: f64,
-    /// Clearance proven over a cycle, where the tip circles do not suffice.
+    /// Clearance proven over a cycle, if the tip circles overlap.
     found: Option<Clearance>,
 }
 
 /// Minimum clearance of gears that are not in mesh, over a whole cycle.
 ///
-/// Seen from the carrier gears only turn. Where the tip circles of two are apart, that is enough.
+/// In the carrier's frame gears only turn. If the tip circles of two gears do not overlap, their distance is enough.
 fn gear_clearance(
     mechanism: &ThreeArm,
     pair: &GearPair,
@@ -203,7 +203,7 @@ fn gear_clearance(
     let mut nearest: Option<GearClearance> = None;
     for (i, &a) in all.iter().enumerate() {
         for &b in &all[i + 1..] {
-            // Chains repeat the first one: one of the two is the sun or of it.
+            // All chains repeat the first chain: one of the two gears is the sun or belongs to the first chain.
             let first = matches!(
                 (a, b),
                 (

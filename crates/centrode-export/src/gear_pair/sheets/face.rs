@@ -21,7 +21,7 @@ const RING: f64 = 3.4;
 const NUMBERS: f64 = 2.5;
 /// Radius of a timing mark on a sheet, mm.
 const MARK: f64 = 0.6;
-/// Room between a view and the next, mm.
+/// Gap between two views, mm.
 const APART: f64 = 16.0;
 
 /// Face view and section C-C, aligned on the axis.
@@ -79,7 +79,7 @@ fn face(part: &SheetGear<'_>, scale: Scale, letters: f64) -> Draft {
     draft
 }
 
-/// The ends of the cutting plane, with the direction it is seen in.
+/// The ends of the cutting plane, with arrows in the viewing direction.
 fn cutting_plane(draft: &mut Draft, left: Point, right: Point) {
     for (at, out) in [(left, -1.0), (right, 1.0)] {
         let end = at + Vector::new(7.0 * out, 0.0);
@@ -150,7 +150,7 @@ fn notes(part: &SheetGear<'_>, k: f64) -> Vec<(Point, Vec<NoteLine>)> {
     notes
 }
 
-/// Minimum width on a sheet of what is drawn behind a section, mm.
+/// Minimum width on a sheet of teeth that are drawn behind a section, mm.
 const SEEN: f64 = 0.7;
 
 /// Possible positions of a number, mm outwards and along the pitch curve, the best first.
@@ -179,7 +179,7 @@ fn numbers(part: &SheetGear<'_>, k: f64, draft: &mut Draft) {
         let words = space.to_string();
         let width = lettering::width(&words, NUMBERS);
         let frame = part.middle(space, 0.5);
-        // Leaders go by: the number makes way, first outwards and then along.
+        // A number that would touch a leader moves: first along the pitch curve, then outwards.
         for (out, along) in PLACES {
             let middle = frame.point * k
                 + frame.normal * (height + 0.5 * NUMBERS + out)
@@ -198,7 +198,7 @@ fn numbers(part: &SheetGear<'_>, k: f64, draft: &mut Draft) {
     }
 }
 
-/// The section through the axis along x, and the keyway where that lies there, seen from above; teeth are not cut, ISO 2203.
+/// The section through the axis along x, seen from above, with the keyway if it lies in that plane. Teeth are not cut, ISO 2203.
 fn section(part: &SheetGear<'_>, scale: Scale) -> Draft {
     let k = scale.factor();
     let body = part.gear.body();
@@ -277,7 +277,7 @@ fn section(part: &SheetGear<'_>, scale: Scale) -> Draft {
 pub(super) fn bore(part: &SheetGear<'_>) -> Option<Draft> {
     let body = part.gear.body();
     let key = body.keyway?;
-    // Drawn as if along x: the notes name its position.
+    // The keyway is drawn as if along x: the notes state its position.
     let upright = Isometry2::rotation(-body.keyway_angle);
     let outline = &part.bore.as_ref()?.transformed(&upright);
     let scale = Scale::largest(body.bore + key.depth, 45.0);

@@ -61,7 +61,7 @@ impl From<Member> for Subject {
 /// Names of a gear in a machine larger than its pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Label<'a> {
-    /// The name its files have.
+    /// Name of its files.
     pub(crate) name: &'a str,
     /// Name of its drawing.
     pub(crate) title: &'a str,
@@ -71,7 +71,7 @@ pub(crate) struct Label<'a> {
     pub(crate) machine: &'a str,
     /// Words for the title block.
     pub(crate) drawing: &'a DrawingSpec,
-    /// How many of it a machine has.
+    /// Number of these gears in the machine.
     pub(crate) quantity: usize,
 }
 
@@ -88,7 +88,7 @@ pub fn sheets(
     labelled(pair, subject, None, subject.name(), options, tolerance)
 }
 
-/// The sheets of a gear under a label, or of a subject, whose files have a name.
+/// The sheets of a subject, or of a gear under a label; `file` is the name of its files.
 pub(super) fn labelled(
     pair: &GearPair,
     subject: Subject,
@@ -194,7 +194,7 @@ fn notes(part: &SheetGear<'_>) -> Vec<String> {
         lines.push(format!("Keyway at polar angle {angle}."));
     }
     if part.label.is_none() && body.bore > 0.0 {
-        // Of a pair alone the shaft belongs to the machine around it: its sheet is not here.
+        // The shaft of a pair alone belongs to the machine around it: it has no sheet here.
         let shaft = body.seat("");
         let seat = format!("To sit on a shaft {}", fit::shaft(&shaft));
         if let Some(key) = body.keyway.map(Keyway::of_shaft) {

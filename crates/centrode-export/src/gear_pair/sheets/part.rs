@@ -8,7 +8,7 @@ use centrode_spec::DrawingSpec;
 use nalgebra::Rotation2;
 use std::f64::consts::TAU;
 
-/// A gear with the input of its sheets, millimetres of the part.
+/// A gear with the data for its sheets, in mm at full size.
 pub(super) struct SheetGear<'a> {
     pub(super) pair: &'a GearPair,
     pub(super) gear: &'a Gear,
@@ -18,7 +18,7 @@ pub(super) struct SheetGear<'a> {
     pub(super) pitch_curve: Outline,
     pub(super) bore: Option<Outline>,
     pub(super) tolerance: Tolerance,
-    /// Name, where not driver or driven.
+    /// Names in a larger machine; `None` for a pair alone.
     pub(super) label: Option<Label<'a>>,
     /// Name that its files begin with.
     pub(super) file: String,
@@ -28,7 +28,7 @@ pub(super) struct SheetGear<'a> {
     roots: Vec<Point>,
 }
 
-/// How far driver and driven gear are one part.
+/// How far driver and driven gear are equal.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Likeness {
     Teeth,
@@ -36,7 +36,7 @@ pub(super) enum Likeness {
     All,
 }
 
-/// How far the two gears of a pair are one part; `None` if their teeth differ.
+/// How far the two gears of a pair are equal; `None` if their teeth differ.
 pub(super) fn likeness(pair: &GearPair) -> Option<Likeness> {
     if !pair.congruent() {
         return None;
@@ -48,7 +48,7 @@ pub(super) fn likeness(pair: &GearPair) -> Option<Likeness> {
     });
     let angle = |p: Point| p.y.atan2(p.x);
     let near = 1e-6 * pair.module();
-    // Turned so, the driver is the driven gear; their teeth are numbered in opposite senses.
+    // Rotations that bring the driver onto the driven gear; their teeth are numbered in opposite senses.
     let turns = (0..teeth).filter_map(|first| {
         let turn = angle(driven[0]) - angle(driver[first]);
         let turned = Rotation2::new(turn);
@@ -76,13 +76,13 @@ pub(super) fn likeness(pair: &GearPair) -> Option<Likeness> {
     turns.map(level).max().or(Some(Likeness::Teeth))
 }
 
-/// The points with the maximum and the minimum radius of a kind.
+/// The tips, or the roots, with the maximum and the minimum radius.
 pub(super) struct Extremes {
     pub(super) maximum: Point,
     pub(super) minimum: Point,
 }
 
-/// The pitch curve's frame so many pitches after the middle of a gear's first tooth.
+/// Frame of the pitch curve, `pitches` pitches after the middle of a gear's first tooth.
 pub(in crate::gear_pair) fn middle(pair: &GearPair, member: Member, pitches: f64) -> Frame {
     let (gear, rolling) = (pair.gear(member), pair.rolling());
     let own = match member {
@@ -105,7 +105,7 @@ impl<'a> SheetGear<'a> {
         let parts = gear.outline().segments().iter().zip(gear.roles());
         let mut before = gear.roles().last().is_some_and(is_root);
         let is_open = before && gear.roles().first().is_some_and(is_root);
-        // A space begins where a tooth ends; the contour may begin within one.
+        // A space begins where a tooth ends; the contour may begin within a space.
         roots.extend(is_open.then_some(None));
         for ((segment, role), &owner) in parts.zip(gear.owners()) {
             let space = is_root(role);
@@ -146,7 +146,7 @@ impl<'a> SheetGear<'a> {
         }
     }
 
-    /// The name its files have.
+    /// Name of its files.
     pub(super) fn name(&self) -> &'a str {
         self.label.map_or(self.member.name(), |label| label.name)
     }
@@ -165,7 +165,7 @@ impl<'a> SheetGear<'a> {
         extremes(&self.roots)
     }
 
-    /// The outermost point of the contour and the innermost, among those nearest in polar angle.
+    /// Radii of the tip and of the root that are nearest to a polar angle.
     pub(super) fn reach(&self, angle: f64) -> [f64; 2] {
         let off = |p: &Point| (p.y.atan2(p.x) - angle + 0.5 * TAU).rem_euclid(TAU) - 0.5 * TAU;
         let nearest = |points: &[Point]| {
@@ -177,7 +177,8 @@ impl<'a> SheetGear<'a> {
         [nearest(&self.tips), nearest(&self.roots)]
     }
 
-    /// Minimum and maximum x of the contour below the x axis: what a section along it, seen from above, shows behind the cut.
+    /// Minimum and maximum x of the tips and roots below the x axis: a section along this axis, seen from above, shows them
+    /// behind the cut.
     pub(super) fn behind(&self) -> [f64; 2] {
         let corners = self.tips.iter().chain(&self.roots).filter(|p| p.y <= 0.0);
         corners.fold([0.0, 0.0], |[minimum, most], p| {
@@ -189,8 +190,8 @@ impl<'a> SheetGear<'a> {
         self.outline.bounds().with(Point::origin())
     }
 
-    /// Distance of the contour from the pitch curve along its normal, outwards for `side` 1 and inwards for -1; the nearest
-    /// where the normal meets it more than once.
+    /// Distance of the contour from the pitch curve along its normal, outwards for `side` 1 and inwards for -1; the smallest
+    /// distance if the normal meets the contour more than once.
     pub(super) fn height(&self, frame: &Frame, side: f64) -> Option<f64> {
         let joined = 1e-9 * self.pair.module();
         let heights = self.gear.outline().segments().iter().filter_map(|segment| {
@@ -223,7 +224,7 @@ impl<'a> SheetGear<'a> {
         rolling.frame(self.member, rolling.parameter(arc))
     }
 
-    /// Direction of the mate's axis, where the pitch curves touch at phi = 0.
+    /// Direction towards the mate's axis at phi = 0.
     pub(super) fn toward_mate(&self) -> Vector {
         match self.member {
             Member::Driver => Vector::x(),
@@ -231,7 +232,7 @@ impl<'a> SheetGear<'a> {
         }
     }
 
-    /// In which sense the teeth are numbered.
+    /// Sense in which the teeth are numbered.
     pub(super) fn sense(&self) -> &'static str {
         match self.member {
             Member::Driver => "counter-clockwise",
@@ -251,7 +252,7 @@ fn extremes(points: &[Point]) -> Option<Extremes> {
 /// Polar angle of a point in degrees, 0 to below 360.
 pub(super) fn degrees(p: Point) -> f64 {
     let angle = p.y.atan2(p.x).to_degrees().rem_euclid(360.0);
-    // What would be written as 360.00 is nought.
+    // An angle that would be written as 360.00 becomes 0.
     if angle > 359.995 { 0.0 } else { angle }
 }
 

@@ -133,7 +133,7 @@ fn base_tangent(pair: &GearPair, member: Member) -> Option<Datum> {
     let found = pair.base_tangent(member).ok()?;
     let mut value = fixed(found.length, 4);
     if let Some(deviations) = pair.thickness_deviations(member) {
-        // The thickness is that on the pitch circle.
+        // The deviations of thickness are those on the pitch circle.
         let cos = pair.pressure_angle().cos();
         let [upper, lower] = deviations.limits.map(|d| fixed(found.length + d * cos, 3));
         value = format!("{value} ({upper} / {lower})");
@@ -178,7 +178,7 @@ fn mate_name(pair: &GearPair, mate: Member) -> String {
 
 /// The measure over a pin in every space, with limits where the thickness of the teeth has them.
 pub(crate) fn over_pins(pins: &OverPins, limits: Option<&[OverPins; 2]>) -> Table {
-    // Of thicker teeth the measures are greater.
+    // Thicker teeth have greater measures: the first limit is the maximum.
     let between = |of: &dyn Fn(&OverPins) -> Option<f64>| {
         let ends = limits.map(|both| both.each_ref().map(of));
         match ends {

@@ -13,10 +13,10 @@ use nalgebra::Rotation2;
 const LETTERS: f64 = 2.5;
 /// Length that words of four figures take beyond the arrows of a dimension, mm.
 const WORDS: f64 = 18.0;
-/// Length on paper of what is shown, mm.
+/// Length of the detail on paper, mm.
 const SHOWN: f64 = 72.0;
 
-/// The teeth where the pitch curve is sharpest and straightest towards the axis; one where it is a circle.
+/// The teeth at the maximum and the minimum curvature of the pitch curve; one tooth if the pitch curve is a circle.
 pub(super) fn extremes(part: &SheetGear<'_>) -> Vec<(u32, &'static str)> {
     let teeth = part.gear.teeth();
     let sound: Vec<(u32, f64)> = (0_u32..)
@@ -88,7 +88,7 @@ pub(super) fn detail(part: &SheetGear<'_>, letter: char, tooth: u32, place: &str
     let thick = (foot[1] - foot[0]).norm() / k;
     let above = p(0.0, heights(&profile, f64::max, high) + 9.0);
     let words = format!("{thick:.3}");
-    // If the thickness is next to its arrows, the heights are clear of it.
+    // The text of the thickness may be next to its arrows: the heights are placed clear of it.
     let beyond = foot[0].x.max(foot[1].x) + lettering::width(&words, LETTERS) + 13.0;
     draft.dimension(foot, foot[1] - foot[0], above, &words);
     let right = (reach + 9.0).max(beyond);
@@ -97,7 +97,7 @@ pub(super) fn detail(part: &SheetGear<'_>, letter: char, tooth: u32, place: &str
         let ends = [p(0.0, 0.0), p(0.0, height * k)];
         draft.dimension(ends, Vector::y(), p(right, 0.0), &words);
     }
-    // A bent pitch curve leans the spaces: their depth lies along their own normal.
+    // On a bent pitch curve the spaces are inclined to the tooth: their depth is measured along their own normal.
     let spaces = [-0.5, 0.5].map(|half| part.middle(tooth, half));
     let space = spaces.iter().find(|frame| upright(frame.point).x < 0.0);
     let depth = space.and_then(|frame| Some((frame, part.height(frame, -1.0)?)));
@@ -105,7 +105,7 @@ pub(super) fn detail(part: &SheetGear<'_>, letter: char, tooth: u32, place: &str
         let ends = [frame.point, frame.point - frame.normal * depth].map(upright);
         let outwards = turn * frame.tangent;
         let outwards = -outwards * outwards.x.signum();
-        // Next to the neighbouring tooth, as far as the profile is drawn; words below lean towards it as the normal does.
+        // The dimension is beyond the drawn profile; the more the normal is inclined, the more room its text needs.
         let lean = WORDS * outwards.y.abs();
         let far = (reach + 9.0 + lean + ends[0].x) / outwards.x.abs().max(0.5);
         let at = ends[0] + outwards * far;
@@ -151,7 +151,7 @@ pub(super) fn detail(part: &SheetGear<'_>, letter: char, tooth: u32, place: &str
     draft
 }
 
-/// The run of a closed polyline around the origin, once mapped, out to a distance.
+/// The run of a closed polyline, after mapping, from its point nearest to the origin out to a distance on both sides.
 fn near(points: &[Point], map: &impl Fn(Point) -> Point, reach: f64) -> Vec<Point> {
     let mapped: Vec<Point> = points.iter().map(|p| map(*p)).collect();
     let count = mapped.len();

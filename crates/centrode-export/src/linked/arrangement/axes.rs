@@ -4,27 +4,28 @@ use nalgebra::{Point3, Vector3};
 
 use super::scene::Scene;
 
-/// Distance within which two axes are one, mm.
+/// Distance below which two axes count as one, mm.
 const ONE: f64 = 1e-6;
-/// Maximum sine of an axis' lean that still counts as upright to the sheet.
+/// Maximum sine of the angle between an axis and the normal of the sheet at which the axis counts as normal to the sheet.
 const UPRIGHT: f64 = 1e-9;
 
-/// An axis about which links turn, upright to the sheet.
+/// An axis about which links turn, normal to the sheet.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Axis {
     pub(super) at: Point,
-    /// The links that it joins, each by the first of those it is fixed to: the one that carries, and the one carried.
+    /// The links that it joins: the carrying link, then the carried one. Links fixed to each other are represented by the first
+    /// of them.
     pub(super) links: [usize; 2],
-    /// The joint of the tree; `None` for a pin next to it.
+    /// The joint of the tree; `None` for a pin that closes a loop.
     pub(super) joint: Option<usize>,
-    /// Name: that of the mark there, or of the link carried.
+    /// Name of the mark at its position, or of the carried link.
     pub(super) name: String,
     /// Whether a mark names it.
     pub(super) marked: bool,
 }
 
 impl Axis {
-    /// Whether it is fixed.
+    /// Whether the axis is fixed to the frame.
     pub(super) fn stands(&self) -> bool {
         self.links[0] == 0
     }
@@ -44,12 +45,13 @@ fn fixed_to(machine: &LinkedMachine, link: usize) -> usize {
     fixed.last().map_or(link, |joint| joint.parent)
 }
 
-/// A name of the machine in words.
+/// A name with spaces instead of underscores and hyphens.
 pub(super) fn words(name: &str) -> String {
     name.replace(['_', '-'], " ")
 }
 
-/// Name of a position: that of the mark there, on a link or on any, or another one in words; whether a mark names it.
+/// Name of a position, and whether a mark names it: the name of the mark there (on link `on`, or on any), otherwise `other` in
+/// words.
 fn named(scene: &Scene<'_>, at: Point, on: Option<usize>, other: &str) -> (String, bool) {
     let machine = scene.machine;
     let mark = machine.marks.iter().find(|mark| {
@@ -112,7 +114,8 @@ pub(super) fn axes(scene: &Scene<'_>) -> Vec<Axis> {
     turning.chain(pins).collect()
 }
 
-/// Distances from the axis on which each link turns to its others and to the points followed; equal links are listed once.
+/// Distances from the axis on which each link turns to its other axes and to its points whose paths are drawn; equal links are
+/// listed once.
 pub(super) fn lengths(scene: &Scene<'_>, axes: &[Axis]) -> Vec<Length> {
     let machine = scene.machine;
     let mut all: Vec<Length> = Vec::new();

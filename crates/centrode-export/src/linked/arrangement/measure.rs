@@ -5,7 +5,7 @@ use centrode_formats::sheet::number;
 use centrode_geometry::{Extreme, Point, Vector, maximum_of_each, piece_ends};
 use centrode_kinematics::machine::{Axis as Along, LinkedMachine};
 
-/// Pieces of a period, among which each extreme of a path is bracketed.
+/// Number of pieces of a period in which the extremes of a path are searched.
 const PIECES: u32 = 12;
 /// Minimum distance worth a dimension, mm.
 const MINIMUM: f64 = 1e-6;
@@ -38,7 +38,7 @@ impl Measured {
     }
 }
 
-/// Distances of the axes that are fixed, travel of the points followed, and further dimensions of the machine.
+/// Distances of the fixed axes, further dimensions of the machine, and the extent of the drawn paths of points.
 pub(super) fn dimensions(scene: &Scene<'_>, axes: &[Axis]) -> Vec<Measured> {
     let mut all: Vec<Measured> = Vec::new();
     let mut add = |ends: [Point; 2], along: Along| {

@@ -1,4 +1,4 @@
-//! The general arrangement of any machine: drawn at its position, with its dimensions, numbers of its parts, and data.
+//! The general arrangement of any machine: its figures at one input, with dimensions, item numbers of the parts, and data.
 
 mod axes;
 mod fits;
@@ -38,7 +38,7 @@ const BESIDE: usize = 40;
 /// The general arrangement of a machine: its figures in their positions at the input of the arrangement, axes, dimensions, parts
 /// list and data.
 ///
-/// Dimensions are the distances of shafts that are fixed, the travel of the points followed, and those of
+/// Dimensions are the distances of shafts that are fixed, the extent of the drawn paths of points, and those of
 /// [`LinkedMachine::arrangement`]; a table has the distances between the axes of each link.
 ///
 /// # Errors
@@ -113,7 +113,7 @@ pub fn arrangement(
         }));
         pieces
     };
-    // Of nothing drawn the bounds are empty.
+    // If nothing is drawn, the bounds are empty.
     let size = view.scene.whole.max - view.scene.whole.min;
     let extent = size.x.max(size.y).max(0.0);
     let usual = (extent > SMALL).then_some(LARGE);
@@ -121,7 +121,7 @@ pub fn arrangement(
     compose(size, &block, extent, &pieces, &flowing)
 }
 
-/// Numbers of the parts list by the position they point to; parts seen at one position share it.
+/// Item numbers of the parts list with the positions they point to; parts at one position share a balloon.
 fn balloons(machine: &LinkedMachine) -> Vec<(Place, String)> {
     let mut all: Vec<(Place, String)> = Vec::new();
     for (index, part) in machine.parts.iter().enumerate() {
@@ -135,7 +135,7 @@ fn balloons(machine: &LinkedMachine) -> Vec<(Place, String)> {
     all
 }
 
-/// Data of the machine, and what checks found.
+/// Data of the machine, and results of checks.
 fn data(machine: &LinkedMachine, options: &SheetOptions) -> Table {
     let stated = machine.arrangement.data.iter().chain(&options.found);
     Table {

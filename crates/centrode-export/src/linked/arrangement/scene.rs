@@ -7,12 +7,12 @@ use nalgebra::{Isometry2, Isometry3};
 
 use super::super::picture::{placed, pose};
 
-/// Parts of a period in which the path of a point is drawn.
+/// Number of intervals of a period for the drawn path of a point.
 const STEPS: u32 = 720;
-/// Distance within which a path runs along itself, as a share of its size.
+/// Distance below which a path counts as running along itself, relative to its size.
 const ALONG: f64 = 2e-4;
 
-/// Air round the ends of dimensions, as a share of the machine's size.
+/// Margin around the ends of dimensions, relative to the machine's size.
 const AIR: f64 = 0.01;
 
 /// A line of the machine at its position, at full size.
@@ -26,16 +26,16 @@ pub(super) enum Drawn {
 /// The machine as it is drawn: every figure at its position.
 pub(super) struct Scene<'a> {
     pub(super) machine: &'a LinkedMachine,
-    /// Of each figure.
+    /// Pose of each figure.
     poses: Vec<Isometry2<f64>>,
-    /// Of each link.
+    /// Pose of each link.
     pub(super) places: Vec<Isometry3<f64>>,
     pub(super) lines: Vec<(Pen, Drawn)>,
-    /// Round the machine; what surrounds it is cut off there.
+    /// Bounds of the machine; ground lines are cut off there.
     pub(super) whole: Bounds,
 }
 
-/// How a line looks on a sheet, ISO 128-2; `None` for one that helps in designing and is no part of the machine.
+/// Pen of a line on a sheet, ISO 128-2; `None` for an auxiliary line of the design that is no part of the machine.
 fn pen(role: LineRole, seen_through: bool) -> Option<Pen> {
     match role {
         LineRole::Body | LineRole::Hole if seen_through => Some(Pen::Adjacent),
@@ -94,7 +94,7 @@ impl<'a> Scene<'a> {
                         once(&way).into_iter().map(Drawn::Open).collect()
                     }
                 };
-                // Only paths are dash-dotted: of short edges dashes would leave nothing.
+                // Only traced paths are dash-dotted: short edges would disappear in the gaps.
                 let pen = match line.path {
                     LinePath::Chain(_) if pen == Pen::Axis => Pen::Thin,
                     _ => pen,
@@ -123,12 +123,12 @@ impl<'a> Scene<'a> {
         scene
     }
 
-    /// Position of a point of the picture.
+    /// Position on the sheet, at full size, of a point of a figure.
     pub(super) fn at(&self, place: &Place) -> Point {
         self.poses[place.figure] * Point::from(place.at)
     }
 
-    /// Centres about which figures turn that are not drawn at the positions of their links.
+    /// Centres of rotation of the figures that are not fixed to a link.
     pub(super) fn centers(&self) -> impl Iterator<Item = Point> {
         let turns = |figure: &Figure| match &figure.seat {
             Seat::Free(by) => !matches!(by[2], Quantity::Law(_)),
@@ -206,7 +206,7 @@ fn way(machine: &LinkedMachine, figure: &Figure, point: &LinkPoint) -> Vec<Point
     (0..=STEPS).map(at).collect()
 }
 
-/// A path with the stretches along which it goes back omitted: dashes drawn twice fill each other's gaps.
+/// A path without the stretches on which it runs back along itself: dashes drawn twice fill each other's gaps.
 fn once(way: &[Point]) -> Vec<Vec<Point>> {
     let near = ALONG * way.iter().copied().collect::<Bounds>().diagonal();
     let mut runs: Vec<Vec<Point>> = Vec::new();

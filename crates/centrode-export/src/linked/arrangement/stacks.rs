@@ -1,4 +1,4 @@
-//! Sections along shafts, pins and screws: what is on them and what they are in.
+//! Sections along shafts, pins and screws, with the parts on them and around them.
 
 use centrode_formats::drawing::Anchor;
 use centrode_formats::sheet::{Draft, Pen, Scale};
@@ -8,16 +8,17 @@ use nalgebra::{Isometry3, Point3, Vector3};
 
 /// Maximum height of a section on paper, mm.
 const HIGH: f64 = 90.0;
-/// Largest scale of one.
+/// Largest scale of a section.
 const LARGEST: f64 = 5.0;
-/// Half of its width in diameters of the turned part, and the minimum beyond its rim on paper, mm.
+/// Half the width of a section in diameters of the turned part, and the distance on paper from the section to its numbers, mm.
 const WIDE: f64 = 1.25;
 const BESIDE: f64 = 6.0;
-/// Minimum share of half the width that a body which lies next to takes.
+/// Minimum width of a cut body relative to half the width of the section; thinner ones are omitted unless they are about the
+/// axis.
 const MINIMUM: f64 = 0.1;
-/// Distance within which two axes are one, mm.
+/// Distance below which two axes count as one, mm.
 const ONE: f64 = 1e-6;
-/// How far a drawn contour may be off the one whose blank is listed, mm.
+/// Maximum difference between the diameters of a drawn contour and of its listed blank, mm.
 const DRAWN: f64 = 0.01;
 /// Height of the letters of headings and numbers, mm.
 const LETTERS: f64 = 2.5;
@@ -56,8 +57,8 @@ struct Placed<'a> {
 }
 
 impl Stack {
-    /// The sections of a machine: one through every kind of upright turned part, less those of which another one shows
-    /// all parts.
+    /// The sections of a machine: one through every kind of upright turned part, except those whose parts are all in another
+    /// section.
     pub(super) fn all(
         machine: &LinkedMachine,
         places: &[Isometry3<f64>],
@@ -119,7 +120,7 @@ impl Stack {
             half: wide,
             items: Vec::new(),
         };
-        // What lies along the turned part, and heads and rings at its ends.
+        // Bodies along the turned part, and heads and rings at its ends.
         let ends = [0.0, turned.length()].map(|z| (body.place * Point3::new(0.0, 0.0, z)).z);
         let span = [ends[0].min(ends[1]) - ONE, ends[0].max(ends[1]) + ONE];
         for other in bodies {
@@ -199,8 +200,8 @@ impl Stack {
 }
 
 impl Placed<'_> {
-    /// Its number in the parts list: by the name of its files, by the standard it is bought by, or by its link and thickness; of
-    /// bodies equal in these by the diameter about the axis, mm.
+    /// Index of the body in the parts list: by the name of its files, by the designation of a bought part, or by its link and its
+    /// thickness (mm). If several parts fit, its diameter about the axis (mm) decides.
     fn item(&self, machine: &LinkedMachine, [thickness, diameter]: [f64; 2]) -> Option<usize> {
         let find = |is: &dyn Fn(&Part) -> bool| machine.parts.iter().position(is);
         let shape = self.shape;
@@ -231,8 +232,8 @@ impl Placed<'_> {
         find(&round).or_else(|| find(&flat)).or_else(|| find(&any))
     }
 
-    /// Rectangles in which a plane cuts it, no farther from the axis than half a width, each with the thickness of what is cut and
-    /// its diameter about the axis.
+    /// Rectangles in which a plane cuts the body, up to the distance `half` from the axis, each with the thickness of the body
+    /// and its diameter about the axis, mm.
     fn cuts(
         &self,
         plane @ Plane { axis, across }: Plane,
@@ -252,7 +253,7 @@ impl Placed<'_> {
                     let ends = [low, low + step.length].map(|at| z + up * at);
                     low += step.length;
                     let radius = 0.5 * step.diameter;
-                    // Only what is cut through its middle.
+                    // Only turned parts that the plane cuts through their middle.
                     (beside.abs() < ONE && along.abs() + radius <= half + ONE).then(|| {
                         let (bottom, top) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
                         let bounds = Bounds {

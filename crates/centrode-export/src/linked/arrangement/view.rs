@@ -15,27 +15,27 @@ const FIRST: f64 = 12.0;
 const NEXT: f64 = 9.0;
 /// Half the length of the lines of a centre mark, mm.
 const CROSS: f64 = 3.0;
-/// Minimum mean length of a contour's segments on paper that a thick line leaves apart, mm.
+/// Mean length of a contour's segments on paper below which its lines are thin, mm.
 const FINE: f64 = 1.0;
-/// Directions in which room for words is searched, and distances, mm.
+/// Number of directions in which room for words is searched, and the distances tried, mm.
 const DIRECTIONS: u32 = 16;
 const ROOM: [f64; 6] = [1.2, 2.5, 4.0, 6.0, 8.5, 12.0];
-/// Advance over a period from which on a shaft turns round, rad.
+/// Minimum advance over a period at which a shaft counts as rotating, rad.
 const ROUND: f64 = 0.1;
-/// Turn that an arrow of rotation covers, rad, and the room it is to have on either side, mm.
+/// Angle of an arrow of rotation, rad, and the room it needs on either side, mm.
 const ARROW: f64 = 1.2;
 const BESIDE: f64 = 0.9;
 /// Radii of such an arrow in the order tried, mm.
 const RADII: [f64; 10] = [14.0, 11.0, 17.0, 20.0, 8.0, 24.0, 28.0, 6.0, 33.0, 40.0];
-/// Height of the lowest words above a view, mm, and how far their leaders lean: the minimum, the step and the count of what is
-/// tried for one that runs through no words.
+/// Height of the lowest words above a view, mm, and the sideways reach of their leaders: the minimum (mm), the step (mm) and the
+/// number of tries for a leader that runs through no words.
 const ABOVE: f64 = 12.0;
 const LEAN: f64 = 6.0;
 const MORE: f64 = 1.5;
 const LEANS: u32 = 24;
-/// Distance of points on a sheet that are one, mm.
+/// Distance on a sheet below which two points count as one, mm.
 const ONE_PLACE: f64 = 0.1;
-/// Most dimensions whose order is searched among all orders.
+/// Maximum number of dimensions for which all orders are tried.
 const ORDERED: usize = 6;
 
 /// Lines of words and the point they are about.
@@ -46,7 +46,7 @@ pub(super) struct View<'a> {
     pub(super) scene: Scene<'a>,
     pub(super) axes: Vec<Axis>,
     pub(super) dimensions: Vec<Measured>,
-    /// Numbers of the parts list by their positions.
+    /// Item numbers of the parts list with their positions.
     pub(super) balloons: Vec<(Place, String)>,
 }
 
@@ -123,7 +123,7 @@ impl View<'_> {
         }
     }
 
-    /// Names marks and standing shafts where there is room; gives the names that find none.
+    /// Names marks and fixed shafts where there is room; returns the names without room.
     fn name(&self, draft: &mut Draft, k: f64) -> Vec<Note> {
         let machine = self.scene.machine;
         let marks = machine.marks.iter().map(|mark| {
@@ -141,7 +141,7 @@ impl View<'_> {
         let mut left = Vec::new();
         let mut named: Vec<(Point, String)> = Vec::new();
         for (at, name) in marks.chain(shafts) {
-            // Points of two bodies under one name, one on the other, are named once.
+            // Coincident points of two bodies with the same name are named once.
             let is_known = |(known, word): &(Point, String)| {
                 *word == name && ((known - at) * k).norm() < ONE_PLACE
             };
@@ -156,7 +156,7 @@ impl View<'_> {
         left
     }
 
-    /// Draws which way the standing shafts turn that turn round, where there is room for it.
+    /// Draws the sense of rotation of the fixed shafts that rotate, where there is room for the arrow.
     fn turn(&self, draft: &mut Draft, k: f64, whole: Bounds) {
         let machine = self.scene.machine;
         for axis in self.axes.iter().filter(|axis| axis.stands()) {
@@ -172,7 +172,7 @@ impl View<'_> {
             let center = axis.at * k;
             let sweep = ARROW * turned.signum();
             let free = |radius: f64, from: f64| {
-                // Squares that leave no gap between them.
+                // Squares along the arrow, without gaps between them.
                 let count = (radius * ARROW / BESIDE).ceil() as u32;
                 let square = |i: u32| {
                     let angle = from + sweep * f64::from(i) / f64::from(count);
@@ -204,8 +204,8 @@ fn is_upper(at: Point, Bounds { min, max }: Bounds) -> bool {
     steady(max.y - at.y) < steady((at.x - min.x).min(max.x - at.x))
 }
 
-/// Writes notes above a view: leaders of the left ones lean to the left, those of the others to the right, and rise the higher
-/// the nearer to the middle.
+/// Writes notes above a view. Leaders of the left half lean to the left, those of the right half to the right; notes nearer to
+/// the middle are higher.
 fn note_above(draft: &mut Draft, mut notes: Vec<Note>) {
     notes.sort_by(|(a, _), (b, _)| steady(a.x).total_cmp(&steady(b.x)));
     let right = notes.split_off(notes.len() / 2);
@@ -228,7 +228,7 @@ fn note_next_to(draft: &mut Draft, notes: &[Note]) {
     draft.callouts(draft.bounds(), [f64::NEG_INFINITY; 2], notes);
 }
 
-/// Writes words next to a point where they touch nothing; whether there is room.
+/// Writes words next to a point where they touch nothing; returns whether there is room.
 fn label(draft: &mut Draft, at: Point, words: &str) -> bool {
     let letters = draft.lettering();
     let width = lettering::width(words, letters);
@@ -255,8 +255,8 @@ fn label(draft: &mut Draft, at: Point, words: &str) -> bool {
     false
 }
 
-/// Dimensions from the nearest line outwards, so that no extension line runs through words if that can be: by length, or the
-/// first order that does it.
+/// Dimensions from the nearest line outwards: ordered by length, or in the first order in which the fewest extension lines run
+/// through words.
 fn ordered(mut all: Vec<&Measured>, k: f64, letters: f64) -> Vec<&Measured> {
     all.sort_by(|a, b| a.length().total_cmp(&b.length()));
     let crossings = |order: &[&Measured]| {

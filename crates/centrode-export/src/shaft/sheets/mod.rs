@@ -20,7 +20,7 @@ use centrode_geometry::{Arc, Point};
 use centrode_groove::{ShaftSolid, SpiralShaft};
 use centrode_spec::SheetSize;
 
-/// Letter of the section across the journal; datums have the first ones.
+/// Letter of the section across the journal; datums have the letters before it.
 const SECTION: char = 'C';
 
 /// The sheets of a spiral shaft: side view and development with dimensions, sections, data and the file of the lead table.
@@ -112,7 +112,7 @@ fn notes(shaft: &SpiralShaft) -> Vec<String> {
     lines
 }
 
-/// A shape of a drawing at a scale, with every point put where `place` says; `None` for words and heads.
+/// A shape of a drawing at a scale, with every point mapped by `place`; `None` for texts and arrow heads.
 fn scaled(shape: &EntityShape, k: f64, place: impl Fn(Point) -> Point) -> Option<EntityShape> {
     let at = |p: &Point| Point::from(place(*p).coords * k);
     Some(match shape {
@@ -135,7 +135,7 @@ fn scaled(shape: &EntityShape, k: f64, place: impl Fn(Point) -> Point) -> Option
     })
 }
 
-/// A title under which a table's rows are collected.
+/// A table with title and headings, to which rows are added.
 fn table(title: &str, headings: &[&str], columns: Vec<Anchor>) -> Table {
     Table {
         title: title.into(),

@@ -16,7 +16,7 @@ use std::f64::consts::PI;
 /// Longest side of a section on paper, mm.
 const ROOM: f64 = 45.0;
 
-/// Section across the near journal, seen towards the near end: what faces the viewer of the side view lies to the left.
+/// Section across the near journal, seen towards the near end: the side that faces the viewer in the side view is on the left.
 pub(super) fn journal(shaft: &SpiralShaft, tolerance: Tolerance) -> Draft {
     let body = shaft.body();
     let words = [

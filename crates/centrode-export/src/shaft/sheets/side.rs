@@ -16,10 +16,10 @@ use centrode_geometry::{Point, Tolerance, Vector};
 use centrode_groove::{ShaftSolid, SpiralShaft};
 use std::f64::consts::TAU;
 
-/// Room between a view and the next, mm.
+/// Gap between two views, mm.
 const APART: f64 = 14.0;
 
-/// Both views at full scale, to be laid out at any.
+/// Both views at full scale, to be laid out at any scale.
 pub(super) struct Views<'a> {
     shaft: &'a SpiralShaft,
     side: Drawing,
@@ -45,7 +45,7 @@ impl<'a> Views<'a> {
         let mut draft = self.side(scale, letters);
         let below = self.development(scale, letters);
         let (own, other) = (draft.bounds(), below.bounds());
-        // The unrolled surface is no view: it is below in either projection.
+        // The unrolled surface is no projected view: it is below in either projection.
         draft.add(&below, Vector::new(0.0, own.min.y - APART - other.max.y));
         draft
     }
@@ -90,7 +90,8 @@ impl<'a> Views<'a> {
         let beside = |column: f64| Point::new(k * end + 12.0 + 9.0 * column, 0.0);
         let upright = Vector::y();
         let diameter = |d: f64| format!("Ø{}", number(d, 3));
-        // The words of the thin one reach beyond it, where a line to the farther dimension would run through them.
+        // The words of the journal's diameter extend beyond its arrows: its dimension is the outer one, so that no extension line
+        // runs through them.
         draft.dimension(
             [p(end, -j), p(end, j)],
             upright,

@@ -1,4 +1,4 @@
-//! The slider along its pin, and a section through it.
+//! The slider seen along its pin, and a section through it.
 
 use crate::fit;
 use centrode_formats::{
@@ -9,7 +9,7 @@ use centrode_geometry::{Bounds, Outline, Point, Tolerance, Vector};
 use centrode_groove::SpiralShaft;
 use centrode_spec::Projection;
 
-/// Room between a view and the next, mm.
+/// Gap between two views, mm.
 const APART: f64 = 16.0;
 
 pub(super) fn views(
@@ -69,7 +69,7 @@ pub(super) fn views(
     draft
 }
 
-/// Through the middle along the slider.
+/// Section along the slider through its middle.
 fn section(shaft: &SpiralShaft, k: f64, letters: f64) -> Draft {
     let spec = shaft.slider();
     let (long, high, bore) = (
@@ -82,7 +82,7 @@ fn section(shaft: &SpiralShaft, k: f64, letters: f64) -> Draft {
     for side in [[-long, -bore], [bore, long]] {
         let (min, max) = (p(side[0], 0.0), p(side[1], high));
         let corners = [min, p(max.x, min.y), max, p(min.x, max.y)];
-        // Straight sides: no tolerance is used up.
+        // The sides are straight: any tolerance gives exact lines.
         if let Ok(fine) = Tolerance::new(1e-3) {
             draft.hatch(&[Outline::polygon(&corners)], fine);
         }

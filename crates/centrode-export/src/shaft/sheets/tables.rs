@@ -56,7 +56,7 @@ pub(in crate::shaft) fn data(shaft: &SpiralShaft) -> Table {
     data
 }
 
-/// File of the centre line, with the angles from which strokes and ends count.
+/// Name of the file of the centre line, with the angles at which the stroke out and both ends begin.
 pub(super) fn lead(shaft: &SpiralShaft) -> Table {
     let traverse = shaft.traverse();
     let (stroke, turn) = (traverse.stroke(), traverse.reversal());

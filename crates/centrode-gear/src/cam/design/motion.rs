@@ -193,7 +193,7 @@ impl MotionSpec {
         Ok(())
     }
 
-    /// Whether the strokes are angles, of a swinging follower; `None` where there is none.
+    /// Whether the strokes are angles, of a swinging follower; `None` without any stroke.
     #[must_use]
     pub fn swings(&self) -> Option<bool> {
         let strokes = self.segments.iter().filter_map(SegmentSpec::strokes);

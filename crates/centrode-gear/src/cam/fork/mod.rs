@@ -1,7 +1,7 @@
 //! The fork of a transplanting arm: a swinging follower that moves a push rod.
 //!
-//! The cam is fixed to the carrier, the fork hinged on the arm, which turns about the cam's axis. The cam
-//! draws the rod back against its spring and, where it falls away, lets the spring throw it out.
+//! The cam is fixed to the carrier. The fork is hinged on the arm, which turns about the cam's axis. Where the cam rises, it
+//! draws the rod back against its spring; where the cam falls, the spring throws the rod out.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 use std::sync::Arc;
@@ -86,7 +86,7 @@ impl RodJoint {
 
     /// Swing of the fork, rad, that has retracted the rod by a displacement, with the derivatives of both.
     ///
-    /// Not finite where a pin on the fork cannot reach so far.
+    /// Not finite where a pin on the fork cannot reach that displacement.
     #[must_use]
     pub fn swing(&self, retraction: &MotionJet) -> MotionJet {
         let Lever { length, start } = *self.lever();
@@ -121,7 +121,7 @@ impl Fork {
         })
     }
 
-    /// Makes the cam that retracts the rod as required, given by the angle of the arm relative to the cam.
+    /// Makes the cam for a required retraction of the rod, a function of the angle of the arm relative to the cam.
     ///
     /// `retraction` is mm, zero with the rod thrown out; `rotation` is the cam's, seen from the arm.
     ///
@@ -138,7 +138,7 @@ impl Fork {
         let swing = |input: f64| self.rod.swing(&retraction.at(input)).position;
         let position = |input: f64| retraction.at(input).position;
         for extreme in extremes(position, &ends) {
-            // Square to its own path a pin on the fork moves the rod no more.
+            // With the lever at 90 deg, a pin on the fork moves square to the rod's axis and cannot retract the rod further.
             let lever = self.rod.lever().start + swing(extreme.input);
             if lever.is_nan() || lever.abs() >= FRAC_PI_2 {
                 return Err(CamError::Retraction {
@@ -155,12 +155,11 @@ impl Fork {
         DiscCam::new(Arc::new(swing), self.follower(), base_radius, rotation)
     }
 
-    /// Makes the cam that retracts the rod as required, given by the machine's input.
+    /// Makes the cam for a required retraction of the rod, a function of the machine's input.
     ///
-    /// `arm_angle` is the angle of the arm less that of the carrier, by the same input: it runs in one direction
-    /// and makes one whole turn while `retraction` runs through its period. In the carrier's frame the
-    /// cam's x axis points from the planet's axis to where the fork's pivot is at the input zero, and the
-    /// cam angle is the turn the arm has made since.
+    /// `arm_angle` is the angle of the arm minus that of the carrier, by the same input. It changes in one direction only, and by
+    /// one whole turn in the period of `retraction`. In the carrier's frame the cam's x axis points from the planet's axis to the
+    /// position of the fork's pivot at the input zero. The cam angle is the rotation of the arm since then.
     ///
     /// # Errors
     /// [`CamError::Transmission`] where the arm stops or does not make one turn; else those of [`cam`](Self::cam).

@@ -3,8 +3,8 @@ use centrode_kinematics::formula::Taylor;
 
 /// Straight line (Gerade): `s = x`.
 ///
-/// Cv = 1; the velocity jumps where it meets a dwell, so Ca and Cj are infinite, and 0 inside. Its ends must join a motion of the
-/// same velocity.
+/// Cv = 1; the velocity jumps where the law meets a dwell, so Ca and Cj are infinite; between its ends both are 0. The motions at
+/// its ends must have the same velocity.
 #[derive(Debug)]
 pub(super) struct ConstantVelocity;
 

@@ -5,7 +5,8 @@ use centrode_kinematics::formula::Taylor;
 
 /// Simple harmonic (einfache Sinuslinie): `s = (1 - cos(pi x)) / 2`.
 ///
-/// Cv = pi / 2, Ca = pi^2 / 2; the acceleration jumps by Ca where it meets a dwell, so Cj is infinite, and pi^3 / 2 inside.
+/// Cv = pi / 2, Ca = pi^2 / 2; the acceleration jumps by Ca where the law meets a dwell, so Cj is infinite; between its ends it
+/// is pi^3 / 2.
 #[derive(Debug)]
 pub(super) struct Harmonic;
 

@@ -142,7 +142,7 @@ impl LawSpec {
     }
 }
 
-/// Keys that may be given next to `kind`; a derived reader would overlook stray keys next to the plain kinds.
+/// Keys that may be given next to `kind`; a derived reader would ignore unknown keys next to the kinds without figures.
 #[derive(Deserialize)]
 #[serde(
     deny_unknown_fields,

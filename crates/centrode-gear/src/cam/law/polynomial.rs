@@ -6,7 +6,7 @@ use centrode_kinematics::formula::Taylor;
 use centrode_spec::SpecError;
 use centrode_spec::rule::{finite, in_range};
 
-/// Derivatives that can be requested at one end: velocity, acceleration, jerk and the next.
+/// Maximum number of derivatives given at one end: velocity, acceleration, jerk and the derivative of the jerk.
 const MOST: usize = 4;
 
 /// The polynomial of lowest degree with the required derivatives at both ends; it goes from 0 to 1.
@@ -57,7 +57,7 @@ impl Coefficients {
             factorial *= (k as f64).max(1.0);
             p[k] = derivative / factorial;
         }
-        // Series in y = x - 1 of what is left at the end.
+        // Series in y = x - 1 of the difference p - T at the end.
         let mut factorial = 1.0;
         let rest: Vec<f64> = end
             .iter()

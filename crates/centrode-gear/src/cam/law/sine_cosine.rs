@@ -28,7 +28,7 @@ impl SineCosine {
             after_ramp[0] + b * flat + 0.5 * flat * flat,
             after_ramp[1] + flat,
         ];
-        // At the middle, 1/2 of the way.
+        // Law over the peak at the middle, where the law must be 1/2.
         let middle = before_fall[0] + before_fall[1] * 0.5 * fall + d * d;
         Self {
             ramp,
@@ -39,7 +39,7 @@ impl SineCosine {
         }
     }
 
-    /// The first half, at its own `x`, in the zone where `end` (0 to 1/2) lies.
+    /// The first half of the law at `x` (0 to 1/2), by the formula of a zone.
     fn half(&self, x: Taylor, zone: Zone) -> Taylor {
         let c = Taylor::constant;
         let sum = match zone {
@@ -82,7 +82,7 @@ impl Form for SineCosine {
             (false, true) => Zone::Constant,
             (false, false) => Zone::Fall,
         };
-        // Comparing with the very breaks gives the limit from the right at each.
+        // The exact breaks are compared, so each break gives its limit from the right.
         if at < 0.5 {
             self.half(x, zone(at < ramp, at < fall))
         } else {

@@ -34,7 +34,7 @@ enum Course {
     Rest,
     /// A law and its stroke.
     Law(Law, f64),
-    /// Polynomial in the share of the span.
+    /// Polynomial in the input as a share of the span.
     Polynomial(Coefficients),
 }
 
@@ -72,7 +72,7 @@ pub enum MotionError {
     /// The spans are not a whole turn.
     #[error("the spans of the segments add up to {degrees} deg, not 360")]
     Spans {
-        /// Their sum.
+        /// Sum of the spans, degrees.
         degrees: f64,
     },
     /// Rise and return differ.
@@ -102,7 +102,7 @@ pub enum MotionError {
     },
 }
 
-/// A stroke as it is written in the file, to where rounding begins.
+/// A stroke in the unit of the file, rounded to 1e-9.
 fn stroke(of: f64, swings: bool) -> String {
     let (of, unit) = if swings {
         (of.to_degrees(), "deg")

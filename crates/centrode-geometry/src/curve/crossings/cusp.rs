@@ -5,14 +5,14 @@ use crate::numeric::{COMPUTED, bracketed_root};
 /// are compared; ten times smaller only halves them more often.
 const NARROW: f64 = 0.25;
 
-/// Ratio of the distances from a cusp at which its sides are compared. With more steps a thinner lens between them shows.
+/// Ratio of consecutive distances from a cusp at which its sides are compared. Nearer to 1, a thinner lens between them is found.
 const CUSP_STEP: f64 = 0.8;
 
-/// Distances of a cusp, as a share of the length of its sides, from which on the sides may be within rounding.
+/// Distance from a cusp, relative to the length of its sides, below which the sides may be within rounding of each other.
 const CUSP_END: f64 = 1e-2;
 
 impl Part<'_> {
-    /// Whether another part turns back at the end of this one, and they separate to one side over their length.
+    /// Whether another part turns back at the end of this one, and both parts separate to one side over their length.
     pub(super) fn parts_from(&self, next: &Self, resolution: Resolution) -> bool {
         let Some(band) = resolution.cusp else {
             return false;

@@ -33,7 +33,7 @@ static TABLES: LazyLock<Tables> = LazyLock::new(|| {
             .round()
     };
     let degree = NODES - 1;
-    // The polar form of u^k at i ends and the rest starts is its elementary symmetric mean.
+    // Polar form of u^k with i arguments at the end and all others at the start: the mean of its elementary symmetric terms.
     let power = |i: usize, k: usize| -> f64 {
         let term = |m: usize| {
             let sign = if (k - m).is_multiple_of(2) { 1.0 } else { -1.0 };

@@ -190,7 +190,7 @@ fn wall(sides: &[Vec<u32>]) -> Vec<[u32; 3]> {
         if i == 0 {
             contour.extend(&first_corners);
         }
-        // Fan of triangles from a corner on a straight side, which sees all other vertices.
+        // Fan of triangles from a corner on a straight side, from which all other vertices are visible.
         let from = match (
             i == 0 && !first_corners.is_empty(),
             i == last && !last_corners.is_empty(),
@@ -209,7 +209,7 @@ fn wall(sides: &[Vec<u32>]) -> Vec<[u32; 3]> {
     faces
 }
 
-/// Coordinates of a point in a plane with such a normal, seen against the normal.
+/// Coordinates of a point in a plane with this normal, seen against the normal.
 fn projected([x, y, z]: [f64; 3], normal: [f64; 3]) -> Point {
     match normal {
         [a, _, _] if a != 0.0 => Point::new(a * y, z),

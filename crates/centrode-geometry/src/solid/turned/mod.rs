@@ -81,7 +81,7 @@ impl Turned {
     /// A body whose first section begins at the height `bottom`, mm.
     ///
     /// # Errors
-    /// [`SolidError::Turned`] with the first section that is no cylinder or cone of 45°, or is too small for its slot.
+    /// [`SolidError::Turned`] with the first section that is neither a cylinder nor a cone of 45°, or is too small for its slot.
     pub fn new(
         bottom: f64,
         sections: Vec<TurnedSection>,

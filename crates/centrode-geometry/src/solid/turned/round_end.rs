@@ -182,8 +182,8 @@ impl Turned {
 }
 
 impl TurnedSlot {
-    /// Visits quadrature nodes over the half round end of the slot: distance along the axis from the straight part, mm, weight, and
-    /// a slot of the width there.
+    /// Visits quadrature nodes over the half round end of the slot: distance along the axis from the straight part, mm, weight,
+    /// and a slot of the width there.
     pub(super) fn along_end(self, mut cut: impl FnMut(f64, f64, Self)) {
         let half = 0.5 * self.width;
         gauss_legendre(0.0, FRAC_PI_2, |angle, weight| {

@@ -1,7 +1,7 @@
 use crate::Wall;
 
-/// A wall of one turn of the groove, at one level below the surface: a height over the angle round the
-/// shaft, for the groove is a graph over it.
+/// A wall of one turn of the groove, at one level below the surface: a height as a function of the angle round the shaft, because
+/// the groove never runs back in this angle.
 #[derive(Clone, Copy, Debug, Eq, PartialEq)]
 pub(in crate::solid) struct Edge {
     /// Turn of the cycle.

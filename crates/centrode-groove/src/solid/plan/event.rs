@@ -20,7 +20,7 @@ impl Event {
     }
 }
 
-/// Even lines round the shaft.
+/// Equally spaced lines round the shaft.
 pub(super) fn even(count: u32) -> impl Iterator<Item = Event> {
     (0..count).map(move |i| Event::new(TAU * f64::from(i) / f64::from(count)))
 }

@@ -21,7 +21,7 @@ impl Level {
     }
 }
 
-/// Levels from the foot of the wall along the fillet down to the floor; chords between them are within `limit` (mm) of the fillet.
+/// Levels from the foot of the wall along the fillet to the floor; chords between them are within `limit` (mm) of the fillet.
 pub(super) fn levels(groove: &Groove, fillet: f64, limit: f64) -> Vec<Level> {
     let (half, floor) = (0.5 * groove.width(), groove.radius() - groove.depth());
     if fillet == 0.0 {
@@ -43,11 +43,11 @@ pub(in crate::solid) fn columns(radius: f64, limit: f64) -> u32 {
     ((FRAC_PI_2 * 2.0 / half).ceil().min(1e5) as u32).max(16)
 }
 
-/// Turns of the groove that repeat the one before them: on a stroke every turn has the same law.
+/// For each turn of the groove the rise over the turn before, if it repeats that turn: on a stroke every turn has the same law.
 pub(super) fn rises(groove: &Groove) -> Vec<Option<f64>> {
     let traverse = groove.traverse();
     let (stroke, reversal) = (traverse.stroke(), traverse.reversal());
-    // A wall belongs to a position of the centre line that lies this much farther round at most.
+    // A point of a wall belongs to a point of the centre line that is at most this angle farther round.
     let aside = 0.5 * groove.width() / groove.radius();
     let back = stroke + reversal;
     let rise = |turn: u32| {

@@ -14,24 +14,24 @@ use level::{levels, rises};
 use crate::{Groove, Wall};
 use centrode_kinematics::transmission::Transmission;
 
-/// Distance, rad, within which angles are one.
+/// Difference, rad, below which two angles count as equal.
 const SAME: f64 = 1e-9;
 
-/// Share of the tolerance by which an edge may be bent between two lines; the rest is for the walls' twist.
+/// Share of the tolerance for the bend of an edge between two lines; the rest is for the walls' twist.
 const BENT: f64 = 0.25;
 
 /// Maximum number of halvings of the angle between two lines.
 const DEEPEST: u32 = 12;
 
-/// Number of lines sampled for edges that meet.
+/// Number of lines on which edges are compared to find where they meet.
 const SAMPLES: u32 = 360;
 
-/// The angles round the shaft at which anything happens, and every edge's height there.
+/// The lines: angles round the shaft at which edges meet, break or must be sampled, and every edge's height there.
 #[derive(Debug)]
 pub(super) struct Plan<'a> {
     groove: &'a Groove,
     pub(super) turns: usize,
-    /// Height, mm, by which each turn of the groove lies above the one before, where both are the same.
+    /// Height, mm, by which each turn of the groove lies above the one before; `None` if it does not repeat it.
     rises: Vec<Option<f64>>,
     /// Foot of the wall first, then the fillet down to the floor.
     pub(super) levels: Vec<Level>,
@@ -62,8 +62,8 @@ impl<'a> Plan<'a> {
         plan
     }
 
-    /// Plan of one level whose edges are smooth between its lines: `count` even ones, those where edges meet,
-    /// and those where the law breaks.
+    /// Plan of one level whose edges are smooth between its lines: `count` equally spaced lines, those where edges meet, and
+    /// those where the law breaks.
     pub(super) fn smooth(groove: &'a Groove, level: Level, count: u32) -> Self {
         let mut plan = Self::empty(groove, vec![level]);
         let mut events: Vec<Event> = even(count).collect();
@@ -85,14 +85,14 @@ impl<'a> Plan<'a> {
         }
     }
 
-    /// Heights of all edges on `count` even lines.
+    /// Heights of all edges on `count` equally spaced lines.
     fn rows(&self, count: u32) -> Vec<Vec<f64>> {
         even(count)
             .map(|event| self.heights_at(event.phi))
             .collect()
     }
 
-    /// Angles at which edges meet that swap between two of the even lines of which these are the heights.
+    /// Angles at which two edges meet: their order changes between two of the equally spaced lines with these heights.
     fn meetings(&self, rows: &[Vec<f64>]) -> Vec<Event> {
         let angle = |i: usize| TAU * i as f64 / rows.len() as f64;
         let mut meetings = Vec::new();
@@ -133,12 +133,12 @@ impl<'a> Plan<'a> {
             .collect()
     }
 
-    /// Sorts the angles, joins those that are nearly one, and makes edges that meet there equal.
+    /// Sorts the angles, merges nearly equal ones, and gives equal heights to edges that meet there.
     fn set_lines(&mut self, mut events: Vec<Event>) {
         for event in &mut events {
             if event.phi >= TAU - SAME {
                 event.phi = 0.0;
-                // Those edges a turn later.
+                // At the angle zero these are the edges one turn later.
                 let next = |edge: usize| self.edge_after(edge);
                 event.pairs = event
                     .pairs
@@ -194,9 +194,9 @@ impl<'a> Plan<'a> {
         (self.lines, self.heights) = (lines, heights);
     }
 
-    /// Rows of faces that keep the walls, which are twisted, within `limit` (mm) of their triangles: between lines
-    /// an angle `h` apart, rows `d` high and a height that grows by `s` with the angle, the middle of a diagonal
-    /// is off by `h d s / (4 sqrt(r^2 + s^2))`.
+    /// Number of rows of faces with which the twisted walls are within `limit` (mm) of their triangles. Between lines an angle
+    /// `h` apart, with rows `d` high and a height that grows by `s` with the angle, the middle of a diagonal is off by `h d s /
+    /// (4 sqrt(r^2 + s^2))`.
     fn wall_rows(&self, limit: f64) -> u32 {
         let radius = self.groove.radius();
         let slope = radius * self.groove.steepest().value.tan();
@@ -211,9 +211,9 @@ impl<'a> Plan<'a> {
         (twist / limit).ceil().clamp(1.0, 1e3) as u32
     }
 
-    /// Crest of two turns whose walls meet at an angle round the shaft below the level at which they do not yet, and
-    /// above the next: between `above` and `above + 1`. `low` is a left edge, `high` a right one, both of the latter
-    /// level. Height and radius; `None` if they do not meet.
+    /// Crest on a line between two turns of the groove that are open together at the level `above`, but not at the next deeper
+    /// level, `above + 1`. `low` is a left edge, `high` a right one, both of the deeper level. Height and radius; `None` if the
+    /// turns do not meet.
     pub(super) fn ridge(&self, [low, high]: [usize; 2], line: usize) -> Option<(f64, f64)> {
         // The line after the last is the first, a turn later.
         let (phi, low, high) = match self.lines.get(line) {
@@ -311,7 +311,7 @@ impl<'a> Plan<'a> {
     /// Heights of all edges at an angle round the shaft.
     pub(super) fn heights_at(&self, phi: f64) -> Vec<f64> {
         let row = 2 * self.turns;
-        // The levels of one wall lie close to one another: each starts from the one before.
+        // The levels of one wall lie close to one another: the search for each starts from the one before.
         let mut feet = vec![None; row];
         let mut heights: Vec<f64> = Vec::with_capacity(self.edges());
         for edge in 0..self.edges() {
@@ -334,8 +334,8 @@ impl<'a> Plan<'a> {
         self.found(edge, half, phi, None).0
     }
 
-    /// Height of an edge, if the groove were `half` wide to each side, at an angle round the shaft, and the shaft
-    /// angle of the groove it belongs to, searched from a near one.
+    /// Height of an edge at an angle round the shaft for a groove `half` wide to each side, and the shaft angle of its point on
+    /// the centre line. The search starts from `near`.
     fn found(&self, edge: usize, half: f64, phi: f64, near: Option<f64>) -> (f64, f64) {
         checkpoint();
         let Edge { turn, wall, .. } = self.edge(edge);
@@ -355,7 +355,7 @@ impl<'a> Plan<'a> {
             let step = off / slope;
             theta -= step;
             motion = traverse.at(theta);
-            // The error squares: the next step would be below the last digit.
+            // The error is squared by every step: the next step would be below the last digit.
             if step.abs() <= 1e-8 {
                 break;
             }
@@ -371,7 +371,7 @@ impl<'a> Plan<'a> {
         for level in 0..self.levels.len() {
             let mut order: Vec<usize> = (level * row..(level + 1) * row).collect();
             order.sort_by(|&a, &b| before[a].total_cmp(&before[b]));
-            // Insertion sort by the later heights meets every swapped pair once.
+            // Insertion sort by the later heights visits every swapped pair once.
             for i in 1..order.len() {
                 let mut j = i;
                 while j > 0 && after[order[j - 1]] > after[order[j]] {
@@ -384,7 +384,7 @@ impl<'a> Plan<'a> {
         pairs
     }
 
-    /// Angle at which two edges meet that swap between two others.
+    /// Angle at which two edges meet whose order differs between two angles.
     fn meeting(&self, [a, b]: [usize; 2], start: f64, end: f64) -> f64 {
         let apart = |phi: f64| self.height(a, phi) - self.height(b, phi);
         let (low, high) = (apart(start), apart(end));

@@ -13,8 +13,9 @@ pub struct Bearing {
     pub designation: &'static str,
 }
 
-/// Designation, bore, outer diameter, width, mm; ISO 15:2017, dimension series 18, 10 and 02, the designations of DIN 625-1: series
-/// 618, 60 and 62.
+/// Designation, bore, outer diameter, width, mm.
+///
+/// Source: ISO 15:2017, dimension series 18, 10 and 02; designations of DIN 625-1, series 618, 60 and 62.
 #[rustfmt::skip]
 const BEARINGS: [(&str, [f64; 3]); 32] = [
     ("61800", [10.0, 19.0, 5.0]),
@@ -32,7 +33,7 @@ const BEARINGS: [(&str, [f64; 3]); 32] = [
 ];
 
 impl Bearing {
-    /// The largest bearing of a bore that is no wider than a room, mm; `None` where there is none.
+    /// The largest bearing of a bore that is no wider than `room`, mm; `None` if there is none.
     #[must_use]
     pub fn for_bore(bore: f64, room: f64) -> Option<Self> {
         Self::every(bore)
@@ -70,7 +71,7 @@ impl Bearing {
         format!("Deep groove ball bearing ISO 15 - {designation} - {bore} x {outer} x {width}")
     }
 
-    /// Its body, the room of both rings and the balls between them, from z = 0 upwards.
+    /// Its body, from z = 0 upwards: one ring that fills the space of both rings and the balls.
     #[must_use]
     pub fn solid(self) -> Option<Solid> {
         let circle = |diameter: f64| Outline::circle(Point::origin(), 0.5 * diameter);

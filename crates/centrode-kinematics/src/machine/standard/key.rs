@@ -39,8 +39,9 @@ impl Key {
         })
     }
 
-    /// The longest key with square ends, form B, likewise: in a thin hub it bears over its whole length. In one that is thinner than
-    /// the shortest standard key it is cut from key steel, to whole millimetres; `None` where it would be shorter than half its width.
+    /// The longest key with square ends, form B, for such a hub: it carries load over its whole length. For a hub thinner than
+    /// the shortest standard key it is cut from key steel, to whole millimetres; `None` if it would be shorter than half its
+    /// width.
     #[must_use]
     pub fn square(hub: Keyway, face: f64) -> Option<Self> {
         hub.key_lengths()?;
@@ -53,8 +54,8 @@ impl Key {
         })
     }
 
-    /// The longest key for a hub likewise: form A or, where one with round ends would bear over no more than half its length,
-    /// form B.
+    /// The longest key for such a hub: form A, or form B if one with round ends would carry load over no more than half its
+    /// length.
     #[must_use]
     pub fn fitting(hub: Keyway, face: f64) -> Option<Self> {
         let round = Self::round(hub, face);
@@ -75,7 +76,7 @@ impl Key {
         }
     }
 
-    /// Length over which its sides bear, mm: without round ends.
+    /// Length over which its sides carry load, mm: without round ends.
     #[must_use]
     pub fn bearing_length(self) -> f64 {
         match self.has_square_ends {
@@ -112,8 +113,8 @@ const SHARE: f64 = 0.9;
 /// Yield strength of the weakest structural steel, S235, N/mm²; EN 10025-2, up to 16 mm thick.
 const WEAKEST: f64 = 235.0;
 
-/// Pressure on the side of a key that a material bears, N/mm²: 0.9 of its yield strength, which names as S355 or E335 tell; that
-/// of S235 for a steel without such a name. `None` for what is no steel: the design says nothing of its strength.
+/// Permitted pressure on the side of a key by the material, N/mm²: 0.9 of its yield strength, read from names such as S355 or
+/// E335, or that of S235 for a steel without such a name. `None` for other materials: the design does not state their strength.
 ///
 /// Source: DIN 6892, method C; EN 10025-2.
 #[must_use]

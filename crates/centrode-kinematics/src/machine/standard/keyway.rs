@@ -15,16 +15,16 @@ pub struct Keyway {
     pub depth: f64,
 }
 
-/// Width and height of a parallel key, depth left to the hub beyond that of the shaft, minimum and maximum length, mm.
+/// Width and height of a parallel key, room above it in the hub, minimum and maximum length, mm.
 static KEYS: LazyLock<StandardTable<5>> =
     LazyLock::new(|| StandardTable::read(include_str!("../../../data/din-6885-keys.csv")));
 
-/// Diameters of shafts up to which, width of the key, depth in the hub, mm.
+/// Upper end of a range of shaft diameters, width of the key, depth in the hub, mm.
 static HUBS: LazyLock<StandardTable<3>> =
     LazyLock::new(|| StandardTable::read(include_str!("../../../data/din-6885-hubs.csv")));
 
 impl Keyway {
-    /// Minimum and maximum length of the standard keys as wide as this keyway, mm; `None` where there are none. Source: DIN 6885-1.
+    /// Minimum and maximum length of the standard keys as wide as this keyway, mm; `None` if there are none. Source: DIN 6885-1.
     #[must_use]
     pub fn key_lengths(self) -> Option<[f64; 2]> {
         self.standard().map(|[.., short, long]| [short, long])
@@ -35,8 +35,8 @@ impl Keyway {
         KEYS.of(self.width)
     }
 
-    /// Pressure between a hub and the key in this keyway of it, N/mm², for a torque (N mm) on a shaft of a diameter and a key that
-    /// bears over a length (mm): 2 T / (d t l), with t the depth of the keyway less the room above the key.
+    /// Pressure between a hub and the key in this keyway of it, N/mm², for a torque (N mm) on a shaft of a diameter and a key
+    /// that carries load over a length (mm): 2 T / (d t l), with t the depth of the keyway minus the room above the key.
     ///
     /// Source: DIN 6892, method C.
     #[must_use]
@@ -61,14 +61,14 @@ impl Keyway {
         Some(if width <= 6.0 { 0.1 } else { 0.2 })
     }
 
-    /// The keyway of a hub whose parallel key lies in this one of a shaft: as wide, and as deep as DIN 6885-1 requires
-    /// for keys of its widths; for others, a square key with room above it.
+    /// The keyway of a hub that mates with this one of a shaft: as wide, and as deep as DIN 6885-1 requires for keys of this
+    /// width; for other widths, for a square key with room above it.
     #[must_use]
     pub fn of_hub(self) -> Self {
         self.mate()
     }
 
-    /// The keyway of a shaft whose parallel key lies in this one of a hub, by the same sizes.
+    /// The keyway of a shaft that mates with this one of a hub, by the same sizes.
     #[must_use]
     pub fn of_shaft(self) -> Self {
         self.mate()
@@ -87,7 +87,7 @@ impl Keyway {
         )
     }
 
-    /// The keyway on the other side of the key: what both leave of its height is room above it.
+    /// The keyway on the other side of the key: both depths together are the key's height plus the room above it.
     fn mate(self) -> Self {
         let Self { width, depth } = self;
         let (_, height, room) = self.sizes();

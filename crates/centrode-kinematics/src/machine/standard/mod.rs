@@ -41,7 +41,7 @@ pub struct Dowel {
 }
 
 impl Dowel {
-    /// Diameter of the pin nearest to a size by ratio, mm; of sizes beyond all pins the preferred size.
+    /// Diameter of the pin nearest to a size by ratio, mm; the preferred size if that is beyond all pins.
     #[must_use]
     pub fn nearest_diameter(size: f64) -> f64 {
         let preferred = preferred_size(size);
@@ -53,12 +53,12 @@ impl Dowel {
         DOWELS.into_iter().reduce(nearer).unwrap_or(preferred)
     }
 
-    /// The longest pin of a diameter that is no longer than a room, mm; `None` where there is no such pin.
+    /// The longest pin of a diameter that is no longer than `room`, mm; `None` if there is no such pin.
     #[must_use]
     pub fn for_diameter(diameter: f64, room: f64) -> Option<Self> {
         let known = DOWELS.contains(&diameter);
         let mut fitting = LENGTHS.into_iter().rev();
-        // A length of whole layers differs from it by rounding.
+        // A sum of layers differs from a standard length by rounding.
         let length = fitting.find(|&length| length <= room * (1.0 + 1e-9))?;
         known.then_some(Self { diameter, length })
     }
@@ -93,7 +93,7 @@ static CIRCLIPS: LazyLock<StandardTable<6>> =
     LazyLock::new(|| StandardTable::read(include_str!("../../../data/din-471.csv")));
 
 impl Circlip {
-    /// The ring of a shaft of a diameter, mm; `None` where there is no such ring.
+    /// The ring of a shaft of a diameter, mm; `None` if there is no such ring.
     #[must_use]
     pub fn of_shaft(diameter: f64) -> Option<Self> {
         let [shaft, thickness, groove, width, land, radial] = CIRCLIPS.of(diameter)?;
@@ -129,13 +129,14 @@ impl Circlip {
         self.width + self.land
     }
 
-    /// Distance from the axis that its ears reach, mm: they are about as wide again as the ring.
+    /// Distance from the axis to the ends of its ears, mm: the ears are about twice as wide as the ring.
     #[must_use]
     pub fn reach(self) -> f64 {
         0.5 * self.groove + 2.0 * self.radial
     }
 
-    /// Its body on the bottom of its groove, from z = 0 upwards: of even width, its gap as wide and along x, its ears left out.
+    /// Its body at the bottom of its groove, from z = 0 upwards: of constant width, its gap as wide and along x, without its
+    /// ears.
     #[must_use]
     pub fn solid(self) -> Option<Solid> {
         let (inner, half) = (0.5 * self.groove, 0.5 * self.radial);

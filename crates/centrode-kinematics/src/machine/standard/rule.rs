@@ -3,7 +3,7 @@ use centrode_spec::rule::{Rule, SpecError, broken, finite};
 use super::Screw;
 use crate::machine::fit::is_class;
 
-/// Checks the nominal diameter of screws, mm: none, or one that there is.
+/// Checks the nominal diameter of screws, mm: none, zero, or a size of the standard.
 ///
 /// # Errors
 /// [`SpecError`] with the key.

@@ -36,11 +36,11 @@ impl Screw {
         SCREWS.rows.iter().map(|row| row[0])
     }
 
-    /// The longest screw of a nominal diameter that is no longer than a room, mm; `None` where there is no such screw.
+    /// The longest screw of a nominal diameter that is no longer than `room`, mm; `None` if there is no such screw.
     #[must_use]
     pub fn for_diameter(diameter: f64, room: f64) -> Option<Self> {
         let [.., minimum, most] = SCREWS.of(diameter)?;
-        // A length of whole layers differs from it by rounding.
+        // A sum of layers differs from a standard length by rounding.
         let fits =
             |length: &f64| (minimum..=most).contains(length) && *length <= room * (1.0 + 1e-9);
         let length = LENGTHS.into_iter().rev().find(fits)?;
@@ -57,7 +57,7 @@ impl Screw {
         self.row()[1]
     }
 
-    /// Height of its head, mm: as much as the thread's diameter.
+    /// Height of its head, mm: equal to the thread's diameter.
     #[must_use]
     pub fn head_height(self) -> f64 {
         self.diameter

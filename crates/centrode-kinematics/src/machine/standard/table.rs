@@ -1,4 +1,4 @@
-/// Table of a standard, as its file has it: a line with the source, one with the names of the columns, then `N` numbers a line.
+/// Table of a standard from its file: a line with the source, one with the names of the columns, then `N` numbers per line.
 #[derive(Debug)]
 pub struct StandardTable<const N: usize> {
     columns: Vec<&'static str>,
@@ -26,7 +26,7 @@ impl<const N: usize> StandardTable<N> {
         self.columns.iter().position(|known| *known == name)
     }
 
-    /// Row of the range that a size lies in, of a table whose first column is the upper ends of its ranges.
+    /// Row of the range that a size lies in, for a table whose first column has the upper ends of its ranges.
     #[must_use]
     pub fn up_to(&self, size: f64) -> Option<&[f64; N]> {
         self.rows.iter().find(|row| size <= row[0])

@@ -1,4 +1,4 @@
-//! Contours of bodies and obstacles as drawn by hand.
+//! Contours of bodies and obstacles as the design file gives them.
 
 use std::borrow::Cow;
 
@@ -10,7 +10,7 @@ use crate::machine::MachineError;
 use centrode_spec::SpecError;
 use centrode_spec::rule::{Rule, broken, finite, in_range, not_negative, positive};
 
-/// Maximum bulge of a side: a circle less 2 degrees.
+/// Maximum bulge of a side: that of a circle less 2.3 degrees.
 const MAX_SAGITTA: f64 = 100.0;
 
 /// A circle on a body.
@@ -32,13 +32,13 @@ impl Default for MachineCircleSpec {
     }
 }
 
-/// A corner of a contour, and how the side that begins there is bent: `[x, y]` or `[x, y, bulge]` in the file.
+/// A corner of a contour, with the bulge of the side that begins there: `[x, y]` or `[x, y, bulge]` in the file.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Serialize)]
 #[serde(try_from = "Vec<f64>", into = "Vec<f64>")]
 pub struct MachineCornerSpec {
     /// x and y in the body's axes, mm.
     pub at: [f64; 2],
-    /// Tangent of a quarter of the angle of the arc that begins here, counter-clockwise positive, as in a DXF polyline; 0 for
+    /// Tangent of a quarter of the angle of the arc that begins here, positive counter-clockwise, as in a DXF polyline; 0 for
     /// a straight side.
     pub bulge: f64,
 }
@@ -84,7 +84,7 @@ impl JsonSchema for MachineCornerSpec {
     }
 }
 
-/// A contour as written: lines and arcs, or a circle, or none.
+/// A contour as the design file gives it: lines and arcs, a circle, or none.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::machine) struct Drawn<'a> {
     pub(in crate::machine) outline: &'a [MachineCornerSpec],
@@ -131,7 +131,7 @@ impl Drawn<'_> {
         }
     }
 
-    /// The contour, counter-clockwise; `key` is that of the table it is written in.
+    /// The contour, counter-clockwise; `key` is the key of its table.
     pub(in crate::machine) fn contour(&self, key: &str) -> Result<Option<Outline>, MachineError> {
         let wrong = |of: &str, why: String| MachineError::refused(format!("{key}.{of}"), why);
         if let Some(circle) = self.circle {
@@ -176,7 +176,7 @@ impl Drawn<'_> {
         Outline::new(ends.map(side).collect())
     }
 
-    /// The polygon with its corners rounded, or why it cannot be.
+    /// The polygon with its corners rounded, or the reason why they cannot be rounded.
     fn rounded(&self, radius: f64) -> Result<Outline, String> {
         let corners: Vec<Point> = self.outline.iter().map(|p| Point::from(p.at)).collect();
         Outline::rounded_polygon(&corners, radius).map_err(|short| {

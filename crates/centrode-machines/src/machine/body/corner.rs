@@ -1,4 +1,4 @@
-//! Points of a body as written.
+//! Points of a body as the design file gives them.
 
 use std::collections::BTreeMap;
 
@@ -58,13 +58,13 @@ pub enum Side {
 }
 
 impl Side {
-    /// Whether it is a side of a way rather than a sense along a line.
+    /// Whether it is a side of a line, not a direction along it.
     #[must_use]
     pub fn is_across(self) -> bool {
         matches!(self, Self::Left | Self::Right)
     }
 
-    /// +1 to the left and forward, -1 to the right and backward.
+    /// +1 for left and forward, -1 for right and backward.
     #[must_use]
     pub fn sign(self) -> f64 {
         match self {
@@ -94,7 +94,7 @@ impl MachinePointsSpec {
             .map_or(Ok(()), |mm| positive("thickness", mm))
     }
 
-    /// Contour of its plate as written.
+    /// Contour of the frame's plate as the design file gives it.
     pub(in crate::machine) fn drawn(&self) -> Drawn<'_> {
         Drawn {
             outline: &self.outline,

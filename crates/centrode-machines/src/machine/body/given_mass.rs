@@ -1,4 +1,4 @@
-//! Masses of bodies that are given instead of following from their plates.
+//! Masses of bodies that the design gives. Otherwise a mass follows from the plate.
 
 use centrode_geometry::{MassProperties, Point};
 use nalgebra::{Matrix3, Point3};
@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Point3};
 use centrode_spec::SpecError;
 use centrode_spec::rule::{Rule, broken, finite, positive};
 
-/// Mass of a body as written.
+/// Mass of a body as the design file gives it.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::machine) struct GivenMass {
     pub(in crate::machine) mass: Option<f64>,
@@ -15,7 +15,7 @@ pub(in crate::machine) struct GivenMass {
 }
 
 impl GivenMass {
-    /// Checks it, of a body with a plate or without.
+    /// Checks the mass of a body; `has_plate`: whether the body has a plate.
     pub(in crate::machine) fn validate(&self, has_plate: bool) -> Result<(), SpecError> {
         let Some(mass) = self.mass else {
             let beside = [
@@ -41,9 +41,9 @@ impl GivenMass {
         }
     }
 
-    /// Mass of a body with such a plate, its middle at a height: that of the plate but for what is given.
+    /// Mass of a body with a plate whose middle is at `height`, mm: given values replace those of the plate.
     ///
-    /// About the axes in the plane a given inertia counts half, as that of a disc; no planar motion requires it.
+    /// A given moment of inertia is halved for the axes in the plane, as for a disc; planar motion does not need these values.
     pub(in crate::machine) fn of(
         &self,
         plate: Option<MassProperties>,

@@ -1,4 +1,4 @@
-//! A body as written.
+//! A body as the design file gives it.
 
 pub(super) mod contour;
 pub(super) mod corner;
@@ -120,7 +120,7 @@ impl MachineBodySpec {
         points(&self.points, &self.corners)
     }
 
-    /// Checks its plate and mass.
+    /// Checks the plate and the mass of the body.
     fn as_drawn(&self) -> Result<(), SpecError> {
         let drawn = self.drawn();
         drawn.validate()?;
@@ -145,7 +145,7 @@ impl MachineBodySpec {
         Ok(())
     }
 
-    /// Whether it has a plate.
+    /// Whether the body has a plate.
     pub(in crate::machine) fn has_plate(&self) -> bool {
         self.plate != Some(false)
     }

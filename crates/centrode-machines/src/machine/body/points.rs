@@ -10,13 +10,13 @@ use crate::machine::{
     MachineError,
 };
 
-/// Share of a triangle's sides by which they may fail to meet: rounding.
+/// Gap at which the sides of a triangle still meet within rounding, as a share of their sum.
 const ROUNDING: f64 = 1e-14;
 
-/// Name of the point of a follower at its roller's centre.
+/// Name of the point of a follower at the centre of its roller.
 pub(in crate::machine) const ROLLER: &str = "roller";
 
-/// Name of the point of a follower where its flat face touches the base circle of a cam that is cut to it.
+/// Name of the point of a flat-faced follower that touches the base circle of a cam cut to its motion.
 pub(in crate::machine) const FACE: &str = "face";
 
 /// Points of every body by name.
@@ -27,7 +27,7 @@ pub(in crate::machine) type BodyPoints = BTreeMap<String, BTreeMap<String, Local
 pub(in crate::machine) struct LocalPoint {
     /// Position in the body's axes, mm.
     pub(in crate::machine) at: Point,
-    /// Whether it has its name from this body, not from the one it is pinned to.
+    /// Whether its name comes from this body, not from the body to which it is pinned.
     pub(in crate::machine) own: bool,
 }
 
@@ -41,13 +41,13 @@ pub struct BodyPoint {
 }
 
 impl BodyPoint {
-    /// Whether another is of the same body and nearer than a length, mm.
+    /// Whether another point is on the same body and nearer than `length`, mm.
     pub(in crate::machine) fn is_near(self, other: Self, length: f64) -> bool {
         self.body == other.body && (self.at - other.at).norm() < length
     }
 }
 
-/// A point of a body, or the body's origin, as it is named elsewhere.
+/// A point of a body, or the body's origin, as a key of the design names it.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::machine) struct Reference {
     /// The body.
@@ -83,7 +83,7 @@ impl Reference {
         }
     }
 
-    /// Finds the position in the body's axes.
+    /// Position of the point in the body's axes.
     pub(in crate::machine) fn find(
         &self,
         key: &str,
@@ -112,7 +112,7 @@ impl Reference {
     }
 }
 
-/// Cam that a body follows, with the key that says so.
+/// Cam that a body follows, and the key that names it.
 pub(in crate::machine) fn followed_cam<'a>(
     design: &'a MachineDesign,
     name: &str,
@@ -133,7 +133,7 @@ pub(in crate::machine) fn followed_cam<'a>(
     }
 }
 
-/// The points of every body: those it is given, and those at which it is pinned to others.
+/// The points of every body: the given ones, and those at which it is pinned to others.
 pub(in crate::machine) fn points_of(
     design: &MachineDesign,
     expansion: &Expansion,
@@ -190,7 +190,7 @@ pub(in crate::machine) fn points_of(
     Ok(all)
 }
 
-/// Adds the points at which a dyad's bodies are pinned, each in its body's axes.
+/// Adds the points at which the bodies of a dyad are pinned, each in the axes of its body.
 fn pins(
     key: &str,
     dyad: &MachineDyadSpec,
@@ -214,7 +214,7 @@ fn pins(
     let joint_key = format!("{key}.joint");
     let (from_at, to_at) = ((&from, from_key.as_str()), (&to, to_key.as_str()));
     let joint_at = (&joint, joint_key.as_str());
-    // Body, name and key, place, whether it has the name from here.
+    // Body; its key and point name; position; whether the point is named by this body.
     let made: Vec<(&String, (&String, &str), Point, bool)> = match dyad.kind {
         DyadKind::TwoBars => vec![
             (first, from_at, origin, false),
@@ -270,7 +270,7 @@ fn add(
     Ok(())
 }
 
-/// Places corners of triangles, each as soon as the points it is measured from are placed.
+/// Places corners of triangles, each as soon as the two points of its sides are placed.
 fn place_corners(
     key: &str,
     body: &str,
@@ -293,7 +293,7 @@ fn place_corners(
     let Some((name, corner)) = left.first() else {
         return Ok(());
     };
-    // A name that is no point at all, or corners that wait for each other.
+    // Either a name that is not a point, or corners that depend on each other.
     let missing = corner
         .from
         .iter()
@@ -315,7 +315,7 @@ fn place_corners(
     }
 }
 
-/// Third corner of a triangle: on the way from p to q by the law of cosines, next to it by what is left of the first side.
+/// Third corner of a triangle over the line from p to q: along the line by the law of cosines, the height by Heron's formula.
 fn third_corner(key: &str, [p, q]: [Point; 2], corner: &CornerSpec) -> Result<Point, MachineError> {
     let [a, b] = corner.lengths;
     let way: Vector = q - p;
@@ -329,7 +329,7 @@ fn third_corner(key: &str, [p, q]: [Point; 2], corner: &CornerSpec) -> Result<Po
             missing: missing.max(0.0),
         });
     }
-    // Heron's formula: exact for slender triangles too.
+    // Heron's formula in this form keeps its accuracy for slender triangles.
     let along = 0.5 * (apart + (a - b) * (a + b) / apart);
     let room = ((a + b + apart) * (a + b - apart)) * ((apart + a - b) * (apart - a + b));
     let height = 0.5 * room.max(0.0).sqrt() / apart;
@@ -339,7 +339,7 @@ fn third_corner(key: &str, [p, q]: [Point; 2], corner: &CornerSpec) -> Result<Po
 }
 
 impl Machine {
-    /// Points, by `body.point`, on which other bodies turn.
+    /// Points on which other bodies turn, as `body.point`.
     pub(in crate::machine) fn pinned(&self) -> BTreeSet<String> {
         let design = &self.design;
         let bodies = design.bodies.values();
@@ -362,7 +362,7 @@ impl Machine {
         on.chain(dyads).chain(rollers).collect()
     }
 
-    /// Points worth following, among those that no other body is held by: given ones, or joints where there is none.
+    /// Points whose paths are of interest: moving points that hold no other body. Given points only, or joints if none is given.
     pub(in crate::machine) fn followed(&self) -> Vec<String> {
         let design = &self.design;
         let bodies = design.bodies.values();

@@ -1,4 +1,4 @@
-//! Cams in their positions, and the motions of what follows them.
+//! Cams on their bodies, and the motions of their followers.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -33,8 +33,8 @@ pub struct MachineCam {
     pub mount: f64,
     /// Names of the bodies that follow it.
     pub followers: Vec<String>,
-    /// Turn of the cam against what carries its follower, without jumps, in its own sense of rotation, rad: zero where its
-    /// motion begins.
+    /// Turn of the cam against the body that carries its follower, without jumps, positive in the cam's sense of rotation, rad:
+    /// zero where the cam's motion begins.
     turn: Turned,
 }
 
@@ -45,32 +45,32 @@ impl MachineCam {
         self.part.disc()
     }
 
-    /// Angle the cam has turned in its own sense against what carries its follower, rad, by the input: zero where its motion
-    /// begins. Of several followers, that of the first.
+    /// Turn of the cam against the body that carries its follower, positive in the cam's sense of rotation, rad, as a function of
+    /// the input: zero where the cam's motion begins. For several followers, that of the first.
     #[must_use]
     pub fn turn(&self, input: f64) -> MotionJet {
         self.turn.at(input)
     }
 
-    /// Inputs of a period at which the cam has turned by an angle, rad, or by whole turns more.
+    /// Inputs of a period at which the cam has turned by an angle, rad, plus any whole turns.
     #[must_use]
     pub fn inputs(&self, angle: f64, period: f64) -> Vec<f64> {
         let turned = |input: f64| self.turn.at(input).position;
         crossings(turned, &[angle], TAU, period, &[])
     }
 
-    /// Name of its surface in the machine.
+    /// Name of the cam's surface in the machine.
     #[must_use]
     pub fn surface_name(&self) -> String {
         format!("{}-profile", self.name)
     }
 
-    /// Position of the cam's axes in those of its body.
+    /// Pose of the cam's axes in those of its body.
     fn place(&self) -> Isometry2<f64> {
         Isometry2::new(self.at.coords, self.mount)
     }
 
-    /// The cam in its body's axes, from a height on.
+    /// The cam in its body's axes; `bottom` is the height of its lower face, mm.
     pub(in crate::machine) fn solid(&self, bottom: f64) -> Result<Solid, SolidError> {
         let place = self.place();
         let bore = self.part.bore().map(|bore| bore.transformed(&place));
@@ -82,7 +82,7 @@ impl MachineCam {
         )
     }
 
-    /// Its contour to touch with.
+    /// The cam's contour as a surface for contact.
     pub(in crate::machine) fn surface(&self, solid: &Solid) -> Surface {
         Surface::of_solid(self.surface_name(), solid)
     }
@@ -103,7 +103,8 @@ impl MachineCam {
 }
 
 impl Machine {
-    /// Height of a cam's lower face along the shafts, mm: that of its layer, or else cams lie one below the other, behind the gears.
+    /// Height of a cam's lower face along the shafts, mm: that of its layer. Cams without a layer lie one below the other, behind
+    /// the gears.
     pub(in crate::machine) fn cam_bottom(&self, cam: &MachineCam) -> f64 {
         let cams = &self.written.cams;
         let (own, plates) = (self.original(&cam.name), &self.design.plates);
@@ -116,7 +117,7 @@ impl Machine {
         self.gears_bottom() - depth.sum::<f64>()
     }
 
-    /// Roller of a body that follows a cam, in the body's axes; `None` for a flat face or a point.
+    /// Roller of a body that follows a cam, in the body's axes; `None` if the follower has a flat face or a point.
     pub(in crate::machine) fn roller(&self, body: &str) -> Option<Outline> {
         let follows = |cam: &&MachineCam| cam.followers.iter().any(|name| name == body);
         let disc = self.cams.iter().find(follows)?.disc();
@@ -129,8 +130,8 @@ impl Machine {
 impl Builder<'_> {
     /// Motion of a body that follows a cam.
     ///
-    /// With gamma the angle of the cam, delta that of the slide or of the line from the cam's axis to the body's pin, both
-    /// against the carrier, and s the cam's sense of rotation, the cam has turned by s (gamma - delta).
+    /// With gamma the angle of the cam, delta the direction of the slide or of the line from the cam's axis to the body's pin,
+    /// both against the carrier, and s the cam's sense of rotation, the cam has turned by s (gamma - delta).
     pub(in crate::machine) fn following(
         &mut self,
         name: &str,
@@ -139,7 +140,7 @@ impl Builder<'_> {
     ) -> Result<Arc<dyn Transmission>, MachineError> {
         let key = format!("bodies.{name}.law.follows");
         let spec = &self.design.cams[cam];
-        // The laws of dyads before it.
+        // The motions of dyads built before are needed.
         self.follow()?;
         let on = body.on.as_deref().unwrap_or_default();
         let held = self.place(&format!("bodies.{name}.on"), on)?;
@@ -167,7 +168,7 @@ impl Builder<'_> {
         Ok(Arc::new(FromFn::new(period, 0.0, breaks, at)))
     }
 
-    /// Adds a follower of a cam, and the cam with the first.
+    /// Adds a follower of a cam; the first follower also adds the cam.
     pub(super) fn add_cam(
         &mut self,
         follower: &str,
@@ -189,7 +190,7 @@ impl Builder<'_> {
         made.followers.push(follower.into());
     }
 
-    /// The cam for a follower: that of those before it, whose follower must be held in the same manner.
+    /// The cam for a follower. A cam that has a follower already is returned if the new follower is held in the same manner.
     fn cut(
         &self,
         name: &str,
@@ -233,7 +234,7 @@ impl Builder<'_> {
         part.map(Arc::new).map_err(blame)
     }
 
-    /// Checks that every cam has a follower, and a name of its own.
+    /// Checks that every cam has a follower, and a name that no gear or body has.
     pub(in crate::machine) fn check_cams(&self) -> Result<(), MachineError> {
         for name in self.design.cams.keys() {
             let gear = self.gears.iter().any(|gear| gear.name == *name);

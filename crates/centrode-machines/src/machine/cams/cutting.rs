@@ -1,4 +1,4 @@
-//! Cams cut to bodies that move already.
+//! Cams cut to the given motion of bodies.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -16,22 +16,22 @@ use centrode_kinematics::transmission::{
     FromFn, Inverse, MotionJet, Transmission, TransmissionError, repeated, sorted,
 };
 
-/// Parts of a turn of the input, or of the cam, in each of which a motion has few extremes.
+/// Number of parts of a turn of the input, or of the cam; in each a motion has few extremes.
 const PARTS: u32 = 24;
 const JUMP: f64 = 1e-4;
 /// Distance from a break at which rates are compared, as a share of the period.
 const BESIDE: f64 = 1e-8;
 
-/// Motion of a body by the input, as a cam sees it.
+/// Motion of a follower, for the cam that is cut to it.
 struct Moved<'a> {
     cam: &'a str,
     body: &'a str,
     law: Arc<dyn Transmission>,
     /// Sense in which the cam lifts the body.
     sense: f64,
-    /// Where the body is on the base circle.
+    /// Input and coordinate at which the body is on the base circle.
     low: Extreme,
-    /// Distance or angle from there to the highest point.
+    /// Distance (mm) or angle (rad) from the base circle to the highest point.
     stroke: f64,
     /// Inputs of a period at which a derivative may jump.
     breaks: Vec<f64>,
@@ -39,7 +39,7 @@ struct Moved<'a> {
 }
 
 impl Builder<'_> {
-    /// Cuts the cams whose followers move already.
+    /// Cuts the cams whose followers already have a motion.
     pub(in crate::machine) fn cut_cams(&mut self) -> Result<(), MachineError> {
         let design = self.design;
         for (name, spec) in &design.cams {
@@ -101,7 +101,7 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// The cam of which one is a copy, as it was cut, and the point of its follower.
+    /// For a copy of a cam, the original as it was cut, and the point of its follower.
     fn cut_before(&self, cam: &str, body: &str, point: &str) -> Option<(Arc<Cam>, Point)> {
         let (bare, _) = self.original(body)?;
         let [cam, body] = [cam, body].map(|name| self.expansion.original(name));
@@ -110,7 +110,7 @@ impl Builder<'_> {
         Some((Arc::clone(&cut.part), at))
     }
 
-    /// Motion of a body on its carrier, which must come back and not jump.
+    /// Motion of a body on its carrier; it must be periodic and without jumps.
     fn moved<'a>(
         &self,
         key: &str,
@@ -176,7 +176,7 @@ impl Builder<'_> {
 }
 
 impl Moved<'_> {
-    /// The lift by the turn of the cam, which must run in one direction and bring the body back with every turn.
+    /// Lift as a function of the cam's turn. The cam must turn in one direction, and the body must be back after every turn.
     fn by_turn(
         &self,
         key: &str,
@@ -234,13 +234,14 @@ impl Moved<'_> {
                 return wrong(key, why);
             }
         }
-        // Within rounding; the cam is cut and checked by thousands of its values, each of which inverts the cam's turn.
+        // Interpolated within rounding: cutting and checking the cam need thousands of values, each of which inverts the cam's
+        // turn.
         Ok(Arc::new(FromFn::new(TAU, 0.0, breaks, lift).pieces()))
     }
 }
 
-/// Position, in the axes of a body, of its roller's centre, or of the position of its face that touches the base circle when the
-/// cam has turned by an angle and the body is at its lowest.
+/// Position of the centre of a body's roller, in the body's axes. For a flat face, the point of the face that touches the
+/// base circle when the cam has turned by `turned` and the body is at its lowest.
 fn touching(disc: &DiscCam, seat: &Seat, mount: &Mount, moved: &Moved<'_>, turned: f64) -> Point {
     let place = match disc.roller_center(turned) {
         Some(center) => center.point,

@@ -1,4 +1,4 @@
-//! Disc cams as written.
+//! Disc cams as the design file gives them.
 
 pub(super) mod camming;
 pub(super) mod cutting;
@@ -104,12 +104,12 @@ pub struct MachineSwingingFlat {
 }
 
 impl MachineFollowerSpec {
-    /// Whether the body that follows turns.
+    /// Whether the following body turns.
     pub(in crate::machine) fn swings(&self) -> bool {
         matches!(self, Self::SwingingRoller(_) | Self::SwingingFlat(_))
     }
 
-    /// Sense in which the body moves when the cam lifts it: 1 along its slide, or counter-clockwise.
+    /// Sense of motion of the body when the cam lifts it: 1 along its slide, or counter-clockwise.
     pub(in crate::machine) fn sense(&self) -> f64 {
         match self {
             Self::SwingingRoller(MachineSwingingRoller { lifts, .. })
@@ -118,8 +118,8 @@ impl MachineFollowerSpec {
         }
     }
 
-    /// Distance of the roller's centre from the origin of a body whose law starts at zero, along its first axis, mm; none for
-    /// a flat face.
+    /// Distance of the roller's centre from the body's origin, along the body's first axis, mm, for a body whose law starts at
+    /// zero; `None` for a flat face.
     pub(in crate::machine) fn arm(&self) -> Option<f64> {
         match self {
             Self::TranslatingRoller(_) => Some(0.0),
@@ -128,7 +128,7 @@ impl MachineFollowerSpec {
         }
     }
 
-    /// Distance that the bodies have to agree with, as written, mm, and its key.
+    /// Key and value, mm, of the distance in the design with which the positions of the bodies must agree.
     pub(in crate::machine) fn written(&self) -> (&'static str, Option<f64>) {
         match self {
             Self::TranslatingRoller(follower) => ("offset", follower.offset),
@@ -138,7 +138,7 @@ impl MachineFollowerSpec {
         }
     }
 
-    /// The follower at a distance of the slide, or of the pin, from the cam's axis.
+    /// The follower whose slide or pin is at a distance, mm, from the cam's axis.
     pub(in crate::machine) fn at(&self, distance: f64) -> Follower {
         match self {
             Self::TranslatingRoller(follower) => Follower::TranslatingRoller(TranslatingRoller {

@@ -1,4 +1,4 @@
-//! Cams and followers in their positions against each other.
+//! Positions of cams and followers relative to each other.
 
 use std::f64::consts::{PI, TAU};
 
@@ -11,29 +11,29 @@ use centrode_gear::cam::DiscCam;
 use centrode_gear::cam::design::{Follower, Turn};
 use centrode_kinematics::transmission::{MotionJet, Transmission, crossings, sorted};
 
-/// Parts of a turn of the input in each of which the turn of a cam has few extremes.
+/// Number of parts of a turn of the input; in each the turn of a cam has few extremes.
 const PARTS: u32 = 24;
-/// Movement of an axis, as a share of the base radius, below which it is fixed.
+/// Movement of an axis, as a share of the base radius, below which the axis counts as fixed.
 const SAME: f64 = 1e-12;
 
-/// A cam and the body that carries its follower.
+/// Position of a cam relative to the body that carries its follower.
 pub(in crate::machine) struct Seat {
-    /// The axis, as a point of the body of the cam.
+    /// The cam's axis, as a point of the cam's body.
     pub(in crate::machine) cam: BodyPoint,
-    /// The carrier, and the position of the axis there, mm.
+    /// Index of the carrier, and the position of the cam's axis on it, mm.
     pub(in crate::machine) carrier: usize,
     pub(in crate::machine) axis: Point,
-    /// Direction on the carrier of the slide, or to the pin, rad.
+    /// Direction of the slide on the carrier, or from the cam's axis to the follower's pin, rad.
     pub(in crate::machine) direction: f64,
-    /// Distance of the slide or of the pin from the axis, mm.
+    /// Distance of the slide or of the pin from the cam's axis, mm.
     pub(in crate::machine) distance: f64,
-    /// Distance from the axis to where the body is held, along its slide, mm.
+    /// Distance from the cam's axis to the point at which the body is held, along its slide, mm.
     along: f64,
 }
 
 impl Seat {
-    /// Coordinate, on the base circle, of a body whose first axis points to the roller or along the face, or whose origin is
-    /// the roller's centre or on the face, rad or mm.
+    /// Coordinate of a follower on the base circle, rad or mm. Its first axis points to the roller or along the face, or its
+    /// origin is the roller's centre or on the face.
     pub(in crate::machine) fn lowest(&self, disc: &DiscCam, sense: f64) -> f64 {
         match disc.follower() {
             Follower::TranslatingRoller(_) => disc.start_distance() - self.along,
@@ -43,12 +43,12 @@ impl Seat {
     }
 }
 
-/// Turn of a cam by the input.
+/// Turn of a cam against the carrier of its follower, as a function of the input.
 #[derive(Clone, Debug)]
 pub(in crate::machine) struct Turned {
     cam: Angle,
     carrier: Angle,
-    /// Direction on the carrier of the slide, or to the pin, rad.
+    /// Direction of the slide on the carrier, or from the cam's axis to the follower's pin, rad.
     direction: f64,
     pub(in crate::machine) sense: f64,
 }
@@ -60,7 +60,7 @@ impl Turned {
         MotionJet::default().plus(self.sense, &turn)
     }
 
-    /// Inputs of a period at which a derivative of a motion by this turn may jump.
+    /// Inputs of a period at which a derivative of `motion`, applied to this turn, may jump.
     pub(in crate::machine) fn breaks(&self, motion: &dyn Transmission, period: f64) -> Vec<f64> {
         let (own, cycle) = (motion.breaks(), motion.period());
         let jumps: Vec<f64> = self.jumps(period).collect();
@@ -68,7 +68,7 @@ impl Turned {
         sorted(jumps.into_iter().chain(met), period)
     }
 
-    /// Inputs of a period at which a derivative of the turn itself may jump.
+    /// Inputs of a period at which a derivative of this turn may jump.
     pub(in crate::machine) fn jumps(&self, period: f64) -> impl Iterator<Item = f64> + use<> {
         let [cam, carrier] = [&self.cam, &self.carrier].map(|angle| angle.breaks(period));
         cam.into_iter().chain(carrier)
@@ -76,7 +76,7 @@ impl Turned {
 }
 
 impl Builder<'_> {
-    /// Where a body that is held at a position of its carrier, and slides in a direction or turns, has the axis of its cam.
+    /// Position of a cam relative to the carrier of a body that is held at `pin` and slides in a direction, rad, or turns.
     pub(in crate::machine) fn seat(
         &self,
         key: &str,
@@ -142,7 +142,7 @@ impl Builder<'_> {
         })
     }
 
-    /// Turn of a cam against the carrier of a follower, its sense, and whole turns in a period, in that sense.
+    /// Turn of a cam against the carrier of a follower, its sense of rotation, and the whole turns per period in that sense.
     pub(in crate::machine) fn turned(
         &self,
         key: &str,
@@ -174,7 +174,7 @@ impl Builder<'_> {
             let [slow, fast] = extremes(rate, &parts);
             slow.value.abs().max(fast.value) <= COMPUTED
         };
-        // Most often it turns wherever one looks.
+        // The extremes are only computed if the cam is at rest at all ends of the parts, which is rare.
         if parts.iter().all(|input| rate(*input).abs() <= COMPUTED) && stands() {
             let why = format!(
                 "cam {cam} does not turn against body {carrier}, on which {name} follows it"
@@ -198,12 +198,12 @@ impl Builder<'_> {
     }
 }
 
-/// A cam that cannot be followed.
+/// The error of a cam that cannot be followed.
 pub(in crate::machine) fn wrong<T>(key: &str, why: String) -> Result<T, MachineError> {
     Err(MachineError::refused(key, why))
 }
 
-/// An angle less whole turns, from -pi to pi.
+/// An angle without its whole turns, from -pi to pi.
 fn wrapped(angle: f64) -> f64 {
     angle - TAU * (angle / TAU).round()
 }

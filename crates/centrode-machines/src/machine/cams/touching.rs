@@ -1,4 +1,4 @@
-//! Cams that touch what follows them.
+//! Contacts of cams with their followers.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -12,7 +12,7 @@ use centrode_kinematics::machine::{Contact, ContactLine};
 use centrode_kinematics::transmission::{FromFn, MotionJet, Transmission};
 
 impl Machine {
-    /// Contacts of the cams with the bodies that follow them and that nothing else holds in their motion.
+    /// Contacts of the cams with followers whose motion is not also held by a dyad or a mesh.
     pub(in crate::machine) fn contacts(&self) -> Vec<Contact> {
         if self.cams.is_empty() {
             return Vec::new();
@@ -42,7 +42,7 @@ impl Machine {
         let first = self.pushed(cam, [curve, follower], 0.0).0;
         let near =
             move |angle: f64| first + (angle - first) - TAU * ((angle - first) / TAU).round();
-        // Both laws of a line are requested at the same inputs.
+        // Both laws of a contact line are evaluated at the same inputs.
         let last: Arc<Recent<u64, (f64, f64)>> = Arc::new(Recent::new());
         let law = |of: fn((f64, f64)) -> f64| -> Arc<dyn Transmission> {
             let (own, last) = (Arc::clone(own), Arc::clone(&last));
@@ -68,7 +68,7 @@ impl Machine {
         })
     }
 
-    /// Direction (rad) in the follower's axes in which a cam pushes, and the moment of a unit force about the follower's
+    /// Direction (rad) in which a cam pushes, in the follower's axes, and the moment of a unit force about the follower's
     /// origin, mm.
     fn pushed(&self, cam: &MachineCam, [curve, follower]: [usize; 2], input: f64) -> (f64, f64) {
         let disc = cam.disc();

@@ -1,4 +1,4 @@
-//! Machines with copies: made of the design written out, and held against the originals.
+//! Machines with copies: built from the design with its copies written out, and compared with the originals.
 
 use std::collections::BTreeMap;
 use std::f64::consts::TAU;
@@ -13,33 +13,33 @@ use crate::machine::resolve::Builder;
 use crate::machine::{BodyPoint, Machine, MachineDesign, MachineError};
 use centrode_kinematics::transmission::{FromFn, Transmission, sorted};
 
-/// Inputs of a turn at which copies are held against their originals.
+/// Inputs per turn at which copies are compared with their originals.
 const SAMPLES: u32 = 120;
-/// Parts of a turn of the input in each of which a mismatch has few extremes.
+/// Number of parts of a turn of the input; in each a mismatch has few extremes.
 const PARTS: u32 = 24;
-/// Maximum mismatch that is rounding: mm, as a share of a length of 1 mm or of the machine's, and rad.
+/// Maximum mismatch due to rounding: in rad, and in mm per mm of the machine's size (at least 1 mm).
 const ROUNDING: f64 = 1e-8;
-/// Change of a rate, as a share of it, below which a body turns evenly.
+/// Variation of a rate, as a share of its maximum, up to which the rotation counts as even.
 const EVEN: f64 = 1e-12;
 
-/// Pose of a copy relative to its original.
+/// Relation of a copy to its original.
 #[derive(Clone, Copy)]
 struct CopyTurn {
-    /// Index of the body in the middle.
+    /// Index of the body about which the copies are spaced.
     about: usize,
     spin: Spin,
-    /// Turn against the original, rad.
+    /// Angle of the copy from the original, rad.
     turn: f64,
 }
 
-/// Origin of a body (mm) and its angle (rad).
+/// Pose of a body: position of its origin (mm) and angle (rad).
 #[derive(Clone, Copy)]
 struct Pose {
     at: Point,
     angle: f64,
 }
 
-/// A law that runs ahead of another.
+/// A law shifted along the input: its value at an input is that of `law` at `by` later.
 pub(in crate::machine) fn ahead(law: Arc<dyn Transmission>, by: f64) -> Arc<dyn Transmission> {
     let (period, advance) = (law.period(), law.advance());
     let breaks = law.breaks().into_iter();
@@ -50,11 +50,11 @@ pub(in crate::machine) fn ahead(law: Arc<dyn Transmission>, by: f64) -> Arc<dyn 
 }
 
 impl Machine {
-    /// Resolves a design with copies: first without them, then written out.
+    /// Resolves a design with copies: first the design without them, then the one with the copies written out.
     pub(in crate::machine) fn with_copies(design: &MachineDesign) -> Result<Self, MachineError> {
         let bare = MachineDesign {
             copies: BTreeMap::new(),
-            // These may name copies.
+            // These tables may name copies.
             loads: BTreeMap::new(),
             obstacles: BTreeMap::new(),
             goals: BTreeMap::new(),
@@ -63,7 +63,7 @@ impl Machine {
         };
         let none = Expansion::default();
         let mut first = Builder::assembled(&bare, &none, None)?;
-        // Loads of copies may act on the followers of cams that are cut.
+        // Loads of copies may act on followers to which cams are cut: then the cams are cut first.
         let cut_before = !design.loads.is_empty();
         if cut_before {
             first.cut_cams()?;
@@ -88,7 +88,7 @@ impl Machine {
             let made = Builder::assembled(&whole, &expansion, Some(&one));
             made.map_err(|error| of_copy(error, &expansion))
         };
-        // A cam takes as long to cut as the copies to assemble, which know nothing of it.
+        // Cutting the cams takes as long as assembling the copies, and each is independent of the other.
         let (one, made) = run_both(cut, copied);
         let (one, mut made) = (one?, made?);
         made.bare = Some(&one);
@@ -100,7 +100,7 @@ impl Machine {
         Ok(made)
     }
 
-    /// Checks that bodies of copies are there, and each in one chain only.
+    /// Checks that the bodies to be copied exist, and that each is in one chain only.
     fn can_copy(
         &self,
         design: &MachineDesign,
@@ -165,13 +165,13 @@ impl Machine {
         ))
     }
 
-    /// Ends of the parts of a cycle between which all motion is smooth.
+    /// Ends of the parts of a cycle within which all motion is smooth.
     fn parts(&self) -> Vec<f64> {
         let parts = PARTS * self.design.input.turns;
         piece_ends(0.0, self.period(), parts, self.linkage.breaks())
     }
 
-    /// Checks that each copy has the pose of its original when the body in the middle has turned on.
+    /// Checks that each copy has the pose that its original has after a further turn of the body in the middle.
     fn check_copies(&self, key: &str, spec: &MachineCopiesSpec) -> Result<(), MachineError> {
         let about = self.body_named(&spec.about).unwrap_or(0);
         let spin = self.spin(key, &spec.about)?;
@@ -213,7 +213,7 @@ impl Machine {
         Ok(())
     }
 
-    /// Maximum distance and angle by which each of several copies is off at the inputs examined.
+    /// Maximum distance (mm) and angle (rad) of each copy from its required pose, at the sampled inputs.
     fn maximum_off(&self, by: CopyTurn, both: &[(usize, usize)]) -> Vec<[f64; 2]> {
         let count = SAMPLES * self.design.input.turns;
         let inputs = (0..count).map(|i| self.period() * f64::from(i) / f64::from(count));
@@ -244,7 +244,7 @@ impl Machine {
         maximum
     }
 
-    /// Distance and angle by which a copy is off its original when the body in the middle has turned on.
+    /// Distance (mm) and angle (rad) of a copy from the pose of its original after a further turn of the body in the middle.
     fn off(&self, by: CopyTurn, body: usize, copy: usize, input: f64) -> [f64; 2] {
         let pose = |body: usize, input: f64| Pose {
             at: self.place(body, Point::origin(), input),
@@ -254,7 +254,7 @@ impl Machine {
         self.apart(by, input, from, pose(copy, input))
     }
 
-    /// Distance and angle between the required pose of an original and that of its copy.
+    /// Distance (mm) and angle (rad) between the required pose of a copy and the pose found.
     fn apart(&self, by: CopyTurn, input: f64, mut from: Pose, found: Pose) -> [f64; 2] {
         if by.spin == Spin::Still {
             let middle = self.place(by.about, Point::origin(), input);
@@ -266,7 +266,7 @@ impl Machine {
         [distance, (off - TAU * (off / TAU).round()).abs()]
     }
 
-    /// Input at which the body in the middle has turned on by an angle, whole turns aside.
+    /// Input at which the body in the middle has turned further by the angle of the copy, apart from whole turns.
     fn later(&self, by: CopyTurn, input: f64) -> f64 {
         let angle = |input: f64| self.angle(by.about, input).position;
         let sign = match by.spin {
@@ -280,7 +280,7 @@ impl Machine {
     }
 }
 
-/// An error of the design with its copies written out, by the names of the originals.
+/// Replaces the keys of copies in an error by those of the originals.
 fn of_copy(error: MachineError, expansion: &Expansion) -> MachineError {
     match expansion.written(&error.key()) {
         key if key == error.key() => error,
@@ -291,7 +291,7 @@ fn of_copy(error: MachineError, expansion: &Expansion) -> MachineError {
     }
 }
 
-/// Words of a chain that does not repeat.
+/// Message about a chain that does not repeat.
 fn repeats(name: &str, copy: &str, about: &str, turn: f64, off: [Extreme; 2]) -> String {
     let [length, angle] = off;
     let degrees = turn.to_degrees();

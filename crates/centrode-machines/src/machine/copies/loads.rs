@@ -7,8 +7,8 @@ use crate::machine::body::points::Reference;
 use crate::machine::{LoadAxes, MachineDesign, MachineError};
 
 impl ChainCopy<'_> {
-    /// Adds the loads on the bodies that are copied: turned with a copy that is the original turned, ahead by the input where
-    /// a copy has the pose that the original has later.
+    /// Adds the loads on the bodies that are copied. A load is turned if the copy is the turned original. It runs ahead by an
+    /// input if the copy has the pose that the original has later.
     pub(super) fn loads(&mut self, design: &MachineDesign) -> Result<(), MachineError> {
         for (name, load) in &design.loads {
             if !self.bodies.contains(&Reference::to_body(&load.on).body) {

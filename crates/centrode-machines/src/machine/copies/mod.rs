@@ -1,4 +1,4 @@
-//! Copies of a chain of bodies, evenly spaced: a design written out without them.
+//! Copies of a chain of bodies, evenly spaced: they are written out, so that the design has no copies any more.
 
 pub(super) mod copying;
 mod dyads;
@@ -20,7 +20,7 @@ use super::{MachineBodySpec, MachineCamSpec, MachineDesign, MachineError};
 use centrode_spec::SpecError;
 use centrode_spec::rule::{Rule, broken, count_in_range};
 
-/// Most pieces of a chain.
+/// Maximum number of pieces of a chain.
 const MOST: u32 = 60;
 
 /// Copies of a chain of bodies, evenly spaced about the origin of a body.
@@ -49,7 +49,7 @@ impl MachineCopiesSpec {
         }
     }
 
-    /// Turn of a piece against the first, rad.
+    /// Angle of a piece from the first one, rad.
     pub(super) fn turn(&self, piece: u32) -> f64 {
         TAU * f64::from(piece) / f64::from(self.count)
     }
@@ -60,13 +60,13 @@ impl MachineCopiesSpec {
 pub(super) enum Spin {
     /// It is fixed.
     Still,
-    /// It turns evenly: its rate, rad per rad of the input.
+    /// It turns evenly, at this rate, rad per rad of the input.
     Even(f64),
-    /// It turns in one direction, unevenly: the sign.
+    /// It turns unevenly in one direction: the sign of its rate.
     Uneven(f64),
 }
 
-/// One piece of a chain under copying.
+/// The piece of a chain that is being copied.
 struct ChainCopy<'a> {
     whole: &'a mut MachineDesign,
     expansion: &'a mut Expansion,
@@ -75,12 +75,12 @@ struct ChainCopy<'a> {
     about: &'a str,
     bodies: &'a BTreeSet<String>,
     number: u32,
-    /// Turn against the first piece, rad.
+    /// Angle of the piece from the first one, rad.
     turn: f64,
     spin: Spin,
 }
 
-/// Writes out the copies of a chain, whose originals are there.
+/// Writes out the copies of a chain; the originals are in the design already.
 pub(super) fn add(
     whole: &mut MachineDesign,
     expansion: &mut Expansion,
@@ -113,7 +113,7 @@ impl ChainCopy<'_> {
         MachineError::refused(&self.key, why)
     }
 
-    /// Name of the copy of something.
+    /// Name of the copy of a part. It is an error if the name is taken.
     fn name(&mut self, of: &str, taken: bool) -> Result<String, MachineError> {
         let name = self.copy(of);
         if taken {
@@ -133,7 +133,7 @@ impl ChainCopy<'_> {
         body == self.about
     }
 
-    /// A reference as the copy has it: to a copy, to a point turned about the middle, or to the same.
+    /// A reference in the copy: to a copied body, to a point turned about the middle, or unchanged.
     fn word(&mut self, key: &str, word: &str) -> Result<String, MachineError> {
         let on = Reference::to_body(word);
         let Some(point) = &on.point else {
@@ -177,7 +177,7 @@ impl ChainCopy<'_> {
         word.as_ref().map(|word| self.word(key, word)).transpose()
     }
 
-    /// A direction in the axes of the body that a word names.
+    /// A direction (rad) in the axes of the body that a word names, as the copy has it.
     fn direction(&self, word: Option<&String>, direction: Option<f64>) -> Option<f64> {
         let about = word.is_some_and(|word| self.is_about(&Reference::to_body(word).body));
         match about {
@@ -189,7 +189,7 @@ impl ChainCopy<'_> {
     fn add(&mut self, design: &MachineDesign) -> Result<(), MachineError> {
         let beside = self.beside(design)?;
         for name in self.bodies {
-            // The bodies of dyads need no table of their own.
+            // The bodies that dyads make need no table of their own.
             if let Some(body) = design.bodies.get(name) {
                 let copy = self.body(name, body, &beside)?;
                 let taken = self.whole.bodies.contains_key(&self.copy(name));
@@ -253,8 +253,8 @@ impl ChainCopy<'_> {
         self.loads(design)
     }
 
-    /// Names of the gears and cams that are copied: those on bodies that are, and, next to the middle of the body about which
-    /// they are spaced, those that move such bodies.
+    /// Names of the gears and cams that are copied: those on copied bodies, and those off the middle of the body about which
+    /// the copies are spaced, if they move copied bodies.
     fn beside(&self, design: &MachineDesign) -> Result<BTreeSet<String>, MachineError> {
         let own = self
             .bodies
@@ -299,7 +299,7 @@ impl ChainCopy<'_> {
             .is_some_and(|body| self.bodies.contains(body))
     }
 
-    /// Angle at which a gear or cam is mounted on the body that a word names.
+    /// Mounting angle (rad) of the copy of a gear or cam on the body that a word names.
     fn mounted(&self, on: &String, mount: f64) -> f64 {
         self.direction(Some(on), Some(mount)).unwrap_or(mount)
     }
@@ -336,7 +336,7 @@ impl ChainCopy<'_> {
             }
             return Ok(copy);
         }
-        // What a copied body drives is copied with it.
+        // A body that is driven by a copied body gets the copy as its driver.
         let driven = law.by.as_ref().filter(|by| self.bodies.contains(*by));
         let moves = law.moves() && driven.is_none();
         if let Some(by) = driven.cloned() {
@@ -353,7 +353,7 @@ impl ChainCopy<'_> {
         Ok(copy)
     }
 
-    /// Input by which a function of the input runs ahead for the copy.
+    /// Input (rad) by which a function of the input runs ahead for the copy.
     fn ahead(&self, key: &str, what: &str) -> Result<f64, MachineError> {
         match self.spin {
             Spin::Even(rate) if rate > 0.0 => Ok(self.turn / rate),
@@ -368,7 +368,7 @@ impl ChainCopy<'_> {
         }
     }
 
-    /// Notes that a law or load runs ahead of the original's.
+    /// Records that a law or load runs ahead of the original's by an input, rad.
     fn run_ahead(&mut self, name: String, ahead: f64) {
         if ahead != 0.0 {
             self.expansion.ahead.insert(name, ahead);

@@ -16,9 +16,9 @@ use centrode_gear::pitch::gcd;
 use centrode_gear::{Gear, GearPair, Member, Role};
 use centrode_kinematics::machine::{Line, LineRole, Surface};
 
-/// Samples of a turn of the input at which a loop of meshes is checked.
+/// Inputs per turn at which a loop of meshes is checked.
 const SAMPLES: u32 = 720;
-/// Distance of two axes, as a share of the centre distance, below which they are one.
+/// Distance of two axes, as a share of the centre distance, below which they count as one.
 const SAME: f64 = 1e-12;
 
 /// A gear of a composed machine.
@@ -30,7 +30,7 @@ pub struct MachineGear {
     pub(in crate::machine) body_name: String,
     /// Its pair.
     pub pair: Arc<GearPair>,
-    /// Which of the pair it is.
+    /// Whether it is the driver or the driven gear of its pair.
     pub member: Member,
     /// Position of its axis in the body's axes, mm.
     pub at: Point,
@@ -51,18 +51,18 @@ impl MachineGear {
         &self.body_name
     }
 
-    /// Name of its surface in the machine.
+    /// Name of the gear's surface in the machine.
     #[must_use]
     pub fn surface_name(&self) -> String {
         format!("{}-teeth", self.name)
     }
 
-    /// Position of the gear's axes in those of its body.
+    /// Pose of the gear's axes in those of its body.
     fn place(&self) -> Isometry2<f64> {
         Isometry2::new(self.at.coords, self.mount)
     }
 
-    /// The gear in its body's axes, from a height on.
+    /// The gear in its body's axes; `bottom` is the height of its lower face, mm.
     pub(in crate::machine) fn solid(&self, bottom: f64) -> Result<Solid, SolidError> {
         let (gear, place) = (self.gear(), self.place());
         let bore = gear.bore().map(|bore| bore.transformed(&place));
@@ -75,7 +75,7 @@ impl MachineGear {
         )
     }
 
-    /// Its teeth: flanks and tips touch, fillets do not.
+    /// Surface of the teeth: flanks and tips can touch other gears, fillets cannot.
     pub(in crate::machine) fn surface(&self, solid: &Solid) -> Surface {
         let touches = |(role, owner): (&Role, &u32)| {
             matches!(role, Role::Flank | Role::Tip).then_some(*owner)
@@ -87,7 +87,7 @@ impl MachineGear {
         }
     }
 
-    /// Outline, bore and pitch curve in its body's axes.
+    /// Outline, bore and pitch curve of the gear in its body's axes.
     pub(in crate::machine) fn lines(&self) -> Vec<Line> {
         let (gear, place) = (self.gear(), self.place());
         let line = |role, outline: &Outline| Line::contour(role, &outline.transformed(&place));
@@ -120,7 +120,7 @@ impl Machine {
     }
 }
 
-/// Two gears in mesh, the driver of their pair first, and the body that they move.
+/// Indices of two gears in mesh, the driver of their pair first, and index of the body that they move.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(in crate::machine) struct Meshing {
     pub(in crate::machine) gears: [usize; 2],
@@ -178,7 +178,7 @@ pub(in crate::machine) fn gears_of(
 }
 
 impl Builder<'_> {
-    /// A gear by its name.
+    /// Index of a gear by its name.
     pub(in crate::machine) fn gear(&self, key: &str, name: &str) -> Result<usize, MachineError> {
         let found = self.gears.iter().position(|gear| gear.name == name);
         found.ok_or_else(|| {
@@ -191,7 +191,7 @@ impl Builder<'_> {
         })
     }
 
-    /// The two gears of a mesh, which must be the two of one pair.
+    /// Indices of the two gears of a mesh, which must be the two gears of one pair.
     fn both(&self, key: &str, names: [&str; 2]) -> Result<[usize; 2], MachineError> {
         let [one, other] = [self.gear(key, names[0])?, self.gear(key, names[1])?];
         let [a, b] = [&self.gears[one], &self.gears[other]];
@@ -216,7 +216,7 @@ impl Builder<'_> {
         Ok([one, other])
     }
 
-    /// Angle of a gear by the input.
+    /// Angle of a gear as a function of the input.
     fn gear_angle(&self, gear: usize) -> Angle {
         let gear = &self.gears[gear];
         let body = self.body_named(&gear.body_name);
@@ -231,7 +231,7 @@ impl Builder<'_> {
         mesh: &MachineMeshSpec,
     ) -> Result<(), MachineError> {
         let key = format!("bodies.{name}.mesh");
-        // The laws of dyads before it.
+        // The motions of dyads built before are needed.
         self.follow()?;
         let on = body.on.as_deref().unwrap_or_default();
         let base = self.place(&format!("bodies.{name}.on"), on)?;
@@ -304,7 +304,7 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// Checks the meshes next to those that hold bodies: axes at the centre distance, teeth in spaces, over the cycle.
+    /// Checks the meshes of the table `meshes` over the cycle: distance of the axes, and teeth in tooth spaces.
     pub(in crate::machine) fn check_loops(&self) -> Result<(), MachineError> {
         for (name, spec) in &self.design.meshes {
             let key = format!("meshes.{name}");
@@ -329,7 +329,7 @@ impl Builder<'_> {
         Ok(())
     }
 
-    /// Maximum angle by which a driven gear is off its mesh, and the input there.
+    /// Maximum angle by which a driven gear deviates from its mesh, rad, and the input there.
     fn mismatch(
         &self,
         key: &str,
@@ -343,7 +343,8 @@ impl Builder<'_> {
         };
         let [one, other] = [self.gear_angle(driver), self.gear_angle(driven)];
         let rolling = pair.shared_rolling();
-        // Parts by which each gear repeats, over a cycle of the pair; after some of the driver's the driven gear repeats, too.
+        // Number of repeating parts of each gear in a cycle of the pair. The driven gear repeats after `driver_parts / common`
+        // of the driver's parts.
         let (n1, n2) = pair.mean_ratio();
         let [driver_parts, driven_parts] =
             [(n1, Member::Driver), (n2, Member::Driven)].map(|(n, m)| n * pair.repeats(m));
@@ -374,7 +375,7 @@ impl Builder<'_> {
                 rolling: Arc::clone(&rolling),
                 lambda: Angle::default().plus(way.y.atan2(way.x)),
             };
-            // Teeth meet other spaces as well where both gears are as before.
+            // The gears may also mesh shifted by whole parts: the smallest deviation counts.
             let off = (0..driver_parts / common).map(|part| {
                 let mut at = one.at(input);
                 at.position -= driver_part * f64::from(part);

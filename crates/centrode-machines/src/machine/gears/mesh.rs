@@ -8,7 +8,7 @@ use centrode_kinematics::transmission::{
     FromFn, MotionJet, Remembered, Transmission, crossings, repeated, sorted,
 };
 
-/// Maximum number of cached laws of meshed bodies: a machine has some, each for every copy.
+/// Maximum number of cached laws of meshed bodies: a machine has a few, and as many for every copy.
 const CACHED: usize = 32;
 
 /// Sum of a constant and joint coordinates: the angle of a body, or of a gear on it, without jumps.
@@ -21,7 +21,7 @@ pub(in crate::machine) struct Angle {
 }
 
 impl PartialEq for Angle {
-    /// Of the very same coordinates.
+    /// True for equal constants and for coordinates that are the same objects.
     fn eq(&self, other: &Self) -> bool {
         let same = |(one, two): (&Arc<dyn Transmission>, _)| Arc::ptr_eq(one, two);
         self.start == other.start
@@ -39,7 +39,7 @@ impl Angle {
         }
     }
 
-    /// Angle by the input.
+    /// Angle at an input.
     pub(in crate::machine) fn at(&self, input: f64) -> MotionJet {
         let start = MotionJet::at_rest(self.start);
         let sum = |sum: MotionJet, law: &Arc<dyn Transmission>| sum.plus(1.0, &law.at(input));
@@ -53,7 +53,7 @@ impl Angle {
     }
 }
 
-/// Two pitch curves that roll on each other wherever their axes are carried.
+/// Two pitch curves that roll on each other, on axes that may move.
 ///
 /// With lambda the direction from the driver's axis to the driven gear's, alpha and beta the angles of the two gears and f the
 /// driven angle of the pair by the driver's polar angle: the driver's pitch point is at the polar angle lambda - alpha, so
@@ -66,14 +66,14 @@ pub(super) struct RollingMesh {
 }
 
 impl PartialEq for RollingMesh {
-    /// Of the very same pitch curves.
+    /// True for pitch curves that are the same object, and equal directions.
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.rolling, &other.rolling) && self.lambda == other.lambda
     }
 }
 
 impl RollingMesh {
-    /// Angle of the driven gear by that of the driver.
+    /// Angle of the driven gear from that of the driver.
     pub(in crate::machine) fn driven(&self, driver: &MotionJet, input: f64) -> MotionJet {
         let lambda = self.lambda.at(input);
         let phi = lambda.plus(-1.0, driver);
@@ -81,7 +81,7 @@ impl RollingMesh {
         lambda.plus(1.0, &turned)
     }
 
-    /// Angle of the driver by that of the driven gear.
+    /// Angle of the driver from that of the driven gear.
     pub(in crate::machine) fn driver(&self, driven: &MotionJet, input: f64) -> MotionJet {
         let lambda = self.lambda.at(input);
         let turned = driven.plus(-1.0, &lambda);
@@ -90,7 +90,7 @@ impl RollingMesh {
     }
 }
 
-/// Coordinate of a body that a mesh moves: its angle against the one that carries it.
+/// Coordinate of a body that a mesh moves: its angle against the body that carries it.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct MeshedBody {
     pub(in crate::machine) mesh: RollingMesh,
@@ -98,7 +98,7 @@ pub(super) struct MeshedBody {
     pub(in crate::machine) is_driven: bool,
     /// Angle of the other gear.
     pub(in crate::machine) other: Angle,
-    /// Angle of the carrier and, added to it, that at which the body's gear is mounted.
+    /// Angle of the carrier plus the angle at which the body's gear is mounted.
     pub(in crate::machine) carrier: Angle,
 }
 
@@ -123,7 +123,7 @@ impl MeshedBody {
         lambda - driver
     }
 
-    /// Inputs at which a derivative may jump: of the angles it is made of, and where a bend of the pitch curve jumps.
+    /// Inputs at which a derivative may jump: breaks of its angles, and inputs at which a break of the pitch curve is in mesh.
     fn breaks(&self, period: f64) -> Vec<f64> {
         let mut found = self.other.breaks(period);
         found.extend(self.carrier.breaks(period));
@@ -133,9 +133,9 @@ impl MeshedBody {
         sorted(found.into_iter().chain(met), period)
     }
 
-    /// The coordinate by the input, from within half a turn of zero on, and the turns by which it grows over a period.
+    /// The coordinate as a function of the input, starting within half a turn of zero, and its growth over a period, in turns.
     ///
-    /// Cached with its values: most changes of a machine do not change its trains.
+    /// Law and values are cached: most changes of a machine do not change its trains.
     pub(in crate::machine) fn law(self, period: f64) -> (Arc<dyn Transmission>, f64) {
         static LAWS: Recent<(MeshedBody, f64), (Arc<dyn Transmission>, f64), CACHED> =
             Recent::new();
@@ -149,7 +149,7 @@ impl MeshedBody {
         let whole = TAU * (advance / TAU).round();
         let breaks = self.breaks(period);
         let law = FromFn::new(period, whole, breaks, move |input| self.at(input));
-        // Trains and dyads beyond require it again and again.
+        // Values are cached: trains and dyads built on this law evaluate it at the same inputs.
         (Arc::new(Remembered::new(law)), advance / TAU)
     }
 }

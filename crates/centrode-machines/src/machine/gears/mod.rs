@@ -1,4 +1,4 @@
-//! Gears of pairs and their meshes as written.
+//! Gears of pairs and their meshes as the design file gives them.
 
 pub(super) mod gearing;
 pub(super) mod mesh;
@@ -61,7 +61,7 @@ pub struct MachineLoopSpec {
 }
 
 impl Machine {
-    /// The pairs whose two gears turn on one body.
+    /// Gear pairs of the meshes that move a body carried by this body.
     #[must_use]
     pub fn carried_pairs(&self, body: usize) -> Vec<&GearPair> {
         let carrier = |moved: usize| Some(self.bodies[moved].mount.as_ref()?.carrier);
@@ -81,7 +81,7 @@ impl Machine {
         mates.into_iter().map(|mate| &self.gears[mate]).collect()
     }
 
-    /// Indices of the two gears of each mesh, of those that hold bodies and of those next to.
+    /// Indices of the two gears of each mesh: of the meshes that hold bodies, then of those of the table `meshes`.
     fn in_mesh(&self) -> impl Iterator<Item = [usize; 2]> {
         let named = |name: &String| self.gears.iter().position(|gear| gear.name == *name);
         let beside = self.design.meshes.values();
@@ -90,7 +90,7 @@ impl Machine {
         self.meshes.iter().map(|mesh| mesh.gears).chain(beside)
     }
 
-    /// Which teeth run in which spaces, by the names of the gears; copies run as their originals.
+    /// Notes on the tooth that runs in each space, with the names of the gears; copies have the notes of their originals.
     pub(in crate::machine) fn meshing_notes(&self) -> Vec<String> {
         let mut notes: Vec<String> = Vec::new();
         for both in self.in_mesh() {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use crate::machine::{Machine, MachineError, MachineFigure};
 use centrode_gear::GearPair;
 
-/// Figures of a pair that goals can name, by the keys that they have in its check.
+/// Figures of a pair that goals can name, by their keys in the pair's check.
 pub const PAIR_FIGURES: [&str; 26] = [
     "backlash_max",
     "backlash_min",
@@ -36,7 +36,7 @@ pub const PAIR_FIGURES: [&str; 26] = [
 ];
 
 impl Machine {
-    /// Gear pairs whose gears it has, each once.
+    /// Pairs of the machine's gears, each once.
     #[must_use]
     pub fn pairs(&self) -> Vec<&Arc<GearPair>> {
         let mut pairs: Vec<&Arc<GearPair>> = Vec::new();
@@ -48,7 +48,7 @@ impl Machine {
         pairs
     }
 
-    /// A figure of a pair, `pair(name).figure`; none where the words are of another form.
+    /// A figure of a pair, `pair(name).figure`; `None` if the words have another form.
     pub(in crate::machine) fn figure_of_pair(
         &self,
         key: &str,

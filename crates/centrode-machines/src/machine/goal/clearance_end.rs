@@ -1,4 +1,4 @@
-//! Ends of a clearance.
+//! The two bodies or obstacles of a clearance.
 
 use crate::machine::{Machine, MachineError};
 
@@ -12,10 +12,10 @@ pub enum ClearanceEnd {
 }
 
 impl Machine {
-    /// Bodies or obstacles that a key names, for their clearance.
+    /// The bodies or obstacles with the given names, for their clearance; `key` is the key of the design that names them.
     ///
     /// # Errors
-    /// [`MachineError`] for a name that is neither's, and for two on one body.
+    /// [`MachineError`] for a name of neither, for two ends that move with one body, and for a block and the body with its slot.
     pub fn clearance_ends(
         &self,
         key: &str,

@@ -76,7 +76,7 @@ pub const FIGURE_FORMS: [[&str; 3]; 15] = [
     ],
 ];
 
-/// A figure of a composed machine, found by its words.
+/// A figure of a composed machine.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum MachineFigure {
     /// A component of a point's motion.
@@ -89,7 +89,7 @@ pub enum MachineFigure {
     Swing(usize),
     /// Coordinate of the slide that carries a body, mm.
     Travel(usize),
-    /// Angle between the lines of a dyad's two bodies, from 0 to a right angle, rad; its number in the order of closing.
+    /// Angle between the lines of a dyad's two bodies, from 0 to a right angle, rad; index of the dyad in the order of closing.
     Transmission(usize),
     /// Distance of two points, mm.
     Distance([BodyPoint; 2]),
@@ -97,16 +97,16 @@ pub enum MachineFigure {
     Clearance([ClearanceEnd; 2]),
     /// Torque of the input, N mm.
     InputTorque,
-    /// Force in a joint, N; its index among the joints of the machine.
+    /// Force in a joint, N; index of the joint in the machine.
     JointForce(usize),
-    /// Force in the pin that closes a loop, N; its index among the closures of the machine.
+    /// Force in the pin that closes a loop, N; index of the closure in the machine.
     PinForce(usize),
-    /// Force along the normal of a mesh, N, positive on the flanks that drive with a counter-clockwise torque on the driven gear; its
-    /// index among the meshes of the machine.
+    /// Force along the normal of a mesh, N, positive on the flanks that drive with a counter-clockwise torque on the driven gear;
+    /// index of the mesh in the machine.
     MeshForce(usize),
     /// A figure of the check of a gear pair, which does not change with the input.
     OfPair {
-        /// The pair's number among [`Machine::pairs`].
+        /// Index of the pair in [`Machine::pairs`].
         pair: usize,
         /// Key of the figure.
         figure: &'static str,
@@ -114,7 +114,7 @@ pub enum MachineFigure {
 }
 
 impl MachineFigure {
-    /// Whether it is of forces, which do not follow from the motion alone.
+    /// Whether it is a figure of forces, which do not follow from the motion alone.
     #[must_use]
     pub fn is_of_forces(&self) -> bool {
         matches!(
@@ -138,10 +138,10 @@ pub enum PointPart {
 }
 
 impl Machine {
-    /// Finds a figure by its words, as [`FIGURE_FORMS`] shows; `key` is that of the design which names it.
+    /// Figure named by `words` in one of the forms of [`FIGURE_FORMS`]; `key` is the key of the design that contains the words.
     ///
     /// # Errors
-    /// [`MachineError`] where there is no such figure.
+    /// [`MachineError`] if there is no such figure.
     pub fn figure(&self, key: &str, words: &str) -> Result<MachineFigure, MachineError> {
         let none = || {
             let forms = FIGURE_FORMS.map(|[form, ..]| form).join(", ");
@@ -200,7 +200,8 @@ impl Machine {
         }
     }
 
-    /// A figure of the forces; none within where it is none of theirs after all.
+    /// A figure of forces. The outer option is `None` if the words have another form, the inner one if there is no such joint
+    /// or mesh.
     fn figure_of_forces(
         &self,
         key: &str,
@@ -215,7 +216,7 @@ impl Machine {
         Some(match function.trim() {
             "joint" => match self.pins.iter().position(|pin| self.pair_name(pin) == name) {
                 Some(pin) => Ok(Some(MachineFigure::PinForce(pin))),
-                // Each body but the frame is carried by the joint before it.
+                // Joint `body - 1` carries a body; the frame has none.
                 None => body().map(|body| body.checked_sub(1).map(MachineFigure::JointForce)),
             },
             "mesh" => body().map(|body| {
@@ -226,15 +227,15 @@ impl Machine {
         })
     }
 
-    /// Name of a pin that closes a loop: those of its two bodies.
+    /// Name of a pin that closes a loop: the names of its two bodies.
     fn pair_name(&self, pin: &Pin) -> String {
         pin.bodies
             .map(|body| self.bodies[body].name.as_str())
             .join("-")
     }
 
-    /// Words of the figures of single points, bodies, dyads and meshes, of the torque and of the forces in joints, for goals
-    /// to name.
+    /// Words of all figures of single points, bodies, dyads and meshes, of the input torque and of the forces in joints, as goals
+    /// name them.
     #[must_use]
     pub fn figure_words(&self) -> Vec<String> {
         let all = |of: &str, parts: &[&str]| -> Vec<String> {
@@ -299,7 +300,7 @@ impl Machine {
     }
 
     /// Value of a figure at an input, in mm, rad, mm/s, m/s² or rad/s; `None` for a clearance, which is of the whole cycle, for a
-    /// force, nor for a figure of a pair.
+    /// force, and for a figure of a pair.
     #[must_use]
     pub fn value(&self, figure: &MachineFigure, input: f64) -> Option<f64> {
         let speed = self.speed();

@@ -1,4 +1,4 @@
-//! Goals as written.
+//! Goals as the design file gives them.
 
 pub(super) mod clearance_end;
 pub(super) mod figure;
@@ -78,7 +78,7 @@ impl MachineGoalSpec {
         }
     }
 
-    /// Figure and where it counts, in words.
+    /// Text of the figure and of the inputs at which it counts.
     #[must_use]
     pub fn words(&self) -> String {
         let figure = &self.figure;
@@ -91,7 +91,7 @@ impl MachineGoalSpec {
         }
     }
 
-    /// Minimum and maximum required figure, in the unit shown.
+    /// Minimum and maximum required figure, in the unit of the file.
     #[must_use]
     pub fn required(&self) -> [Option<f64>; 2] {
         match self.between {

@@ -12,9 +12,9 @@ use centrode_kinematics::machine::{JointKind, Line, LineRole, LinkedMachine, Sur
 use centrode_spec::SpecError;
 use centrode_spec::rule::{Rule, broken, finite};
 
-/// Size of a half plane against that of the machine.
+/// Size of the box that represents a half plane, relative to the reach of the machine.
 const WIDE: f64 = 4.0;
-/// Positions at which the width of the ground in the picture is measured.
+/// Inputs per turn at which the width of the ground in the picture is sampled.
 const SAMPLES: u32 = 90;
 
 /// Scenery that is fixed to the frame or moves with a body: ground, a tray, a wall.
@@ -43,11 +43,11 @@ pub struct MachineObstacle {
     pub name: String,
     /// Index of the body it moves with.
     pub body: usize,
-    /// Its shape in the body's axes, as far as the machine can reach.
+    /// Shape of the obstacle in the body's axes; a half plane ends beyond the reach of the machine.
     pub outline: Outline,
     /// Lower and upper end along the shafts, mm.
     pub span: [f64; 2],
-    /// Height of its face where it is a half plane, mm.
+    /// Height of the upper side of a half plane, mm; `None` for any other shape.
     below: Option<f64>,
 }
 
@@ -83,7 +83,7 @@ impl MachineObstacleSpec {
 }
 
 impl MachineObstacle {
-    /// Surface with which it is in the way.
+    /// Surface of the obstacle, for clearances.
     #[must_use]
     pub fn surface(&self) -> Surface {
         Surface::new(self.name.clone(), self.outline.clone(), self.span)
@@ -130,7 +130,7 @@ impl Machine {
         self.design.obstacles.iter().map(obstacle).collect()
     }
 
-    /// All below a height as a box that the machine cannot look past.
+    /// The half plane below a height, mm, as a box that extends beyond the reach of the machine.
     fn half_plane(&self, below: f64) -> Outline {
         let size = WIDE * (self.reach() + below.abs());
         let corner = |x: f64, y: f64| Point::new(x, y);
@@ -142,7 +142,7 @@ impl Machine {
         ])
     }
 
-    /// Distance, mm, that no point of the machine is away from the origin of any of its bodies.
+    /// Upper bound of the distance between a point of the machine and the origin of any of its bodies, mm.
     fn reach(&self) -> f64 {
         let mounts = self.bodies.iter().filter_map(|body| body.mount.as_ref());
         let way = |mount: &Mount| {
@@ -161,11 +161,11 @@ impl Machine {
         let gears = self.gears.iter();
         let gears = gears.map(|gear| gear.at.coords.norm() + far(gear.gear().outline()));
         let widest = plates.map(|(outline, _)| far(&outline)).chain(gears);
-        // There and back.
+        // From one body to the frame, and from the frame to the other body.
         2.0 * (ways + widest.fold(1.0, f64::max))
     }
 
-    /// Draws the obstacles, which are no part of the machine.
+    /// Draws the obstacles, which are not parts of the machine.
     pub(in crate::machine) fn draw_obstacles(&self, machine: &mut LinkedMachine) {
         for obstacle in &self.obstacles {
             let line = match obstacle.below {
@@ -181,7 +181,7 @@ impl Machine {
         }
     }
 
-    /// Ends of the ground of a body in the picture: as far as points come over it, mm.
+    /// Ends of the ground line of a body in the picture, mm: one plate width beyond all points of the machine.
     fn width_seen(&self, body: usize) -> [f64; 2] {
         let width = self.design.plates.width;
         let (mut low, mut high) = (-width, width);

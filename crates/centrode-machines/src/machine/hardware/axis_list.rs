@@ -1,4 +1,4 @@
-//! Tables of the axes, and what the customer gives: the frame, guides and springs.
+//! Tables of the axes, and the parts from the customer: the frame, guides and springs.
 
 use centrode_geometry::Point;
 
@@ -11,7 +11,7 @@ use centrode_kinematics::machine::{
 };
 use centrode_spec::digits::{rounded, thousandths};
 
-/// Distance within which two axes are one, mm: above rounding, far below any clearance.
+/// Distance below which two axes count as one, mm: above rounding, far below any clearance.
 const ONE: f64 = 1e-6;
 
 /// Headings of the table of an axis.
@@ -23,7 +23,7 @@ const IN_FRAME: [&str; 5] = ["for", "x, mm", "y, mm", "size", "remark"];
 type Row = ([f64; 2], [String; 4]);
 
 impl Machine {
-    /// Lists shafts and pins with what is on them as parts that are given, and a table per axis of what sits on it, from the top
+    /// Lists shafts and pins, and the fasteners on them, as given parts. Adds a table per axis of the parts on it, from the top
     /// down. Copies have the table of their originals.
     pub(in crate::machine) fn list_axes(&self, machine: &mut LinkedMachine) {
         let axes = self.axes();
@@ -75,7 +75,8 @@ impl Machine {
         }
     }
 
-    /// Lists what else the customer gives: the frame if it has no plate, guides, and what holds followers on their cams.
+    /// Lists the other parts from the customer: the frame if it has no plate, guides, and parts that hold followers on their
+    /// cams.
     pub(in crate::machine) fn list_given(&self, machine: &mut LinkedMachine) {
         if self.design.hardware() == Hardware::None {
             return;
@@ -133,7 +134,7 @@ impl Machine {
         }
     }
 
-    /// Bores and guides of a frame that is given, as they are drawn.
+    /// Bores and guides of a given frame, for the picture.
     pub(in crate::machine) fn given_frame(&self) -> Vec<Line> {
         if self.has_plate(0) {
             return Vec::new();
@@ -160,7 +161,7 @@ impl Machine {
         bores.chain(guides).collect()
     }
 
-    /// Joint of a body that slides as a block, the height of the block and its travel, mm.
+    /// Joint of a body that slides as a block, the height of the block and its stroke, mm.
     fn sliding(&self, body: usize) -> Option<(&Mount, f64, f64)> {
         let mount = self.bodies[body].mount.as_ref()?;
         let height = self.guided(body).filter(|_| self.has_plate(body))?;
@@ -184,7 +185,7 @@ impl Machine {
         holes.map(row).collect()
     }
 
-    /// Name of the axis of a shaft or pin: that of a point on it, otherwise the body's.
+    /// Name of the axis of a shaft or pin: the name of a point on it, or that of the body if there is no such point.
     fn axis_name(&self, piece: &TurnedPiece, points: &[(String, Vec<Point>)]) -> String {
         let body = self.body_named(&piece.link).unwrap_or(0);
         let here = self.places_of(body, Point::new(piece.at[0], piece.at[1]));
@@ -289,7 +290,7 @@ impl Machine {
     }
 }
 
-/// Tolerance classes of the steps of a shaft or pin but the grooves, each once.
+/// Tolerance classes of the steps of a shaft or pin except the grooves, each once.
 fn classes(pieces: &TurnedPieces) -> String {
     let steps = pieces.part.steps.iter().filter(|step| step.ring.is_none());
     let mut classes: Vec<&str> = steps.map(|step| &*step.class).collect();

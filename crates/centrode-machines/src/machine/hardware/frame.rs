@@ -1,4 +1,5 @@
-//! The frame of a machine whose hardware is designed in full: two plates, below and above all that moves, on posts at their corners.
+//! The frame of a machine whose hardware is designed in full: two plates, below and above all moving parts, with posts at their
+//! corners.
 
 use centrode_geometry::{Bounds, Outline, Point, Solid, SolidError, Vector};
 
@@ -12,14 +13,14 @@ use centrode_gear::design::BodySpec;
 use centrode_kinematics::machine::{Bar, Circlip, Fastening, Fit, JointKind, Stock, TurnedPieces};
 use centrode_spec::digits::thousandths;
 
-/// Distance of the posts from what moves, mm. Ten times less leaves no room for deviations; ten times more wastes plate.
+/// Distance of the posts from the moving parts, mm. Ten times less leaves no room for deviations; ten times more wastes plate.
 const ASIDE: f64 = 2.0;
-/// Diameter of a post in those of its screws: the wall about the thread is half a diameter thick.
+/// Diameter of a post, in diameters of its screws: the wall around the thread is half a diameter thick.
 const POST: f64 = 2.0;
-/// Length of thread that a screw enters at least, in its diameters.
+/// Minimum length of thread that a screw enters, in its diameters.
 const ENTERED: f64 = 1.0;
 
-/// A shaft or pin that one plate of the frame holds alone.
+/// A shaft or pin that only one plate of the frame holds.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Overhang {
     /// Name.
@@ -30,7 +31,7 @@ pub struct Overhang {
     pub diameter: f64,
     /// Length in the frame, mm.
     pub length: f64,
-    /// Distance of the part that is farthest from the middle of this length, mm.
+    /// Maximum distance of a part on it from the middle of this length, mm.
     pub arm: f64,
     /// Materials of the frame and of the shaft.
     pub materials: [String; 2],
@@ -43,32 +44,32 @@ pub(in crate::machine) struct FramePlates {
     screws: Fastening,
     /// Lower and upper faces of both plates, mm.
     spans: [[f64; 2]; 2],
-    /// The lower plate, as rings near it see it.
+    /// The lower plate, as an obstacle for rings near it.
     pub(in crate::machine) lower: Passing,
 }
 
-/// A bore of the frame with the shaft in it, if there is one, and the faces of what is on its axis, mm.
+/// A bore of the frame with the shaft in it, if there is one, and the faces of the parts on its axis, mm.
 struct FrameAxis<'a> {
     hole: PinHole,
     shaft: Option<&'a MachineShaft>,
     spans: Vec<[f64; 2]>,
-    /// Whether the shaft or pin goes on to the upper plate.
+    /// Whether the shaft or pin reaches the upper plate.
     reaches_top: bool,
 }
 
 impl Machine {
-    /// Name of the upper plate of a frame of two plates, and of its files.
+    /// Name of the upper plate of the frame, and of its files.
     pub const FRAME_TOP: &str = "frame-top";
-    /// Name of the files of the posts of such a frame.
+    /// Name of the files of the posts between the plates.
     pub(in crate::machine) const POSTS: &str = "frame-post";
 
-    /// Whether the frame is two plates round all that moves: where it is to be made and not drawn.
+    /// Whether the frame consists of two plates around all moving parts: hardware is `full`, and the design draws no frame.
     pub(in crate::machine) fn has_frame_plates(&self) -> bool {
         self.design.hardware() == Hardware::Full && !self.drawn.contains_key(FRAME)
     }
 
-    /// Lower and upper faces of both plates of the frame, mm: rings of all pins and shafts find room between them and the
-    /// parts.
+    /// Lower and upper faces of both plates of the frame, mm. Between them and the parts there is room for the rings of all pins
+    /// and shafts.
     pub(super) fn frame_spans(&self) -> [[f64; 2]; 2] {
         let spec = &self.design.plates;
         let hubs = self.gears.iter().map(|gear| gear.gear().body().bore);
@@ -121,7 +122,7 @@ impl Machine {
             let post = POST * screws.screw.diameter;
             let aside = Vector::repeat(ASIDE + 0.5 * post);
             let Bounds { min, max } = self.swept();
-            // Whole millimetres.
+            // Rounded outwards to whole millimetres.
             let min = (min - aside).map(f64::floor);
             let max = (max + aside).map(f64::ceil);
             let at = vec![min, Point::new(max.x, min.y), max, Point::new(min.x, max.y)];
@@ -151,14 +152,14 @@ impl Machine {
         self.frame_plates().map(|frame| &frame.screws)
     }
 
-    /// Whether a shaft or pin on the frame goes on from a height to the upper plate without meeting anything.
+    /// Whether a shaft or pin on the frame can reach from a height, mm, to the upper plate without meeting another part.
     fn reaches_top(&self, at: Point, diameter: f64, from: f64) -> bool {
         let tops = self.frame_plates().map(|frame| frame.spans[1][0]);
         let own = BodyPoint { body: 0, at };
         tops.is_some_and(|top| self.is_clear(own, 0.5 * diameter, [from, top]))
     }
 
-    /// The upper plate of the frame on a shaft or pin through the lower one, from the height of what is on it; `None` if it
+    /// The upper plate of the frame as a part on a shaft or pin that reaches it from a height, mm; `None` if the shaft or pin
     /// does not reach it.
     pub(super) fn top_part(&self, at: Point, diameter: f64, from: f64) -> Option<ShaftPart> {
         let frame = self
@@ -174,7 +175,7 @@ impl Machine {
         })
     }
 
-    /// Axes of the bores of the frame, with what is on them.
+    /// Axes of the bores of the frame, with the parts on them.
     fn frame_axes(&self) -> Vec<FrameAxis<'_>> {
         let axes = self.axes();
         let holes = self.pin_holes(0).into_iter().flatten();
@@ -221,7 +222,7 @@ impl Machine {
     /// The upper plate of the frame; `None` if it has none.
     ///
     /// # Errors
-    /// [`SolidError`] where a number is not finite.
+    /// [`SolidError`] if a number is not finite.
     pub fn top_plate(&self) -> Result<Option<Solid>, SolidError> {
         let Some(frame) = self.frame_plates() else {
             return Ok(None);
@@ -259,7 +260,7 @@ impl Machine {
         ]
     }
 
-    /// Pins and shafts but the posts and screws of the frame.
+    /// Pins and shafts without the posts and screws of the frame.
     #[must_use]
     pub fn turned_in_plates(&self) -> Vec<&TurnedPieces> {
         let all = self.turned().iter();
@@ -268,7 +269,7 @@ impl Machine {
         made.collect()
     }
 
-    /// Shafts and pins that one plate of the frame holds alone.
+    /// Shafts and pins that only one plate of the frame holds.
     #[must_use]
     pub fn overhangs(&self) -> Vec<Overhang> {
         let length = self.thickness(0);
@@ -309,7 +310,7 @@ impl Machine {
         found.filter(|overhang| overhang.arm > 0.0).collect()
     }
 
-    /// Bounds of all that moves over the cycle and of the bores of the frame, in its axes, mm.
+    /// Bounds of all moving parts over the cycle and of the bores of the frame, in the frame's axes, mm.
     fn swept(&self) -> Bounds {
         let passage = self.passage();
         let moved = passage.parts.iter().flat_map(|part| {

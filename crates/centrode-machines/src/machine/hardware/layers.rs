@@ -8,57 +8,58 @@ use crate::machine::hardware::pins::Axis;
 use crate::machine::hardware::plates::ONE;
 use crate::machine::{BodyPoint, Machine};
 
-/// Most plates without a layer whose orders are searched: the work doubles with each.
+/// Maximum number of plates without a layer whose orders are searched: each further plate doubles the work.
 const MAX_PLATES: usize = 12;
-/// Most orders that are returned.
+/// Maximum number of orders that are returned.
 const MAX_ORDERS: usize = 8;
-/// Orders of the plates of a machine that have no layer of their own.
+/// Result of the search for orders of the plates that have no layer in the design.
 #[derive(Clone, Debug, PartialEq)]
 pub enum LayerOrders {
-    /// Layers by body in which no pin runs into a plate as far as samples of the cycle show, at most 8.
+    /// Up to 8 orders in which no pin runs into a plate at the sampled inputs, each as layers by body.
     Free(Vec<BTreeMap<String, i32>>),
-    /// In every order one of these pins runs into one of these plates; each as words.
+    /// No order is possible: in each, at least one of these pins runs into the plate named with it. One sentence per pin and
+    /// plate.
     Blocked(Vec<String>),
-    /// More than 12 plates have no layer.
+    /// Number of plates without a layer, if it is more than 12, or the machine has more than 64 plates.
     Many(usize),
 }
 
-/// Plates that lie in one layer: a body, its copies and the blocks in their slots; the frame is the first.
+/// Plates in one layer: of a body, its copies and the blocks in their slots. The frame is the first unit.
 struct Unit {
     name: String,
     bodies: Vec<usize>,
     layer: Option<i32>,
-    /// Layers that it takes up.
+    /// Number of layers that the unit takes up.
     count: i32,
 }
 
-/// A pin or shaft: units that it joins, and heights of gears, cams and rollers on it, mm.
+/// A pin or shaft: the units that it joins, one bit each, and the heights of gears, cams and rollers on it, mm.
 struct Joined {
     name: String,
     units: u64,
     fixed: Option<[f64; 2]>,
 }
 
-/// The search for an order.
+/// State of the search for orders.
 struct Search<'a> {
     composed: &'a Machine,
     units: &'a [Unit],
     pins: &'a [Joined],
-    /// Pins and units that meet on one height.
+    /// Indices of pins and units that meet if their heights overlap.
     hits: &'a BTreeSet<(usize, usize)>,
     first: i32,
     /// First layer that may stay empty.
     dense_until: i32,
     last: i32,
-    /// States, by layer and units below it, from which no order was found.
+    /// States (layer, and units below it) from which no order was found.
     dead: BTreeSet<(i32, u64)>,
     found: Vec<Vec<i32>>,
     most: usize,
 }
 
 impl Machine {
-    /// Orders of the plates without a layer of their own in which no pin runs into a plate, or the pins and plates that leave
-    /// none. Gears and cams are not considered: check the machine with each of them.
+    /// Orders of the plates without a layer of their own in which no pin runs into a plate, or the pins and plates that prevent
+    /// every order. Gears and cams are not considered: check the machine with each order.
     #[must_use]
     pub fn layer_orders(&self) -> LayerOrders {
         let units = self.units();
@@ -103,7 +104,7 @@ impl Machine {
             };
             return LayerOrders::Free(found.into_iter().map(named).collect());
         }
-        // Those without which an order would be free: none of them can be dropped.
+        // Conflicts that are necessary: without any one of them an order would be possible.
         let mut needed = hits.clone();
         for hit in hits {
             needed.remove(&hit);
@@ -125,7 +126,7 @@ impl Machine {
         LayerOrders::Blocked(words.collect())
     }
 
-    /// The machine with layers of bodies, and of their copies.
+    /// The machine with new layers for bodies and their copies.
     #[must_use]
     pub fn with_layers(&self, layers: &BTreeMap<String, i32>) -> Self {
         let mut made = Self {
@@ -147,7 +148,7 @@ impl Machine {
         made
     }
 
-    /// Plates by layers, the frame first.
+    /// Units of the plates, the frame first.
     fn units(&self) -> Vec<Unit> {
         let pitch = self.plates().thickness + self.plates().gap;
         let mut units: Vec<Unit> = Vec::new();
@@ -199,7 +200,7 @@ impl Machine {
         shaft.map_or(self.plates().pin_diameter, |(shaft, _)| shaft.hub.bore)
     }
 
-    /// Name of a pin by a point on it.
+    /// Name of a pin: a body and the name of its hole for the pin.
     fn pin_name(&self, axis: &Axis) -> String {
         let BodyPoint { body, at } = axis.holes[0];
         let mut holes = self.hole_places(body).into_iter().flatten();
@@ -222,7 +223,7 @@ impl Machine {
             .iter()
             .filter_map(|unit| Some(unit.layer? + unit.count));
         let last = highest.fold(0, i32::max) + room;
-        // Below the frame are the gears and cams; below the lower of its two plates is nothing.
+        // Gears and cams are below the frame. Below the lower plate of a frame of two plates there is no other plate.
         let is_free = self.gears.is_empty() && self.cams.is_empty() && !self.has_frame_plates();
         let below = if is_free { room } else { 0 };
         for under in 0..=below {
@@ -248,7 +249,7 @@ impl Machine {
 }
 
 impl Search<'_> {
-    /// Fills the layers from one on above units that are placed; false if no order was found.
+    /// Fills the layers from `layer` on with the units that are not yet placed; false if no order was found.
     fn place(&mut self, layer: i32, placed: u64, layers: &mut Vec<i32>) -> bool {
         checkpoint();
         if placed.count_ones() as usize == self.units.len() {
@@ -307,7 +308,7 @@ impl Search<'_> {
         good
     }
 
-    /// Whether no pin runs into a unit in a layer, above units that are placed and below all others.
+    /// Whether no pin runs into a unit in a layer, with the placed units below it and all others above it.
     fn is_clear(&self, unit: usize, layer: i32, placed: u64) -> bool {
         let plates = self.composed.plates();
         let [low, high] =

@@ -30,7 +30,7 @@ pub enum Hardware {
 }
 
 impl MachineDesign {
-    /// Extent of plates, pins and shafts: as given, or a list if the design describes plates or needs their masses,
+    /// Extent of plates, pins and shafts: as given. By default it is a list if the design describes plates or needs their masses,
     /// otherwise none.
     #[must_use]
     pub fn hardware(&self) -> Hardware {
@@ -46,8 +46,8 @@ impl MachineDesign {
         self.hardware.unwrap_or_else(default)
     }
 
-    /// Whether the design says anything of its plates and pins: `plates` other than the default, or a body with a layer, an
-    /// outline, a circle or a size.
+    /// Whether the design describes plates or pins: `plates` differs from the default, or a body has a layer, an outline, a
+    /// circle or a size.
     fn describes_plates(&self) -> bool {
         let describes = |body: &MachineBodySpec| {
             body.layer.is_some()

@@ -4,7 +4,7 @@ use centrode_geometry::{MassProperties, Solid, SolidError};
 
 use crate::machine::{Machine, MachineCam, MachineGear};
 
-/// Pieces of which a body is made.
+/// Pieces of a body.
 pub(in crate::machine) struct Pieces<'a> {
     pub(in crate::machine) plate: Option<Solid>,
     /// Upper plate of the frame.
@@ -34,7 +34,7 @@ impl<'a, T> BodyPiece<'a, T> {
         }
     }
 
-    /// Its mass, found when it is first asked for.
+    /// Mass of the piece, computed at the first call.
     pub(in crate::machine) fn mass(&self) -> MassProperties {
         let weighed = || self.solid.mass_properties(self.density);
         *self.mass.get_or_init(weighed)
@@ -42,7 +42,7 @@ impl<'a, T> BodyPiece<'a, T> {
 }
 
 impl Pieces<'_> {
-    /// Mass of the plate, or the one given in its place, found when it is first asked for.
+    /// Mass of the plate, or the given mass instead, computed at the first call.
     pub(in crate::machine) fn mass(&self) -> Option<MassProperties> {
         let weighed = || {
             let design = &self.composed.design;
@@ -57,7 +57,7 @@ impl Pieces<'_> {
         *self.mass.get_or_init(weighed)
     }
 
-    /// Mass of all of them; none without any.
+    /// Mass of all pieces; `None` if there are none.
     pub(in crate::machine) fn together(&self) -> Option<MassProperties> {
         let gears = self.gears.iter().map(BodyPiece::mass);
         let cams = self.cams.iter().map(BodyPiece::mass);

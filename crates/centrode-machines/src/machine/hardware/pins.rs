@@ -7,54 +7,54 @@ use crate::machine::{BodyPoint, Machine, MachineCam, ShaftPart};
 use centrode_kinematics::machine::{Bar, Circlip, Fit, Spacer, TurnedPiece, TurnedPieces};
 use centrode_spec::digits::thousandths;
 
-/// Distance, as a share of the pin's diameter, within which axes are one.
+/// Distance, as a share of the pin's diameter, below which two axes count as one.
 const ONE: f64 = 1e-6;
 
-/// Length by which play between rings may move one, mm.
+/// Room for a retaining ring in addition to its own, mm, because axial clearance may move the ring.
 pub(super) const SPARE: f64 = 1.0;
 
 /// Holes on one axis.
 pub(in crate::machine) struct Axis {
     places: Vec<Point>,
-    /// The holes there.
+    /// The holes on this axis.
     pub(in crate::machine) holes: Vec<BodyPoint>,
     /// Lower and upper faces of the plates with these holes, mm.
     pub(in crate::machine) plates: Vec<[f64; 2]>,
     /// Rollers of followers on it, with the height of their lower faces, mm.
     rollers: Vec<(Spacer, f64)>,
-    /// From the lowest face to the highest, mm.
+    /// Heights of the lowest and the highest face, mm.
     span: [f64; 2],
     /// Diameter of its pin, mm.
     size: f64,
 }
 
-/// A pin or shaft with its rings, as others near it see them.
+/// A pin or shaft with its rings, as an obstacle for others near it.
 struct Cylinders {
     /// The holes for it.
     holes: Vec<BodyPoint>,
     radius: f64,
     span: [f64; 2],
     rings: Vec<(Spacer, f64)>,
-    /// Radii that retaining rings reach, and their heights, mm.
+    /// Outer radii of retaining rings, and their heights, mm.
     held: Vec<(f64, [f64; 2])>,
 }
 
 impl Axis {
-    /// Whether places over the period, as [`Machine::places_of`] returns them, are on it.
+    /// Whether positions over the period, as [`Machine::places_of`] returns them, are those of this axis.
     pub(super) fn is_one(&self, places: &[Point]) -> bool {
         let near = ONE * self.size;
         let mut both = self.places.iter().zip(places);
         both.all(|(a, b)| (a - b).norm() < near)
     }
 
-    /// Heights of the plates with a hole on it and of the rollers.
+    /// Heights of the plates with a hole on this axis and of its rollers, mm.
     pub(in crate::machine) fn parts(&self) -> Vec<[f64; 2]> {
         let rollers = self.rollers.iter();
         let rollers = rollers.map(|(roller, at)| [*at, at + roller.length]);
         self.plates.iter().copied().chain(rollers).collect()
     }
 
-    /// A ring on it, no wider than lets it run past the cam of a roller next to it: a sleeve in the place of a wider shim.
+    /// A ring on this axis, narrow enough to pass the cam of a roller next to it: a sleeve instead of a wider shim.
     fn clear_of_cams(&self, ring: Spacer, low: f64) -> (Spacer, f64) {
         let span = [low, low + ring.length];
         let is_next = |roller: &Spacer, at: f64| {
@@ -90,10 +90,10 @@ impl Axis {
 }
 
 impl Machine {
-    /// Shares of the period at which axes of two bodies are one that are one all through it.
+    /// Inputs at which axes of two bodies are compared, as shares of the period: equal there, they count as equal at every input.
     pub const SHARES: [f64; 4] = [0.0, 0.137, 0.411, 0.732];
 
-    /// Shafts, and the pins in the plates that have none.
+    /// Shafts, the pins in plates without a shaft, and the posts of the frame.
     #[must_use]
     pub fn turned(&self) -> &[TurnedPieces] {
         self.turned.get_or_init(|| {
@@ -104,7 +104,7 @@ impl Machine {
         })
     }
 
-    /// The pins in the plates, alike ones together, the shortest first; each belongs to the body nearest to the frame.
+    /// The pins in the plates, equal ones together, the shortest first; each belongs to the body nearest to the frame.
     #[must_use]
     pub fn pins_in_plates(&self) -> Vec<TurnedPieces> {
         let mut axes = self.axes();
@@ -120,7 +120,7 @@ impl Machine {
         }
         axes.sort_by(|a, b| a.length().total_cmp(&b.length()));
         let mut bars: Vec<Cylinders> = axes.iter().map(|axis| self.cylinders(axis)).collect();
-        // A single plate turns on a pin of what is around the machine.
+        // A single plate turns on a pin that is not part of the machine.
         let is_pin = |axis: &Axis| axis.parts().len() > 1 && !self.has_shaft(axis);
         let pins: Vec<usize> = (0..axes.len()).filter(|&n| is_pin(&axes[n])).collect();
         for &number in &pins {
@@ -159,19 +159,19 @@ impl Machine {
         for (index, pins) in found.iter_mut().enumerate().filter(|_| !alone) {
             let number = index + 1;
             pins.part.name = format!("pin-{number}");
-            // Pins of one length may have other spacers.
+            // Pins of equal length may differ in their spacers.
             pins.part.title = pins.part.title.replace("Pin", &format!("Pin {number}"));
         }
         found
     }
 
-    /// The pin of an axis among others.
+    /// The pin of an axis; `bars` are all pins and shafts, `number` is the index of this pin.
     fn pin(&self, axis: &Axis, bars: &[Cylinders], number: usize) -> TurnedPieces {
         let spec = &self.design.plates;
         let own = axis.owner();
         let rings = bars[number].rings.iter();
         let raised = |[low, high]: [f64; 2]| {
-            // Heights of many layers have rounding of their own.
+            // Heights of many layers have rounding errors: round to 1e-9 mm.
             [low, high].map(|z| ((z - axis.span[0]) * 1e9).round() / 1e9)
         };
         let spans = rings.clone().map(|(ring, at)| [*at, at + ring.length]);
@@ -191,7 +191,7 @@ impl Machine {
         let fit = Fit::new("", spec.pin_diameter, [&spec.hole_fit, &spec.pin_fit]);
         let bar = Bar::new(fit, [0.0, length]).through(&on_it);
         let held = |room: [f64; 2]| bar.clone().held(room);
-        // Play between the rings moves each by half of it.
+        // Axial clearance between the rings moves each of them by half of the clearance.
         let needed = Circlip::of_shaft(axis.size).map_or(0.0, Circlip::room);
         let moved = 0.5 * held(room).growth(general);
         let bar = held(room.map(|room| if needed + moved > room { 0.0 } else { room }));
@@ -216,8 +216,8 @@ impl Machine {
         }
     }
 
-    /// Room for a ring beyond a face of the outermost part on an axis, mm: the plates' gap, or what a ring needs where nothing passes
-    /// and what else is asked of its reach and heights is so.
+    /// Room for a ring beyond a face of the outermost part on an axis, mm: the plates' gap, or more if a ring
+    /// needs more, no part passes there, and `is_free` holds for the reach and the heights of the ring.
     pub(super) fn room_at(
         &self,
         own: BodyPoint,
@@ -239,7 +239,7 @@ impl Machine {
         gap.max(if is_free { needed } else { 0.0 })
     }
 
-    /// Pin or shaft on an axis, of which others must keep clear.
+    /// Pin or shaft on an axis, as an obstacle for others.
     fn cylinders(&self, axis: &Axis) -> Cylinders {
         let BodyPoint { body, at } = axis.holes[0];
         let shaft = self.shaft_at(body, at).map(|(shaft, _)| shaft);
@@ -265,7 +265,7 @@ impl Machine {
         shafts.flat_map(|shaft| &shaft.parts).any(is_here)
     }
 
-    /// Places of a point of a body over the period, mm.
+    /// Positions of a point of a body at the inputs [`Self::SHARES`], mm.
     pub(super) fn places_of(&self, body: usize, at: Point) -> Vec<Point> {
         let place = |share: f64| self.place(body, at, share * self.period());
         Self::SHARES.into_iter().map(place).collect()
@@ -309,8 +309,8 @@ impl Machine {
         axes
     }
 
-    /// Rollers of the bodies that follow cams, each with its axis and the height of its lower face, mm: as wide as the
-    /// cam, and as high.
+    /// Rollers of the bodies that follow cams, each with its axis and the height of its lower face, mm. A roller has the width
+    /// and the height of its cam.
     pub(in crate::machine) fn rollers(&self) -> Vec<(BodyPoint, (Spacer, f64))> {
         let of = |cam: &MachineCam, follower: &String| {
             let radius = cam.disc().follower().roller_radius()?;
@@ -326,7 +326,7 @@ impl Machine {
     }
 }
 
-/// Whether a ring of a radius between two heights keeps clear of the other pins and shafts of the bodies that its own holds.
+/// Whether a ring of a radius between two heights clears the other pins and shafts in the bodies that its own pin holds.
 fn is_clear_of(all: &[Cylinders], own: usize, radius: f64, span: [f64; 2]) -> bool {
     let others = all.iter().enumerate().filter(|(other, _)| *other != own);
     let is_level = |[low, high]: [f64; 2]| low < span[1] && high > span[0];
@@ -344,7 +344,7 @@ fn is_clear_of(all: &[Cylinders], own: usize, radius: f64, span: [f64; 2]) -> bo
     })
 }
 
-/// Whether rings of two pins are the same at the same heights.
+/// Whether the rings of two pins are equal and at equal heights.
 fn are_alike(one: &[(Spacer, f64)], other: &[(Spacer, f64)]) -> bool {
     let mut both = one.iter().zip(other);
     let same = |((a, low), (b, high)): (&(Spacer, f64), &(Spacer, f64))| {

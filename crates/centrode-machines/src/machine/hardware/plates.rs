@@ -16,19 +16,19 @@ use centrode_spec::rule::{in_range, not_negative, positive, single_line};
 pub(super) const PIN: f64 = 0.9;
 /// Half length and half height of the block of a body that slides, as shares of a plate's width: higher than the plate.
 pub(super) const BLOCK: [f64; 2] = [1.0, 0.6];
-/// Radius of its corners, as a share of a plate's width.
+/// Radius of the corners of this block, as a share of a plate's width.
 const BLOCK_ROUNDING: f64 = 0.1;
-/// Smallest size of a plate or pin, mm: far below any that is made. Smaller ones have pictures of ten times the points.
+/// Minimum size of a plate or pin, mm: far below any real part. Below it a picture needs ten times as many points.
 const SMALLEST: f64 = 1e-3;
-/// Largest size of a plate or pin, mm.
+/// Maximum size of a plate or pin, mm.
 const FAR: f64 = 1e9;
 /// First and last layer.
 pub(in crate::machine) const LAYERS: [f64; 2] = [-1000.0, 1000.0];
-/// Width of the bars by which bodies without plates are drawn, as a share of the longest distance in a body.
+/// Width of the bars that represent bodies without plates, as a share of the longest distance in a body.
 const BAR: f64 = 0.03;
-/// Distance of two pins, as a share of their diameter, below which they are one.
+/// Distance of two pins, as a share of their diameter, below which they count as one.
 pub(super) const ONE: f64 = 1e-6;
-/// Accuracy of the check of a contour drawn by hand, as a share of its length.
+/// Accuracy of the check of a given contour, as a share of its length.
 const CHECKED: f64 = 1e-6;
 
 /// The bodies as plates drawn round their points.
@@ -108,7 +108,7 @@ impl MachinePlatesSpec {
     }
 }
 
-/// Contours of the bodies that are drawn by hand, by name.
+/// Contours that the design gives for bodies, by name.
 pub(in crate::machine) fn drawn(
     design: &MachineDesign,
 ) -> Result<BTreeMap<String, Outline>, MachineError> {
@@ -128,8 +128,8 @@ impl Machine {
     /// Tolerance classes, ISO 286, of guides and of the blocks that slide in them.
     pub const GUIDE_FIT: [&str; 2] = ["H9", "e9"];
 
-    /// Contour of a body's plate, as drawn or round all its points and slots, and the holes in it, in the body's axes: where other
-    /// bodies are pinned, then its [`slots`](Self::slots); none for a body without a plate.
+    /// Contour of a body's plate, as given or round all its points and slots, and the holes in it, in the body's axes: the holes
+    /// of pins and shafts, then its [`slots`](Self::slots); `None` for a body without a plate.
     #[must_use]
     pub fn contours(&self, body: usize) -> Option<(Outline, Vec<Outline>)> {
         if !self.has_plate(body) {
@@ -153,14 +153,14 @@ impl Machine {
         Some((outline, holes.collect()))
     }
 
-    /// Holes for pins and shafts in a body's plate; none for a body without a plate.
+    /// Holes for pins and shafts in a body's plate; `None` for a body without a plate.
     #[must_use]
     pub fn pin_holes(&self, body: usize) -> Option<Vec<PinHole>> {
         let holes = self.hole_places(body)?.into_iter();
         Some(holes.map(|(name, at)| self.hole(body, name, at)).collect())
     }
 
-    /// Two holes of one plate, or a hole and a slot, that overlap, as words for a message; `None` if there are none.
+    /// Message about two holes of one plate, or a hole and a slot, that overlap; `None` if there are none.
     #[must_use]
     pub fn overlapping_holes(&self) -> Option<String> {
         self.bodies.iter().enumerate().find_map(|(index, body)| {
@@ -200,7 +200,7 @@ impl Machine {
         })
     }
 
-    /// Whether a body is fixed to another at the pin on which that one turns, so that its plate is on the shaft there.
+    /// Whether a body is fixed to a body that turns, with its origin on that body's pin: its plate is then on the shaft there.
     fn is_fixed_on_axis(&self, body: usize) -> bool {
         let own = &self.bodies[body];
         let (root, place) = self.rigid(body);
@@ -235,13 +235,13 @@ impl Machine {
         })
     }
 
-    /// Whether a body has a plate. One on a single point has none, unless it is drawn or has a size.
+    /// Whether a body has a plate. A body with a single point has none, unless it has a given contour or size.
     pub(in crate::machine) fn has_plate(&self, body: usize) -> bool {
         let is_made = body != 0 || self.drawn.contains_key(FRAME) || self.has_frame_plates();
         is_made && self.is_on_axes(body)
     }
 
-    /// Names and places of the holes for pins and shafts in a body, in its axes.
+    /// Names and positions of the holes for pins and shafts in a body, in its axes; `None` if no pin goes through the body.
     pub(in crate::machine) fn hole_places(&self, body: usize) -> Option<Vec<(String, Point)>> {
         if !self.is_on_axes(body) {
             return None;
@@ -258,7 +258,7 @@ impl Machine {
         let axis = axis.then(|| ("axis".to_owned(), Point::origin()));
         let pins = pins.map(|(point, local)| (point.clone(), local.at));
         let pin = self.design.plates.pin_diameter;
-        // Shafts on one axis, as of a carrier and of a gear in its middle, share a hole.
+        // Shafts on one axis, for example of a carrier and of a gear in its middle, share a hole.
         let mut holes: Vec<(String, Point)> = Vec::new();
         for hole in pins.chain(axis) {
             let apart = |known: &(String, Point)| (hole.1 - known.1).norm() > ONE * pin;
@@ -269,8 +269,8 @@ impl Machine {
         Some(holes)
     }
 
-    /// Contour of the bar by which a body of a machine without hardware is drawn, in the body's axes; `None` for the frame and
-    /// for a body on one point.
+    /// Contour of the bar that represents a body of a machine without hardware, in the body's axes; `None` for the frame and
+    /// for a body with a single point.
     #[must_use]
     pub fn bar(&self, body: usize) -> Option<Outline> {
         if body == 0 || self.design.hardware() != Hardware::None {
@@ -282,8 +282,8 @@ impl Machine {
         Outline::hull(&circles).filter(|_| circles.len() > 1)
     }
 
-    /// Circles round which a plate of a width is drawn: about its points, and the corners of a block about the origin of one
-    /// that slides.
+    /// Circles round which a plate of a width, mm, is drawn: about its points, at the ends of its slots, and at the corners of
+    /// the block of a body that slides.
     pub(super) fn circles(&self, index: usize, width: f64) -> Vec<(Point, f64)> {
         let around = |at: Point| (at, self.boss(index, at).max(0.5 * width));
         let mut circles: Vec<(Point, f64)> = self.centers(index).into_iter().map(around).collect();
@@ -348,8 +348,8 @@ impl Machine {
         own.unwrap_or(self.design.plates.width)
     }
 
-    /// Height of the block of a body that slides, mm, which a guide holds on both sides; none for a body that does not slide, is drawn
-    /// by hand or has a slot and no stem.
+    /// Height of the block of a body that slides, mm, which a guide holds on both sides; `None` for a body that does not slide,
+    /// has a given contour, or has a slot and no stem.
     #[must_use]
     pub fn guided(&self, body: usize) -> Option<f64> {
         let own = self.bodies.get(body)?;
@@ -359,7 +359,7 @@ impl Machine {
         is_block.then_some(2.0 * BLOCK[1] * self.width(body))
     }
 
-    /// Checks that the bodies drawn by hand hold the holes of their pins, and that a mass has an inertia or a plate.
+    /// Checks that given contours contain the holes of their pins, and that every given mass has an inertia or a plate.
     pub(in crate::machine) fn check_drawn(&self) -> Result<(), MachineError> {
         for (index, body) in self.bodies.iter().enumerate() {
             if let Some(spec) = self.design.bodies.get(&body.name) {
@@ -422,13 +422,13 @@ impl Machine {
         self.design.plates.height_of(layer)
     }
 
-    /// Layer of a body's plate as written.
+    /// Layer of a body's plate as the design gives it.
     pub(super) fn layer_of(&self, body: usize) -> Option<i32> {
         let spec = self.design.bodies.get(&self.bodies[body].name)?;
         spec.layer
     }
 
-    /// Whether a body has no layer of its own, as a block in a slot.
+    /// Whether a body is a block in a slot, without a layer of its own.
     fn is_in_slot(&self, body: usize) -> bool {
         self.layer_of(body).is_none() && self.guide(body).is_some()
     }
@@ -444,10 +444,10 @@ impl Machine {
         own.unwrap_or(self.design.plates.thickness)
     }
 
-    /// A body as a plate; none for one without a contour.
+    /// The plate of a body; `None` for a body without a contour.
     ///
     /// # Errors
-    /// [`SolidError`] where a number is not finite.
+    /// [`SolidError`] if a number is not finite.
     pub fn plate(&self, body: usize) -> Result<Option<Solid>, SolidError> {
         let Some((outline, holes)) = self.contours(body) else {
             return Ok(None);

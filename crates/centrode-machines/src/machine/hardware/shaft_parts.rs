@@ -1,4 +1,4 @@
-//! Shafts of a composed machine as turned parts, and what the parts list says of them.
+//! Shafts of a composed machine as turned parts, and the remarks of the parts list about them.
 
 use crate::machine::{BodyPoint, Hardware, Hold, Machine, MachineShaft, ShaftPart};
 use centrode_geometry::COMPUTED;
@@ -7,11 +7,11 @@ use centrode_kinematics::machine::{
 };
 use centrode_spec::digits::thousandths;
 
-/// Diameters of its own that a shaft goes on to what drives or holds it.
+/// Length, in shaft diameters, by which a shaft goes on to its drive or to the part that holds it.
 const FREE_END: f64 = 3.0;
 
 impl Machine {
-    /// The shafts as turned parts, those of copies as pieces of one.
+    /// The shafts as turned parts; shafts of copies are further pieces of those of the originals.
     #[must_use]
     pub fn turned_shafts(&self) -> Vec<TurnedPieces> {
         let mut found: Vec<(&str, TurnedPieces)> = Vec::new();
@@ -118,7 +118,7 @@ impl Machine {
         made
     }
 
-    /// Note of the parts list on how a gear or cam is held, where that is not by its shaft alone.
+    /// Remark of the parts list on a gear or cam without a shaft, or with another bore or keyway than its shaft; else `None`.
     pub(in crate::machine) fn hold_remark(&self, name: &str) -> Option<&'static str> {
         let mut parts = self.shafts().iter().flat_map(|shaft| &shaft.parts);
         let own = parts.find(|part| !part.is_plate && part.name == name);
@@ -130,7 +130,7 @@ impl Machine {
         }
     }
 
-    /// Lists what drives bodies from outside, and what fixes bodies to others away from any shaft of both.
+    /// Lists the drives that turn bodies from outside, and the joints that fix bodies to others if no shaft joins them.
     pub(super) fn list_drives(&self, machine: &mut LinkedMachine) {
         for (index, body) in self.bodies.iter().enumerate().skip(1) {
             let Some(mount) = &body.mount else { continue };
@@ -153,7 +153,7 @@ impl Machine {
         }
     }
 
-    /// Lists the brackets, which are the customer's, of gears or cams through which the shaft of another body goes.
+    /// Lists the brackets of gears or cams through which the shaft of another body passes. They come from the customer.
     pub(in crate::machine) fn list_brackets(&self, machine: &mut LinkedMachine) {
         let parts = self
             .shafts()
@@ -200,7 +200,7 @@ impl Machine {
         }
     }
 
-    /// Lowest and highest face of the plates of all bodies but the first ones, gears and cams, mm.
+    /// Lowest and highest face of the plates of the bodies from `first` on, and of all gears and cams, mm.
     pub(super) fn extent_from(&self, first: usize) -> [f64; 2] {
         let plates = (first..self.bodies.len()).filter(|&body| self.is_on_axes(body));
         let plates = plates.map(|body| {
@@ -219,8 +219,8 @@ impl Machine {
     }
 }
 
-/// Seats on a shaft as one where nothing turns between them, and out to its ends where nothing turns beyond them: those that reach below what
-/// turns are none.
+/// Joins the seats on a shaft between which nothing turns, and extends them to the ends of the shaft if nothing turns there.
+/// Seats that overlap a turning part are dropped.
 fn joined(mut seats: Vec<[f64; 2]>, turning: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let is_free = |from: f64, to: f64| {
         let within = |part: &[f64; 2]| part[0] < to - COMPUTED && part[1] > from + COMPUTED;
@@ -247,7 +247,7 @@ fn joined(mut seats: Vec<[f64; 2]>, turning: &[[f64; 2]]) -> Vec<[f64; 2]> {
     all
 }
 
-/// Notes of a shaft's sheet: its free end, and keyways that are on one line.
+/// Notes of a shaft's sheet: on its free end, and on keyways that are in line.
 fn notes(on_it: &[&ShaftPart], is_driven: bool) -> Vec<String> {
     let mut notes = Vec::new();
     if is_driven {

@@ -12,24 +12,24 @@ use crate::machine::{BodyPoint, Machine};
 use centrode_gear::design::BodySpec;
 use centrode_kinematics::machine::{JointKind, Key, Keyway};
 
-/// Wall of a plate next to the hole of a shaft, as a share of its diameter.
+/// Wall of a plate next to the hole of a shaft, as a share of the shaft's diameter.
 const WALL: f64 = 0.14;
-/// Steps of the diameter of a plate about a shaft, mm.
+/// Step to which the diameter of a plate about a shaft is rounded, mm.
 const STEP: f64 = 0.5;
 /// Shaft through plates, gears and cams on one axis.
 #[derive(Clone, Debug, PartialEq)]
 pub struct MachineShaft {
-    /// Name of its first gear or cam, or of its body where it carries none.
+    /// Name of its first gear or cam, or of its body if it carries neither.
     pub name: String,
     /// Index of the body that it belongs to.
     pub body: usize,
-    /// Place of its axis in the body's axes, mm.
+    /// Position of its axis in the body's axes, mm.
     pub at: Point,
-    /// Bore, keyway with its direction in the body's axes, classes and material of what sits on it.
+    /// Bore, keyway with its direction in the body's axes, tolerance classes and materials of the parts that are fixed on it.
     pub hub: BodySpec,
     /// Whether it is driven from outside.
     pub is_driven: bool,
-    /// Parts that it carries.
+    /// Parts on the shaft.
     pub parts: Vec<ShaftPart>,
 }
 
@@ -40,7 +40,7 @@ pub struct ShaftPart {
     pub name: String,
     /// Index of its body.
     pub body: usize,
-    /// Place of the hole or bore in the body's axes, mm.
+    /// Position of the hole or bore in the body's axes, mm.
     pub at: Point,
     /// Whether it is the plate of its body.
     pub is_plate: bool,
@@ -50,23 +50,23 @@ pub struct ShaftPart {
     pub hold: Hold,
 }
 
-/// How a part is joined with a shaft.
+/// Joint between a part and a shaft.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Hold {
     /// By a parallel key, which sets its angle, too.
     Keyed(Key),
-    /// Fixed on it without a key, by means of the customer.
+    /// Fixed on the shaft without a key; the customer chooses the means.
     Given,
-    /// It turns on it.
+    /// The part turns on the shaft.
     Turning,
     /// The shaft passes through its bore; a bracket holds it on its body.
     Bracket,
-    /// Its bore or keyway is not that of the shaft.
+    /// The bore or keyway of the part differs from that of the shaft.
     Loose,
 }
 
 impl Hold {
-    /// Whether it turns with the shaft.
+    /// Whether the part turns with the shaft.
     #[must_use]
     pub fn is_fixed(self) -> bool {
         matches!(self, Self::Keyed(_) | Self::Given)
@@ -78,16 +78,17 @@ struct Wheel {
     name: String,
     body: usize,
     at: Point,
-    /// Its body, the keyway's direction in the axes of the body that carries it.
+    /// Dimensions of its body; the direction of the keyway is in the axes of the body that carries it.
     hub: BodySpec,
     span: [f64; 2],
 }
 
 impl Machine {
-    /// Shafts of its gears and cams, and those by which bodies are driven from outside.
+    /// Shafts of the machine's gears and cams, and those by which bodies are driven from outside.
     ///
-    /// Each belongs to the body of the gear with the narrowest bore, of these of the one next to the plates. What is on this body, or on others fixed to it, sits on the
-    /// shaft, keyed where the gear has a keyway; what is on other bodies turns on it.
+    /// Each belongs to the body of the gear or cam with the narrowest bore, the highest one of several. Plates and wheels of
+    /// this body, and of bodies fixed to it, are fixed on the shaft, with a key if the gear has a keyway. Plates of other bodies
+    /// turn on it.
     #[must_use]
     pub fn shafts(&self) -> &[MachineShaft] {
         self.shafts.get_or_init(|| self.found_shafts())
@@ -136,7 +137,7 @@ impl Machine {
         bored.collect()
     }
 
-    /// Whether a body turns on the frame by a law of its own, moved by nothing else of the machine.
+    /// Whether a body turns on the frame by a law of its own, and nothing else in the machine moves it.
     pub(in crate::machine) fn is_driven(&self, body: usize) -> bool {
         let own = &self.bodies[body];
         let law = self
@@ -149,7 +150,7 @@ impl Machine {
         is_outside && on_frame.is_some_and(|m| m.carrier == 0 && m.kind == JointKind::Turning)
     }
 
-    /// The body to which a body is fixed in the end, and its place there.
+    /// The body to which a body is fixed, directly or through others, and the pose of the fixed body's axes in it.
     pub(in crate::machine) fn rigid(&self, mut body: usize) -> (usize, Isometry2<f64>) {
         let mut place = Isometry2::identity();
         while let Some(mount) = &self.bodies[body].mount
@@ -166,12 +167,13 @@ impl Machine {
             .iter()
             .filter(|wheel| axis.is_one(&self.places_of(wheel.body, wheel.at)))
             .collect();
-        // A shaft goes through wider bores: brackets hold what they are in.
+        // The narrowest bore gives the shaft's diameter; brackets hold gears and cams with wider bores.
         own.sort_by(|a, b| {
             let narrower = a.hub.bore.total_cmp(&b.hub.bore);
             narrower.then(b.span[1].total_cmp(&a.span[1]))
         });
-        // By the joint on the frame at its origin, or with another plate that is fixed to it.
+        // Bodies that need a shaft at their origin: those driven from outside, and those with another plate fixed to them on
+        // this axis.
         let is_own = |&&BodyPoint { body, at }: &&BodyPoint| {
             let here = at.coords.norm() <= COMPUTED * self.design.plates.width;
             let root = self.rigid(body).0;
@@ -188,7 +190,7 @@ impl Machine {
             (None, Some(&BodyPoint { body, at }))
                 if axis.holes.len() > 1 && plates.pin_diameter > 0.0 =>
             {
-                // Seats with keys have the classes of gears, all others those of pins.
+                // With a keyway the tolerance classes are those of gears, otherwise those of pins.
                 let keyway = Keyway::of_bore(plates.pin_diameter);
                 let classes = match keyway {
                     Some(_) => BodySpec::default(),
@@ -268,7 +270,7 @@ impl Machine {
         })
     }
 
-    /// Indices of the meshes of a gear among those of its machine, and whether it is the driven one there.
+    /// Indices of the meshes of a gear in the machine, each with whether the gear is the driven one there.
     #[must_use]
     pub fn meshes_of(&self, gear: &str) -> Vec<(usize, bool)> {
         let is_it = |index: usize| self.gears[index].name == gear;
@@ -279,7 +281,7 @@ impl Machine {
             .collect()
     }
 
-    /// The shaft through a body's plate at a place, and how the plate is joined with it.
+    /// The shaft through a body's plate at a position, and the joint between plate and shaft.
     pub(super) fn shaft_at(&self, body: usize, at: Point) -> Option<(&MachineShaft, Hold)> {
         let near = COMPUTED * self.design.plates.width;
         let is_here =
@@ -290,7 +292,7 @@ impl Machine {
         })
     }
 
-    /// A hole in a body's plate as a shaft or a pin asks for it.
+    /// A hole in a body's plate, sized for its shaft or pin.
     pub(in crate::machine) fn hole(&self, body: usize, name: String, at: Point) -> PinHole {
         let spec = &self.design.plates;
         let pin = BodySpec {
@@ -322,14 +324,14 @@ impl Machine {
         PinHole { name, at, hub }
     }
 
-    /// Radius of a plate about the hole of a shaft, mm, that leaves a wall; zero where there is none.
+    /// Radius of a plate about the hole of a shaft, mm, that leaves a wall; zero if no shaft needs it.
     pub(super) fn boss(&self, body: usize, at: Point) -> f64 {
         let shaft = self.shaft_at(body, at).map(|(shaft, _)| shaft);
-        // Round holes of pins, whatever goes through them, are narrower than the plates.
+        // Round holes of the pins' diameter need none: the plates are wide enough for them.
         let pin = self.design.plates.pin_diameter;
         let shaft = shaft.filter(|shaft| shaft.hub.bore != pin || shaft.hub.keyway.is_some());
         let around = |shaft: &MachineShaft| shaft.hub.bore_reach() + WALL * shaft.hub.bore;
-        // A diameter of whole steps.
+        // The diameter is a multiple of the step.
         shaft.map_or(0.0, |shaft| {
             0.5 * STEP * (2.0 * around(shaft) / STEP).ceil()
         })

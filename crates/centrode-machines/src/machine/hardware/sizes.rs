@@ -1,4 +1,4 @@
-//! Sizes of plates and pins: as given, or by the room for them.
+//! Sizes of plates and pins: as given, or by default from the distances of holes.
 
 use std::ops::Deref;
 
@@ -11,18 +11,18 @@ use centrode_kinematics::machine::{JointKind, preferred_size_below};
 use centrode_spec::SpecError;
 use centrode_spec::rule::in_range;
 
-/// Default thickness, gap, width and pin diameter, mm, where holes are at least [`ROOM`] apart.
+/// Default thickness, gap, width and pin diameter, mm, if holes are at least [`ROOM`] apart.
 const SIZES: [f64; 4] = [5.0, 1.0, 8.0, 3.0];
 /// Distance of two holes, mm, below which the default sizes shrink with it: a plate of the default width then still passes the
 /// pin at the other end of a bar.
 const ROOM: f64 = 8.0;
-/// Distance of a hole from the path of a block in the same plate that counts as one, in widths: half the block, the round end of
-/// its slot, the gap, the wall and half the pin.
+/// Ratio of the distance between a hole and the path of a block in the same plate to the equivalent distance of two holes.
+/// In widths it is half the block, the round end of its slot, the gap, the wall and half the pin.
 const SLOT: f64 = 2.2;
-/// Distance of two holes, as a share of the longest one, below which they are one by rounding.
+/// Distance of two holes, as a share of the longest distance, below which they count as one hole.
 const ONE: f64 = 1e-4;
 
-/// Sizes of the plates and pins of a machine, and what else is given of them.
+/// Sizes of the plates and pins of a machine, with the other values of the design's table `plates`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plates {
     /// Thickness of a plate, mm.
@@ -36,7 +36,7 @@ pub struct Plates {
     spec: MachinePlatesSpec,
 }
 
-/// Classes, materials and density as written.
+/// Gives access to tolerance classes, materials and density as the design gives them.
 impl Deref for Plates {
     type Target = MachinePlatesSpec;
 
@@ -46,7 +46,7 @@ impl Deref for Plates {
 }
 
 impl Plates {
-    /// Sizes as given; the others are those of plates whose holes are a distance apart, mm, and the pins fit into the narrowest
+    /// Sizes as given. The others follow from the shortest distance of two holes, `room`, mm; pins fit into the narrowest
     /// plate.
     fn new(design: &MachineDesign, room: f64) -> Self {
         let spec = design.plates.clone();
@@ -55,7 +55,7 @@ impl Plates {
             true => preferred_size_below(share * size),
             false => size,
         });
-        // A given pin needs a plate that holds it; the margin is rounding.
+        // A given pin needs a plate that is wide enough; the factor allows for rounding.
         let held = spec
             .pin_diameter
             .map_or(0.0, |pin| pin / PIN * (1.0 + 1e-9));
@@ -75,13 +75,13 @@ impl Plates {
         }
     }
 
-    /// Height of the lower face of what lies in a layer along the shafts, mm.
+    /// Height of the lower face of a layer along the shafts, mm.
     pub(in crate::machine) fn height_of(&self, layer: f64) -> f64 {
         layer * (self.thickness + self.gap)
     }
 }
 
-/// A design with its copies written out and the sizes of its plates, which take the place of those that it gives.
+/// A design with its copies written out, and the sizes of its plates, which replace those of the design.
 #[derive(Clone, Debug)]
 pub(in crate::machine) struct Sized {
     design: MachineDesign,
@@ -106,7 +106,7 @@ impl Deref for Sized {
 }
 
 impl Sized {
-    /// Layer of a body as given.
+    /// Sets the layer of a body.
     pub(super) fn set_layer(&mut self, body: &str, layer: i32) {
         let spec = self.design.bodies.entry(body.to_owned()).or_default();
         spec.layer = Some(layer);
@@ -114,23 +114,23 @@ impl Sized {
 }
 
 impl Machine {
-    /// Sizes of its plates and pins.
+    /// Sizes of the machine's plates and pins.
     ///
-    /// A size that `plates` does not give is 5 mm (thickness), 1 mm (gap), 8 mm (width) or 3 mm (pin diameter), and less in
-    /// proportion where two holes of a plate are closer than 8 mm, rounded down to a preferred size, ISO 497 R"20. A hole and
-    /// the path of a block in one plate count as 2.2 times as close.
+    /// A size that `plates` does not give is 5 mm (thickness), 1 mm (gap), 8 mm (width) or 3 mm (pin diameter). It is smaller in
+    /// proportion if two holes of a plate are closer than 8 mm, rounded down to a preferred size, ISO 497 R"20. The distance
+    /// between a hole and the path of a block in one plate counts divided by 2.2.
     #[must_use]
     pub fn plates(&self) -> &Plates {
         &self.design.plates
     }
 
-    /// The machine with its plates and pins sized.
+    /// The machine with sizes for its plates and pins.
     pub(in crate::machine) fn sized(mut self) -> Self {
         self.design.plates = Plates::new(&self.design, self.room());
         self
     }
 
-    /// Shortest distance of two holes in a plate, mm; infinite where no plate has two.
+    /// Shortest distance of two holes in a plate, mm; infinite if no plate has two.
     fn room(&self) -> f64 {
         let mut all = Vec::new();
         for body in 0..self.bodies.len() {
@@ -149,7 +149,7 @@ impl Machine {
         apart.fold(f64::INFINITY, f64::min)
     }
 
-    /// Path of the middle of a block in the plate with its line.
+    /// Path of the middle of a block, in the axes of the plate with the block's slot.
     fn path_in(&self, block: usize) -> Slot {
         let mount = self.bodies[block].mount.as_ref();
         let ends = mount.map_or([Point::origin(); 2], |mount| match mount.kind {

@@ -43,8 +43,8 @@ impl Slot {
 impl Machine {
     /// Slots in a body's plate, one per block of a dyad that slides in it.
     ///
-    /// A slot is as wide as the block is high. It is longer than the range of the block by `plates.gap` at either end, round
-    /// ends apart.
+    /// A slot is as wide as the block is high. Apart from its round ends, it is longer than the range of the block by
+    /// `plates.gap` at each end.
     #[must_use]
     pub fn slots(&self, body: usize) -> Vec<Slot> {
         let dyads = self.dyads.iter();
@@ -55,8 +55,8 @@ impl Machine {
             .collect()
     }
 
-    /// Body in whose plate's slot the block of a dyad slides; `None` for any other body, for a block drawn by hand, with a point
-    /// off its line or on another layer, and for a line of the frame, whose guides are the customer's.
+    /// Body with a slot in which the block of a dyad slides. `None` for a body that is not such a block, for a block with a given
+    /// contour, with a point off its line or on another layer, and for a line of the frame, whose guides are the customer's.
     #[must_use]
     pub fn slotted(&self, block: usize) -> Option<usize> {
         let guide = self.guide(block)?;
@@ -65,7 +65,7 @@ impl Machine {
         is_level.then_some(guide)
     }
 
-    /// Body with a plate that has the line of a dyad's block, if the block can slide in a slot of it.
+    /// Body whose plate contains the line of a dyad's block, if the block can slide in a slot of that plate.
     pub(in crate::machine) fn guide(&self, block: usize) -> Option<usize> {
         let own = self.bodies.get(block)?;
         let mount = own.mount.as_ref()?;
@@ -104,8 +104,9 @@ impl Machine {
         })
     }
 
-    /// Contour of a body that slides and has a slot across, with a stem on both sides that its guides hold: as long beyond the
-    /// slot's wall as its stroke and two widths. `None` for any other body, and where the wall does not pass the stem.
+    /// Contour of a sliding body with a slot across its direction, and with a stem on both sides for its guides. Each stem
+    /// extends beyond the wall of the slot by the stroke plus two widths. `None` for any other body, and if the wall is not
+    /// straight over the height of the stem.
     pub(super) fn stemmed(&self, body: usize) -> Option<Outline> {
         let own = &self.bodies[body];
         let JointKind::Sliding([low, high]) = own.mount.as_ref()?.kind else {
@@ -134,7 +135,7 @@ impl Machine {
                 sides.push(*side);
                 continue;
             }
-            // The contour runs counter-clockwise: up on the right.
+            // The contour runs counter-clockwise: upwards on the right side.
             let (tip, first) = match to.y > from.y {
                 true => (bounds.max.x + length, -half),
                 false => (bounds.min.x - length, half),
@@ -159,7 +160,7 @@ impl Machine {
         Outline::new(sides).ok().filter(|_| stems == 2)
     }
 
-    /// Wall of a plate next to a slot, mm: as next to the holes of its pins.
+    /// Wall of a plate next to a slot, mm: equal to the wall next to the holes of its pins.
     pub(in crate::machine) fn wall(&self, body: usize) -> f64 {
         0.5 * (self.width(body) - self.design.plates.pin_diameter)
     }

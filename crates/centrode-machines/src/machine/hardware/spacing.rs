@@ -5,19 +5,19 @@ use centrode_geometry::{COMPUTED, Outline, Point, Tolerance, Vector};
 use crate::machine::{BodyPoint, Machine};
 use centrode_kinematics::machine::Spacer;
 
-/// Steps of the cycle at which what passes a ring is looked at.
+/// Steps of the cycle at which the parts that pass a ring are sampled.
 const STEPS: u32 = 360;
-/// Distance from their contours within which the corners of what passes are, mm.
+/// Accuracy of the corners that represent the contour of a passing part, mm.
 const FINE: f64 = 1e-2;
 
-/// A plate, gear, cam or roller that may pass a ring: its body, its heights and its corners there.
+/// A plate, gear, cam or roller that may pass a ring: its body, its heights, and its corners in the body's axes.
 #[derive(Clone, Debug)]
 pub(in crate::machine) struct Passing {
     pub(in crate::machine) body: usize,
     span: [f64; 2],
     pub(in crate::machine) corners: Vec<Point>,
     outline: Outline,
-    /// Distance of its farthest point from the origin of the body, mm.
+    /// Distance of the part's farthest point from the origin of the body, mm.
     reach: f64,
 }
 
@@ -71,8 +71,8 @@ impl Machine {
         }
     }
 
-    /// Rings in the gaps between parts, given by their faces (mm), on an axis at a place of a body, with the height of
-    /// the lower face of each. None in a gap that another part reaches into, or where one passes closer than the plates' gap.
+    /// Rings in the gaps between parts, given by their faces (mm), on an axis at a position of a body, with the height of the
+    /// lower face of each. A gap has no ring if another part reaches into it, or passes closer than the plates' gap.
     pub(in crate::machine) fn spacers(
         &self,
         own: BodyPoint,
@@ -103,7 +103,7 @@ impl Machine {
         found
     }
 
-    /// Whether all parts keep farther from an axis than a radius and the plates' gap, mm, between two heights.
+    /// Whether all parts between two heights are farther from an axis than a radius plus the plates' gap, mm.
     pub(super) fn is_clear(&self, own: BodyPoint, radius: f64, gap: [f64; 2]) -> bool {
         let passage = self.passage();
         let frame = self.frame_plates().map(|frame| &frame.lower);
@@ -113,7 +113,7 @@ impl Machine {
         let parts = passage.parts.iter().chain(frame);
         parts.filter(reaches_into).all(|part| {
             let path = passage.frames.path(part.body, own);
-            // Between two steps the axis comes nearer by at most half the distance between them.
+            // Between two steps the distance can be smaller than at both by at most half the movement of the axis.
             let keeps_away = |distance: &dyn Fn(Point) -> f64| {
                 let mut before: Option<(Point, f64)> = None;
                 path.clone().all(|at| {
@@ -128,7 +128,7 @@ impl Machine {
         })
     }
 
-    /// Whether the plate of a body comes nearer to an axis than a radius, mm, at a step of the cycle, whatever their heights.
+    /// Whether the plate of a body is nearer to an axis than a radius, mm, at a step of the cycle, regardless of their heights.
     pub(super) fn meets(&self, own: BodyPoint, radius: f64, body: usize) -> bool {
         let passage = self.passage();
         // A body's plate comes before its gears.
@@ -141,7 +141,7 @@ impl Machine {
         })
     }
 
-    /// Parts that may pass a ring but the frame's two plates, and the motion of all bodies.
+    /// Parts that may pass a ring, without the two plates of the frame, and the motion of all bodies.
     pub(in crate::machine) fn passage(&self) -> &Passage {
         self.passage.get_or_init(|| {
             let step = self.period() / f64::from(STEPS);
@@ -202,7 +202,7 @@ impl Passing {
         })
     }
 
-    /// Distance of a place in the body's axes from the part, mm; zero inside.
+    /// Distance of a position in the body's axes from the part, mm; zero inside.
     fn distance(&self, at: Point) -> f64 {
         if self.outline.contains(at) {
             return 0.0;

@@ -1,4 +1,4 @@
-//! Laws of a joint that gears with a gap or a groove give it.
+//! Laws of joints that an intermittent gear or a grooved shaft drives.
 
 use std::sync::Arc;
 
@@ -11,7 +11,7 @@ use centrode_kinematics::transmission::Transmission;
 use centrode_spec::rule::{count_in_range, finite, in_range, positive};
 use centrode_spec::{SpecError, degrees};
 
-/// Most pitches round a gear.
+/// Maximum number of pitches of a gear.
 const MAX_PITCHES: u32 = 1000;
 
 /// Motion of a gear driven by an intermittent one: it turns and rests.
@@ -93,7 +93,7 @@ impl IntermittentSpec {
         in_range("entry_deg", self.entry.to_degrees(), [0.0, 180.0], " deg")
     }
 
-    /// The motion by the driver's turn, or why there is none.
+    /// The motion as a function of the driver's turn, or the reason why there is none.
     pub(in crate::machine) fn resolve(&self) -> Result<Arc<dyn Transmission>, String> {
         let (driver, driven) = (self.driver_pitches, self.driven_pitches);
         let drive = IntermittentDrive::new(driver, driven, self.teeth, self.entry);
@@ -110,7 +110,7 @@ impl TraverseSpec {
         finite("return_offset", self.return_offset)
     }
 
-    /// The motion by the shaft's turn, or why there is none.
+    /// The motion as a function of the shaft's turn, or the reason why there is none.
     pub(in crate::machine) fn resolve(&self) -> Result<Arc<dyn Transmission>, String> {
         let law = self.law.resolve(self.lead, self.radius);
         let made = law.and_then(|law| {

@@ -8,7 +8,7 @@ use centrode_geometry::COMPUTED;
 use centrode_kinematics::formula::Formula;
 use centrode_kinematics::transmission::{FromFn, MotionJet, Transmission};
 
-/// A formula that has values all over a period.
+/// A formula, checked to have finite values and derivatives over a period.
 pub(in crate::machine) fn formula_of(
     text: &str,
     period: f64,
@@ -32,7 +32,7 @@ pub(in crate::machine) fn formula_of(
     Ok(jet)
 }
 
-/// A formula as a law that repeats up to its growth over the period.
+/// A formula as a law that repeats after a period, apart from a constant growth.
 pub(in crate::machine) fn expression(
     text: &str,
     start: f64,
@@ -54,7 +54,7 @@ pub(in crate::machine) fn expression(
         }
     }
     let advance = last.position - first.position;
-    // Whole turns, none among them, up to rounding.
+    // Growth that is a whole number of turns (also zero) within rounding is set to this number.
     let whole = TAU * (advance / TAU).round();
     let advance = if (advance - whole).abs() <= COMPUTED * first.position.abs().max(1.0) {
         whole

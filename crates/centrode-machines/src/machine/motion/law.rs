@@ -16,15 +16,15 @@ use centrode_spec::digits::stated;
 use centrode_spec::rule::{Rule, broken, finite, in_range};
 use centrode_spec::{SpecError, degrees};
 
-/// Maximum speed of a body, rad or mm per rad of the input; only at a pole is one faster.
+/// Maximum speed of a body, rad or mm per rad of the input. A faster motion is taken for a pole.
 const FASTEST: f64 = 1e4;
-/// Inputs a turn at which the speed is sampled: within half a step of a pole like that of tan(phi) it is above the limit.
+/// Inputs per turn at which the speed is sampled: half a step from a pole such as that of tan(phi) it is above the limit.
 const SAMPLES: u32 = 720;
 
-/// Maximum number of cached laws: a machine has some.
+/// Maximum number of cached laws: a machine has a few.
 const CACHED: usize = 32;
 
-/// A law, or why there is none.
+/// A law, or the reason why there is none.
 type Made = Result<Arc<dyn Transmission>, MachineLawError>;
 
 /// Motion of a body on the one that carries it, by the input: the sum of a start and at most one of the others.
@@ -82,32 +82,32 @@ pub enum MachineLawError {
         /// Input, deg.
         degrees: f64,
     },
-    /// Segments that make no motion.
+    /// Segments that do not form a motion.
     #[error(transparent)]
     Cam(#[from] MotionError),
-    /// A table that makes no curve.
+    /// A table that does not form a curve.
     #[error("{why}")]
     Table {
         /// Key of the table.
         key: &'static str,
-        /// The rule broken.
+        /// The violated rule.
         why: String,
     },
-    /// A table of angles that can be read as turning on or as swinging back.
+    /// A table of angles after which the body may either turn on or swing back.
     #[error(
         "its last step is not clear next to its largest step of {} deg: {}, {}; set law.turns to one of them",
         stated(.0[0].largest_step.to_degrees()), .0[0].words(), .0[1].words()
     )]
     UnclearTable([TableReading; 2]),
-    /// An intermittent drive or a groove that cannot be.
+    /// An intermittent drive or a groove that is not possible.
     #[error("{why}")]
     Drive {
         /// Key of the drive.
         key: &'static str,
-        /// The rule broken.
+        /// The violated rule.
         why: String,
     },
-    /// A motion that never comes back as the body it follows does.
+    /// A motion that does not repeat together with the body that replaces the input.
     #[error(transparent)]
     By(#[from] TransmissionError),
     /// A turning body that is not back at its first position after a period.
@@ -128,7 +128,7 @@ pub enum MachineLawError {
         /// Key of the law.
         key: &'static str,
     },
-    /// A motion that runs away, as at a pole.
+    /// A motion that is too fast, as at a pole.
     #[error(
         "moves the body at {speed:.3e} {unit} per rad of the input at {degrees} deg; at most {FASTEST} is allowed"
     )]
@@ -142,7 +142,7 @@ pub enum MachineLawError {
         /// Input, deg.
         degrees: f64,
     },
-    /// A motion that does not come back.
+    /// A motion that is not periodic.
     #[error("{what} is {start} at the start of the period and {end} at its end")]
     Open {
         /// The motion or its derivative.
@@ -172,7 +172,7 @@ impl MachineLawError {
 }
 
 impl MachineLawSpec {
-    /// Keys of the motions that are given.
+    /// Keys of the given motions.
     fn motions(&self) -> impl Iterator<Item = &'static str> + use<> {
         let given = [
             ("ratio", self.ratio.is_some()),
@@ -262,14 +262,14 @@ impl MachineLawSpec {
         }
     }
 
-    /// Reading of its table of angles; `None` if it has none, or one that is not clear.
+    /// Reading of the law's table of angles; `None` if there is no table, or if its reading is not clear.
     #[must_use]
     pub fn table_reading(&self) -> Option<TableReading> {
         let given = !self.table_angles.is_empty();
         given.then(|| TableReading::of(&self.table_angles, self.turns).ok())?
     }
 
-    /// Whether it moves the body by the input.
+    /// Whether the law gives the body a motion of its own; false for a body at rest and for the follower of a cam.
     pub(in crate::machine) fn moves(&self) -> bool {
         let turns = self.ratio.is_some_and(|ratio| ratio != 0.0);
         let table = !self.table_angles.is_empty() || !self.table.is_empty();
@@ -282,14 +282,13 @@ impl MachineLawSpec {
         self.start_angle.or(self.start).unwrap_or(0.0)
     }
 
-    /// The law over a period of so many turns of the input, of a body that slides or turns and follows no
-    /// cam; `by` is the turn of the body that
-    /// replaces the input.
+    /// The law over a period of `turns` turns of the input, for a body that slides or turns and follows no cam; `by` is the
+    /// turn of the body that replaces the input.
     ///
-    /// A law of the input alone is cached, so that the cached trains that it moves are found by it.
+    /// A law of the input alone is cached, because cached trains are found by the laws that move them.
     ///
     /// # Errors
-    /// [`MachineLawError`] where it cannot be read, or does not come back.
+    /// [`MachineLawError`] if the law cannot be read, or is not periodic.
     pub(in crate::machine) fn resolve(
         &self,
         turns: u32,
@@ -302,7 +301,7 @@ impl MachineLawSpec {
                 self.checked(self.motion(turns)?, turns, slides)
             }),
             Some(by) => {
-                // A cycle of what it follows: its turns in the period, or one where it swings.
+                // A cycle of the body that replaces the input: its whole turns in the period, at least one.
                 let period = TAU * f64::from(turns);
                 let turned = by.advance() * period / (by.period() * TAU);
                 let own = self.motion(turned.abs().round().max(1.0) as u32)?;
@@ -311,7 +310,7 @@ impl MachineLawSpec {
         }
     }
 
-    /// A motion that is slow enough and comes back.
+    /// Checks that a motion is slow enough and periodic, and returns it.
     fn checked(&self, law: Arc<dyn Transmission>, turns: u32, slides: bool) -> Made {
         let period = TAU * f64::from(turns);
         let key = self.motions().next().unwrap_or("ratio");
@@ -348,7 +347,7 @@ impl MachineLawSpec {
         Ok(law)
     }
 
-    /// The law by its own input over so many turns of that.
+    /// The law as a function of its own input, over a period of `turns` turns of this input.
     fn motion(&self, turns: u32) -> Result<Arc<dyn Transmission>, MachineLawError> {
         let start = self.offset();
         let drive = |key: &'static str| move |why: String| MachineLawError::Drive { key, why };
@@ -388,7 +387,7 @@ impl MachineLawSpec {
     }
 }
 
-/// Minimum number of turns of the input, up to a limit, after which a motion is back, whole turns of its own aside.
+/// Minimum number of turns of the input, up to a limit, after which a motion is back, apart from whole turns of the body.
 fn minimum_turns(law: &dyn Transmission) -> Option<u32> {
     const MOST: u32 = 60;
     let whole = |x: f64| (x - x.round()).abs() <= COMPUTED;

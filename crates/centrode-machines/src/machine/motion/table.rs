@@ -1,4 +1,4 @@
-//! Tables of values at equal steps as laws.
+//! Laws from tables of values at equal steps.
 
 use std::f64::consts::TAU;
 use std::sync::Arc;
@@ -9,10 +9,10 @@ use centrode_geometry::COMPUTED;
 use centrode_kinematics::transmission::{FromFn, MotionJet, Transmission};
 use centrode_spec::digits::stated;
 
-/// Largest last step of a table, as a multiple of the largest step within it, at which no `turns` are needed.
+/// Maximum last step of a table, as a multiple of the largest step within it, for which `turns` may be omitted.
 const LARGEST: f64 = 2.0;
 
-/// Reading of a table of angles: the step by which the body goes on from the last angle to the first one.
+/// Reading of a table of angles: the step of the body from the last angle to the first one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TableReading {
     /// Whole turns of the body over the table; below zero clockwise.
@@ -24,9 +24,9 @@ pub struct TableReading {
 }
 
 impl TableReading {
-    /// The reading of a table of angles, rad, with the whole turns that are given, or with those that its steps show.
+    /// The reading of a table of angles, rad, with the given whole turns, or by default with those that follow from its steps.
     ///
-    /// They show them if one reading has a last step of at most twice the largest step within the table, and only one.
+    /// They follow if exactly one reading has a last step of at most twice the largest step within the table.
     ///
     /// # Errors
     /// The two readings with the smallest last steps, if none or both of them have such a last step.
@@ -52,7 +52,7 @@ impl TableReading {
         }
     }
 
-    /// The reading in words.
+    /// Text of the reading.
     pub(in crate::machine) fn words(&self) -> String {
         let step = stated(self.last_step.to_degrees());
         match self.turns {
@@ -62,9 +62,9 @@ impl TableReading {
     }
 }
 
-/// The law through values at equal steps of `period`, rad, that ends `advance` further on than it begins.
+/// The law through values at equal steps of `period`, rad, whose value grows by `advance` over the period.
 ///
-/// A periodic quintic spline through what remains of the values without an even motion over `advance`.
+/// A periodic quintic spline interpolates the values less their even growth; the growth is then added.
 pub(in crate::machine) fn through(
     key: &'static str,
     values: &[f64],
@@ -90,7 +90,7 @@ pub(in crate::machine) fn through(
     Ok(Arc::new(FromFn::new(period, advance, jumps, at)))
 }
 
-/// A jet by an input of which its own is `scale` times.
+/// A jet whose input is multiplied by `scale`.
 fn stretched(jet: &MotionJet, scale: f64) -> MotionJet {
     jet.after(&MotionJet::uniform(0.0, scale))
 }

@@ -35,7 +35,7 @@ fn default_clamp_length() -> f64 {
 }
 
 impl ArmSpec {
-    /// Makes an arm with a clamp of ordinary length.
+    /// Makes an arm with the default length of the clamp and the default body.
     #[must_use]
     pub fn new(mounting_angle: f64, tip_distance: f64, pusher_offset: f64) -> Self {
         Self {
@@ -47,7 +47,7 @@ impl ArmSpec {
         }
     }
 
-    /// The usual sizes that fit this arm.
+    /// The default sizes that fit this arm.
     #[must_use]
     pub fn usual(&self) -> UsualArm {
         UsualArm::new(self.tip_distance, self.pusher_offset, self.clamp_length)

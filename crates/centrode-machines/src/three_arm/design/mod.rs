@@ -1,4 +1,4 @@
-//! A three-arm transplanting mechanism as written.
+//! A three-arm transplanting mechanism as the design file gives it.
 
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -180,7 +180,7 @@ impl ThreeArmDesign {
     /// Maximum number of arms of one carrier.
     pub const MAX_ARMS: u32 = 6;
 
-    /// Makes a mechanism with the given sun, chain and arm, and every other value at its default.
+    /// Makes a mechanism with the given sun, chain and arm; every other value is the default.
     #[must_use]
     pub fn new(pitch: PitchSpec, carrier_start: f64, bend: f64, arm: ArmSpec) -> Self {
         Self {
@@ -213,7 +213,7 @@ impl ThreeArmDesign {
         }
     }
 
-    /// Teeth of every gear, from the mechanism or from its pitch curve.
+    /// Tooth count of every gear, from the mechanism or from its pitch curve.
     #[must_use]
     pub fn gear_tooth_count(&self) -> Option<u32> {
         self.tooth_count.or(self.pitch.tooth_count())
@@ -247,14 +247,14 @@ impl ThreeArmDesign {
     /// Checks the rules that need no geometry: ranges, and keys that contradict each other.
     ///
     /// # Errors
-    /// [`SpecError`] with the key at fault and the rule it breaks. The pitch curve's own rules are
-    /// those of [`PitchSpec::resolve`].
+    /// [`SpecError`] with the key at fault and the violated rule. The rules of the pitch curve are those of
+    /// [`PitchSpec::resolve`].
     pub fn validate(&self) -> Result<(), SpecError> {
         design_name(&self.name)?;
         single_line("title", &self.title)?;
         count_in_range("arms", self.arms, 1, Self::MAX_ARMS)?;
         angle("carrier_start_deg", self.carrier_start)?;
-        // A chain folded back on itself puts the planet on the sun's axis.
+        // A chain that is folded back puts the planet on the sun's axis.
         let bend = degrees::rounded(self.bend);
         in_range("bend_deg", bend, [-175.0, 175.0], " deg")?;
         if let Some(reference) = self.planet_reference {
@@ -302,13 +302,13 @@ impl ThreeArmDesign {
     }
 }
 
-/// Checks an angle within a turn in either direction.
+/// Checks that an angle is within one turn in either direction.
 fn angle(key: &str, radians: f64) -> Result<(), SpecError> {
     finite(key, radians)?;
     in_range(key, degrees::rounded(radians), [-360.0, 360.0], " deg")
 }
 
-/// Checks a range with its ends in order.
+/// Checks that the ends of a range are in order.
 fn ordered(key: &str, [minimum, maximum]: [f64; 2]) -> Result<(), SpecError> {
     finite(key, minimum)?;
     finite(key, maximum)?;

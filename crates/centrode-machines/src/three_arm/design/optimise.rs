@@ -47,11 +47,11 @@ pub enum Objective {
     Margin,
 }
 
-/// Minimum radius of a control point a search tries unless bounds say otherwise, as a share of their mean.
+/// Minimum radius of a control point in a search without bounds for it, as a share of the mean radius.
 const MIN_RADIUS: f64 = 0.2;
 
 impl OptimiseSpec {
-    /// Whether the table is left at its defaults.
+    /// Whether all values of the table are defaults.
     pub(super) fn is_default(&self) -> bool {
         *self == Self::default()
     }

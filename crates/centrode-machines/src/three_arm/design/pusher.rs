@@ -70,7 +70,7 @@ impl PusherCamSpec {
         self.body.validate().map_err(|e| e.inside("body"))
     }
 
-    /// The usual cam with every length enlarged `k` times, width and bore to preferred sizes.
+    /// The default cam with every length multiplied by `k`; width and bore are preferred sizes.
     #[must_use]
     pub fn usual(k: f64) -> Self {
         let usual = Self::default();
@@ -163,8 +163,8 @@ impl ForkSpec {
         single_line("pin_heat_treatment", &self.pin_heat_treatment)
     }
 
-    /// The usual fork with every length enlarged `k` times, its holes and slot for pins that are bought, its roller and thickness to
-    /// preferred sizes.
+    /// The default fork with every length multiplied by `k`. Its holes and slot fit pins that can be bought; its roller and
+    /// thickness are preferred sizes.
     #[must_use]
     pub fn usual(k: f64) -> Self {
         let usual = Self::default();

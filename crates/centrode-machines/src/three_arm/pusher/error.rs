@@ -15,7 +15,7 @@ pub enum PusherError {
     /// There is no such cam.
     #[error(transparent)]
     Cam(#[from] CamError),
-    /// The rod has no time to rest thrown out.
+    /// The rod has no time to rest in its thrown-out position.
     #[error(
         "drawing back over {closing} deg, holding over {hold} deg and throwing out over {release} deg take more than a turn"
     )]
@@ -37,27 +37,27 @@ pub enum PusherError {
         /// Distance of the pusher's axis, mm.
         pusher_offset: f64,
     },
-    /// The holes of pivot and roller meet.
+    /// The holes of pivot and roller overlap.
     #[error(
         "the roller's pin is {arm_length} mm from the pivot, but their holes reach {needed} mm"
     )]
     Holes {
-        /// Distance of the two, mm.
+        /// Distance of the two axes, mm.
         arm_length: f64,
-        /// Half of both diameters together, mm.
+        /// Half the sum of both diameters, mm.
         needed: f64,
     },
-    /// Cam, fork and rod do not fit side by side.
+    /// Cam, fork and rod do not fit next to each other.
     #[error(
         "rod, fork and cam reach {needed} mm to the rear of the middle of the housing, which leaves {room} mm"
     )]
     Depth {
-        /// Width they need, mm.
+        /// Width that they need, mm.
         needed: f64,
         /// The room inside the rear cover, mm.
         room: f64,
     },
-    /// The rod is too short behind for the fork's pin.
+    /// The rear end of the rod does not reach the fork's pin.
     #[error(
         "thrown out, the fork's pin is {pin} mm before the planet's axis, but the rod begins at {rod} mm: lengthen arm.body.housing.tube_back or shorten the stroke"
     )]
@@ -67,12 +67,12 @@ pub enum PusherError {
         /// Position at which the rod begins, with room for the pin's hole, mm.
         rod: f64,
     },
-    /// The roller at its highest strikes the housing's drum.
+    /// At its highest position the roller hits the housing's drum.
     #[error(
         "the roller reaches {reach} mm from the planet's axis, but the housing leaves {room} mm"
     )]
     Roller {
-        /// Maximum distance it reaches, mm.
+        /// Maximum reach of the roller, mm.
         reach: f64,
         /// Inner radius of the drum, mm.
         room: f64,

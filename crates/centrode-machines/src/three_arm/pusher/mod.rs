@@ -17,10 +17,10 @@ use centrode_kinematics::transmission::{MotionJet, Transmission};
 
 pub use error::PusherError;
 
-/// Drive of an arm's push rod: the cam on the carrier, the fork on the arm.
+/// Drive of an arm's push rod: the cam on the carrier and the fork on the arm.
 ///
-/// The fork's pivot is on the line from the planet's axis square to the pusher's axis, so the lever on the
-/// rod is as long as the pivot is from that axis, and swings equally to either side of the square.
+/// The fork's pivot is on the line from the planet's axis perpendicular to the pusher's axis. The lever on the rod is therefore
+/// as long as the distance of the pivot from the pusher's axis, and swings equally to both sides of the perpendicular.
 #[derive(Clone, Debug)]
 pub struct Pusher {
     cam: Cam,
@@ -28,7 +28,7 @@ pub struct Pusher {
     spec: ForkSpec,
     motion: Arc<Motion>,
     stroke: f64,
-    /// Sign: 1 where the pusher's axis passes on the right of the planet's, seen along the clamp.
+    /// Sign: 1 if the pusher's axis is to the right of the planet's axis, seen along the clamp, else -1.
     side: f64,
     cam_angle: f64,
     spans: Spans,
@@ -42,7 +42,7 @@ struct Spans {
 }
 
 impl ThreeArm {
-    /// Sizes of the arms: those written, or the usual ones of [`UsualArm`](crate::arm::UsualArm).
+    /// Sizes of the arms: those of the design, or the default ones of [`UsualArm`](crate::arm::UsualArm).
     #[must_use]
     pub fn arm_sizes(&self) -> ArmBodySpec {
         let arm = &self.design().arm;
@@ -53,7 +53,7 @@ impl ThreeArm {
     /// The body of each arm.
     ///
     /// # Errors
-    /// [`ArmError`] where its parts do not fit each other or its outline crosses itself.
+    /// [`ArmError`] if its parts do not fit each other or its outline crosses itself.
     pub fn arm_body(&self) -> Result<ArmBody, ArmError> {
         let arm = &self.design().arm;
         let (reach, offset) = (arm.tip_distance, arm.pusher_offset);
@@ -63,7 +63,7 @@ impl ThreeArm {
     /// Cam and fork of each arm.
     ///
     /// # Errors
-    /// [`PusherError`] naming the rule broken and its numbers.
+    /// [`PusherError`] with the violated rule and its numbers.
     pub fn pusher(&self) -> Result<Pusher, PusherError> {
         let design = self.design();
         let scale = design.arm.usual().scale;
@@ -138,7 +138,7 @@ impl Pusher {
         };
         let housing = &sizes.housing;
         let (reach, room) = (pusher.reach(), housing.drum_radius - housing.wall);
-        // Below the axis the belt to the tube leaves more room than the drum.
+        // The limit holds above the planet's axis. Below it the belt to the tube leaves more room than the drum.
         let high = pusher.roller(stroke);
         if reach > room && high.y * side > 0.0 {
             return Err(PusherError::Roller { reach, room });
@@ -192,13 +192,13 @@ impl Pusher {
         self.stroke
     }
 
-    /// Retraction of the first arm's rod at a carrier turn, mm; zero thrown out.
+    /// Retraction of the first arm's rod at a carrier turn, mm; zero in the thrown-out position.
     #[must_use]
     pub fn retraction(&self, input: f64) -> MotionJet {
         self.motion.at(input)
     }
 
-    /// Inputs in one turn where a derivative of the first arm's rod may jump, ascending.
+    /// Inputs in one turn at which a derivative of the first arm's rod may jump, ascending.
     #[must_use]
     pub fn breaks(&self) -> Vec<f64> {
         Transmission::breaks(self.motion.as_ref())
@@ -216,8 +216,8 @@ impl Pusher {
         Point::new(0.0, -self.side * self.spec.pivot_distance)
     }
 
-    /// Turn of the fork's frame from the arm's with the rod drawn back by a length, rad. The fork's x axis
-    /// points from its pivot to the roller.
+    /// Turn of the fork's frame from the arm's, rad, with the rod drawn back by a length, mm. The fork's x axis points from its
+    /// pivot to the roller.
     #[must_use]
     pub fn fork_angle(&self, retraction: &MotionJet) -> MotionJet {
         let swing = self.fork.rod.swing(retraction);
@@ -244,8 +244,8 @@ impl Pusher {
         self.roller(self.stroke).coords.norm() + self.spec.roller_radius
     }
 
-    /// Contour of the fork in its own frame, and its holes: for the pivot's and the roller's pin, and the
-    /// slot for the rod's.
+    /// Contour of the fork in its own frame, and its holes: for the pivot's pin, for the roller's pin, and the slot for the
+    /// rod's pin.
     #[must_use]
     pub fn fork_outline(&self) -> Option<(Outline, Vec<Outline>)> {
         let ForkSpec {
@@ -277,7 +277,7 @@ impl Pusher {
         let RodJoint::PinOnRod(lever) = self.fork.rod else {
             return None;
         };
-        // From the roller's direction to the lever's, whatever the swing.
+        // Angle from the direction of the roller to that of the lever, which is the same at every swing.
         let angle = -self.side * (2.0 * FRAC_PI_2 + lever.start - self.cam.disc().start_angle());
         Some(Rotation2::new(angle) * Vector::x())
     }
@@ -306,7 +306,7 @@ impl Pusher {
 }
 
 impl Spans {
-    /// Extents with the rod in the middle, the fork behind it, the cam with the roller behind the fork.
+    /// Extents: the rod is in the middle, the fork behind it, the cam with the roller behind the fork.
     fn new(cam: &PusherCamSpec, fork: &ForkSpec, sizes: &ArmBodySpec) -> Result<Self, PusherError> {
         let rod = &sizes.push_rod;
         let gap = 0.1 * rod.diameter;
@@ -322,7 +322,7 @@ impl Spans {
     }
 }
 
-/// Retraction of the rod by carrier turn: drawn back up to picking, held, thrown out from planting on.
+/// Retraction of the rod as a function of carrier turn: drawn back up to picking, held, thrown out from planting on.
 fn motion(mechanism: &ThreeArm, spec: &PusherCamSpec, stroke: f64) -> Result<Motion, PusherError> {
     let (pick, plant) = (mechanism.picking(0), mechanism.planting(0));
     let hold = (plant - pick).rem_euclid(TAU);

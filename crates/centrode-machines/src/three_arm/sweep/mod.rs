@@ -19,12 +19,12 @@ use stage::Stage;
 
 /// Evaluates many three-arm designs with the same kind of pitch curve, each in a few microseconds.
 ///
-/// For a sun that is a closed B-spline with control points in the plane of polar angle and radius: the
-/// transmission function is integrated on fixed panels of the curve's own pieces, where it is analytic, and both stages
-/// are solved by Newton's method from input to input. Nothing is allocated for a design. The figures agree with
-/// those of [`ThreeArm::figures`](super::ThreeArm::figures) to 1e-9 of the size of the machine, or rad, for designs like
-/// the published one, and to 1e-7 where the radii of the pitch curve differ tenfold; that the pitch curve
-/// winds round its axis is only checked at the nodes of the integration. Not for a pitch curve scaled by a module.
+/// The sun's pitch curve must be a closed B-spline with control points in the plane of polar angle and radius. The
+/// transmission function is integrated on fixed panels of the curve's pieces, on which it is analytic. Both stages are solved
+/// by Newton's method from input to input. No memory is allocated per design. The figures agree with those of
+/// [`ThreeArm::figures`](super::ThreeArm::figures) to 1e-9 rad, or 1e-9 of the machine's size, for designs like the published
+/// one, and to 1e-7 if the radii of the pitch curve differ tenfold. That the pitch curve winds round its axis is only checked
+/// at the nodes of the integration. Pitch curves scaled by a module are not supported.
 ///
 /// ```
 /// use centrode_spec::DesignSpec;
@@ -53,15 +53,15 @@ pub enum SweepError {
         "a sweep needs a bspline in the polar plane with control points and neither module nor interpolation"
     )]
     Kind,
-    /// Fewer points than the spline's degree needs, or other lists of points than the sweep was made for.
+    /// Fewer points than the spline's degree needs, or other numbers of points than those of the sweep.
     #[error("a sweep of {required} points got {found}")]
     Points {
-        /// Number the sweep was made for.
+        /// Required number of points.
         required: usize,
-        /// Number in the design.
+        /// Number of points in the design.
         found: usize,
     },
-    /// Radii of control points that are not above zero, or angles that do not increase within a turn.
+    /// Radii of control points that are not above zero, or angles that do not increase within one turn.
     #[error(
         "radii of control points must be greater than 0 mm, and their angles must increase within one turn"
     )]
@@ -77,7 +77,7 @@ pub enum SweepError {
     TrayOutOfReach,
 }
 
-/// Returns the spline of a design, if it is of the kind.
+/// Returns the spline of a design, if it is of the supported kind.
 fn spline_of(design: &ThreeArmDesign) -> Result<&Bspline, SweepError> {
     match &design.pitch {
         PitchSpec::Bspline(spline)
@@ -92,11 +92,11 @@ fn spline_of(design: &ThreeArmDesign) -> Result<&Bspline, SweepError> {
 }
 
 impl Sweep {
-    /// Makes a sweep for designs with as many control points as this one and the same degree. The tip's path is sampled at
-    /// `inputs` inputs per turn, at least 32, rounded up to a multiple of four.
+    /// Makes a sweep for designs with the number of control points and the degree of this design. The tip's path is sampled
+    /// at `inputs` inputs per turn, at least 32, rounded up to a multiple of four.
     ///
     /// # Errors
-    /// [`SweepError`] where the pitch curve is of another kind.
+    /// [`SweepError`] if the pitch curve is of another kind.
     pub fn like(design: &ThreeArmDesign, inputs: usize) -> Result<Self, SweepError> {
         let spline = spline_of(design)?;
         Ok(Self {
@@ -108,7 +108,7 @@ impl Sweep {
     /// Centre distance and figures of a design.
     ///
     /// # Errors
-    /// [`SweepError`] where the design gives no mechanism, or is of another kind.
+    /// [`SweepError`] if the design gives no mechanism, or is of another kind.
     pub fn figures(&mut self, design: &ThreeArmDesign) -> Result<Figures, SweepError> {
         let spline = spline_of(design)?;
         self.stage.load(spline)?;
@@ -143,7 +143,7 @@ impl Sweep {
         })
     }
 
-    /// Number of control points of the pitch curves it is made for.
+    /// Number of control points that the pitch curves must have.
     #[must_use]
     pub fn control_points(&self) -> usize {
         self.stage.control_points()
@@ -161,15 +161,15 @@ impl Sweep {
         self.stage.length()
     }
 
-    /// Maximum convex and concave curvature (1/mm) of both pitch curves of the last design, sampled 12 times a panel
-    /// (slightly low).
+    /// Maximum convex and concave curvature (1/mm) of both pitch curves of the last design. They are sampled 12 times per panel
+    /// and therefore slightly low.
     #[must_use]
     pub fn curvatures(&self) -> [f64; 2] {
         self.stage.curvatures()
     }
 
     /// Depth of the tip's loop beyond the point of picking, mm, equal to
-    /// [`ThreeArm::picking_depth`](super::ThreeArm::picking_depth), of the last design, which is given again.
+    /// [`ThreeArm::picking_depth`](super::ThreeArm::picking_depth). `design` must be the last design evaluated.
     #[must_use]
     pub fn picking_depth(&self, design: &ThreeArmDesign) -> f64 {
         let machine = path::Machine::new(design, &self.stage);
@@ -187,7 +187,7 @@ impl Sweep {
         farthest.reach - picked
     }
 
-    /// Points of the tip's path of the last design, evenly in carrier turn from the start.
+    /// Points of the tip's path of the last design, at equal steps of carrier turn from the start.
     pub fn tips(&self) -> impl ExactSizeIterator<Item = [f64; 2]> + '_ {
         self.path.points()
     }

@@ -5,15 +5,15 @@ use wide::f64x4;
 use super::spline::Polynomial;
 use centrode_gear::pitch::HIGHEST_DEGREE;
 
-/// Nodes of a panel: the integrand's nearest poles are so far off in panel widths that the rest of its series is
-/// below 1e-10.
+/// Number of nodes of a panel. The nearest poles of the integrand are so far away, in panel widths, that the neglected
+/// terms of its series are below 1e-10.
 pub(super) const NODES: usize = 10;
 pub(super) const COEFFICIENTS: usize = NODES + 1;
 
-/// Number of parameters evaluated side by side.
+/// Number of parameters evaluated at once, in the lanes of a vector register.
 pub(super) const LANES: usize = 4;
 
-/// One parameter, or [`LANES`] side by side.
+/// One parameter, or [`LANES`] parameters at once.
 pub(super) trait Places:
     Copy + From<f64> + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
 {
@@ -22,7 +22,7 @@ pub(super) trait Places:
 impl Places for f64 {}
 impl Places for f64x4 {}
 
-/// A part of the pitch curve; everything on it in powers of s in [-1, 1].
+/// A part of the pitch curve; all its functions are polynomials of s in [-1, 1].
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Panel {
     pub(super) driven: [f64; COEFFICIENTS],
@@ -30,7 +30,7 @@ pub(super) struct Panel {
     pub(super) radius: Polynomial,
 }
 
-/// Value of a function at a parameter, with its derivatives by s.
+/// Value of a function at a parameter, and its first two derivatives by s.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Evaluation<T = f64> {
     pub(super) value: T,
@@ -56,9 +56,9 @@ impl Panel {
     };
 }
 
-/// Function that grows along the pitch curve.
+/// Function that increases along the pitch curve.
 pub(super) trait Monotone: Copy {
-    /// Evaluates it in a panel; `C` coefficients of the panel's polynomials are not zero.
+    /// Evaluates the function in a panel; the first `C` coefficients of the panel's polynomials may differ from zero.
     fn evaluate<const C: usize, T: Places>(self, panel: &Panel, s: T) -> Evaluation<T>;
 }
 
@@ -89,7 +89,7 @@ impl Monotone for DrivenAngle {
     fn evaluate<const C: usize, T: Places>(self, panel: &Panel, s: T) -> Evaluation<T> {
         let a = T::from(self.center_distance);
         let c = panel.driven.map(T::from);
-        // Even and odd powers apart: two short chains instead of a long one.
+        // Even and odd powers are summed separately: two short chains of operations instead of a long one.
         let ss = s * s;
         let (mut even, mut odd) = (c[COEFFICIENTS - 1], c[COEFFICIENTS - 2]);
         let mut k = COEFFICIENTS - 3;
@@ -111,7 +111,7 @@ impl Monotone for DrivenAngle {
     }
 }
 
-/// Quintic that is -1 and 1 at the ends of [0, 1], with the first and second derivatives of an inverse function there.
+/// Quintic that is -1 and 1 at the ends of [0, 1], and has there the first and second derivatives of an inverse function.
 #[inline]
 pub(super) fn inverse_quintic([[d0, e0], [d1, e1]]: [[f64; 2]; 2]) -> [f64; 6] {
     [
@@ -131,7 +131,7 @@ pub(super) fn horner(c: &[f64], s: f64) -> (f64, f64) {
     (value, rate)
 }
 
-/// Value and two derivatives of a polynomial.
+/// Value and the first two derivatives of a polynomial.
 #[inline]
 pub(super) fn twice<T: Places>(c: &[f64], s: T) -> (T, T, T) {
     let zero = T::from(0.0);

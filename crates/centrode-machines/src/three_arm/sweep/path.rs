@@ -10,13 +10,13 @@ use crate::three_arm::Extreme;
 use crate::three_arm::design::ThreeArmDesign;
 use centrode_gear::pitch::HIGHEST_DEGREE;
 
-/// Dimensions, apart from the pitch curve, on which the tip's path depends.
+/// Dimensions, apart from the pitch curve, that determine the tip's path.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Machine {
     sign: f64,
     carrier_start: f64,
     bend: f64,
-    /// The arm's zero less phi + bend, at polar angle zero of the planet.
+    /// Angle from phi + bend to the arm's zero when the planet is at polar angle zero, rad.
     zero: f64,
     mounting: f64,
     pub(super) clamp_mounting: f64,
@@ -25,7 +25,7 @@ pub(super) struct Machine {
     leg: f64,
 }
 
-/// Position of the tip at a polar angle of the sun, and its velocity per radian of that.
+/// Position of the tip at a polar angle of the sun, and its velocity per radian of that angle.
 #[derive(Clone, Copy, Debug)]
 struct Tip {
     position: [f64; 2],
@@ -53,7 +53,7 @@ impl Machine {
         }
     }
 
-    /// Driven angle of the intermediate gear on the planet's side, from the one on the sun's side.
+    /// Driven angle of the intermediate gear in the mesh with the planet, from that in the mesh with the sun.
     fn met(&self, driven: f64) -> f64 {
         driven - self.bend - PI
     }
@@ -63,7 +63,7 @@ impl Machine {
         self.carrier_start + psi + self.bend + self.zero - chi
     }
 
-    /// Parameters in mesh at a polar angle of the sun, from parameters nearby.
+    /// Parameters of sun and planet in mesh at a polar angle of the sun, from parameters nearby.
     fn mesh(&self, stage: &Stage, psi: f64, sun: Param, planet: Param) -> (Param, Param) {
         let closer = |mut param: Param, nearer: &dyn Fn(Param) -> (Param, f64)| {
             (0..6).find_map(|_| {
@@ -97,14 +97,14 @@ impl Machine {
     }
 }
 
-/// The tip's path over one turn of the carrier, at even polar angles of the sun: inputs forwards, or backwards where
-/// the carrier turns clockwise.
+/// The tip's path over one turn of the carrier, at equal steps of the sun's polar angle. If the carrier turns clockwise, the
+/// inputs run backwards.
 #[derive(Clone, Debug)]
 pub(super) struct Path {
-    /// Polar angles of the sun, with room for the lanes beyond the last, and their cosines and sines.
+    /// Polar angles of the sun, with room for the lanes beyond the last, and the cosines and sines of these angles.
     angles: Vec<f64>,
     turns: Vec<[f64; 2]>,
-    /// Parameters in mesh, of sun and planet; driven angles there; polar angles of the planet.
+    /// Parameters of sun and planet in mesh, driven angles there, and polar angles of the planet.
     sun: Track,
     planet: Track,
     met: Vec<f64>,
@@ -135,7 +135,7 @@ impl Path {
         TAU / self.x.len() as f64
     }
 
-    /// Walks the path of a machine.
+    /// Computes the path of a machine.
     pub(super) fn follow(&mut self, stage: &Stage, machine: &Machine) -> Result<(), SweepError> {
         self.sign = machine.sign;
         let found = if stage.coefficients() <= 3 {
@@ -171,16 +171,16 @@ impl Path {
         }
     }
 
-    /// Solves both meshes at every polar angle of the sun; returns whether there was a solution.
+    /// Solves both meshes at every polar angle of the sun; returns whether all have a solution.
     fn mesh_round<const C: usize>(&mut self, stage: &Stage, machine: &Machine) -> bool {
         let (angle, driven) = (stage.angle_growth(), stage.driven_growth());
         if !self.sun.find::<C, _>(angle, &self.angles) {
             return false;
         }
-        // Driven angles from parameter zero, on both sides.
+        // Driven angles from parameter zero, in both meshes.
         self.sun
             .map::<C, _>(driven, machine.met(0.0), &mut self.met);
-        // The lanes beyond the last target have its value: nothing of the design before.
+        // Lanes beyond the last target get its value, so that no value of the design before is left in them.
         let count = self.x.len();
         let last = self.met[count - 1];
         self.met[count..].fill(last);
@@ -191,7 +191,7 @@ impl Path {
         true
     }
 
-    /// Points at even inputs, from the start.
+    /// Points at equal steps of the input, from the start.
     pub(super) fn points(&self) -> impl ExactSizeIterator<Item = [f64; 2]> + '_ {
         let count = self.x.len();
         let backwards = self.sign < 0.0;
@@ -201,7 +201,7 @@ impl Path {
         })
     }
 
-    /// Polar angle of the sun at an input, in its first turn, and the point of the path nearest to it.
+    /// Polar angle of the sun at an input, in its first turn, and the index of the last point of the path before it.
     fn place(&self, input: f64) -> (f64, usize) {
         let psi = (self.sign * input).rem_euclid(TAU);
         (psi, (psi / self.step()) as usize % self.x.len())
@@ -227,7 +227,7 @@ impl Path {
         self.near(stage, machine, place, psi).position
     }
 
-    /// Maximum reach of the path in a direction, and its input.
+    /// Maximum reach of the path in a direction, and the input there.
     pub(super) fn farthest(
         &self,
         stage: &Stage,
@@ -256,7 +256,7 @@ impl Path {
             if here < around[0] || here < around[1] {
                 continue;
             }
-            // A crest is above the maximum of three points by about an eighth of their second difference.
+            // A crest exceeds the middle of three points by at most about an eighth of their second difference.
             let bend = 2.0 * here - around[0] - around[1];
             if here + 0.5 * bend < best {
                 continue;
@@ -272,8 +272,8 @@ impl Path {
         }
     }
 
-    /// The crest near a position, at a polar angle of the sun, by secants of the slope from the crest of a parabola
-    /// through three points.
+    /// The crest near a point of the path, with the polar angle of the sun as its input. Starts from the crest of a parabola
+    /// through three points, then uses secants of the slope.
     fn crest(
         &self,
         stage: &Stage,
@@ -313,7 +313,7 @@ impl Path {
             }
             last = Some((input, slope));
             let next = input - slope / curve;
-            // A crest is flat: its height is right to the square of this.
+            // The crest is flat: the error of its height is about the square of this error of the input.
             if !next.is_finite() || (next - input).abs() < 1e-8 {
                 break;
             }
@@ -322,7 +322,7 @@ impl Path {
         best
     }
 
-    /// Input at which the reach in a direction last grows past a distance before an input.
+    /// Input, before a given one, at which the reach in a direction last increases past a distance.
     pub(super) fn entering(
         &self,
         stage: &Stage,

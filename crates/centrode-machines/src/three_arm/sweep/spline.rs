@@ -3,7 +3,7 @@ use std::f64::consts::TAU;
 use super::SweepError;
 use centrode_gear::pitch::{Bspline, HIGHEST_DEGREE, spline_basis};
 
-/// Polar angle and radius as piecewise polynomials of one parameter, each piece one unit long.
+/// Polar angle and radius as piecewise polynomials of one parameter; each piece has the length 1.
 #[derive(Clone, Debug)]
 pub(super) struct SplinePair {
     degree: usize,
@@ -13,7 +13,7 @@ pub(super) struct SplinePair {
     pieces: Vec<[Polynomial; 2]>,
 }
 
-/// Polynomial by its coefficients in powers, constant first.
+/// Coefficients of a polynomial in powers, constant first.
 pub(super) type Polynomial = [f64; HIGHEST_DEGREE + 1];
 
 impl SplinePair {
@@ -31,7 +31,7 @@ impl SplinePair {
         })
     }
 
-    /// Takes the control points of a spline of the same degree.
+    /// Sets the control points, from a spline of the same degree.
     pub(super) fn load(&mut self, spline: &Bspline) -> Result<(), SweepError> {
         let count = self.pieces.len();
         for found in [spline.radius.len(), spline.angle.len()] {
@@ -45,7 +45,7 @@ impl SplinePair {
         if spline.degree as usize != self.degree {
             return Err(SweepError::Kind);
         }
-        // Control point i pulls most on piece i.
+        // Piece i depends most on control point i.
         let before = self.degree / 2;
         for (i, [angle, radius]) in self.pieces.iter_mut().enumerate() {
             *angle = [0.0; HIGHEST_DEGREE + 1];
@@ -88,10 +88,10 @@ impl SplinePair {
     }
 }
 
-/// Two polynomials of at most a degree in powers of s, where `middle + half s` is the position.
+/// Two polynomials in powers of s, where `middle + half s` is the position on the piece.
 fn part<const DEGREE: usize>(pair: &[Polynomial; 2], middle: f64, half: f64) -> [Polynomial; 2] {
     pair.map(|mut c| {
-        // Taylor's shift to the middle, then the scale.
+        // Taylor shift to the middle, then scaling.
         for low in 0..DEGREE {
             for k in (low..DEGREE).rev() {
                 c[k] += middle * c[k + 1];

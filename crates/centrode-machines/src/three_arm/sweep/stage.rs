@@ -10,12 +10,12 @@ use super::spline::SplinePair;
 use super::track::Monotonicity;
 use centrode_gear::pitch::{Bspline, HIGHEST_DEGREE};
 
-/// Panels of a piece.
+/// Number of panels per piece.
 const PANELS: usize = 3;
-/// Halley step at which iteration stops; the remaining error is below step^3/100.
+/// Halley step below which the iteration stops; the remaining error is below step^3/100.
 pub(super) const LAST: f64 = 1e-3;
 
-/// Parameter on the pitch curve: panel, position in it, and whole turns before.
+/// Parameter on the pitch curve: panel, position in the panel, and number of whole turns before.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Param {
     pub(super) panel: usize,
@@ -27,13 +27,13 @@ pub(super) struct Param {
 #[derive(Clone, Debug)]
 pub(super) struct Stage {
     spline: SplinePair,
-    /// Nodes of a panel and Fejér's weights of them.
+    /// Nodes of a panel and their Fejér weights.
     nodes: [f64; NODES],
     weights: [f64; NODES],
-    /// Map from values at the nodes to the coefficients of the antiderivative in powers, zero at the panel's start.
+    /// Linear map from values at the nodes to the coefficients of the antiderivative in powers; it is zero at the panel's start.
     antiderivative: [[f64; COEFFICIENTS]; NODES],
     panels: Vec<Panel>,
-    /// Polar angle, and driven angle from parameter zero, at the start of each panel and the end of the last.
+    /// Polar angle, and driven angle from parameter zero, at the start of each panel and at the end of the last.
     angles: Vec<f64>,
     before: Vec<f64>,
     /// Values at every node: radius, angle rate, and their product with the weight.
@@ -53,7 +53,7 @@ impl Stage {
     pub(super) fn new(spline: SplinePair) -> Self {
         let angle = |j: usize| PI * (j as f64 + 0.5) / NODES as f64;
         let nodes: [f64; NODES] = std::array::from_fn(|j| -angle(j).cos());
-        // Coefficients in powers of the polynomial through the nodes that is 1 at node j.
+        // Coefficients in powers of the polynomial that is 1 at node j and 0 at all other nodes.
         let through = |j: usize| {
             let mut c = [0.0; NODES];
             c[0] = 1.0;
@@ -98,7 +98,7 @@ impl Stage {
         }
     }
 
-    /// Loads a pitch curve: closes it, integrates it.
+    /// Loads a pitch curve: finds its centre distance and integrates it.
     pub(super) fn load(&mut self, spline: &Bspline) -> Result<(), SweepError> {
         self.spline.load(spline)?;
         let half = 0.5 / PANELS as f64;
@@ -164,7 +164,7 @@ impl Stage {
         }
     }
 
-    /// Finds the minimum and maximum radius, exactly: inside a panel where the radius is stationary, or at its start.
+    /// Finds the exact minimum and maximum radius: inside a panel at which the radius is stationary, or at the start of a panel.
     fn find_extremes(&mut self) {
         let (mut minimum, mut maximum) = (f64::INFINITY, 0.0_f64);
         for panel in &self.panels {
@@ -183,11 +183,11 @@ impl Stage {
         self.extremes = (minimum, maximum);
     }
 
-    /// Centre distance a at which one driver turn is one driven turn, by Newton's method on the driven turn's
-    /// reciprocal, which for a circle is a straight line.
+    /// Centre distance a at which one driver turn gives one driven turn. Newton's method acts on the reciprocal of the driven
+    /// turn, which for a circle is a straight line.
     fn closure(&self) -> Result<f64, SweepError> {
         let maximum = self.extremes.1;
-        // For a nearly even radius, twice the mean and twice its variance over the mean.
+        // First guess, for a nearly constant radius: twice the mean plus twice the variance over the mean.
         let mean = self.moments[0] / TAU;
         let variance = self.moments[1] / TAU - mean * mean;
         let mut a = (2.0 * (mean + variance / mean)).max(maximum * 1.001);
@@ -208,7 +208,7 @@ impl Stage {
             if a <= maximum {
                 a = 0.5 * (a - step + maximum);
             } else if step.abs() <= 1e-7 * a {
-                // The next step would be about the square of this one.
+                // The relative change in the next step would be about the square of this one.
                 return Ok(a);
             }
         }
@@ -256,8 +256,8 @@ impl Stage {
         self.extremes
     }
 
-    /// Maximum convex and maximum concave curvature of both pitch curves at the nodes and ends of the panels:
-    /// at a knot it may jump.
+    /// Maximum convex and maximum concave curvature of both pitch curves, at the nodes and the ends of the panels, where it
+    /// may jump.
     pub(super) fn curvatures(&self) -> [f64; 2] {
         let a = self.center_distance;
         let (mut convex, mut concave) = (0.0_f64, 0.0_f64);
@@ -267,7 +267,7 @@ impl Stage {
                 let (_, rate, change) = twice(&panel.angle, s);
                 let slope = r_rate / rate;
                 let bend = (r_change - slope * change) / (rate * rate);
-                // The driven curve R = a - r by its own angle, which grows by r/R of the driver's.
+                // The driven curve R = a - r as a function of its own angle, whose rate is r/R of the driver's.
                 let other = a - r;
                 let ratio = other / r;
                 let other_bend = ratio * (slope * slope * (1.0 + ratio) / r - bend * ratio);
@@ -286,7 +286,7 @@ impl Stage {
     #[inline]
     pub(super) fn moved(&self, from: Param, by: f64) -> Param {
         let mut param = from;
-        // No step is longer than a turn, whatever a curve that turns back may require.
+        // Limits steps to one turn: for a curve that turns back they could be longer.
         let most = 2.0 * self.panels.len() as f64;
         param.s += by.clamp(-most, most);
         while param.s > 1.0 {
@@ -308,13 +308,13 @@ impl Stage {
         param
     }
 
-    /// Number of coefficients to compute with, from the degree of the spline: the sums of a low degree are those of
-    /// any, with the zeros omitted.
+    /// Number of coefficients to compute with, from the degree of the spline: higher coefficients are zero and need not be
+    /// summed.
     pub(super) fn coefficients(&self) -> usize {
         self.spline.degree() + 1
     }
 
-    /// Growth of the polar angle along the panels.
+    /// The polar angle as an increasing function along the panels.
     pub(super) fn angle_growth(&self) -> Monotonicity<'_, PolarAngle> {
         Monotonicity {
             of: PolarAngle,
@@ -323,7 +323,7 @@ impl Stage {
         }
     }
 
-    /// Growth of the driven angle along the panels, from parameter zero.
+    /// The driven angle, from parameter zero, as an increasing function along the panels.
     pub(super) fn driven_growth(&self) -> Monotonicity<'_, DrivenAngle> {
         Monotonicity {
             of: DrivenAngle {
@@ -340,7 +340,7 @@ impl Stage {
         self.evaluate(self.angle_growth(), param)
     }
 
-    /// Driven angle since polar angle zero at a parameter.
+    /// Driven angle from polar angle zero at a parameter.
     #[inline]
     pub(super) fn driven(&self, param: Param) -> Evaluation {
         let mut evaluation = self.evaluate(self.driven_growth(), param);
@@ -362,12 +362,12 @@ impl Stage {
         evaluation
     }
 
-    /// Parameter at a polar angle, from anywhere.
+    /// Parameter at any polar angle, without a first guess.
     pub(super) fn at_angle(&self, angle: f64) -> Param {
         self.angle_growth().param::<{ HIGHEST_DEGREE + 1 }>(angle)
     }
 
-    /// Parameter at a driven angle since polar angle zero, from anywhere.
+    /// Parameter at any driven angle from polar angle zero, without a first guess.
     pub(super) fn at_driven(&self, driven: f64) -> Param {
         let growth = self.driven_growth();
         growth.param::<{ HIGHEST_DEGREE + 1 }>(driven + self.offset)
@@ -380,7 +380,7 @@ impl Stage {
         (self.moved(param, step), step)
     }
 
-    /// One Halley step towards a driven angle from a parameter nearby.
+    /// One Halley step towards a driven angle from a parameter nearby: the new parameter, and the step's length.
     #[inline]
     pub(super) fn nearer_driven(&self, param: Param, driven: f64) -> (Param, f64) {
         let step = self.driven(param).step(driven);
@@ -388,7 +388,7 @@ impl Stage {
     }
 }
 
-/// Whether a step is the last that is needed.
+/// Whether no further step is needed after this one.
 #[inline]
 pub(super) fn settled(step: f64) -> bool {
     step.abs() < LAST

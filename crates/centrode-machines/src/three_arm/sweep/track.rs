@@ -6,11 +6,11 @@ use wide::f64x4;
 use super::panel::{LANES, Monotone, Panel, inverse_quintic};
 use super::stage::{LAST, Param, settled};
 
-/// Parameters of growing targets along the pitch curve, over one turn of it: a run of targets to each panel, so that
-/// the targets of a run are solved side by side.
+/// Parameters of increasing targets along the pitch curve, over one turn. The targets in one panel form a run and are solved
+/// together.
 #[derive(Clone, Debug)]
 pub(super) struct Track {
-    /// Position in its panel of each target, with room for the lanes beyond the last.
+    /// Position of each target in its panel, with room for the lanes beyond the last.
     places: Vec<f64>,
     runs: Vec<Run>,
     count: usize,
@@ -24,7 +24,7 @@ struct Run {
     targets: Range<usize>,
 }
 
-/// Function that grows along the pitch curve: its values at the panels' ends over a turn.
+/// Function that increases along the pitch curve: its values at the panels' ends over a turn.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Monotonicity<'a, G> {
     pub(super) of: G,
@@ -33,12 +33,12 @@ pub(super) struct Monotonicity<'a, G> {
 }
 
 impl<G: Monotone> Monotonicity<'_, G> {
-    /// Growth in a turn.
+    /// Increase per turn.
     pub(super) fn whole(&self) -> f64 {
         self.ends[self.panels.len()] - self.ends[0]
     }
 
-    /// Whole turns and panel at a value.
+    /// Panel at a value, and the number of whole turns before.
     fn start(&self, value: f64) -> (usize, f64) {
         let turns = ((value - self.ends[0]) / self.whole()).floor();
         let rest = value - turns * self.whole();
@@ -46,7 +46,7 @@ impl<G: Monotone> Monotonicity<'_, G> {
         (after.clamp(1, self.panels.len()) - 1, turns)
     }
 
-    /// Parameter at a value, from anywhere.
+    /// Parameter at any value, without a first guess.
     pub(super) fn param<const C: usize>(&self, value: f64) -> Param {
         let (panel, turns) = self.start(value);
         let s = self.place::<C>(panel, value - turns * self.whole());
@@ -80,8 +80,8 @@ impl Track {
         }
     }
 
-    /// Finds the targets, which grow by no more than a turn from the first to the last and have [`LANES`] numbers
-    /// more behind them; returns whether all were found.
+    /// Finds the targets; returns whether all were found. The last target is at most one turn beyond the first, and [`LANES`]
+    /// further numbers follow it.
     #[inline]
     pub(super) fn find<const C: usize, G: Monotone>(
         &mut self,
@@ -119,8 +119,8 @@ impl Track {
         false
     }
 
-    /// Solves by one step of Halley's method for each target of the last run, from the quintic that has the values
-    /// and two derivatives of the inverse function at the panel's ends; more steps where one was too long to be the last.
+    /// Solves each target of the last run by one step of Halley's method. The first guess is the quintic that has the values
+    /// and two derivatives of the inverse function at the panel's ends. If a step is too long to be the last, more steps follow.
     #[inline]
     fn solve<const C: usize, G: Monotone>(&mut self, growth: Monotonicity<'_, G>, targets: &[f64]) {
         let Some(run) = self.runs.last() else { return };
@@ -136,7 +136,7 @@ impl Track {
         let scale = f64x4::from(1.0 / width);
         let mut long = f64x4::from(0.0);
         for start in run.targets.clone().step_by(LANES) {
-            // Lanes beyond the run's last target are set to the panel's end.
+            // Lanes beyond the run's last target are limited to the panel's end.
             let target = (lanes(targets, start) - f64x4::from(shift)).fast_min(f64x4::from(high));
             let u = (target - f64x4::from(low)) * scale;
             let s = guess
@@ -154,7 +154,7 @@ impl Track {
         }
     }
 
-    /// Evaluates a monotone function at every target, adding `first` and the growth of every whole turn.
+    /// Evaluates an increasing function at every target, with `first` and the increase of all whole turns added.
     #[inline]
     pub(super) fn map<const C: usize, G: Monotone>(
         &self,

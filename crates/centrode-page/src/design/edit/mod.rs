@@ -31,7 +31,7 @@ impl Edit {
         }
     }
 
-    /// Takes a key or a table out.
+    /// Removes a key or a table.
     pub fn removal(key: &str) -> Self {
         Self {
             key: key.into(),
@@ -61,7 +61,7 @@ impl Edit {
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum EditError {
-    /// The text is no TOML.
+    /// The text is not TOML.
     #[error("the text is not TOML: {0}")]
     Syntax(#[from] toml_edit::TomlError),
     /// Nothing can be set at the key.
@@ -70,7 +70,7 @@ pub enum EditError {
         /// The key.
         key: String,
     },
-    /// The value is none of a design file.
+    /// The value cannot be written in a design file.
     #[error("{key}: {value} cannot be written in a design file")]
     Value {
         /// The key.
@@ -80,7 +80,7 @@ pub enum EditError {
     },
 }
 
-/// A step of a path.
+/// A step of a path: a key, or an index in a list.
 #[derive(Clone, Debug, Eq, PartialEq)]
 pub(super) enum Step {
     Name(String),
@@ -105,11 +105,11 @@ impl Step {
 /// Text with the edits made; comments, order and all other values stay as they are.
 ///
 /// A new `kind` changes its table, a new `type` its dyad, and a new `family` the whole design, so that it stays a mechanism; a
-/// new `plane` leaves points where they are. A table that is new gets its required keys, with the values that hold while the
-/// table is omitted.
+/// new `plane` leaves points at their positions. A new table gets its required keys, with the values that apply if the table is
+/// omitted.
 ///
 /// # Errors
-/// [`EditError`] if the text is no TOML, or a key or value cannot be written.
+/// [`EditError`] if the text is not TOML, or a key or value cannot be written.
 pub fn edited(text: &str, edits: &[Edit]) -> Result<String, EditError> {
     let mut document: DocumentMut = text.parse()?;
     for edit in edits {
@@ -154,7 +154,7 @@ pub fn edited(text: &str, edits: &[Edit]) -> Result<String, EditError> {
     Ok(document.to_string())
 }
 
-/// Steps of a path; `None` for a text that is no path.
+/// Steps of a path; `None` for a text that is not a path.
 fn steps(path: &str) -> Option<Vec<Step>> {
     let mut steps = Vec::new();
     for part in path.split('.') {
@@ -171,7 +171,7 @@ fn steps(path: &str) -> Option<Vec<Step>> {
     Some(steps)
 }
 
-/// Makes the tables of a path that are missing, with what they need.
+/// Adds the missing tables of a path, with their required keys.
 fn complete(document: &mut DocumentMut, steps: &[Step]) {
     let mut path = String::new();
     for (depth, step) in (1..).zip(steps) {
@@ -185,7 +185,7 @@ fn complete(document: &mut DocumentMut, steps: &[Step]) {
         }
         let text = document.to_string();
         if let Some(value) = list(&text, &path).and_then(|list| written(&list)) {
-            // A number of a list that is in force though it is not written.
+            // The path leads into a list whose default applies: the default is written first.
             if let Some(parent) = container(document.as_item_mut(), &steps[..depth - 1], true) {
                 let _ = set(parent, step, value);
             }
@@ -204,7 +204,7 @@ fn complete(document: &mut DocumentMut, steps: &[Step]) {
     }
 }
 
-/// The table or list at the path; tables that are missing are made unless `only_there`.
+/// The table or list at the path; missing tables are added unless `only_there`.
 pub(super) fn container<'a>(
     root: &'a mut Item,
     steps: &[Step],
@@ -269,7 +269,7 @@ pub(super) fn set(parent: &mut Item, last: &Step, value: Value) -> Option<()> {
     Some(())
 }
 
-/// Puts a value instead of another, with the blanks and comments around that.
+/// Replaces a value by another, and retains the blanks and comments around the old one.
 pub(super) fn replace(old: &mut Value, mut new: Value) {
     if let (Value::Array(old), Value::Array(new)) = (&mut *old, &new) {
         while old.len() > new.len() {
@@ -287,11 +287,11 @@ pub(super) fn replace(old: &mut Value, mut new: Value) {
     *old = new;
 }
 
-/// Adds a value to a list, on a line of its own where the last one has that.
+/// Adds a value to a list, on a line of its own if the last value has one.
 fn append(list: &mut Array, mut value: Value) {
     let last = list.iter().last();
     let before = last.and_then(|last| last.decor().prefix()?.as_str());
-    // A comment before it is that of the value before.
+    // A comment before the last value belongs to the value before that one.
     match before.and_then(|before| before.rsplit_once('\n')) {
         Some((_, blank)) => {
             *value.decor_mut() = toml_edit::Decor::new(format!("\n{blank}"), "");

@@ -1,4 +1,4 @@
-//! A follower of a composed machine's cam that becomes one of another kind.
+//! Change of the follower of a composed machine's cam to another kind.
 
 #[cfg(test)]
 mod tests;
@@ -11,7 +11,7 @@ use super::field::keys_next_to;
 use super::kind::mechanism;
 use super::machine::put_point;
 
-/// Base radii that are tried, as shares of the old one: a flat face requires a blunter cam.
+/// Base radii that are tried, as shares of the old one: a flat face requires a less curved cam.
 const BASES: [f64; 7] = [1.0, 1.25, 1.6, 2.0, 2.5, 3.0, 4.0];
 /// Lengths of a new arm that are tried, as shares of twice the base radius.
 const ARMS: [f64; 4] = [0.75, 1.0, 0.5, 1.5];
@@ -24,16 +24,16 @@ const RATES: [&str; 4] = [
     "start_acceleration",
     "end_acceleration",
 ];
-/// Directions of a new slide that are tried, deg apart.
+/// Angle between the directions of a new slide that are tried, degrees.
 const APART: i64 = 30;
 /// Position of a new pin, as a share of the base radius.
 const PIN: f64 = 3.0;
 
-/// Changes the kind of the follower at a path; `None` for anything but the follower of a cam on a body, or where it is of this
-/// kind.
+/// Changes the kind of the follower at a path; `None` for anything but the follower of a cam on a body, or if it is of this kind
+/// already.
 ///
-/// What both kinds know stays. Where a slide becomes an arm or vice versa, strokes become turns of the arm by the same length,
-/// and bodies that follow the cam slide or turn in their positions.
+/// Keys of both kinds stay. If a slide becomes an arm or vice versa, strokes become turns of the arm over the same length, and
+/// bodies that follow the cam slide instead of turning, or vice versa.
 pub(super) fn refollowed(
     document: &DocumentMut,
     steps: &[Step],
@@ -71,7 +71,7 @@ pub(super) fn refollowed(
     let mut sound = made
         .iter()
         .filter(|made| mechanism(&made.to_string()).is_ok());
-    // Where there is none the fault is elsewhere: a gear on a body that slides, say.
+    // If no design is a mechanism, the fault is elsewhere, for example a gear on a body that slides.
     sound.next().or(made.first()).cloned()
 }
 
@@ -79,7 +79,7 @@ fn swings(kind: &str) -> bool {
     kind.starts_with("swinging")
 }
 
-/// Bodies that follow a cam, each with what it is held on.
+/// Bodies that follow a cam, each with the value of its key `on`.
 fn followers(design: &Json, cam: &str) -> Vec<(String, Option<String>)> {
     let bodies = design.get("bodies").and_then(Json::as_object);
     let follows = |body: &Json| {
@@ -115,7 +115,7 @@ struct Change<'a> {
     bodies: Vec<(String, Option<String>)>,
 }
 
-/// One try: shares of base radius and arm, sense in which the cam lifts, direction of a slide, and whether a pin of its own is made.
+/// One try: shares of base radius and arm, sense in which the cam lifts, direction of a slide, and whether a new pin is made.
 #[derive(Clone, Copy)]
 struct Try {
     base: f64,
@@ -126,7 +126,7 @@ struct Try {
 }
 
 impl Change<'_> {
-    /// Designs with the new kind, the nearest to the old first.
+    /// Designs with the new kind, the one nearest to the old design first.
     fn made(&self) -> Vec<DocumentMut> {
         let swings = swings(self.kind);
         let arms = if self.is_new("arm_length") {
@@ -169,7 +169,7 @@ impl Change<'_> {
         found
     }
 
-    /// Whether the new kind has a key that the old follower has no value for.
+    /// Whether the new kind has a key for which the old follower has no value.
     fn is_new(&self, key: &str) -> bool {
         self.keys.contains_key(key) && !self.old.contains_key(key)
     }
@@ -201,7 +201,7 @@ impl Change<'_> {
         Some(made)
     }
 
-    /// The keys of the new kind instead of the old ones; how far it is from the axis the bodies say.
+    /// Replaces the old keys by those of the new kind; the distance from the axis follows from the bodies.
     fn refill(&self, follower: &mut dyn TableLike, one: Try) -> Option<()> {
         let away = ["offset", "center_distance"];
         for key in self.old.keys().filter(|key| *key != "kind") {
@@ -235,7 +235,7 @@ impl Change<'_> {
         Some(())
     }
 
-    /// Strokes of a slide become turns of an arm by the same length, or vice versa.
+    /// Changes strokes of a slide to turns of an arm over the same length, or vice versa.
     fn stroke(&self, cam: &mut Item, arm: f64) {
         let Some(segments) = cam
             .get_mut("motion")
@@ -252,7 +252,7 @@ impl Change<'_> {
             if let Some(value) = value {
                 segment.insert(to, Item::Value(short(value * scale).into()));
             }
-            // Those of an arm are rad of it a rad of the cam.
+            // Rates of an arm are in rad of the arm per rad of the cam.
             let rate = if swings(self.kind) { 1.0 / arm } else { arm };
             for key in RATES {
                 if let Some(value) = segment.get(key).and_then(number) {
@@ -269,7 +269,7 @@ impl Change<'_> {
         }
     }
 
-    /// Bodies that follow the cam slide instead of turning, or vice versa.
+    /// Makes bodies that follow the cam slide instead of turning, or vice versa.
     fn hold(&self, made: &mut DocumentMut, one: Try) -> Option<()> {
         for (body, on) in &self.bodies {
             let steps = [Step::named("bodies"), Step::named(body)];

@@ -1,4 +1,4 @@
-//! Motion of a dyad's ends, from which another type takes its lengths and lines.
+//! Motion of a dyad's ends, from which the lengths and lines of another type follow.
 
 use centrode_geometry::{Point, Vector};
 use centrode_machines::machine::{BodyPoint, Machine};
@@ -7,12 +7,12 @@ use serde_json::Value as Json;
 /// Inputs of a period at which the old dyad is sampled.
 const SAMPLES: u32 = 48;
 
-/// Words of a key of the dyad as written.
+/// Text of a key of the dyad, as written.
 pub(super) fn written(spec: &Json, key: &str) -> Option<String> {
     Some(spec.get(key)?.as_str()?.to_owned())
 }
 
-/// The words of both ends: pins, or points of lines.
+/// Names of both ends as written: pins, or points of lines.
 pub(super) fn ends(spec: &Json) -> Option<[String; 2]> {
     let words: Vec<String> = ["from", "to", "line", "second_line"]
         .iter()
@@ -30,7 +30,7 @@ pub(super) struct Course {
     pub(super) holders: [Vec<Frame>; 2],
     /// Position of the dyad's joint at every input, if it has one.
     pub(super) joint: Option<Vec<Point>>,
-    /// The points that the type gives its two bodies, with their names.
+    /// The points that the type adds to its two bodies, with their names and their positions at every input.
     pub(super) given: [Vec<(String, Vec<Point>)>; 2],
 }
 
@@ -70,7 +70,7 @@ impl Course {
             places.next()
         });
         let joint = joint.or_else(|| {
-            // The position of a yoke where its slot crosses its line.
+            // For a yoke, the point at which its slot crosses its line.
             (spec.get("type")? == "RPP").then(|| origin(dyad.bodies[1]))
         });
         let names = ["from", "to", "joint"].map(|key| written(spec, key));
@@ -116,7 +116,7 @@ impl Course {
         self.apart().fold(0.0, f64::max)
     }
 
-    /// The dyad from its other end.
+    /// The motion with both ends of the dyad exchanged.
     pub(super) fn reversed(mut self) -> Self {
         self.ends.reverse();
         self.holders.reverse();
@@ -141,13 +141,13 @@ pub(super) struct Frame {
 }
 
 impl Frame {
-    /// Axes at a position, the first one along a way.
+    /// Axes at a position, the first one along a vector.
     pub(super) fn along(origin: Point, way: Vector) -> Self {
         let angle = way.y.atan2(way.x);
         Self { origin, angle }
     }
 
-    /// A position relative to these axes.
+    /// Coordinates of a position in these axes.
     pub(super) fn seen(&self, place: Point) -> Point {
         let (way, along) = (place - self.origin, unit(self.angle));
         Point::new(along.dot(&way), along.perp(&way))

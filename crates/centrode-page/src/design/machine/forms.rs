@@ -12,16 +12,16 @@ use centrode_geometry::{Point, Vector};
 const SAMPLES: usize = 6;
 /// Directions of a line that are tried.
 const DIRECTIONS: u32 = 4;
-/// Room of a bar beyond what it must reach, as a share of that.
+/// Length of a bar, as a multiple of the distance that it must reach.
 const ROOM: f64 = 1.02;
-/// Distance below which two points are one, and that of a point next to another in its position, mm.
+/// Distance below which two points coincide; and distance of a new point from one with which it would coincide, mm.
 const NEAR: f64 = 1e-3;
 const BESIDE: f64 = 20.0;
-/// Sine of the angle of two lines below which they hold badly.
+/// Sine of the angle between two lines below which they fix a body badly.
 const FLAT: f64 = 0.3;
 
 impl Retype<'_> {
-    /// Keys of the new type where nothing is known of the motion.
+    /// Keys of the new type if the motion is not known.
     pub(super) fn plain(&self) -> Vec<Form> {
         let keys = match self.word {
             "RRR" => json!({ "joint": self.joint(), "lengths": [100.0, 100.0], "side": "left" }),
@@ -81,7 +81,7 @@ impl Retype<'_> {
         for &stand in stands {
             found.extend(course.joint.iter().map(|joint| form(stand, joint[stand])));
         }
-        // Bars of one length close as long as they reach.
+        // Bars of equal length close wherever they are long enough.
         for side in [1.0, -1.0] {
             let [a, b] = [0, 1].map(|end| course.ends[end][0]);
             let (way, length) = (b - a, 0.75 * course.farthest());
@@ -181,11 +181,11 @@ impl Retype<'_> {
                     true => bar.y.atan2(bar.x),
                     false => across,
                 };
-                // Lines on two bodies that turn against each other are parallel now and then.
+                // Lines on two bodies that turn relative to each other are parallel at some inputs.
                 let turned = |i: usize| course.holders[1][i].angle - course.holders[0][i].angle;
                 let most = (0..course.count()).map(|i| (turned(i) - turned(stand)).abs());
                 let is_alone = most.fold(0.0, f64::max) > 1.2;
-                // Then both are on the holder of the second end, one of them through that end.
+                // In this case both lines are on the holder of the second end, one of them through that end.
                 let end = course.holders[1][stand].seen(course.ends[1][stand]);
                 let to_end = place - end;
                 if to_end.norm() < NEAR {

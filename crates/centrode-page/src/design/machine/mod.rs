@@ -1,4 +1,4 @@
-//! A dyad of a composed machine that becomes one of another type.
+//! Change of a dyad of a composed machine to another type.
 
 mod course;
 mod forms;
@@ -17,13 +17,13 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 use toml_edit::DocumentMut;
 
-/// Most designs that are tried.
+/// Maximum number of designs that are tried.
 const TRIES: usize = 64;
 
 /// Changes the type of the dyad at a path; `None` if there is no such dyad, or it is of this type.
 ///
-/// Its bodies, and what they are held by, stay. Where there is such a machine, all is unmoved at some input; points that the old type gave
-/// its bodies, and others are held by, are written out.
+/// Its bodies and the points that hold them stay. If there is such a machine, all bodies have their old pose at some input.
+/// Points of the old type that hold other bodies are written into the design.
 pub(super) fn retyped(document: &DocumentMut, steps: &[Step], word: &str) -> Option<DocumentMut> {
     let [Step::Name(dyads), Step::Name(name)] = steps else {
         return None;
@@ -57,14 +57,14 @@ pub(super) fn retyped(document: &DocumentMut, steps: &[Step], word: &str) -> Opt
         }
     }
     let first = made.into_iter().next()?;
-    // Where nothing helps the fault is elsewhere.
+    // If no design is a mechanism, the fault is elsewhere.
     fallback
         .or_else(|| sound(first.clone(), &path, MOST))
         .or(Some(first))
 }
 
-/// The design as a mechanism, and whether one of at most so many tables went for that: goals of figures that are no more, and
-/// cams cut to a body that now slides instead of turning.
+/// The design as a mechanism, and whether tables were removed for that, at most `most`: goals of figures that do not exist any
+/// more, and cams cut to a body that now slides instead of turning.
 fn fitted(mut document: DocumentMut, most: usize) -> Option<(DocumentMut, bool)> {
     for gone in 0..=most {
         let error = match mechanism(&document.to_string()) {
@@ -87,8 +87,8 @@ fn machine(text: &str) -> Option<Arc<Machine>> {
     mechanism.downcast::<Machine>()
 }
 
-/// A new form of the dyad: its keys, the point of a line that its holder gets, and the frames of both bodies where it does
-/// not move.
+/// A new form of the dyad: its keys, the point of a line that its holder gets, the input at which the bodies keep their pose, and
+/// the frames of both bodies there.
 struct Form {
     keys: Map<String, Json>,
     point: Option<[f64; 2]>,
@@ -96,7 +96,7 @@ struct Form {
     frames: [Frame; 2],
 }
 
-/// Rounds to a millionth: numbers in the file are to be read, and others are to close with them.
+/// Rounds to a millionth: numbers in the file stay readable, and the machine still closes with them.
 fn short(value: f64) -> f64 {
     (value * 1e6).round() / 1e6 + 0.0
 }
@@ -111,7 +111,7 @@ struct Retype<'a> {
 }
 
 impl Retype<'_> {
-    /// Designs with the new type, the nearest to the old first.
+    /// Designs with the new type, the one nearest to the old design first.
     fn made(&self, course: Option<&Course>) -> Vec<DocumentMut> {
         let Some(held) = ends(self.spec) else {
             return Vec::new();

@@ -82,7 +82,8 @@ impl Retype<'_> {
         })
     }
 
-    /// Writes the points out that the old type gave its bodies, where others are held by them and the new type gives none of their names.
+    /// Writes points of the old type into its bodies, if other bodies are held by them and the new type has no points of these
+    /// names.
     fn keep_points(
         &self,
         made: &mut DocumentMut,
@@ -108,7 +109,7 @@ impl Retype<'_> {
         };
         for (number, given) in course.given.iter().enumerate() {
             let body = &bodies[if is_turned { 1 - number } else { number }];
-            // Written out for another type, and given by this one again.
+            // These points were written for an earlier type, and the new type has them itself.
             for name in now[number].iter().flatten() {
                 let steps = ["bodies", body, "points"].map(Step::named);
                 let points = container(made.as_item_mut(), &steps, true);
@@ -119,7 +120,7 @@ impl Retype<'_> {
             for (name, places) in given {
                 let is_there = now[number].iter().flatten().any(|own| own == name);
                 let word = format!("{body}.{name}");
-                // Corners name points of their own body without it.
+                // Corners name points of their own body without the body's name.
                 let is_held = text.contains(&format!("\"{word}\"")) || self.is_corner(body, name);
                 if is_there || !is_held {
                     continue;
@@ -132,7 +133,7 @@ impl Retype<'_> {
     }
 }
 
-/// Gives a body a point.
+/// Adds a point to a body.
 pub(in crate::design) fn put_point(
     made: &mut DocumentMut,
     body: &str,

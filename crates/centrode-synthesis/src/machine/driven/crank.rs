@@ -17,18 +17,18 @@ pub(super) const DRIVE: &str = "drive";
 const SHAFT: &str = "drive-shaft";
 const PINION: &str = "drive-pinion";
 const WHEEL: &str = "drive-wheel";
-/// Parts of a turn in each of which the output's distance from its law has few extremes.
+/// Number of parts of a turn, each with few extremes of the output's distance from its law.
 const PARTS: u32 = 64;
 
-/// The crank of a machine, and where its drive must be.
+/// The crank of a machine, and the position of its drive.
 pub(super) struct Crank<'a> {
     design: &'a MachineDesign,
     spec: &'a GearDriveSpec,
     body: &'a MachineBodySpec,
-    /// Point of the frame on which it turns.
+    /// Point of the frame on which the crank turns.
     on: &'a str,
     start: f64,
-    /// Sense in which it turns: 1 counter-clockwise.
+    /// Sense of rotation of the crank: 1 counter-clockwise, -1 clockwise.
     sense: f64,
 }
 
@@ -107,7 +107,7 @@ impl<'a> Crank<'a> {
         })
     }
 
-    /// Driven angles of the pair at equal steps of the driver's, the first zero; both turn against each other.
+    /// Driven angles of the pair at equal steps of the driver's angle, the first zero; the gears turn in opposite directions.
     pub(super) fn table(&self, timing: &Timing, steps: u32) -> Vec<f64> {
         let start = timing.at(0.0).position;
         let at = |i: u32| {
@@ -120,7 +120,7 @@ impl<'a> Crank<'a> {
         table
     }
 
-    /// Maximum distance of the output driven by gears from where the law has it.
+    /// Maximum distance of the output driven by gears from its position by the law.
     pub(super) fn miss(&self, timing: &Timing, rolled: &Rolling) -> Extreme {
         let (output, start) = (timing.output(), timing.at(0.0).position);
         let first = rolled.driven_angle(0.0);
@@ -187,7 +187,7 @@ impl<'a> Crank<'a> {
         let mut pair = table_pair(table, distance);
         pair.driven.body = pair.driven.body.keyed(mount);
         design.pairs.insert(DRIVE.into(), pair);
-        // Its law is gone.
+        // The crank has no law any more.
         let law = format!("bodies.{}.law", self.spec.body);
         design.vary.retain(|key, _| !key.starts_with(&law));
         Ok(design)

@@ -45,7 +45,7 @@ pub(super) fn required(composed: &Machine) -> Result<Output, GearDriveError> {
     let (figure, _) = found.ok_or(GearDriveError::Nothing)?;
     let start = motion(composed, &figure, 0.0).unwrap_or_default();
     let end = motion(composed, &figure, TAU).unwrap_or_default();
-    // Of an angle whole turns, else rounding.
+    // An angle advances by whole turns, a position by zero.
     let advance = TAU * ((end.position - start.position) / TAU).round();
     let machine = composed.clone();
     let output = move |angle: f64| motion(&machine, &figure, angle).unwrap_or_default();
@@ -53,7 +53,7 @@ pub(super) fn required(composed: &Machine) -> Result<Output, GearDriveError> {
     Ok((Arc::new(output), is_angle(&figure), sections))
 }
 
-/// Names of the goals that say nothing of how the output must go.
+/// Names of the goals that do not define the motion of the output.
 pub(super) fn left_alone(composed: &Machine) -> Vec<String> {
     let goals = composed.design().goals.iter().zip(composed.figures());
     let left = goals.filter(|((_, goal), figure)| section(goal, figure).is_none());
@@ -70,7 +70,7 @@ pub(super) fn is_of_angle(composed: &Machine) -> bool {
     goals.any(|(goal, figure)| is_angle(figure) && section(goal, figure).is_some())
 }
 
-/// Section of the input over which a goal requires something of the output.
+/// Section of the input over which a goal defines the output, and its requirement; `None` for other goals.
 fn section(goal: &MachineGoalSpec, figure: &MachineFigure) -> Option<([f64; 2], Required)> {
     let [from, to] = goal.within[..] else {
         return None;
@@ -87,7 +87,7 @@ fn section(goal: &MachineGoalSpec, figure: &MachineFigure) -> Option<([f64; 2], 
     Some(([from, to], required))
 }
 
-/// Motion of a position or an angle by the input; none of another figure.
+/// Motion of a position or an angle by the input; `None` for another figure.
 fn motion(composed: &Machine, figure: &MachineFigure, input: f64) -> Option<MotionJet> {
     Some(match *figure {
         MachineFigure::Point(BodyPoint { body, at }, part) => {

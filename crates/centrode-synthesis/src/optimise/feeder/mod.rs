@@ -16,10 +16,10 @@ use centrode_analysis::six_bar::RequiredSwing;
 use centrode_analysis::{Attainable, Goal, feeder_goals};
 use centrode_optimise::{Evaluation, Problem};
 
-/// Feeder as a problem: its free dimensions, the deviation of its swing as objective, and as constraints that the crank
-/// turns, the minimum transmission angle and the quick return.
+/// Feeder as a problem: its free dimensions, the deviation of its swing as objective, and as constraints a rotating crank, the
+/// minimum transmission angle and the quick return.
 ///
-/// The displacement of a free pivot is penalised. Motor, gears and dwell have no part in it.
+/// The displacement of a free pivot is penalised. Motor, gears and dwell do not affect it.
 ///
 /// Source: Ye et al. 2022, DOI 10.6041/j.issn.1000-1298.2022.05.010, (14) to (18).
 #[derive(Clone, Debug)]
@@ -94,7 +94,7 @@ impl Problem for FeederProblem {
         Some(self.dimensions.iter().map(value).collect())
     }
 
-    /// Evaluates a point: the objective is the swing's deviation, and the pivot's displacement by its weight, rad.
+    /// Evaluates a point: the objective is the swing's deviation plus the pivot's displacement times its weight, rad.
     fn evaluate(&self, point: &[f64]) -> Evaluation {
         let linkage = self.at(point);
         let lengths = [

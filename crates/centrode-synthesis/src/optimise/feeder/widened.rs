@@ -4,16 +4,16 @@ use centrode_machines::feeder::{BoundsSpec, Dimension, FeederDesign};
 
 use centrode_analysis::Attainable;
 
-/// Steps of a millimetre to which bounds and lengths are written, as a machinist reads them.
+/// Steps per millimetre to which bounds and lengths are rounded.
 const STEPS: f64 = 1e3;
 /// Maximum number of steps by which rounded bounds are moved outwards again.
 const MOST: u32 = 10;
 
-/// Feeder's design with its bounds widened until a crank-rocker within them has the required minimum transmission angle, and no
-/// further; with the lengths of this crank-rocker, and its pivot in the middle of the positions that give the required swing.
+/// Feeder's design with its bounds widened just until a crank-rocker within them has the required minimum transmission angle. It
+/// has the lengths of this crank-rocker, and its pivot in the middle of the positions that give the required swing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Widened {
-    /// Share by which every minimum length is made smaller and every maximum one greater, before rounding.
+    /// Share by which every minimum length is reduced and every maximum length increased, before rounding.
     pub share: f64,
     /// The design, bounds rounded outwards and lengths and pivot rounded to a thousandth of a millimetre.
     pub design: FeederDesign,
@@ -98,7 +98,7 @@ fn nearest(value: f64) -> f64 {
     (value * STEPS).round() / STEPS
 }
 
-/// Widens bounds by a share, rounds them outwards, and widens them then by so much more.
+/// Widens bounds by a share, rounds them outwards, and widens them then by `more`, mm.
 fn outwards(bounds: &BoundsSpec, share: f64, more: f64) -> BoundsSpec {
     let out = |[low, high]: [f64; 2]| {
         [
@@ -114,7 +114,8 @@ fn outwards(bounds: &BoundsSpec, share: f64, more: f64) -> BoundsSpec {
     }
 }
 
-/// The crank-rocker of rounded lengths next to these ones with the largest minimum transmission angle, rad.
+/// The crank-rocker with the largest minimum transmission angle among rounded lengths within one step of the given ones, and this
+/// angle, rad.
 fn rounded(
     lengths: [f64; 4],
     bounds: &BoundsSpec,

@@ -2,10 +2,11 @@ use centrode_geometry::{Bounds, Point};
 
 use centrode_analysis::{Finding, Severity, Unit};
 
-/// Distance from a side of the box that is none, as a share of the box's diagonal: a search ends so near to a bound.
+/// Distance from a side of the box below which an axis counts as on it, as a share of the box's diagonal: a search ends about so
+/// near to a bound.
 const NEAR: f64 = 1e-3;
 
-/// The finding on an axis at the border of the box in which it was searched: beyond it there may be a better one.
+/// The finding on an axis at the border of the box in which it was searched: outside the box there may be a better axis.
 #[must_use]
 pub fn axis_at_border(axis: Point, room: &Bounds) -> Option<Finding> {
     let near = NEAR * room.diagonal();

@@ -8,7 +8,7 @@ pub enum EasingError {
     /// The points make no path.
     #[error(transparent)]
     Path(#[from] PathError),
-    /// A band that is none.
+    /// A band that is negative or not finite.
     #[error("the band of point {number} is zero or more, in mm, not {band:?}")]
     Band {
         /// Number of the point, from one.
@@ -45,7 +45,7 @@ pub enum EasingError {
     /// A wish that breaks a rule.
     #[error("wishes.{0}")]
     Wish(#[from] SpecError),
-    /// A module that is none.
+    /// A module that is not a positive number.
     #[error("the module is greater than zero, in mm, not {module:?}")]
     Module {
         /// Module given, mm.

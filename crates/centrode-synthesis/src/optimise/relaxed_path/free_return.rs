@@ -5,8 +5,8 @@ use centrode_geometry::{Bounds, Point};
 use super::{Easing, EasingError, EasingSpec, NONE, each};
 use centrode_optimise::{Evaluation, Problem as _};
 
-/// Returns tried from the end of an open path to its start: lengths of their tangents at both, as multiples of the distance
-/// between them.
+/// Returns tried from the end of an open path to its start: lengths of their tangents at both ends, as multiples of the distance
+/// between the ends.
 const RETURNS: [f64; 6] = [0.5, 1.0, 1.5, 2.0, 3.0, 4.0];
 /// Fewest and most points of a free return.
 const RETURN_POINTS: [usize; 2] = [4, 12];
@@ -17,11 +17,11 @@ const MIN_OPEN: usize = 3;
 
 impl Easing {
     /// The search for a path whose working part alone is given, mm, each point within its band: the return from its last point to
-    /// its first is free. Of several returns that leave and meet it along its own direction the search starts from the one whose
-    /// gears are the bluntest.
+    /// its first is free. The search starts from the best of several returns that leave and join the working part in its own
+    /// direction.
     ///
     /// # Errors
-    /// [`EasingError`], as of [`new`](Self::new), and where no return makes a machine.
+    /// [`EasingError`], as of [`new`](Self::new), and if no return makes a machine.
     pub fn with_free_return(points: &[Point], spec: &EasingSpec) -> Result<Self, EasingError> {
         let (count, minimum) = (points.len(), MIN_OPEN);
         if count < minimum {
@@ -65,8 +65,8 @@ impl Easing {
     }
 }
 
-/// Points between the last and the first of some along a cubic that leaves and meets them along their own direction; the tangents
-/// are so many times as long as the distance.
+/// Points of a return from the last given point to the first, on a cubic that leaves and joins the path in the path's own
+/// direction. Its tangents are `share` times as long as the distance between the two points.
 fn back(points: &[Point], share: f64) -> Vec<Point> {
     let count = points.len();
     let (from, to) = (points[count - 1], points[0]);

@@ -5,7 +5,7 @@ use centrode_geometry::{Point, checkpoint};
 use super::{EasingSpec, path_goals};
 use centrode_optimise::Evaluation;
 
-/// Value of an aim, the less the better.
+/// Value of an aim: the smaller, the better.
 pub(super) fn aimed(chain: &TwoBar, bend: f64, aim: Aim) -> f64 {
     match aim {
         Aim::Module => -Limits::largest_full_module(chain.curvatures(bend)),

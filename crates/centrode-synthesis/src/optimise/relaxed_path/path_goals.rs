@@ -1,4 +1,4 @@
-//! How far a machine made from its path is what else is required of it.
+//! How closely a machine made from its path meets the further wishes.
 
 use std::f64::consts::{PI, TAU};
 
@@ -7,26 +7,27 @@ use centrode_geometry::{Outline, Point, SampledPiece, maximum_of_samples, roundi
 
 use centrode_analysis::{Goal, Unit};
 
-/// Poses of the arm per turn, between which its minimum distance from a shape is followed.
+/// Poses of the arm per turn at which its distance from a shape is sampled, before the minimum is refined.
 const SAMPLES: usize = 192;
-/// Size of a miss that leaves half the progress, as a share of the reach of the machine, and of ratios.
+/// Miss at which a goal has half its progress: for a length as a share of the reach of the machine, for a ratio this value
+/// itself.
 const SCALE: f64 = 0.1;
 /// Names of goals that are distances from shapes.
 const KEEP_OUT: &str = "keep-out-";
-/// Margin of distances from shapes, mm: ten times smaller, the check of the bodies may still find a collision.
+/// Margin of distances from shapes, mm: with a tenth of it the check of the bodies may still find a collision.
 const SPARE: f64 = 5e-3;
-/// That of a turn, rad.
+/// Miss at which a goal of an angle has half its progress, rad.
 const TURN: f64 = 0.2;
 
-/// Wishes as goals of carrier and arm, with how far they reach them: of a path that runs through so many points at equal steps of
-/// its parameter, and a machine with a bend, rad.
+/// Wishes as goals, with the values that carrier and arm reach. The path runs through `points` points at equal steps of its
+/// parameter; the machine has a bend, rad.
 #[must_use]
 pub fn reached(wishes: &Wishes, chain: &TwoBar, bend: f64, points: usize) -> Vec<Goal> {
     goals(wishes, chain, bend, points).0
 }
 
-/// Goals of a machine with its points along the path at equal steps of the parameter; and the direction of its clamp less that
-/// of its arm, rad, where directions are required.
+/// Goals of a machine with its points along the path at equal steps of the parameter; and the direction of its clamp minus that
+/// of its arm, rad, if directions are required.
 pub(super) fn goals(
     wishes: &Wishes,
     chain: &TwoBar,
@@ -183,12 +184,13 @@ fn wrapped(angle: f64) -> f64 {
     (angle + PI).rem_euclid(TAU) - PI
 }
 
-/// Angle from which several are off by the smallest maximum share of their tolerances, on the side of the first.
+/// Angle from which the maximum deviation of several angles, as a share of their tolerances, is smallest; each angle is taken
+/// within half a turn of the first.
 fn middle(angles: &[f64], tolerances: &[f64]) -> Option<f64> {
     let first = *angles.first()?;
     let from_first: Vec<f64> = angles.iter().map(|angle| wrapped(angle - first)).collect();
     let all = || from_first.iter().zip(tolerances);
-    // Any two are met with this share of their tolerances, and all with the maximum of them.
+    // Two angles need this share of their tolerances to overlap; all angles need the maximum of these shares.
     let shares = all().flat_map(|(a, s)| all().map(move |(b, t)| (a - b) / (s + t)));
     let share = shares.fold(0.0, f64::max);
     let low = all()
@@ -200,7 +202,7 @@ fn middle(angles: &[f64], tolerances: &[f64]) -> Option<f64> {
     Some(wrapped(first + 0.5 * (low + high)))
 }
 
-/// A shape to keep out of.
+/// A shape that the arm must not enter.
 enum Room {
     /// Sides of a polygon in order.
     Polygon(Vec<[Point; 2]>, Outline),
@@ -240,7 +242,8 @@ impl Room {
         -maximum_of_samples(&samples, nearness, rounding, &[piece]).value
     }
 
-    /// Distance of a bar, mm; inside the shape, less the length of its part there, or its depth.
+    /// Distance of a bar from the shape, mm. Negative if they overlap: minus the length inside a polygon, or minus the depth in
+    /// another shape.
     fn distance(&self, [p, q]: [Point; 2]) -> f64 {
         match self {
             Self::Below(below) => p.y.min(q.y) - below,
@@ -281,7 +284,7 @@ fn from_bar(point: Point, [p, q]: [Point; 2]) -> f64 {
     (off - along * share).norm()
 }
 
-/// Share of a bar at which a side crosses it.
+/// Position on a bar at which a side crosses it, as a share of the bar's length.
 fn crossing([p, q]: [Point; 2], [a, b]: [Point; 2]) -> Option<f64> {
     let (bar, side, off) = (q - p, b - a, a - p);
     let area = bar.perp(&side);

@@ -5,25 +5,25 @@ use centrode_geometry::Point;
 
 use centrode_analysis::{Finding, Goal};
 
-/// Room that a path has, and wishes about its machine.
+/// Bands within which a path may move, and wishes about its machine.
 #[derive(Clone, Debug)]
 pub struct EasingSpec {
-    /// Distance within which the path may pass each point, mm, or one for all.
+    /// Maximum distance at which the path may pass each point, mm: one per point, or one for all.
     pub bands: Vec<f64>,
     /// Axis of the carrier, mm, if it is given.
     pub axis: Option<Point>,
-    /// Axes among which it is searched otherwise; default: those about the path.
+    /// Axes among which the axis is searched if it is not given; default: those around the path.
     pub axes: Option<AxisRange>,
     /// Angle from the carrier's first leg to its second, rad.
     pub bend: f64,
-    /// Figure that is made the most of.
+    /// Figure that is optimised.
     pub aim: Aim,
     /// Further wishes.
     pub wishes: Wishes,
 }
 
 impl EasingSpec {
-    /// Points within their bands, mm, of a machine with a bend, rad, its axis free, for the largest teeth.
+    /// A request with bands, mm, and a bend, rad; the axis is free, and the aim is the largest module.
     #[must_use]
     pub fn new(bands: &[f64], bend: f64) -> Self {
         Self {
@@ -42,7 +42,7 @@ impl EasingSpec {
 pub struct EasedPath {
     /// Points of the path: those given, then those of a free return.
     pub points: Vec<Point>,
-    /// Distance of each point given from where it was required, mm.
+    /// Distance of each given point from its required position, mm.
     pub moved: Vec<f64>,
     /// Carrier and arm.
     pub chain: TwoBar,
@@ -51,10 +51,10 @@ pub struct EasedPath {
     pub module: (Option<f64>, f64),
     /// Further wishes, and how far they are reached.
     pub goals: Vec<Goal>,
-    /// Direction of the clamp less that of the arm, rad, where directions were required.
+    /// Direction of the clamp minus that of the arm, rad, if directions were required.
     pub clamp: Option<f64>,
     /// Evaluations of the search.
     pub evaluations: u64,
-    /// Finding on the axis, where there is one: `axis-at-border`.
+    /// Finding on the axis, if there is one: `axis-at-border`.
     pub findings: Vec<Finding>,
 }

@@ -17,8 +17,8 @@ pub(super) struct Judged {
     pub(super) reached: Option<(ThreeArm, Vec<Goal>)>,
 }
 
-/// Judges a mechanism in steps, each only where all before are met: quick figures; flanks; clearances; the contact of full
-/// teeth. None where there is no mechanism.
+/// Evaluates the constraints of a mechanism in steps: quick figures; flanks; clearances; the contact of full teeth. A step
+/// follows only if all constraints before it are met. `None` if there is no mechanism.
 pub(super) fn judge(
     quick: &[Goal],
     overload: f64,
@@ -58,16 +58,16 @@ pub(super) fn judge(
     })
 }
 
-/// Goals of a mechanism, and its other limits.
+/// Goals of a mechanism, and its other constraints; `None` if its arms have no possible bodies.
 pub(super) fn exact(mechanism: &ThreeArm) -> Option<Vec<Goal>> {
     let (mut goals, arms) = three_arm_reached(mechanism);
-    // Arms of which no body can be made reach nothing.
+    // Arms without possible bodies reach no goal.
     arms.as_ref()?;
     goals.extend(kept(mechanism, arms.as_ref()));
     Some(goals)
 }
 
-/// A constraint next to the goals: one of number zero.
+/// A constraint apart from the goals of the design: its number is zero.
 pub(super) fn constraint(name: &'static str, title: &'static str, unit: Unit) -> Goal {
     Goal::new(0, name, title, unit)
 }
@@ -88,7 +88,7 @@ pub(super) fn gearbox_tray(mechanism: &ThreeArm) -> Goal {
     clear("gearbox-tray", "gearbox clear of the tray", 0.0).with(mechanism.gearbox_tray_clearance())
 }
 
-/// Constraints next to the goals.
+/// Constraints apart from the goals of the design.
 fn kept(mechanism: &ThreeArm, arms: Option<&ArmClearance>) -> Vec<Goal> {
     let design = mechanism.design();
     let tray = design.optimise.tray_clearance;
@@ -104,7 +104,7 @@ fn kept(mechanism: &ThreeArm, arms: Option<&ArmClearance>) -> Vec<Goal> {
     ]
 }
 
-/// Gives the gears as many teeth as leave the required module, unless their count is held.
+/// Gives the gears the largest tooth count that leaves the required module, unless the count is fixed.
 pub(super) fn follow(design: &mut ThreeArmDesign, length: f64) {
     if design.optimise.hold_tooth_count || design.goals.module <= 0.0 {
         return;
@@ -115,7 +115,7 @@ pub(super) fn follow(design: &mut ThreeArmDesign, length: f64) {
     }
 }
 
-/// Miss of a goal as a share of its scale; zero where it is reached.
+/// Miss of a goal as a share of its scale; zero if it is reached.
 fn miss(goal: &Goal) -> Option<f64> {
     goal.margin.map(|margin| (-margin / goal.scale).max(0.0))
 }

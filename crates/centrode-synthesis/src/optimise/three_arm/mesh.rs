@@ -5,14 +5,14 @@ use centrode_machines::three_arm::design::ThreeArmDesign;
 use super::evaluation::constraint;
 use centrode_analysis::{Goal, SLIGHT_TRANSMISSION_ERROR, Severity, Unit, check};
 
-/// Transmission error of half the progress, rad.
+/// Excess of the transmission error at which its goal has half its progress, rad.
 const ERROR: f64 = 1e-3;
 
-/// Goals of number zero for a mechanism's full teeth in mesh, over a whole cycle: that flanks carry the motion, and
-/// that there is no finding against the teeth. None where no teeth can be cut.
+/// Goals of number zero for a mechanism's full teeth in mesh, over a whole cycle: the flanks transmit the motion, and there is no
+/// finding against the teeth. `None` if no teeth can be cut.
 ///
-/// Planets are the sun's part again, and the mesh of intermediate and planet is that of sun and intermediate turned
-/// round: one pair represents all six meshes.
+/// A planet is the same part as the sun, and planet and intermediate gear are the pair of sun and intermediate gear: one pair
+/// represents all six meshes.
 pub(super) fn mesh(design: &ThreeArmDesign) -> Option<[Goal; 2]> {
     let pair = design.pair();
     let full = GearPairDesign {
@@ -29,7 +29,7 @@ pub(super) fn mesh(design: &ThreeArmDesign) -> Option<[Goal; 2]> {
         .findings
         .iter()
         .filter(|f| f.severity >= Severity::Warning);
-    // Lost contact, and what comes of it, counts as transmission error; the pressure angle is the pitch curve's.
+    // Lost contact and the jumps that follow count as transmission error; the pressure angle depends on the pitch curve.
     let other = ["contact-lost", "seat-jump", "pressure-angle"];
     let against = worse.filter(|f| !other.contains(&f.rule)).count();
     Some([

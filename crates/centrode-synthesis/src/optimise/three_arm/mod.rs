@@ -24,10 +24,10 @@ const INPUTS: usize = 120;
 
 /// Three-arm mechanism as a problem: its free parameters, its goals as constraints, and the design's objective.
 ///
-/// A point is evaluated in steps. The figures of a [`Sweep`], in some microseconds: angles, heights, and the curvatures
-/// of the pitch curves, which give the module they allow. Only where those are met the exact mechanism is resolved, and
-/// clearances and flanks are computed as in a check; and only where those are met, too, full teeth are cut and their contact
-/// is followed over a cycle. Goals met so are met in the check.
+/// A point is evaluated in steps. The figures of a [`Sweep`], in some microseconds: angles, heights, and the curvatures of the
+/// pitch curves, which give the module they allow. Only if these goals are met, the exact mechanism is resolved, and clearances
+/// and flanks are computed as in a check. Only if these are met, too, full teeth are cut and their contact is followed over a
+/// cycle. Goals met in this evaluation are met in the check.
 #[derive(Debug)]
 pub struct ThreeArmProblem {
     start: ThreeArmDesign,
@@ -41,7 +41,7 @@ pub struct ThreeArmProblem {
 struct Quick {
     design: ThreeArmDesign,
     goals: Vec<Goal>,
-    /// Share by which the module exceeds what the pitch curves allow everywhere; zero or less where they do.
+    /// Share by which the module exceeds what the pitch curves allow everywhere; zero or less if they allow it.
     overload: f64,
 }
 
@@ -49,7 +49,7 @@ impl ThreeArmProblem {
     /// Makes the problem around a design, which must be of the kind a [`Sweep`] accepts.
     ///
     /// # Errors
-    /// [`SweepError`] where its pitch curve is of another kind.
+    /// [`SweepError`] if its pitch curve is of another kind.
     pub fn new(design: &ThreeArmDesign) -> Result<Self, SweepError> {
         let template = Sweep::like(design, INPUTS)?;
         let free = design.free_parameters();
@@ -79,7 +79,7 @@ impl ThreeArmProblem {
         design
     }
 
-    /// Lends one of the sweeps: each thread needs its own, and each is worth keeping.
+    /// Calls `look` with an idle sweep or a new one, and stores it for the next call: each thread needs its own.
     fn with_sweep<T>(&self, look: impl FnOnce(&mut Sweep) -> T) -> T {
         let idle = self.sweeps.lock().ok().and_then(|mut idle| idle.pop());
         let mut sweep = idle.unwrap_or_else(|| self.template.clone());
@@ -213,7 +213,7 @@ impl DesignProblem for ThreeArmProblem {
         let quick = self.quick(point)?;
         let mut goals = evaluation::exact(&ThreeArm::resolve(&quick.design).ok()?)?;
         for goal in &mut goals {
-            // A count of flanks has no slope; the module that every point of the curves allows has.
+            // A count of flanks has no slope; the module relative to the largest one that the curves allow has a slope.
             if goal.name == "sound-teeth" && goal.met() == Some(false) {
                 let title = "module exceeds the largest module without undercut";
                 *goal = Goal::new(goal.number, goal.name.clone(), title, Unit::Count)

@@ -10,29 +10,30 @@ use super::evaluation;
 use centrode_analysis::{Goal, three_arm_goals};
 use centrode_optimise::{Evaluation, Method, Problem, Settings, minimise};
 
-/// Bends tried with the gentlest law, in steps, and the step, degrees; how far the search may go from the best of them, steps.
+/// Bends tried with the gentlest law, in steps; the step, degrees; maximum distance of the search from the best of them, steps.
 const BENDS: std::ops::RangeInclusive<i32> = -8..=8;
 const STEP: f64 = 12.0;
 const ROOM: f64 = 2.0;
 /// Decimals of the bend, degrees.
 const DECIMALS: f64 = 1e3;
-/// Orders of the law that the search may bias, and by how much of 1/k^2, rad.
+/// Number of orders of the law that the search may bias; maximum bias of the first, rad; that of order k is 1/k^2 of it.
 const ORDERS: usize = 5;
 const MAXIMUM: f64 = 0.2;
 /// Evaluations after which a search gives up.
 const EVALUATIONS: u64 = 500;
-/// Violation of a point of which there is no mechanism.
+/// Violation of a point that gives no mechanism.
 const NONE: f64 = 1e3;
 
 /// Search for a three-arm mechanism whose clamps take key poses and that reaches its goals: over the bend, and over the
 /// amplitudes near which the law of its pair stays.
 ///
-/// Every point takes the poses, so they are no constraint. The objective is how far the law is from the gentlest one.
+/// At every point of the search the clamps take the poses, so the poses are no constraint. The objective is how far the law is
+/// from the gentlest one.
 #[derive(Clone, Copy, Debug)]
 pub struct PosedProblem<'a> {
     poses: &'a KeyPoses,
     arms: u32,
-    /// Bend about which is searched, rad.
+    /// Bend around which the search goes, rad.
     bend: f64,
 }
 
@@ -43,18 +44,18 @@ pub struct Posed {
     pub poses: KeyPoses,
     /// The design.
     pub design: ThreeArmDesign,
-    /// Its goals, as far as they were evaluated, and its other limits; all are met where `is_reached`.
+    /// Its goals, as far as they were evaluated, and its other limits; all are met if `is_reached`.
     pub goals: Vec<Goal>,
     /// Distance of the tip from each pose, mm, and turn of the clamp from its direction there, rad.
     pub misses: Vec<[f64; 2]>,
-    /// Whether every goal is reached, with sound full teeth whose flanks carry the motion.
+    /// Whether every goal is reached, with sound full teeth whose flanks transmit the motion.
     pub is_reached: bool,
     /// Evaluations of the search.
     pub evaluations: u64,
 }
 
 impl<'a> PosedProblem<'a> {
-    /// Chains through the same poses that are enough to choose from: five poses have four at most, of either sense.
+    /// Maximum number of chains through the same poses to choose from: five poses have at most four, each in either sense.
     pub const CHAINS: usize = 8;
 
     /// The design of a point: the bend, and amplitudes of the law.
@@ -66,11 +67,11 @@ impl<'a> PosedProblem<'a> {
     }
 
     /// Searches for a mechanism that reaches every goal: first the gentlest law of every chain at bends all over their range,
-    /// then from the best of them. The best is given where none reaches all. `observe` hears of evaluations and of the minimum
-    /// violation found.
+    /// then from the best of them. The best is returned if none reaches all. `observe` receives the number of evaluations and the
+    /// minimum violation found.
     ///
     /// # Errors
-    /// [`NotPosed`] where no chain has a law at any bend.
+    /// [`NotPosed`] if no chain has a law at any bend.
     pub fn search(
         chains: &'a [KeyPoses],
         arms: u32,
@@ -79,7 +80,7 @@ impl<'a> PosedProblem<'a> {
         let mut evaluations = 0;
         let mut best: Option<(f64, Self)> = None;
         let mut fault = None;
-        // Small ones first: they leave the smaller gearbox.
+        // Small bends first: they need the smaller gearbox.
         let mut bends: Vec<f64> = BENDS.map(|step| STEP * f64::from(step)).collect();
         bends.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
         let bends = || bends.iter().map(|bend| bend.to_radians());
@@ -178,7 +179,7 @@ impl PosedProblem<'_> {
     }
 }
 
-/// Quick goals of a design, which gets its teeth, and the share by which its module exceeds what the pitch curves allow.
+/// Quick goals of a design, whose tooth count is set here, and the share by which its module exceeds what the pitch curves allow.
 fn quick(design: &mut ThreeArmDesign) -> Option<(Vec<Goal>, f64)> {
     let mechanism = ThreeArm::resolve(design).ok()?;
     let rolling = mechanism.train().rolling();
@@ -234,5 +235,5 @@ impl Problem for PosedProblem<'_> {
     }
 }
 
-// The law has room for every order that the search may bias.
+// The law has terms for every order that the search may bias.
 const _: () = assert!(2 * ORDERS <= Harmonics::TERMS);

@@ -10,17 +10,19 @@ use super::path::text;
 use super::{PathError, RequiredPath};
 use centrode_spec::digits::stated;
 
-/// Fewest and most points through which a curve is laid.
+/// Minimum and maximum number of points through which a curve is laid.
 const FEWEST: usize = 32;
 const MOST: usize = 1024;
-/// Maximum error of a length along the drawing, as a share of the whole, where rounding allows it; roundings allowed for.
+/// Maximum error of a length along the drawing, as a share of the whole length; or, if more, this number of roundings of a
+/// coordinate.
 const LENGTH: f64 = 1e-12;
 const ROUNDINGS: f64 = 16.0;
 
-/// Points along a closed path of an SVG file, the first where the drawing begins, evenly spread over its length.
+/// Points along a closed path of an SVG file, evenly spread over its length; the first is the start of the drawing.
 ///
-/// A drawing is pieces whose curvature jumps where they join; a machine's path has none such. Through as few points as come
-/// within a distance of the drawing, 32 and twice as many and so on, runs the closed spline of [`RequiredPath::through`].
+/// The curvature of a drawing jumps where its pieces join; the path of a machine must not have such jumps. The closed spline of
+/// [`RequiredPath::through`] runs through the smallest number of points, 32, 64 and so on, with which it comes within the given
+/// distance of the drawing.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DrawnPath {
     /// The points, mm: x to the right and y up from the drawing's lower left corner.
@@ -30,14 +32,15 @@ pub struct DrawnPath {
 }
 
 impl DrawnPath {
-    /// Reads the one path of a drawing whose root shows its size (`width="210mm" viewBox="0 0 210 297"`); `within` is the
+    /// Reads the only path of a drawing whose root states its size (`width="210mm" viewBox="0 0 210 297"`); `within` is the
     /// maximum distance allowed between drawing and spline, mm.
     ///
-    /// Groups and transforms are followed. Shapes that are no paths (circles, texts), and what is only defined or not shown, are
-    /// left aside; drawings within the drawing, uses of other shapes and transforms in styles are refused.
+    /// Groups and transforms are followed. Shapes that are not paths (circles, texts), and elements that are only defined or
+    /// hidden, are ignored; drawings within the drawing, uses of other shapes and transforms in styles are refused.
     ///
     /// # Errors
-    /// [`DrawingError`] for a file that is no such drawing, an open path, and one with a corner: no spline comes near it.
+    /// [`DrawingError`] for a file that is no such drawing, for an open path, and for a path with a corner, to which no spline
+    /// comes near.
     pub fn from_svg(bytes: &[u8], within: f64) -> Result<Self, PathError> {
         if !(within > 0.0 && within.is_finite()) {
             return Err(DrawingError::Within { within }.into());
@@ -50,7 +53,7 @@ impl DrawnPath {
                 .collect();
             let path = RequiredPath::through(&points)?;
             let step = drawing.length / count as f64;
-            // Pieces of the spline, and the drawing's own joints.
+            // Ends of the pieces of the spline, and the joints of the drawing.
             let ends = piece_ends(0.0, drawing.length, count as u32, &drawing.joints());
             let off = |s: f64| path.distance_near(drawing.at(s), s / step);
             let deviation = maximum(off, &ends);
@@ -70,17 +73,17 @@ struct Drawing {
     /// Pieces and their starts in units of the drawing's size: lengths along a curve are found for curves of a size near 1.
     segments: Vec<PathSeg>,
     starts: Vec<f64>,
-    /// The unit, mm.
+    /// Size of the drawing, mm.
     size: f64,
-    /// Maximum error of a length, in that unit: what is small and far from the origin has fewer digits.
+    /// Maximum error of a length, in units of the size: a small drawing far from the origin has fewer digits.
     accuracy: f64,
-    /// mm.
+    /// Length of the whole path, mm.
     length: f64,
 }
 
 impl Drawing {
     fn new(segments: Vec<PathSeg>) -> Self {
-        // The whole is at least as long as the polygon of the pieces' ends.
+        // The path is at least as long as the polygon of the pieces' ends.
         let size: f64 = segments.iter().map(|s| (s.end() - s.start()).hypot()).sum();
         let far = |at: kurbo::Point| at.x.abs().max(at.y.abs());
         let far = segments.iter().map(|s| far(s.start())).fold(0.0, f64::max);
@@ -143,7 +146,7 @@ impl Drawing {
     }
 }
 
-/// Direction of a piece at one of its ends, also where a handle lies on its point.
+/// Direction of a piece at one of its ends, also if a handle coincides with the end point.
 fn tangent(segment: &PathSeg, t: f64) -> kurbo::Vec2 {
     let cubic = segment.to_cubic();
     let derivative = cubic.deriv().eval(t).to_vec2();
@@ -161,7 +164,7 @@ pub enum DrawingError {
     /// A file that is no XML.
     #[error("the drawing cannot be read: {why}")]
     Xml {
-        /// Complaint of the reader.
+        /// Message of the reader.
         why: String,
     },
     /// XML whose root is another than svg.
@@ -178,12 +181,12 @@ pub enum DrawingError {
         /// Key at fault, and its value.
         why: String,
     },
-    /// A way of placing a path that is not followed.
+    /// A feature of SVG that positions a path and is not supported.
     #[error("{what} of the drawing is not followed: {remedy}")]
     NotFollowed {
-        /// Way of placing, in words.
+        /// Name of the feature.
         what: &'static str,
-        /// How the drawing can do without it.
+        /// How to change the drawing so that it does not need the feature.
         remedy: &'static str,
     },
     /// No path, or several.
@@ -204,7 +207,7 @@ pub enum DrawingError {
         key: &'static str,
         /// Its first characters.
         data: String,
-        /// Complaint of the reader.
+        /// Message of the reader.
         why: String,
     },
     /// A path of several lines.
@@ -243,7 +246,7 @@ pub enum DrawingError {
         /// Maximum coordinate, mm.
         limit: f64,
     },
-    /// A path along which no smooth curve runs.
+    /// A path to which no smooth curve comes near enough.
     #[error(
         "a smooth curve through {count} points comes within {} mm of the drawing, not within {} mm: the sharpest joint of its pieces turns by {angle:.2} deg, at ({x:.4}, {y:.4}) mm; round corners, or allow more",
         stated(*reached),
@@ -263,7 +266,7 @@ pub enum DrawingError {
         /// Its position, mm.
         y: f64,
     },
-    /// A distance allowed that is none.
+    /// An allowed distance that is not a positive number.
     #[error(
         "the distance allowed from the drawing is {within} mm; it must be a number greater than zero"
     )]

@@ -14,9 +14,9 @@ const MAX_PIECES: usize = 10_000;
 const MAX_NODES: u32 = 1_000_000;
 /// Most attributes of an element. The reader compares each with all before it: 100,000 take 15 s, 1000 some milliseconds.
 const MAX_ATTRIBUTES: usize = 1000;
-/// Share of its radius within which cubics follow an arc.
+/// Maximum distance of cubics from an arc, as a share of its radius.
 const ARC: f64 = 1e-10;
-/// Share of the drawing within which the scales by height and width may differ, and a path is closed.
+/// Maximum relative difference of the scales by height and width; maximum gap of a closed path, as a share of the drawing's size.
 const LOOSE: f64 = 1e-3;
 const CLOSED: f64 = 1e-6;
 /// Maximum number of characters of data that a message quotes.
@@ -85,7 +85,7 @@ fn few_attributes(text: &str) -> Result<(), DrawingError> {
     }
 }
 
-/// The pieces, where they end where they begin.
+/// The pieces, if the path ends where it begins.
 fn closed(mut segments: Vec<PathSeg>, drawn: &BezPath) -> Result<Vec<PathSeg>, DrawingError> {
     use kurbo::ParamCurve as _;
     for end in segments
@@ -139,7 +139,7 @@ fn style<'a>(node: Node<'a, '_>, key: &str) -> Option<&'a str> {
     })
 }
 
-/// Refuses ways of placing what is shown that are not followed.
+/// Refuses features that position shown elements and are not supported.
 fn followed(root: Node<'_, '_>) -> Result<(), DrawingError> {
     let shown = root.descendants().filter(|node| is_shown(*node));
     for node in shown {
@@ -208,11 +208,11 @@ fn page(root: Node<'_, '_>) -> Result<Affine, DrawingError> {
     ]))
 }
 
-/// The line of a path's data, in its own units.
+/// The curve of a path's data, in the units of the path.
 fn line(data: &str) -> Result<BezPath, DrawingError> {
     let mut path = BezPath::new();
     let mut lines = 0;
-    // End of the last piece, start of the line, and the handle that a smooth piece goes on with.
+    // End of the last piece, start of the line, and the handle from which a smooth piece continues.
     let (mut at, mut start) = (Point::ZERO, Point::ZERO);
     let (mut cubic, mut quadratic) = (None, None);
     for segment in PathParser::from(data) {

@@ -6,13 +6,13 @@ use nalgebra::{DMatrix, DVector};
 /// Harmonics of the law.
 const ORDERS: usize = 8;
 const TERMS: usize = 2 * ORDERS;
-/// Parts in which the turns required grow from those of even motion.
+/// Number of parts in which the turns grow from those of even motion to the required ones.
 const GROWTH: usize = 8;
-/// Newton steps of a part, the maximum change of an amplitude in one, and the change at which they end.
+/// Newton steps per part, the maximum change of an amplitude per step, and the change at which the steps end.
 const STEPS: usize = 40;
 const MAXIMUM: f64 = 0.1;
 const SETTLED: f64 = 1e-13;
-/// Minimum ratio of a law, at so many samples of a turn.
+/// Minimum ratio of a law, and number of samples per turn at which it is checked.
 const MIN_RATIO: f64 = 0.05;
 const PLACES: u32 = 180;
 
@@ -22,7 +22,7 @@ pub struct Harmonics {
     amplitudes: [f64; TERMS],
 }
 
-/// Cost of a squared amplitude of f: of the ratio and of its second derivative.
+/// Cost of a squared amplitude of f: its part in the squares of the ratio and of the ratio's second derivative.
 fn cost(term: usize) -> f64 {
     let k = (1 + term / 2) as f64;
     k.powi(2) * (1.0 + k.powi(4))
@@ -32,12 +32,12 @@ impl Harmonics {
     /// Number of amplitudes: `a_1`, `b_1`, `a_2` and so on.
     pub const TERMS: usize = TERMS;
 
-    /// Law of one pair twice that turns the planet by the second of each two angles while the carrier turns by the first, rad,
-    /// signed and from the same start; its amplitudes are as near to those of `bias` as they can be. None where it does not
-    /// come out.
+    /// Law of one pair twice: while the carrier turns by the first of each two angles, the planet turns by the second, rad,
+    /// signed and from the same start. Its amplitudes are as near as possible to those of `bias`. `None` if the steps do not
+    /// converge.
     ///
     /// The planet meets its gear at chi(psi) with f(chi) = f(psi) - bend - pi, so each pose is one equation in the amplitudes.
-    /// Newton steps solve them; of all solutions of each the nearest is taken.
+    /// Newton steps solve these equations; of all solutions of the linear equations a step takes the one nearest to `bias`.
     pub(super) fn through(turns: &[[f64; 2]], bend: f64, bias: &[f64]) -> Option<Self> {
         let required = turns.get(1..)?;
         let bias = DVector::from_fn(TERMS, |term, _| bias.get(term).copied().unwrap_or(0.0));
@@ -110,7 +110,7 @@ impl Harmonics {
         1.0 + (0..TERMS).map(slope).sum::<f64>()
     }
 
-    /// Whether the driven gear always advances, as far as some samples show.
+    /// Whether the driven gear always advances, checked at samples.
     fn advances(&self) -> bool {
         let at = |i: u32| TAU * f64::from(i) / f64::from(PLACES);
         (0..PLACES).all(|i| self.ratio(at(i)) > MIN_RATIO)
@@ -119,7 +119,7 @@ impl Harmonics {
     /// Polar angle at which the planet meets its gear, and its derivatives by the amplitudes.
     fn planet(&self, psi: f64, bend: f64) -> (f64, [f64; TERMS]) {
         let met = self.at(psi) - bend - PI;
-        // It swings about its argument by less than all amplitudes together.
+        // f(x) differs from x by at most twice the sum of all amplitudes.
         let swing = 1e-9 + 2.0 * self.amplitudes.iter().map(|a| a.abs()).sum::<f64>();
         let off = |x: f64| self.at(x) - met;
         let (low, high) = (met - swing, met + swing);

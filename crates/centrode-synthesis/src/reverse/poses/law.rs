@@ -8,14 +8,14 @@ use super::{Circle, KeyPose};
 /// Harmonics of the logarithm of the ratio.
 const HARMONICS: usize = 12;
 const TERMS: usize = 2 * HARMONICS + 1;
-/// Parts in which the turns required grow from those of even motion.
+/// Number of parts in which the turns grow from those of even motion to the required ones.
 const GROWTH: usize = 8;
 /// Newton steps, and the error at which they end, rad.
 const STEPS: usize = 30;
 const CLOSED: f64 = 1e-13;
 /// Minimum turn of a body between two poses, rad.
 const MIN_TURN: f64 = 1e-3;
-/// Maximum |ln| of a ratio: that of gears no one makes.
+/// Maximum |ln| of a ratio: gears beyond it are not practical.
 const UNEVEN: f64 = 3.0;
 
 /// Turns of carrier and planet from pose to pose, both in the carrier's sense.
@@ -45,7 +45,7 @@ fn waves(psi: f64) -> [f64; TERMS] {
     waves
 }
 
-/// Cost of a squared amplitude: of the logarithm and of its second derivative.
+/// Cost of a squared amplitude: its part in the squares of the logarithm and of the logarithm's second derivative.
 fn cost(term: usize) -> f64 {
     let k = term.div_ceil(2) as f64;
     1.0 + k.powi(4)
@@ -61,7 +61,7 @@ impl PoseLaw {
         let turns = angles.iter().zip(next).map(|(one, other)| {
             let carrier = sense * (other[0] - one[0]);
             let arm = sense * (other[1] - one[1]);
-            // The planet turns as the arm does against the carrier, in the opposite direction.
+            // The planet turns like the arm relative to the carrier, in the opposite direction.
             [carrier.rem_euclid(TAU), (carrier - arm).rem_euclid(TAU)]
         });
         Self {
@@ -86,7 +86,7 @@ impl PoseLaw {
         self.passed() == self.turns.len()
     }
 
-    /// The law of minimum mean square of ln(ratio) and of its second derivative; `None` if it does not come out.
+    /// The law of minimum mean square of ln(ratio) and of its second derivative; `None` if the steps do not converge.
     pub(super) fn mildest(&self) -> Option<MildLaw> {
         let count = self.turns.len();
         let mut amplitudes = [0.0; TERMS];
@@ -112,7 +112,7 @@ impl PoseLaw {
                     off[i] = required - turn;
                 }
                 is_met = off.amax() < CLOSED * 100.0;
-                // The minimum amplitudes that meet the turns, as far as these are linear.
+                // The smallest amplitudes that meet the linearised turns.
                 let now = DVector::from_iterator(TERMS, amplitudes);
                 let right = &off + &slopes * &now;
                 let scaled = DMatrix::from_fn(TERMS, count, |j, i| slopes[(i, j)] / cost(j));
@@ -160,7 +160,7 @@ impl MildLaw {
         self.law.turns.iter().map(before).collect()
     }
 
-    /// Maximum |ln| of the ratio at 360 samples: it ranks laws, no more.
+    /// Maximum |ln| of the ratio at 360 samples; it only ranks laws.
     pub(super) fn unevenness(&self) -> f64 {
         let at = |i: u32| ratio(&self.amplitudes, &waves(f64::from(i).to_radians()));
         (0..360).map(|i| at(i).ln().abs()).fold(0.0, f64::max)
@@ -189,7 +189,7 @@ fn ratio(amplitudes: &[f64; TERMS], waves: &[f64; TERMS]) -> f64 {
     terms.sum::<f64>().exp()
 }
 
-/// Visits nodes of a quadrature of a stretch in parts of half a turn at most.
+/// Visits the nodes of a quadrature over an interval, in parts of at most half a turn.
 fn visit(from: f64, to: f64, mut see: impl FnMut(f64, f64)) {
     let parts = ((to - from) / (0.5 * TAU)).ceil().max(1.0);
     for part in 0..parts as usize {

@@ -1,4 +1,4 @@
-//! Synthesis from key poses: positions and directions that the arm must take in order, with the path between free.
+//! Synthesis from key poses: positions and directions that the arm must take in order; the path between them is free.
 
 mod harmonics;
 mod law;
@@ -18,7 +18,7 @@ use super::{AxisFault, PathError, RequiredPath, TwoBar};
 use centrode_machines::three_arm::design::Direction;
 use centrode_spec::digits::stated;
 
-/// Number of key poses: three give a circle, no machine meets more than seven but a special one.
+/// Minimum and maximum number of key poses: three give a circle, and only special sets of more than seven can be met.
 const FEWEST: usize = 3;
 const MOST: usize = 7;
 /// Distance of the tip from a pose, with the arm in the pose's direction, at which the pose is met, mm.
@@ -31,11 +31,12 @@ const LONGEST: f64 = 4.0;
 /// Minimum length of a bar, and minimum difference of both, as a share of the size of the poses.
 const SHORTEST: f64 = 0.02;
 const MIN_DIFFERENCE: f64 = 0.002;
-/// Distance of the arm's axes in the clamp's frame from which on two chains differ, as a share of the size of the poses.
+/// Minimum distance of the arm's axes in the clamp's frame at which two chains count as different, as a share of the size of the
+/// poses.
 const APART: f64 = 0.02;
 /// Gauss-Newton steps to a circle.
 const STEPS: usize = 40;
-/// Positions of the carrier in a turn through which the path is laid.
+/// Number of positions of the carrier in a turn through which the path is laid.
 const PLACES: usize = 720;
 
 /// Position of the tip and direction of the arm's clamp there.
@@ -71,7 +72,7 @@ pub enum PoseError {
         /// Minimum distance found of a tip from its pose, mm.
         miss: f64,
     },
-    /// Circles, on none of which carrier and arm turn in one direction.
+    /// Circles with each of which the carrier or the arm would turn back.
     #[error(
         "{circles} positions of the arm's axis were tried; at each carrier or arm would turn back between key poses, or turn more than once: the best passes {passed} of {count} poses in order"
     )]
@@ -83,22 +84,22 @@ pub enum PoseError {
         /// Most poses passed in order.
         passed: usize,
     },
-    /// The chain made is none.
+    /// The carrier and arm found cannot follow their own path.
     #[error(transparent)]
     Chain(#[from] AxisFault),
 }
 
-/// Carrier and arm that meet key poses, the path between as gentle as found.
+/// Carrier and arm that meet key poses, with the gentlest path found between them.
 ///
-/// In the arm's frame its axis is a fixed point. The positions of this point in the poses must lie on one circle, whose middle
-/// is the carrier's axis: Burmester's circle points, any point for three poses, a curve for four, four points at most for five.
-/// The angles of carrier and arm at the poses then follow. Between them the law is that of minimum square of the logarithm of
-/// the ratio and of its second derivative.
+/// In the arm's frame its axis is a fixed point. The positions of this point in the poses must lie on one circle, whose centre is
+/// the carrier's axis. Such points are Burmester's circle points: any point for three poses, a curve for four, at most four
+/// points for five. The angles of carrier and arm at the poses then follow. Between the poses the law has the minimum mean square
+/// of the logarithm of the ratio and of its second derivative.
 #[derive(Clone, Debug)]
 pub struct KeyPoses {
     /// Carrier and arm, with the path of the tip.
     pub chain: TwoBar,
-    /// Direction of the clamp less that of the arm, rad.
+    /// Direction of the clamp minus that of the arm, rad.
     pub clamp: f64,
     /// Poses as given.
     pub poses: Vec<KeyPose>,
@@ -106,16 +107,16 @@ pub struct KeyPoses {
     pub start: [f64; 2],
     /// Turns of the carrier and of the planet against it from the first pose to each, in the carrier's sense, rad.
     pub turns: Vec<[f64; 2]>,
-    /// Distance of the path from each pose, mm, and how much the clamp's direction at the foot is off, rad.
+    /// Distance of the path from each pose, mm, and error of the clamp's direction at the foot of this distance, rad.
     pub misses: Vec<[f64; 2]>,
-    /// Number of starts of the search, for either sense of turning, that led to a chain; many lead to one.
+    /// Number of starts of the search, for either sense of turning, that led to a chain; many lead to the same chain.
     pub possible: usize,
 }
 
 /// Circle on which the arm's axis passes the poses.
 #[derive(Clone, Copy, Debug)]
 struct Circle {
-    /// Position of the arm's axis from the tip, in the clamp's frame.
+    /// Vector from the tip to the arm's axis, in the clamp's frame.
     arm: Vector,
     axis: Point,
     carrier: f64,
@@ -125,14 +126,14 @@ impl KeyPoses {
     /// Finds the chain of smallest maximum |ln| of the ratio.
     ///
     /// # Errors
-    /// [`PoseError`] for too few or too many poses, ones that are no numbers, and where there is no machine: with how near the
-    /// nearest comes.
+    /// [`PoseError`] for too few or too many poses, for poses that are not finite, and if there is no machine: then with the
+    /// error of the nearest one.
     pub fn new(poses: &[KeyPose]) -> Result<Self, PoseError> {
         let mut mildest = Self::mildest(poses, 1)?;
         Ok(mildest.remove(0))
     }
 
-    /// Finds at most so many different chains, those of smallest maximum |ln| of the ratio first: there is at least one.
+    /// Finds at most `most` different chains, at least one, in the order of the maximum |ln| of the ratio, the smallest first.
     ///
     /// # Errors
     /// As for [`Self::new`].

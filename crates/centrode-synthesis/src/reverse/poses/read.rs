@@ -2,7 +2,7 @@ use super::{KeyPose, PoseError};
 use crate::reverse::csv;
 
 impl KeyPose {
-    /// Reads key poses from a CSV file: x and y in mm and the clamp's direction in degrees, a pose a line, in order.
+    /// Reads key poses from a CSV file: x and y in mm and the clamp's direction in degrees, one pose per line, in order.
     ///
     /// A line of headings names the columns, `x`, `y` and `direction_deg`, in any order.
     ///

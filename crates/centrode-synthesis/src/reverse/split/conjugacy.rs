@@ -1,4 +1,4 @@
-//! The change of angle that turns a map of the circle into an even turn.
+//! The change of variable that makes a map of the circle a rotation.
 
 use std::f64::consts::TAU;
 
@@ -7,21 +7,21 @@ use nalgebra::Complex;
 
 use super::fourier::Fourier;
 
-/// Smallest divisors that are used, by and by: at first only the rough of the map is settled.
+/// Smallest divisors that are used, stage by stage: the first stages settle only the rough shape of the map.
 const DIVISORS: [f64; 3] = [1e-2, 1e-4, MIN_DIVISOR];
 /// Divisor below which a harmonic is not determined.
 pub(super) const MIN_DIVISOR: f64 = 1e-8;
-/// Most steps on one grid.
+/// Maximum number of steps on one grid.
 const STEPS: u32 = 40;
-/// Share of the number of harmonics that a first guess is smoothed to.
+/// Width of the filter that smooths a first guess, as a share of the number of harmonics.
 const SMOOTH: f64 = 0.125;
 
 /// A function h with `h(theta + step) = G(h(theta)) + offset`, by `h - theta` at equal steps of a turn.
 ///
-/// Newton's method for circle maps (de la Llave, A tutorial on KAM theory, 2001, section 2). With e the miss of the equation a
-/// better h is `h + h' w` where `w(theta + step) - w(theta) = (e + change of offset)/h'(theta + step)`: the harmonics of w are
+/// Newton's method for circle maps (de la Llave, A tutorial on KAM theory, 2001, section 2). With e the error of the equation, a
+/// better h is `h + h' w`, where `w(theta + step) - w(theta) = (e + change of offset)/h'(theta + step)`: the harmonics of w are
 /// those of the right side over `e^(i k step) - 1`, and the change of the offset makes the mean of the right side zero.
-/// It converges as the square of the miss, and costs four Fourier transforms a step.
+/// Convergence is quadratic; a step costs four Fourier transforms.
 #[derive(Clone, Debug)]
 pub(super) struct Conjugacy {
     /// Rotation number, rad.
@@ -50,7 +50,7 @@ impl Conjugacy {
         }
     }
 
-    /// This function on a grid of so many steps, a greater power of two.
+    /// This function on a grid of `count` steps, a larger power of two.
     pub(super) fn finer(self, count: usize) -> Self {
         let coarse = Fourier::new(self.rests.len());
         let found = coarse.coefficients(&self.rests);
@@ -68,7 +68,7 @@ impl Conjugacy {
         Self { rests, ..self }
     }
 
-    /// Newton steps until rounding stops them; the maximum miss at the grid's points, rad.
+    /// Makes Newton steps until rounding stops them; returns the maximum error of the equation at the grid's points, rad.
     pub(super) fn refine(&mut self, map: impl Fn(f64) -> f64) -> f64 {
         let count = self.rests.len();
         let fourier = Fourier::new(count);
@@ -93,7 +93,7 @@ impl Conjugacy {
             if !miss.is_finite() {
                 return f64::INFINITY;
             }
-            // Not halved, or no number.
+            // The error was not halved, or is not a number.
             let halved = miss <= 0.5 * before;
             if !halved {
                 if self.stage + 1 >= DIVISORS.len() {

@@ -22,7 +22,7 @@ impl Fourier {
         Self { count, roots }
     }
 
-    /// Harmonic of a coefficient by its position: below zero in the second half.
+    /// Harmonic of a coefficient by its position: negative in the second half.
     pub(super) fn harmonic(&self, place: usize) -> f64 {
         if place < self.count / 2 {
             place as f64
@@ -31,7 +31,8 @@ impl Fourier {
         }
     }
 
-    /// Coefficients of real values, the mean at place zero; that of the highest harmonic, whose phase is unknown, is omitted.
+    /// Coefficients of real values, the mean at position zero; the coefficient of the highest harmonic, whose phase is unknown,
+    /// is zero.
     pub(super) fn coefficients(&self, values: &[f64]) -> Vec<Complex<f64>> {
         let mut data: Vec<Complex<f64>> = values.iter().map(|v| Complex::new(*v, 0.0)).collect();
         self.transform(&mut data);
@@ -41,12 +42,12 @@ impl Fourier {
         data
     }
 
-    /// Values of two real functions by coefficients, both at once.
+    /// Values of two real functions from their coefficients, both by one transform.
     pub(super) fn values(
         &self,
         coefficients: impl Fn(usize) -> [Complex<f64>; 2],
     ) -> [Vec<f64>; 2] {
-        // Conjugated on the way in and out it is the inverse.
+        // With its input and output conjugated, the transform is its inverse.
         let both = |k: usize| {
             let [one, other] = coefficients(k);
             (one + Complex::<f64>::i() * other).conj()

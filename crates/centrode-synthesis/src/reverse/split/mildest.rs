@@ -11,21 +11,22 @@ use centrode_kinematics::transmission::Transmission as _;
 
 /// Samples per turn of the curvatures.
 const PLACES: usize = 1024;
-/// Harmonics of the bow.
+/// Number of harmonics of the bow s.
 const HARMONICS: usize = 8;
-/// Sharpness of the mean of the curvatures, over the maximum of them: at the last it is within one in a hundred of the maximum.
+/// Sharpness b of the soft maximum, divided by the maximum curvature: with the last value the soft maximum is within 1 % of the
+/// maximum.
 const SHARPNESS: [f64; 8] = [8.0, 16.0, 32.0, 64.0, 128.0, 256.0, 512.0, 1024.0];
-/// Steps of a search at each.
+/// Maximum number of steps of the search at each sharpness.
 const STEPS: u32 = 60;
 
 /// Splits by `f' = c (G')^(1/2) e^s`, g = f o G^-1, with s a sum of eight harmonics of the carrier's direction such that the
-/// maximum curvature of the four pitch curves is smallest, averaged over a step of a table. Where the gears written by powers are
-/// milder after all, s is zero.
+/// maximum curvature of the four pitch curves is smallest, averaged over a step of a table. If the gears written by powers are
+/// gentler, s is zero.
 ///
 /// With w the logarithm of a stage's ratio by its driver's angle, `p = 1/(1 + e^-w)` and `q = 1 - p`, the pitch curves of a stage
 /// of centre distance 1 have the curvatures `(1 + q (w'^2 - w''))/(p D)` and `(1 + w'' q^2/p)/(q D)`, `D = (1 + q^2 w'^2)^(3/2)`.
-/// The maximum is approached by a soft one, `ln(mean e^(b kappa))/b` with ever greater b, and this is made small by BFGS steps
-/// from powers on.
+/// The maximum is approached by a soft one, `ln(mean e^(b kappa))/b` with larger and larger b. BFGS steps, starting from the
+/// split by powers, minimise this soft maximum.
 pub(super) fn split(chain: &TwoBar, bend: f64) -> Result<Split, SplitError> {
     let law = chain.law()?;
     let slope = |psi: f64| {
@@ -37,7 +38,7 @@ pub(super) fn split(chain: &TwoBar, bend: f64) -> Result<Split, SplitError> {
         let psi = TAU * i as f64 / PLACES as f64;
         let jet = law.at(psi);
         let slope_here = jet.acceleration / jet.velocity;
-        // Averaged over a step of a table: a narrower peak of the law is not in the gears.
+        // Averaged over a step of a table: the gears do not have a narrower peak of the law.
         let bend = (slope(psi + 0.5 * step) - slope(psi - 0.5 * step)) / step;
         Place {
             total: [jet.velocity.ln(), slope_here, bend],
@@ -69,7 +70,7 @@ pub(super) fn split(chain: &TwoBar, bend: f64) -> Result<Split, SplitError> {
         powers::split_with(chain, SplitKind::Mildest, bend, bow)
     };
     let [found, powers] = [with(best.1)?, with([0.0; 2 * HARMONICS])?];
-    // The gears as they are written decide: no split by powers is milder.
+    // The gears as they are written decide: if the split by powers is gentler, it is used.
     let radius = |split: &Split| {
         let made = ReversedMachine::new(chain, split, 1, None);
         made.map_or(0.0, |made| made.minimum_radius())
@@ -120,7 +121,7 @@ impl Curves {
                 u
             })
             .collect();
-        // Its mean is one.
+        // The mean of the factor is one.
         let mean = shares.iter().map(|u| u[0].exp()).sum::<f64>() / PLACES as f64;
         for u in &mut shares {
             u[0] -= mean.ln();
@@ -177,7 +178,7 @@ impl Curves {
                 *slope += by[0] * wave[0] + by[1] * wave[1] + by[2] * wave[2];
             }
         }
-        // A correction of the mean ratio changes all shares equally.
+        // The correction of the mean ratio changes all shares equally.
         for (i, slope) in slope.iter_mut().enumerate() {
             let mean = self.places.iter().zip(&shares);
             let mean: f64 = mean.map(|(place, u)| place.waves[i][0] * u[0].exp()).sum();
@@ -188,7 +189,7 @@ impl Curves {
     }
 }
 
-/// Amplitudes at which a smooth function is smallest near those given: BFGS with halved steps.
+/// Amplitudes near the given ones at which a smooth function has a minimum: BFGS with halved steps.
 fn minimum(f: impl Fn(&Amplitudes) -> (f64, Amplitudes), start: Amplitudes) -> Amplitudes {
     const N: usize = 2 * HARMONICS;
     let dot = |a: &Amplitudes, b: &Amplitudes| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
@@ -200,7 +201,7 @@ fn minimum(f: impl Fn(&Amplitudes) -> (f64, Amplitudes), start: Amplitudes) -> A
     let (mut value, mut slope) = f(&x);
     for _ in 0..STEPS {
         if is_new {
-            // A step of a hundredth to begin with.
+            // The first step has the length 0.01.
             let size = dot(&slope, &slope).sqrt().max(f64::MIN_POSITIVE);
             inverse = [[0.0; N]; N];
             for (i, row) in inverse.iter_mut().enumerate() {

@@ -21,7 +21,7 @@ use centrode_kinematics::transmission::TransmissionError;
 /// Maximum bend, rad: beyond it the gears would be six times as large as the carrier is long.
 const MAX_BEND: f64 = 170.0 / 180.0 * PI;
 
-/// Distance from a fraction that is rounding.
+/// Maximum distance from a fraction that counts as rounding.
 const EXACT: f64 = 1e-12;
 
 /// Method by which the total law is split into two stages.
@@ -48,9 +48,9 @@ pub(super) type StageLaw = Arc<dyn Fn(f64) -> f64 + Send + Sync>;
 
 /// Two stages of gears that make the total law of a chain.
 ///
-/// The sun drives the intermediate by the law f, the planet meets it by the law g, both as functions of their own polar
-/// angles. With G the total law, psi the direction of the carrier and gamma the bend from the carrier's first leg to its
-/// second, `g(G(psi) + planet offset) = f(psi) + idler offset - gamma - pi`.
+/// The sun drives the intermediate by the law f, and the planet meshes with it by the law g. Each law is a function of the polar
+/// angle of its own driver, sun or planet. With G the total law, psi the direction of the carrier and gamma the bend from the
+/// carrier's first leg to its second, `g(G(psi) + planet offset) = f(psi) + idler offset - gamma - pi`.
 #[derive(Clone)]
 pub struct Split {
     kind: SplitKind,
@@ -108,14 +108,14 @@ pub enum SplitError {
     Inexact {
         /// Rotation number required, turns.
         turns: f64,
-        /// Maximum miss, rad; infinite where the law found turns back.
+        /// Maximum miss, rad; infinite if the law found turns back.
         miss: f64,
         /// Numerator of the nearest fraction.
         numerator: i64,
         /// Its denominator.
         denominator: i64,
     },
-    /// Carrier or arm do not move within rounding.
+    /// Rounding stops the carrier or the arm.
     #[error(transparent)]
     Law(#[from] TransmissionError),
 }
@@ -126,7 +126,7 @@ impl Split {
     /// # Errors
     /// [`SplitError`] for a bend beyond 170 degrees, and for one pair twice at or near a resonance.
     pub fn new(chain: &TwoBar, kind: SplitKind, bend: f64) -> Result<Self, SplitError> {
-        // Not a number is no bend either.
+        // NaN is refused, too.
         let is_bend = bend.abs() <= MAX_BEND;
         if !is_bend {
             return Err(SplitError::Bend {
@@ -153,13 +153,13 @@ impl Split {
         self.bend
     }
 
-    /// Turn of the intermediate against the carrier by the sun's polar angle, which is the carrier's direction, rad.
+    /// Turn of the intermediate relative to the carrier by the sun's polar angle, which is the carrier's direction, rad.
     #[must_use]
     pub fn first(&self, polar: f64) -> f64 {
         (self.first)(polar)
     }
 
-    /// Turn of the intermediate against the carrier by the planet's polar angle, rad.
+    /// Turn of the intermediate relative to the carrier by the planet's polar angle, rad.
     #[must_use]
     pub fn second(&self, polar: f64) -> f64 {
         (self.second)(polar)
@@ -177,7 +177,8 @@ impl Split {
         self.idler_offset
     }
 
-    /// Maximum miss of the equation of one pair twice among 2,000 samples, rad; zero of two pairs, which solve theirs.
+    /// Maximum error of the equation of one pair twice at 2,000 samples, rad; zero for two pairs, whose equation is solved
+    /// exactly.
     #[must_use]
     pub fn miss(&self) -> f64 {
         self.miss

@@ -9,29 +9,31 @@ use crate::reverse::TwoBar;
 use centrode_kinematics::machine::Piecewise;
 use centrode_kinematics::transmission::Transmission as _;
 
-/// Maximum denominator of a fraction near which no law is searched for, and how near, in turns.
+/// Maximum denominator of a fraction near which no law is searched, and the distance from it, turns.
 const MAX_DENOMINATOR: i64 = 11;
 const NEAREST: f64 = 1e-3;
-/// Maximum denominator of a fraction at which no law is searched for: of such a period harmonics that matter are not determined.
+/// Maximum denominator of a fraction exactly at which no law is searched: harmonics that matter are not determined there.
 const CLOSED: u32 = 314;
-/// Steps of the orbits by which the offset is searched, and of the one that is the first guess of the law.
+/// Steps of the orbits by which the offset is searched, and of the orbit that gives the first guess of the law.
 const SAMPLES: u32 = 4_000;
-/// Steps of the grids on which the law is searched, each from the one before; the last is for rough laws only.
+/// Steps of the grids on which the law is searched; each starts from the result of the grid before. The last is for rough laws
+/// only.
 const GRIDS: [usize; 4] = [1 << 10, 1 << 13, 1 << 15, 1 << 17];
-/// Nodes of an interpolating polynomial.
+/// Number of nodes of an interpolating polynomial.
 const LOCAL: usize = 6;
-/// Positions at which the law is checked, its maximum miss, and the one at which no finer grid is tried, rad.
+/// Number of positions at which the law is checked; maximum error, rad; and error below which no finer grid is tried, rad.
 const CHECKS: u32 = 2_000;
 const MAX_MISS: f64 = 1e-7;
 const FINE: f64 = 1e-11;
 
 /// Splits into one pair twice: `f(G(psi) + offset) = f(psi) - c` with c = bend + pi, an equation of Abel.
 ///
-/// f turns the map G + offset of the circle into the turn by -c, so the offset is the one at which the rotation number is -c;
-/// it grows with the offset, and a first one is searched by averages along orbits, weighted by exp(-1/(t (1 - t))) (Das, Saiki,
-/// Sander and Yorke, Nonlinearity 30, 2017). Along an orbit f falls by c each step: its points are a first guess of the inverse
-/// of f, which Newton steps on its harmonics and the offset then bring to rounding. They divide by `e^(i k c) - 1`: near a
-/// fraction with the denominator k digits are lost, and none but the smoothest law is known at one.
+/// f makes the map G + offset of the circle a rotation by -c, so the rotation number of the map must be -c. The rotation number
+/// grows with the offset; a first offset is searched by averages along orbits, weighted by exp(-1/(t (1 - t))) (Das, Saiki,
+/// Sander and Yorke, Nonlinearity 30, 2017). Along an orbit f falls by c in each step, so its points give a first guess of the
+/// inverse of f. Newton steps on the harmonics of this inverse and on the offset then refine it to rounding. They divide by
+/// `e^(i k c) - 1`: near a fraction with the denominator k digits are lost, and at a fraction only the smoothest law can be
+/// found.
 pub(super) fn split(chain: &TwoBar, bend: f64) -> Result<Split, SplitError> {
     let turns = (bend + PI) / TAU;
     if let Some((numerator, denominator)) = fraction_near(turns) {
@@ -69,7 +71,7 @@ pub(super) fn split(chain: &TwoBar, bend: f64) -> Result<Split, SplitError> {
         if best.as_ref().is_none_or(|(minimum, ..)| miss < *minimum) {
             best = Some((miss, found.offset, nodes));
         }
-        // What is left on the grid itself does not go by a finer one.
+        // A finer grid does not reduce an error that is left at the grid's own points.
         if miss <= FINE || rough > FINE {
             break;
         }
@@ -99,7 +101,7 @@ pub(super) fn split(chain: &TwoBar, bend: f64) -> Result<Split, SplitError> {
     }
 }
 
-/// The total law with an offset, as a map of the circle onto itself.
+/// The total law plus an offset, as a map of the circle onto itself.
 struct CircleMap {
     law: Piecewise,
     offset: f64,
@@ -110,7 +112,7 @@ impl CircleMap {
         self.law.at(x).position + self.offset
     }
 
-    /// Rotation number, rad a step: weighted average of the steps of an orbit.
+    /// Rotation number, rad per step: weighted average of the steps of an orbit.
     fn rotation(&self, steps: u32) -> f64 {
         let (mut moved, mut weights) = (0.0, 0.0);
         let mut x = 0.0;
@@ -128,7 +130,7 @@ impl CircleMap {
         moved / weights
     }
 
-    /// Inverse of the law less its argument at equal steps of a turn, by the points of an orbit and lines between them.
+    /// Inverse of the law minus its argument at equal steps of a turn, interpolated linearly between the points of an orbit.
     fn guess(&self, step: f64, count: usize) -> Vec<f64> {
         let mut x = 0.0;
         let mut turned = 0.0;
@@ -140,7 +142,7 @@ impl CircleMap {
             (x, turned) = (next - whole, turned + whole);
         }
         nodes.sort_by(|a, b| a.0.total_cmp(&b.0));
-        // An orbit of another rotation number is not quite in order.
+        // If the rotation number is slightly different, the points of the orbit are not quite in order.
         let mut reached = f64::NEG_INFINITY;
         for (_, f) in &mut nodes {
             reached = reached.max(*f);
@@ -174,7 +176,7 @@ impl CircleMap {
         let (low, high) = shifts.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), s| {
             (low.min(s), high.max(s))
         });
-        // At the ends every step is at most, or at least, the one required.
+        // At the lower end every step is below the required one, at the upper end above it.
         let room = 1e-3 * TAU;
         let [low, high] = [required - high - room, required - low + room];
         let miss = |offset: f64| {
@@ -192,12 +194,12 @@ impl CircleMap {
 struct Nodes {
     /// Positions, with some repeated a turn before and after.
     places: Vec<f64>,
-    /// Law less its argument there.
+    /// Law minus its argument at these positions.
     rests: Vec<f64>,
 }
 
 impl Nodes {
-    /// From the inverse of the law less its argument at equal steps of a turn; `None` if it turns back.
+    /// From the inverse of the law minus its argument at equal steps of a turn; `None` if the inverse turns back.
     fn new(inverse: &[f64]) -> Option<Self> {
         let count = inverse.len();
         let theta = |i: usize| TAU * i as f64 / count as f64;
@@ -220,7 +222,7 @@ impl Nodes {
         Some(Self { places, rests })
     }
 
-    /// Law at any angle: by Neville's scheme through the nodes nearest to it.
+    /// Law at any angle, interpolated by Neville's scheme through the nearest nodes.
     fn at(&self, x: f64) -> f64 {
         let inside = x.rem_euclid(TAU);
         let after = self.places.partition_point(|&p| p <= inside);
@@ -239,7 +241,7 @@ impl Nodes {
     }
 }
 
-/// The fraction with a small denominator within reach of a number of turns, or with a greater one at it.
+/// The fraction with a small denominator near a number of turns, or with a larger denominator equal to it within rounding.
 fn fraction_near(turns: f64) -> Option<(i64, i64)> {
     let nearest = |q: i64| (turns * q as f64).round() as i64;
     let off = |q: i64| (turns - nearest(q) as f64 / q as f64).abs();
@@ -257,13 +259,13 @@ fn convergents(turns: f64) -> Vec<(i64, i64)> {
     let mut found = vec![last];
     loop {
         let (p, q) = last;
-        // Within rounding it is the number itself.
+        // The convergent equals the number within rounding.
         let off = (turns - p as f64 / q as f64).abs();
         if off < 1e-14 * turns.abs().max(1.0) {
             return found;
         }
         let (p0, q0) = before;
-        // By how much the last two miss it, over each other.
+        // Ratio of the errors of the last two convergents.
         let miss = |p: i64, q: i64| (turns * q as f64 - p as f64).abs();
         let a = (miss(p0, q0) / miss(p, q)).floor();
         if a.is_nan() || a >= MAXIMUM as f64 {
@@ -278,7 +280,7 @@ fn convergents(turns: f64) -> Vec<(i64, i64)> {
     }
 }
 
-/// The convergent that is nearest for its size.
+/// The convergent with the smallest error relative to its denominator.
 fn convergent(turns: f64) -> (i64, i64) {
     let closeness = |(p, q): &(i64, i64)| (turns * *q as f64 - *p as f64).abs() * *q as f64;
     let all = convergents(turns).into_iter();

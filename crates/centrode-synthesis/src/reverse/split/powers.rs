@@ -9,7 +9,7 @@ use centrode_kinematics::transmission::{Inverse, Transmission as _};
 
 /// Exponent of the ratio in the first stage: each takes half of its logarithm.
 pub(in crate::reverse) const SHARE: f64 = 0.5;
-/// Size of an integrand beyond its own below which its digits are rounding.
+/// Size of the values from which an integrand's rounding error follows, as a multiple of the mean speed of a body.
 const NOISE: f64 = 100.0;
 
 /// Logarithm of a factor of the first stage's ratio by the carrier's direction.
@@ -17,13 +17,13 @@ pub(super) type Bow = Box<dyn Fn(f64) -> f64 + Send + Sync>;
 
 /// Splits by `f' = c (G')^k`, g = f o G^-1.
 ///
-/// Both are one integral over the path: with psi and chi the turns of carrier and planet by its parameter,
-/// `f = g = c * integral of chi'^k psi'^(1 - k)`, and c makes a turn of it.
+/// Both laws are one integral over the path: with psi and chi the turns of carrier and planet by its parameter,
+/// `f = g = c * integral of chi'^k psi'^(1 - k)`, and c makes the integral one turn.
 pub(super) fn split(chain: &TwoBar, bend: f64) -> Result<Split, SplitError> {
     split_with(chain, SplitKind::Powers, bend, Box::new(|_| 0.0))
 }
 
-/// Splits by powers with a factor e^bow of the first stage's ratio: under the integral it is there, too.
+/// Splits by powers with a factor e^bow of the first stage's ratio; the integrand contains this factor, too.
 pub(super) fn split_with(
     chain: &TwoBar,
     kind: SplitKind,
@@ -64,7 +64,7 @@ pub(super) fn split_with(
         first,
         second,
         planet_offset: 0.0,
-        // Both laws are one and the same along the path.
+        // Both laws are the same function of the path's parameter.
         idler_offset: bend + PI,
         miss: 0.0,
     })

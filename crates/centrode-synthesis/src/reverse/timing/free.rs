@@ -2,11 +2,11 @@ use centrode_geometry::{Antiderivative, bracketed_root};
 
 use centrode_kinematics::transmission::MotionJet;
 
-/// Size of the bow beyond which a law is too abrupt: its ratio changes by e to that power.
+/// Maximum size of the bow: beyond it a law is too abrupt, with a ratio that changes by a factor of e to this power.
 const MOST: f64 = 7.0;
 
-/// Motion between two others: u = ln of the speed is a polynomial that meets theirs with two derivatives, and a hump that makes
-/// the way between them.
+/// Motion between two others: u = ln of the speed is the sum of a polynomial that joins both motions with two derivatives, and of
+/// a hump that adjusts the distance between them.
 #[derive(Clone, Debug)]
 pub(super) struct Free {
     shape: LogSpeed,
@@ -18,9 +18,9 @@ pub(super) struct Free {
 struct LogSpeed {
     from: f64,
     span: f64,
-    /// Polynomial of the share of the span.
+    /// Coefficients of a polynomial in the share of the span.
     coefficients: [f64; 6],
-    /// Factors of (4 x (1 - x))³, which is 1 in the middle, and of this times 2 x - 1.
+    /// Factors of the hump (4 x (1 - x))³, which is 1 in the middle, and of the hump times 2 x - 1.
     bow: f64,
     skew: f64,
 }
@@ -53,7 +53,7 @@ impl Free {
             bow,
             skew,
         };
-        // The greater the bow, the longer the way.
+        // The larger the bow, the longer the distance.
         let miss = |bow: f64| with(bow).way().total().ln() - way.ln();
         let [low, high] = [-MOST, MOST].map(miss);
         let is_between = low < 0.0 && high > 0.0;

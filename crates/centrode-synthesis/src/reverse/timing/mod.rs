@@ -1,4 +1,4 @@
-//! When the crank of a machine has to be where, so that its output does what is required.
+//! Angle of a machine's crank by the input, such that the output of the machine does what is required.
 
 mod free;
 mod order;
@@ -17,7 +17,7 @@ use centrode_kinematics::transmission::{MotionJet, Transmission};
 use centrode_spec::degrees;
 use centrode_spec::digits::stated;
 
-/// Even parts of a turn, in each of which the ratio has few extremes.
+/// Number of equal parts of a turn, in each of which the ratio has few extremes.
 const PARTS: u32 = 32;
 
 /// Part of a turn over which something is required of an output.
@@ -34,24 +34,25 @@ pub struct Section {
 /// Motion of an output over a section.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Required {
-    /// It goes evenly from one position to another, mm or rad.
+    /// The output moves evenly from one position to another, mm or rad.
     Even([f64; 2]),
-    /// It stays within a band of an end of its stroke, mm or rad: as near as gears, whose ratio is never zero, come to a rest.
+    /// The output stays within a band at an end of its stroke, mm or rad: gears, whose ratio is never zero, can only approximate
+    /// a rest.
     Rest(f64),
 }
 
 /// Law of a crank by the input with which the output of a machine does what is required.
 ///
-/// The output q is known by the angle tau of the crank, with one maximum and one minimum in a turn. Where q must be
-/// w(phi), tau solves `q(tau) = w(phi)`. Over a rest the crank runs evenly through the end of the stroke. In between
-/// `ln(d tau/d phi)` is a polynomial that joins both sides with two derivatives and makes the turn whole, so the crank never
-/// turns back. What is free, how far into the band of a rest the crank goes outside its section and where between sections it
-/// is faster, is chosen such that the sharpest convex point of both pitch curves is as blunt as it can be.
+/// The output q is known by the angle tau of the crank, with one maximum and one minimum in a turn. Where q must be w(phi), tau
+/// solves `q(tau) = w(phi)`. Over a rest the crank runs evenly through the end of the stroke. In between `ln(d tau/d phi)` is a
+/// polynomial that joins both sides with two derivatives and makes the turn whole, so the crank never turns back. Two things are
+/// free: how far the crank moves within the band of a rest outside the section, and where between sections it is faster. They are
+/// chosen such that the maximum convex curvature of both pitch curves is smallest.
 #[derive(Clone, Debug)]
 pub struct Timing {
     output: Arc<dyn Transmission>,
     swing: Swing,
-    /// From the first section's start over one turn, ascending.
+    /// Parts of the turn in ascending order, from the start of the first section over one turn.
     stretches: Vec<Stretch>,
 }
 
@@ -67,7 +68,7 @@ struct Stretch {
 
 #[derive(Clone, Debug)]
 enum Course {
-    /// The output goes evenly from one position to another.
+    /// The output moves evenly from one position to another.
     Even([f64; 2]),
     /// The crank turns evenly.
     Turn,
@@ -84,7 +85,7 @@ pub enum TimingError {
     /// An output that does not come back.
     #[error("the output moves by {} in a turn of the crank and does not come back", stated(*advance))]
     Advances {
-        /// Growth in a turn, mm or rad.
+        /// Change of the output in a turn, mm or rad.
         advance: f64,
     },
     /// An output with more than two turning points, or none.
@@ -92,7 +93,7 @@ pub enum TimingError {
         "the output turns back {count} times in a turn of the crank; with one maximum and one minimum it does twice"
     )]
     Swings {
-        /// Times.
+        /// Number of turning points.
         count: usize,
     },
     /// A section of uniform motion that reaches an end of the stroke or goes beyond.
@@ -135,10 +136,10 @@ pub enum TimingError {
         band: f64,
         /// Stroke.
         stroke: f64,
-        /// Minimum band: below it the gears would be fixed within rounding.
+        /// Minimum band: with less the gears would stop within rounding.
         minimum: f64,
     },
-    /// Sections of the input that touch, overlap or are none.
+    /// Sections of the input that touch or overlap, or whose limits are invalid.
     #[error(
         "{name}: from {from} deg to {to} deg, where {other} begins at {next} deg: leave room between them, all within one turn"
     )]
@@ -162,7 +163,7 @@ pub enum TimingError {
         /// Names in the order of the input.
         names: String,
     },
-    /// Too far to go between two sections.
+    /// Too large a turn of the crank between two sections.
     #[error(
         "between {from} and {to} the crank would have to turn by {turn:.4} deg over {room:.4} deg of the input, and no smooth law does: leave more room"
     )]
@@ -229,7 +230,7 @@ impl Timing {
         Ok(best?.1)
     }
 
-    /// The law of sections that are placed, with shapes.
+    /// The law of sections with known crank angles and shapes.
     fn through(
         output: &Arc<dyn Transmission>,
         swing: &Swing,
@@ -281,7 +282,7 @@ impl Timing {
                 let miss = |angle: f64| self.output.at(angle).position - place;
                 let [before, after] = [first, last].map(miss);
                 let angle = if (before > 0.0) == (after > 0.0) {
-                    // Rounding next to an end.
+                    // Near an end rounding decides: the nearer end is used.
                     if before.abs() < after.abs() {
                         first
                     } else {

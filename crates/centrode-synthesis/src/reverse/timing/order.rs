@@ -6,11 +6,12 @@ use super::{Required, Section, TimingError};
 use centrode_kinematics::transmission::Transmission;
 use centrode_spec::degrees;
 
-/// Looks a turn for turning points of the output.
+/// Samples per turn for the search of the output's turning points.
 const SAMPLES: u32 = 720;
-/// Share of the stroke by which a rest stays within its band.
+/// Margin of a rest to the limit of its band, as a share of the stroke.
 const SLACK: f64 = 1e-6;
-/// Minimum band of a rest, as a share of the stroke: the crank turns by the root of it, and a law in a table has digits left.
+/// Minimum band of a rest, as a share of the stroke: the crank turns by about the square root of it, and with less, a table of
+/// the law has too few digits.
 const MIN_BAND: f64 = 1e-9;
 
 /// An output with one maximum and one minimum in a turn.
@@ -40,7 +41,7 @@ impl Swing {
         looks.pop();
         let speed = |angle: f64| output.at(angle).velocity;
         let speeds: Vec<f64> = looks.iter().map(|&angle| speed(angle)).collect();
-        // The last look's neighbour is the first, at which a speed of zero counts once.
+        // The last sample is followed by the first, so a speed of zero there counts once.
         let turns = (0..looks.len()).filter_map(|i| {
             let next = (i + 1) % looks.len();
             let to = looks[next] + if next == 0 { TAU } else { 0.0 };
@@ -63,7 +64,7 @@ impl Swing {
         self.places
     }
 
-    /// Angle at which the output is at a position on its way up, or down, within a turn of the end it comes from.
+    /// Angle at which the rising, or falling, output is at a position, within a turn after the end of the stroke it comes from.
     fn angle(&self, output: &dyn Transmission, place: f64, rises: bool) -> f64 {
         let [minimum, maximum] = self.angles;
         let [from, to] = if rises {
@@ -79,7 +80,7 @@ impl Swing {
     /// Angles at which the output enters and leaves a band at an end of its stroke.
     fn rest(&self, output: &dyn Transmission, band: f64, is_maximum: bool) -> [f64; 2] {
         let [minimum, maximum] = self.places;
-        // A little less, for the law is written as a table.
+        // A little less, because the law is written as a table.
         let band = band - (SLACK * (maximum - minimum)).min(0.1 * band);
         let place = if is_maximum {
             maximum - band
@@ -92,8 +93,8 @@ impl Swing {
     }
 }
 
-/// Every way to run through the sections in their order within one turn of the crank: the end of the stroke at which a rest is may
-/// be open.
+/// All sequences of crank angles that pass the sections in their order within one turn of the crank: the end of the stroke of a
+/// rest may be free.
 pub(super) fn placed<'a>(
     output: &dyn Transmission,
     swing: &Swing,
@@ -115,7 +116,7 @@ pub(super) fn placed<'a>(
                     within: *within,
                     angles,
                 });
-                // Within a turn of the first.
+                // Within a turn after the first angle.
                 let [start, end] = [way[0].angles[0], angles[1]];
                 if end < start + TAU - COMPUTED {
                     grown.push(way);
@@ -132,13 +133,13 @@ pub(super) fn placed<'a>(
     Ok(ways)
 }
 
-/// Angles moved by whole turns to the first that lie after another.
+/// Angles moved by whole turns, such that the first is the next one after `after`.
 fn lifted(after: f64, [from, to]: [f64; 2]) -> [f64; 2] {
     let lift = after + (from - after).rem_euclid(TAU) - from;
     [from + lift, to + lift]
 }
 
-/// Sections by their starts, with their inputs from the first one's on.
+/// Sections sorted by their starts, with their inputs counted on from the start of the first one.
 fn in_order(sections: &[Section]) -> Result<Vec<(&Section, [f64; 2])>, TimingError> {
     let mut all: Vec<(&Section, [f64; 2])> = sections
         .iter()
@@ -171,7 +172,7 @@ fn in_order(sections: &[Section]) -> Result<Vec<(&Section, [f64; 2])>, TimingErr
     Ok(all)
 }
 
-/// Angles of the crank at both ends of a section, one for each way to do it.
+/// Angles of the crank at both ends of a section, one pair for each possibility.
 fn angles(
     output: &dyn Transmission,
     swing: &Swing,

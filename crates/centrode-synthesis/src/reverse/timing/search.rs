@@ -7,27 +7,27 @@ use super::{Course, Required, Timing, TimingError};
 use crate::reverse::curvature::curvatures;
 use centrode_kinematics::transmission::Transmission;
 
-/// Looks at a free stretch.
+/// Samples per free stretch.
 const SAMPLES: u32 = 48;
 /// First and last step of the search, and maximum number of rounds.
 const STEPS: [f64; 2] = [0.25, 1e-3];
 const ROUNDS: u32 = 200;
-/// Maximum share of a rest's half that is left to the stretch next to it.
+/// Maximum share of half a rest that the stretch next to it may use.
 const MAX_SHARE: f64 = 0.95;
 /// Maximum skew in either direction.
 const MAX_SKEW: f64 = 4.0;
 
-/// Numbers that are free of a section and of the stretch after it.
+/// Free numbers of a section and of the stretch after it.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct StretchShape {
-    /// Shares of a rest's halves, from the ends of its band on, through which the crank goes before and after the section.
+    /// Shares of the two halves of a rest, from the ends of its band, through which the crank turns before and after the section.
     pub(super) late: f64,
     pub(super) early: f64,
-    /// By how much the logarithm of the speed is greater in the second half of the stretch after it.
+    /// Measure by which the logarithm of the speed is greater in the second half of the stretch after the section.
     pub(super) skew: f64,
 }
 
-/// A number of a shape.
+/// One of the numbers of a shape.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Number {
     Late,
@@ -38,7 +38,7 @@ enum Number {
 const NUMBERS: [Number; 3] = [Number::Late, Number::Early, Number::Skew];
 
 impl StretchShape {
-    /// The shape with a number that is greater by a step, within its limits.
+    /// The shape with a number increased by a step, within the limits of the number.
     fn moved(mut self, number: Number, by: f64) -> Self {
         match number {
             Number::Late => self.late = (self.late + by).clamp(0.0, MAX_SHARE),
@@ -49,9 +49,9 @@ impl StretchShape {
     }
 }
 
-/// The law whose pitch curves are blunt: its sharpest convex curvature, of a centre distance of 1, and it.
+/// The law with the least curved pitch curves, and its maximum convex curvature for a centre distance of 1, which comes first.
 ///
-/// Of every number that is free a greater and a less one is tried, with ever smaller steps.
+/// For every free number a larger and a smaller value is tried, with smaller and smaller steps.
 pub(super) fn mildest(
     output: &Arc<dyn Transmission>,
     swing: &Swing,
@@ -96,7 +96,7 @@ pub(super) fn mildest(
     best
 }
 
-/// Maximum convex curvature of both pitch curves; over an even course of the output no shape changes it.
+/// Maximum convex curvature of both pitch curves; where the output moves evenly no shape changes it.
 fn sharpest(law: &Timing) -> f64 {
     let speeds = law
         .stretches

@@ -28,7 +28,7 @@ struct Moved {
     key: String,
     before: f64,
     after: f64,
-    /// Share of the bounds that it moved.
+    /// Change as a share of the range between the bounds.
     share: f64,
 }
 

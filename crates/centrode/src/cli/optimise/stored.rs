@@ -54,7 +54,7 @@ impl Stored {
     ) -> Result<(), Failure> {
         let text = json(search)?;
         let seal = seal(problem, &text)?;
-        // The seal is one more key of the search's own object.
+        // The seal is an additional key of the JSON object of the search.
         let fields = text.strip_prefix('{').unwrap_or_default();
         self.put(&self.name(), format!("{{\"seal\":\"{seal}\",{fields}"))
     }
@@ -82,7 +82,7 @@ fn json(search: &DesignSearch) -> Result<String, Failure> {
     serde_json::to_string(search).map_err(|error| Failure::Usage(error.to_string()))
 }
 
-/// Hash of a search and of everything in its design that it does not move.
+/// Hash of a search and of everything in its design that the search does not change.
 fn seal(problem: &dyn DesignProblem, search: &str) -> Result<String, Failure> {
     let bounds = problem.bounds();
     let middle: Vec<f64> = bounds.iter().map(|b| 0.5 * (b.0 + b.1)).collect();

@@ -9,7 +9,7 @@ pub(super) const HEADING: Style = Style::new().bold();
 const NAME: usize = 32;
 const COLUMN: usize = 12;
 
-/// Writes every table, then every figure in its group; figures of no group come last, as they are.
+/// Writes every table, then every figure in its group; figures without a group come last, with every digit.
 pub(crate) fn write(report: &Report, out: &mut impl Write) -> Result<()> {
     for section in sections(report) {
         let width = if section.columns.is_empty() { 0 } else { NAME };

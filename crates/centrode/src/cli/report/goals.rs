@@ -9,7 +9,7 @@ use super::figures::HEADING;
 /// Characters of a progress bar.
 const BAR: usize = 12;
 
-/// Writes each goal in a row: number, title, figure, range, progress, met or by how much not.
+/// Writes each goal in a row: number, title, figure, range, progress, and whether it is met or the amount by which it is missed.
 pub(super) fn write(report: &Report, out: &mut impl Write) -> Result<()> {
     if report.goals.is_empty() {
         return Ok(());
@@ -57,7 +57,7 @@ fn one(goal: &Goal, out: &mut impl Write) -> Result<()> {
     }
 }
 
-/// A bar filled in proportion; full only where the goal is reached.
+/// A bar filled in proportion; full only if the goal is reached.
 fn bar(progress: f64) -> String {
     let most = if progress < 1.0 { BAR - 1 } else { BAR };
     let full = ((progress * BAR as f64).round() as usize).min(most);

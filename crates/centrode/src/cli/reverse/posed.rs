@@ -14,7 +14,7 @@ use crate::cli::failure::Failure;
 use crate::cli::progress::Progress;
 use crate::cli::{Status, export, output};
 
-/// Makes a three-arm mechanism from key poses, prints what was found, and writes its design and, if requested, its files.
+/// Makes a three-arm mechanism from key poses, prints its figures, and writes its design and, if requested, its files.
 pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Failure> {
     let source = super::source(command)?;
     if let Some(output) = &command.output {
@@ -81,7 +81,7 @@ pub(crate) fn run(command: &Reverse, out: &mut impl Write) -> Result<Status, Fai
     }
 }
 
-/// A goal and whether it is reached.
+/// A goal in words, and whether it is reached.
 fn words(goal: &Goal) -> String {
     let value = goal.value.map(|value| goal.unit.with_unit(value));
     let met = match goal.met() {

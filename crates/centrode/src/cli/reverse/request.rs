@@ -10,12 +10,12 @@ use std::path::Path;
 
 /// A path and what is required of its machine, on the command line and in files.
 pub(super) struct Request {
-    /// The wishes; their points are those below.
+    /// The wishes; the field `points` has their points.
     pub(super) design: PathDesign,
     pub(super) points: Vec<Point>,
     /// File of the points.
     pub(super) source: Source,
-    /// Words on a drawing.
+    /// Line on a drawing that was read.
     pub(super) drawing: Option<String>,
     /// The design file, if there is one.
     file: Option<(Source, DesignFile)>,
@@ -49,7 +49,7 @@ impl Request {
                 requested.source = Source::open_up_to(&path, RequiredPath::LARGEST)?;
                 let wishes = requested.design.wishes.clone();
                 requested.take_points(command)?;
-                // A number of a point is in the design, and not in the file that holds too few of them.
+                // The number of a point is in the design; the file of the points is not at fault.
                 let count = requested.points.len();
                 let is_closed = count > 1 && requested.points.first() == requested.points.last();
                 let checked = wishes.validate(count - usize::from(is_closed));
@@ -136,7 +136,7 @@ impl Request {
         }
     }
 
-    /// Takes what the command line says, before what the file does.
+    /// Takes the options of the command line; they replace keys of the file.
     fn take(&mut self, command: &Reverse) -> Result<(), Failure> {
         let design = &mut self.design;
         let is_axis_option = command.axis.is_some() || command.axis_box.is_some();
@@ -192,7 +192,7 @@ impl Request {
     }
 }
 
-/// Design of a path, if a file is one.
+/// Design of a path, if the source is a design file.
 fn path_design(source: &Source) -> Result<Option<(PathDesign, DesignFile)>, Failure> {
     let text = std::str::from_utf8(source.bytes()).unwrap_or_default();
     let has_key = |line: &str| line.trim_start().starts_with("family") && line.contains('=');

@@ -8,14 +8,13 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// Design file of a page, and its autosaves next to it: nothing else is ever written.
+/// Design file of a page, and its autosaves next to it: no other file is ever written.
 pub(crate) struct Document {
     folder: PathBuf,
     name: String,
     /// Text of the file when it was last read or written here.
     known: Mutex<String>,
-    /// Whether the autosave holds work of the page that is open now: earlier work is not
-    /// written over.
+    /// Whether the autosave holds work of the page that is open now: earlier work is not overwritten.
     own: AtomicBool,
 }
 
@@ -25,7 +24,7 @@ pub(crate) struct Document {
 pub(crate) enum Disk {
     /// Text of the file.
     Text(String),
-    /// Reason why there is none, after the file's name.
+    /// Reason why there is no text, to be shown after the file's name.
     Missing(String),
 }
 
@@ -53,7 +52,7 @@ pub(crate) enum SaveError {
 }
 
 impl Document {
-    /// Opens a design file; it need not be a good design.
+    /// Opens a design file; the design may have errors.
     pub(crate) fn open(path: &Path) -> Result<Self, Failure> {
         if path == Path::new("-") {
             let message = "the page saves into the file it shows: give a file, not standard input";
@@ -61,7 +60,7 @@ impl Document {
         }
         let source = Source::open(path)?;
         let text = source.text()?;
-        // A link is followed once: saving replaces the file it leads to, not the link.
+        // A link is followed once: saving replaces the file to which it leads, not the link.
         let path = path.canonicalize().map_err(|error| Failure::Input {
             name: path.display().to_string(),
             error,
@@ -69,7 +68,7 @@ impl Document {
         let folder = path.parent().unwrap_or(Path::new("/")).to_owned();
         let name = path.file_name().and_then(|n| n.to_str()).map(str::to_owned);
         let name = name.ok_or_else(|| Failure::Usage("the file's name is not text".into()))?;
-        // A name that could not be written is refused before work goes into it.
+        // A name that could not be written is refused before the user begins to work.
         Bundle::default().add(&name, Vec::new())?;
         Ok(Self {
             folder,
@@ -84,7 +83,7 @@ impl Document {
         &self.name
     }
 
-    /// Position of the file.
+    /// Path of the file.
     pub(crate) fn path(&self) -> PathBuf {
         self.folder.join(&self.name)
     }
@@ -109,7 +108,7 @@ impl Document {
         }
     }
 
-    /// Writes the file, whole or not at all; a file that no longer holds `base` only if `over` says so.
+    /// Writes the file, whole or not at all; a file that no longer holds `base` is overwritten only if `over` is set.
     pub(crate) fn save(&self, text: &str, base: &str, over: bool) -> Result<(), SaveError> {
         if text.len() > DesignFile::LARGEST {
             return Err(SaveError::TooLarge { bytes: text.len() });
@@ -123,16 +122,16 @@ impl Document {
         write(&self.folder, &self.name, text)?;
         text.clone_into(&mut known);
         drop(known);
-        // Work that was neither restored nor discarded stays.
+        // An autosave that was neither restored nor discarded stays.
         if self.own.load(Ordering::Relaxed) || self.kept().as_deref() == Some(text.as_bytes()) {
             self.forget(&self.autosave());
         }
         Ok(())
     }
 
-    /// Writes unsaved work next to the file; removes it once the file holds it.
+    /// Writes unsaved work next to the file; removes the autosave once the file holds this work.
     ///
-    /// An autosave of earlier work there gets a name of its own first.
+    /// An existing autosave of earlier work is first renamed.
     pub(crate) fn keep(&self, text: &str) -> Result<(), SaveError> {
         if text.len() > DesignFile::LARGEST {
             return Err(SaveError::TooLarge { bytes: text.len() });
@@ -157,7 +156,7 @@ impl Document {
         Ok(write(&self.folder, &self.autosave(), text)?)
     }
 
-    /// Contents of the autosaves that differ from the file; none of them is written over from now on.
+    /// Contents of the autosaves that differ from the file; none of them is overwritten from now on.
     pub(crate) fn recovered(&self) -> Vec<Recovered> {
         let known = self.known();
         self.own.store(false, Ordering::Relaxed);
@@ -201,7 +200,7 @@ impl Document {
         })
     }
 
-    /// Renames the autosave that was found to a name that nothing writes to.
+    /// Renames the autosave that was found to an unused name.
     fn set_aside(&self) -> Result<(), BundleError> {
         let found = self.folder.join(self.autosave());
         let place = |number: u32| {

@@ -42,12 +42,12 @@ pub(super) fn formats() -> Vec<[String; 2]> {
 #[derive(Deserialize)]
 pub(super) struct Files {
     text: String,
-    /// Kinds of file as on the command line, and [`PAGE`]; none for all of the command line.
+    /// Kinds of file as on the command line, and [`PAGE`]; empty for the default of the command line.
     formats: Vec<String>,
     tolerance: String,
     dxf: String,
     layers: String,
-    /// Names of parts; none for all.
+    /// Names of parts; empty for all parts.
     #[serde(default)]
     parts: Vec<String>,
 }

@@ -7,14 +7,14 @@ use axum::http::{HeaderMap, HeaderName, HeaderValue, Method, StatusCode, header}
 use axum::middleware::Next;
 use axum::response::{IntoResponse, Response};
 
-/// Guard that admits only requests of this page, by its secret address, through this computer's own name.
+/// Guard that admits only requests of this page: they must use its secret address and this computer's own name.
 #[derive(Clone)]
 pub(crate) struct Guard {
     port: u16,
     token: Arc<str>,
 }
 
-/// Flag set once a connection has shown that it knows the secret.
+/// Flag that is set once a connection has used the secret address.
 #[derive(Clone, Default)]
 pub(crate) struct Known(pub(crate) Arc<AtomicBool>);
 
@@ -49,7 +49,7 @@ impl Guard {
         })
     }
 
-    /// First step of every path.
+    /// First part of every path.
     pub(crate) fn base(&self) -> String {
         format!("/{}", self.token)
     }
@@ -61,14 +61,14 @@ impl Guard {
 
     /// Reason why a request is refused, if it is.
     fn refusal(&self, method: &Method, path: &str, headers: &HeaderMap) -> Option<&'static str> {
-        // A second value could be the one that another reader of the request takes.
+        // If there were two values, another reader of the request might use the other one.
         let is_single = |name| headers.get_all(name).iter().count() < 2;
         if !(is_single(header::HOST) && is_single(header::ORIGIN)) {
             return Some("host or origin is given twice");
         }
         let names = ["127.0.0.1", "localhost"].map(|name| format!("{name}:{}", self.port));
         let host = headers.get(header::HOST).and_then(|h| h.to_str().ok());
-        // A foreign page would reach us through a foreign name that leads here.
+        // A page of another site could reach this server by a foreign name that resolves to this computer.
         if !host.is_some_and(|host| names.iter().any(|name| name == host)) {
             return Some("this is not a name of the page");
         }
@@ -78,7 +78,7 @@ impl Guard {
         };
         match headers.get(header::ORIGIN) {
             Some(origin) if !own(origin) => return Some("requests of another site are refused"),
-            // Browsers name the origin of every request that is not a plain read.
+            // Browsers send the origin with every request except plain reads.
             None if *method != Method::GET => return Some("the origin is missing"),
             _ => {}
         }
@@ -93,7 +93,7 @@ impl Guard {
     }
 }
 
-/// Compares in constant time, so that it does not leak where two texts differ.
+/// Compares in constant time, so that the duration does not reveal where two texts differ.
 fn same(a: &[u8], b: &[u8]) -> bool {
     a.len() == b.len() && a.iter().zip(b).fold(0, |found, (x, y)| found | (x ^ y)) == 0
 }

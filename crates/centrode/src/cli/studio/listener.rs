@@ -10,23 +10,23 @@ use tokio::task::AbortHandle;
 
 use super::guard::Known;
 
-/// Time a client has to send its request.
+/// Time in which a client must send its request.
 const PATIENCE: Duration = Duration::from_secs(5);
 
-/// Maximum number of connections that have not shown the secret yet.
+/// Maximum number of connections that have not used the secret address yet.
 const STRANGERS: usize = 128;
 
 /// Answers connections for ever.
 ///
-/// Of those that have not shown the secret only so many are stored, the oldest go first: however many slow
-/// clients there are, the page gets in.
+/// Only [`STRANGERS`] connections that have not used the secret address stay open; the oldest are closed first. So the page can
+/// connect even if there are many slow clients.
 pub(crate) async fn serve(listener: TcpListener, page: Router) {
     let mut strangers: VecDeque<(Known, AbortHandle)> = VecDeque::new();
     loop {
         let stream = match listener.accept().await {
             Ok((stream, _)) => stream,
             Err(_) => {
-                // No room for another connection, or it has gone again; room comes back with time.
+                // There is no room for another connection, or the client has closed it; a retry after a short time can succeed.
                 tokio::time::sleep(Duration::from_millis(20)).await;
                 continue;
             }
@@ -44,7 +44,7 @@ pub(crate) async fn serve(listener: TcpListener, page: Router) {
 }
 
 async fn connection(stream: TcpStream, page: Router, known: Known) {
-    // Answers are small and requested one by one: waiting to fill a packet only costs time.
+    // Answers are small and requested one by one: waiting for a full packet would only delay them.
     let _ = stream.set_nodelay(true);
     let service = tower_service(page, known);
     let served = hyper::server::conn::http1::Builder::new()

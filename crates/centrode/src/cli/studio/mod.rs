@@ -36,7 +36,7 @@ pub(crate) struct StudioState {
     solver: Arc<Solver>,
     searching: Searching,
     watch: Watch,
-    /// Whether a start page lies before this one.
+    /// Whether this page was opened from a start page.
     started: bool,
 }
 
@@ -92,12 +92,12 @@ pub(crate) fn run(command: &Studio, out: &mut impl Write) -> Result<Status, Fail
         }
         Ok::<(), Failure>(())
     })?;
-    // Nobody needs a solve under way any more.
+    // The result of a solve that is still running is not needed any more.
     runtime.shutdown_timeout(Duration::from_millis(100));
     Ok(Status::Good)
 }
 
-/// Opens an address in the browser; where there is none, the printed address remains.
+/// Opens an address in the browser; if there is no browser, the user has the printed address.
 fn open(url: &str) {
     let opener = if cfg!(target_os = "macos") {
         "open"

@@ -25,12 +25,12 @@ use tower_http::timeout::RequestBodyTimeoutLayer;
 /// Largest body of a request: a design file at its largest, as JSON, and some edits.
 const LARGEST: usize = 4 << 20;
 
-/// Time between two parts of a body.
+/// Maximum time between two parts of a body.
 const PATIENCE: Duration = Duration::from_secs(10);
 
 type Shared = State<Arc<StudioState>>;
 
-/// Every address of the page of a design, below its own.
+/// All addresses of the page of a design, relative to the page's own address.
 pub(crate) fn design_page(state: Arc<StudioState>) -> Router {
     let page = Router::new()
         .route("/{asset}", get(asset))
@@ -54,17 +54,17 @@ pub(crate) fn design_page(state: Arc<StudioState>) -> Router {
     limited(page).with_state(state)
 }
 
-/// Limits what a request may send, and how long it may take to.
+/// Limits the size of a request, and the time in which it must be sent.
 pub(crate) fn limited<S: Clone + Send + Sync + 'static>(page: Router<S>) -> Router<S> {
     page.layer(RequestBodyTimeoutLayer::new(PATIENCE))
         .layer(RequestBodyLimitLayer::new(LARGEST))
 }
 
-/// A page below its secret address, where `index` is.
+/// A page below its secret address, which returns `index`.
 pub(crate) fn guarded(index: &'static str, page: Router, guard: Guard) -> Router {
     let base = guard.base();
     Router::new()
-        // A nest has no route for the bare slash that the page's own address ends with.
+        // `nest` makes no route for the slash at the end of the page's own address.
         .route(&format!("{base}/"), get(async move || Html(index)))
         .nest(&base, page)
         .layer(axum::middleware::from_fn_with_state(guard, guard::pass))
@@ -98,7 +98,7 @@ impl From<SaveError> for Refused {
     }
 }
 
-/// Answer of JSON text as it is.
+/// Answer with JSON text that is already written.
 pub(crate) fn as_json(text: impl IntoResponse) -> Response {
     ([(header::CONTENT_TYPE, "application/json")], text).into_response()
 }
@@ -135,7 +135,7 @@ async fn design(State(state): Shared) -> Response {
     .into_response()
 }
 
-/// Reason why there is no search for designs of this family; null where there is one.
+/// Reason why there is no search for designs of this family; null if there is one.
 fn unsearchable(text: &str) -> Option<String> {
     let file = FAMILIES.read(text.as_bytes()).ok()?;
     match file.family().problem(file.design()) {
@@ -146,10 +146,10 @@ fn unsearchable(text: &str) -> Option<String> {
 
 #[derive(Deserialize)]
 struct Solve {
-    /// Page, of those that are open, that made the request: its next one replaces this one.
+    /// Identifier of the open page that made the request: the next request of this page replaces this one.
     #[serde(default)]
     page: String,
-    /// How many requests the page has made before.
+    /// Number of requests that the page has made before.
     #[serde(default)]
     turn: u64,
     text: String,
@@ -162,7 +162,7 @@ async fn solve(State(state): Shared, Json(ask): Json<Solve>) -> Result<Response,
     let text = if ask.edits.is_empty() {
         ask.text
     } else {
-        // A new kind is tested.
+        // Edits may take long, because a new kind is tested.
         let made = apart(move || edited(&ask.text, &ask.edits)).await?;
         made.map_err(|error| Refused::because(StatusCode::UNPROCESSABLE_ENTITY, error))?
     };
@@ -178,7 +178,7 @@ async fn solve(State(state): Shared, Json(ask): Json<Solve>) -> Result<Response,
             });
             Ok(as_json(Body::from_stream(parts)))
         }
-        // Being overtaken is no failure: browsers would log it as one.
+        // A replaced request is not answered as a failure, because browsers would log it.
         Err(Unsolved::Overtaken) => Ok(Json(json!({ "overtaken": true })).into_response()),
         Err(fault) => Err(Refused::because(StatusCode::INTERNAL_SERVER_ERROR, fault)),
     }
@@ -194,7 +194,7 @@ pub(crate) struct Text {
     pub(crate) text: String,
 }
 
-/// Reason why a text does not read as a design; null where it does.
+/// Reason why a text does not read as a design; null if it does.
 async fn fault(Json(ask): Json<Text>) -> Result<Response, Refused> {
     let fault = apart(move || FAMILIES.read(ask.text.as_bytes()).err()).await?;
     Ok(Json(json!({ "fault": fault.as_ref().map(Fault::from) })).into_response())
@@ -205,7 +205,7 @@ struct Save {
     text: String,
     /// Text that the page believes to be in the file.
     base: String,
-    /// Whether a file with another text is written over.
+    /// Whether a file with another text is overwritten.
     #[serde(default)]
     over: bool,
 }
@@ -213,7 +213,7 @@ struct Save {
 async fn save(State(state): Shared, Json(ask): Json<Save>) -> Result<Response, Refused> {
     match apart(move || state.document.save(&ask.text, &ask.base, ask.over)).await? {
         Ok(()) => Ok(Json(json!({ "saved": true })).into_response()),
-        // A question to the user, no failure.
+        // The page asks the user in these cases: they are no failures.
         Err(error @ (SaveError::Changed { .. } | SaveError::Missing { .. })) => {
             let gone = matches!(error, SaveError::Missing { .. });
             let message = error.to_string();
@@ -230,7 +230,7 @@ async fn keep(State(state): Shared, Json(ask): Json<Text>) -> Result<Response, R
 
 #[derive(Deserialize)]
 struct Forget {
-    /// Name of an autosave, as `design` gives it.
+    /// Name of an autosave, as in the answer of `design`.
     file: String,
 }
 
@@ -247,7 +247,7 @@ async fn reread(State(state): Shared) -> Result<Response, Refused> {
     Ok(Json(json!({ "text": text })).into_response())
 }
 
-/// Waits for the disk without holding up other requests.
+/// Waits for the disk without blocking other requests.
 async fn on_disk(
     job: impl FnOnce() -> Result<(), SaveError> + Send + 'static,
 ) -> Result<Response, Refused> {
@@ -262,7 +262,7 @@ pub(crate) async fn apart<T: Send + 'static>(
     done.map_err(|_| Refused::because(StatusCode::INTERNAL_SERVER_ERROR, InternalFault))
 }
 
-/// Guard that cancels when it is dropped: nobody waits for the answer any more.
+/// Guard that cancels the work when it is dropped: nobody waits for the answer any more.
 #[derive(Default)]
 pub(crate) struct Wait(Cancel);
 
@@ -278,7 +278,7 @@ impl Drop for Wait {
     }
 }
 
-/// Computes without holding up other requests, for as long as somebody waits for it.
+/// Computes without blocking other requests; the work is cancelled once nobody waits for it.
 pub(crate) async fn computed<T: Send + 'static>(
     job: impl FnOnce() -> T + Send + 'static,
 ) -> Result<T, Refused> {
@@ -322,7 +322,7 @@ async fn respond(Json(ask): Json<response::Ask>) -> Result<Response, Refused> {
     Ok(Json(answers).into_response())
 }
 
-/// Choices that depend on the design: parts that can be exported alone, and why there is no search.
+/// Choices that depend on the design: parts that can be exported alone, and the reason if there is no search.
 async fn choices(Json(ask): Json<Text>) -> Result<Response, Refused> {
     let found = computed(move || {
         let parts = FAMILIES.read(ask.text.as_bytes()).and_then(|file| {

@@ -10,18 +10,18 @@ use tokio::sync::mpsc::{UnboundedReceiver, unbounded_channel};
 
 use crate::page::{Snapshot, Subject};
 
-/// Solves the designs of the pages that are open, for each page the latest requested.
+/// Solves the designs of the open pages, for each page the latest one requested.
 ///
-/// A solve ends early once its page requests another, or nobody waits for its answer any more.
+/// A solve ends early if its page requests another one, or if nobody waits for its answer any more.
 #[derive(Default)]
 pub(crate) struct Solver {
     /// Request being solved for each page.
     under_way: Mutex<HashMap<String, UnderWay>>,
-    /// Last design solved: after its picture its checks are requested.
+    /// Last design solved: the page first requests its picture, then its checks.
     last: Mutex<Option<Arc<Subject>>>,
 }
 
-/// A request that is being solved: its turn, what ends it, and how much of it is done.
+/// A request that is being solved: its turn, the token that cancels it, and its progress.
 #[derive(Debug)]
 struct UnderWay {
     turn: u64,
@@ -33,11 +33,11 @@ struct UnderWay {
 #[derive(Clone, Copy, Debug, Deserialize, Eq, PartialEq)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Depth {
-    /// Numbers alone: solving it was cancelled.
+    /// Numbers alone, for a design whose solving was cancelled.
     Numbers,
     /// Picture that is available at once.
     Picture,
-    /// Goals alone, by the checks of the motion: soon enough to follow a hand.
+    /// Goals alone, by the checks of the motion: fast enough to follow a drag.
     Goals,
     /// Picture with details that take longer to make.
     Detail,
@@ -56,7 +56,7 @@ pub(crate) enum Unsolved {
     Internal(#[from] InternalFault),
 }
 
-/// Answer to a page, whose parts are reported as soon as they are known: one JSON value in all.
+/// Answer to a page, one JSON value whose parts are sent as soon as they are known.
 pub(crate) struct Answer {
     first: Option<String>,
     later: UnboundedReceiver<Result<String, Unsolved>>,
@@ -64,7 +64,7 @@ pub(crate) struct Answer {
 }
 
 impl Answer {
-    /// The next part; none after the last.
+    /// The next part; `None` after the last.
     pub(crate) async fn next(&mut self) -> Option<String> {
         if self.first.is_some() {
             return self.first.take();
@@ -74,7 +74,7 @@ impl Answer {
             Err(Unsolved::Overtaken) => json!({ "overtaken": true }),
             Err(fault) => json!({ "message": fault.to_string() }),
         };
-        // The value that has begun ends with it.
+        // The error ends the JSON value that has begun.
         Some(failed.to_string().replacen('{', ",", 1))
     }
 }
@@ -88,7 +88,7 @@ struct Wait {
 }
 
 impl Wait {
-    /// Replaces the request being solved for the page; `None` for one that comes after a later one.
+    /// Replaces the request being solved for the page; `None` if a later request arrived before this one.
     fn begin(solver: &Arc<Solver>, page: &str, turn: u64) -> Option<Self> {
         let (cancel, progress) = (Cancel::default(), Progress::default());
         let mut under_way = held(&solver.under_way);
@@ -116,7 +116,7 @@ impl Wait {
 impl Drop for Wait {
     fn drop(&mut self) {
         let mut under_way = held(&self.solver.under_way);
-        // A cancelled one has been replaced by the next of its page.
+        // A cancelled request has been replaced by the next one of its page.
         if !self.cancel.is_cancelled() {
             under_way.remove(&self.page);
         }
@@ -125,9 +125,9 @@ impl Drop for Wait {
 }
 
 impl Solver {
-    /// Snapshot of a design. Dropped before its end, the solve is cancelled.
+    /// Snapshot of a design. If the answer is dropped before its end, the solve is cancelled.
     ///
-    /// A page numbers its requests by `turn`: on their way one can be overtaken by the next.
+    /// A page numbers its requests by `turn`, because a request can arrive after the next one.
     pub(crate) async fn solve(
         self: &Arc<Self>,
         page: &str,
@@ -143,7 +143,7 @@ impl Solver {
             let parts = teller.clone();
             let stated = || solver.answer(text, depth, &|part| drop(parts.send(Ok(part))));
             if let Err(error) = outcome(|| progress.during(|| cancel.run(stated))) {
-                // Nobody may be there any more.
+                // The receiver may be gone.
                 drop(teller.send(Err(error)));
             }
         };
@@ -161,7 +161,7 @@ impl Solver {
         }
     }
 
-    /// Share of the checks that are under way for a page; none while nothing is solved for it.
+    /// Completed share of the checks that run for a page; `None` if nothing is being solved for it.
     pub(crate) fn share(&self, page: &str) -> Option<f64> {
         let under_way = held(&self.under_way);
         Some(under_way.get(page)?.progress.share())
@@ -186,7 +186,7 @@ impl Solver {
         *held(&self.last) = Some(Arc::clone(&subject));
         match depth {
             Depth::Numbers | Depth::Picture => subject.drawn(send)?,
-            // The page has the rest.
+            // The page already has the rest.
             Depth::Goals => send(serde_json::to_string(&subject.goals())?),
             Depth::Detail => send(subject.detailed().json()?),
             Depth::Checks => send(subject.checked().json()?),

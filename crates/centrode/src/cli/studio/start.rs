@@ -12,15 +12,15 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::SystemTime;
 use std::{fs, io};
 
-/// Most designs of the folder that are listed.
+/// Maximum number of designs of the folder that are listed.
 const MOST: usize = 100;
 
 /// Ending of the files that the start page opens and makes.
 const ENDING: &str = "toml";
 
-/// Start page: what can be opened from it, and the design pages that have been.
+/// Start page: the designs that can be opened from it, and the design pages that were opened.
 pub(crate) struct StartPage {
-    /// Folder that the program was started in.
+    /// Folder in which the program was started.
     folder: PathBuf,
     pages: Mutex<Vec<OpenPage>>,
 }
@@ -30,7 +30,7 @@ struct OpenPage {
     routes: Router,
 }
 
-/// Text that a new design file starts from.
+/// Text with which a new design file begins.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub(crate) enum Pattern {
@@ -38,7 +38,7 @@ pub(crate) enum Pattern {
     Shipped(String),
     /// Template of a family.
     New(String),
-    /// Text that has come with a link.
+    /// Text from a link.
     Text(String),
 }
 
@@ -57,7 +57,7 @@ impl Pattern {
 #[derive(Debug, Serialize)]
 pub(crate) struct Offer {
     folder: String,
-    /// Designs of the folder, the one changed last first.
+    /// Designs of the folder, the most recently changed first.
     files: Vec<Found>,
     /// File names of the folder that are taken.
     taken: Vec<String>,
@@ -144,7 +144,7 @@ impl StartPage {
             let Ok(name) = entry.file_name().into_string() else {
                 continue;
             };
-            // Of a link, what it leads to.
+            // For a link, the file to which it leads.
             let meta = fs::metadata(entry.path()).ok();
             let meta =
                 meta.filter(|meta| meta.is_file() && meta.len() <= DesignFile::LARGEST as u64);
@@ -161,13 +161,13 @@ impl StartPage {
         (designs.take(MOST).collect(), taken)
     }
 
-    /// Opens a design file; its page has the number that is returned.
+    /// Opens a design file and returns the number of its page.
     pub(crate) fn open(&self, path: &Path) -> Result<usize, OpenError> {
         let path = self.place(path)?;
         let document = Document::open(&path)?;
         let file = document.path();
         let mut pages = self.pages();
-        // One file has one page: two would not know of each other's autosaves.
+        // A file has only one page: two pages would overwrite each other's autosaves.
         if let Some(number) = pages.iter().position(|page| page.file == file) {
             return Ok(number);
         }
@@ -176,7 +176,7 @@ impl StartPage {
         Ok(pages.len() - 1)
     }
 
-    /// Makes a design file from a pattern, and opens it; a file that is there stays as it is.
+    /// Makes a design file from a pattern, and opens it; an existing file is not changed.
     pub(crate) fn make(&self, pattern: &Pattern, path: &Path) -> Result<usize, OpenError> {
         let text = pattern.text().ok_or(OpenError::Pattern)?;
         let path = self.place(path)?;
@@ -197,7 +197,7 @@ impl StartPage {
         Some(self.pages().get(number)?.routes.clone())
     }
 
-    /// The path from the folder of the program; only design files have one.
+    /// The path relative to the folder of the program; only design files are accepted.
     fn place(&self, path: &Path) -> Result<PathBuf, OpenError> {
         if ends_well(path) {
             Ok(self.folder.join(path))
@@ -211,13 +211,13 @@ impl StartPage {
     }
 }
 
-/// Whether the name is that of a design file.
+/// Whether the path has the ending of a design file.
 fn ends_well(path: &Path) -> bool {
     let ending = path.extension().and_then(|ending| ending.to_str());
     ending.is_some_and(|ending| ending.eq_ignore_ascii_case(ENDING))
 }
 
-/// The file, if it names a family.
+/// The design file, if it names a family.
 fn design_in(folder: &Path, file: String) -> Option<Found> {
     let text = fs::read_to_string(folder.join(&file)).ok()?;
     let table: toml::Table = text.parse().ok()?;

@@ -19,7 +19,7 @@ use crate::page::drawn;
 
 type Shared = State<Arc<StartPage>>;
 
-/// Every address of the start page, and below it those of the designs opened from it.
+/// All addresses of the start page, and of the design pages opened from it.
 pub(crate) fn start_page(state: Arc<StartPage>) -> Router {
     let page = Router::new()
         .route("/{asset}", get(asset))
@@ -73,7 +73,8 @@ async fn make(State(state): Shared, Json(ask): Json<Make>) -> Result<Response, R
     ))
 }
 
-/// Address of a design page, from that of the start page. A path that is of no use is no failure: browsers would log it as one.
+/// Address of a design page, relative to that of the start page. A bad path is not answered as a failure, because browsers would
+/// log it.
 fn answer(opened: Result<usize, OpenError>) -> Response {
     let answer = match opened {
         Ok(number) => json!({ "page": format!("designs/{number}/") }),
@@ -96,7 +97,7 @@ async fn design(State(state): Shared, request: Request) -> Response {
     if rest.is_empty() {
         return Html(page::INDEX).into_response();
     }
-    // Without what the outer routes have written next to it.
+    // The new request has none of the extensions that the outer routes have added.
     let (parts, body) = request.into_parts();
     let mut own = Request::new(Body::new(body));
     *own.method_mut() = parts.method;

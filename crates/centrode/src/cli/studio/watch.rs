@@ -23,7 +23,7 @@ impl Default for Watch {
 }
 
 impl Watch {
-    /// Events from now on; the first gives the present state.
+    /// Events from now on; the first one contains the present state.
     pub(crate) fn events(&self) -> Sse<impl Stream<Item = Result<Event, Infallible>> + use<>> {
         let mut receiver = self.0.subscribe();
         receiver.mark_changed();
@@ -40,7 +40,7 @@ impl Watch {
     }
 }
 
-/// Reads the file for ever, and reports its text whenever that has changed.
+/// Reads the file again and again, and reports its text whenever it has changed.
 pub(crate) async fn disk(state: Arc<StudioState>) {
     loop {
         let now = Some(state.document.disk());

@@ -27,27 +27,27 @@ pub(crate) fn routes<S: Clone + Send + Sync + 'static>() -> Router<S> {
         .with_state(Cached::default())
 }
 
-/// Machine of a path and an axis, or why there is none.
+/// Machine of a path and an axis, or the reason why there is none.
 async fn solve(Json(ask): Json<Wish>) -> Result<Response, Refused> {
     answered(move || Answer::new(&ask)).await
 }
 
-/// Machine to search: of key poses, of the working part of a path, or of a path with more wishes.
+/// Machine found by a search: for key poses, for the working part of a path, or for a path with further wishes.
 async fn find(State(kept): State<Cached>, Json(ask): Json<Wish>) -> Response {
     streamed(move |observe| Answer::found(&ask, &kept, observe))
 }
 
-/// Possible axes about a path.
+/// Possible axes around a path.
 async fn map(Json(ask): Json<field::Ask>) -> Result<Response, Refused> {
     answered(move || stated(field::Field::new(&ask))).await
 }
 
-/// The best axis about a path.
+/// The best axis around a path.
 async fn axis(Json(ask): Json<field::Best>) -> Result<Response, Refused> {
     answered(move || stated(field::best(&ask))).await
 }
 
-/// Points of a file, or all its requirements.
+/// Points of a file, or the whole design of a design file.
 async fn open(Json(ask): Json<super::routes::Text>) -> Result<Response, Refused> {
     answered(move || stated(path::opened(&ask.text))).await
 }
@@ -66,14 +66,14 @@ async fn design(Json(ask): Json<Wish>) -> Result<Response, Refused> {
     .await
 }
 
-/// Computes an answer for as long as somebody waits for it.
+/// Computes an answer; the work is cancelled once nobody waits for it.
 async fn answered<T: Serialize + Send + 'static>(
     job: impl FnOnce() -> T + Send + 'static,
 ) -> Result<Response, Refused> {
     Ok(Json(computed(job).await?).into_response())
 }
 
-/// Answer, or the reason why there is none. That is no failure: browsers would log it as one.
+/// Answer, or the reason why there is none. The reason is sent with the status of success, because browsers would log a failure.
 #[derive(Serialize)]
 #[serde(untagged)]
 enum FoundOrRefused<T> {

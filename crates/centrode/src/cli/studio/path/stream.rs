@@ -1,4 +1,4 @@
-//! Answers that take long: the evaluations done come first, a line each, and the answer last.
+//! Answers that take long: lines with the number of evaluations come first, and the answer last.
 
 use std::ops::ControlFlow;
 use std::time::{Duration, Instant};
@@ -19,7 +19,8 @@ use super::stated;
 /// Interval at which progress is reported.
 const EVERY: Duration = Duration::from_millis(200);
 
-/// Does a job for as long as somebody listens: lines of JSON, `{"evaluations": 300}`, and the answer as `{"answer": ...}`.
+/// Does a job until it ends or the client closes the connection. The response is lines of JSON: progress as
+/// `{"evaluations": 300}`, and at the end the answer as `{"answer": ...}`.
 pub(super) fn streamed<T: Serialize>(
     job: impl FnOnce(&mut dyn FnMut(u64) -> ControlFlow<()>) -> Result<T, String> + Send + 'static,
 ) -> Response {
@@ -44,7 +45,7 @@ pub(super) fn streamed<T: Serialize>(
             Ok(Err(cancelled)) => json!({ "answer": { "refused": cancelled.to_string() } }),
             Err(fault) => json!({ "answer": { "refused": fault.to_string() } }),
         };
-        // Nobody may be there any more.
+        // The client may have closed the connection.
         let _ = reported.send(line.to_string());
     });
     let lines = unfold((news, wait), |(mut news, wait)| async move {
