@@ -113,7 +113,7 @@ pub enum InterferenceError {
 /// tolerance. Within an interval the maximum second derivative limits the distance of every point from its tangent.
 /// `lower_bound` is below `minimum` by at most the tolerance, the flattening of both bodies and the deviation of both motions;
 /// it is proven if [`Motion::bend`] is. Poses may be given in any common frame; the search is fastest in the frame in which
-/// the bodies move least, such as the carrier's frame for arms on a carrier. Arms that follow one another in equal phases move
+/// the bodies have the minimum motion, such as the carrier's frame for arms on a carrier. Arms that follow one another in equal phases move
 /// along one curve: one pair is enough.
 ///
 /// A body inside another, or one that passes through it between two samples, overlaps it. Cost: a few hundred evaluations of

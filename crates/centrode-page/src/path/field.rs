@@ -121,11 +121,11 @@ fn words(name: &str) -> &'static str {
 pub struct Best {
     points: Vec<[f64; 2]>,
     bend_deg: f64,
-    /// Whether the least curved gears are required instead of the gentlest ratio.
+    /// Whether the gears of minimum curvature are required instead of the gentlest ratio.
     bluntest: bool,
 }
 
-/// The axis with the gentlest ratio, or the one with the least curved gears.
+/// The axis with the gentlest ratio, or the one with the gears of minimum curvature.
 ///
 /// # Errors
 /// The reason in words if the points make no path, or no axis is possible.

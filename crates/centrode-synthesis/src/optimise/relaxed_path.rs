@@ -39,7 +39,7 @@ const MIN_MODULE: f64 = 1.0 / 600.0;
 /// Violation of a point that gives no machine.
 const NONE: f64 = 1e3;
 
-/// Search for the path near a required one whose pitch curves are the least curved: every point may move within its band along
+/// Search for the path near a required one whose pitch curves have the minimum curvature: every point may move within its band along
 /// the path's normal, and a free axis may move around the one from which the search starts.
 ///
 /// With [`Aim::Module`] it searches for the largest module with which full teeth are surely sound on the four pitch curves of the

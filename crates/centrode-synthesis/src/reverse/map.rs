@@ -155,7 +155,7 @@ impl AxisMap {
         self.found.iter().filter(|found| found.is_ok()).count()
     }
 
-    /// The axis of the grid whose gears are the least curved: the one with the maximum
+    /// The axis of the grid whose gears have the minimum curvature: the one with the maximum
     /// [`minimum_radius`](PossibleAxis::minimum_radius); `None` if no axis is possible.
     #[must_use]
     pub fn bluntest(&self, bend: f64) -> Option<Point> {

@@ -49,7 +49,7 @@ impl StretchShape {
     }
 }
 
-/// The law with the least curved pitch curves, and its maximum convex curvature for a centre distance of 1, which comes first.
+/// The law with the pitch curves of minimum curvature, and its maximum convex curvature for a centre distance of 1, which comes first.
 ///
 /// For every free number a larger and a smaller value is tried, with smaller and smaller steps.
 pub(super) fn mildest(
