@@ -1,9 +1,9 @@
 //! Checks of a mechanism: contact of teeth, clearance, forces, undercut, goals.
 //!
 //! A check returns a [`Report`]: figures with units, and findings with measured value, limit, position in the cycle and a
-//! remedy. The contact analysis shares no code with the generator of the teeth; [`prove`] returns a certificate of it for an
-//! independent checker. Only [`interference`] compares bodies in space, with parry. This crate uses no drawing and no file
-//! format, and changes no design.
+//! remedy. The contact analysis shares no code with the generator of the teeth; [`prove`] certifies it for a checker outside.
+//! Bodies are held against each other by parry, in [`interference`] alone. It knows no drawing and no file format, and
+//! changes no design.
 
 mod cam;
 mod contact;

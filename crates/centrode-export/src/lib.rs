@@ -1,9 +1,9 @@
 //! Files, pictures and curves of each family of machine and of machines in general.
 //!
-//! This crate decides which drawings, sheets, solids, tables and models a machine has, and how a plate, a turned part and a
-//! general arrangement are drawn. `centrode-formats` writes the bytes. This crate may not know: checks and searches
-//! (`centrode-analysis`), the list of families, the command line, the page's server. Nothing here touches the disk; a [`Package`]
-//! collects files in a bundle.
+//! Here is decided which drawings, sheets, solids, tables and models a machine has, and how a plate, a turned part and a
+//! general arrangement are drawn. The bytes are written by `centrode-formats`.
+//! It may not know: checks and searches (`centrode-analysis`), the list of families, the command line, the page's server.
+//! Nothing here touches the disk; a [`Package`] collects files in a bundle.
 
 pub mod cam;
 mod cutting;

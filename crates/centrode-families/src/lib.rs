@@ -1,8 +1,8 @@
-//! Families of machine: their one list, and the parts of the lower crates that each family combines.
+//! Families of machine: the one list of them, and the parts of the lower crates that each binds.
 //!
-//! An entry of [`FAMILIES`] makes a [`Mechanism`] of a design file. Through it every program checks a machine, draws it, writes
-//! its files and searches a better one without knowing its family. Here, too, a panic becomes an [`InternalFault`].
-//! This crate must not depend on the command line, the design page, its server, Python, or the layout of any file.
+//! An entry of [`FAMILIES`] makes a [`Mechanism`] of a design file; through it every program checks a machine, draws it, writes
+//! its files and searches a better one without the name of a family. Here, too, a panic becomes an [`InternalFault`].
+//! It may not know: the command line, the design page, its server, Python, or how any file is laid out.
 
 mod contact;
 mod feeder;
@@ -36,7 +36,7 @@ use centrode_machines::feeder::Feeder;
 use centrode_machines::machine::Machine;
 use centrode_machines::three_arm::ThreeArm;
 
-/// All families.
+/// Every family there is.
 pub static FAMILIES: Families = Families(&[
     Family::new::<GearPair>(),
     Family::new::<ThreeArm>(),

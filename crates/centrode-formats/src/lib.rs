@@ -1,8 +1,8 @@
 //! One writer for each file format: DXF, SVG, PDF, STL, STEP, 3MF, CSV, URDF, MJCF; and the layout of drawing sheets.
 //!
-//! Writers are pure: they turn a plain value ([`drawing::Drawing`], [`sheet::Sheet`], a solid, [`model::Model`]) into bytes, the
-//! same bytes every time. Only [`Bundle`], [`write_file`] and [`write_new_file`] touch the disk. This crate may not know:
-//! mechanisms, gears, machines, families. From the design file it uses only the table `[drawing]`
+//! Writers are pure: they turn a plain value ([`drawing::Drawing`], [`sheet::Sheet`], a solid, [`model::Model`]) into bytes,
+//! the same bytes every time. Only [`Bundle`], [`write_file`] and [`write_new_file`] touch the disk.
+//! It may not know: mechanisms, gears, machines, families. Of the design file it knows the table `[drawing]` alone
 //! ([`DrawingSpec`](centrode_spec::DrawingSpec), sheet size and projection), which a title block prints.
 
 mod bundle;

@@ -1,7 +1,6 @@
 //! Gears and cams: from a design to exact curves.
 //!
-//! Pitch curves and their conjugates, tools, tooth profiles and pairs of gears at the root; disc cams and their followers in
-//! [`cam`]. The crate has no machines of several gears, no checks and no output of files.
+//! Pitch curves and their conjugates, tools, tooth profiles and pairs of gears at the root; disc cams and their followers in [`cam`]. It knows no machine of several gears, checks nothing and writes no file.
 
 mod base_tangent;
 mod bore;

@@ -1,8 +1,8 @@
 //! Plane curves, closed outlines, solids and meshes for machine parts.
 //!
-//! The crate contains exact plane curves, the outlines made of them, their approximations, and the bodies between outlines.
-//! Five modules, each of which uses only those before it: `numeric`, `curve`, `region`, `approximation`, `solid`.
-//! It must not depend on gears, cams or machines: it describes curves, not their purpose. It reads and writes no files.
+//! Here live exact plane curves, the outlines made of them, their approximations, and the bodies between outlines.
+//! Five rooms, each of which uses only those before it: `numeric`, `curve`, `region`, `approximation`, `solid`.
+//! This crate may know no gear, cam or machine: it knows curves, not their purpose; it reads and writes no files.
 //! A [`Tolerance`] is the maximum distance between a curve and its approximation. There is no other absolute epsilon.
 //! Lengths are millimetres, angles radians, counter-clockwise positive.
 

@@ -3,7 +3,7 @@
 //! The shaft turns by `theta` and carries the slider along its axis, z. Lengths are mm, angles rad, velocities mm per radian
 //! of shaft turn. After M. L. Zhou et al., "New type of transverse moving box mechanism for pot seedling transplanting
 //! machine", 2018, DOI 10.25165/j.ijabe.20181102.2867; its equations are cited by their numbers, and derived again where
-//! they do not hold. The crate has no other machines, no checks and no output of files.
+//! they do not hold. It knows no other machine, checks nothing and writes no file.
 
 mod crossing;
 mod design;

@@ -3,7 +3,7 @@
 //! A [`Problem`] gives bounds and evaluates a point; a [`Search`] improves a population generation by generation. Randomness
 //! comes from the seed and the number of the generation alone, and the points of a generation are drawn before any of them is
 //! evaluated: the same seed gives the same result on any number of cores, and a stored search continues as if it had never
-//! stopped. The crate has no gears and no machines.
+//! stopped. It knows no gear and no machine.
 
 mod cma_es;
 mod differential_evolution;

@@ -1,9 +1,9 @@
 //! The design page without a server: its scripts and styles, and the answers to their requests.
 //!
-//! Requests and answers are text: a design file goes in; JSON, a changed design file or HTML comes out ([`Subject`], [`edited`],
-//! [`report`]). The words of the page for each family are here. The server of the page adds HTTP, files and threads. This crate
-//! must not depend on sockets, HTTP requests, the command line, folders or Python. The only thing that it computes itself is the
-//! picture of a path before there is a machine.
+//! A question and its answer are text: a design file goes in, JSON, a changed design file or HTML comes out ([`Subject`],
+//! [`edited`], [`report`]). The words of the page for each family are here. Whoever serves the page brings HTTP, files, threads.
+//! It may not know: sockets and requests, the command line, folders, Python. It computes nothing of its own but the picture
+//! of a path, before there is a machine.
 
 mod bundle;
 mod design;

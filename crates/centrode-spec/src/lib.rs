@@ -1,6 +1,6 @@
 //! The design file: TOML in, a description of one family of mechanism out.
 //!
-//! Keys and their paths, rules that a number can break, faults with line and remedy, drawings, schema. It contains no gear and
+//! Keys and their paths, rules that a number can break, faults with line and remedy, drawings, schema. It knows no gear and
 //! no machine: a family adds its keys by [`DesignSpec`].
 
 pub mod degrees;

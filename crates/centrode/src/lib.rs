@@ -1,7 +1,7 @@
 //! Non-circular gears, cams and linkages: geometry, proof and shop files.
 //!
-//! One dependency for the whole toolkit: every crate is a module of its own. The command line, with the local server of the
-//! design page, is in `cli`, behind the feature of that name. It contains no formulas: the crates below do all computing.
+//! One dependency for the whole toolkit: every crate under its own name. The command line, with the local server of the
+//! design page, is in `cli`, behind the feature of that name. It knows no formula: what is computed is computed below.
 
 pub use centrode_analysis as analysis;
 pub use centrode_export as export;
@@ -27,8 +27,8 @@ pub use family::{FAMILIES, InternalFault};
 use centrode_export::gear_pair::contact_data;
 use centrode_kinematics::machine::Datum;
 
-/// Figures of a report for drawing sheets: the pairs of teeth in contact, and the normal backlash, mm. Empty for gears that do
-/// not keep contact, and for machines without a pair of their own.
+/// Figures of a report for drawing sheets: the pairs of teeth in contact, and the normal backlash,
+/// mm. None for gears that do not hold each other, and for machines without a pair of their own.
 #[must_use]
 pub fn sheet_data(report: &analysis::Report) -> Vec<Datum> {
     let range = |minimum: &str, maximum: &str| {
@@ -42,7 +42,7 @@ pub fn sheet_data(report: &analysis::Report) -> Vec<Datum> {
         .map_or_else(Vec::new, |(ratio, backlash)| contact_data(ratio, backlash))
 }
 
-/// The examples of the README are tested.
+/// Its examples are tested.
 #[cfg(doctest)]
 #[doc = include_str!("../README.md")]
 struct Readme;
